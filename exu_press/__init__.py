@@ -1,0 +1,45 @@
+"""exu_press: press mechanisms with clearance, contact and lubrication in their joints.
+
+What is imported here costs nothing until it is used: names are loaded on first access.
+"""
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from exu_press.errors import InputError
+    from exu_press.joints import add_dry_revolute, add_dry_spherical, add_lubricated_revolute
+    from exu_press.result import Result
+    from exu_press.scene import Scene, load_scene
+    from exu_press.simulation import simulate
+
+__all__ = [
+    "InputError",
+    "Result",
+    "Scene",
+    "add_dry_revolute",
+    "add_dry_spherical",
+    "add_lubricated_revolute",
+    "load_scene",
+    "simulate",
+]
+
+_HOMES = {
+    "InputError": "exu_press.errors",
+    "Result": "exu_press.result",
+    "Scene": "exu_press.scene",
+    "add_dry_revolute": "exu_press.joints",
+    "add_dry_spherical": "exu_press.joints",
+    "add_lubricated_revolute": "exu_press.joints",
+    "load_scene": "exu_press.scene",
+    "simulate": "exu_press.simulation",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """Load a public name from its home."""
+    if name not in _HOMES:
+        raise AttributeError(f"module 'exu_press' has no attribute {name!r}")
+    value = getattr(importlib.import_module(_HOMES[name]), name)
+    globals()[name] = value
+    return value

@@ -1,0 +1,74 @@
+"""How far a long job is: a bar on a terminal, plain lines elsewhere, nothing when quiet."""
+
+import sys
+import time
+from types import TracebackType
+from typing import TextIO
+
+from tqdm import tqdm
+
+__all__ = ["Progress"]
+
+SECONDS_BETWEEN_LINES = 5.0
+
+
+class Progress:
+    """Progress towards a total, with the time left.
+
+    Used as a context manager; `update` may be called as often as one likes.
+    """
+
+    def __init__(
+        self,
+        label: str,
+        total: float,
+        unit: str = "s",
+        *,
+        quiet: bool = False,
+        stream: TextIO | None = None,
+    ) -> None:
+        """Start at zero; `total` in `unit`."""
+        self._label, self._total, self._unit = label, total, unit
+        self._stream = sys.stderr if stream is None else stream
+        self._quiet = quiet
+        self._start = self._last_line = time.monotonic()
+        self._bar: tqdm | None = None
+        if not quiet and self._stream.isatty():
+            self._bar = tqdm(
+                desc=label,
+                total=total,
+                file=self._stream,
+                bar_format="{desc}: {percentage:3.0f} %|{bar}| {n:.3g}/{total:.3g} "
+                + unit
+                + ", {remaining} left",
+            )
+
+    def update(self, done: float) -> None:
+        """Say how much is done."""
+        if self._bar is not None:
+            self._bar.update(min(done, self._total) - self._bar.n)
+        elif not self._quiet:
+            now = time.monotonic()
+            if now - self._last_line >= SECONDS_BETWEEN_LINES and done > 0:
+                self._last_line = now
+                left = (now - self._start) * (self._total / done - 1.0)
+                print(
+                    f"{self._label}: {100 * done / self._total:.0f} % of "
+                    f"{self._total:.3g} {self._unit}, {left:.0f} s left",
+                    file=self._stream,
+                    flush=True,
+                )
+
+    def __enter__(self) -> "Progress":
+        """Return the progress itself."""
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Close the bar where it stands."""
+        if self._bar is not None:
+            self._bar.close()

@@ -1,0 +1,123 @@
+"""The one place where laws become an Exudyn item: a massless object over the bodies' own nodes.
+
+Exudyn differentiates connectors numerically, so that a Python law is called a dozen times for each
+Jacobian. An ObjectGenericODE2 without mass, laid over the nodes of the joined bodies, takes forces
+and an analytic Jacobian instead. All clearance joints of a system share one such item, since each
+item costs a call of its own.
+"""
+
+from collections.abc import Sequence
+from typing import Any
+
+import exudyn as exu
+import exudyn.itemInterface as items
+import numpy as np
+
+from exu_press.joints.planar import GROUND, PlanarJoint
+
+__all__ = ["JointOverlay", "overlay_of"]
+
+REGISTRY = "exu_press_joints"
+
+
+class JointOverlay:
+    """The clearance joints of one Exudyn system, as one massless item.
+
+    Attributes:
+        joints: in the order in which they were added.
+        evaluations: how often forces were asked for.
+        item: Exudyn's object number.
+        nodes: whose coordinates the item has, in this order.
+    """
+
+    def __init__(self, mbs: exu.MainSystem) -> None:
+        """Start without joints; the item is made with the first one."""
+        self.joints: list[PlanarJoint] = []
+        self.evaluations = 0
+        self.item: int | None = None
+        self._mbs = mbs
+        self.nodes: list[int] = []
+        self._stateful: list[PlanarJoint] = []
+        self._step_start: float | None = None
+
+    def index_of(self, node: int | None) -> int:
+        """Return where a node's coordinates start; a node that is new is taken in.
+
+        The ground has no coordinates: three zeros behind all others stand for it.
+        """
+        if node is None:
+            return -len(GROUND)
+        if node not in self.nodes:
+            self.nodes.append(node)
+        return 3 * self.nodes.index(node)
+
+    def add(self, joint: PlanarJoint) -> None:
+        """Take in a joint whose ends' indices come from `index_of`."""
+        self.joints.append(joint)
+        if joint.stateful:
+            self._stateful.append(joint)
+        size = 3 * len(self.nodes)
+        if self.item is None:
+            self.item = self._mbs.AddObject(
+                items.ObjectGenericODE2(
+                    nodeNumbers=self.nodes,
+                    massMatrix=np.zeros((size, size)),
+                    forceUserFunction=self._forces,
+                    jacobianUserFunction=self._jacobian,
+                    visualization=items.VObjectGenericODE2(show=False),
+                )
+            )
+        else:
+            self._mbs.SetObjectParameter(self.item, "nodeNumbers", self.nodes)
+            self._mbs.SetObjectParameter(self.item, "massMatrix", np.zeros((size, size)))
+
+    def _forces(
+        self, mbs: exu.MainSystem, time: float, item: int, q: Sequence[float], q_t: Sequence[float]
+    ) -> list[float]:
+        """Return the generalised forces of all joints."""
+        self.evaluations += 1
+        if self._stateful:
+            self._begin_step(time)
+        size = len(q)
+        q, q_t = [*q, *GROUND], [*q_t, *GROUND]
+        out = [0.0] * (size + 3)
+        for joint in self.joints:
+            joint.add_force(q, q_t, out)
+        return out[:size]
+
+    def _jacobian(
+        self,
+        mbs: exu.MainSystem,
+        time: float,
+        item: int,
+        q: Sequence[float],
+        q_t: Sequence[float],
+        by_q: float,
+        by_q_t: float,
+    ) -> Any:
+        """Return the Jacobian of the left-hand side, dense."""
+        size = len(q)
+        q, q_t = [*q, *GROUND], [*q_t, *GROUND]
+        out = np.zeros((size + 3, size + 3))
+        for joint in self.joints:
+            joint.add_jacobian(q, q_t, by_q, by_q_t, out)
+        matrix = exu.MatrixContainer()
+        matrix.SetWithDenseMatrix(out[:size, :size], useDenseMatrix=True)
+        return matrix
+
+    def _begin_step(self, time: float) -> None:
+        """Tell the joints that remember something about the step that is being tried."""
+        start = self._mbs.systemData.GetTime(exu.ConfigurationType.StartOfStep)
+        accepted = start != self._step_start
+        self._step_start = start
+        for joint in self._stateful:
+            for pair in joint.pairs:
+                pair.begin_step(time - start, accepted)
+
+
+def overlay_of(mbs: exu.MainSystem) -> JointOverlay:
+    """Return the overlay of a system, kept with the system's own variables."""
+    overlay = mbs.variables.get(REGISTRY)
+    if overlay is None:
+        overlay = mbs.variables[REGISTRY] = JointOverlay(mbs)
+    return overlay

@@ -1,0 +1,180 @@
+"""Journal and bearing in polar form: what a joint's surfaces do to each other in its plane.
+
+With e = journal centre - bearing centre, n = e/|e| and t a quarter turn counter-clockwise from n, a
+pair turns (|e|, d|e|/dt, v_t, omega_J, omega_B) into the force on the journal F = f_n n + f_t t,
+-F on the bearing, and the moments f_t a_J about the journal's and f_t a_B about the bearing's
+centre. a_J + a_B + |e| = 0, so that momentum and angular momentum are conserved exactly.
+"""
+
+from dataclasses import dataclass, field
+from typing import Protocol
+
+from exu_press.laws.contact import NormalContact
+from exu_press.laws.film import FilmLaw
+from exu_press.laws.friction import Friction, LuGre
+
+__all__ = ["DryPair", "FilmPair", "Pair", "PolarForce"]
+
+PolarForce = tuple[
+    tuple[float, float],
+    tuple[float, float, float, float, float],
+    tuple[float, float, float, float, float],
+]
+"""(f_n, f_t), then the derivatives of f_n and of f_t with respect to
+(|e|, d|e|/dt, v_t, omega_J, omega_B)."""
+
+
+class Pair(Protocol):
+    """What a joint needs of its pair of surfaces; `None` stands for no force at all."""
+
+    stateful: bool
+    """Whether the pair remembers something from step to step."""
+
+    def force(
+        self, e: float, e_dot: float, v_t: float, omega_j: float, omega_b: float
+    ) -> PolarForce | None:
+        """Return force and derivatives, SI."""
+
+    def arms(self, e: float) -> tuple[float, float, float, float]:
+        """Return a_J, a_B (m) and their derivatives with respect to |e|."""
+
+    def stored_energy(self, e: float) -> float:
+        """Return the elastic energy at an eccentricity, J."""
+
+    def begin_step(self, step: float, accepted: bool) -> None:
+        """Start a step of size `step` (s), after the last one was accepted or is repeated."""
+
+    def reset(self) -> None:
+        """Forget everything."""
+
+
+@dataclass
+class DryPair:
+    """Contact with friction: journal (or ball) and bearing (or socket) touch where |e| > c.
+
+    The friction force acts at the contact point on the journal's surface, with the sliding velocity
+    of the two surfaces there: v_T = v_t + R omega_J - (R + |e|) omega_B.
+
+    Attributes:
+        contact: normal force of a penetration.
+        friction: friction coefficient of a sliding velocity, with or without a bristle.
+        radius: R of the journal, m.
+        clearance: c, m.
+    """
+
+    contact: NormalContact
+    friction: Friction | LuGre
+    radius: float
+    clearance: float
+    bristle: float = 0.0
+    approach_speed: float = 0.0
+    stateful: bool = field(init=False)
+    _step: float = field(default=0.0, init=False)
+    _next: tuple[float, float] = field(default=(0.0, 0.0), init=False)
+
+    def __post_init__(self) -> None:
+        """Find out whether there is anything to remember."""
+        self.stateful = isinstance(self.friction, LuGre) or self.contact.needs_impact_speed
+
+    def force(
+        self, e: float, e_dot: float, v_t: float, omega_j: float, omega_b: float
+    ) -> PolarForce | None:
+        """Return force and derivatives, or None in free flight."""
+        penetration = e - self.clearance
+        if penetration <= 0.0 and not self.stateful:
+            return None
+        reach = self.radius + e
+        sliding = v_t + self.radius * omega_j - reach * omega_b
+        if isinstance(self.friction, LuGre):
+            mu, slope, bristle = self.friction.advance(sliding, self.bristle, self._step)
+        else:
+            (mu, slope), bristle = self.friction(sliding), 0.0
+        self._next = bristle, e_dot if penetration <= 0.0 else self.approach_speed
+        if penetration <= 0.0:
+            return None
+        normal, stiffness, damping = self.contact.force(penetration, e_dot, self.approach_speed)
+        drag = slope * normal
+        return (
+            (-normal, -mu * normal),
+            (-stiffness, -damping, 0.0, 0.0, 0.0),
+            (
+                -mu * stiffness + drag * omega_b,
+                -mu * damping,
+                -drag,
+                -drag * self.radius,
+                drag * reach,
+            ),
+        )
+
+    def arms(self, e: float) -> tuple[float, float, float, float]:
+        """Return the moment arms of the contact point about the two centres."""
+        return self.radius, -(self.radius + e), 0.0, -1.0
+
+    def stored_energy(self, e: float) -> float:
+        """Return the elastic energy of the penetration."""
+        return self.contact.elastic_energy(e - self.clearance)
+
+    def begin_step(self, step: float, accepted: bool) -> None:
+        """Keep bristle deflection and approach speed of the last step if it was accepted."""
+        if accepted:
+            self.bristle, self.approach_speed = self._next
+        self._step = step
+
+    def reset(self) -> None:
+        """Relax the bristle."""
+        self.bristle = self.approach_speed = 0.0
+        self._next = 0.0, 0.0
+
+
+@dataclass
+class FilmPair:
+    """A lubricant film between journal and bearing.
+
+    The resultant acts half-way between the two centres, as the shear of the pressure flow divides
+    the couple e x F; then the film's power is P c (f_r eps_dot - f_t eps W / 2), never positive.
+
+    Attributes:
+        law: film law in eps, d eps/dt and eps W.
+        scale: P = mu L R^3 / c^2, N s.
+        clearance: c, m.
+        outside: the eccentricity ratio of the last state, where the law did not hold there.
+    """
+
+    law: FilmLaw
+    scale: float
+    clearance: float
+    outside: float | None = field(default=None, init=False)
+    stateful: bool = field(default=False, init=False)
+
+    def force(
+        self, e: float, e_dot: float, v_t: float, omega_j: float, omega_b: float
+    ) -> PolarForce | None:
+        """Return force and derivatives; NaN where the law does not hold."""
+        c, p = self.clearance, self.scale
+        turning = omega_j + omega_b
+        f_r, f_t, r_eps, r_dot, r_w, t_eps, t_dot, t_w = self.law(
+            e / c, e_dot / c, (e * turning - 2.0 * v_t) / c
+        )
+        self.outside = None if f_r == f_r else e / c
+        q = p / c
+        r_w *= q
+        t_w *= q
+        return (
+            (p * f_r, p * f_t),
+            (q * r_eps + r_w * turning, q * r_dot, -2.0 * r_w, r_w * e, r_w * e),
+            (q * t_eps + t_w * turning, q * t_dot, -2.0 * t_w, t_w * e, t_w * e),
+        )
+
+    def arms(self, e: float) -> tuple[float, float, float, float]:
+        """Return the moment arms of the point half-way between the centres."""
+        return -0.5 * e, -0.5 * e, -0.5, -0.5
+
+    def stored_energy(self, e: float) -> float:
+        """Return zero: a film stores nothing."""
+        return 0.0
+
+    def begin_step(self, step: float, accepted: bool) -> None:
+        """Do nothing: a film remembers nothing."""
+
+    def reset(self) -> None:
+        """Do nothing: a film remembers nothing."""

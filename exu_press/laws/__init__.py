@@ -1,0 +1,1 @@
+"""Laws of contact, friction, film and load: pure functions, no Exudyn."""

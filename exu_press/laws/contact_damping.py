@@ -1,0 +1,235 @@
+"""Normal contact force: an elastic part and one of the damping laws.
+
+The hysteretic laws share F = f(delta) (1 + chi rate / v0), v0 the approach speed at first touch.
+They differ in chi, a function of the wanted restitution; the restitution they deliver follows from
+chi alone (`exu_press.laws.contact_restitution.restitution_of`), whatever f and the mass.
+
+References
+----------
+.. [1] K. H. Hunt, F. R. E. Crossley, Coefficient of restitution interpreted as damping in
+   vibroimpact, J. Applied Mechanics 42 (1975) 440-445.
+.. [2] H. M. Lankarani, P. E. Nikravesh, A contact force model with hysteresis damping for impact
+   analysis of multibody systems, J. Mechanical Design 112 (1990) 369-376.
+.. [3] P. Flores, M. Machado, M. T. Silva, J. M. Martins, On the continuous contact force models
+   for soft materials in multibody dynamics, Multibody System Dynamics 25 (2011) 357-375.
+.. [4] Y. Gonthier, J. McPhee, C. Lange, J.-C. Piedboeuf, A regularized contact model with
+   asymmetric damping and dwell-time dependent friction, Multibody System Dynamics 11
+   (2004) 209-233.
+.. [5] S. Hu, X. Guo, A dissipative contact force model for impact analysis in multibody dynamics,
+   Multibody System Dynamics 35 (2015) 131-151.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from exu_press.laws.contact_parameters import demand, not_negative, positive
+from exu_press.laws.contact_stiffness import Stiffness
+
+__all__ = [
+    "DAMPING_LAWS",
+    "NormalContact",
+    "flores",
+    "gonthier",
+    "hu_guo",
+    "hunt_crossley",
+    "lankarani_nikravesh",
+    "step",
+    "step_damping",
+]
+
+SLOWEST_IMPACT = 1e-3  # m/s
+
+
+def step(x: float, x0: float, h0: float, x1: float, h1: float) -> tuple[float, float]:
+    """ADAMS STEP (Eq. 25): h0 up to x0, h1 from x1 on, a cubic between. Returns (value, d/dx).
+
+    >>> step(0.25, 0.0, 0.0, 1.0, 2.0)
+    (0.3125, 2.25)
+    """
+    if x <= x0:
+        return h0, 0.0
+    if x >= x1:
+        return h1, 0.0
+    t, rise = (x - x0) / (x1 - x0), h1 - h0
+    return h0 + rise * t * t * (3.0 - 2.0 * t), 6.0 * rise * t * (1.0 - t) / (x1 - x0)
+
+
+@dataclass(frozen=True, slots=True)
+class NormalContact:
+    """Normal force of one contact: F_N = elastic + damping.
+
+    damping: (penetration, rate, impact_speed, elastic force, its slope)
+        -> (damping force, d/dpenetration, d/drate);
+    needs_impact_speed: the law divides by the approach speed at first touch;
+    tension: False (A-10) lets the surfaces part where the sum would pull; True keeps the pull.
+    """
+
+    stiffness: Stiffness
+    damping: Callable[[float, float, float, float, float], tuple[float, float, float]]
+    needs_impact_speed: bool
+    tension: bool = False
+
+    def force(
+        self, penetration: float, rate: float, impact_speed: float
+    ) -> tuple[float, float, float]:
+        """(F_N [N], dF_N/dpenetration [N/m], dF_N/drate [N s/m]); zeros where apart.
+
+        penetration [m]; rate [m/s], positive when closing; impact_speed [m/s]: the rate at first
+        touch of this contact, kept until it is over; not read unless `needs_impact_speed`.
+        """
+        if penetration <= 0.0:
+            return 0.0, 0.0, 0.0
+        elastic, slope = self.stiffness.force(penetration)
+        damping, by_penetration, by_rate = self.damping(
+            penetration, rate, impact_speed, elastic, slope
+        )
+        force = elastic + damping
+        if force < 0.0 and not self.tension:
+            return 0.0, 0.0, 0.0
+        return force, slope + by_penetration, by_rate
+
+    def elastic_energy(self, penetration: float) -> float:
+        """Energy [J] stored at this penetration [m]."""
+        return self.stiffness.energy(penetration) if penetration > 0.0 else 0.0
+
+    def dissipated_power(self, penetration: float, rate: float, impact_speed: float) -> float:
+        """Power [W] lost: rate (F_N - elastic force); never negative in any law of this module."""
+        if penetration <= 0.0:
+            return 0.0
+        force, _, _ = self.force(penetration, rate, impact_speed)
+        return rate * (force - self.stiffness.force(penetration)[0])
+
+
+def step_damping(
+    stiffness: Stiffness, damping_max: float, damping_depth: float, tension: bool = False
+) -> NormalContact:
+    """F = f(delta) + STEP(delta, 0, 0, d_max, c_max) rate (Eqs. 23-25), as ADAMS' IMPACT.
+
+    damping_max: c_max [N s/m] >= 0; damping_depth: d_max [m] > 0, where c_max is reached.
+
+    >>> from exu_press.laws.contact_stiffness import hertz
+    >>> contact = step_damping(hertz(2.5545e10), damping_max=2.5545e8, damping_depth=1e-5)
+    >>> round(contact.force(5e-6, 1e-5, 0.0)[0], 3)  # 285.602 elastic + c_max / 2 * 1e-5
+    1562.852
+    """
+    not_negative(damping_max=damping_max)
+    positive(damping_depth=damping_depth)
+
+    def damping(
+        penetration: float, rate: float, _impact_speed: float, _elastic: float, _slope: float
+    ) -> tuple[float, float, float]:
+        coefficient, slope = step(penetration, 0.0, 0.0, damping_depth, damping_max)
+        return coefficient * rate, slope * rate, coefficient
+
+    return NormalContact(stiffness, damping, needs_impact_speed=False, tension=tension)
+
+
+def hunt_crossley(
+    stiffness: Stiffness,
+    restitution: float,
+    tension: bool = False,
+    slowest_impact: float = SLOWEST_IMPACT,
+) -> NormalContact:
+    """Chi = 3/2 (1 - e) [1]_. Derived for e near 1: a wanted 0.5 delivers 0.663.
+
+    Impacts slower than `slowest_impact` [m/s] (all five laws): chi / v0 is taken at
+    `slowest_impact`, so that a contact beginning at rest (v0 = 0) has a finite, light damping and
+    the restitution tends to one with the speed, as it does in reality.
+    """
+    return _hysteretic(stiffness, restitution, 1.5 * (1.0 - restitution), tension, slowest_impact)
+
+
+def lankarani_nikravesh(
+    stiffness: Stiffness,
+    restitution: float,
+    tension: bool = False,
+    slowest_impact: float = SLOWEST_IMPACT,
+) -> NormalContact:
+    """Chi = 3/4 (1 - e^2) [2]_. Derived for e near 1: a wanted 0.5 delivers 0.725.
+
+    `slowest_impact`: see `hunt_crossley`.
+    """
+    return _hysteretic(
+        stiffness, restitution, 0.75 * (1.0 - restitution**2), tension, slowest_impact
+    )
+
+
+def flores(
+    stiffness: Stiffness,
+    restitution: float,
+    tension: bool = False,
+    slowest_impact: float = SLOWEST_IMPACT,
+) -> NormalContact:
+    """Chi = 8 (1 - e) / (5 e) [3]_. Every e in (0, 1]: a wanted 0.5 delivers 0.470.
+
+    `slowest_impact`: see `hunt_crossley`.
+    """
+    _demand_restitution(restitution)
+    chi = 1.6 * (1.0 - restitution) / restitution
+    return _hysteretic(stiffness, restitution, chi, tension, slowest_impact)
+
+
+def gonthier(
+    stiffness: Stiffness,
+    restitution: float,
+    tension: bool = False,
+    slowest_impact: float = SLOWEST_IMPACT,
+) -> NormalContact:
+    """Chi = (1 - e^2) / e, the published approximation in [4]_. A wanted 0.5 delivers 0.488.
+
+    `slowest_impact`: see `hunt_crossley`.
+    """
+    _demand_restitution(restitution)
+    chi = (1.0 - restitution**2) / restitution
+    return _hysteretic(stiffness, restitution, chi, tension, slowest_impact)
+
+
+def hu_guo(
+    stiffness: Stiffness,
+    restitution: float,
+    tension: bool = False,
+    slowest_impact: float = SLOWEST_IMPACT,
+) -> NormalContact:
+    """Chi = 3 (1 - e) / (2 e) [5]_. Every e in (0, 1]: a wanted 0.5 delivers 0.488.
+
+    `slowest_impact`: see `hunt_crossley`.
+    """
+    _demand_restitution(restitution)
+    chi = 1.5 * (1.0 - restitution) / restitution
+    return _hysteretic(stiffness, restitution, chi, tension, slowest_impact)
+
+
+def _demand_restitution(restitution: float) -> None:
+    demand(
+        0.0 < restitution <= 1.0,
+        "restitution",
+        restitution,
+        "0 < restitution <= 1",
+        "Flores et al. 2011: towards 0 chi grows without bound",
+    )
+
+
+def _hysteretic(
+    stiffness: Stiffness, restitution: float, chi: float, tension: bool, slowest_impact: float
+) -> NormalContact:
+    """F = f(delta) (1 + chi rate / max(v0, slowest_impact))."""
+    _demand_restitution(restitution)
+    positive(slowest_impact=slowest_impact)
+
+    def damping(
+        _penetration: float, rate: float, impact_speed: float, elastic: float, slope: float
+    ) -> tuple[float, float, float]:
+        per_rate = chi / (impact_speed if impact_speed > slowest_impact else slowest_impact)
+        return elastic * per_rate * rate, slope * per_rate * rate, elastic * per_rate
+
+    return NormalContact(stiffness, damping, needs_impact_speed=True, tension=tension)
+
+
+DAMPING_LAWS: dict[str, Callable[..., NormalContact]] = {
+    "step": step_damping,
+    "hunt_crossley": hunt_crossley,
+    "lankarani_nikravesh": lankarani_nikravesh,
+    "flores": flores,
+    "gonthier": gonthier,
+    "hu_guo": hu_guo,
+}

@@ -1,0 +1,88 @@
+"""A film that goes on where the asperities of the two surfaces already touch."""
+
+import math
+
+from exu_press.laws.contact_parameters import demand
+from exu_press.laws.film.contract import FilmForce, FilmLaw
+
+__all__ = ["with_asperities"]
+
+_STEEPNESS = 2.0
+
+
+def with_asperities(law: FilmLaw, onset_ratio: float) -> FilmLaw:
+    r"""Film law for every eccentricity ratio, beyond 1 too, through a gap that stays open.
+
+    .. math::
+        g = 1 - \varepsilon \to \tilde g = \begin{cases}
+        g & g \ge \eta \\
+        \eta\, (1 - \tfrac12 \arctan 2t), \quad t = (\eta - g)/\eta & g < \eta \end{cases}
+
+    The gap is the true one, bit by bit, until the asperities touch (eta = h_on / c); from there
+    it closes ever more slowly and never below 0.215 eta: 0.446 eta is left at eps = 1. Its
+    first and second derivatives have no jump, so neither have force, damping and stiffness.
+    The film sees tilde eps = 1 - tilde g and the speeds T (eps_dot, eps W), T = (d tilde
+    eps/d eps, tilde eps/eps), and acts through the same T on the journal: virtual power is kept,
+    so the film dissipates exactly what `law` does in the effective gap, and it fades out as the
+    surfaces sink into each other: the radial force as T, the radial damping as T^2.
+
+    Contact acts in parallel, from the same onset: the joint adds its normal force at penetration
+    e - c + h_on (times c: eps - 1 + eta), which is zero with zero slope where this gap departs
+    from the true one. Film and contact then share the load, contact ever more of it.
+
+    Parameters
+    ----------
+    law : a film law for 0 <= eps < 1
+    onset_ratio : eta = h_on / c [-], the gap at which asperities touch over the radial clearance,
+        0 < eta < 1; h_on is about three times the combined rms roughness of both surfaces
+
+    Examples
+    --------
+    >>> from exu_press.laws.film import pi_film
+    >>> smooth, rough = pi_film(), with_asperities(pi_film(), 0.02)
+    >>> smooth(0.98, 1.0, 2.0) == rough(0.98, 1.0, 2.0)
+    True
+    >>> round(rough(1.0, 1.0, 0.0)[0] / rough(0.98, 1.0, 0.0)[0], 3)
+    0.133
+
+    References
+    ----------
+    .. [1] Patir, N., and H. S. Cheng. "An Average Flow Model for Determining Effects of
+       Three-Dimensional Roughness on Partial Hydrodynamic Lubrication." J. Lubr. Technol. 100,
+       no. 1 (1978): 12-17. The mean gap of rough surfaces stays open; contact from h = 3 sigma.
+    .. [2] MBDyn, module-hydrodynamic_plain_bearing: film and asperity contact in parallel.
+    """
+    demand(
+        0.0 < onset_ratio < 1.0,
+        "onset_ratio",
+        onset_ratio,
+        "0 < h_on / c < 1",
+        "Patir and Cheng 1978: h_on = 3 sigma",
+    )
+    onset = 1.0 - onset_ratio
+
+    def mixed(eps: float, eps_dot: float, eps_w: float) -> FilmForce:
+        if not eps > onset:
+            return law(eps, eps_dot, eps_w)
+        t = _STEEPNESS * (eps - onset) / onset_ratio
+        effective = onset + onset_ratio * math.atan(t) / _STEEPNESS
+        slope = 1.0 / (1.0 + t * t)
+        bend = -2.0 * _STEEPNESS * t * slope * slope / onset_ratio
+        share = effective / eps
+        d_share = (slope - share) / eps
+        f_r, f_t, r_eps, r_dot, r_w, t_eps, t_dot, t_w = law(
+            effective, slope * eps_dot, share * eps_w
+        )
+        d_dot, d_w = bend * eps_dot, d_share * eps_w
+        return (
+            slope * f_r,
+            share * f_t,
+            bend * f_r + slope * (slope * r_eps + d_dot * r_dot + d_w * r_w),
+            slope * slope * r_dot,
+            slope * share * r_w,
+            d_share * f_t + share * (slope * t_eps + d_dot * t_dot + d_w * t_w),
+            share * slope * t_dot,
+            share * share * t_w,
+        )
+
+    return mixed

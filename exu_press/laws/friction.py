@@ -1,0 +1,206 @@
+"""Friction coefficients: mu(v), signed like the sliding speed v of the two surfaces.
+
+A joint applies the force -mu F_N along the sliding direction. A stateless law is a function
+v [m/s] -> (mu, dmu/dv [s/m]); `LuGre` carries the bristle's deflection as a state besides.
+
+References
+----------
+.. [1] C. Canudas de Wit, H. Olsson, K. J. Astrom, P. Lischinsky, A new model for control of systems
+   with friction, IEEE Trans. Automatic Control 40 (1995) 419-425.
+.. [2] B. Armstrong-Helouvry, P. Dupont, C. Canudas de Wit, A survey of models, analysis tools and
+   compensation methods for the control of machines with friction, Automatica 30 (1994) 1083-1138.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import copysign, exp, tanh
+
+from exu_press.laws.contact_parameters import demand, not_negative, positive
+
+__all__ = ["Friction", "LuGre", "coulomb", "lugre_steady", "no_friction", "stribeck"]
+
+Friction = Callable[[float], tuple[float, float]]
+
+
+def no_friction() -> Friction:
+    """Mu = 0."""
+    return lambda v: (0.0, 0.0)
+
+
+def coulomb(mu_kinetic: float, regularisation_velocity: float) -> Friction:
+    """Mu = mu_k tanh(v / v_r): Coulomb's law made smooth at rest, where it creeps.
+
+    mu_kinetic >= 0; regularisation_velocity: v_r [m/s] > 0; at 3 v_r it is within 0.5 % of mu_k.
+
+    >>> mu, slope = coulomb(0.1, regularisation_velocity=1e-3)(1e-3)
+    >>> round(mu, 6), round(slope, 6)
+    (0.076159, 41.997434)
+    """
+    not_negative(mu_kinetic=mu_kinetic)
+    positive(regularisation_velocity=regularisation_velocity)
+
+    def friction(v: float) -> tuple[float, float]:
+        direction = tanh(v / regularisation_velocity)
+        slope = (1.0 - direction * direction) / regularisation_velocity
+        return mu_kinetic * direction, mu_kinetic * slope
+
+    return friction
+
+
+def stribeck(
+    mu_static: float,
+    mu_kinetic: float,
+    stribeck_velocity: float,
+    stribeck_exponent: float,
+    regularisation_velocity: float,
+    viscous: float = 0.0,
+) -> Friction:
+    """Mu = [mu_k + (mu_s - mu_k) exp(-|v/v_s|^gamma)] tanh(v / v_r) + viscous v  [2]_.
+
+    mu_static >= mu_kinetic > 0; stribeck_velocity: v_s [m/s] > 0; 0 < stribeck_exponent <= 10
+    (0.5 to 2 in [2]_); regularisation_velocity: v_r [m/s] > 0, well below v_s or the static peak
+    is not reached; viscous [s/m] >= 0.
+
+    >>> friction = stribeck(0.15, 0.1, 0.01, 2.0, regularisation_velocity=1e-4, viscous=0.02)
+    >>> [round(friction(v)[0], 6) for v in (1e-3, 0.01, 1.0)]
+    [0.149522, 0.118594, 0.12]
+    """
+    _demand_curve(mu_static, mu_kinetic, stribeck_velocity, stribeck_exponent)
+    positive(regularisation_velocity=regularisation_velocity)
+    not_negative(viscous=viscous)
+
+    def friction(v: float) -> tuple[float, float]:
+        direction = tanh(v / regularisation_velocity)
+        g, v_times_slope = _curve(v, mu_static, mu_kinetic, stribeck_velocity, stribeck_exponent)
+        slope = g * (1.0 - direction * direction) / regularisation_velocity + viscous
+        if v != 0.0:
+            slope += v_times_slope * direction / v
+        return g * direction + viscous * v, slope
+
+    return friction
+
+
+def lugre_steady(
+    mu_static: float,
+    mu_kinetic: float,
+    sigma_2: float,
+    stribeck_velocity: float,
+    stribeck_exponent: float,
+    regularisation_velocity: float,
+) -> Friction:
+    """Steady sliding of the LuGre bristle (Eq. 33): mu = sgn(v) g(v) + sigma_2 v.
+
+    sgn(v) is tanh(v / v_r): the printed sign jumps by 2 mu_s at v = 0, where Newton's method would
+    chatter for ever. From |v| = 19 v_r on the two are equal to rounding. This is `stribeck` with
+    viscous = sigma_2 [s/m]; the arguments are those of `LuGre`.
+
+    >>> mu, _ = lugre_steady(0.2, 0.1, 0.0, 0.01, 2.0, regularisation_velocity=1e-4)(0.005)
+    >>> round(mu, 6)  # 0.1 + 0.1 exp(-1/4)
+    0.17788
+    """
+    not_negative(sigma_2=sigma_2)
+    return stribeck(
+        mu_static,
+        mu_kinetic,
+        stribeck_velocity,
+        stribeck_exponent,
+        regularisation_velocity,
+        viscous=sigma_2,
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class LuGre:
+    """LuGre friction with the bristle's deflection z [m] as a state (Eqs. 27-32; [1]_).
+
+        z_dot = v - sigma_0 |v| z / g(v),  g = mu_k + (mu_s - mu_k) exp(-|v/v_s|^gamma)
+        mu = sigma_0 z + sigma_1 z_dot + sigma_2 v
+
+    sigma_0 [1/m] > 0; sigma_1, sigma_2 [s/m] >= 0; the others as in `stribeck`. In steady sliding
+    mu is Eq. 33, for small displacements it is the spring sigma_0.
+
+    >>> friction = LuGre(1.5, 1.0, 1e5, 316.2, 0.4, 1e-3, 2.0)
+    >>> mu, slope, z1 = friction.advance(v=1e-3, z0=0.0, h=1e-3)
+    >>> round(mu, 6), round(z1 * 1e6, 6)
+    (0.384184, 0.922115)
+    """
+
+    mu_static: float
+    mu_kinetic: float
+    sigma_0: float
+    sigma_1: float
+    sigma_2: float
+    stribeck_velocity: float
+    stribeck_exponent: float
+
+    def __post_init__(self) -> None:
+        """Check the parameters."""
+        _demand_curve(
+            self.mu_static, self.mu_kinetic, self.stribeck_velocity, self.stribeck_exponent
+        )
+        positive(sigma_0=self.sigma_0)
+        not_negative(sigma_1=self.sigma_1, sigma_2=self.sigma_2)
+
+    def advance(self, v: float, z0: float, h: float) -> tuple[float, float, float]:
+        """One step h [s] at the sliding speed v at its end: (mu, dmu/dv at fixed z0 and h, z1).
+
+        Backward Euler, z1 = (z0 + h v) / (1 + h sigma_0 |v| / g): the bristle's time constant
+        g / (sigma_0 |v|) may be far below h. With h = 0 it is the value at z0 itself. Commit z1
+        only when the step is accepted. dmu/dv has a jump at v = 0, where it is the mean.
+        """
+        g, v_times_slope = self._curve(v)
+        relaxation = self.sigma_0 * abs(v) / g  # [1/s]
+        relaxation_slope = self.sigma_0 / g * (1.0 - v_times_slope / g)
+        implicit = 1.0 + h * relaxation
+        z_dot = (v - relaxation * z0) / implicit
+        z1 = z0 + h * z_dot
+        mu = self.sigma_0 * z1 + self.sigma_1 * z_dot + self.sigma_2 * v
+        direction = copysign(1.0, v) if v != 0.0 else 0.0
+        z_dot_slope = (1.0 - direction * relaxation_slope * z1) / implicit
+        return mu, (self.sigma_0 * h + self.sigma_1) * z_dot_slope + self.sigma_2, z1
+
+    def rate(self, v: float, z: float) -> float:
+        """z_dot [m/s] of the bristle's differential equation."""
+        return v - self.sigma_0 * abs(v) * z / self._curve(v)[0]
+
+    def bristle_energy(self, z: float) -> float:
+        """Energy per normal force [J/N] stored in the bristle: sigma_0 z^2 / 2."""
+        return 0.5 * self.sigma_0 * z * z
+
+    def _curve(self, v: float) -> tuple[float, float]:
+        return _curve(
+            v, self.mu_static, self.mu_kinetic, self.stribeck_velocity, self.stribeck_exponent
+        )
+
+
+def _curve(
+    v: float,
+    mu_static: float,
+    mu_kinetic: float,
+    stribeck_velocity: float,
+    stribeck_exponent: float,
+) -> tuple[float, float]:
+    """Stribeck's curve (g, v dg/dv); the product is finite at v = 0 for every exponent."""
+    decay = (abs(v) / stribeck_velocity) ** stribeck_exponent
+    peak = (mu_static - mu_kinetic) * exp(-decay)
+    return mu_kinetic + peak, -stribeck_exponent * decay * peak
+
+
+def _demand_curve(
+    mu_static: float, mu_kinetic: float, stribeck_velocity: float, stribeck_exponent: float
+) -> None:
+    positive(mu_kinetic=mu_kinetic, stribeck_velocity=stribeck_velocity)
+    demand(
+        mu_kinetic <= mu_static < float("inf"),
+        "mu_static",
+        mu_static,
+        f"mu_kinetic = {mu_kinetic!r} <= mu_static < inf",
+        "Armstrong-Helouvry et al. 1994",
+    )
+    demand(
+        0.0 < stribeck_exponent <= 10.0,
+        "stribeck_exponent",
+        stribeck_exponent,
+        "0 < stribeck_exponent <= 10",
+        "0.5 to 2 in Armstrong-Helouvry et al. 1994",
+    )

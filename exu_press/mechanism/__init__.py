@@ -1,0 +1,38 @@
+"""Mechanisms: bodies, joints, guides and their closed-form ideal motion."""
+
+import numpy as np
+
+from exu_press.errors import InputError
+from exu_press.mechanism.description import GROUND, Body, Guide, Joint, Mechanism
+from exu_press.mechanism.kinematics import AssemblyError, Motion
+from exu_press.mechanism.press import press
+from exu_press.mechanism.slider_crank import slider_crank
+from exu_press.scene import Scene
+
+__all__ = [
+    "GROUND",
+    "Body",
+    "Guide",
+    "Joint",
+    "Mechanism",
+    "Motion",
+    "check_assembly",
+    "mechanism_of",
+]
+
+
+def mechanism_of(scene: Scene) -> Mechanism:
+    """Return the mechanism of a scene."""
+    if scene.press is not None:
+        return press(scene.press, scene.crank_pin, str(scene.balls))
+    assert scene.slider_crank is not None
+    return slider_crank(scene.slider_crank, scene.crank_pin)
+
+
+def check_assembly(scene: Scene) -> None:
+    """Raise InputError where the ideal mechanism cannot be assembled at every crank angle."""
+    degrees = np.arange(0.0, 360.0, 0.5)
+    try:
+        mechanism_of(scene).motion(np.radians(degrees), 1.0)
+    except AssemblyError as error:
+        raise InputError(f"{error} m at crank angle {degrees[error.index]:g} deg") from None

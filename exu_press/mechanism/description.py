@@ -1,0 +1,86 @@
+"""What moves: a planar mechanism as data, before any Exudyn item is made of it."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+from exu_press.mechanism.kinematics import Array, Motion
+
+__all__ = ["GROUND", "Body", "Guide", "Joint", "Mechanism", "Point"]
+
+GROUND = "ground"
+
+Point = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Body:
+    """A rigid body in the plane; its frame sits in its centre of mass."""
+
+    name: str
+    mass: float
+    inertia: float
+
+
+@dataclass(frozen=True)
+class Joint:
+    """A revolute or spherical joint: a journal (or ball) of one body in a bearing (or socket).
+
+    Attributes:
+        name: as in the result's channels.
+        journal: body that carries the journal or ball.
+        journal_point: its centre in that body's frame, m.
+        bearing: body that carries the bearing or socket; the film turns with it.
+        bearing_point: its centre in that body's frame, m.
+        kind: "ideal", "dry" or "lubricated".
+        spherical: forces are recorded as 3-vectors.
+        vertical_only: an ideal joint between two guided bodies holds y alone, not x twice.
+    """
+
+    name: str
+    journal: str
+    journal_point: Point
+    bearing: str
+    bearing_point: Point
+    kind: str = "ideal"
+    spherical: bool = False
+    vertical_only: bool = False
+
+
+@dataclass(frozen=True)
+class Guide:
+    """An ideal vertical guide: holds x and, unless other joints do, the angle."""
+
+    body: str
+    holds_angle: bool = True
+
+
+@dataclass(frozen=True)
+class Mechanism:
+    """Bodies, joints and guides, and how they move where every joint is ideal.
+
+    Attributes:
+        bodies: in the order of the result's body channels.
+        joints: ideal ones and clearance ones.
+        guides: ideal guides.
+        crank: name of the driven body.
+        slider: name of the body whose motion is the result.
+        slider_origin: y of the slider at slider position 0, m.
+        motion: (n,) crank angles and a constant speed -> motion (x, y, angle) of every body.
+    """
+
+    bodies: tuple[Body, ...]
+    joints: tuple[Joint, ...]
+    guides: tuple[Guide, ...]
+    crank: str
+    slider: str
+    slider_origin: float
+    motion: Callable[[Array, float], Mapping[str, Motion]]
+
+    def ideal_slider(self, angle: Array, speed: float) -> tuple[Array, Array, Array]:
+        """Return position (m), velocity and acceleration of the slider with ideal joints."""
+        slider = self.motion(angle, speed)[self.slider]
+        return (
+            slider.position[:, 1] - self.slider_origin,
+            slider.velocity[:, 1],
+            slider.acceleration[:, 1],
+        )

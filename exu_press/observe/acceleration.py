@@ -1,0 +1,57 @@
+"""What a peak acceleration means: three observation models of the same curve (spec 7).
+
+An impact lasts about 75 us, so that the peak that is read depends on who looks: the integrator, a
+program that prints one value a millisecond, or an instrument that differentiates a displacement.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicHermiteSpline
+
+__all__ = ["differentiated_peak", "mean_peak", "peak"]
+
+Array = NDArray[np.float64]
+
+
+def peak(values: Array) -> float:
+    """Return the largest magnitude."""
+    return float(np.max(np.abs(values)))
+
+
+def mean_peak(time: Array, velocity: Array, window: float = 1e-3) -> float | None:
+    """Return the largest magnitude of the acceleration averaged over a moving window, m/s^2.
+
+    Args:
+        time: (n,), s, increasing.
+        velocity: (n,), m/s.
+        window: s.
+
+    Returns:
+        None where the record is shorter than the window.
+    """
+    if time[-1] - time[0] < window:
+        return None
+    late = time[time >= time[0] + window]
+    change = np.interp(late, time, velocity) - np.interp(late - window, time, velocity)
+    return peak(change / window)
+
+
+def differentiated_peak(
+    time: Array, position: Array, velocity: Array, rate: float = 1e3
+) -> float | None:
+    """Return the largest second difference of the displacement sampled at a rate, m/s^2.
+
+    Args:
+        time: (n,), s, increasing.
+        position: (n,), m; interpolated between steps by cubic Hermite polynomials.
+        velocity: (n,), m/s.
+        rate: samples per second.
+
+    Returns:
+        None where the record holds fewer than three samples.
+    """
+    count = int((time[-1] - time[0]) * rate * (1 + 1e-12)) + 1
+    if count < 3:
+        return None
+    samples = CubicHermiteSpline(time, position, velocity)(time[0] + np.arange(count) / rate)
+    return peak(np.diff(samples, 2) * rate**2)

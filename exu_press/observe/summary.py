@@ -1,0 +1,66 @@
+"""The dictionary of summary.json."""
+
+from typing import Any
+
+import numpy as np
+
+from exu_press.observe.acceleration import differentiated_peak, mean_peak, peak
+from exu_press.observe.clearance import joint_summary
+from exu_press.result import Result
+
+__all__ = ["summary"]
+
+
+def summary(result: Result) -> dict[str, Any]:
+    """Return what interface and terminal show of a run: plain numbers, texts and dictionaries."""
+    info = dict(result.info)
+    versions = info.pop("versions")
+    time, position = result.time, result["slider_position"]
+    velocity = result["slider_velocity"]
+    return {
+        **info,
+        "peak_acceleration": {
+            "resolved": peak(result["slider_acceleration"]),
+            "mean_1ms": mean_peak(time, velocity),
+            "differentiated_1khz": differentiated_peak(time, position, velocity),
+        },
+        "peak_velocity": peak(velocity),
+        "stroke": float(np.ptp(position)),
+        "ldp": float(position.min()),
+        "joints": {name: _joint(result, name) for name in result.clearance_joints},
+        "energy": _energy(result),
+        "versions": versions,
+        "scene": result.scene.to_dict(),
+    }
+
+
+def _joint(result: Result, name: str) -> dict[str, Any]:
+    """Return the entries of one clearance joint."""
+    clearance = result.scene.clearance
+    assert clearance is not None
+    radial = clearance.crank_pin if name == "crank_pin" else clearance.balls
+    assert radial is not None
+    film = name == "crank_pin" and result.scene.film is not None
+    return joint_summary(
+        result.time,
+        result[f"{name}_eccentricity"],
+        result[f"{name}_force"],
+        radial,
+        film=film,
+        contact=not film,
+    )
+
+
+def _energy(result: Result) -> dict[str, float]:
+    """Return the balance at the end; the residual is its worst over the run.
+
+    The residual is relative to the largest work the drive has done or taken back until then.
+    """
+    given, stored, lost = (result[f"energy_{name}"] for name in ("input", "stored", "dissipated"))
+    scale = peak(given)
+    return {
+        "input": float(given[-1]),
+        "dissipated": float(lost[-1]),
+        "stored": float(stored[-1]),
+        "residual": peak(given - stored - lost) / scale if scale else 0.0,
+    }

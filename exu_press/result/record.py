@@ -1,0 +1,161 @@
+"""From a model's sensors to the channels of a result."""
+
+import importlib.metadata
+import platform
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exu_press.integrate import Outcome
+from exu_press.joints import overlay_of
+from exu_press.model import Model
+from exu_press.result.energy import mechanical_energy, work
+from exu_press.result.result import Channel, Result
+
+__all__ = ["record"]
+
+Array = NDArray[np.float64]
+
+
+def record(model: Model, outcome: Outcome) -> Result:
+    """Return the result of an integrated model."""
+    scene, mechanism = model.scene, model.mechanism
+    time = _sensor(model, mechanism.slider, "position", with_time=True)[:, 0]
+    position, velocity, acceleration = (
+        np.stack([_sensor(model, body.name, level) for body in mechanism.bodies], axis=1)
+        for level in ("position", "velocity", "acceleration")
+    )
+    names = [body.name for body in mechanism.bodies]
+    displacement = position.copy()
+    for index, name in enumerate(names):
+        reference = model.mbs.GetNodeParameter(model.nodes[name], "referenceCoordinates")
+        position[:, index] += reference
+    slider, crank = names.index(mechanism.slider), names.index(mechanism.crank)
+    channels = {
+        "time": Channel(time, "s", "time"),
+        "crank_angle": Channel(position[:, crank, 2], "rad", "crank angle from top dead centre"),
+        "slider_position": Channel(
+            position[:, slider, 1] - mechanism.slider_origin, "m", "slider position, upwards"
+        ),
+        "slider_velocity": Channel(velocity[:, slider, 1], "m/s", "slider velocity, upwards"),
+        "slider_acceleration": Channel(
+            acceleration[:, slider, 1], "m/s^2", "slider acceleration, upwards"
+        ),
+    }
+    channels |= _constraint_forces(model)
+    stored = mechanical_energy(mechanism.bodies, position, velocity, scene.gravity)
+    dissipated = np.zeros_like(time)
+    overlay = overlay_of(model.mbs) if model.clearance_joints else None
+    for name, joint in model.clearance_joints.items():
+        assert overlay is not None
+        indices = [list(model.nodes.values()).index(node) for node in overlay.nodes]
+        states = joint.history(
+            time,
+            displacement[:, indices].reshape(len(time), -1),
+            velocity[:, indices].reshape(len(time), -1),
+        )
+        spherical = name.startswith("ball")
+        elastic = np.array([state.stored_energy for state in states])
+        lost = -work(time, np.array([state.power for state in states])) - (elastic - elastic[0])
+        stored += elastic
+        dissipated += lost
+        in_words = name.replace("_", " ")
+        channels |= {
+            f"{name}_eccentricity": _vector(
+                [state.eccentricity for state in states],
+                "m",
+                f"{in_words}: journal centre minus bearing centre",
+                spherical,
+            ),
+            f"{name}_force": _vector(
+                [state.force for state in states], "N", f"{in_words}: force on journal", spherical
+            ),
+            f"{name}_loss": Channel(lost, "J", f"{in_words}: energy dissipated since the start"),
+        }
+    driven = work(time, channels["drive_torque"].values * velocity[:, crank, 2])
+    if "blanking_force" in channels:
+        driven += work(time, channels["blanking_force"].values * velocity[:, slider, 1])
+    channels |= {
+        "energy_input": Channel(driven, "J", "work of drive and load since the start"),
+        "energy_stored": Channel(stored - stored[0], "J", "change of stored energy"),
+        "energy_dissipated": Channel(dissipated, "J", "energy dissipated since the start"),
+        "body_position": Channel(position, "m, rad", "centres of mass and angles", "pose"),
+    }
+    return Result(
+        scene=scene,
+        channels=channels,
+        info=_info(model, outcome),
+        bodies=tuple(names),
+    )
+
+
+def _sensor(model: Model, name: str, quantity: str, *, with_time: bool = False) -> Array:
+    """Return what a sensor recorded, (n, k)."""
+    data = np.asarray(model.mbs.GetSensorStoredData(model.sensors[name, quantity]))
+    return data if with_time else data[:, 1:]
+
+
+def _vector(rows: list[tuple[float, float]], unit: str, words: str, spherical: bool) -> Channel:
+    """Return a channel of vectors in the plane, or in space with z = 0."""
+    values = np.array(rows)
+    if spherical:
+        return Channel(np.column_stack([values, np.zeros(len(values))]), unit, words, "space")
+    return Channel(values, unit, words, "plane")
+
+
+def _constraint_forces(model: Model) -> dict[str, Channel]:
+    """Return the forces of drive, load, guides and ideal joints."""
+    slider = model.mechanism.slider
+    channels = {}
+    for name, quantity in model.sensors:
+        if quantity not in ("force", "moment"):
+            continue
+        values = _sensor(model, name, quantity)
+        in_words = name.replace("_", " ")
+        if name == "drive":
+            channels["drive_torque"] = Channel(-values[:, 0], "N m", "torque that turns the crank")
+        elif name == "blanking":
+            channels["blanking_force"] = Channel(
+                values[:, 0], "N", "blanking force on the slider, upwards"
+            )
+        elif name.endswith("_guide"):
+            shown = "guide" if name == f"{slider}_guide" else name
+            unit = "N" if quantity == "force" else "N m"
+            along = "to the right" if quantity == "force" else "counter-clockwise"
+            channels[f"{shown}_{quantity}"] = Channel(
+                -values[:, 0], unit, f"{in_words}: {quantity} on the body, {along}"
+            )
+        elif values.shape[1] == 1:
+            rows = [(0.0, value) for value in values[:, 0]]
+            channels[f"{name}_force"] = _vector(
+                rows, "N", f"{in_words}: force on journal", spherical=True
+            )
+        else:
+            channels[f"{name}_force"] = Channel(
+                values[:, :2], "N", f"{in_words}: force on journal", "plane"
+            )
+    return channels
+
+
+def _info(model: Model, outcome: Outcome) -> dict[str, Any]:
+    """Return status, statistics, sizes and versions."""
+    mbs = model.mbs
+    packages = ("exu-press", "exudyn", "numpy", "scipy")
+    return {
+        "status": outcome.status.value,
+        "reason": outcome.reason,
+        "end_time": outcome.end_time,
+        "wall_time": outcome.wall_time,
+        "steps": outcome.steps,
+        "rejected_steps": outcome.rejected_steps,
+        "newton_iterations": outcome.newton_iterations,
+        "law_evaluations": outcome.law_evaluations,
+        "coordinates": mbs.systemData.ODE2Size(),
+        "bodies": len(model.nodes),
+        "connectors": mbs.systemData.NumberOfObjects() - len(model.nodes) - 1,
+        "versions": {
+            "python": platform.python_version(),
+            **{name: importlib.metadata.version(name) for name in packages},
+        },
+    }

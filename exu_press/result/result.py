@@ -1,0 +1,106 @@
+"""What came out of one run: channels over time, how it ended, and the scene it came from."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exu_press.errors import InputError
+from exu_press.scene import Scene
+
+__all__ = ["Channel", "Result"]
+
+Array = NDArray[np.float64]
+
+AXES = {"": (), "plane": ("x", "y"), "space": ("x", "y", "z"), "pose": ("x", "y", "angle")}
+"""What a channel's columns are."""
+
+
+@dataclass(frozen=True)
+class Channel:
+    """One recorded quantity.
+
+    Attributes:
+        values: (n,), or (n, k) with one of AXES as columns, or (n, bodies, 3) for "pose".
+        unit: SI.
+        long_name: what it is, in words.
+        axis: name of the columns in AXES.
+    """
+
+    values: Array
+    unit: str
+    long_name: str
+    axis: str = ""
+
+
+@dataclass(frozen=True)
+class Result:
+    """Channels of a run by name, as in result["slider_position"].
+
+    Attributes:
+        scene: complete, so that the run can be repeated from it.
+        channels: by name; `time` is one of them.
+        info: status, reason and statistics, as they stand in the summary.
+        bodies: names of the bodies in `body_position`.
+    """
+
+    scene: Scene
+    channels: Mapping[str, Channel]
+    info: Mapping[str, Any]
+    bodies: tuple[str, ...] = field(default=())
+
+    def __getitem__(self, name: str) -> Array:
+        """Return the values of a channel."""
+        if name not in self.channels:
+            raise InputError(f"channel {name!r}: this run has {', '.join(sorted(self.channels))}")
+        return self.channels[name].values
+
+    def __iter__(self) -> Iterator[str]:
+        """Iterate over the channels' names."""
+        return iter(self.channels)
+
+    def __contains__(self, name: object) -> bool:
+        """Return whether the run has a channel."""
+        return name in self.channels
+
+    @property
+    def time(self) -> Array:
+        """Instants of the channels, (n,), s: the start and the end of every accepted step."""
+        return self["time"]
+
+    @property
+    def completed(self) -> bool:
+        """Whether the run reached its end."""
+        return bool(self.info["status"] == "completed")
+
+    @property
+    def clearance_joints(self) -> tuple[str, ...]:
+        """Names of the joints with clearance."""
+        suffix = "_eccentricity"
+        return tuple(name.removesuffix(suffix) for name in self.channels if name.endswith(suffix))
+
+    def summary(self) -> dict[str, Any]:
+        """Return the dictionary of summary.json."""
+        from exu_press.observe import summary
+
+        return summary(self)
+
+    def save(self, path: str | Path) -> None:
+        """Write everything to a NetCDF file; an existing one is replaced only when complete."""
+        from exu_press.result.netcdf import write
+
+        write(self, Path(path))
+
+    @staticmethod
+    def load(path: str | Path) -> "Result":
+        """Read what `save` wrote.
+
+        Raises:
+            InputError: the file cannot be read or is not a result.
+        """
+        from exu_press.result.netcdf import read
+
+        return read(Path(path))

@@ -1,0 +1,119 @@
+"""How a key of the scene states what it allows, and the check at the door."""
+
+import dataclasses
+import math
+import numbers
+import types
+import typing
+from collections.abc import Mapping
+from typing import Any, ClassVar, TypeVar
+
+from exu_press.errors import InputError
+
+__all__ = ["Table", "key", "table_from"]
+
+T = TypeVar("T")
+
+
+def key(
+    default: Any,
+    meaning: str,
+    unit: str = "",
+    *,
+    above: float | None = None,
+    at_least: float | None = None,
+    at_most: float | None = None,
+    choices: tuple[str, ...] = (),
+) -> Any:
+    """Declare one key of a scene table: its default, meaning, unit and allowed range."""
+    metadata = {
+        "meaning": meaning,
+        "unit": unit,
+        "above": above,
+        "at_least": at_least,
+        "at_most": at_most,
+        "choices": choices,
+    }
+    return dataclasses.field(default=default, metadata=metadata)
+
+
+def _allowed(field: dataclasses.Field[Any]) -> str:
+    """Return what a key allows, in words."""
+    meta = field.metadata
+    if meta.get("choices"):
+        return "one of " + ", ".join(repr(choice) for choice in meta["choices"])
+    kind = _kind(field)
+    noun = {float: "a number", int: "a whole number", bool: "true or false", str: "a text"}[kind]
+    bounds = [
+        f"{sign} {meta[name]:g}"
+        for name, sign in (("above", ">"), ("at_least", ">="), ("at_most", "<="))
+        if meta.get(name) is not None
+    ]
+    text = " ".join([noun, " and ".join(bounds)]).strip()
+    return f"{text} ({meta['meaning']}{', ' + meta['unit'] if meta['unit'] else ''})"
+
+
+@dataclasses.dataclass(frozen=True)
+class Table:
+    """A table of the scene: frozen, and checked once, when it is made."""
+
+    table: ClassVar[str] = ""
+
+    def __post_init__(self) -> None:
+        """Check every key; raise InputError for the first one that is not allowed."""
+        for field in dataclasses.fields(self):
+            if "meaning" in field.metadata:
+                name = f"{self.table}.{field.name}" if self.table else field.name
+                value = _checked(field, name, getattr(self, field.name))
+                object.__setattr__(self, field.name, value)
+
+
+def _checked(field: dataclasses.Field[Any], name: str, value: Any) -> Any:
+    """Return the value of one key in its declared type, or raise InputError.
+
+    A whole number is taken for a number; nothing else is converted, clamped or defaulted.
+    """
+    if value is None and field.default is None:
+        return None
+    kind = _kind(field)
+    if not isinstance(value, bool):
+        if kind is float and isinstance(value, numbers.Real):
+            value = float(value)
+        elif kind is int and isinstance(value, numbers.Integral):
+            value = int(value)
+    meta = field.metadata
+    right = (
+        type(value) is kind
+        and (kind is not float or math.isfinite(value))
+        and (meta["above"] is None or value > meta["above"])
+        and (meta["at_least"] is None or value >= meta["at_least"])
+        and (meta["at_most"] is None or value <= meta["at_most"])
+        and (not meta["choices"] or value in meta["choices"])
+    )
+    if not right:
+        raise InputError(f"{name} = {value!r}: allowed is {_allowed(field)}")
+    return value
+
+
+def table_from(table: type[T], name: str, data: Any) -> T:
+    """Return the table `name` of a scene from a mapping of its keys ("" is the scene itself)."""
+    if isinstance(data, table):
+        return data
+    if not isinstance(data, Mapping):
+        raise InputError(f"{name} = {data!r}: allowed is a table of keys")
+    known = [field.name for field in dataclasses.fields(table)]  # type: ignore[arg-type]
+    for given in data:
+        if given not in known:
+            path = f"{name}.{given}" if name else given
+            raise InputError(
+                f"{path} = {data[given]!r}: unknown key; allowed are {', '.join(known)}"
+            )
+    return table(**data)
+
+
+def _kind(field: dataclasses.Field[Any]) -> type:
+    """Return the scalar type of a field declared as `kind` or `kind | None`."""
+    annotation = field.type
+    if isinstance(annotation, types.UnionType):
+        return next(a for a in typing.get_args(annotation) if a is not types.NoneType)
+    return annotation  # type: ignore[return-value]

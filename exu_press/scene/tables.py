@@ -1,0 +1,148 @@
+"""The tables of a scene file, one dataclass each; defaults are the assumptions A-1 .. A-14.
+
+Every key says its meaning, unit and range once, here; messages and documentation are made from it.
+"""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from exu_press.errors import InputError
+from exu_press.scene.checks import Table, key
+
+__all__ = [
+    "Blanking",
+    "Clearance",
+    "Contact",
+    "Film",
+    "Friction",
+    "Press",
+    "SliderCrank",
+    "Solver",
+]
+
+
+@dataclass(frozen=True)
+class Clearance(Table):
+    """Radial clearances; a key is None where the scene has no such clearance joint."""
+
+    table: ClassVar[str] = "clearance"
+    crank_pin: float | None = key(None, "radial clearance of joint 2-3", "m", above=0)
+    balls: float | None = key(None, "radial clearance of joints 9-10", "m", above=0)
+
+
+@dataclass(frozen=True)
+class Contact(Table):
+    """Normal contact: Hertz stiffness with STEP damping, Eqs. 23-26."""
+
+    table: ClassVar[str] = "contact"
+    radius: float = key(0.07, "radius of journal and balls", "m", above=0)
+    stiffness: float = key(2.5545e10, "K of F = K delta^n", "N/m^n", above=0)
+    exponent: float = key(1.5, "n of F = K delta^n", at_least=1, at_most=3)
+    damping: str = key("step", "damping law", choices=("step",))
+    damping_max: float = key(2.5545e8, "c_max of STEP", "N s/m", at_least=0)
+    damping_depth: float = key(1e-5, "d_max of STEP", "m", above=0)
+    tension: bool = key(False, "let the damping pull, as the printed law does (A-10)")
+
+
+@dataclass(frozen=True)
+class Friction(Table):
+    """Friction of the dry joints, Eqs. 27-33."""
+
+    table: ClassVar[str] = "friction"
+    law: str = key("lugre_steady", "friction law", choices=("none", "lugre_steady", "lugre"))
+    mu_static: float = key(0.01, "static coefficient", at_least=0)
+    mu_kinetic: float = key(0.01, "kinetic coefficient", at_least=0)
+    sigma_0: float = key(1e5, "bristle stiffness per normal force", "1/m", above=0)
+    sigma_1: float = key(400.0, "bristle damping per normal force", "s/m", at_least=0)
+    sigma_2: float = key(0.0, "viscous coefficient per normal force", "s/m", at_least=0)
+    stribeck_velocity: float = key(0.0176, "v_s: 1 % of 0.07 m times 240 rpm", "m/s", above=0)
+    stribeck_exponent: float = key(2.0, "gamma", above=0)
+    regularisation_velocity: float = key(
+        1e-4, "sgn(v) of the steady law is tanh(v / this)", "m/s", above=0
+    )
+
+    def __post_init__(self) -> None:
+        """Check the keys, and that friction does not grow as sliding begins."""
+        super().__post_init__()
+        if self.mu_static < self.mu_kinetic:
+            raise InputError(
+                f"friction.mu_static = {self.mu_static!r}: allowed is a number >= "
+                f"friction.mu_kinetic = {self.mu_kinetic!r}"
+            )
+
+
+@dataclass(frozen=True)
+class Film(Table):
+    """Lubricant film of the crank pin, Eqs. 34-35 corrected."""
+
+    table: ClassVar[str] = "film"
+    law: str = key("pinkus", "film law", choices=("pinkus", "pi_film"))
+    viscosity: float = key(0.4, "dynamic viscosity (A-11)", "Pa s", above=0)
+    length: float = key(0.1, "bearing length (A-12)", "m", above=0)
+    at_contact: str = key("stop", "at eccentricity ratio 1 (A-13)", choices=("stop",))
+
+
+@dataclass(frozen=True)
+class Blanking(Table):
+    """Triangular blanking pulse, upwards on the slider, once a revolution (Eq. 36, A-14)."""
+
+    table: ClassVar[str] = "blanking"
+    force: float = key(0.0, "peak force", "N", at_least=0)
+    rise: float = key(1e-3, "time from zero to the peak (2 tau)", "s", above=0)
+    fall: float = key(5e-4, "time from the peak to zero (tau)", "s", above=0)
+    end_angle_deg: float = key(
+        180.0, "crank angle from top dead centre at the pulse's end", "deg", above=0, at_most=360
+    )
+
+
+@dataclass(frozen=True)
+class Solver(Table):
+    """Exudyn's generalized-alpha with fixed steps."""
+
+    table: ClassVar[str] = "solver"
+    step: float = key(1e-5, "step size; the run's last step ends on its end time", "s", above=0)
+    spectral_radius: float = key(
+        0.8, "spectral radius at infinity of generalized-alpha", at_least=0.5, at_most=0.95
+    )
+
+
+@dataclass(frozen=True)
+class Press(Table):
+    """Lengths and masses of the press (Table 2); links 5-8 per side (A-7)."""
+
+    table: ClassVar[str] = "press"
+    crank_radius: float = key(0.03, "eccentricity of the crank pin (2)", "m", above=0)
+    linkage_length: float = key(0.383, "linkage (3)", "m", above=0)
+    link_5_length: float = key(0.23, "slide (4) to knuckle", "m", above=0)
+    link_6_length: float = key(0.24, "frame pivot to knuckle", "m", above=0)
+    link_7_length: float = key(0.164, "knuckle to plunger", "m", above=0)
+    plunger_length: float = key(0.55, "plunger (8), upper pin to ball centre", "m", above=0)
+    pivot_distance: float = key(0.1655, "frame pivots and plungers from x = 0 (A-2)", "m", above=0)
+    counter_eccentricity: float = key(0.016, "eccentric opposite the pin (A-3)", "m", above=0)
+    counter_linkage_length: float = key(0.275, "linkage (11)", "m", above=0)
+    bottom_dead_centre: float = key(0.47, "slider position at ideal bottom dead centre (A-8)", "m")
+    crank_mass: float = key(217.6, "crank shaft (2)", "kg", above=0)
+    crank_mass_offset: float = key(0.015, "centre of mass, from shaft to pin (A-6)", "m")
+    linkage_mass: float = key(184.5, "linkage (3)", "kg", above=0)
+    slide_mass: float = key(60.0, "slide (4) (A-4)", "kg", above=0)
+    link_5_mass: float = key(22.72, "link (5)", "kg", above=0)
+    link_6_mass: float = key(24.13, "link (6)", "kg", above=0)
+    link_7_mass: float = key(15.5, "link (7)", "kg", above=0)
+    plunger_mass: float = key(155.3, "plunger (8) with ball (9) (A-5)", "kg", above=0)
+    slider_mass: float = key(1347.0, "main slider (10)", "kg", above=0)
+    counter_linkage_mass: float = key(22.58, "linkage (11)", "kg", above=0)
+    counterweight_mass: float = key(1847.2, "counterweight (12)", "kg", above=0)
+
+
+@dataclass(frozen=True)
+class SliderCrank(Table):
+    """A slider-crank of the press's crank, linkage and slider."""
+
+    table: ClassVar[str] = "slider_crank"
+    crank_radius: float = key(0.03, "shaft to crank pin", "m", above=0)
+    rod_length: float = key(0.383, "crank pin to slider pin", "m", above=0)
+    rod_mass: float = key(184.5, "rod", "kg", above=0)
+    rod_inertia: float = key(
+        184.5 * 0.383**2 / 12, "rod, about its centre of mass in the middle", "kg m^2", above=0
+    )
+    slider_mass: float = key(1347.0, "slider", "kg", above=0)

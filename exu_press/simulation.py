@@ -1,0 +1,25 @@
+"""One scene, front to back."""
+
+import time
+from dataclasses import replace
+
+from exu_press.integrate import integrate
+from exu_press.result import Result, record
+from exu_press.scene import Scene
+
+__all__ = ["simulate"]
+
+
+def simulate(scene: Scene, *, quiet: bool = True) -> Result:
+    """Build a scene's model, advance it to its end or an early stop, and return what came out.
+
+    Args:
+        scene: what is asked.
+        quiet: False shows the progress on standard error.
+    """
+    start = time.perf_counter()
+    model = scene.build()
+    outcome = integrate(model, quiet=quiet)
+    result = record(model, outcome)
+    total = time.perf_counter() - start
+    return replace(result, info={**result.info, "total_time": total})

@@ -1,0 +1,156 @@
+"""What every film law owes: dissipation, exact derivatives, a regular centre, NaN outside."""
+
+import math
+import random
+
+import pytest
+
+from exu_press.laws.film import (
+    FILM_LAWS,
+    dissipated,
+    film_scale,
+    finite,
+    pi_film,
+    pinkus,
+    short,
+    with_asperities,
+)
+
+LAWS = {
+    "pinkus": pinkus(),
+    "pi_film": pi_film(),
+    "short": short(0.4),
+    "finite_1": finite(1.0),
+    "finite_0.71": finite(0.71),
+    "finite_4": finite(4.0),
+    "mixed_pi_film": with_asperities(pi_film(), 0.05),
+    "mixed_finite": with_asperities(finite(0.71), 0.05),
+}
+EVERY = pytest.mark.parametrize("law", LAWS.values(), ids=LAWS.keys())
+
+
+def states(count, highest=0.999, seed=1):
+    rng = random.Random(seed)
+    for _ in range(count):
+        eps = min(rng.choice([rng.random(), 1.0 - 10.0 ** rng.uniform(-3, 0)]), highest)
+        speed, turn = 10.0 ** rng.uniform(-3, 3), rng.uniform(0, 2 * math.pi)
+        yield eps, speed * math.cos(turn), speed * math.sin(turn)
+
+
+@EVERY
+def test_dissipative_at_1000_random_states(law):
+    for eps, eps_dot, eps_w in states(1000):
+        force = law(eps, eps_dot, eps_w)
+        assert dissipated(force, eps_dot, eps_w) > 0.0
+
+
+@EVERY
+def test_never_feeds_energy_into_a_whirl_without_rotation(law):
+    for eps, eps_dot, v_t in states(1000, seed=2):
+        f_r, f_t, *_ = law(eps, eps_dot, -2.0 * v_t)  # eps gamma_dot = v_t, omega = 0
+        assert f_r * eps_dot + f_t * v_t < 0.0
+
+
+@EVERY
+def test_first_degree_in_the_speeds_so_euler_holds(law):
+    for eps, eps_dot, eps_w in states(200, seed=3):
+        f_r, f_t, _, r_dot, r_w, _, t_dot, t_w = law(eps, eps_dot, eps_w)
+        size = math.hypot(f_r, f_t)
+        assert abs(eps_dot * r_dot + eps_w * r_w - f_r) < 1e-9 * size
+        assert abs(eps_dot * t_dot + eps_w * t_w - f_t) < 1e-9 * size
+
+
+@EVERY
+def test_derivatives_against_central_differences(law):
+    for state in states(300, highest=0.99, seed=4):
+        exact = law(*state)
+        eps, speed = state[0], math.hypot(*state[1:])
+        narrow = min(1.0 - eps, eps)
+        for which, scale in enumerate((narrow, speed * narrow, speed * narrow)):
+            step = 1e-4 * scale
+            low, high = list(state), list(state)
+            low[which] -= step
+            high[which] += step
+            below, above = law(*low), law(*high)
+            largest = math.hypot(exact[0], exact[1]) / scale
+            for component in (0, 1):
+                difference = (above[component] - below[component]) / (2.0 * step)
+                slope = exact[2 + 3 * component + which]
+                assert abs(difference - slope) < 1e-4 * abs(slope) + 2e-6 * largest
+
+
+@EVERY
+def test_mirror_image_under_reversed_rotation(law):
+    for eps, eps_dot, eps_w in states(100, seed=5):
+        f, g = law(eps, eps_dot, eps_w), law(eps, eps_dot, -eps_w)
+        signs = (1, -1, 1, 1, -1, -1, -1, 1)
+        assert g == pytest.approx([s * x for s, x in zip(signs, f, strict=True)], rel=1e-12)
+
+
+@EVERY
+def test_isotropic_damper_at_the_centre(law):
+    damping = -law(0.0, 1.0, 0.0)[0]
+    for turn in (0.3, 1.0, 2.0, 4.0, 5.5):
+        f_r, f_t, *_ = law(0.0, math.cos(turn), 2.0 * math.sin(turn))
+        assert f_r == pytest.approx(-damping * math.cos(turn))
+        assert f_t == pytest.approx(damping * math.sin(turn))
+
+
+@EVERY
+@pytest.mark.parametrize("eps", [0.0, 0.3, 0.95])
+def test_finite_at_rest_and_along_either_axis(law, eps):
+    for eps_dot, eps_w in ((0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (-1.0, 0.0), (1e-200, 0.0)):
+        assert all(map(math.isfinite, law(eps, eps_dot, eps_w)))
+    assert abs(law(eps, 0.0, 0.0)[0]) < 1e-90
+
+
+@EVERY
+@pytest.mark.parametrize("eps", [0.2, 0.7, 0.97])
+def test_no_jump_where_squeeze_or_rotation_vanishes(law, eps):
+    tiny = 1e-9
+    for a, b in (
+        (law(eps, tiny, 1.0), law(eps, -tiny, 1.0)),
+        (law(eps, 1.0, tiny), law(eps, 1.0, -tiny)),
+        (law(eps, -1.0, tiny), law(eps, -1.0, -tiny)),
+    ):
+        size = math.hypot(a[0], a[1])
+        assert abs(a[0] - b[0]) < 1e-6 * size
+        assert abs(a[1] - b[1]) < 1e-6 * size
+
+
+@pytest.mark.parametrize("name", ["pinkus", "pi_film", "short", "finite_1"])
+@pytest.mark.parametrize("eps", [1.0, 1.5, -0.1, math.nan])
+def test_nan_outside_the_film(name, eps):
+    assert all(map(math.isnan, LAWS[name](eps, 1.0, 1.0)))
+
+
+@EVERY
+def test_nan_speed_gives_nan_force(law):
+    assert math.isnan(law(0.5, math.nan, 1.0)[0])
+    assert math.isnan(law(0.5, 1.0, math.nan)[1])
+
+
+def test_catalogue_builds_every_law():
+    for entry in FILM_LAWS.values():
+        law = entry.factory(0.5)
+        assert law(0.5, 0.0, 0.5)[0] < 0.0 < law(0.5, 0.0, 0.5)[1]
+        assert entry.cavitation
+        assert entry.source
+    assert FILM_LAWS["short"].suits(0.25)
+    assert not FILM_LAWS["short"].suits(1.0)
+
+
+@pytest.mark.parametrize(
+    ("build", "message"),
+    [
+        (lambda: short(0.0), "length_to_diameter = 0.0"),
+        (lambda: short(math.nan), "length_to_diameter = nan"),
+        (lambda: finite(0.05), r"length_to_diameter = 0.05: allowed 0.1 <= .* <= 4"),
+        (lambda: finite(5.0), "length_to_diameter = 5.0"),
+        (lambda: with_asperities(pi_film(), 1.0), "onset_ratio = 1.0"),
+        (lambda: film_scale(0.4, -0.1, 0.07, 1e-4), "length = -0.1"),
+    ],
+)
+def test_refused_by_name(build, message):
+    with pytest.raises(ValueError, match=message):
+        build()

@@ -1,0 +1,42 @@
+"""Ocvirk's short bearing against direct integration of its Reynolds equation."""
+
+import math
+import random
+
+import pytest
+from reynolds import short_half_film
+
+from exu_press.laws.film import short
+
+
+def test_short_is_the_half_film_under_rotation_and_squeeze():
+    rng = random.Random(11)
+    worst = 0.0
+    for _ in range(40):
+        turn = rng.uniform(0.0, 2.0 * math.pi)
+        state = rng.uniform(0.0, 0.97), math.cos(turn), math.sin(turn)
+        exact = short_half_film(*state, 0.3)
+        f_r, f_t, *_ = short(0.3)(*state)
+        worst = max(worst, math.hypot(f_r - exact[0], f_t - exact[1]) / math.hypot(*exact))
+    assert worst < 1e-5
+
+
+@pytest.mark.parametrize("eps", [0.01, 0.3, 0.6, 0.95])
+def test_ocvirk_1952_steady_load(eps):
+    f_r, f_t, *_ = short(0.25)(eps, 0.0, eps)
+    s2 = 1.0 - eps**2
+    assert f_r == pytest.approx(-4 * 0.25**2 * eps**2 / s2**2)
+    assert f_t == pytest.approx(4 * 0.25**2 * math.pi * eps / (4 * s2**1.5))
+
+
+@pytest.mark.parametrize("eps", [0.0, 0.4, 0.9])
+def test_pure_squeeze_both_ways_sums_to_the_full_film(eps):
+    closing, opening = short(0.5)(eps, 1.0, 0.0)[0], short(0.5)(eps, -1.0, 0.0)[0]
+    full = math.pi * (1 + 2 * eps**2) / (1 - eps**2) ** 2.5
+    assert opening - closing == pytest.approx(full)
+
+
+@pytest.mark.parametrize("eps", [0.1, 0.7])
+def test_derives_from_a_dissipation_potential(eps):
+    _, _, _, _, r_w, _, t_dot, _ = short(0.5)(eps, 0.3, -0.8)
+    assert t_dot == pytest.approx(-2.0 * r_w)

@@ -1,0 +1,227 @@
+"""Friction laws against Canudas de Wit et al. 1995, their limits and finite differences."""
+
+import itertools
+import math
+import random
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from exu_press.laws.friction import LuGre, coulomb, lugre_steady, no_friction, stribeck
+
+# Canudas de Wit et al. 1995, Table I, with a unit normal force.
+CANUDAS = LuGre(1.5, 1.0, 1e5, math.sqrt(1e5), 0.4, stribeck_velocity=1e-3, stribeck_exponent=2.0)
+STATELESS = {
+    "none": no_friction(),
+    "coulomb": coulomb(0.1, 1e-3),
+    "stribeck": stribeck(0.2, 0.1, 0.01, 0.5, 1e-3, viscous=0.05),
+    "lugre_steady": lugre_steady(0.2, 0.1, 0.05, 0.01, 2.0, 1e-3),
+}
+
+
+def force(v: float, z: float) -> float:
+    """Friction force of the bristle's own differential equation."""
+    return CANUDAS.sigma_0 * z + CANUDAS.sigma_1 * CANUDAS.rate(v, z) + CANUDAS.sigma_2 * v
+
+
+def unit_mass(load, until: float, **options):
+    """Integrate a unit mass under load(t, x), with CANUDAS' friction."""
+    return solve_ivp(
+        lambda t, y: (y[1], load(t, y[0]) - force(y[1], y[2]), CANUDAS.rate(y[1], y[2])),
+        (0.0, until), (0.0, 0.0, 0.0), "LSODA", rtol=1e-12, atol=1e-14, **options,
+    )  # fmt: skip
+
+
+def pulled(t: float, x: float) -> float:
+    """Spring k = 2 N/m pulled at 0.1 m/s."""
+    return 2.0 * (0.1 * t - x)
+
+
+def test_canudas_de_wit_1995_stick_slip() -> None:
+    x, v, _ = unit_mass(pulled, 25.0).y[:, -1]
+    assert x == pytest.approx(1.9088391992, abs=2e-9)
+    assert v == pytest.approx(9.4241546e-6, rel=1e-7)
+
+
+def test_canudas_de_wit_1995_stick_slip_by_advance_is_first_order() -> None:
+    def stepped(h: float) -> float:
+        x = v = z = 0.0
+        for i in range(1, round(25.0 / h) + 1):
+            start = v
+            for _ in range(20):
+                mu, slope, _ = CANUDAS.advance(v, z, h)
+                residual = v - start - h * (pulled(i * h, x + h * v) - mu)
+                correction = residual / (1.0 + 2.0 * h * h + h * slope)
+                v -= correction
+                if abs(correction) < 1e-13:
+                    break
+            else:
+                pytest.fail(f"Newton did not converge at t = {i * h}")
+            x += h * v
+            z = CANUDAS.advance(v, z, h)[2]
+        return x
+
+    errors = [abs(stepped(h) - 1.9088391992) for h in (2e-3, 1e-3, 5e-4)]
+    assert errors[-1] < 1.5e-3
+    orders = [math.log2(a / b) for a, b in itertools.pairwise(errors)]
+    assert orders == pytest.approx([1.0, 1.0], abs=0.06)
+
+
+def test_canudas_de_wit_1995_presliding_loop_closes() -> None:
+    """Force swept to 95 % of the break-away force and back, slowly: micrometres, a closed loop."""
+    corners = ([0, 1, 3, 5, 7, 9], [0, 1.425, -1.425, 1.425, -1.425, 1.425])
+    loop = unit_mass(lambda t, _x: np.interp(t, *corners), 9.0, dense_output=True, max_step=0.01)
+    x = loop.sol(np.array([5.0, 9.0, 6.0, 8.0, 7.0]))[0]
+    assert x[1] == pytest.approx(x[0], abs=1e-10)  # the same corner a cycle later
+    assert x[0] < 1e-4
+    assert x[2] - x[3] > 2e-5  # unloaded on the two branches: the loop is open in the middle
+    assert x[4] < x[3] < x[2] < x[0]
+
+
+def test_presliding_stiffness_is_sigma_0() -> None:
+    friction = LuGre(1.5, 1.0, 1e5, 0.0, 0.0, 1e-3, 2.0)
+    displacement, z = 1e-8, 0.0
+    for _ in range(10):
+        mu, _, z = friction.advance(v=1e-9, z0=z, h=displacement / 10 / 1e-9)
+    assert mu / displacement == pytest.approx(1e5, rel=1e-3)
+    assert friction.bristle_energy(z) == pytest.approx(0.5 * mu * displacement, rel=1e-3)
+
+
+def test_presliding_at_constant_speed_follows_dahls_exponential() -> None:
+    """At constant v: mu = g (1 - exp(-sigma_0 x / g)), stepped."""
+    friction = LuGre(1.5, 1.0, 1e5, 0.0, 0.0, 1e-3, 2.0)
+    v, h, z, g = 1e-6, 2e-3, 0.0, 1.0 + 0.5 * math.exp(-1e-6)
+    for _ in range(10_000):
+        mu, _, z = friction.advance(v, z, h)
+    assert mu == pytest.approx(g * (1.0 - math.exp(-1e5 * 2e-5 / g)), rel=1e-4)
+
+
+def test_canudas_de_wit_1995_break_away_falls_with_force_rate() -> None:
+    def moving(_t, y):
+        return y[1] - 1e-2
+
+    moving.terminal = True
+
+    def break_away(rate: float) -> float:
+        ramp = unit_mass(lambda t, _x: rate * t, 5.0, events=moving, max_step=0.01 / rate)
+        return max(force(v, z) for _, v, z in ramp.y.T)
+
+    forces = [break_away(rate) for rate in (1.0, 2.0, 5.0, 10.0, 20.0, 50.0)]
+    assert forces == sorted(forces, reverse=True)
+    assert 1.4 < forces[0] < 1.5
+    assert 1.0 < forces[-1] < 1.3
+
+
+@pytest.mark.parametrize("v", [-2.0, -0.01, -1e-3, 1e-4, 1e-3, 0.01, 2.0])
+def test_bristle_in_steady_sliding_is_eq_33(v: float) -> None:
+    """With steps far below and far above the bristle's time constant g / (sigma_0 |v|)."""
+    steady = lugre_steady(1.5, 1.0, 0.4, 1e-3, 2.0, regularisation_velocity=1e-6)(v)[0]
+    for h, count in ((1e-6 / abs(v), 500), (1e-2 / abs(v), 10)):
+        z = 0.0
+        for _ in range(count):
+            mu, _, z = CANUDAS.advance(v, z, h)
+        assert mu == pytest.approx(steady, rel=1e-9)
+    g = 1.0 + 0.5 * math.exp(-((v / 1e-3) ** 2))
+    assert steady == pytest.approx(math.copysign(g, v) + 0.4 * v, rel=1e-14)
+
+
+def test_bristle_with_no_step_is_its_own_instant_value() -> None:
+    for v, z in ((0.0, 1e-6), (1e-3, -1e-6), (-0.2, 5e-6)):
+        mu, _, z1 = CANUDAS.advance(v, z, 0.0)
+        assert z1 == z
+        assert mu == pytest.approx(force(v, z), rel=1e-14)
+
+
+def test_bristle_derivative_against_finite_differences() -> None:
+    rng = random.Random(7)
+    for exponent in (0.5, 1.0, 2.0):
+        friction = LuGre(0.2, 0.1, 1e5, 400.0, 0.1, 0.01, exponent)
+        for _ in range(200):
+            v = rng.choice((-1, 1)) * 10 ** rng.uniform(-5, 0)
+            z, h = rng.uniform(-2e-6, 2e-6), rng.choice((0.0, 1e-7, 1e-5, 1e-3))
+            d = 1e-5 * abs(v)
+            low, high = (friction.advance(v + s * d, z, h)[0] for s in (-1, 1))
+            slope = friction.advance(v, z, h)[1]
+            tolerance = 1e-6 * abs(slope) + 1e-11 * abs(high) / d
+            assert (high - low) / (2 * d) == pytest.approx(slope, abs=tolerance)
+        for h in (0.0, 1e-4):  # v = 0: the mean of the two sides
+            d = 1e-9
+            low, high = (friction.advance(s * d, 1e-6, h)[0] for s in (-1, 1))
+            slope = friction.advance(0.0, 1e-6, h)[1]
+            if exponent == 2.0:
+                assert (high - low) / (2 * d) == pytest.approx(slope, rel=1e-4)
+            assert math.isfinite(slope)
+
+
+@pytest.mark.parametrize("name", list(STATELESS))
+def test_stateless_derivatives_are_exact_and_the_laws_odd_and_dissipative(name: str) -> None:
+    friction, rng = STATELESS[name], random.Random(5)
+    assert friction(0.0)[0] == 0.0
+    for _ in range(200):
+        v = rng.choice((-1, 1)) * 10 ** rng.uniform(-5, 1)
+        mu, slope = friction(v)
+        d = 1e-5 * abs(v)
+        low, high = friction(v - d)[0], friction(v + d)[0]
+        tolerance = 1e-7 * abs(slope) + 1e-10 * abs(mu) / abs(v)
+        assert (high - low) / (2 * d) == pytest.approx(slope, abs=tolerance)
+        assert mu * v >= 0.0
+        assert friction(-v) == (-mu, slope)
+
+
+def test_coulomb_limits() -> None:
+    friction = coulomb(0.3, 1e-4)
+    assert friction(0.0) == (0.0, 3000.0)
+    assert friction(3e-4)[0] == pytest.approx(0.3, rel=0.005)
+    assert friction(19e-4) == (pytest.approx(0.3, rel=1e-15), pytest.approx(0.0, abs=1e-12))
+    assert friction(-1.0) == (-0.3, 0.0)
+
+
+def test_stribeck_limits() -> None:
+    friction = stribeck(0.3, 0.1, 0.1, 2.0, 1e-5, viscous=0.02)
+    assert friction(0.0) == (0.0, pytest.approx(0.3 / 1e-5 + 0.02))
+    assert friction(1e-3)[0] == pytest.approx(0.3, rel=1e-3)  # v_r << v << v_s: static
+    assert friction(0.1)[0] == pytest.approx(0.1 + 0.2 / math.e + 0.002)
+    assert friction(10.0) == (pytest.approx(0.3), pytest.approx(0.02))  # kinetic and viscous
+    flat = stribeck(0.1, 0.1, 0.1, 2.0, 1e-3)
+    assert flat(2e-3) == pytest.approx(coulomb(0.1, 1e-3)(2e-3))
+
+
+def test_slope_at_rest_is_finite_for_every_exponent() -> None:
+    for exponent in (0.3, 0.5, 1.0, 2.0, 3.0):
+        assert stribeck(0.3, 0.1, 0.1, exponent, 1e-3)(0.0) == (0.0, pytest.approx(300.0))
+        assert math.isfinite(LuGre(0.3, 0.1, 1e5, 400.0, 0.0, 0.1, exponent).advance(0, 0, 1e-5)[1])
+
+
+CURVE = {"mu_static": 0.2, "mu_kinetic": 0.1, "stribeck_velocity": 0.01, "stribeck_exponent": 2.0}
+SMOOTH = {**CURVE, "regularisation_velocity": 1e-3}
+BRISTLE = {**CURVE, "sigma_0": 1e5, "sigma_1": 400.0, "sigma_2": 0.0}
+
+
+@pytest.mark.parametrize(
+    ("law", "good", "name", "value"),
+    [
+        (coulomb, {"mu_kinetic": 0.1, "regularisation_velocity": 1e-3}, "mu_kinetic", -0.1),
+        (
+            coulomb,
+            {"mu_kinetic": 0.1, "regularisation_velocity": 1e-3},
+            "regularisation_velocity",
+            0.0,
+        ),
+        (stribeck, SMOOTH, "mu_static", 0.05),
+        (stribeck, SMOOTH, "mu_kinetic", 0.0),
+        (stribeck, SMOOTH, "stribeck_velocity", 0.0),
+        (stribeck, SMOOTH, "stribeck_exponent", 0.0),
+        (stribeck, SMOOTH, "regularisation_velocity", math.nan),
+        (stribeck, SMOOTH, "viscous", -1.0),
+        (lugre_steady, {**SMOOTH, "sigma_2": 0.0}, "sigma_2", -1.0),
+        (LuGre, BRISTLE, "mu_static", math.inf),
+        (LuGre, BRISTLE, "sigma_0", 0.0),
+        (LuGre, BRISTLE, "sigma_1", -1.0),
+        (LuGre, BRISTLE, "sigma_2", math.nan),
+    ],
+)
+def test_bad_parameters_are_refused_by_name(law, good, name: str, value: float) -> None:
+    law(**good)
+    with pytest.raises(ValueError, match=rf"^{name} = {value!r}: allowed .*{name}"):
+        law(**{**good, name: value})

@@ -1,10 +1,28 @@
 """From a scene to an assembled Exudyn system: only what the scene uses is built."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import exudyn as exu
-import exudyn.itemInterface as items
 import numpy as np
+from exudyn.itemInterface import (
+    LoadCoordinate,
+    LoadMassProportional,
+    MarkerBodyMass,
+    MarkerBodyRigid,
+    MarkerNodeCoordinate,
+    MarkerNodeCoordinates,
+    NodePointGround,
+    NodeRigidBody2D,
+    ObjectConnectorCoordinate,
+    ObjectConnectorCoordinateVector,
+    ObjectGround,
+    ObjectJointRevolute2D,
+    ObjectRigidBody2D,
+    SensorLoad,
+    SensorNode,
+    SensorObject,
+)
 
 from exu_press.joints import (
     PlanarJoint,
@@ -62,14 +80,12 @@ class _Builder:
         self.mechanism = mechanism_of(scene)
         self.SC = exu.SystemContainer()
         self.mbs = self.SC.AddSystem()
-        self.ground = int(self.mbs.AddObject(items.ObjectGround()))
+        self.ground = int(self.mbs.AddObject(ObjectGround()))
         self.bodies = {GROUND: self.ground}
         self.nodes: dict[str, int] = {}
         self.sensors: dict[tuple[str, str], int] = {}
-        ground_node = self.mbs.AddNode(items.NodePointGround())
-        self.still = self.mbs.AddMarker(
-            items.MarkerNodeCoordinate(nodeNumber=ground_node, coordinate=0)
-        )
+        ground_node = self.mbs.AddNode(NodePointGround())
+        self.still = self.mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=ground_node, coordinate=0))
 
     def add_bodies(self) -> None:
         """Add every body in the ideal mechanism's position and velocity."""
@@ -78,22 +94,22 @@ class _Builder:
         for body in self.mechanism.bodies:
             start = motion[body.name]
             node = self.mbs.AddNode(
-                items.NodeRigidBody2D(
+                NodeRigidBody2D(
                     name=body.name,
                     referenceCoordinates=start.position[0],
                     initialVelocities=start.velocity[0],
                 )
             )
             number = self.mbs.AddObject(
-                items.ObjectRigidBody2D(
+                ObjectRigidBody2D(
                     name=body.name, nodeNumber=node, mass=body.mass, inertia=body.inertia
                 )
             )
             self.nodes[body.name], self.bodies[body.name] = int(node), int(number)
             if self.scene.gravity > 0.0:
                 self.mbs.AddLoad(
-                    items.LoadMassProportional(
-                        markerNumber=self.mbs.AddMarker(items.MarkerBodyMass(bodyNumber=number)),
+                    LoadMassProportional(
+                        markerNumber=self.mbs.AddMarker(MarkerBodyMass(bodyNumber=number)),
                         loadVector=[0.0, -self.scene.gravity, 0.0],
                     )
                 )
@@ -107,7 +123,7 @@ class _Builder:
             self._point(joint.bearing, joint.bearing_point),
         ]
         return int(
-            self.mbs.AddObject(items.ObjectJointRevolute2D(name=joint.name, markerNumbers=markers))
+            self.mbs.AddObject(ObjectJointRevolute2D(name=joint.name, markerNumbers=markers))
         )
 
     def add_clearance_joint(self, joint: Joint) -> PlanarJoint:
@@ -163,15 +179,15 @@ class _Builder:
         to_end = (pulse.end_angle_deg - self.scene.start_angle_deg) / 360.0 * period
         begin = to_end - pulse.rise - pulse.fall
 
-        def load(mbs: exu.MainSystem, time: float, value: float) -> float:
-            return blanking_force((time - begin) % period, pulse.force, pulse.rise, pulse.fall)
+        def load(mbs: exu.MainSystem, t: float, load: float) -> float:
+            return blanking_force((t - begin) % period, pulse.force, pulse.rise, pulse.fall)
 
         marker = self._coordinate(self.mechanism.slider, 1)
         number = self.mbs.AddLoad(
-            items.LoadCoordinate(markerNumber=marker, load=0.0, loadUserFunction=load)
+            LoadCoordinate(markerNumber=marker, load=0.0, loadUserFunction=load)
         )
         self.sensors["blanking", "force"] = self.mbs.AddSensor(
-            items.SensorLoad(loadNumber=number, storeInternal=True)
+            SensorLoad(loadNumber=number, storeInternal=True)
         )
 
     def add_sensors(self, joints: dict[str, int], guides: dict[str, tuple[int, ...]]) -> None:
@@ -184,7 +200,7 @@ class _Builder:
         for name, node in self.nodes.items():
             for level, output in levels.items():
                 self.sensors[name, level] = self.mbs.AddSensor(
-                    items.SensorNode(nodeNumber=node, storeInternal=True, outputVariableType=output)
+                    SensorNode(nodeNumber=node, storeInternal=True, outputVariableType=output)
                 )
         forces = {(name, "force"): number for name, number in joints.items()}
         for body, numbers in guides.items():
@@ -194,7 +210,7 @@ class _Builder:
             }
         for key, number in forces.items():
             self.sensors[key] = self.mbs.AddSensor(
-                items.SensorObject(
+                SensorObject(
                     objectNumber=number,
                     storeInternal=True,
                     outputVariableType=exu.OutputVariableType.Force,
@@ -236,7 +252,7 @@ class _Builder:
     def _point(self, body: str, point: tuple[float, float]) -> int:
         return int(
             self.mbs.AddMarker(
-                items.MarkerBodyRigid(bodyNumber=self.bodies[body], localPosition=[*point, 0.0])
+                MarkerBodyRigid(bodyNumber=self.bodies[body], localPosition=[*point, 0.0])
             )
         )
 
@@ -251,11 +267,11 @@ class _Builder:
             (joint.bearing, joint.bearing_point),
         ):
             node = self.nodes[body]
-            markers.append(self.mbs.AddMarker(items.MarkerNodeCoordinates(nodeNumber=node)))
+            markers.append(self.mbs.AddMarker(MarkerNodeCoordinates(nodeNumber=node)))
             rows.append([[0.0, 1.0, x]])
         return int(
             self.mbs.AddObject(
-                items.ObjectConnectorCoordinateVector(
+                ObjectConnectorCoordinateVector(
                     name=joint.name,
                     markerNumbers=markers,
                     scalingMarker0=rows[0],
@@ -268,14 +284,14 @@ class _Builder:
     def _coordinate(self, body: str, coordinate: int) -> int:
         return int(
             self.mbs.AddMarker(
-                items.MarkerNodeCoordinate(nodeNumber=self.nodes[body], coordinate=coordinate)
+                MarkerNodeCoordinate(nodeNumber=self.nodes[body], coordinate=coordinate)
             )
         )
 
-    def _hold(self, body: str, coordinate: int, **options: object) -> int:
+    def _hold(self, body: str, coordinate: int, **options: Any) -> int:
         return int(
             self.mbs.AddObject(
-                items.ObjectConnectorCoordinate(
+                ObjectConnectorCoordinate(
                     markerNumbers=[self.still, self._coordinate(body, coordinate)], **options
                 )
             )

@@ -3,7 +3,7 @@
 import sys
 import time
 from types import TracebackType
-from typing import TextIO
+from typing import NoReturn, TextIO
 
 from tqdm import tqdm
 
@@ -32,7 +32,7 @@ class Progress:
         self._stream = sys.stderr if stream is None else stream
         self._quiet = quiet
         self._start = self._last_line = time.monotonic()
-        self._bar: tqdm | None = None
+        self._bar: tqdm[NoReturn] | None = None
         if not quiet and self._stream.isatty():
             self._bar = tqdm(
                 desc=label,

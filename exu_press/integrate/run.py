@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from types import FrameType
 
 import exudyn as exu
+import numpy as np
 
 from exu_press.integrate.outcome import Outcome, Status
 from exu_press.integrate.progress import Progress
@@ -60,7 +61,6 @@ def integrate(model: Model, *, quiet: bool = True) -> Outcome:
     """Run a model to its end time or to an early stop; what was computed stays in its sensors."""
     mbs, scene = model.mbs, model.scene
     settings = settings_for(scene)
-    solver = exu.MainSolverImplicitSecondOrder()
     failure = ""
     with Progress("run", scene.duration, quiet=quiet) as progress:
         watch = _Watch(progress)
@@ -68,10 +68,11 @@ def integrate(model: Model, *, quiet: bool = True) -> Outcome:
         start = time.perf_counter()
         with watch.catching_interrupts(), _silent_console():
             try:
-                solver.SolveSystem(mbs, settings)
+                mbs.SolveDynamic(settings, showHints=False)
             except exu.ExudynError as error:
                 failure = str(error)
         wall_time = time.perf_counter() - start
+        solver = mbs.sys["dynamicSolver"]
         progress.update(solver.it.currentTime)
     end_time = mbs.systemData.GetTime()
     status, reason = _how_it_ended(model, watch.interrupted, end_time, failure)
@@ -117,7 +118,7 @@ def _how_it_ended(
 def _recorded_steps(model: Model) -> int:
     """Return the number of accepted steps: the sensors hold the start and each of them."""
     sensor = model.sensors[model.mechanism.slider, "position"]
-    return len(model.mbs.GetSensorStoredData(sensor)) - 1
+    return len(np.asarray(model.mbs.GetSensorStoredData(sensor))) - 1
 
 
 @contextmanager

@@ -6,12 +6,14 @@ and an analytic Jacobian instead. All clearance joints of a system share one suc
 item costs a call of its own.
 """
 
-from collections.abc import Sequence
 from typing import Any
 
 import exudyn as exu
-import exudyn.itemInterface as items
 import numpy as np
+from exudyn.itemInterface import (
+    ObjectGenericODE2,
+    VObjectGenericODE2,
+)
 
 from exu_press.joints.planar import GROUND, PlanarJoint
 
@@ -58,23 +60,23 @@ class JointOverlay:
             self._stateful.append(joint)
         size = 3 * len(self.nodes)
         if self.item is None:
+            forces: Any = self._forces
+            jacobian: Any = self._jacobian
             self.item = self._mbs.AddObject(
-                items.ObjectGenericODE2(
+                ObjectGenericODE2(
                     nodeNumbers=self.nodes,
                     massMatrix=np.zeros((size, size)),
-                    forceUserFunction=self._forces,
-                    jacobianUserFunction=self._jacobian,
-                    visualization=items.VObjectGenericODE2(show=False),
+                    forceUserFunction=forces,
+                    jacobianUserFunction=jacobian,
+                    visualization=VObjectGenericODE2(show=False),
                 )
             )
         else:
             self._mbs.SetObjectParameter(self.item, "nodeNumbers", self.nodes)
             self._mbs.SetObjectParameter(self.item, "massMatrix", np.zeros((size, size)))
 
-    def _forces(
-        self, mbs: exu.MainSystem, time: float, item: int, q: Sequence[float], q_t: Sequence[float]
-    ) -> list[float]:
-        """Return the generalised forces of all joints."""
+    def _forces(self, mbs: exu.MainSystem, time: float, item: int, q: Any, q_t: Any) -> Any:
+        """Return the generalised forces of all joints, a list as Exudyn passes and takes it."""
         self.evaluations += 1
         if self._stateful:
             self._begin_step(time)
@@ -90,8 +92,8 @@ class JointOverlay:
         mbs: exu.MainSystem,
         time: float,
         item: int,
-        q: Sequence[float],
-        q_t: Sequence[float],
+        q: Any,
+        q_t: Any,
         by_q: float,
         by_q_t: float,
     ) -> Any:

@@ -84,7 +84,7 @@ def _checked(field: dataclasses.Field[Any], name: str, value: Any) -> Any:
     meta = field.metadata
     right = (
         type(value) is kind
-        and (kind is not float or math.isfinite(value))
+        and (kind is not float or math.isfinite(typing.cast(float, value)))
         and (meta["above"] is None or value > meta["above"])
         and (meta["at_least"] is None or value >= meta["at_least"])
         and (meta["at_most"] is None or value <= meta["at_most"])
@@ -113,7 +113,5 @@ def table_from(table: type[T], name: str, data: Any) -> T:
 
 def _kind(field: dataclasses.Field[Any]) -> type:
     """Return the scalar type of a field declared as `kind` or `kind | None`."""
-    annotation = field.type
-    if isinstance(annotation, types.UnionType):
-        return next(a for a in typing.get_args(annotation) if a is not types.NoneType)
-    return annotation  # type: ignore[return-value]
+    kinds = typing.get_args(field.type) or (field.type,)
+    return next(kind for kind in kinds if isinstance(kind, type) and kind is not types.NoneType)

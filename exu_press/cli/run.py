@@ -1,0 +1,40 @@
+"""Run one scene: summary.json, run.nc and pictures."""
+
+import argparse
+import sys
+
+from exu_press.cli.options import add_scene_arguments, directory_of, scene_of
+from exu_press.cli.table import run_lines
+from exu_press.output import output_directory, write_json
+from exu_press.simulation import simulate
+
+__all__ = ["EXAMPLE", "add_arguments", "execute"]
+
+EXAMPLE = "exu-press run press --set crank_pin=dry --set clearance.crank_pin=5e-5 --out out/dry"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the command's arguments."""
+    add_scene_arguments(parser)
+
+
+def execute(options: argparse.Namespace) -> int:
+    """Run the scene; return 0, or 3 if it stopped early."""
+    scene = scene_of(options)
+    directory = output_directory(directory_of(options))
+    result = simulate(scene, quiet=options.quiet)
+    summary = result.summary()
+    result.save(directory / "run.nc")
+    write_json(directory / "summary.json", summary)
+    written = [directory / "run.nc", directory / "summary.json"]
+    if not options.no_pictures:
+        from exu_press.plots import save_pictures
+
+        written += save_pictures(result, directory)
+    if not options.quiet:
+        print("\n".join(run_lines(summary)))
+        print("written:", ", ".join(path.name for path in written), f"in {directory}")
+    if not result.completed:
+        print(f"exu-press: stopped early: {summary['reason']}", file=sys.stderr)
+        return 3
+    return 0

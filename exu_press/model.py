@@ -31,12 +31,10 @@ from exu_press.joints import (
     add_lubricated_revolute,
 )
 from exu_press.laws.blanking import blanking_force
-from exu_press.laws.contact import hertz, step_damping
-from exu_press.laws.contact_damping import NormalContact
-from exu_press.laws.film import FilmLaw, pi_film, pinkus
-from exu_press.laws.friction import Friction, LuGre, lugre_steady, no_friction
+from exu_press.laws.friction import no_friction
 from exu_press.mechanism import GROUND, Guide, Joint, Mechanism, mechanism_of
 from exu_press.scene import Scene
+from exu_press.scene.laws import asperity_onset, contact_law, film_law, friction_law
 
 __all__ = ["Model", "build"]
 
@@ -135,28 +133,25 @@ class _Builder:
         bearing = self.bodies[joint.bearing], joint.bearing_point
         clearance = scene.clearance.balls if joint.spherical else scene.clearance.crank_pin
         assert clearance is not None
-        radius = scene.contact.radius
-        if joint.kind == "lubricated":
-            assert scene.film is not None
-            return add_lubricated_revolute(
-                self.mbs,
-                journal,
-                bearing,
-                radius=radius,
-                clearance=clearance,
-                length=scene.film.length,
-                viscosity=scene.film.viscosity,
-                law=film_law(scene),
-            )
-        add = add_dry_spherical if joint.spherical else add_dry_revolute
-        return add(
+        size = {"radius": scene.contact.radius, "clearance": clearance}
+        contact = contact_law(scene.contact, clearance, revolute=not joint.spherical)
+        friction = no_friction() if scene.friction is None else friction_law(scene.friction)
+        if joint.kind == "dry":
+            add = add_dry_spherical if joint.spherical else add_dry_revolute
+            return add(self.mbs, journal, bearing, **size, contact=contact, friction=friction)
+        assert scene.film is not None
+        onset = asperity_onset(scene.film)
+        return add_lubricated_revolute(
             self.mbs,
             journal,
             bearing,
-            radius=radius,
-            clearance=clearance,
-            contact=contact_law(scene),
-            friction=friction_law(scene),
+            **size,
+            length=scene.film.length,
+            viscosity=scene.film.viscosity,
+            law=film_law(scene.film, scene.contact.radius, clearance),
+            contact=None if onset is None else contact,
+            friction=friction,
+            asperity_onset=onset or 0.0,
         )
 
     def add_guide(self, guide: Guide) -> tuple[int, ...]:
@@ -301,30 +296,3 @@ class _Builder:
 def build(scene: Scene) -> Model:
     """Return the assembled Exudyn model of a scene, on the ideal mechanism's start."""
     return _Builder(scene).build()
-
-
-def contact_law(scene: Scene) -> NormalContact:
-    """Return the scene's normal contact law."""
-    table = scene.contact
-    assert table is not None
-    elastic = hertz(table.stiffness, table.exponent)
-    return step_damping(elastic, table.damping_max, table.damping_depth, table.tension)
-
-
-def friction_law(scene: Scene) -> Friction | LuGre:
-    """Return the scene's friction law, a new one for each joint."""
-    table = scene.friction
-    assert table is not None
-    if table.law == "none":
-        return no_friction()
-    curve = (table.mu_static, table.mu_kinetic)
-    stribeck = (table.stribeck_velocity, table.stribeck_exponent)
-    if table.law == "lugre":
-        return LuGre(*curve, table.sigma_0, table.sigma_1, table.sigma_2, *stribeck)
-    return lugre_steady(*curve, table.sigma_2, *stribeck, table.regularisation_velocity)
-
-
-def film_law(scene: Scene) -> FilmLaw:
-    """Return the scene's film law."""
-    assert scene.film is not None
-    return {"pinkus": pinkus, "pi_film": pi_film}[scene.film.law]()

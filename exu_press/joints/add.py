@@ -10,7 +10,7 @@ from exu_press.joints.pairs import DryPair, FilmPair, Pair
 from exu_press.joints.planar import PlanarEnd, PlanarJoint
 from exu_press.laws.contact import NormalContact
 from exu_press.laws.film import FilmLaw, film_scale
-from exu_press.laws.friction import Friction, LuGre
+from exu_press.laws.friction import Friction, LuGre, no_friction
 
 __all__ = ["add_dry_revolute", "add_dry_spherical", "add_lubricated_revolute"]
 
@@ -80,8 +80,14 @@ def add_lubricated_revolute(
     length: float,
     viscosity: float,
     law: FilmLaw,
+    contact: NormalContact | None = None,
+    friction: Friction | LuGre | None = None,
+    asperity_onset: float = 0.0,
 ) -> PlanarJoint:
     """Put a lubricated revolute joint between two bodies (spec 3, Eqs. 34-35 corrected).
+
+    With a contact law, film and contact act in parallel: pass a film law that goes on beyond an
+    eccentricity ratio of 1 (`exu_press.laws.film.with_asperities`) with the same onset.
 
     Args:
         mbs: system, not yet assembled.
@@ -92,9 +98,16 @@ def add_lubricated_revolute(
         length: length of the bearing, m.
         viscosity: dynamic viscosity, Pa s.
         law: film law.
+        contact: normal contact law of the asperities and what is below them.
+        friction: friction law of the contact.
+        asperity_onset: gap at which the surfaces begin to touch, m.
     """
     scale = film_scale(viscosity, length, radius, clearance)
-    return _add(mbs, journal, bearing, [FilmPair(law, scale, clearance)])
+    pairs: list[Pair] = [FilmPair(law, scale, clearance)]
+    if contact is not None:
+        friction = no_friction() if friction is None else friction
+        pairs.append(DryPair(contact, friction, radius, clearance - asperity_onset))
+    return _add(mbs, journal, bearing, pairs)
 
 
 def _add(
@@ -112,12 +125,12 @@ def _end(mbs: exu.MainSystem, body_point: BodyPoint) -> PlanarEnd:
     item = mbs.GetObject(body)
     along, across = float(point[0]), float(point[1])
     if item["objectType"] == "Ground":
-        x, y, _ = item["referencePosition"]
+        x, y, _ = (float(value) for value in item["referencePosition"])
         return PlanarEnd(overlay_of(mbs).index_of(None), (x, y, 0.0), (along, across))
     if item["objectType"] != "RigidBody2D":
         raise InputError(
             f"body {body} is a {item['objectType']}: allowed are RigidBody2D and Ground"
         )
     node = int(item["nodeNumber"])
-    x, y, angle = mbs.GetNodeParameter(node, "referenceCoordinates")
+    x, y, angle = (float(value) for value in mbs.GetNodeParameter(node, "referenceCoordinates"))
     return PlanarEnd(overlay_of(mbs).index_of(node), (x, y, angle), (along, across))

@@ -41,6 +41,8 @@ class JointOverlay:
         self.nodes: list[int] = []
         self._stateful: list[PlanarJoint] = []
         self._step_start: float | None = None
+        self._places: list[list[int]] = []
+        self._last: tuple[Any, Any] = None, None
 
     def index_of(self, node: int | None) -> int:
         """Return where a node's coordinates start; a node that is new is taken in.
@@ -59,6 +61,7 @@ class JointOverlay:
         if joint.stateful:
             self._stateful.append(joint)
         size = 3 * len(self.nodes)
+        self._places = [_places(joint, size + len(GROUND)) for joint in self.joints]
         if self.item is None:
             forces: Any = self._forces
             jacobian: Any = self._jacobian
@@ -80,6 +83,7 @@ class JointOverlay:
         self.evaluations += 1
         if self._stateful:
             self._begin_step(time)
+        self._last = q, q_t
         size = len(q)
         q, q_t = [*q, *GROUND], [*q_t, *GROUND]
         out = [0.0] * (size + 3)
@@ -98,13 +102,19 @@ class JointOverlay:
         by_q_t: float,
     ) -> Any:
         """Return the Jacobian of the left-hand side, dense."""
-        size = len(q)
-        q, q_t = [*q, *GROUND], [*q_t, *GROUND]
-        out = np.zeros((size + 3, size + 3))
-        for joint in self.joints:
-            joint.add_jacobian(q, q_t, by_q, by_q_t, out)
+        if self._last != (q, q_t):
+            self._forces(mbs, time, item, q, q_t)
+        values: list[float] = []
+        places: list[int] = []
+        for joint, joint_places in zip(self.joints, self._places, strict=True):
+            block = joint.jacobian(by_q, by_q_t)
+            if block is not None:
+                values += block
+                places += joint_places
+        size = len(q) + len(GROUND)
+        flat = np.bincount(places, values, size * size) if values else np.zeros(size * size)
         matrix = exu.MatrixContainer()
-        matrix.SetWithDenseMatrix(out[:size, :size], useDenseMatrix=True)
+        matrix.SetWithDenseMatrix(flat.reshape(size, size)[: len(q), : len(q)], useDenseMatrix=True)
         return matrix
 
     def _begin_step(self, time: float) -> None:
@@ -115,6 +125,12 @@ class JointOverlay:
         for joint in self._stateful:
             for pair in joint.pairs:
                 pair.begin_step(time - start, accepted)
+
+
+def _places(joint: PlanarJoint, size: int) -> list[int]:
+    """Return where the entries of a joint's Jacobian lie in a square matrix of a size."""
+    indices = [(end.index % size) + c for end in (joint.journal, joint.bearing) for c in range(3)]
+    return [size * row + column for row in indices for column in indices]
 
 
 def overlay_of(mbs: exu.MainSystem) -> JointOverlay:

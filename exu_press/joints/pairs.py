@@ -13,7 +13,7 @@ from exu_press.laws.contact import NormalContact
 from exu_press.laws.film import FilmLaw
 from exu_press.laws.friction import Friction, LuGre
 
-__all__ = ["DryPair", "FilmPair", "Pair", "PolarForce"]
+__all__ = ["Arms", "DryPair", "FilmPair", "Pair", "PolarForce"]
 
 PolarForce = tuple[
     tuple[float, float],
@@ -22,6 +22,10 @@ PolarForce = tuple[
 ]
 """(f_n, f_t), then the derivatives of f_n and of f_t with respect to
 (|e|, d|e|/dt, v_t, omega_J, omega_B)."""
+
+
+Arms = tuple[float, float, float, float]
+"""a_J, a_B, m, and their derivatives with respect to |e|."""
 
 
 class Pair(Protocol):
@@ -35,7 +39,7 @@ class Pair(Protocol):
     ) -> PolarForce | None:
         """Return force and derivatives, SI."""
 
-    def arms(self, e: float) -> tuple[float, float, float, float]:
+    def arms(self, e: float) -> Arms:
         """Return a_J, a_B (m) and their derivatives with respect to |e|."""
 
     def stored_energy(self, e: float) -> float:
@@ -106,7 +110,7 @@ class DryPair:
             ),
         )
 
-    def arms(self, e: float) -> tuple[float, float, float, float]:
+    def arms(self, e: float) -> Arms:
         """Return the moment arms of the contact point about the two centres."""
         return self.radius, -(self.radius + e), 0.0, -1.0
 
@@ -165,7 +169,7 @@ class FilmPair:
             (q * t_eps + t_w * turning, q * t_dot, -2.0 * t_w, t_w * e, t_w * e),
         )
 
-    def arms(self, e: float) -> tuple[float, float, float, float]:
+    def arms(self, e: float) -> Arms:
         """Return the moment arms of the point half-way between the centres."""
         return -0.5 * e, -0.5 * e, -0.5, -0.5
 

@@ -1,13 +1,13 @@
 """A clearance joint between two planar bodies: from coordinates to the pair and back to forces."""
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import cos, sin, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.joints.pairs import Pair
+from exu_press.joints.pairs import Arms, Pair, PolarForce
 
 __all__ = ["GROUND", "PlanarEnd", "PlanarJoint", "PlanarState"]
 
@@ -38,8 +38,8 @@ class PlanarEnd:
         i, (x, y, angle), (along, across) = self.index, self.reference, self.point
         angle += q[i + 2]
         turn = q_t[i + 2]
-        cos, sin = math.cos(angle), math.sin(angle)
-        arm_x, arm_y = along * cos - across * sin, along * sin + across * cos
+        c, s = cos(angle), sin(angle)
+        arm_x, arm_y = along * c - across * s, along * s + across * c
         return (
             x + q[i] + arm_x,
             y + q[i + 1] + arm_y,
@@ -57,7 +57,6 @@ class PlanarState:
 
     Attributes:
         eccentricity: journal centre - bearing centre, (2,), m.
-        eccentricity_rate: its time derivative, (2,), m/s.
         force: on the journal at its centre, (2,), N; the bearing has its opposite.
         moments: on the journal and on the bearing about their centres, (2,), N m.
         power: what forces and moments bring into the two bodies, W.
@@ -65,7 +64,6 @@ class PlanarState:
     """
 
     eccentricity: tuple[float, float]
-    eccentricity_rate: tuple[float, float]
     force: tuple[float, float]
     moments: tuple[float, float]
     power: float
@@ -81,102 +79,104 @@ class PlanarJoint:
         self.bearing = bearing
         self.pairs = tuple(pairs)
         self.stateful = any(pair.stateful for pair in pairs)
+        self._acting: list[tuple[PolarForce, Arms]] = []
+        self._place = (0.0, 1.0, *(0.0,) * 9)
 
     def add_force(self, q: Sequence[float], q_t: Sequence[float], out: list[float]) -> None:
         """Add the joint's generalised forces to `out`."""
         x_j, y_j, u_j, v_j, w_j, a_j, b_j = self.journal.place(q, q_t)
         x_b, y_b, u_b, v_b, w_b, a_b, b_b = self.bearing.place(q, q_t)
-        e, n_x, n_y, e_dot, v_t = _polar(x_j - x_b, y_j - y_b, u_j - u_b, v_j - v_b)
-        i, k = self.journal.index, self.bearing.index
+        e_x, e_y, r_x, r_y = x_j - x_b, y_j - y_b, u_j - u_b, v_j - v_b
+        e = sqrt(e_x * e_x + e_y * e_y)
+        n_x, n_y = (e_x / e, e_y / e) if e > 0.0 else (1.0, 0.0)
+        e_dot, v_t = r_x * n_x + r_y * n_y, r_y * n_x - r_x * n_y
+        self._place = (e, n_x, n_y, e_dot, v_t, w_j, a_j, b_j, w_b, a_b, b_b)
+        self._acting = []
         for pair in self.pairs:
             polar = pair.force(e, e_dot, v_t, w_j, w_b)
             if polar is not None:
+                arms = pair.arms(e)
+                self._acting.append((polar, arms))
                 f_n, f_t = polar[0]
-                arm_j, arm_b, _, _ = pair.arms(e)
                 f_x, f_y = f_n * n_x - f_t * n_y, f_n * n_y + f_t * n_x
+                i, k = self.journal.index, self.bearing.index
                 out[i] += f_x
                 out[i + 1] += f_y
-                out[i + 2] += arm_j * f_t + a_j * f_y - b_j * f_x
+                out[i + 2] += arms[0] * f_t + a_j * f_y - b_j * f_x
                 out[k] -= f_x
                 out[k + 1] -= f_y
-                out[k + 2] += arm_b * f_t - a_b * f_y + b_b * f_x
+                out[k + 2] += arms[1] * f_t - a_b * f_y + b_b * f_x
 
-    def add_jacobian(
-        self, q: Sequence[float], q_t: Sequence[float], by_q: float, by_q_t: float, out: Array
-    ) -> None:
-        """Subtract by_q dQ/dq + by_q_t dQ/dq_t from `out`: the left-hand side's Jacobian."""
-        x_j, y_j, u_j, v_j, w_j, a_j, b_j = self.journal.place(q, q_t)
-        x_b, y_b, u_b, v_b, w_b, a_b, b_b = self.bearing.place(q, q_t)
-        e, n_x, n_y, e_dot, v_t = _polar(x_j - x_b, y_j - y_b, u_j - u_b, v_j - v_b)
-        turn = 1.0 / e if e > 0.0 else 0.0  # the direction has no derivative at e = 0
-        law = np.zeros((4, 6))  # (F_n, F_t, m_J, m_B) by (e_n, e_t, v_n, v_t, omega_J, omega_B)
-        f_x = f_y = 0.0
-        for pair in self.pairs:
-            polar = pair.force(e, e_dot, v_t, w_j, w_b)
-            if polar is None:
-                continue
-            (f_n, f_t), (n_e, n_r, n_v, n_wj, n_wb), (t_e, t_r, t_v, t_wj, t_wb) = polar
-            arm_j, arm_b, slope_j, slope_b = pair.arms(e)
-            f_x += f_n * n_x - f_t * n_y
-            f_y += f_n * n_y + f_t * n_x
-            n_side = turn * (n_r * v_t - n_v * e_dot)
-            t_side = turn * (t_r * v_t - t_v * e_dot)
-            by_state = np.array([t_e, t_side, t_r, t_v, t_wj, t_wb])
-            law[0] += (n_e, n_side - turn * f_t, n_r, n_v, n_wj, n_wb)
-            law[1] += by_state
-            law[1, 1] += turn * f_n
-            law[2] += arm_j * by_state
-            law[3] += arm_b * by_state
-            law[2, 0] += slope_j * f_t
-            law[3, 0] += slope_b * f_t
-        if not law.any():
-            return
-        # rows: relative velocity along n and t and the two angular velocities, by q_t
+    def jacobian(self, by_q: float, by_q_t: float) -> list[float] | None:
+        """Return -(by_q dQ/dq + by_q_t dQ/dq_t) at the state of the last `add_force`.
+
+        Q are the six generalised forces, q the journal's and the bearing's coordinates; 36 numbers,
+        row by row. None where no pair acts.
+        """
+        if not self._acting:
+            return None
+        e, n_x, n_y, e_dot, v_t, w_j, a_j, b_j, w_b, a_b, b_b = self._place
+        turn = by_q / e if e > 0.0 else 0.0  # the direction has no derivative at e = 0
+        # a quarter turn of each arm, along n and along t
         j_n, j_t = a_j * n_y - b_j * n_x, a_j * n_x + b_j * n_y
         b_n, b_t = a_b * n_y - b_b * n_x, a_b * n_x + b_b * n_y
-        rates = np.array(
-            (
-                (n_x, n_y, j_n, -n_x, -n_y, -b_n),
-                (-n_y, n_x, j_t, n_y, -n_x, -b_t),
-                (0.0, 0.0, 1.0, 0.0, 0.0, 0.0),
-                (0.0, 0.0, 0.0, 0.0, 0.0, 1.0),
-            )
+        # for each coordinate: what it moves along n and t, what it spins, and what it adds to the
+        # velocity along n and t by turning the arm of a spinning body
+        columns = (
+            (n_x, -n_y, 0.0, 0.0, 0.0, 0.0),
+            (n_y, n_x, 0.0, 0.0, 0.0, 0.0),
+            (j_n, j_t, by_q_t, 0.0, -by_q * w_j * j_t, by_q * w_j * j_n),
+            (-b_n, -b_t, 0.0, by_q_t, by_q * w_b * b_t, -by_q * w_b * b_n),
         )
-        changes = np.empty((6, 6))
-        changes[:2] = by_q * rates[:2]
-        changes[2:] = by_q_t * rates
-        changes[2, 2] -= by_q * w_j * j_t
-        changes[3, 2] += by_q * w_j * j_n
-        changes[2, 5] += by_q * w_b * b_t
-        changes[3, 5] -= by_q * w_b * b_n
-        matrix = rates.T @ (law @ changes)
-        matrix[2, 2] -= by_q * (a_j * f_x + b_j * f_y)
-        matrix[5, 5] += by_q * (a_b * f_x + b_b * f_y)
-        i, k = self.journal.index, self.bearing.index
-        out[i : i + 3, i : i + 3] -= matrix[:3, :3]
-        out[i : i + 3, k : k + 3] -= matrix[:3, 3:]
-        out[k : k + 3, i : i + 3] -= matrix[3:, :3]
-        out[k : k + 3, k : k + 3] -= matrix[3:, 3:]
+        rows_x, rows_y, rows_j, rows_b = [0.0] * 4, [0.0] * 4, [0.0] * 4, [0.0] * 4
+        for polar, (arm_j, arm_b, slope_j, slope_b) in self._acting:
+            (f_n, f_t), (n_e, n_r, n_v, n_wj, n_wb), (t_e, t_r, t_v, t_wj, t_wb) = polar
+            n_out = by_q * n_e + by_q_t * n_r
+            n_side = by_q_t * n_v + turn * (n_r * v_t - n_v * e_dot - f_t)
+            t_out = by_q * t_e + by_q_t * t_r
+            t_side = by_q_t * t_v + turn * (t_r * v_t - t_v * e_dot)
+            for c, (p_n, p_t, s_j, s_b, u_n, u_t) in enumerate(columns):
+                d_n = n_out * p_n + n_side * p_t + n_wj * s_j + n_wb * s_b + n_r * u_n + n_v * u_t
+                drag = t_out * p_n + t_side * p_t + t_wj * s_j + t_wb * s_b + t_r * u_n + t_v * u_t
+                d_t = drag + turn * f_n * p_t
+                reach = by_q * f_t * p_n
+                rows_x[c] += n_x * d_n - n_y * d_t
+                rows_y[c] += n_y * d_n + n_x * d_t
+                rows_j[c] += arm_j * drag + slope_j * reach + j_n * d_n + j_t * d_t
+                rows_b[c] += arm_b * drag + slope_b * reach - b_n * d_n - b_t * d_t
+            f_x, f_y = f_n * n_x - f_t * n_y, f_n * n_y + f_t * n_x
+            rows_j[2] -= by_q * (a_j * f_x + b_j * f_y)
+            rows_b[3] += by_q * (a_b * f_x + b_b * f_y)
+        matrix: list[float] = []
+        for (by_x, by_y, by_j, by_b), sign in (
+            (rows_x, -1.0),
+            (rows_y, -1.0),
+            (rows_j, -1.0),
+            (rows_x, 1.0),
+            (rows_y, 1.0),
+            (rows_b, -1.0),
+        ):
+            x, y = sign * by_x, sign * by_y
+            matrix += (x, y, sign * by_j, -x, -y, sign * by_b)
+        return matrix
 
     def state(self, q: Sequence[float], q_t: Sequence[float]) -> PlanarState:
         """Return what the joint does in a state of its two bodies."""
-        x_j, y_j, u_j, v_j, w_j, _, _ = self.journal.place(q, q_t)
-        x_b, y_b, u_b, v_b, w_b, _, _ = self.bearing.place(q, q_t)
-        e_x, e_y, r_x, r_y = x_j - x_b, y_j - y_b, u_j - u_b, v_j - v_b
-        e, n_x, n_y, e_dot, v_t = _polar(e_x, e_y, r_x, r_y)
-        f_x = f_y = m_j = m_b = stored = 0.0
-        for pair in self.pairs:
-            stored += pair.stored_energy(e)
-            polar = pair.force(e, e_dot, v_t, w_j, w_b)
-            if polar is not None:
-                f_n, f_t = polar[0]
-                arm_j, arm_b, _, _ = pair.arms(e)
-                f_x += f_n * n_x - f_t * n_y
-                f_y += f_n * n_y + f_t * n_x
-                m_j += arm_j * f_t
-                m_b += arm_b * f_t
-        power = f_x * r_x + f_y * r_y + m_j * w_j + m_b * w_b
-        return PlanarState((e_x, e_y), (r_x, r_y), (f_x, f_y), (m_j, m_b), power, stored)
+        self.add_force(q, q_t, [0.0] * len(q))
+        e, n_x, n_y, e_dot, v_t, w_j, _, _, w_b, _, _ = self._place
+        f_n = f_t = m_j = m_b = 0.0
+        for ((p_n, p_t), _, _), (arm_j, arm_b, _, _) in self._acting:
+            f_n += p_n
+            f_t += p_t
+            m_j += arm_j * p_t
+            m_b += arm_b * p_t
+        return PlanarState(
+            eccentricity=(e * n_x, e * n_y),
+            force=(f_n * n_x - f_t * n_y, f_n * n_y + f_t * n_x),
+            moments=(m_j, m_b),
+            power=f_n * e_dot + f_t * v_t + m_j * w_j + m_b * w_b,
+            stored_energy=sum(pair.stored_energy(e) for pair in self.pairs),
+        )
 
     def history(self, time: Array, q: Array, q_t: Array) -> list[PlanarState]:
         """Return what the joint did over recorded steps: (n,), and (n, m) coordinates."""
@@ -190,14 +190,3 @@ class PlanarJoint:
             states.append(self.state([*row, *GROUND], [*row_t, *GROUND]))
             before = now
         return states
-
-
-def _polar(
-    e_x: float, e_y: float, r_x: float, r_y: float
-) -> tuple[float, float, float, float, float]:
-    """Return |e|, the direction n, and the rate's components along n and along t."""
-    e = math.hypot(e_x, e_y)
-    if e == 0.0:
-        return 0.0, 1.0, 0.0, r_x, r_y
-    n_x, n_y = e_x / e, e_y / e
-    return e, n_x, n_y, r_x * n_x + r_y * n_y, r_y * n_x - r_x * n_y

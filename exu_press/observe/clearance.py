@@ -14,7 +14,14 @@ TOUCH = 1e-10
 
 
 def joint_summary(
-    time: Array, eccentricity: Array, force: Array, clearance: float, *, film: bool, contact: bool
+    time: Array,
+    eccentricity: Array,
+    force: Array,
+    clearance: float,
+    *,
+    film: bool,
+    contact: bool,
+    onset: float = 0.0,
 ) -> dict[str, Any]:
     """Return eccentricity, force, film and contact of one joint.
 
@@ -23,8 +30,9 @@ def joint_summary(
         eccentricity: (n, 2) or (n, 3), m.
         force: same shape, N.
         clearance: radial clearance, m.
-        film: whether there is a film; its smallest thickness is given then.
+        film: whether there is a film; its smallest thickness is given then, 0 where surfaces touch.
         contact: whether the surfaces may touch; penetration and shares are given then.
+        onset: gap at which the surfaces' asperities begin to touch, m.
 
     Returns:
         The entries of summary.json; null for what the joint does not have. `impacts` counts the
@@ -32,12 +40,12 @@ def joint_summary(
     """
     distance = np.linalg.norm(eccentricity, axis=1)
     penetration = distance - clearance
-    touching = penetration > TOUCH
+    touching = penetration + onset > TOUCH
     entries: dict[str, Any] = {
         "max_eccentricity_ratio": float(distance.max() / clearance),
         "peak_force": float(np.linalg.norm(force, axis=1).max()),
         "peak_penetration": None,
-        "min_film": float(-penetration.max()) if film else None,
+        "min_film": max(0.0, float(-penetration.max())) if film else None,
         "impacts": None,
         "share_free_flight": None,
         "share_contact": None,

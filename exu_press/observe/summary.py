@@ -7,6 +7,7 @@ import numpy as np
 from exu_press.observe.acceleration import differentiated_peak, mean_peak, peak
 from exu_press.observe.clearance import joint_summary
 from exu_press.result import Result
+from exu_press.scene.laws import asperity_onset
 
 __all__ = ["summary"]
 
@@ -40,14 +41,16 @@ def _joint(result: Result, name: str) -> dict[str, Any]:
     assert clearance is not None
     radial = clearance.crank_pin if name == "crank_pin" else clearance.balls
     assert radial is not None
-    film = name == "crank_pin" and result.scene.film is not None
+    film = result.scene.film if name == "crank_pin" else None
+    onset = None if film is None else asperity_onset(film)
     return joint_summary(
         result.time,
         result[f"{name}_eccentricity"],
         result[f"{name}_force"],
         radial,
-        film=film,
-        contact=not film,
+        film=film is not None,
+        contact=film is None or onset is not None,
+        onset=onset or 0.0,
     )
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from exu_press.errors import InputError
 from exu_press.scene.checks import Table, key, table_from
+from exu_press.scene.laws import contact_law, film_law, friction_law
 from exu_press.scene.tables import (
     Blanking,
     Clearance,
@@ -72,7 +73,7 @@ class Scene(Table):
         super().__post_init__()
         if self.mechanism == "press" and self.balls is None:
             object.__setattr__(self, "balls", "dry")
-        unused = _unused(self.mechanism, self.crank_pin, self.balls)
+        unused = _unused(self.mechanism, self.crank_pin, self.balls, _at_contact(self.film))
         self._refuse(unused, "balls", self.balls)
         for name, table in TABLES.items():
             given = getattr(self, name)
@@ -83,6 +84,7 @@ class Scene(Table):
                 object.__setattr__(self, name, table())
         if self.clearance is not None:
             object.__setattr__(self, "clearance", self._all_clearances(self.clearance, unused))
+        self._check_laws()
         self._check_geometry()
 
     @classmethod
@@ -115,7 +117,8 @@ class Scene(Table):
             (data.setdefault(table, {}) if table else data)[inner] = value
         if data["mechanism"] != "press" and "balls" not in changes:
             data.pop("balls", None)
-        unused = _unused(data["mechanism"], data["crank_pin"], data.get("balls"))
+        at_contact = _at_contact(data.get("film"))
+        unused = _unused(data["mechanism"], data["crank_pin"], data.get("balls"), at_contact)
         for name in unused.keys() - changes.keys():
             table, _, inner = name.rpartition(".")
             if not any(changed.startswith(f"{name}.") for changed in changes):
@@ -165,6 +168,17 @@ class Scene(Table):
                     )
         return Clearance(**values)
 
+    def _check_laws(self) -> None:
+        """Make every law once, so that what is outside its range is refused at the door."""
+        if self.contact is not None and self.clearance is not None:
+            for clearance in (self.clearance.crank_pin, self.clearance.balls):
+                if clearance is not None:
+                    contact_law(self.contact, clearance, revolute=True)
+            if self.film is not None and self.clearance.crank_pin is not None:
+                film_law(self.film, self.contact.radius, self.clearance.crank_pin)
+        if self.friction is not None:
+            friction_law(self.friction)
+
     def _check_geometry(self) -> None:
         """Refuse links that do not assemble at every crank angle, and pulses that overlap."""
         from exu_press.mechanism import check_assembly
@@ -179,8 +193,15 @@ class Scene(Table):
                 )
 
 
-def _unused(mechanism: str, crank_pin: str, balls: str | None) -> dict[str, str]:
+def _at_contact(film: Any) -> str:
+    """Return what a film table asks for at contact, before the table itself is checked."""
+    given = film.get("at_contact") if isinstance(film, Mapping) else film and film.at_contact
+    return str(given or "stop")
+
+
+def _unused(mechanism: str, crank_pin: str, balls: str | None, at_contact: str) -> dict[str, str]:
     """Return the names a scene does not use, each with its reason."""
+    touching = "dry" in (crank_pin, balls) or (crank_pin == "lubricated" and at_contact == "mixed")
     pin, ball = f"crank_pin is {crank_pin!r}", f"balls is {balls!r}"
     wanted = {
         "balls": (mechanism == "press", f"mechanism is {mechanism!r}"),
@@ -190,7 +211,7 @@ def _unused(mechanism: str, crank_pin: str, balls: str | None) -> dict[str, str]
         "clearance.crank_pin": (crank_pin != "ideal", pin),
         "clearance.balls": (balls == "dry", ball),
         "contact": (crank_pin != "ideal" or balls == "dry", "every joint is 'ideal'"),
-        "friction": ("dry" in (crank_pin, balls), "no joint is 'dry'"),
+        "friction": (touching, "no joint is 'dry' or has a mixed film"),
         "film": (crank_pin == "lubricated", pin),
     }
     return {name: reason for name, (used, reason) in wanted.items() if not used}

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from exu_press.errors import InputError
+from exu_press.laws.contact import DAMPING_LAWS
+from exu_press.laws.film import FILM_LAWS
 from exu_press.scene.checks import Table, key
 
 __all__ = [
@@ -20,6 +22,9 @@ __all__ = [
     "Solver",
 ]
 
+FRICTION_LAWS = ("none", "coulomb", "stribeck", "lugre_steady", "lugre")
+AT_CONTACT = ("stop", "mixed")
+
 
 @dataclass(frozen=True)
 class Clearance(Table):
@@ -32,33 +37,41 @@ class Clearance(Table):
 
 @dataclass(frozen=True)
 class Contact(Table):
-    """Normal contact: Hertz stiffness with STEP damping, Eqs. 23-26."""
+    """Normal contact: Hertz or cylindrical stiffness with a damping law, Eqs. 23-26."""
 
     table: ClassVar[str] = "contact"
     radius: float = key(0.07, "radius of journal and balls", "m", above=0)
-    stiffness: float = key(2.5545e10, "K of F = K delta^n", "N/m^n", above=0)
-    exponent: float = key(1.5, "n of F = K delta^n", at_least=1, at_most=3)
-    damping: str = key("step", "damping law", choices=("step",))
-    damping_max: float = key(2.5545e8, "c_max of STEP", "N s/m", at_least=0)
-    damping_depth: float = key(1e-5, "d_max of STEP", "m", above=0)
+    shape: str = key(
+        "point", "Hertz's point contact, or a conformal crank pin", choices=("point", "cylindrical")
+    )
+    stiffness: float = key(2.5545e10, "point: K of F = K delta^n", "N/m^n", above=0)
+    exponent: float = key(1.5, "point: n of F = K delta^n", at_least=1, at_most=3)
+    modulus: float = key(
+        1.1538e11, "cylindrical: equivalent modulus (steel)", "Pa", above=0
+    )
+    length: float = key(0.1, "cylindrical: length of the bearing", "m", above=0)
+    damping: str = key("step", "damping law", choices=tuple(DAMPING_LAWS))
+    damping_max: float = key(2.5545e8, "step: c_max", "N s/m", at_least=0)
+    damping_depth: float = key(1e-5, "step: d_max", "m", above=0)
+    restitution: float = key(0.5, "other damping laws: wanted restitution", above=0, at_most=1)
     tension: bool = key(False, "let the damping pull, as the printed law does (A-10)")
 
 
 @dataclass(frozen=True)
 class Friction(Table):
-    """Friction of the dry joints, Eqs. 27-33."""
+    """Friction where surfaces touch, Eqs. 27-33."""
 
     table: ClassVar[str] = "friction"
-    law: str = key("lugre_steady", "friction law", choices=("none", "lugre_steady", "lugre"))
-    mu_static: float = key(0.01, "static coefficient", at_least=0)
-    mu_kinetic: float = key(0.01, "kinetic coefficient", at_least=0)
+    law: str = key("lugre_steady", "friction law", choices=FRICTION_LAWS)
+    mu_static: float = key(0.01, "static coefficient; law = 'none' for zero", above=0)
+    mu_kinetic: float = key(0.01, "kinetic coefficient; law = 'none' for zero", above=0)
     sigma_0: float = key(1e5, "bristle stiffness per normal force", "1/m", above=0)
     sigma_1: float = key(400.0, "bristle damping per normal force", "s/m", at_least=0)
     sigma_2: float = key(0.0, "viscous coefficient per normal force", "s/m", at_least=0)
     stribeck_velocity: float = key(0.0176, "v_s: 1 % of 0.07 m times 240 rpm", "m/s", above=0)
     stribeck_exponent: float = key(2.0, "gamma", above=0)
     regularisation_velocity: float = key(
-        1e-4, "sgn(v) of the steady law is tanh(v / this)", "m/s", above=0
+        1e-4, "sgn(v) of laws without bristle is tanh(v / this)", "m/s", above=0
     )
 
     def __post_init__(self) -> None:
@@ -76,10 +89,16 @@ class Film(Table):
     """Lubricant film of the crank pin, Eqs. 34-35 corrected."""
 
     table: ClassVar[str] = "film"
-    law: str = key("pinkus", "film law", choices=("pinkus", "pi_film"))
+    law: str = key("pinkus", "film law", choices=tuple(FILM_LAWS))
     viscosity: float = key(0.4, "dynamic viscosity (A-11)", "Pa s", above=0)
     length: float = key(0.1, "bearing length (A-12)", "m", above=0)
-    at_contact: str = key("stop", "at eccentricity ratio 1 (A-13)", choices=("stop",))
+    at_contact: str = key(
+        "stop", "at eccentricity ratio 1: stop, or film and contact (A-13)", choices=AT_CONTACT
+    )
+    roughness: float = key(2e-7, "mixed: combined rms roughness", "m", above=0)
+    asperity_onset: float = key(
+        3.0, "mixed: gap at which asperities touch, in roughnesses", above=0, at_most=10
+    )
 
 
 @dataclass(frozen=True)

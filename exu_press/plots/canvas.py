@@ -1,0 +1,82 @@
+"""What every picture does the same way: title, curves over crank angle, legends beside the data."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.text import Annotation
+from numpy.typing import NDArray
+
+from exu_press.plots.decimate import decimate
+from exu_press.plots.style import COLOURS
+from exu_press.plots.words import describe, early_stops
+from exu_press.result import Result
+
+__all__ = ["angle_range", "crank_degrees", "curve", "legend_above", "new_figure"]
+
+Array = NDArray[np.float64]
+
+
+def new_figure(
+    heading: str, results: Mapping[str, Result], size: tuple[float, float]
+) -> Figure:
+    """Return a figure without pyplot: heading, scene in words, and why a run stopped early.
+
+    Args:
+        heading: what is shown.
+        results: of what, by label.
+        size: width and height, inch.
+    """
+    figure = Figure(figsize=size, layout="constrained")
+    letters = int(10.2 * size[0])
+    scenes = [result.scene for result in results.values()]
+    lines = [describe(scenes, letters), early_stops(results, letters)]
+    text = "\n".join(["", *filter(None, lines)])  # an empty line, where the heading goes
+    below = figure.suptitle(text, x=0.012, ha="left", fontsize=9.5, linespacing=1.45)
+    figure.add_artist(
+        Annotation(heading, (0, 1), xycoords=below, va="top", fontsize=13, fontweight="bold")
+    ).set_in_layout(False)
+    return figure
+
+
+def crank_degrees(result: Result) -> Array:
+    """Return the crank angle from top dead centre, going on over revolutions, (n,), deg."""
+    return np.asarray(np.degrees(result["crank_angle"]))
+
+
+def angle_range(results: Mapping[str, Result]) -> tuple[float, float]:
+    """Return the crank angles (deg) between which there is something to see."""
+    angles = [crank_degrees(result) for result in results.values()]
+    return min(angle[0] for angle in angles), max(angle[-1] for angle in angles)
+
+
+def curve(axes: Axes, result: Result, values: Array, **line: Any) -> None:
+    """Draw values (n,) over the crank angle; a cross ends the curve of a run that stopped early."""
+    angle = crank_degrees(result)
+    kept = decimate(angle, values)
+    (drawn,) = axes.plot(angle[kept], values[kept], **{"solid_joinstyle": "round", **line})
+    if not result.completed:
+        axes.plot(
+            angle[-1:],
+            values[-1:],
+            marker="X",
+            markersize=8,
+            color=COLOURS["vermilion"],
+            markeredgecolor="white",
+            clip_on=False,
+            zorder=5,
+        )
+        drawn.set_zorder(2.5)
+
+
+def legend_above(axes: Axes, columns: int = 4) -> None:
+    """Put a panel's legend over its right end, where no data is."""
+    axes.legend(
+        loc="lower right",
+        bbox_to_anchor=(1.0, 1.0),
+        ncols=columns,
+        columnspacing=1.3,
+        handletextpad=0.5,
+    )

@@ -1,0 +1,117 @@
+"""The look of every picture: light, printable, readable by the colour-blind; no global state."""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import wraps
+from typing import Any, ParamSpec
+
+import matplotlib
+from matplotlib.colors import Colormap, ListedColormap
+from matplotlib.figure import Figure
+
+__all__ = [
+    "COLOURS",
+    "DPI",
+    "GREY",
+    "IDEAL",
+    "PATH_COLOURS",
+    "RUN",
+    "SHADE",
+    "colour_of",
+    "look",
+    "styled",
+]
+
+Parameters = ParamSpec("Parameters")
+
+DPI = 150
+
+COLOURS = {
+    "blue": "#0072B2",
+    "vermilion": "#D55E00",
+    "green": "#009E73",
+    "purple": "#CC79A7",
+    "orange": "#E69F00",
+    "sky blue": "#56B4E9",
+}
+"""Okabe and Ito's colour-blind-safe palette, less black (the ideal's) and yellow (pale on white)."""
+
+RUN = COLOURS["blue"]
+IDEAL = "#000000"
+GREY = "#767676"
+SHADE = "#F1F4F7"
+
+PATH_COLOURS: Colormap = ListedColormap(
+    matplotlib.colormaps["viridis"].resampled(256)(range(0, 232)), "viridis without its yellow end"
+)
+"""For what runs with the crank angle along a path."""
+
+LOOK: dict[str, Any] = {
+    "axes.axisbelow": True,
+    "axes.edgecolor": "#4D4D4D",
+    "axes.grid": True,
+    "axes.labelsize": 9.5,
+    "axes.linewidth": 0.8,
+    "axes.spines.right": False,
+    "axes.spines.top": False,
+    "axes.titlelocation": "left",
+    "axes.titlesize": 10.5,
+    "axes.titleweight": "bold",
+    "axes.xmargin": 0.0,
+    "figure.constrained_layout.h_pad": 0.08,
+    "figure.constrained_layout.hspace": 0.04,
+    "figure.constrained_layout.w_pad": 0.08,
+    "figure.constrained_layout.wspace": 0.03,
+    "figure.dpi": DPI,
+    "figure.facecolor": "white",
+    "font.family": "DejaVu Sans",  # comes with matplotlib: the same picture everywhere
+    "font.size": 9.5,
+    "grid.color": "#E3E3E3",
+    "grid.linewidth": 0.6,
+    "legend.borderaxespad": 0.2,
+    "legend.fontsize": 9.0,
+    "legend.frameon": False,
+    "legend.handlelength": 1.8,
+    "lines.linewidth": 1.2,
+    "savefig.dpi": DPI,
+    "xtick.color": "#4D4D4D",
+    "xtick.labelcolor": "black",
+    "xtick.labelsize": 9.0,
+    "ytick.color": "#4D4D4D",
+    "ytick.labelcolor": "black",
+    "ytick.labelsize": 9.0,
+}
+
+
+@contextmanager
+def look() -> Iterator[None]:
+    """Draw with our look inside the block, on matplotlib's defaults; leave the user's alone."""
+    with matplotlib.rc_context():
+        matplotlib.rcParams.update({**matplotlib.rcParamsDefault, **_kept(), **LOOK})
+        yield
+
+
+def styled(draw: Callable[Parameters, Figure]) -> Callable[Parameters, Figure]:
+    """Decorate a function that returns a figure: drawn and laid out with our look.
+
+    The layout is done here, so that the user may save the figure with any settings.
+    """
+
+    @wraps(draw)
+    def inner(*args: Parameters.args, **kwargs: Parameters.kwargs) -> Figure:
+        with look():
+            figure = draw(*args, **kwargs)
+            figure.draw_without_rendering()
+            return figure
+
+    return inner
+
+
+def colour_of(index: int) -> str:
+    """Return the colour of the n-th run in a picture; after the palette's end it starts again."""
+    return tuple(COLOURS.values())[index % len(COLOURS)]
+
+
+def _kept() -> dict[str, Any]:
+    """Return the settings that say how to show figures, not how they look."""
+    return {name: matplotlib.rcParams[name] for name in ("interactive", "toolbar")}

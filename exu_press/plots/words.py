@@ -1,0 +1,79 @@
+"""A scene in words, for the title of a picture."""
+
+import textwrap
+from collections.abc import Iterable, Mapping
+
+from exu_press.result import Result
+from exu_press.scene import Scene
+
+__all__ = ["describe", "early_stops", "joint_in_words"]
+
+SEPARATOR = "  ·  "
+
+
+def describe(scenes: Iterable[Scene], width: int = 130) -> str:
+    """Return in words what the scenes have in common, in lines of at most `width` letters.
+
+    A joint that only some scenes have with clearance is named with that clearance.
+    """
+    each = [_parts(scene) for scene in scenes]
+    keys = dict.fromkeys(key for parts in each for key in parts)
+    shared = []
+    for key in keys:
+        texts = {parts[key] for parts in each if key in parts}
+        if len(texts) == 1:
+            shared += texts
+    return _wrapped(shared, width)
+
+
+def early_stops(results: Mapping[str, Result], width: int = 130) -> str:
+    """Return a line for every run that did not reach its end, or nothing."""
+    lines = []
+    for label, result in results.items():
+        if not result.completed:
+            why = str(result.info["reason"] or result.info["status"]).partition(";")[0]
+            which = f"{label}: " if len(results) > 1 else ""
+            lines.append(textwrap.shorten(f"{which}stopped early: {why}", width, placeholder="..."))
+    return "\n".join(lines)
+
+
+def joint_in_words(name: str) -> str:
+    """Return a joint's name with its side behind it.
+
+    >>> joint_in_words("ball_left"), joint_in_words("crank_pin")
+    ('Ball, left', 'Crank pin')
+    """
+    for side in ("left", "right"):
+        name = name.replace(f"_{side}", f", {side}")
+    return name.replace("_", " ").capitalize()
+
+
+def _parts(scene: Scene) -> dict[str, str]:
+    """Return phrases by what they are about."""
+    parts = {
+        "mechanism": scene.mechanism.replace("_", "-").capitalize(),
+        "bodies": f"{scene.bodies} bodies",
+        "speed": f"{scene.speed_rpm:g} rpm",
+        "crank pin": f"crank pin {scene.crank_pin}",
+    }
+    clearance = scene.clearance
+    if clearance is not None and clearance.crank_pin is not None:
+        parts["pin clearance"] = f"crank pin clearance {clearance.crank_pin * 1e3:g} mm"
+    if scene.balls is not None:
+        parts["balls"] = f"balls {scene.balls}"
+    if clearance is not None and clearance.balls is not None:
+        parts["ball clearance"] = f"ball clearance {clearance.balls * 1e3:g} mm"
+    if scene.blanking is not None and scene.blanking.force:
+        parts["load"] = f"blanking force {scene.blanking.force / 1e3:g} kN"
+    return parts
+
+
+def _wrapped(phrases: Iterable[str], width: int) -> str:
+    """Return phrases in lines that break only between them."""
+    lines: list[str] = []
+    for phrase in phrases:
+        if lines and len(lines[-1]) + len(SEPARATOR) + len(phrase) <= width:
+            lines[-1] += SEPARATOR + phrase
+        else:
+            lines.append(phrase)
+    return "\n".join(lines)

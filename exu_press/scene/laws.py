@@ -1,0 +1,95 @@
+"""The laws that a scene asks for; parameters outside a law's range are refused by name."""
+
+from collections.abc import Callable
+from typing import TypeVar
+
+from exu_press.errors import InputError
+from exu_press.laws.contact import DAMPING_LAWS, NormalContact, cylindrical, hertz
+from exu_press.laws.film import FILM_LAWS, FilmLaw, with_asperities
+from exu_press.laws.friction import (
+    Friction as FrictionLaw,
+)
+from exu_press.laws.friction import (
+    LuGre,
+    coulomb,
+    lugre_steady,
+    no_friction,
+    stribeck,
+)
+from exu_press.scene.tables import Contact, Film, Friction
+
+__all__ = ["asperity_onset", "contact_law", "film_law", "friction_law"]
+
+T = TypeVar("T")
+
+
+def contact_law(table: Contact, clearance: float, *, revolute: bool) -> NormalContact:
+    """Return the normal contact of a joint; only a revolute one can be cylindrical.
+
+    Args:
+        table: [contact] of the scene.
+        clearance: radial clearance of the joint, m.
+        revolute: whether the joint is a journal in a bearing.
+    """
+    if table.shape == "cylindrical" and revolute:
+        stiffness = cylindrical(table.modulus, table.length, clearance)
+    else:
+        stiffness = hertz(table.stiffness, table.exponent)
+    if table.damping == "step":
+        parameters: dict[str, float] = {
+            "damping_max": table.damping_max,
+            "damping_depth": table.damping_depth,
+        }
+    else:
+        parameters = {"restitution": table.restitution}
+    law = DAMPING_LAWS[table.damping]
+    return _named("contact", lambda: law(stiffness, tension=table.tension, **parameters))
+
+
+def friction_law(table: Friction) -> FrictionLaw | LuGre:
+    """Return the friction law of a joint; a bristle belongs to one joint alone."""
+    coefficients = (table.mu_static, table.mu_kinetic)
+    curve = (table.stribeck_velocity, table.stribeck_exponent)
+    soft = table.regularisation_velocity
+    laws: dict[str, Callable[[], FrictionLaw | LuGre]] = {
+        "none": no_friction,
+        "coulomb": lambda: coulomb(table.mu_kinetic, soft),
+        "stribeck": lambda: stribeck(*coefficients, *curve, soft, table.sigma_2),
+        "lugre_steady": lambda: lugre_steady(*coefficients, table.sigma_2, *curve, soft),
+        "lugre": lambda: LuGre(*coefficients, table.sigma_0, table.sigma_1, table.sigma_2, *curve),
+    }
+    return _named("friction", laws[table.law])
+
+
+def film_law(table: Film, radius: float, clearance: float) -> FilmLaw:
+    """Return the film law of the crank pin, going on beyond contact where that is asked for.
+
+    Args:
+        table: [film] of the scene.
+        radius: radius of the journal, m.
+        clearance: radial clearance, m.
+    """
+    ratio = table.length / (2.0 * radius)
+    law = _named("film", lambda: FILM_LAWS[table.law].factory(ratio))
+    onset = asperity_onset(table)
+    if onset is None:
+        return law
+    if onset >= clearance:
+        raise InputError(
+            f"film.roughness * film.asperity_onset = {onset:g}: allowed is a number < "
+            f"clearance.crank_pin = {clearance:g}"
+        )
+    return with_asperities(law, onset / clearance)
+
+
+def asperity_onset(table: Film) -> float | None:
+    """Return the gap at which the surfaces' asperities touch, m; None without mixed film."""
+    return table.roughness * table.asperity_onset if table.at_contact == "mixed" else None
+
+
+def _named(table: str, make: Callable[[], T]) -> T:
+    """Return what is made; an error names the scene's table too."""
+    try:
+        return make()
+    except InputError as error:
+        raise InputError(f"{table}.{error}") from None

@@ -1,0 +1,77 @@
+"""fe_models: reduced flexible bodies from solid geometry, by NGSolve, for Exudyn.
+
+A part (geometry, material, interfaces, mesh size) becomes a `ReducedPart` (modes, reduced matrices,
+interface motions), which becomes an ObjectFFRFreducedOrder. What is imported here costs nothing
+until it is used: NGSolve is loaded only where a part is meshed, never for one read from the cache.
+"""
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from fe_models.cache import default_folder, reduced_part
+    from fe_models.clamped import ConvergenceRow, clamped_frequencies, mesh_convergence
+    from fe_models.exudyn_body import FlexibleBody, add_flexible_body
+    from fe_models.geometry import CrankShape, LinkageShape, OwnShape, StepFile
+    from fe_models.material import CRANK_STEEL, LINKAGE_IRON, Material
+    from fe_models.part import Interface, Part, shipped_part
+    from fe_models.pictures import draw_mode_shapes
+    from fe_models.reduced import ReducedInterface, ReducedPart
+    from fe_models.reduction import Reduction
+
+__all__ = [
+    "CRANK_STEEL",
+    "LINKAGE_IRON",
+    "ConvergenceRow",
+    "CrankShape",
+    "FlexibleBody",
+    "Interface",
+    "LinkageShape",
+    "Material",
+    "OwnShape",
+    "Part",
+    "ReducedInterface",
+    "ReducedPart",
+    "Reduction",
+    "StepFile",
+    "add_flexible_body",
+    "clamped_frequencies",
+    "default_folder",
+    "draw_mode_shapes",
+    "mesh_convergence",
+    "reduced_part",
+    "shipped_part",
+]
+
+_HOMES = {
+    "CRANK_STEEL": "material",
+    "LINKAGE_IRON": "material",
+    "ConvergenceRow": "clamped",
+    "CrankShape": "geometry",
+    "FlexibleBody": "exudyn_body",
+    "Interface": "part",
+    "LinkageShape": "geometry",
+    "Material": "material",
+    "OwnShape": "geometry",
+    "Part": "part",
+    "ReducedInterface": "reduced",
+    "ReducedPart": "reduced",
+    "Reduction": "reduction",
+    "StepFile": "geometry",
+    "add_flexible_body": "exudyn_body",
+    "clamped_frequencies": "clamped",
+    "default_folder": "cache",
+    "draw_mode_shapes": "pictures",
+    "mesh_convergence": "clamped",
+    "reduced_part": "cache",
+    "shipped_part": "part",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """Load a public name from its home."""
+    if name not in _HOMES:
+        raise AttributeError(f"module 'fe_models' has no attribute {name!r}")
+    value = getattr(importlib.import_module(f"fe_models.{_HOMES[name]}"), name)
+    globals()[name] = value
+    return value

@@ -1,0 +1,118 @@
+"""A part to be reduced: geometry, material, interfaces, mesh size; and the shipped crank, linkage.
+
+parts.toml holds the shipped dimensions, fitted by scripts/fit_flexible_parts.py.
+"""
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from exu_press.errors import InputError
+from fe_models.geometry import CrankShape, Geometry, LinkageShape
+from fe_models.material import CRANK_STEEL, LINKAGE_IRON, Material
+
+__all__ = ["MOTIONS", "Interface", "Part", "shipped_names", "shipped_part"]
+
+MOTIONS = ("x", "y", "z", "rx", "ry", "rz")  # an interface's mean translation and rotation
+PARTS_FILE = Path(__file__).with_name("parts.toml")
+
+
+@dataclass(frozen=True)
+class Interface:
+    """A named face that loads or joints act on.
+
+    face : name of one or several faces of the shape, taken together.
+    motions : those of "x", "y", "z", "rx", "ry", "rz" in which it is loaded; each gets a static
+        mode, so that the reduced part is exact under such a load.
+    """
+
+    face: str
+    motions: tuple[str, ...] = MOTIONS
+
+    def __post_init__(self) -> None:
+        """Refuse unknown and repeated motions."""
+        wrong = [motion for motion in self.motions if motion not in MOTIONS]
+        if wrong or len(set(self.motions)) != len(self.motions):
+            raise InputError(
+                f"interface {self.face!r}: motions = {self.motions!r}: each at most once, of "
+                + ", ".join(MOTIONS)
+            )
+
+
+@dataclass(frozen=True)
+class Part:
+    """What a reduced flexible body is made from.
+
+    mesh_size : largest edge of a tetrahedron [m].
+    """
+
+    name: str
+    geometry: Geometry
+    material: Material
+    interfaces: tuple[Interface, ...]
+    mesh_size: float
+
+    def __post_init__(self) -> None:
+        """Refuse a mesh size that is none, and an interface named twice."""
+        if not 0.0 < self.mesh_size < float("inf"):
+            raise InputError(f"{self.name}: mesh_size = {self.mesh_size!r}: must be positive, in m")
+        faces = [interface.face for interface in self.interfaces]
+        if len(set(faces)) != len(faces):
+            raise InputError(f"{self.name}: interfaces {faces}: each face at most once")
+
+    @property
+    def bearings(self) -> tuple[str, ...]:
+        """Return the faces held in all six motions: what the published modes are clamped at."""
+        return tuple(i.face for i in self.interfaces if len(i.motions) == len(MOTIONS))
+
+    def key(self) -> dict[str, Any]:
+        """Return everything that determines the finite-element model, as plain data."""
+        return {
+            "geometry": self.geometry.key(),
+            "material": asdict(self.material),
+            "interfaces": [[i.face, list(i.motions)] for i in self.interfaces],
+            "mesh_size": self.mesh_size,
+        }
+
+    def replace(self, **changes: Any) -> "Part":
+        """Return a copy with some fields changed."""
+        return replace(self, **changes)
+
+
+CRANK_INTERFACES = (
+    Interface("journal A"),
+    Interface("pin"),
+    Interface("journal B"),
+    Interface("flange", ("rz",)),  # driven there: a torque about the shaft's axis, nothing else
+)
+LINKAGE_INTERFACES = (Interface("big bore"), Interface("small bore"))
+
+
+def shipped_part(name: str, mesh_size: float | None = None) -> Part:
+    """Return "crank" or "linkage", or one of their second shapes ("crank_2", "linkage_2").
+
+    mesh_size [m] defaults to the one in parts.toml.
+    """
+    tables = _tables()
+    if name not in tables:
+        raise InputError(f"flexible part {name!r}: must be one of {', '.join(sorted(tables))}")
+    table = tables[name]
+    size = table["mesh_size"] if mesh_size is None else mesh_size
+    if name.startswith("crank"):
+        crank = CrankShape(**table["dimensions"])
+        return Part(name, crank, CRANK_STEEL, CRANK_INTERFACES, size)
+    rod = LinkageShape(**table["dimensions"])
+    return Part(name, rod, LINKAGE_IRON, LINKAGE_INTERFACES, size)
+
+
+def shipped_names() -> tuple[str, ...]:
+    """Return the names that `shipped_part` knows."""
+    return tuple(_tables())
+
+
+def _tables() -> Mapping[str, Any]:
+    """Return parts.toml."""
+    with PARTS_FILE.open("rb") as file:
+        return tomllib.load(file)

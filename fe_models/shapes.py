@@ -1,0 +1,125 @@
+"""Solids by netgen's OCC kernel, with named interface faces. The only module that builds shapes."""
+
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from netgen.occ import Cylinder, MoveTo, Pnt, Vec, Z
+from netgen.occ import OCCGeometry as OccGeometry
+
+from exu_press.errors import InputError
+
+if TYPE_CHECKING:
+    from fe_models.geometry import Box, CrankShape, LinkageShape
+
+__all__ = ["crank_shaft", "freeze", "from_step", "linkage", "thaw"]
+
+REST = "surface"  # the name of every face that is not an interface
+
+
+def crank_shaft(d: "CrankShape") -> Any:
+    """Return the crank shaft: coaxial cylinders along z, web and pin discs off the axis in +y."""
+    half_pin, web = 0.5 * d.pin_length, d.web_thickness
+    a = half_pin + web + d.journal_length  # where the seats begin, from the pin's centre
+    b = a + d.seat_b_length
+    solid = (
+        _disc(-a - d.seat_a_length, d.seat_a_length, d.seat_a_radius)
+        + _disc(-a, d.journal_length, d.journal_radius, name="journal A")
+        + _disc(-half_pin - web, web, d.web_radius, d.web_offset)
+        + _disc(-half_pin, d.pin_length, d.pin_radius, d.eccentricity, name="pin")
+        + _disc(half_pin, web, d.web_radius, d.web_offset)
+        + _disc(half_pin + web, d.journal_length, d.journal_radius, name="journal B")
+        + _disc(a, d.seat_b_length, d.seat_b_radius)
+        + _disc(b, d.flange_length, d.flange_radius)
+    )
+    solid.faces.Max(Z).name = "flange"
+    return solid
+
+
+def linkage(d: "LinkageShape") -> Any:
+    """Return the linkage: shank and bosses fused, then both bores drilled through."""
+    half = 0.5 * d.length
+    low, high = d.shank_half_height_big, d.shank_half_height_small
+    outline = (
+        MoveTo(-half, -low).LineTo(half, -high).LineTo(half, high).LineTo(-half, low).Close().Face()
+    )
+    solid = outline.Extrude(d.shank_width * Z).Move(Vec(0, 0, -0.5 * d.shank_width))
+    bores = (
+        (-half, d.big_outer_radius, d.big_width, d.big_bore_radius, "big bore"),
+        (half, d.small_outer_radius, d.small_width, d.small_bore_radius, "small bore"),
+    )
+    for x, outer, width, _, _ in bores:
+        solid += Cylinder(Pnt(x, 0, -0.5 * width), Z, r=outer, h=width)
+    solid.faces.name = REST
+    depth = max(d.big_width, d.small_width, d.shank_width)
+    for x, _, _, bore, name in bores:
+        drill = Cylinder(Pnt(x, 0, -depth), Z, r=bore, h=2.0 * depth)
+        drill.faces.name = name
+        solid -= drill
+    return solid
+
+
+def from_step(path: Path, scale: float, faces: Mapping[str, "Box"]) -> Any:
+    """Return the solid of a STEP file, scaled to m; faces wholly inside a box take its name."""
+    try:
+        shape = OccGeometry(str(path)).shape
+        solids = len(shape.solids)
+    except Exception as error:
+        raise InputError(f"STEP file {path}: netgen cannot read it ({error})") from error
+    if solids != 1:
+        raise InputError(f"STEP file {path}: holds {solids} solids; a part is one solid")
+    if scale != 1.0:
+        shape = shape.Scale(Pnt(0, 0, 0), scale)
+    for name, (lowest, highest) in faces.items():
+        found = False
+        for face in shape.faces:
+            inside = _inside(face.bounding_box, lowest, highest)
+            if inside:
+                face.name = name
+            found = found or inside
+        if not found:
+            raise InputError(
+                f"STEP file {path}: no face lies wholly inside the box of {name!r}, "
+                f"{tuple(lowest)} ... {tuple(highest)} in m after scale = {scale:g}"
+            )
+    return shape
+
+
+def freeze(shape: Any) -> tuple[str, tuple[str | None, ...]]:
+    """Return a shape's boundary representation as text, and its faces' names in order."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "shape.brep"
+        shape.WriteBrep(str(path))
+        return path.read_text(), tuple(face.name for face in shape.faces)
+
+
+def thaw(text: str, names: tuple[str | None, ...]) -> Any:
+    """Return a fresh shape from what `freeze` gave."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "shape.brep"
+        path.write_text(text)
+        shape = OccGeometry(str(path)).shape
+    for face, name in zip(shape.faces, names, strict=True):
+        if name is not None:
+            face.name = name
+    return shape
+
+
+def _disc(
+    start: float, length: float, radius: float, offset: float = 0.0, name: str = REST
+) -> Any:
+    """Return a cylinder along z from `start`, its axis `offset` in +y, its mantle named."""
+    disc = Cylinder(Pnt(0, offset, start), Z, r=radius, h=length)
+    disc.faces.name = name
+    for end in (disc.faces.Max(Z), disc.faces.Min(Z)):
+        end.name = REST
+    return disc
+
+
+def _inside(box: Any, lowest: Any, highest: Any, tolerance: float = 1e-6) -> bool:
+    """Tell whether a bounding box (two points) lies inside another."""
+    return all(
+        box[0][i] >= lowest[i] - tolerance and box[1][i] <= highest[i] + tolerance
+        for i in range(3)
+    )

@@ -1,0 +1,115 @@
+"""The Exudyn model against independent physics: two coordinates, SciPy's Radau, own laws.
+
+Every run starts at top dead centre and lasts one revolution at 240 rpm, clearance 0.1 mm.
+"""
+
+import functools
+
+import numpy as np
+import pytest
+from independent.reduced_slider_crank import Numbers, ReducedSliderCrank
+
+from exu_press import Scene, simulate
+
+REVOLUTION = 0.25
+INSTANTS = np.linspace(0.0, REVOLUTION, 26)
+FILMS = ("pinkus", "pi_film")
+STRONG_FRICTION = {
+    "mu_static": 0.15,
+    "mu_kinetic": 0.1,
+    "sigma_0": 1e3,
+    "sigma_1": 4.0,
+    "sigma_2": 1e-3,
+    "stribeck_velocity": 0.5,
+}
+
+
+@functools.cache
+def radau(pin: str, tolerance: float, friction: tuple[tuple[str, float], ...] = ()) -> np.ndarray:
+    """Slider position at INSTANTS by the reduced model."""
+    return ReducedSliderCrank(pin, Numbers(**dict(friction))).slider(INSTANTS, tolerance)
+
+
+@functools.cache
+def exudyn(pin: str, step: float, friction: tuple[tuple[str, float], ...] = ()) -> np.ndarray:
+    """Slider position at INSTANTS by the package."""
+    lubricated = pin in FILMS
+    law = {"film": {"law": pin}} if lubricated else {"friction": {"law": pin, **dict(friction)}}
+    scene = Scene.from_dict(
+        {
+            "mechanism": "slider_crank",
+            "crank_pin": "lubricated" if lubricated else "dry",
+            "revolutions": 1.0,
+            "solver": {"step": step},
+            **law,
+        }
+    )
+    result = simulate(scene)
+    assert result.completed, result.info["reason"]
+    at = np.searchsorted(result.time, INSTANTS - 1e-9)
+    assert result.time[at] == pytest.approx(INSTANTS, abs=1e-12)
+    return result["slider_position"][at]
+
+
+@pytest.mark.parametrize("pin", FILMS)
+def test_reference_is_converged_where_lubricated(pin):
+    assert radau(pin, 1e-10) == pytest.approx(radau(pin, 1e-9), abs=1e-9)
+
+
+@pytest.mark.parametrize("pin", FILMS)
+def test_slider_position_where_lubricated(pin):
+    """Issue 2 asks for 1e-7 m after one revolution; measured 5.8e-8 m."""
+    error = exudyn(pin, 1e-4) - radau(pin, 1e-10)
+    assert np.abs(error).max() < 1e-7
+
+
+@pytest.mark.parametrize("pin", FILMS)
+def test_second_order_where_lubricated(pin):
+    """Halving the step quarters the error; 4e-4 divides the revolution but not every instant."""
+    errors = [abs(exudyn_end(pin, step) - radau(pin, 1e-10)[-1]) for step in (4e-4, 2e-4, 1e-4)]
+    orders = np.log2(np.array(errors[:-1]) / np.array(errors[1:]))
+    assert orders == pytest.approx(2.0, abs=0.05), errors
+
+
+def exudyn_end(pin: str, step: float) -> float:
+    """Slider position after the revolution."""
+    scene = Scene.from_dict(
+        {
+            "mechanism": "slider_crank",
+            "crank_pin": "lubricated",
+            "revolutions": 1.0,
+            "film": {"law": pin},
+            "solver": {"step": step},
+        }
+    )
+    result = simulate(scene)
+    assert result.completed, result.info["reason"]
+    return float(result["slider_position"][-1])
+
+
+def test_reference_is_converged_where_dry():
+    assert radau("none", 1e-8) == pytest.approx(radau("none", 1e-7), abs=1e-8)
+
+
+@pytest.mark.parametrize("law", ["none", "lugre_steady", "lugre"])
+def test_slider_position_where_dry(law):
+    """Issue 2 asks for 5e-6 m; 1e-6 m is attained throughout the revolution (0.8e-7 .. 2.4e-7).
+
+    With the table's bristle (6e-8 s) `lugre` differs from `lugre_steady` by less than 1e-9 m, so
+    that the same bound holds for it: the error is the contact's, friction alone shifts the slider
+    by 2e-5 m.
+    """
+    error = exudyn(law, 1e-5) - radau(law, 1e-8)
+    assert np.abs(error).max() < 1e-6
+
+
+def test_slider_position_where_dry_with_strong_friction_and_a_soft_bristle():
+    """Ten times the friction and a bristle as slow as the step (6e-5 s)."""
+    friction = tuple(STRONG_FRICTION.items())
+    error = exudyn("lugre", 1e-5, friction) - radau("lugre", 1e-8, friction)
+    assert np.abs(error).max() < 1e-6
+
+
+def test_friction_is_seen_at_the_slider():
+    """The bounds above mean something: leaving friction out is an error twenty times as large."""
+    assert abs(radau("none", 1e-8)[-1] - radau("lugre", 1e-8)[-1]) > 2e-5

@@ -1,5 +1,6 @@
 """From a scene to an assembled Exudyn system: only what the scene uses is built."""
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -68,6 +69,27 @@ class Model:
     guides: dict[str, tuple[int, ...]]
     drive: int
     sensors: dict[tuple[str, str], int]
+
+    def joint_clearances(self) -> list[tuple[PlanarJoint, float]]:
+        """Return every clearance joint with its radial clearance, m."""
+        sizes = self.scene.clearance
+        return [
+            (joint, getattr(sizes, "balls" if name.startswith("ball") else name))
+            for name, joint in self.clearance_joints.items()
+        ]
+
+    def next_corner(self, time: float) -> float:
+        """Return the next instant at which the blanking force has a corner, s, or infinity."""
+        pulse = self.scene.blanking
+        if pulse is None or pulse.force == 0.0:
+            return math.inf
+        period, begin = _pulse_period(self.scene)
+        corners = (0.0, pulse.rise, pulse.rise + pulse.fall)
+        since = [(time - begin - corner) / period for corner in corners]
+        return min(
+            begin + corner + period * (math.floor(turns + 1e-9) + 1)
+            for corner, turns in zip(corners, since, strict=True)
+        )
 
 
 class _Builder:
@@ -170,9 +192,7 @@ class _Builder:
         pulse = self.scene.blanking
         if pulse is None or pulse.force == 0.0:
             return
-        period = 60.0 / self.scene.speed_rpm
-        to_end = (pulse.end_angle_deg - self.scene.start_angle_deg) / 360.0 * period
-        begin = to_end - pulse.rise - pulse.fall
+        period, begin = _pulse_period(self.scene)
 
         def load(mbs: exu.MainSystem, t: float, load: float) -> float:
             return blanking_force((t - begin) % period, pulse.force, pulse.rise, pulse.fall)
@@ -291,6 +311,14 @@ class _Builder:
                 )
             )
         )
+
+
+def _pulse_period(scene: Scene) -> tuple[float, float]:
+    """Return the time between two blanking pulses and the begin of one of them, s."""
+    pulse, period = scene.blanking, 60.0 / scene.speed_rpm
+    assert pulse is not None
+    end = (pulse.end_angle_deg - scene.start_angle_deg) / 360.0 * period
+    return period, end - pulse.rise - pulse.fall
 
 
 def build(scene: Scene) -> Model:

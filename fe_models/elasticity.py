@@ -8,11 +8,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+import ngsolve as ngs  # type: ignore[import-untyped]
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-import ngsolve as ngs
 from fe_models.mesh import generate_mesh
 from fe_models.part import Part
 
@@ -46,7 +46,7 @@ class FullModel:
     nodal_mass: sp.csr_matrix  # (n, n); the mass matrix is this times the 3 x 3 identity
     faces: Mapping[str, FaceMotion]
     triangles: NDArray[np.int64]  # (t, 3) corner-and-edge-midpoint triangles of the surface
-    elements: NDArray[np.int64]  # (e, 4) corners of the tetrahedra
+    elements: NDArray[np.int64]  # (e, 10) tetrahedra: corners, then edge midpoints
 
     @property
     def mass(self) -> sp.csr_matrix:
@@ -77,7 +77,7 @@ def full_model(part: Part) -> FullModel:
         nodal_mass,
         faces,
         _surface(mesh),
-        np.array([[v.nr - 1 for v in el.vertices] for el in mesh.ngmesh.Elements3D()]),
+        np.array([[p.nr - 1 for p in el.points] for el in mesh.ngmesh.Elements3D()], dtype=int),
     )
 
 

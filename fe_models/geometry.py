@@ -7,7 +7,7 @@ one, because meshing one shape object twice gives two different meshes.
 
 import hashlib
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from math import pi, sqrt
 from pathlib import Path
 from typing import Any, Protocol
@@ -95,7 +95,9 @@ class LinkageShape:
     """A linkage along x: two bosses with bores `length` apart, a shank between; symmetric in y, z.
 
     Big bore (the bearing of the crank pin) at x = -length/2, small bore at +length/2, bore axes
-    along z. The shank runs from boss centre to boss centre; its half height grows linearly. m.
+    along z. The shank runs from boss centre to boss centre, its half height (y) linear between big
+    end, middle and small end. Pockets from both faces, `pocket_depth` deep and leaving `rim` above
+    and below, make it an I-section between the bosses. Lengths in m.
     """
 
     big_outer_radius: float
@@ -104,14 +106,17 @@ class LinkageShape:
     small_bore_radius: float
     small_width: float
     shank_half_height_big: float
+    shank_half_height_middle: float
     shank_half_height_small: float
     shank_width: float
+    pocket_depth: float = 0.0
+    rim: float = 0.0
     big_bore_radius: float = 0.07
     length: float = 0.383
 
     def __post_init__(self) -> None:
         """Refuse walls that are none and bores that meet."""
-        _positive(self)
+        _positive(self, exempt=("pocket_depth", "rim"))
         for end in ("big", "small"):
             outer, bore = getattr(self, f"{end}_outer_radius"), getattr(self, f"{end}_bore_radius")
             if outer <= bore:
@@ -120,6 +125,19 @@ class LinkageShape:
                 )
         if self.big_bore_radius + self.small_bore_radius >= self.length:
             raise InputError(f"linkage: the bores meet, length = {self.length:g} is too short")
+
+        if self.pocket_depth > 0.0 and self.rim <= 0.0:
+            raise InputError("linkage: a pocket needs rim > 0 (m), the height left above and below")
+        if 2.0 * self.pocket_depth >= self.shank_width:
+            raise InputError(
+                f"linkage: pocket_depth = {self.pocket_depth:g}: must stay below half the shank's "
+                f"width, {0.5 * self.shank_width:g}"
+            )
+
+    def stretched(self, factor: float) -> "LinkageShape":
+        """Return the shape with every width (z) times `factor`: so is its volume."""
+        widths = ("big_width", "small_width", "shank_width", "pocket_depth")
+        return replace(self, **{name: factor * getattr(self, name) for name in widths})
 
     def key(self) -> dict[str, Any]:
         """Return the dimensions."""

@@ -2,9 +2,9 @@
 
 from typing import Any
 
-from netgen.occ import OCCGeometry
+import ngsolve as ngs  # type: ignore[import-untyped]
+from netgen.occ import OCCGeometry  # type: ignore[import-untyped]
 
-import ngsolve as ngs
 from exu_press.errors import InputError
 from fe_models.part import Part
 
@@ -26,9 +26,7 @@ def generate_mesh(part: Part) -> Any:
                 f"{', '.join(repr(name) for name in sorted(known)) or 'nothing at all'}"
             )
     try:
-        netgen_mesh = OCCGeometry(shape).GenerateMesh(
-            maxh=part.mesh_size, parallel_meshing=False
-        )
+        netgen_mesh = OCCGeometry(shape).GenerateMesh(maxh=part.mesh_size, parallel_meshing=False)
         tetrahedra = netgen_mesh.Elements3D()
         if len(tetrahedra) == 0:
             raise RuntimeError("no tetrahedra: is the shape a closed solid?")

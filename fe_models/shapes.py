@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from netgen.occ import Cylinder, MoveTo, Pnt, Vec, Z
+from netgen.occ import Cylinder, MoveTo, Pnt, Vec, Z  # type: ignore[import-untyped]
 from netgen.occ import OCCGeometry as OccGeometry
 
 from exu_press.errors import InputError
@@ -40,11 +40,11 @@ def crank_shaft(d: "CrankShape") -> Any:
 def linkage(d: "LinkageShape") -> Any:
     """Return the linkage: shank and bosses fused, then both bores drilled through."""
     half = 0.5 * d.length
-    low, high = d.shank_half_height_big, d.shank_half_height_small
-    outline = (
-        MoveTo(-half, -low).LineTo(half, -high).LineTo(half, high).LineTo(-half, low).Close().Face()
-    )
-    solid = outline.Extrude(d.shank_width * Z).Move(Vec(0, 0, -0.5 * d.shank_width))
+    solid = _shank(d, inset=0.0, width=d.shank_width, middle=0.0)
+    if d.pocket_depth > 0.0:
+        for side in (-1.0, 1.0):
+            middle = 0.5 * side * (d.shank_width - d.pocket_depth)
+            solid -= _shank(d, inset=d.rim, width=d.pocket_depth, middle=middle)
     bores = (
         (-half, d.big_outer_radius, d.big_width, d.big_bore_radius, "big bore"),
         (half, d.small_outer_radius, d.small_width, d.small_bore_radius, "small bore"),
@@ -106,9 +106,23 @@ def thaw(text: str, names: tuple[str | None, ...]) -> Any:
     return shape
 
 
-def _disc(
-    start: float, length: float, radius: float, offset: float = 0.0, name: str = REST
-) -> Any:
+def _shank(d: "LinkageShape", inset: float, width: float, middle: float) -> Any:
+    """Return the shank's outline, `inset` in height, as a prism about z = middle."""
+    half = 0.5 * d.length
+    a, b, c = (
+        height - inset
+        for height in (
+            d.shank_half_height_big,
+            d.shank_half_height_middle,
+            d.shank_half_height_small,
+        )
+    )
+    outline = MoveTo(-half, -a).LineTo(0, -b).LineTo(half, -c).LineTo(half, c).LineTo(0, b)
+    prism = outline.LineTo(-half, a).Close().Face().Extrude(width * Z)
+    return prism.Move(Vec(0, 0, middle - 0.5 * width))
+
+
+def _disc(start: float, length: float, radius: float, offset: float = 0.0, name: str = REST) -> Any:
     """Return a cylinder along z from `start`, its axis `offset` in +y, its mantle named."""
     disc = Cylinder(Pnt(0, offset, start), Z, r=radius, h=length)
     disc.faces.name = name
@@ -120,6 +134,5 @@ def _disc(
 def _inside(box: Any, lowest: Any, highest: Any, tolerance: float = 1e-6) -> bool:
     """Tell whether a bounding box (two points) lies inside another."""
     return all(
-        box[0][i] >= lowest[i] - tolerance and box[1][i] <= highest[i] + tolerance
-        for i in range(3)
+        box[0][i] >= lowest[i] - tolerance and box[1][i] <= highest[i] + tolerance for i in range(3)
     )

@@ -12,6 +12,7 @@ class Status(Enum):
     COMPLETED = "completed"
     INTERRUPTED = "interrupted"
     FILM_BROKE_DOWN = "film broke down"
+    STEP_TOO_SMALL = "step below minimum"
     NOT_CONVERGED = "not converged"
 
 

@@ -11,9 +11,11 @@ from types import FrameType
 import exudyn as exu
 import numpy as np
 
+from exu_press.integrate.error import StepError
 from exu_press.integrate.outcome import Outcome, Status
 from exu_press.integrate.progress import Progress
-from exu_press.integrate.settings import settings_for
+from exu_press.integrate.settings import largest_step, settings_for, smallest_step
+from exu_press.integrate.stepping import StepControl
 from exu_press.joints import overlay_of
 from exu_press.joints.pairs import FilmPair
 from exu_press.model import Model
@@ -65,6 +67,9 @@ def integrate(model: Model, *, quiet: bool = True) -> Outcome:
     with Progress("run", scene.duration, quiet=quiet) as progress:
         watch = _Watch(progress)
         mbs.SetPreStepUserFunction(watch.before_step)
+        control = _step_control(model)
+        if control is not None:
+            control.attach(mbs)
         start = time.perf_counter()
         with watch.catching_interrupts(), _silent_console():
             try:
@@ -75,7 +80,7 @@ def integrate(model: Model, *, quiet: bool = True) -> Outcome:
         solver = mbs.sys["dynamicSolver"]
         progress.update(solver.it.currentTime)
     end_time = mbs.systemData.GetTime()
-    status, reason = _how_it_ended(model, watch.interrupted, end_time, failure)
+    status, reason = _how_it_ended(model, watch.interrupted, end_time, control, failure)
     steps = _recorded_steps(model)
     return Outcome(
         status=status,
@@ -89,8 +94,23 @@ def integrate(model: Model, *, quiet: bool = True) -> Outcome:
     )
 
 
+def _step_control(model: Model) -> StepControl | None:
+    """Return what makes the steps follow the scene's tolerance, if it has one."""
+    scene, solver = model.scene, model.scene.solver
+    assert solver is not None
+    if solver.tolerance is None:
+        return None
+    return StepControl(
+        StepError(model, solver.tolerance),
+        duration=scene.duration,
+        smallest=smallest_step(scene),
+        largest=largest_step(scene),
+        next_corner=model.next_corner,
+    )
+
+
 def _how_it_ended(
-    model: Model, interrupted: bool, end_time: float, failure: str
+    model: Model, interrupted: bool, end_time: float, control: StepControl | None, failure: str
 ) -> tuple[Status, str]:
     """Return status and reason of a run."""
     scene = model.scene
@@ -107,10 +127,15 @@ def _how_it_ended(
                     f"film broke down {where}, eccentricity ratio {pair.outside:.4f} "
                     f"({name}); try a larger film.viscosity or film.length"
                 )
-    assert scene.solver is not None
+    if control is not None and control.error > 1.0:
+        return Status.STEP_TOO_SMALL, (
+            f"the tolerance needs a step below {smallest_step(scene):.2g} s {where}; "
+            "try a larger solver.tolerance or a smaller solver.min_step"
+        )
+    key = "solver.step" if control is None else "solver.tolerance"
     return Status.NOT_CONVERGED, (
         f"Newton's method did not converge {where}, down to a step of "
-        f"{scene.solver.step / 1024:.2g} s; try a smaller solver.step"
+        f"{smallest_step(scene):.2g} s; try a smaller {key}"
         + (f" [{failure.strip().splitlines()[0]}]" if failure.strip() else "")
     )
 

@@ -6,22 +6,36 @@ import exudyn as exu
 
 from exu_press.scene import Scene
 
-__all__ = ["settings_for"]
+__all__ = ["largest_step", "settings_for", "smallest_step"]
 
 SMALLEST_PART = 2.0**-10
 """How far a step may be halved where Newton's method fails or a film's law does not hold."""
 
 
+def largest_step(scene: Scene) -> float:
+    """Return the fixed step, or the largest one that a tolerance may lead to, s."""
+    solver = scene.solver
+    assert solver is not None
+    return solver.step or math.radians(solver.max_step_deg) / scene.angular_speed
+
+
+def smallest_step(scene: Scene) -> float:
+    """Return the step below which a run is given up, s."""
+    solver = scene.solver
+    assert solver is not None
+    return solver.min_step if solver.step is None else solver.step * SMALLEST_PART
+
+
 def settings_for(scene: Scene) -> exu.SimulationSettings:
     """Return the settings of the generalized-alpha integration of a scene.
 
-    The step is the largest one not above `solver.step` that divides the run's duration.
+    A fixed step is the largest one not above `solver.step` that divides the run's duration.
     """
     solver = scene.solver
     assert solver is not None
     settings = exu.SimulationSettings()
     integration = settings.timeIntegration
-    steps = max(1, math.ceil(scene.duration / solver.step * (1.0 - 1e-12)))
+    steps = max(1, math.ceil(scene.duration / largest_step(scene) * (1.0 - 1e-12)))
     integration.numberOfSteps = steps
     integration.endTime = scene.duration
     integration.verboseMode = 0
@@ -34,16 +48,22 @@ def settings_for(scene: Scene) -> exu.SimulationSettings:
     newton.modifiedNewtonJacUpdatePerStep = True
     # Each step starts from zero multipliers, so that this is relative to the joint forces; what it
     # leaves is 1e-10 m in a revolution, and tighter ones only cost iterations.
-    newton.relativeTolerance = 1e-5
-    newton.absoluteTolerance = 1e-7
+    tolerance = 1e-4 if solver.tolerance is None else solver.tolerance
+    newton.relativeTolerance = min(1e-4, 1e-1 * tolerance)
+    newton.absoluteTolerance = 1e-2 * newton.relativeTolerance
     newton.maxIterations = 25
     # A contact opens and closes within Newton's iterations, so nothing is left to iterate on.
+    # The step control's word counts: above 1 the step is repeated.
     integration.discontinuous.ignoreMaxIterations = False
     integration.discontinuous.maxIterations = 1
+    integration.discontinuous.iterationTolerance = 1.0
+    integration.discontinuous.useRecommendedStepSize = True
 
     integration.adaptiveStep = True
     integration.adaptiveStepDecrease = 0.5
-    integration.minimumStepSize = scene.duration / steps * SMALLEST_PART
+    integration.minimumStepSize = smallest_step(scene)
+    if solver.tolerance is not None:  # the step control decides about growth
+        integration.adaptiveStepRecoverySteps = 2**30
 
     # Two thirds of the dense solver's time, for the 30 to 90 unknowns here.
     settings.linearSolver.solverType = exu.LinearSolverType.EigenSparse

@@ -160,6 +160,12 @@ class PlanarJoint:
             matrix += (x, y, sign * by_j, -x, -y, sign * by_b)
         return matrix
 
+    @property
+    def relative_velocity(self) -> tuple[float, float]:
+        """Rate of the eccentricity (x, y) at the last `add_force`, m/s."""
+        _, n_x, n_y, e_dot, v_t, *_ = self._place
+        return e_dot * n_x - v_t * n_y, e_dot * n_y + v_t * n_x
+
     def state(self, q: Sequence[float], q_t: Sequence[float]) -> PlanarState:
         """Return what the joint does in a state of its two bodies."""
         self.add_force(q, q_t, [0.0] * len(q))

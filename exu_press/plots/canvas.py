@@ -10,7 +10,6 @@ from matplotlib.text import Annotation
 from numpy.typing import NDArray
 
 from exu_press.plots.decimate import decimate
-from exu_press.plots.style import COLOURS
 from exu_press.plots.words import describe, early_stops
 from exu_press.result import Result
 
@@ -19,9 +18,7 @@ __all__ = ["angle_range", "crank_degrees", "curve", "legend_above", "new_figure"
 Array = NDArray[np.float64]
 
 
-def new_figure(
-    heading: str, results: Mapping[str, Result], size: tuple[float, float]
-) -> Figure:
+def new_figure(heading: str, results: Mapping[str, Result], size: tuple[float, float]) -> Figure:
     """Return a figure without pyplot: heading, scene in words, and why a run stopped early.
 
     Args:
@@ -30,7 +27,7 @@ def new_figure(
         size: width and height, inch.
     """
     figure = Figure(figsize=size, layout="constrained")
-    letters = int(10.2 * size[0])
+    letters = int(12.5 * size[0])
     scenes = [result.scene for result in results.values()]
     lines = [describe(scenes, letters), early_stops(results, letters)]
     text = "\n".join(["", *filter(None, lines)])  # an empty line, where the heading goes
@@ -63,12 +60,11 @@ def curve(axes: Axes, result: Result, values: Array, **line: Any) -> None:
             values[-1:],
             marker="X",
             markersize=8,
-            color=COLOURS["vermilion"],
+            color=drawn.get_color(),
             markeredgecolor="white",
             clip_on=False,
             zorder=5,
         )
-        drawn.set_zorder(2.5)
 
 
 def legend_above(axes: Axes, columns: int = 4) -> None:

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["BINS", "decimate"]
+__all__ = ["BINS", "decimate", "visible_segments"]
 
 Array = NDArray[np.float64]
 
@@ -37,3 +37,25 @@ def decimate(x: Array, *curves: Array, bins: int = BINS) -> NDArray[np.intp]:
         order = np.lexsort((curve, bin_of))
         kept += [order[starts], order[ends]]
     return np.unique(np.concatenate(kept))
+
+
+def visible_segments(points: Array, pixel: float) -> NDArray[np.intp]:
+    """Return which segments of a path in the plane to draw.
+
+    Points that stay in the pixel of the one before are left out, and of segments from one pixel to
+    another only the last is kept, which is drawn over the earlier ones.
+
+    Args:
+        points: (n, 2).
+        pixel: its width, in the unit of the points.
+
+    Returns:
+        (m, 2) indices of the segments' ends, in the order of the path.
+    """
+    cells = np.round(points / pixel).astype(int)
+    moved = np.flatnonzero((np.diff(cells, axis=0) != 0).any(axis=1)) + 1
+    kept = np.concatenate([[0], moved])
+    segments = np.stack([kept[:-1], kept[1:]], axis=1)
+    ends = cells[segments].reshape(-1, 4)[::-1]  # the last of each comes first
+    _, unique = np.unique(ends, axis=0, return_index=True)
+    return np.asarray(segments[np.sort(len(segments) - 1 - unique)])

@@ -8,14 +8,13 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 from numpy.typing import NDArray
 
-from exu_press.plots.style import GREY
+from exu_press.plots.style import GREY, SHADE
 
-__all__ = ["crank_angle_axis", "impact_scale", "widen"]
+__all__ = ["angle_ticks", "crank_angle_axis", "impact_scale", "note", "widen"]
 
 Array = NDArray[np.float64]
 
 TICK_STEPS = (0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 45, 90, 180, 360)  # deg
-MOST_TICKS = 9
 DWARFED = 6.0
 """An axis is logarithmic where its peak is more than this times what most of the run shows."""
 
@@ -26,10 +25,7 @@ def crank_angle_axis(panels: Iterable[Axes], low: float, high: float) -> None:
     The labels stand where matplotlib shows them: under the lowest of panels that share an axis.
     """
     high = max(high, low + 1e-3)
-    spare = (step for step in TICK_STEPS if (high - low) / step < MOST_TICKS)
-    step = next(spare, 360 * math.ceil((high - low) / 360 / MOST_TICKS))
-    ticks = np.arange(math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9) + 1) * step
-    centres = np.arange(math.ceil(low / 180 - 1e-9), math.floor(high / 180 + 1e-9) + 1) * 180.0
+    ticks, centres = angle_ticks(low, high), _multiples(180.0, low, high)
     for axes in panels:
         axes.set_xlim(low, high)
         axes.xaxis.set_major_locator(FixedLocator(list(ticks)))
@@ -38,8 +34,17 @@ def crank_angle_axis(panels: Iterable[Axes], low: float, high: float) -> None:
             axes.axvline(centre, color=GREY, linewidth=0.9, linestyle=(0, (1, 2)), zorder=0.9)
 
 
+def angle_ticks(low: float, high: float, most: int = 9) -> Array:
+    """Return at most so many round crank angles between two, deg."""
+    spare = (step for step in TICK_STEPS if (high - low) / step < most)
+    return _multiples(next(spare, 360.0 * math.ceil((high - low) / 360 / most)), low, high)
+
+
 def impact_scale(axes: Axes, curves: Iterable[tuple[Array, Array]], *, signed: bool) -> str:
     """Scale the values' axis so that both impacts and ordinary values can be read.
+
+    Linear as long as that does it, else linear for what most of the run shows and logarithmic
+    beyond (symlog).
 
     Args:
         axes: what holds the curves.
@@ -51,26 +56,22 @@ def impact_scale(axes: Axes, curves: Iterable[tuple[Array, Array]], *, signed: b
     """
     peak, ordinary = 0.0, 0.0
     for angle, values in curves:
-        uniform = np.abs(np.interp(np.linspace(angle[0], angle[-1], 2000), angle, values))
+        uniform = np.interp(np.linspace(angle[0], angle[-1], 2000), angle, values)
+        ordinary = max(ordinary, float(np.percentile(np.abs(uniform), 90)))
         peak = max(peak, float(np.abs(values).max()))
-        if (moving := uniform[uniform > 1e-9 * peak]).size:
-            ordinary = max(ordinary, float(np.median(moving)))
     if peak <= DWARFED * ordinary or ordinary == 0.0:
         if not signed:
             axes.set_ylim(0.0, 1.08 * peak or 1.0)
         return ""
-    linear = 10.0 ** math.floor(math.log10(ordinary))
-    top = 1.6 * peak
-    decades = linear * 10.0 ** np.arange(math.floor(math.log10(top / linear)) + 1)
-    axes.set_yscale("symlog", linthresh=linear, linscale=0.8)
+    linear, top = _round_up(ordinary), 1.6 * peak
+    axes.set_yscale("symlog", linthresh=linear, linscale=1.2)
     axes.set_ylim(-top if signed else 0.0, top)
-    shown = decades[:: max(1, math.ceil(len(decades) / 4))] if signed else decades
-    axes.yaxis.set_major_locator(
-        FixedLocator([*(-shown[::-1] if signed else ()), 0.0, *shown])
-    )
+    ticks = np.array([linear / 2, linear, *_log_ticks(linear, top, signed=signed)])
+    axes.yaxis.set_major_locator(FixedLocator([*(-ticks[::-1] if signed else ()), 0.0, *ticks]))
     axes.yaxis.set_minor_locator(NullLocator())
-    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}".replace("-", "−")))
-    return f"linear to {linear:g}, logarithmic beyond"
+    axes.yaxis.set_major_formatter(FuncFormatter(_number_text))
+    axes.axhspan(-linear if signed else 0.0, linear, color=SHADE, linewidth=0, zorder=0.5)
+    return f"linear to {linear:g} (shaded), then logarithmic"
 
 
 def widen(axes: Axes, least: float) -> None:
@@ -79,7 +80,44 @@ def widen(axes: Axes, least: float) -> None:
     axes.set_ylim(min(low, -least), max(high, least))
 
 
+def note(axes: Axes, text: str) -> None:
+    """Say over a panel's right end what to know about its scale."""
+    axes.set_title(text, loc="right", fontsize=8.5, fontweight="normal", color=GREY)
+
+
+def _log_ticks(above: float, top: float, *, signed: bool) -> Array:
+    """Return ticks between two values: decades, or 1-2-5 where those are too few; none too close.
+
+    A signed axis has half the room.
+    """
+    nearest, most = (2.5, 2) if signed else (1.9, 4)
+    decades = 10.0 ** np.arange(math.floor(math.log10(above)), math.ceil(math.log10(top)))
+    for steps in ((1.0,), (1.0, 2.0, 5.0)):
+        ticks = np.outer(decades, steps).ravel()
+        ticks = ticks[(ticks > nearest * above) & (ticks < top)]
+        if len(ticks) > 1:
+            break
+    return np.asarray(ticks[::-1][:: max(1, math.ceil(len(ticks) / most))][::-1])
+
+
+def _multiples(step: float, low: float, high: float) -> Array:
+    """Return the multiples of a step from low to high, both included."""
+    first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
+    return np.asarray(step * np.arange(first, last + 1), dtype=float)
+
+
+def _round_up(value: float) -> float:
+    """Return the next of 1, 2, 5, 10, ..."""
+    decade = 10.0 ** math.floor(math.log10(value))
+    return next(float(m * decade) for m in (1, 2, 5, 10) if m * decade >= 0.999 * value)
+
+
+def _number_text(value: float, _: int | None) -> str:
+    """Return a tick's text with a typographic minus."""
+    return f"{value:g}".replace("-", "\N{MINUS SIGN}")
+
+
 def _angle_text(degrees: float, _: int | None) -> str:
     """Return a tick's text, with the dead centre's name under it."""
-    name = {0: "TDC", 180: "BDC"}.get(round(degrees, 6) % 360, "")
-    return f"{degrees:g}\n{name}".rstrip()
+    name = {0.0: "TDC", 180.0: "BDC"}.get(round(degrees, 6) % 360.0, "")
+    return f"{_number_text(degrees, None)}\n{name}".rstrip()

@@ -9,19 +9,33 @@ from numpy.typing import NDArray
 
 from exu_press.mechanism import mechanism_of
 from exu_press.plots.canvas import angle_range, crank_degrees, curve, new_figure
-from exu_press.plots.scales import crank_angle_axis, impact_scale, widen
-from exu_press.plots.style import COLOURS, IDEAL, colour_of, styled
+from exu_press.plots.decimate import decimate
+from exu_press.plots.scales import crank_angle_axis, impact_scale, note, widen
+from exu_press.plots.style import IDEAL, colour_of, styled
 from exu_press.result import Result
 
 __all__ = ["slider_figure"]
 
 Array = NDArray[np.float64]
+Panels = NDArray[np.object_]
+Motion = tuple[Array, Array, Array]
 
 WINDOW = 1e-3
 """Over which the acceleration is averaged, s: about what a measurement resolves (spec 7)."""
 
 MOST_OF_IDEAL = 8.0
 """The averaged acceleration's panel ends at this multiple of the ideal peak, and says so."""
+
+NAME = "ideal mechanism, closed form"
+
+TITLES = (
+    ("Position", "position, mm"),
+    ("Position, deviation from ideal", "deviation, µm"),
+    ("Velocity", "velocity, m/s"),
+    ("Velocity, deviation from ideal", "deviation, mm/s"),
+    ("Acceleration, mean over 1 ms", "acceleration, m/s²"),
+    ("Acceleration, as resolved", "acceleration, m/s²"),
+)
 
 
 @styled
@@ -33,41 +47,86 @@ def slider_figure(results: Mapping[str, Result]) -> Figure:
     """
     figure = new_figure("Slider motion against the ideal mechanism", results, (13.0, 8.6))
     panels = figure.subplots(3, 2, sharex=True)
-    single = len(results) == 1
     ideals = {label: _ideal(result) for label, result in results.items()}
-    alike = len({_ideal_key(result) for result in results.values()}) == 1
     for index, (label, result) in enumerate(results.items()):
-        colour, (position, velocity, _) = colour_of(index), ideals[label]
-        wide, thin = {"color": colour, "linewidth": 1.8}, {"color": colour, "linewidth": 0.8}
-        simulated = result["slider_position"], result["slider_velocity"]
-        resolved = result["slider_acceleration"]
-        averaged = _mean_acceleration(result.time, result["slider_velocity"])
-        curve(panels[0, 0], result, 1e3 * simulated[0], **wide, label=label)
-        curve(panels[1, 0], result, simulated[1], **wide)
-        curve(panels[0, 1], result, 1e6 * (simulated[0] - position), **thin)
-        curve(panels[1, 1], result, 1e3 * (simulated[1] - velocity), **thin)
-        if single:
-            curve(panels[2, 0], result, resolved, **(thin | {"color": COLOURS["sky blue"]}),
-                  alpha=0.55)
-        curve(panels[2, 0], result, averaged, **(thin | {"linewidth": 1.3}))
-        curve(panels[2, 1], result, resolved, **thin, alpha=1.0 if single else 0.75)
-    for index, (label, result) in enumerate(results.items()):
-        if not alike or index == 0:
-            dashes = {
-                "color": IDEAL if alike else colour_of(index),
-                "linewidth": 1.0,
-                "linestyle": (0, (4, 2)),
-                "zorder": 3,
-            }
-            name = "ideal mechanism" if alike else f"{label}, ideal"
-            angle = crank_degrees(result)
-            for row, scale in enumerate((1e3, 1.0, 1.0)):
-                panels[row, 0].plot(angle, scale * ideals[label][row], **dashes,
-                                    label=name if row == 0 else None)
-            panels[2, 1].plot(angle, ideals[label][2], **dashes)
-    _name(panels)
-    _scale_accelerations(panels[2, 0], panels[2, 1], results, ideals, single=single)
+        _draw_run(panels, result, ideals[label], label, colour_of(index))
+    _draw_ideals(panels, results, ideals)
+    for axes, (title, unit) in zip(panels.flat, TITLES, strict=True):
+        axes.set_title(title)
+        axes.set_ylabel(unit)
+    for axes in panels[2]:
+        axes.set_xlabel("crank angle from top dead centre, deg")
     for axes in panels[:2, 1]:
         widen(axes, 1.0)
+    _scale_averaged(panels[2, 0], results, ideals)
+    resolved = [(crank_degrees(r), r["slider_acceleration"]) for r in results.values()]
+    note(panels[2, 1], impact_scale(panels[2, 1], resolved, signed=True))
     crank_angle_axis(panels.flat, *angle_range(results))
+    handles, labels = panels[0, 0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=min(len(labels), 6))
     return figure
+
+
+def _draw_run(panels: Panels, result: Result, ideal: Motion, label: str, colour: str) -> None:
+    """Draw one run in all six panels."""
+    position, velocity = result["slider_position"], result["slider_velocity"]
+    thick, thin = {"color": colour, "linewidth": 2.0}, {"color": colour, "linewidth": 0.9}
+    curve(panels[0, 0], result, 1e3 * position, **thick, label=label)
+    curve(panels[0, 1], result, 1e6 * (position - ideal[0]), **thin)
+    curve(panels[1, 0], result, velocity, **thick)
+    curve(panels[1, 1], result, 1e3 * (velocity - ideal[1]), **thin)
+    curve(panels[2, 0], result, _averaged(result.time, velocity), **(thin | {"linewidth": 1.2}))
+    curve(panels[2, 1], result, result["slider_acceleration"], **thin)
+
+
+def _draw_ideals(
+    panels: Panels, results: Mapping[str, Result], ideals: Mapping[str, Motion]
+) -> None:
+    """Draw the ideal motion of every mechanism and speed, as far as its longest run goes."""
+    longest: dict[object, str] = {}
+    for label in sorted(results, key=lambda label: float(np.ptp(results[label]["crank_angle"]))):
+        scene = results[label].scene
+        longest[scene.press, scene.slider_crank, scene.speed_rpm] = label
+    line = {"color": IDEAL, "linewidth": 1.1, "linestyle": (0, (4, 2)), "zorder": 3}
+    for number, label in enumerate(longest.values()):
+        angle = crank_degrees(results[label])
+        kept = decimate(angle, *ideals[label])
+        for axes, values, scale in (
+            (panels[0, 0], ideals[label][0], 1e3),
+            (panels[1, 0], ideals[label][1], 1.0),
+            (panels[2, 0], ideals[label][2], 1.0),
+            (panels[2, 1], ideals[label][2], 1.0),
+        ):
+            axes.plot(angle[kept], scale * values[kept], **line, label="" if number else NAME)
+
+
+def _ideal(result: Result) -> Motion:
+    """Return position (m), velocity and acceleration of the ideal slider, (n,) each."""
+    scene = result.scene
+    return mechanism_of(scene).ideal_slider(result["crank_angle"], scene.angular_speed)
+
+
+def _averaged(time: Array, velocity: Array) -> Array:
+    """Return the mean acceleration over WINDOW about each instant, (n,), m/s^2.
+
+    At the record's ends the window is cut off.
+    """
+    early = np.maximum(time - WINDOW / 2, time[0])
+    late = np.minimum(time + WINDOW / 2, time[-1])
+    change = np.interp(late, time, velocity) - np.interp(early, time, velocity)
+    return np.asarray(change / np.maximum(late - early, 1e-300))
+
+
+def _scale_averaged(
+    axes: Axes, results: Mapping[str, Result], ideals: Mapping[str, Motion]
+) -> None:
+    """Keep the ideal readable: cut peaks off at a multiple of its own, and say so."""
+    ordinary = max(float(np.abs(ideal[2]).max()) for ideal in ideals.values())
+    peak = max(
+        float(np.abs(_averaged(result.time, result["slider_velocity"])).max())
+        for result in results.values()
+    )
+    limit = MOST_OF_IDEAL * ordinary
+    if peak > limit:
+        axes.set_ylim(-limit, limit)
+        note(axes, f"clipped: peaks reach {peak:.0f} m/s²")

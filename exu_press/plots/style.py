@@ -6,6 +6,7 @@ from functools import wraps
 from typing import Any, ParamSpec
 
 import matplotlib
+import matplotlib.style
 from matplotlib.colors import Colormap, ListedColormap
 from matplotlib.figure import Figure
 
@@ -34,7 +35,7 @@ COLOURS = {
     "orange": "#E69F00",
     "sky blue": "#56B4E9",
 }
-"""Okabe and Ito's colour-blind-safe palette, less black (the ideal's) and yellow (pale on white)."""
+"""Okabe and Ito's colour-blind-safe palette, less black (the ideal's) and yellow (too pale)."""
 
 RUN = COLOURS["blue"]
 IDEAL = "#000000"
@@ -42,7 +43,7 @@ GREY = "#767676"
 SHADE = "#F1F4F7"
 
 PATH_COLOURS: Colormap = ListedColormap(
-    matplotlib.colormaps["viridis"].resampled(256)(range(0, 232)), "viridis without its yellow end"
+    matplotlib.colormaps["viridis"].resampled(256)(range(232)), "viridis without its yellow end"
 )
 """For what runs with the crank angle along a path."""
 
@@ -86,8 +87,7 @@ LOOK: dict[str, Any] = {
 @contextmanager
 def look() -> Iterator[None]:
     """Draw with our look inside the block, on matplotlib's defaults; leave the user's alone."""
-    with matplotlib.rc_context():
-        matplotlib.rcParams.update({**matplotlib.rcParamsDefault, **_kept(), **LOOK})
+    with matplotlib.style.context(["default", LOOK]):
         yield
 
 
@@ -101,7 +101,8 @@ def styled(draw: Callable[Parameters, Figure]) -> Callable[Parameters, Figure]:
     def inner(*args: Parameters.args, **kwargs: Parameters.kwargs) -> Figure:
         with look():
             figure = draw(*args, **kwargs)
-            figure.draw_without_rendering()
+            if (engine := figure.get_layout_engine()) is not None:
+                engine.execute(figure)
             return figure
 
     return inner
@@ -110,8 +111,3 @@ def styled(draw: Callable[Parameters, Figure]) -> Callable[Parameters, Figure]:
 def colour_of(index: int) -> str:
     """Return the colour of the n-th run in a picture; after the palette's end it starts again."""
     return tuple(COLOURS.values())[index % len(COLOURS)]
-
-
-def _kept() -> dict[str, Any]:
-    """Return the settings that say how to show figures, not how they look."""
-    return {name: matplotlib.rcParams[name] for name in ("interactive", "toolbar")}

@@ -9,6 +9,7 @@ from exu_press.scene import Scene
 __all__ = ["describe", "early_stops", "joint_in_words"]
 
 SEPARATOR = "  ·  "
+CROSS = "\N{MULTIPLICATION X}"  # as it marks the end of the curves
 
 
 def describe(scenes: Iterable[Scene], width: int = 130) -> str:
@@ -18,7 +19,7 @@ def describe(scenes: Iterable[Scene], width: int = 130) -> str:
     """
     each = [_parts(scene) for scene in scenes]
     keys = dict.fromkeys(key for parts in each for key in parts)
-    shared = []
+    shared: list[str] = []
     for key in keys:
         texts = {parts[key] for parts in each if key in parts}
         if len(texts) == 1:
@@ -33,7 +34,9 @@ def early_stops(results: Mapping[str, Result], width: int = 130) -> str:
         if not result.completed:
             why = str(result.info["reason"] or result.info["status"]).partition(";")[0]
             which = f"{label}: " if len(results) > 1 else ""
-            lines.append(textwrap.shorten(f"{which}stopped early: {why}", width, placeholder="..."))
+            lines.append(
+                textwrap.shorten(f"{which}stopped early ({CROSS}): {why}", width, placeholder="...")
+            )
     return "\n".join(lines)
 
 
@@ -58,11 +61,11 @@ def _parts(scene: Scene) -> dict[str, str]:
     }
     clearance = scene.clearance
     if clearance is not None and clearance.crank_pin is not None:
-        parts["pin clearance"] = f"crank pin clearance {clearance.crank_pin * 1e3:g} mm"
+        parts["pin clearance"] = f"crank pin radial clearance {clearance.crank_pin * 1e3:g} mm"
     if scene.balls is not None:
         parts["balls"] = f"balls {scene.balls}"
     if clearance is not None and clearance.balls is not None:
-        parts["ball clearance"] = f"ball clearance {clearance.balls * 1e3:g} mm"
+        parts["ball clearance"] = f"ball radial clearance {clearance.balls * 1e3:g} mm"
     if scene.blanking is not None and scene.blanking.force:
         parts["load"] = f"blanking force {scene.blanking.force / 1e3:g} kN"
     return parts

@@ -115,6 +115,9 @@ class Scene(Table):
         for name, value in changes.items():
             table, _, inner = name.rpartition(".")
             (data.setdefault(table, {}) if table else data)[inner] = value
+        for kept, dropped in (("step", "tolerance"), ("tolerance", "step")):
+            if f"solver.{kept}" in changes and f"solver.{dropped}" not in changes:
+                data["solver"].pop(dropped, None)
         if data["mechanism"] != "press" and "balls" not in changes:
             data.pop("balls", None)
         at_contact = _at_contact(data.get("film"))

@@ -23,6 +23,7 @@ __all__ = [
 ]
 
 FRICTION_LAWS = ("none", "coulomb", "stribeck", "lugre_steady", "lugre")
+DEFAULT_TOLERANCE = 1e-3
 AT_CONTACT = ("stop", "mixed")
 
 
@@ -46,9 +47,7 @@ class Contact(Table):
     )
     stiffness: float = key(2.5545e10, "point: K of F = K delta^n", "N/m^n", above=0)
     exponent: float = key(1.5, "point: n of F = K delta^n", at_least=1, at_most=3)
-    modulus: float = key(
-        1.1538e11, "cylindrical: equivalent modulus (steel)", "Pa", above=0
-    )
+    modulus: float = key(1.1538e11, "cylindrical: equivalent modulus (steel)", "Pa", above=0)
     length: float = key(0.1, "cylindrical: length of the bearing", "m", above=0)
     damping: str = key("step", "damping law", choices=tuple(DAMPING_LAWS))
     damping_max: float = key(2.5545e8, "step: c_max", "N s/m", at_least=0)
@@ -116,13 +115,33 @@ class Blanking(Table):
 
 @dataclass(frozen=True)
 class Solver(Table):
-    """Exudyn's generalized-alpha with fixed steps."""
+    """Exudyn's generalized-alpha, with steps that follow a tolerance or with fixed ones."""
 
     table: ClassVar[str] = "solver"
-    step: float = key(1e-5, "step size; the run's last step ends on its end time", "s", above=0)
-    spectral_radius: float = key(
-        0.8, "spectral radius at infinity of generalized-alpha", at_least=0.5, at_most=0.95
+    tolerance: float | None = key(
+        None, "local error, relative to the mechanism's scales", at_least=1e-8, at_most=0.1
     )
+    step: float | None = key(None, "fixed step size, instead of a tolerance", "s", above=0)
+    min_step: float = key(
+        1e-9, "tolerance: a run that would need a smaller step stops", "s", above=0
+    )
+    max_step_deg: float = key(
+        1.5, "tolerance: largest step, in degrees of the crank", "deg", above=0, at_most=15
+    )
+    spectral_radius: float = key(
+        0.6, "spectral radius at infinity of generalized-alpha", at_least=0.5, at_most=0.95
+    )
+
+    def __post_init__(self) -> None:
+        """Check the keys; exactly one of tolerance and step decides."""
+        super().__post_init__()
+        if self.tolerance is not None and self.step is not None:
+            raise InputError(
+                f"solver.tolerance = {self.tolerance!r}, solver.step = {self.step!r}: "
+                "allowed is one of the two"
+            )
+        if self.tolerance is None and self.step is None:
+            object.__setattr__(self, "tolerance", DEFAULT_TOLERANCE)
 
 
 @dataclass(frozen=True)

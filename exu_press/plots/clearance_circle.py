@@ -1,0 +1,168 @@
+"""The path of a journal or ball centre inside its clearance circle."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
+from matplotlib.colors import Normalize
+from matplotlib.patches import Circle
+from matplotlib.ticker import MaxNLocator
+from numpy.typing import NDArray
+
+from exu_press.plots.canvas import crank_degrees, legend_above
+from exu_press.plots.decimate import visible_segments
+from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, RUN, SHADE
+from exu_press.result import Result
+
+__all__ = ["TOUCH", "Path", "draw_path"]
+
+Array = NDArray[np.float64]
+
+MICRO = 1e6
+
+SMALL = 0.4
+"""A path within this part of the clearance circle is magnified, the whole circle inset."""
+
+MARGIN = 1.15
+
+PIXELS = 300
+"""From the middle of a circle's panel to its edge, at least."""
+
+TOUCH = COLOURS["vermilion"]
+
+SMALL_TEXT: dict[str, Any] = {"fontsize": 8, "fontweight": "normal", "pad": 3}
+
+
+@dataclass(frozen=True)
+class Path:
+    """One joint's eccentricity.
+
+    Attributes:
+        title: of the joint.
+        result: of the run.
+        channel: name of its eccentricity.
+    """
+
+    title: str
+    result: Result
+    channel: str
+
+    @property
+    def ball(self) -> bool:
+        """Whether this is a spherical joint."""
+        return self.channel.startswith("ball")
+
+    @property
+    def points(self) -> Array:
+        """Eccentricity in the x-y plane, (n, 2), um."""
+        return MICRO * self.result[self.channel][:, :2]
+
+    @property
+    def distance(self) -> Array:
+        """Its magnitude, (n,), um."""
+        return MICRO * np.asarray(np.linalg.norm(self.result[self.channel], axis=1))
+
+    @property
+    def reach(self) -> float:
+        """Largest eccentricity, um."""
+        return float(self.distance.max())
+
+    @property
+    def small(self) -> bool:
+        """Whether the path would be hard to see at the circle's scale."""
+        return self.reach < SMALL * self.clearance
+
+    @property
+    def vertical(self) -> bool:
+        """Whether the path is a vertical line to the eye, as that of a ball with ideal guides."""
+        return float(np.abs(self.points[:, 0]).max()) < 1e-3 * max(self.reach, 1e-9)
+
+    @property
+    def clearance(self) -> float:
+        """Radial clearance, um."""
+        clearance = self.result.scene.clearance
+        assert clearance is not None
+        radial = clearance.balls if self.ball else clearance.crank_pin
+        assert radial is not None
+        return MICRO * radial
+
+
+def draw_path(axes: Axes, path: Path) -> LineCollection | None:
+    """Draw a path in its circle (um), magnified if it is small.
+
+    Returns:
+        What the crank angle's colours are of; None for a vertical path, which runs over itself.
+    """
+    axes.set_title(f"{path.title}: path")
+    axes.set_xlabel("x, µm")
+    axes.set_ylabel("y, µm")
+    limit = path.clearance
+    half = MARGIN * max(path.reach, limit)
+    if path.small:
+        half = 1.35 * max(path.reach, 1e-3 * limit)
+        inset = axes.inset_axes(_free_corner(path.points, half))
+        inset.set_title("whole clearance", loc="center", color=GREY, **SMALL_TEXT)
+        _draw(inset, path, MARGIN * limit, linewidth=0.6)
+        inset.set(xticks=[], yticks=[])
+    lines = _draw(axes, path, half, linewidth=1.0)
+    for point, marker, label in ((path.points[0], "o", "start"), (path.points[-1], "s", "end")):
+        axes.plot(
+            *point,
+            marker,
+            markersize=6,
+            markerfacecolor="white",
+            markeredgecolor="black",
+            zorder=4,
+            clip_on=False,
+            label=label,
+        )
+    legend_above(axes)
+    if path.ball and path.vertical and not path.small:
+        for sign, words in ((1, "ball lifts\nthe slider"), (-1, "ball pushes\nit down")):
+            axes.text(0.1 * limit, 0.5 * sign * limit, words, va="center", fontsize=9, color=GREY)
+    return None if path.vertical else lines
+
+
+def _draw(axes: Axes, path: Path, half: float, linewidth: float) -> LineCollection:
+    """Draw circle and path in a square of +-half; beyond the circle the surfaces penetrate."""
+    axes.set_aspect("equal", adjustable="box")
+    axes.set(xlim=(-half, half), ylim=(-half, half), facecolor=SHADE)
+    axes.grid(False)
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_locator(MaxNLocator(6, steps=[1, 2, 5, 10]))
+    axes.spines[:].set_visible(True)
+    circle = {"radius": path.clearance, "linewidth": 1.2}
+    axes.add_patch(Circle((0, 0), **circle, facecolor="white", edgecolor="none", zorder=0.4))
+    axes.add_patch(Circle((0, 0), **circle, fill=False, edgecolor=TOUCH, zorder=1.8))
+    for line in (axes.axhline, axes.axvline):
+        line(0.0, color="#D0D0D0", linewidth=0.6, zorder=0.6)
+    angle, points = crank_degrees(path.result), path.points
+    segments = visible_segments(points, half / PIXELS)
+    lines = LineCollection(
+        list(points[segments]),
+        norm=Normalize(angle[0], max(angle[-1], angle[0] + 1e-3)),
+        linewidths=linewidth,
+        capstyle="round",
+        zorder=2,
+    )
+    if path.vertical:
+        lines.set(color=RUN, linewidths=2.0)
+    else:
+        lines.set(cmap=PATH_COLOURS, array=angle[segments].mean(axis=1))
+    axes.add_collection(lines)
+    return lines
+
+
+def _free_corner(points: Array, half: float) -> tuple[float, float, float, float]:
+    """Return the bounds, in parts of the panel, of the corner with the fewest points in it."""
+    size, gap = 0.27, 0.025
+    corners = [(x, y) for y in (1 - gap - size - 0.05, gap) for x in (1 - gap - size, gap)]
+    place = (points / half + 1.0) / 2.0
+
+    def crowd(corner: tuple[float, float]) -> int:
+        inside = (place > np.array(corner) - gap) & (place < np.array(corner) + size + gap)
+        return int(np.count_nonzero(inside.all(axis=1)))
+
+    return (*min(corners, key=crowd), size, size)

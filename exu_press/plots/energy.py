@@ -1,0 +1,84 @@
+"""Where the energy goes, over crank angle."""
+
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from exu_press.plots.canvas import angle_range, curve, legend_above, new_figure
+from exu_press.plots.scales import crank_angle_axis, note
+from exu_press.plots.sides import sides_alike
+from exu_press.plots.style import COLOURS, GREY, colour_of, styled
+from exu_press.plots.words import joint_in_words
+from exu_press.result import Result
+
+__all__ = ["energy_figure"]
+
+MINUS = " \N{MINUS SIGN} "
+
+BALANCE: dict[str, dict[str, Any]] = {
+    "energy_input": {"label": "put in", "color": COLOURS["blue"]},
+    "energy_stored": {"label": "stored", "color": COLOURS["orange"], "linestyle": (0, (5, 1.5))},
+    "energy_dissipated": {"label": "dissipated", "color": COLOURS["vermilion"]},
+}
+
+
+@styled
+def energy_figure(result: Result) -> Figure:
+    """Return the energy balance of a run since its start, J.
+
+    What drive and load put in, the change of what is stored, and what is dissipated; what each
+    joint dissipates (not where none can); and what is left over, the error of the integration.
+    """
+    figure = new_figure("Energy balance since the start", {"": result}, (13.0, 6.4))
+    dissipates = any(name.endswith("_loss") for name in result)
+    right = [["losses"], ["residual"]] if dissipates else [["residual"]]
+    panels = figure.subplot_mosaic(
+        [["balance", *row] for row in right], sharex=True, width_ratios=(1.25, 1.0)
+    )
+    for name, line in BALANCE.items():
+        if dissipates or name != "energy_dissipated":
+            curve(panels["balance"], result, result[name], **({"linewidth": 1.6} | line))
+    panels["balance"].set_title("Balance")
+    legend_above(panels["balance"])
+    panels["balance"].set_ylabel("energy, J")
+    _residual(panels["residual"], result)
+    if dissipates:
+        _losses(panels["losses"], result)
+        panels["losses"].set_ylabel("energy, J")
+        panels["losses"].tick_params(labelbottom=False)
+    for name in ("balance", "residual"):
+        panels[name].set_xlabel("crank angle from top dead centre, deg")
+        panels[name].tick_params(labelbottom=True)
+    crank_angle_axis(panels.values(), *angle_range({"": result}))
+    return figure
+
+
+def _losses(axes: Axes, result: Result) -> None:
+    """Draw what every joint has dissipated; two balls that do the same as one."""
+    names = sorted(name for name in result if name.endswith("_loss"))
+    names.sort(key=lambda name: name.startswith("ball"))
+    alike = sides_alike([result], "ball_left_loss")
+    for index, name in enumerate(names):
+        words = joint_in_words(name.removesuffix("_loss")).lower()
+        if name.startswith("ball") and alike:
+            if name.startswith("ball_right"):
+                continue
+            words = "ball, each side"
+        curve(axes, result, result[name], color=colour_of(index), linewidth=1.4, label=words)
+    axes.set_title("Dissipated in")
+    legend_above(axes)
+
+
+def _residual(axes: Axes, result: Result) -> None:
+    """Draw what the balance misses, and say how much that is of the work (as the summary does)."""
+    given, stored, lost = (result[name] for name in BALANCE)
+    residual, work = given - stored - lost, float(np.abs(given).max())
+    worst = float(np.abs(residual).max())
+    unit, scale = ("J", 1.0) if worst > 0.1 else ("mJ", 1e3)
+    curve(axes, result, scale * residual, color=GREY, linewidth=1.0)
+    axes.set_title("Residual")
+    axes.set_ylabel(f"{MINUS.join(('put in', 'stored', 'dissipated'))}, {unit}")
+    if work > 0.0:
+        note(axes, f"at most {worst / work:.1e} of the largest work")

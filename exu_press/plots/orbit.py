@@ -1,0 +1,98 @@
+"""How journals and balls move in their clearance: path in the circle, eccentricity over angle."""
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
+from matplotlib.figure import Figure
+
+from exu_press.errors import InputError
+from exu_press.plots.canvas import angle_range, curve, legend_above, new_figure
+from exu_press.plots.clearance_circle import TOUCH, Path, draw_path
+from exu_press.plots.scales import angle_ticks, crank_angle_axis, note
+from exu_press.plots.sides import mirror, sides_alike
+from exu_press.plots.style import GREY, RUN, SHADE, styled
+from exu_press.plots.words import joint_in_words
+from exu_press.result import Result
+
+__all__ = ["orbit_figure"]
+
+ROW = 3.75  # inch
+
+
+@styled
+def orbit_figure(result: Result) -> Figure:
+    """Return the paths of journal and ball centres in their clearance circles, joint by joint.
+
+    On the left the path (um, x-y plane), coloured by crank angle; on the right over the crank angle
+    the eccentricity of a journal, or the height of a ball in its socket, which ideal guides let
+    move only vertically. Outside the circle the surfaces penetrate each other. Of two balls that
+    do the same one is shown.
+
+    Raises:
+        InputError: the scene has no clearance joint.
+    """
+    paths = _paths(result)
+    if not paths:
+        raise InputError("orbit_figure: this scene has no joint with clearance; draw its forces")
+    height = 1.3 + ROW * len(paths)
+    figure = new_figure("Journal and ball centres in their clearance", {"": result}, (13.0, height))
+    grid = figure.subplots(len(paths), 3, squeeze=False, width_ratios=(0.03, 1.0, 1.8))
+    for row, path in enumerate(paths):
+        lines = draw_path(grid[row, 1], path)
+        _angle_colours(figure, grid[row, 0], lines, result)
+        _over_angle(grid[row, 2], result, path)
+    crank_angle_axis(grid[:, 2], *angle_range({"": result}))
+    grid[-1, 2].set_xlabel("crank angle from top dead centre, deg")
+    return figure
+
+
+def _paths(result: Result) -> list[Path]:
+    """Return the paths to show, the crank pin first; one of two balls that do the same."""
+    shown: dict[str, Path] = {}
+    for name in sorted(result.clearance_joints, key=lambda name: (name.startswith("ball"), name)):
+        channel, title = f"{name}_eccentricity", joint_in_words(name)
+        if mirror(channel) != channel and sides_alike([result], channel):
+            if mirror(channel) in shown:
+                continue
+            title = f"{title.partition(',')[0]}, each side"
+        shown[channel] = Path(title, result, channel)
+    return list(shown.values())
+
+
+def _angle_colours(
+    figure: Figure, axes: Axes, lines: LineCollection | None, result: Result
+) -> None:
+    """Say which colour is which crank angle, if there are any."""
+    if lines is None:
+        axes.set_axis_off()
+        return
+    bar = figure.colorbar(lines, cax=axes, label="crank angle, deg")
+    bar.set_ticks(list(angle_ticks(*angle_range({"": result}))))
+    bar.ax.yaxis.set_ticks_position("left")
+    bar.ax.yaxis.set_label_position("left")
+
+
+def _over_angle(axes: Axes, result: Result, path: Path) -> None:
+    """Draw the eccentricity of a journal or the height of a ball over the crank angle."""
+    limit, ball = path.clearance, path.ball
+    values = path.points[:, 1] if ball else path.distance
+    axes.set_title(f"{path.title}: {'height in its socket' if ball else 'eccentricity'}")
+    axes.set_ylabel("vertical eccentricity, µm" if ball else "eccentricity, µm")
+    curve(axes, result, values, color=RUN, linewidth=0.9, label="centre")
+    reach = 1.3 * max(path.reach, 1e-3 * limit) if path.small else 1.12 * max(path.reach, limit)
+    axes.set_ylim(-reach if ball else 0.0, reach)
+    if path.small:
+        note(axes, f"the surfaces would touch at {limit:g} µm")
+    else:
+        for sign in (1, -1) if ball else (1,):
+            first = sign == 1
+            line = axes.axhline(sign * limit, color=TOUCH, linewidth=1.2, zorder=1.8)
+            band = axes.axhspan(sign * limit, sign * reach, color=SHADE, linewidth=0, zorder=0.5)
+            if first:
+                line.set_label("surfaces touch")
+                band.set(label="penetration")
+        legend_above(axes)
+    ratio = axes.secondary_yaxis(
+        "right", functions=(lambda e: np.divide(e, limit), lambda r: np.multiply(r, limit))
+    )
+    ratio.set_ylabel("eccentricity ratio", color=GREY)

@@ -1,0 +1,67 @@
+"""Pictures as PNG files."""
+
+import io
+import os
+from collections.abc import Mapping
+from pathlib import Path
+
+from matplotlib.figure import Figure
+from PIL import Image
+
+from exu_press.errors import InputError
+from exu_press.plots.energy import energy_figure
+from exu_press.plots.force import force_figure
+from exu_press.plots.orbit import orbit_figure
+from exu_press.plots.slider import slider_figure
+from exu_press.plots.style import DPI, look
+from exu_press.result import Result
+
+__all__ = ["save_comparison", "save_pictures"]
+
+
+def save_pictures(result: Result, directory: str | Path) -> list[Path]:
+    """Draw everything about one run; return the files: slider, orbit, force, energy .png.
+
+    There is no orbit.png of a scene without clearance joints. `directory` must exist.
+
+    Raises:
+        InputError: a file cannot be written.
+    """
+    run = {"simulated": result}
+    figures = {"slider": slider_figure(run)}
+    if result.clearance_joints:
+        figures["orbit"] = orbit_figure(result)
+    figures |= {"force": force_figure(run), "energy": energy_figure(result)}
+    return [_save(figure, Path(directory) / f"{name}.png") for name, figure in figures.items()]
+
+
+def save_comparison(results: Mapping[str, Result], directory: str | Path) -> list[Path]:
+    """Draw runs by label over each other; return compare_slider.png and compare_force.png.
+
+    Raises:
+        InputError: a file cannot be written.
+    """
+    figures = {"compare_slider": slider_figure(results), "compare_force": force_figure(results)}
+    return [_save(figure, Path(directory) / f"{name}.png") for name, figure in figures.items()]
+
+
+def _save(figure: Figure, path: Path) -> Path:
+    """Write under a temporary name, then rename.
+
+    256 colours halve the file and do not show, except in what runs through a range of them.
+    """
+    pixels = io.BytesIO()
+    figure.set_layout_engine("none")  # it has been laid out; not again
+    with look():
+        figure.savefig(pixels, format="png", dpi=DPI, pil_kwargs={"compress_level": 1})
+    image = Image.open(pixels).convert("RGB")
+    if path.stem != "orbit":
+        image = image.quantize(256)
+    partial = path.with_name(f".{path.name}.{os.getpid()}.part")
+    try:
+        image.save(partial, format="png", dpi=(DPI, DPI), optimize=True)
+        partial.replace(path)
+    except OSError as error:
+        partial.unlink(missing_ok=True)
+        raise InputError(f"{path}: cannot be written ({error.strerror})") from None
+    return path

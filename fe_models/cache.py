@@ -1,0 +1,167 @@
+"""Reduced parts on disk: made once, read in milliseconds without NGSolve.
+
+A file's name is the digest of everything that determines its content: geometry, material,
+interfaces, mesh size, reduction, versions of NGSolve, Netgen, NumPy, SciPy and of this layout. It
+is an .npz of plain arrays (nothing is unpickled) and carries a checksum; a damaged or foreign file
+is rebuilt. It is written under another name and renamed, so no half-written one is ever read.
+"""
+
+import contextlib
+import hashlib
+import json
+import os
+import tempfile
+import zipfile
+import zlib
+from collections.abc import Mapping
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fe_models.part import Part
+from fe_models.reduced import ReducedInterface, ReducedPart
+from fe_models.reduction import Reduction, Report, reduce_part
+
+__all__ = ["cache_file", "default_folder", "load", "reduced_part", "save"]
+
+LAYOUT = 1  # raise it when the content of the arrays changes its meaning
+PACKAGES = ("ngsolve", "netgen-mesher", "numpy", "scipy")
+PLAIN = (  # the arrays of a ReducedPart stored under their own names
+    "centre_of_mass",
+    "inertia",
+    "frequencies",
+    "fixed_interface_frequencies",
+    "nodes",
+    "triangles",
+    "modes",
+    "stress",
+    "mass_matrix",
+    "stiffness_matrix",
+)
+PER_INTERFACE = ("centre", "translation", "rotation")
+UNREADABLE = (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, zlib.error)
+
+
+def reduced_part(
+    part: Part,
+    reduction: Reduction | None = None,
+    *,
+    folder: Path | None = None,
+    report: Report | None = None,
+) -> ReducedPart:
+    """Return a part reduced: from the cache if it is there and sound, made and stored otherwise.
+
+    folder : of the cache; `default_folder()` unless told.
+    report : called with (what is being done, share done) while it is made.
+    """
+    reduction = reduction or Reduction()
+    file = cache_file(part, reduction, default_folder() if folder is None else folder)
+    found = load(file)
+    if found is not None:
+        return found
+    made = reduce_part(part, reduction, report)
+    with contextlib.suppress(OSError):  # a cache is a help, not a need
+        save(made, file)
+    return made
+
+
+def default_folder() -> Path:
+    """Return $EXU_PRESS_CACHE, else fe_models under $XDG_CACHE_HOME or ~/.cache."""
+    own = os.environ.get("EXU_PRESS_CACHE")
+    if own:
+        return Path(own)
+    base = os.environ.get("XDG_CACHE_HOME")
+    return (Path(base) if base else Path.home() / ".cache") / "exu_press" / "fe_models"
+
+
+def cache_file(part: Part, reduction: Reduction, folder: Path) -> Path:
+    """Return where a reduced part belongs."""
+    determined_by = {
+        "name": part.name,
+        "part": part.key(),
+        "reduction": reduction.key(),
+        "versions": {package: version(package) for package in PACKAGES},
+        "layout": LAYOUT,
+    }
+    digest = hashlib.sha256(json.dumps(determined_by, sort_keys=True).encode()).hexdigest()
+    return folder / f"{_plain_name(part.name)}-{digest[:32]}.npz"
+
+
+def save(part: ReducedPart, file: Path) -> None:
+    """Write a reduced part; the file appears whole or not at all."""
+    arrays = {key: np.asarray(getattr(part, key)) for key in PLAIN}
+    for i, interface in enumerate(part.interfaces):
+        arrays |= {f"interface{i}.{key}": getattr(interface, key) for key in PER_INTERFACE}
+    arrays |= {f"coupling.{key}": value for key, value in part.couplings.items()}
+    text = {
+        "file": file.stem,
+        "name": part.name,
+        "method": part.method,
+        "mass": part.mass,
+        "meta": dict(part.meta),
+        "interfaces": [[i.face, i.area, i.arm] for i in part.interfaces],
+    }
+    arrays["text"] = np.frombuffer(json.dumps(text).encode(), dtype=np.uint8)
+    arrays["checksum"] = np.frombuffer(_checksum(arrays), dtype=np.uint8)
+    file.parent.mkdir(parents=True, exist_ok=True)
+    handle, temporary = tempfile.mkstemp(dir=file.parent, prefix=".", suffix=".part")
+    try:
+        with os.fdopen(handle, "wb") as stream:
+            np.savez(stream, allow_pickle=False, **arrays)
+        Path(temporary).replace(file)
+    except BaseException:
+        Path(temporary).unlink(missing_ok=True)
+        raise
+
+
+def load(file: Path) -> ReducedPart | None:
+    """Return what `save` wrote to this file, or None if it is missing, damaged or foreign."""
+    try:
+        with np.load(file, allow_pickle=False) as stored:
+            arrays = {key: stored[key] for key in stored.files}
+        if bytes(arrays.pop("checksum")) != _checksum(arrays):
+            return None
+        text = json.loads(bytes(arrays["text"]))
+        if text["file"] != file.stem:
+            return None
+        return _from_arrays(arrays, text)
+    except UNREADABLE:
+        return None
+
+
+def _from_arrays(arrays: Mapping[str, NDArray[Any]], text: Mapping[str, Any]) -> ReducedPart:
+    """Return the reduced part that the arrays hold."""
+    interfaces = tuple(
+        ReducedInterface(
+            face, area=area, arm=arm, **{k: arrays[f"interface{i}.{k}"] for k in PER_INTERFACE}
+        )
+        for i, (face, area, arm) in enumerate(text["interfaces"])
+    )
+    prefix = "coupling."
+    return ReducedPart(
+        name=text["name"],
+        method=text["method"],
+        mass=text["mass"],
+        interfaces=interfaces,
+        couplings={k.removeprefix(prefix): v for k, v in arrays.items() if k.startswith(prefix)},
+        meta=text["meta"],
+        **{key: arrays[key] for key in PLAIN},
+    )
+
+
+def _checksum(arrays: Mapping[str, NDArray[Any]]) -> bytes:
+    """Return a digest of names, types, shapes and contents."""
+    digest = hashlib.sha256()
+    for key in sorted(arrays):
+        array = np.ascontiguousarray(arrays[key])
+        digest.update(f"{key} {array.dtype.str} {array.shape};".encode())
+        digest.update(array.tobytes())
+    return digest.digest()
+
+
+def _plain_name(name: str) -> str:
+    """Return a name as part of a file name."""
+    return "".join(char if char.isalnum() else "_" for char in name)[:40]

@@ -1,0 +1,212 @@
+"""A reduced part as a body of an Exudyn system, with markers on its interfaces.
+
+Modes given, it is an ObjectFFRFreducedOrder; with 0 modes an ObjectRigidBody of the same mass.
+A marker over all nodes of a bearing face costs 20 times what its six virtual nodes cost and does
+the same to 4e-11 (they move with the face's mean motion), so those are the body's mesh nodes after
+the surface nodes.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import exudyn as exu
+import numpy as np
+from exudyn.graphics import FromPointsAndTrigs
+from exudyn.itemInterface import (
+    LoadMassProportional,
+    MarkerBodyMass,
+    MarkerBodyRigid,
+    MarkerSuperElementRigid,
+    NodeGenericODE2,
+    ObjectFFRFreducedOrder,
+    ObjectRigidBody,
+    VObjectFFRFreducedOrder,
+    VObjectRigidBody,
+)
+from exudyn.rigidBodyUtilities import GetRigidBodyNode
+from numpy.typing import ArrayLike, NDArray
+
+from exu_press.errors import InputError
+from fe_models.reduced import ReducedPart
+
+__all__ = ["ROTATIONS", "FlexibleBody", "add_flexible_body"]
+
+# Tait-Bryan angles (RotationRxyz) are left out: ObjectFFRFreducedOrder of Exudyn 1.13.6 takes them,
+# but a free spinning body then loses 4 % of its energy and nearly all its momentum.
+ROTATIONS = {
+    "euler_parameters": exu.NodeType.RotationEulerParameters,  # 4 coordinates, no singularity
+    "rotation_vector": exu.NodeType.RotationRotationVector,  # 3
+}
+VIRTUAL = 6
+
+
+@dataclass(frozen=True)
+class FlexibleBody:
+    """The numbers of a body's items in its mbs, and where its interfaces are.
+
+    node_modes is None for a rigid body (0 modes). `virtual_nodes` are mesh node numbers by face.
+    """
+
+    part: ReducedPart
+    object_number: int
+    node_rigid: int
+    node_modes: int | None
+    virtual_nodes: dict[str, list[int]]
+
+    def add_marker(self, mbs: Any, face: str, offset: Sequence[float] = (0.0, 0.0, 0.0)) -> int:
+        """Add a rigid-body marker that follows the mean motion of an interface.
+
+        offset [m] from the interface's centre, in the body frame.
+        """
+        interface = self.part.interface(face)
+        if self.node_modes is None:
+            place = np.asarray(interface.centre) + np.asarray(offset, dtype=float)
+            marker: Any = MarkerBodyRigid(bodyNumber=self.object_number, localPosition=list(place))
+        else:
+            marker = MarkerSuperElementRigid(
+                bodyNumber=self.object_number,
+                meshNodeNumbers=self.virtual_nodes[face],
+                weightingFactors=[1.0 / VIRTUAL] * VIRTUAL,
+                offset=list(offset),
+            )
+        return int(mbs.AddMarker(marker))
+
+
+def add_flexible_body(
+    mbs: Any,
+    part: ReducedPart,
+    *,
+    position: Sequence[float] = (0.0, 0.0, 0.0),
+    rotation: ArrayLike | None = None,
+    velocity: Sequence[float] = (0.0, 0.0, 0.0),
+    angular_velocity: Sequence[float] = (0.0, 0.0, 0.0),
+    gravity: Sequence[float] = (0.0, 0.0, 0.0),
+    damping_ratio: float = 0.02,
+    rotation_parameters: str = "euler_parameters",
+    initial_modes: ArrayLike | None = None,
+    initial_modes_t: ArrayLike | None = None,
+    color: Sequence[float] = (0.45, 0.55, 0.65, 1.0),
+    name: str = "",
+) -> FlexibleBody:
+    """Add a reduced part to an Exudyn MainSystem.
+
+    mbs : exudyn.MainSystem
+    position, rotation : pose of the body frame in the global frame, (3,) m and (3, 3).
+    velocity, angular_velocity : of the body frame's origin, global components, m/s and rad/s.
+    gravity : (3,) m/s^2; zero adds no load.
+    damping_ratio : of critical, the same for every mode.
+    rotation_parameters : "euler_parameters" or "rotation_vector".
+    initial_modes, initial_modes_t : (n,) modal coordinates and velocities at the start.
+    name : of the object; its nodes become "<name> frame" and "<name> modes".
+    """
+    if rotation_parameters not in ROTATIONS:
+        raise InputError(
+            f"rotation_parameters = {rotation_parameters!r}: must be one of {', '.join(ROTATIONS)}"
+        )
+    damping = part.damping_matrix(damping_ratio)
+    start, start_t = _start(part, initial_modes), _start(part, initial_modes_t)
+    node_item = GetRigidBodyNode(
+        nodeType=ROTATIONS[rotation_parameters],
+        position=list(position),
+        velocity=list(velocity),
+        rotationMatrix=np.eye(3) if rotation is None else np.asarray(rotation, dtype=float),
+        angularVelocity=list(angular_velocity),
+    )
+    node_item.name = f"{name} frame" if name else ""
+    node = int(mbs.AddNode(node_item))
+    if part.mode_count == 0:
+        body = FlexibleBody(part, _add_rigid(mbs, part, node, color, name), node, None, {})
+    else:
+        modes_node = int(
+            mbs.AddNode(
+                NodeGenericODE2(
+                    name=f"{name} modes" if name else "",
+                    numberOfODE2Coordinates=part.mode_count,
+                    referenceCoordinates=[0.0] * part.mode_count,
+                    initialCoordinates=start,
+                    initialCoordinates_t=start_t,
+                )
+            )
+        )
+        body = _add_flexible(mbs, part, (node, modes_node), damping, color, name)
+    if any(gravity):
+        carrier = mbs.AddMarker(MarkerBodyMass(bodyNumber=body.object_number))
+        mbs.AddLoad(LoadMassProportional(markerNumber=carrier, loadVector=list(gravity)))
+    return body
+
+
+def _add_rigid(mbs: Any, part: ReducedPart, node: int, color: Sequence[float], name: str) -> int:
+    """Add the part as a rigid body, its reference point the frame's origin."""
+    j = part.inertia
+    graphics = FromPointsAndTrigs(part.nodes, part.triangles, color=list(color))
+    item = ObjectRigidBody(
+        name=name,
+        nodeNumber=node,
+        mass=part.mass,
+        inertia=[j[0, 0], j[1, 1], j[2, 2], j[1, 2], j[0, 2], j[0, 1]],
+        centerOfMass=list(part.centre_of_mass),
+        visualization=VObjectRigidBody(graphicsData=[graphics]),
+    )
+    return int(mbs.AddObject(item))
+
+
+def _add_flexible(
+    mbs: Any,
+    part: ReducedPart,
+    nodes: tuple[int, int],
+    damping: NDArray[np.float64],
+    color: Sequence[float],
+    name: str,
+) -> FlexibleBody:
+    """Add the part with its modes; mesh nodes: the surface, then six for each interface."""
+    virtual = [interface.virtual_nodes() for interface in part.interfaces]
+    positions = np.vstack([part.nodes, *(points for points, _ in virtual)])
+    modes = np.vstack([part.modes, *(modes for _, modes in virtual)])
+    first = len(part.nodes)
+    numbers = {
+        interface.face: list(range(first + VIRTUAL * i, first + VIRTUAL * (i + 1)))
+        for i, interface in enumerate(part.interfaces)
+    }
+    terms: dict[str, Any] = dict(part.couplings)
+    if len(part.stress):
+        padding = np.zeros((6 * VIRTUAL * len(virtual), part.mode_count))
+        # Exudyn wants one row per node and the six components of each mode side by side
+        by_node = np.vstack([part.stress, padding]).reshape(-1, 6, part.mode_count)
+        terms |= {
+            "outputVariableModeBasis": by_node.transpose(0, 2, 1).reshape(len(by_node), -1),
+            "outputVariableTypeModeBasis": exu.OutputVariableType.StressLocal,
+        }
+    item = ObjectFFRFreducedOrder(
+        name=name,
+        nodeNumbers=list(nodes),
+        massMatrixReduced=_container(part.mass_matrix),
+        stiffnessMatrixReduced=_container(part.stiffness_matrix),
+        dampingMatrixReduced=_container(damping),
+        modeBasis=modes,
+        referencePositions=positions.ravel(),
+        mass=part.mass,
+        inertia=part.inertia,
+        centerOfMass=list(part.centre_of_mass),
+        computeFFRFterms=True,
+        visualization=VObjectFFRFreducedOrder(
+            triangleMesh=part.triangles, color=list(color), showNodes=False
+        ),
+        **terms,
+    )
+    return FlexibleBody(part, int(mbs.AddObject(item)), nodes[0], nodes[1], numbers)
+
+
+def _container(matrix: NDArray[np.float64]) -> Any:
+    """Return a sparse Exudyn matrix: all of ours are diagonal."""
+    container = exu.MatrixContainer()
+    container.SetWithDenseMatrix(matrix, useDenseMatrix=False)
+    return container
+
+
+def _start(part: ReducedPart, values: ArrayLike | None) -> list[float]:
+    """Return initial modal values, zero by default."""
+    start = np.zeros(part.mode_count) if values is None else np.asarray(values, dtype=float)
+    if start.shape != (part.mode_count,):
+        raise InputError(f"{part.name}: {start.shape} initial modal values for {part.mode_count}")
+    return [float(value) for value in start]

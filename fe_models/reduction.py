@@ -1,0 +1,251 @@
+"""Modal reduction: Hurty-Craig-Bampton with interfaces tied by their mean motion, or free modes.
+
+References
+----------
+.. [1] R. R. Craig, M. C. C. Bampton, Coupling of substructures for dynamic analyses, AIAA Journal 6
+   (1968) 1313-1319.
+.. [2] A. Zwoelfer, J. Gerstmayr, The nodal-based floating frame of reference formulation with modal
+   reduction, Acta Mechanica 232 (2021) 835-851: the constant coupling terms.
+"""
+
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+import scipy.linalg
+import scipy.sparse as sp
+from numpy.typing import NDArray
+
+from exu_press.errors import InputError
+from fe_models.part import MOTIONS, Part
+from fe_models.reduced import ReducedInterface, ReducedPart
+
+__all__ = ["METHODS", "Reduction", "reduce_model", "reduce_part"]
+
+Array = NDArray[np.float64]
+METHODS = ("craig_bampton", "free")
+Report = Callable[[str, float], None]  # (what is done next, share done so far)
+
+
+@dataclass(frozen=True)
+class Reduction:
+    """How a part is reduced.
+
+    modes : number of modal coordinates, from 0 (a rigid body) up. Craig-Bampton spends them on the
+        static modes first (one for each loaded motion of an interface beyond six), then on the
+        lowest fixed-interface modes; fewer than the static ones: the lowest modes of their span.
+    method : "craig_bampton", or "free": the lowest modes of the free body.
+    stress : whether the stresses of the modes are kept too (more to store).
+    """
+
+    modes: int = 20
+    method: str = "craig_bampton"
+    stress: bool = True
+
+    def __post_init__(self) -> None:
+        """Refuse a number of modes that is none, and unknown methods."""
+        if isinstance(self.modes, bool) or not isinstance(self.modes, int) or self.modes < 0:
+            raise InputError(f"flexible.modes = {self.modes!r}: must be a whole number, 0 or more")
+        if self.method not in METHODS:
+            raise InputError(
+                f"flexible.method = {self.method!r}: must be one of {', '.join(METHODS)}"
+            )
+
+    def key(self) -> dict[str, Any]:
+        """Return everything that determines the reduction, as plain data."""
+        return asdict(self)
+
+
+def reduce_part(part: Part, reduction: Reduction, report: Report | None = None) -> ReducedPart:
+    """Mesh, assemble and reduce a part."""
+    from fe_models.elasticity import full_model
+
+    report = report or (lambda what, share: None)
+    report(f"{part.name}: mesh and matrices", 0.0)
+    model = full_model(part)
+    report(f"{part.name}: modes of {model.unknowns} unknowns", 0.5)
+    reduced = reduce_model(part, model, reduction)
+    report(f"{part.name}: reduced", 1.0)
+    return reduced
+
+
+def reduce_model(part: Part, model: Any, reduction: Reduction) -> ReducedPart:
+    """Reduce a `FullModel`."""
+    _check_size(part, model, reduction)
+    if reduction.modes == 0:
+        basis, fixed = np.zeros((model.unknowns, 0)), np.zeros(0)
+    elif reduction.method == "free":
+        basis, fixed = _free_basis(model, reduction.modes), np.zeros(0)
+    else:
+        basis, fixed = _craig_bampton_basis(part, model, reduction.modes)
+    frequencies, modes = _orthogonalise(model, basis, reduction.modes)
+    return _package(part, model, reduction, frequencies, modes, fixed)
+
+
+def interface_rows(part: Part, model: Any) -> sp.csr_matrix:
+    """Return C (m, 3n): the loaded mean motions of all interfaces."""
+    rows = [
+        model.faces[interface.face].rows[[MOTIONS.index(motion)]]
+        for interface in part.interfaces
+        for motion in interface.motions
+    ]
+    return sp.csr_matrix(sp.vstack(rows))
+
+
+def _check_size(part: Part, model: Any, reduction: Reduction) -> None:
+    """Refuse more modes than the mesh has, and interfaces that do not hold the body."""
+    rows = sum(len(interface.motions) for interface in part.interfaces)
+    most = model.unknowns - max(rows, 6) - 1
+    if reduction.modes > most:
+        raise InputError(
+            f"{part.name}: flexible.modes = {reduction.modes}: this mesh of {model.unknowns} "
+            f"unknowns has at most {most}"
+        )
+    if reduction.modes > 0 and reduction.method == "craig_bampton" and not part.bearings:
+        raise InputError(
+            f"{part.name}: the Craig-Bampton reduction needs an interface with all six motions; "
+            'add one, or use method = "free"'
+        )
+
+
+def _free_basis(model: Any, count: int) -> Array:
+    """Return the lowest modes of the free body: those held to zero mean momentum by C = R^T M."""
+    from fe_models.elasticity import rigid_motions
+    from fe_models.saddle import SaddleSolver, lowest_modes
+
+    momentum = (model.mass @ rigid_motions(model.nodes, model.nodes.mean(axis=0))).T
+    solver = SaddleSolver(model, momentum)
+    _, modes = lowest_modes(model, lambda load: solver.solve(load, None), count)
+    return modes
+
+
+def _craig_bampton_basis(part: Part, model: Any, count: int) -> tuple[Array, Array]:
+    """Return the static and the lowest fixed-interface modes, and the latter's frequencies [Hz]."""
+    from fe_models.saddle import SaddleSolver, lowest_modes
+
+    solver = SaddleSolver(model, interface_rows(part, model))
+    rigid = solver.rigid_motion
+    directions, _ = np.linalg.qr(rigid, mode="complete")
+    static = np.column_stack(
+        [solver.solve(None, direction) for direction in directions[:, 6:].T]
+        or [np.zeros((model.unknowns, 0))]
+    )
+    eigenvalues, fixed = lowest_modes(
+        model, lambda load: solver.solve(load, None), max(0, count - static.shape[1])
+    )
+    return np.hstack([static, fixed]), np.sqrt(eigenvalues) / (2.0 * np.pi)
+
+
+def _orthogonalise(model: Any, basis: Array, count: int) -> tuple[Array, Array]:
+    """Return frequencies [Hz] and mass-normalised modes of the free body within the basis's span.
+
+    The basis is first freed of its rigid part; the `count` lowest modes are kept, signs fixed.
+    """
+    from fe_models.elasticity import rigid_motions
+
+    mass = model.mass
+    rigid = rigid_motions(model.nodes, model.nodes.mean(axis=0))
+    rigid_mass = rigid.T @ (mass @ rigid)
+    for _ in range(2):  # twice is enough to be orthogonal to the last digits
+        basis = basis - rigid @ np.linalg.solve(rigid_mass, rigid.T @ (mass @ basis))
+        basis = basis / np.sqrt(np.einsum("ij,ij->j", basis, mass @ basis))
+    if basis.shape[1] == 0:
+        return np.zeros(0), basis
+    stiffness = basis.T @ (model.stiffness @ basis)
+    inertia = basis.T @ (mass @ basis)
+    squares, shapes = scipy.linalg.eigh(
+        0.5 * (stiffness + stiffness.T), 0.5 * (inertia + inertia.T)
+    )
+    modes = basis @ shapes[:, :count]
+    return np.sqrt(squares[:count]) / (2.0 * np.pi), modes * _signs(modes)
+
+
+def _signs(modes: Array) -> Array:
+    """Return +-1 per mode: the first component of nearly the largest size becomes positive."""
+    large = np.abs(modes) >= 0.9 * np.abs(modes).max(axis=0)
+    first = np.argmax(large, axis=0)
+    signs: Array = np.sign(modes[first, np.arange(modes.shape[1])])
+    return signs
+
+
+def _package(
+    part: Part,
+    model: Any,
+    reduction: Reduction,
+    frequencies: Array,
+    modes: Array,
+    fixed: Array,
+) -> ReducedPart:
+    """Return the reduced part: interface motions, couplings, and the surface of everything."""
+    from fe_models.stress import nodal_stress
+
+    count = len(frequencies)
+    surface, triangles = np.unique(model.triangles, return_inverse=True)
+    by_node = modes.reshape(len(model.nodes), 3, count)
+    ones = np.ones(len(model.nodes))
+    weights = model.nodal_mass @ ones
+    mass = float(weights.sum())
+    squares = model.nodes.T @ (model.nodal_mass @ model.nodes)
+    interfaces = []
+    for interface in part.interfaces:
+        face = model.faces[interface.face]
+        motion = np.asarray(face.rows @ modes)
+        arm = float(np.abs(model.nodes[face.nodes] - face.centre).max())
+        interfaces.append(
+            ReducedInterface(interface.face, face.centre, face.area, arm, motion[:3], motion[3:])
+        )
+    stress = np.zeros((0, count))
+    if reduction.stress:
+        stress = nodal_stress(model, part.material, by_node)[surface]
+        stress = stress.reshape(6 * len(surface), count)
+    return ReducedPart(
+        name=part.name,
+        method=reduction.method,
+        mass=mass,
+        centre_of_mass=weights @ model.nodes / mass,
+        inertia=np.trace(squares) * np.eye(3) - squares,
+        frequencies=frequencies,
+        fixed_interface_frequencies=fixed,
+        nodes=model.nodes[surface],
+        triangles=triangles.reshape(-1, 3).astype(np.int64),
+        modes=by_node[surface].reshape(3 * len(surface), count),
+        stress=stress,
+        mass_matrix=np.eye(count),
+        stiffness_matrix=np.diag((2.0 * np.pi * frequencies) ** 2),
+        couplings=_couplings(model, by_node),
+        interfaces=tuple(interfaces),
+        meta={"unknowns": model.unknowns, "tetrahedra": len(model.elements)},
+    )
+
+
+def _couplings(model: Any, modes: Array) -> dict[str, Array]:
+    """Return the constant terms of the floating frame [2]_ for modes (n, 3, m).
+
+    With S(v) the cross-product matrix, S of a matrix of modes stacks one block a mode side by side.
+    """
+    nodal = model.nodal_mass
+    count = modes.shape[2]
+    skew = _skew(modes.transpose(0, 2, 1))  # (n, m, 3, 3)
+    psi_tilde = skew.transpose(0, 2, 1, 3).reshape(3 * len(modes), 3 * count)  # (3n, 3m)
+    psi = modes.reshape(3 * len(modes), count)
+    reference_tilde = _skew(model.nodes).reshape(-1, 3)  # (3n, 3)
+    mass = model.mass
+    total = np.tile(np.eye(3), (nodal.shape[0], 1))  # (3n, 3): the three translations
+    m_psi, m_psi_tilde = mass @ psi, mass @ psi_tilde
+    return {
+        "mPsiTildePsi": psi_tilde.T @ m_psi,
+        "mPsiTildePsiTilde": psi_tilde.T @ m_psi_tilde,
+        "mPhitTPsi": total.T @ m_psi,
+        "mPhitTPsiTilde": total.T @ m_psi_tilde,
+        "mXRefTildePsi": reference_tilde.T @ m_psi,
+        "mXRefTildePsiTilde": reference_tilde.T @ m_psi_tilde,
+    }
+
+
+def _skew(vectors: Array) -> Array:
+    """Return S(v) (..., 3, 3) with S(v) w = v x w."""
+    x, y, z = np.moveaxis(vectors, -1, 0)
+    zero = np.zeros_like(x)
+    rows = [[zero, -z, y], [z, zero, -x], [-y, x, zero]]
+    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)

@@ -1,0 +1,124 @@
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from fe_models import Reduction, cache, reduced_part
+
+SCRIPT = """
+import sys, time
+from pathlib import Path
+start = time.perf_counter()
+from fe_models import Reduction, reduced_part, shipped_part
+part = reduced_part(shipped_part("linkage", 0.06), Reduction(6), folder=Path(sys.argv[1]))
+assert "ngsolve" not in sys.modules and "netgen" not in sys.modules
+assert "exudyn" not in sys.modules and "matplotlib" not in sys.modules
+print(part.mode_count, time.perf_counter() - start)
+"""
+
+
+@pytest.fixture(scope="module")
+def made(linkage, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("cache")
+    return folder, reduced_part(linkage, Reduction(6), folder=folder)
+
+
+def same(a, b):
+    for key in cache.PLAIN:
+        assert np.array_equal(getattr(a, key), getattr(b, key)), key
+    for one, other in zip(a.interfaces, b.interfaces, strict=True):
+        assert (one.face, one.arm, one.area) == (other.face, other.arm, other.area)
+        assert np.array_equal(one.rotation, other.rotation)
+    assert (a.name, a.mass, a.method, a.meta) == (b.name, b.mass, b.method, b.meta)
+    assert all(np.array_equal(a.couplings[k], b.couplings[k]) for k in a.couplings)
+
+
+def test_what_is_read_is_what_was_made(linkage, made):
+    folder, part = made
+    file = cache.cache_file(linkage, Reduction(6), folder)
+    same(cache.load(file), part)
+    assert [path.name for path in folder.iterdir()] == [file.name]
+
+
+def test_second_start_needs_no_ngsolve(made):
+    done = subprocess.run(
+        [sys.executable, "-c", SCRIPT, str(made[0])], capture_output=True, text=True, check=True
+    )
+    modes, seconds = done.stdout.split()
+    assert int(modes) == 6
+    print(f"second start: {float(seconds):.3f} s")  # measured 0.2 s; no timed test
+
+
+def test_key_tells_apart_what_differs(linkage, made):
+    folder, _ = made
+    files = {
+        cache.cache_file(part, reduction, folder)
+        for part in (linkage, linkage.replace(mesh_size=0.05))
+        for reduction in (Reduction(6), Reduction(7), Reduction(6, "free"))
+    }
+    assert len(files) == 6
+
+
+@pytest.mark.parametrize("damage", ["cut", "flip", "text", "foreign", "empty", "pickled"])
+def test_damaged_or_foreign_file_is_rebuilt(linkage, made, tmp_path: Path, damage):
+    folder, part = made
+    sound = cache.cache_file(linkage, Reduction(6), folder).read_bytes()
+    file = cache.cache_file(linkage, Reduction(6), tmp_path)
+    if damage == "cut":
+        file.write_bytes(sound[: len(sound) // 2])
+    elif damage == "flip":
+        broken = bytearray(sound)
+        broken[len(sound) // 2] ^= 0xFF
+        file.write_bytes(bytes(broken))
+    elif damage == "text":
+        file.write_text("not an archive")
+    elif damage == "empty":
+        file.touch()
+    elif damage == "pickled":
+        with file.open("wb") as stream:
+            np.savez(stream, checksum=np.array([{"a": 1}], dtype=object))
+    else:
+        reduction = Reduction(5)
+        reduced_part(linkage, reduction, folder=tmp_path)
+        cache.cache_file(linkage, reduction, tmp_path).replace(file)
+    assert cache.load(file) is None
+    same(reduced_part(linkage, Reduction(6), folder=tmp_path), part)
+    same(cache.load(file), part)
+
+
+def test_an_interrupted_write_leaves_nothing(made, tmp_path: Path, monkeypatch):
+    def interrupted(stream, **arrays):
+        stream.write(b"half")
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(np, "savez", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        cache.save(made[1], tmp_path / "part.npz")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_folder_that_cannot_be_written(linkage, made, tmp_path: Path):
+    """A cache is a help, not a need."""
+    blocked = tmp_path / "file"
+    blocked.touch()
+    same(reduced_part(linkage, Reduction(6), folder=blocked / "cache"), made[1])
+
+
+def test_progress_is_reported_while_made_only(linkage, tmp_path: Path):
+    heard = []
+    for _ in range(2):
+        reduced_part(
+            linkage, Reduction(0), folder=tmp_path, report=lambda what, share: heard.append(share)
+        )
+    assert heard == sorted(heard) and heard[0] == 0.0 and heard[-1] == 1.0
+    assert heard.count(0.0) == 1
+
+
+def test_default_folder(monkeypatch, tmp_path: Path):
+    monkeypatch.setenv("EXU_PRESS_CACHE", str(tmp_path))
+    assert cache.default_folder() == tmp_path
+    monkeypatch.delenv("EXU_PRESS_CACHE")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    assert cache.default_folder() == tmp_path / "exu_press" / "fe_models"

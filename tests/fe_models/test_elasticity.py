@@ -1,0 +1,120 @@
+"""The full model against closed-form solutions."""
+
+import numpy as np
+import pytest
+import scipy.optimize
+from netgen.occ import Box, Pnt, Sphere, X
+from scipy.special import spherical_jn
+
+from fe_models import Interface, Material, OwnShape, Part, Reduction
+from fe_models.elasticity import rigid_motions
+from fe_models.reduction import reduce_part
+
+STEEL = Material(2.1e11, 0.3, 7850.0)
+
+
+def test_rigid_motions_cost_no_energy(linkage_model):
+    rigid = rigid_motions(linkage_model.nodes, np.zeros(3))
+    forces = abs(linkage_model.stiffness @ rigid).max()
+    assert forces < 1e-12 * abs(linkage_model.stiffness).max()
+
+
+def test_mass_matrix_knows_the_mass(crank_model, linkage_model):
+    assert crank_model.nodal_mass.sum() == pytest.approx(217.6, rel=3e-4)
+    assert linkage_model.nodal_mass.sum() == pytest.approx(184.5, rel=3e-4)
+
+
+def test_face_motion_reads_rigid_motion_exactly(crank_model):
+    for face in crank_model.faces.values():
+        read = face.rows @ rigid_motions(crank_model.nodes, face.centre)
+        assert read == pytest.approx(np.eye(6), abs=1e-9)
+    pin = crank_model.faces["pin"]
+    assert pin.centre == pytest.approx([0.0, 0.03, 0.0], abs=1e-5)
+
+
+def timoshenko_free_free(length, side, material, count):
+    """The bending frequencies [Hz] of a free square bar [m].
+
+    Han, Benaroya, Wei: Dynamics of transversely vibrating beams using four engineering theories,
+    J. Sound and Vibration 225 (1999) 935-988, Timoshenko; here solved as a boundary value problem
+    in deflection w and slope psi with Cowper's shear factor 10 (1 + nu) / (12 + 11 nu).
+    """
+    e, nu, rho = material.youngs_modulus, material.poissons_ratio, material.density
+    area, second = side**2, side**4 / 12.0
+    shear = 10 * (1 + nu) / (12 + 11 * nu) * e / (2 * (1 + nu)) * area
+
+    def determinant(frequency):
+        w2 = (2 * np.pi * frequency) ** 2
+        a = np.zeros((4, 4))  # d/dx of (w, psi, M, Q): Q = shear (w' - psi), M = EI psi'
+        a[0, 1], a[0, 3] = 1.0, length**2 * e * second / shear / length**4
+        a[1, 2] = 1.0
+        a[2, 3], a[2, 1] = -1.0, -rho * second * w2 * length**2 / (e * second)
+        a[3, 0] = -rho * area * w2 * length**4 / (e * second)
+        transfer = scipy.linalg.expm(a)
+        return np.linalg.det(transfer[2:, :2])
+
+    grid = np.linspace(50.0, 12000.0, 4000)
+    values = np.array([determinant(f) for f in grid])
+    brackets = np.flatnonzero(values[:-1] * values[1:] < 0.0)[:count]
+    return [scipy.optimize.brentq(determinant, grid[i], grid[i + 1]) for i in brackets]
+
+
+def test_free_timoshenko_beam():
+    length, side = 1.0, 0.04
+    bar = Box(Pnt(0, 0, 0), Pnt(length, side, side))
+    bar.faces.Min(X).name = "end"
+    part = Part("bar", OwnShape(bar), STEEL, (Interface("end"),), 0.02)
+    found = reduce_part(part, Reduction(modes=6, method="free", stress=False)).frequencies
+    exact = timoshenko_free_free(length, side, STEEL, 2)
+    # bending modes come in pairs; Timoshenko's theory itself is good to about 0.02 % here
+    assert found[:2] == pytest.approx(exact[0], rel=1e-3)
+    assert found[2:4] == pytest.approx(exact[1], rel=1e-3)
+
+
+def lamb_spheroidal(degree, poissons_ratio):
+    """The lowest root eta = omega R / c_s of the traction-free sphere's frequency equation.
+
+    H. Lamb, On the vibrations of an elastic sphere, Proc. London Math. Soc. 13 (1882) 189-212;
+    in the form of A. C. Eringen, E. S. Suhubi, Elastodynamics II (1975). Known value for
+    Poisson's ratio 1/4 and degree 2: 0.840 pi.
+    """
+    slow = np.sqrt((1 - 2 * poissons_ratio) / (2 - 2 * poissons_ratio))  # c_s / c_p
+    n = degree
+
+    def determinant(k):
+        h = slow * k
+        jh, jh1 = spherical_jn(n, h), spherical_jn(n + 1, h)
+        jk, jk1 = spherical_jn(n, k), spherical_jn(n + 1, k)
+        t11 = (n * n - n - 0.5 * k * k) * jh + 2 * h * jh1
+        t13 = n * (n + 1) * ((n - 1) * jk - k * jk1)
+        t41 = (n - 1) * jh - h * jh1
+        t43 = (n * n - 1 - 0.5 * k * k) * jk + k * jk1
+        return t11 * t43 - t13 * t41
+
+    return scipy.optimize.brentq(determinant, 2.2, 3.0)
+
+
+def lamb_torsional():
+    """The lowest root for degree 2: j_2(eta) = eta j_3(eta)."""
+    return scipy.optimize.brentq(lambda k: spherical_jn(2, k) - k * spherical_jn(3, k), 2.2, 3.0)
+
+
+def test_lambs_roots():
+    assert lamb_spheroidal(2, 0.25) == pytest.approx(0.840 * np.pi, rel=1e-3)
+    assert lamb_spheroidal(2, 0.3) == pytest.approx(2.6462, rel=1e-4)
+    assert lamb_torsional() == pytest.approx(2.5011, rel=1e-4)
+
+
+@pytest.mark.parametrize("mesh_size", [0.24, pytest.param(0.12, marks=pytest.mark.long)])
+def test_free_sphere(mesh_size):
+    """Five torsional and five spheroidal modes of degree 2, within 0.1 % once converged."""
+    radius = 1.0
+    shape = Sphere(Pnt(0, 0, 0), radius)
+    shape.faces.name = "skin"
+    part = Part("sphere", OwnShape(shape), STEEL, (Interface("skin"),), mesh_size)
+    reduced = reduce_part(part, Reduction(modes=10, method="free", stress=False))
+    shear_speed = np.sqrt(STEEL.youngs_modulus / (2.0 * 1.3) / STEEL.density)
+    eta = 2.0 * np.pi * reduced.frequencies * radius / shear_speed
+    print(eta, reduced.meta)
+    assert eta[:5] == pytest.approx(lamb_torsional(), rel=1e-3)
+    assert eta[5:] == pytest.approx(lamb_spheroidal(2, 0.3), rel=1e-3)

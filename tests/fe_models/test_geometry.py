@@ -1,0 +1,99 @@
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from netgen.occ import Box, Cylinder, Pnt, Z
+
+from exu_press.errors import InputError
+from fe_models import CRANK_STEEL, OwnShape, StepFile, shipped_part
+from fe_models.part import shipped_names
+
+MASSES = {"crank": 217.6, "linkage": 184.5}
+
+
+@pytest.mark.parametrize("name", shipped_names())
+def test_masses_are_the_papers(name):
+    part = shipped_part(name)
+    mass = part.geometry.build().mass * part.material.density
+    assert mass == pytest.approx(MASSES[name.split("_")[0]], abs=1e-3)
+
+
+def test_the_cranks_volume_in_closed_form():
+    shape = shipped_part("crank").geometry
+    assert shape.volume() == pytest.approx(shape.build().mass, rel=1e-9)
+    web = shape.web_radius_for(217.6 / CRANK_STEEL.density)
+    assert replace(shape, web_radius=web).volume() * 7850.0 == pytest.approx(217.6)
+
+
+@pytest.mark.parametrize("number", ["", "_2"])
+def test_the_parts_fit_each_other_and_have_walls(number):
+    crank = shipped_part("crank" + number).geometry
+    rod = shipped_part("linkage" + number).geometry
+    assert rod.big_width <= crank.pin_length - 0.004  # 2 mm of side play at least
+    assert rod.big_bore_radius == crank.pin_radius == 0.07
+    assert rod.big_outer_radius - rod.big_bore_radius > 0.03
+    assert rod.small_outer_radius - rod.small_bore_radius > 0.03
+    assert rod.shank_width <= min(rod.big_width, rod.small_width)
+    assert rod.shank_half_height_big <= rod.big_outer_radius
+    assert rod.shank_half_height_small <= rod.small_outer_radius
+
+
+def test_two_builds_are_equal_but_not_the_same():
+    geometry = shipped_part("linkage").geometry
+    assert OwnShape(geometry.build()).key() == OwnShape(geometry.build()).key()
+    assert geometry.build() is not geometry.build()
+
+
+def test_own_shape_keeps_names_and_volume():
+    rod = Cylinder(Pnt(0, 0, 0), Z, r=0.02, h=0.1)
+    rod.faces.Max(Z).name = "end"
+    own = OwnShape(rod)
+    copy = own.build()
+    assert copy.mass == pytest.approx(rod.mass)
+    assert [face.name for face in copy.faces] == [face.name for face in rod.faces]
+    other = Cylinder(Pnt(0, 0, 0), Z, r=0.02, h=0.11)
+    assert OwnShape(other).key() != own.key()
+
+
+def test_step_file_in_mm_with_boxes(tmp_path: Path):
+    solid = Box(Pnt(0, 0, 0), Pnt(100, 20, 20))
+    file = tmp_path / "rod.step"
+    solid.WriteStep(str(file))
+    boxes = {"left": ((0, 0, 0), (0, 0.02, 0.02)), "right": ((0.1, 0, 0), (0.1, 0.02, 0.02))}
+    shape = StepFile(file, scale=1e-3, faces=boxes).build()
+    assert shape.mass == pytest.approx(4e-5)
+    names = [face.name for face in shape.faces]
+    assert names.count("left") == names.count("right") == 1
+    with pytest.raises(InputError, match="no face lies wholly inside the box of 'top'"):
+        StepFile(file, scale=1e-3, faces={"top": ((1, 1, 1), (2, 2, 2))}).build()
+
+
+def test_step_file_that_is_not_one(tmp_path: Path):
+    file = tmp_path / "rod.step"
+    with pytest.raises(InputError, match="cannot be read"):
+        StepFile(file).build()
+    file.write_text("solid STL")
+    with pytest.raises(InputError, match=r"rod.step.*is not one"):
+        StepFile(file).key()
+    file.write_text("ISO-10303-21;\nHEADER;\nbroken")
+    with pytest.raises(InputError, match=r"rod\.step"):
+        StepFile(file).build()
+
+
+def test_impossible_dimensions():
+    crank, rod = shipped_part("crank").geometry, shipped_part("linkage").geometry
+    with pytest.raises(InputError, match="web_radius"):
+        replace(crank, web_radius=0.05)
+    with pytest.raises(InputError, match="big_outer_radius"):
+        replace(rod, big_outer_radius=0.06)
+    with pytest.raises(InputError, match="must be positive"):
+        replace(rod, shank_width=-1.0)
+    with pytest.raises(InputError, match="pocket_depth"):
+        replace(rod, pocket_depth=0.5 * rod.shank_width, rim=0.02)
+
+
+def test_a_pocket_takes_volume_and_leaves_the_faces():
+    rod = replace(shipped_part("linkage").geometry, pocket_depth=0.03, rim=0.03)
+    names = {face.name for face in rod.build().faces}
+    assert {"big bore", "small bore"} <= names
+    assert rod.build().mass < shipped_part("linkage").geometry.build().mass

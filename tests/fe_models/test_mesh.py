@@ -1,0 +1,41 @@
+import numpy as np
+import pytest
+
+from exu_press.errors import InputError
+from fe_models import Interface
+from fe_models.mesh import generate_mesh
+
+
+def points(part):
+    mesh = generate_mesh(part)  # kept: its points are views into it
+    return np.array([list(p) for p in mesh.ngmesh.Points()])
+
+
+def test_same_part_same_mesh(linkage):
+    assert np.array_equal(points(linkage), points(linkage))
+
+
+def test_missing_face_is_named_with_those_there_are(linkage):
+    part = linkage.replace(interfaces=(Interface("middle"),))
+    with pytest.raises(InputError, match=r"no face named 'middle'.*'big bore'"):
+        generate_mesh(part)
+
+
+class Hollow:
+    """A geometry that is no solid: a face."""
+
+    def key(self):
+        return {}
+
+    def build(self):
+        from netgen.occ import Box, Pnt, X
+
+        face = Box(Pnt(0, 0, 0), Pnt(1, 1, 1)).faces.Max(X)
+        face.name = "end"
+        return face
+
+
+def test_a_mesh_that_fails_says_what_to_do(linkage):
+    part = linkage.replace(geometry=Hollow(), interfaces=(Interface("end"),))
+    with pytest.raises(InputError, match=r"meshing failed at mesh_size.*try a smaller"):
+        generate_mesh(part)

@@ -1,0 +1,146 @@
+"""The reduction against the full model."""
+
+import itertools
+
+import numpy as np
+import pytest
+
+from exu_press.errors import InputError
+from fe_models import Interface, Reduction
+from fe_models.elasticity import rigid_motions
+from fe_models.reduction import reduce_model, reduce_part
+from fe_models.saddle import SaddleSolver
+
+
+def momentum_rows(model):
+    """Rows that hold a free body to zero mean motion."""
+    return (model.mass @ rigid_motions(model.nodes, model.nodes.mean(axis=0))).T
+
+
+def compliance(part, model, load, method, modes):
+    """The work of a load in equilibrium on the displacement it causes: reduced over full."""
+    reduced = reduce_model(part, model, Reduction(modes=modes, method=method, stress=False))
+    full_work = load @ SaddleSolver(model, momentum_rows(model)).solve(load, None)
+    modal = np.array([load @ mode for mode in full_modes(part, model, method, modes).T])
+    return float((modal**2 / np.diag(reduced.stiffness_matrix)).sum() / full_work)
+
+
+def full_modes(part, model, method, modes):
+    """The modes over all nodes (a reduced part keeps the surface alone)."""
+    from fe_models.reduction import _craig_bampton_basis, _free_basis, _orthogonalise
+
+    if method == "free":
+        basis = _free_basis(model, modes)
+    else:
+        basis = _craig_bampton_basis(part, model, modes)[0]
+    return _orthogonalise(model, basis, modes)[1]
+
+
+def bending_load(model):
+    """The crank pin pulled in y by 1 N, held by half of it at each journal."""
+    faces = model.faces
+    spread = {name: np.asarray(faces[name].rows.todense())[1] for name in faces}
+    load = spread["pin"] - 0.5 * (spread["journal A"] + spread["journal B"])
+    return in_equilibrium(model, load)
+
+
+def middle_load(model):
+    """A pull in y at the webs, where no interface is, balanced at the journals."""
+    z = np.abs(model.nodes[:, 2])
+    webs = np.flatnonzero((z > 0.18) & (z < 0.22))
+    load = np.zeros((len(model.nodes), 3))
+    load[webs, 1] = 1.0 / len(webs)
+    return in_equilibrium(model, load.ravel())
+
+
+def in_equilibrium(model, load):
+    rigid = rigid_motions(model.nodes, model.nodes.mean(axis=0))
+    inertia = model.mass @ rigid
+    return load - inertia @ np.linalg.solve(rigid.T @ inertia, rigid.T @ load)
+
+
+def test_static_bending_under_an_interface_load_is_exact(crank, crank_model):
+    ratio = compliance(crank, crank_model, bending_load(crank_model), "craig_bampton", 20)
+    # not 1 to the last digit: the balancing inertia load is spread over the body
+    assert ratio == pytest.approx(1.0, abs=2e-5)
+
+
+def test_static_error_falls_with_the_number_of_modes(crank, crank_model):
+    load = middle_load(crank_model)
+    errors = [
+        1.0 - compliance(crank, crank_model, load, "craig_bampton", modes)
+        for modes in (4, 8, 13, 20, 40)
+    ]
+    assert all(a >= b >= 0.0 for a, b in itertools.pairwise(errors)), errors
+    assert errors[-1] < 0.01 < errors[2], errors
+
+
+def test_free_modes_are_the_slower_way(crank, crank_model):
+    load = bending_load(crank_model)
+    errors = [1.0 - compliance(crank, crank_model, load, "free", modes) for modes in (2, 8, 20, 40)]
+    assert all(a > b > 0.0 for a, b in itertools.pairwise(errors)), errors
+    assert errors[-1] > 0.002, "static modes would not be worth having"
+
+
+def test_modes_are_mass_normal_and_free_of_rigid_motion(linkage, linkage_model, reduced_linkage):
+    modes = full_modes(linkage, linkage_model, "craig_bampton", 20)
+    mass, stiffness = linkage_model.mass, linkage_model.stiffness
+    assert modes.T @ (mass @ modes) == pytest.approx(np.eye(20), abs=1e-10)
+    squares = np.diag((2 * np.pi * reduced_linkage.frequencies) ** 2)
+    assert modes.T @ (stiffness @ modes) == pytest.approx(squares, abs=1e-8 * squares.max())
+    rigid = rigid_motions(linkage_model.nodes, np.zeros(3))
+    assert modes.T @ (mass @ rigid) == pytest.approx(np.zeros((20, 6)), abs=1e-10)
+
+
+def test_frequencies_fall_towards_those_of_the_free_body(crank, crank_model):
+    free = reduce_model(crank, crank_model, Reduction(10, "free", stress=False)).frequencies[:3]
+    found = [
+        reduce_model(crank, crank_model, Reduction(modes, stress=False)).frequencies[:3]
+        for modes in (13, 20, 40)
+    ]
+    for coarse, fine in itertools.pairwise(found):
+        assert np.all(coarse >= fine * (1 - 1e-9))
+    assert found[-1] == pytest.approx(free, rel=1e-3)
+    assert np.all(found[-1] >= free * (1 - 1e-9))
+
+
+def test_fixed_interface_modes_hold_the_mean_motion(linkage, linkage_model):
+    from fe_models.reduction import _craig_bampton_basis, interface_rows
+
+    basis, frequencies = _craig_bampton_basis(linkage, linkage_model, 12)
+    assert len(frequencies) == 6
+    motion = interface_rows(linkage, linkage_model) @ basis[:, 6:]
+    assert np.abs(motion).max() < 1e-9 * np.abs(basis[:, 6:]).max()
+
+
+@pytest.mark.parametrize("method", ["craig_bampton", "free"])
+def test_bit_for_bit_reproducible(linkage, method):
+    first, second = (reduce_part(linkage, Reduction(8, method)) for _ in range(2))
+    for key in ("frequencies", "modes", "stress", "inertia"):
+        assert np.array_equal(getattr(first, key), getattr(second, key)), key
+
+
+def test_no_modes(crank, crank_model):
+    rigid = reduce_model(crank, crank_model, Reduction(modes=0))
+    assert rigid.mode_count == 0
+    assert rigid.mass == pytest.approx(217.6, rel=3e-4)
+    assert rigid.interface("pin").translation.shape == (3, 0)
+
+
+@pytest.mark.parametrize("modes", [-1, 2.5, True])
+def test_a_mode_count_that_is_none(modes):
+    with pytest.raises(InputError, match=r"flexible.modes.*0 or more"):
+        Reduction(modes=modes)
+
+
+def test_more_modes_than_the_mesh_has(crank, crank_model):
+    with pytest.raises(InputError, match=r"at most \d+"):
+        reduce_model(crank, crank_model, Reduction(modes=crank_model.unknowns))
+
+
+def test_unknown_method_and_too_few_interfaces(crank, crank_model):
+    with pytest.raises(InputError, match="craig_bampton, free"):
+        Reduction(method="guyan")
+    loose = crank.replace(interfaces=(Interface("flange", ("rz",)),))
+    with pytest.raises(InputError, match="all six motions"):
+        reduce_model(loose, crank_model, Reduction())

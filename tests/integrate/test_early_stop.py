@@ -1,0 +1,141 @@
+"""Runs that stop early: when, where and why, and what was computed is kept."""
+
+import json
+import os
+import re
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from exu_press import Result, Scene, simulate
+
+THIN_OIL = {
+    "mechanism": "slider_crank",
+    "crank_pin": "lubricated",
+    "revolutions": 1.0,
+    "film": {"viscosity": 1e-7},
+    "solver": {"step": 1e-4},
+}
+BREAKDOWN = re.compile(
+    r"film broke down at t = (\S+) s, crank angle (\S+) deg, eccentricity ratio (\S+) "
+    r"\(crank_pin\); try a larger film\.viscosity or film\.length"
+)
+
+
+@pytest.fixture(scope="module", params=["slider_crank", "press"])
+def broken(request):
+    scene = {**THIN_OIL, "mechanism": request.param}
+    if request.param == "press":
+        scene["balls"] = "ideal"
+    return simulate(Scene.from_dict(scene))
+
+
+def test_film_that_breaks_down_says_when_and_where(broken):
+    assert broken.info["status"] == "film broke down"
+    match = BREAKDOWN.fullmatch(broken.info["reason"])
+    assert match, broken.info["reason"]
+    when, angle, ratio = map(float, match.groups())
+    assert when == pytest.approx(broken.info["end_time"], rel=1e-4)
+    assert angle == pytest.approx(360.0 * 4.0 * when, abs=0.02)
+    assert ratio >= 1.0
+
+
+def test_what_was_computed_before_the_breakdown_is_kept(broken):
+    assert not broken.completed
+    assert 0.0 < broken.time[-1] < 0.25
+    assert broken.time[-1] == pytest.approx(broken.info["end_time"], rel=1e-9)
+    assert broken.info["steps"] == len(broken.time) - 1 > 10
+    ratio = np.linalg.norm(broken["crank_pin_eccentricity"], axis=1) / 1e-4
+    assert ratio.max() < 1.0, "no accepted state lies outside the film"
+    assert ratio[-1] > 0.9, "and the last one is close to its end"
+    for name in broken:
+        assert np.all(np.isfinite(broken[name])), name
+
+
+def test_summary_of_a_breakdown_is_complete(broken):
+    summary = broken.summary()
+    assert summary["status"] == "film broke down"
+    assert summary["reason"] == broken.info["reason"]
+    assert summary["rejected_steps"] > 0, "the step was halved before giving up"
+    assert 0.9 < summary["joints"]["crank_pin"]["max_eccentricity_ratio"] < 1.0
+    json.dumps(summary, allow_nan=False)
+
+
+def test_film_that_holds_completes():
+    result = simulate(Scene.from_dict({**THIN_OIL, "film": {"viscosity": 0.4}}))
+    assert result.info["status"] == "completed"
+    assert result.info["reason"] == ""
+
+
+def test_command_that_stops_early_exits_with_3_and_keeps_everything(tmp_path):
+    from exu_press.cli import main
+
+    path = tmp_path / "scene.toml"
+    path.write_text(
+        'mechanism = "slider_crank"\n[film]\nviscosity = 1e-7\n[solver]\nstep = 1e-4\n',
+        encoding="utf-8",
+    )
+    out = tmp_path / "out"
+    assert main(["run", str(path), "--out", str(out), "--quiet", "--no-pictures"]) == 3
+    summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))
+    assert summary["status"] == "film broke down"
+    assert Result.load(out / "run.nc").info["reason"] == summary["reason"]
+
+
+CTRL_C = """
+import os, signal, sys, threading, time
+
+def press_ctrl_c():
+    while signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        time.sleep(0.01)  # until the run listens
+    time.sleep(0.3)
+    os.kill(os.getpid(), signal.SIGINT)
+
+threading.Thread(target=press_ctrl_c, daemon=True).start()
+"""
+LONG_RUN = """
+from exu_press import Scene, simulate
+simulate(Scene.from_dict({
+    "mechanism": "slider_crank", "revolutions": 100.0, "solver": {"step": 1e-5}})).save(sys.argv[1])
+assert signal.getsignal(signal.SIGINT) is signal.default_int_handler, "as before the run"
+"""
+LONG_COMMAND = """
+from exu_press.cli import main
+raise SystemExit(main(["run", "slider_crank", "--set", "revolutions=100", "--set",
+                       "solver.step=1e-5", "--no-pictures", "--out", sys.argv[1]]))
+"""
+POSIX = pytest.mark.skipif(os.name != "posix", reason="SIGINT to a process")
+
+
+def interrupted(code, argument):
+    command = [sys.executable, "-c", CTRL_C + code, str(argument)]
+    return subprocess.run(command, capture_output=True, text=True, timeout=60)
+
+
+@POSIX
+def test_interrupt_keeps_what_was_computed(tmp_path):
+    done = interrupted(LONG_RUN, tmp_path / "run.nc")
+    assert done.returncode == 0, done.stderr
+    result = Result.load(tmp_path / "run.nc")
+    assert result.info["status"] == "interrupted"
+    where = r"interrupted at t = \S+ s, crank angle \S+ deg"
+    assert re.fullmatch(where, result.info["reason"]), result.info["reason"]
+    assert 10 < result.info["steps"] == len(result.time) - 1 < 2_500_000
+    assert result.time[-1] == pytest.approx(result.info["end_time"], rel=1e-9)
+    assert np.all(np.isfinite(result["slider_position"]))
+    assert result.info["rejected_steps"] == 0
+
+
+@POSIX
+def test_interrupted_command_exits_with_3(tmp_path):
+    """Summary and run.nc are written, the reason is told in one line, no traceback."""
+    done = interrupted(LONG_COMMAND, tmp_path)
+    assert done.returncode == 3, done.stderr
+    assert "Traceback" not in done.stderr
+    assert "stopped early: interrupted at t = " in done.stderr
+    summary = json.loads((tmp_path / "summary.json").read_text(encoding="utf-8"))
+    assert summary["status"] == "interrupted"
+    assert summary["steps"] > 10
+    assert Result.load(tmp_path / "run.nc").info["steps"] == summary["steps"]

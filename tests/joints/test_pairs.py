@@ -1,0 +1,259 @@
+"""What two surfaces do to each other: derivatives, rigid rotation, arms, memory."""
+
+import math
+import random
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from exu_press.joints.pairs import DryPair, FilmPair
+from exu_press.laws.contact import hertz, hunt_crossley, step_damping
+from exu_press.laws.film import film_scale, finite, pi_film, pinkus, short, with_asperities
+from exu_press.laws.friction import LuGre, lugre_steady, no_friction
+
+RADIUS, CLEARANCE = 0.07, 1e-4
+STEADY = lugre_steady(0.15, 0.1, 1e-3, 0.1, 2.0, 1e-4)
+BRISTLE = LuGre(0.15, 0.1, 1e4, 40.0, 1e-3, 0.1, 2.0)
+
+
+def contact(tension=False):
+    return step_damping(hertz(2.5545e10), 2.5545e6, 1e-5, tension)
+
+
+def dry(friction, law=None):
+    return DryPair(law or contact(), friction, RADIUS, CLEARANCE)
+
+
+def film(law):
+    return FilmPair(law, film_scale(0.4, 0.1, RADIUS, CLEARANCE), CLEARANCE)
+
+
+def mid_step(friction):
+    """A pair whose bristle is half bent, in a step of 1e-6 s."""
+    pair = dry(friction)
+    pair.bristle = 0.5e-5
+    pair.begin_step(1e-6, accepted=False)
+    return pair
+
+
+DRY = {
+    "without friction": dry(no_friction()),
+    "steady friction": dry(STEADY),
+    "bristle": mid_step(BRISTLE),
+    "with tension": dry(STEADY, contact(tension=True)),
+    "hysteretic damping": dry(STEADY, hunt_crossley(hertz(2.5545e10), 0.7)),
+}
+FILMS = {
+    "pinkus": film(pinkus()),
+    "pi_film": film(pi_film()),
+    "short": film(short(0.7)),
+    "finite": film(finite(0.7)),
+    "mixed": film(with_asperities(pi_film(), 0.1)),
+}
+
+
+def dry_states(count, seed=1):
+    """Random states in contact; half of them almost stick."""
+    rng = random.Random(seed)
+    for number in range(count):
+        e = CLEARANCE + 10 ** rng.uniform(-7, -4.5)
+        omega_j, omega_b = rng.uniform(-30, 30), rng.uniform(-30, 30)
+        sliding = rng.uniform(-3e-4, 3e-4) if number % 2 else rng.uniform(-2, 2)
+        v_t = sliding - RADIUS * omega_j + (RADIUS + e) * omega_b
+        yield e, rng.uniform(-1e-3, 3e-3), v_t, omega_j, omega_b
+
+
+def film_states(count, seed=2, largest=0.95):
+    rng = random.Random(seed)
+    for _ in range(count):
+        yield (
+            CLEARANCE * rng.uniform(0.02, largest),
+            rng.uniform(-0.1, 0.1),
+            rng.uniform(-0.1, 0.1),
+            rng.uniform(-30, 30),
+            rng.uniform(-30, 30),
+        )
+
+
+def assert_derivatives(pair, state, widths):
+    given = pair.force(*state)
+    assert given is not None
+    for i, width in enumerate(widths):
+        up, down = list(state), list(state)
+        up[i] += width
+        down[i] -= width
+        high, low = pair.force(*up), pair.force(*down)
+        for force in (0, 1):
+            difference = (high[0][force] - low[0][force]) / (2 * width)
+            scale = max(abs(given[0][force]) / (1e4 * width), abs(difference), 1e-6)
+            assert abs(given[1 + force][i] - difference) < 3e-5 * scale, (force, i, state)
+
+
+@pytest.mark.parametrize("pair", DRY.values(), ids=DRY)
+def test_derivatives_of_a_dry_pair(pair):
+    for state in dry_states(60):
+        if pair.force(*state)[0][0] == 0.0:
+            continue  # held at zero: no tension
+        width = 1e-4 * (state[0] - CLEARANCE)
+        assert_derivatives(pair, state, (width, 1e-8, 1e-8, 1e-7, 1e-7))
+
+
+@pytest.mark.parametrize("pair", FILMS.values(), ids=FILMS)
+def test_derivatives_of_a_film_pair(pair):
+    for state in film_states(60):
+        assert_derivatives(pair, state, (1e-10, 1e-6, 1e-6, 1e-4, 1e-4))
+
+
+def test_free_flight_costs_nothing():
+    assert dry(STEADY).force(0.9 * CLEARANCE, 1.0, 1.0, 1.0, 1.0) is None
+    assert dry(BRISTLE).force(0.9 * CLEARANCE, 1.0, 1.0, 1.0, 1.0) is None
+
+
+def test_contact_begins_at_the_clearance():
+    assert dry(no_friction()).force(CLEARANCE, 0.1, 0.0, 0.0, 0.0) is None
+    (f_n, f_t), _, _ = dry(no_friction()).force(CLEARANCE + 1e-6, 0.0, 0.3, 0.0, 0.0)
+    assert f_n == pytest.approx(-2.5545e10 * 1e-6**1.5)
+    assert f_t == 0.0
+
+
+def test_contact_pushes_the_journal_inwards_and_friction_against_its_sliding():
+    (f_n, f_t), _, _ = dry(STEADY).force(CLEARANCE + 1e-6, 0.0, 0.5, 0.0, 0.0)
+    assert f_n < 0.0
+    assert f_t < 0.0
+    assert f_t / f_n == pytest.approx(0.1 + 0.05 * math.exp(-25) + 0.5e-3)
+
+
+def test_friction_acts_on_the_sliding_of_the_two_surfaces():
+    """A turning journal that stays in place slides with R omega."""
+    omega = 3.0
+    (f_n, f_t), _, _ = dry(STEADY).force(CLEARANCE + 1e-6, 0.0, 0.0, omega, 0.0)
+    assert f_t / f_n == pytest.approx(STEADY(RADIUS * omega)[0], rel=1e-12)
+
+
+@pytest.mark.parametrize("pair", [*FILMS.values(), DRY["steady friction"]])
+def test_turning_together_like_one_body_moves_no_surface(pair):
+    """Co-rotation: v_t = omega |e|, both bodies with omega. A mixed-up W fails here."""
+    omega = 20.0
+    e = 0.6 * CLEARANCE if isinstance(pair, FilmPair) else CLEARANCE + 1e-6
+    (f_n, f_t), _, _ = pair.force(e, 0.0, omega * e, omega, omega)
+    turning_alone, _, _ = pair.force(e, 0.0, 0.0, omega, 0.0)
+    assert abs(f_t) < 1e-8 * abs(turning_alone[1])
+    if isinstance(pair, FilmPair):
+        assert abs(f_n) < 1e-8 * abs(turning_alone[0])
+
+
+@pytest.mark.parametrize("pair", [DRY["steady friction"], FILMS["pinkus"]], ids=["dry", "film"])
+def test_arms_conserve_angular_momentum(pair):
+    """a_J + a_B + |e| = 0: the two moments balance the couple of the separated centres."""
+    for e in (0.0, 0.3 * CLEARANCE, CLEARANCE + 1e-5):
+        a_j, a_b, slope_j, slope_b = pair.arms(e)
+        assert a_j + a_b + e == pytest.approx(0.0, abs=1e-17)
+        assert slope_j + slope_b == -1.0
+
+
+def test_dry_contact_point_lies_on_the_journals_surface():
+    a_j, a_b, _, _ = dry(STEADY).arms(CLEARANCE + 1e-5)
+    assert a_j == RADIUS
+    assert a_b == -(RADIUS + CLEARANCE + 1e-5)
+
+
+def test_stored_energy_of_a_dry_pair_is_the_work_of_its_elastic_force():
+    pair = dry(no_friction())
+    depth = 1e-5
+    assert pair.stored_energy(CLEARANCE + depth) == pytest.approx(2.5545e10 * depth**2.5 / 2.5)
+    assert pair.stored_energy(0.5 * CLEARANCE) == 0.0
+    assert FILMS["pinkus"].stored_energy(0.9 * CLEARANCE) == 0.0
+
+
+@pytest.mark.parametrize("name", ["pinkus", "pi_film", "short", "finite"])
+def test_film_outside_its_range_is_nan_and_remembered(name):
+    pair = FILMS[name]
+    (f_n, _), _, _ = pair.force(1.01 * CLEARANCE, 0.1, 0.1, 1.0, 0.0)
+    assert math.isnan(f_n)
+    assert pair.outside == pytest.approx(1.01)
+    pair.force(0.5 * CLEARANCE, 0.1, 0.1, 1.0, 0.0)
+    assert pair.outside is None
+
+
+def test_only_pairs_with_a_memory_are_stateful():
+    assert not dry(STEADY).stateful
+    assert not FILMS["pinkus"].stateful
+    assert dry(BRISTLE).stateful
+    assert DRY["hysteretic damping"].stateful
+
+
+def test_bristle_follows_its_differential_equation():
+    """Sliding to and fro: step by step against SciPy's Radau; first order, 2 % at 2000 steps."""
+    soft = LuGre(0.15, 0.1, 1e2, 0.5, 0.0, 0.1, 2.0)
+    pair = dry(soft)
+    e, period, steps = CLEARANCE + 1e-6, 0.1, 2000
+
+    def speed(t):
+        return 0.3 * math.sin(2 * math.pi * t / period)
+
+    exact = solve_ivp(
+        lambda t, z: [soft.rate(speed(t), z[0])],
+        (0.0, period),
+        [0.0],
+        "Radau",
+        t_eval=np.linspace(0.0, period, steps + 1),
+        rtol=1e-9,
+        atol=1e-14,
+    )
+    pair.begin_step(0.0, accepted=True)
+    for number in range(1, steps + 1):
+        pair.begin_step(period / steps, accepted=True)
+        pair.force(e, 0.0, speed(number * period / steps), 0.0, 0.0)
+        if number in (steps // 4, steps // 2, 3 * steps // 4):
+            z = exact.y[0, number]
+            v = speed(number * period / steps)
+            mu = soft.sigma_0 * z + soft.sigma_1 * soft.rate(v, z)
+            (f_n, f_t), _, _ = pair.force(e, 0.0, v, 0.0, 0.0)
+            assert f_t / f_n == pytest.approx(mu, rel=0.02)
+
+
+def test_bristle_is_kept_from_accepted_steps_only():
+    pair = dry(BRISTLE)
+    state = (CLEARANCE + 1e-6, 0.0, 0.5, 0.0, 0.0)
+    pair.begin_step(1e-6, accepted=True)
+    first = pair.force(*state)
+    pair.force(CLEARANCE + 1e-6, 0.0, -0.5, 0.0, 0.0)
+    assert pair.force(*state) == first, "iterations of a step leave no trace"
+    pair.begin_step(1e-6, accepted=False)
+    assert pair.force(*state) == first, "a repeated step starts where the rejected one did"
+    pair.begin_step(1e-6, accepted=True)
+    assert pair.force(*state) != first, "the next step starts where this one ended"
+
+
+def test_bristle_is_not_reset_by_separation():
+    """Spec 2: z goes on in free flight."""
+    pair = dry(BRISTLE)
+    pair.begin_step(1e-6, accepted=True)
+    pair.force(CLEARANCE + 1e-6, 0.0, 0.5, 0.0, 0.0)
+    pair.begin_step(1e-9, accepted=True)
+    bent = pair.bristle
+    assert bent > 0.0
+    pair.force(0.5 * CLEARANCE, 0.0, 0.0, 0.0, 0.0)
+    pair.begin_step(1e-9, accepted=True)
+    assert pair.bristle == bent
+
+
+def test_approach_speed_is_the_last_one_before_touching():
+    pair = dry(STEADY, hunt_crossley(hertz(2.5545e10), 0.7))
+    for e, e_dot in ((0.9, 0.1), (0.99, 0.2), (1.01, 0.19), (1.02, 0.15)):
+        pair.begin_step(1e-6, accepted=True)
+        pair.force(e * CLEARANCE, e_dot, 0.0, 0.0, 0.0)
+    pair.begin_step(1e-6, accepted=True)
+    assert pair.approach_speed == 0.2
+
+
+def test_reset_forgets():
+    pair = dry(BRISTLE)
+    for _ in range(2):
+        pair.begin_step(1e-3, accepted=True)
+        pair.force(CLEARANCE + 1e-6, 0.0, 0.5, 0.0, 0.0)
+    assert pair.bristle != 0.0
+    pair.reset()
+    pair.begin_step(1e-3, accepted=True)
+    assert pair.bristle == 0.0

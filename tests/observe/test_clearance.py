@@ -1,0 +1,102 @@
+"""What happened in a clearance joint, on paths with known answers."""
+
+import numpy as np
+import pytest
+
+from exu_press.observe import joint_summary
+
+CLEARANCE = 1e-4
+TIME = np.linspace(0.0, 1.0, 1001)
+DRY = {"film": False, "contact": True}
+FILM = {"film": True, "contact": False}
+
+
+def path(distance, dimensions=2):
+    """A path along a diagonal, so that every component counts."""
+    direction = np.array([0.6, -0.8, 0.0][:dimensions])
+    return np.asarray(distance)[:, None] * direction
+
+
+def observe(distance, dimensions=2, force=None, time=TIME, **kind):
+    eccentricity = path(distance, dimensions)
+    force = np.zeros_like(eccentricity) if force is None else force
+    return joint_summary(time, eccentricity, force, CLEARANCE, **(kind or DRY))
+
+
+@pytest.mark.parametrize("dimensions", [2, 3])
+def test_two_touches_and_their_share_of_time(dimensions):
+    distance = np.full(1001, 0.5 * CLEARANCE)
+    distance[100:201] = CLEARANCE + 2e-6
+    distance[500:901] = CLEARANCE + 5e-6
+    entries = observe(distance, dimensions)
+    assert entries["impacts"] == 2
+    assert entries["share_contact"] == pytest.approx(0.5, abs=1e-12)
+    assert entries["share_free_flight"] == pytest.approx(0.5, abs=1e-12)
+    assert entries["peak_penetration"] == pytest.approx(5e-6)
+    assert entries["max_eccentricity_ratio"] == pytest.approx(1.05)
+    assert entries["min_film"] is None
+
+
+def test_contact_from_the_first_instant_is_a_touch():
+    entries = observe(np.full(1001, CLEARANCE + 1e-6))
+    assert entries["impacts"] == 1
+    assert entries["share_contact"] == pytest.approx(1.0)
+    assert entries["share_free_flight"] == pytest.approx(0.0)
+
+
+def test_free_flight_all_the_time():
+    entries = observe(np.full(1001, 0.3 * CLEARANCE))
+    assert entries["impacts"] == 0
+    assert entries["share_contact"] == 0.0
+    assert entries["peak_penetration"] == 0.0
+    assert entries["max_eccentricity_ratio"] == pytest.approx(0.3)
+
+
+def test_touching_begins_at_1e_10():
+    """Spec 2: contact where the penetration exceeds 1e-10 m."""
+    assert observe(np.full(1001, CLEARANCE + 0.5e-10))["impacts"] == 0
+    assert observe(np.full(1001, CLEARANCE + 2e-10))["impacts"] == 1
+
+
+def test_shares_are_shares_of_time_not_of_steps():
+    time = np.concatenate([np.linspace(0.0, 0.9, 10), np.linspace(0.91, 1.0, 1000)])
+    distance = np.where(time > 0.905, CLEARANCE + 1e-6, 0.0)
+    entries = observe(distance, time=time)
+    assert entries["share_contact"] == pytest.approx(0.09, abs=1e-9)
+
+
+def test_film_has_a_thickness_and_no_impacts():
+    distance = CLEARANCE * (0.4 + 0.3 * np.sin(20.0 * TIME))
+    entries = observe(distance, **FILM)
+    assert entries["min_film"] == pytest.approx(0.3 * CLEARANCE, rel=1e-3)
+    assert entries["max_eccentricity_ratio"] == pytest.approx(0.7, rel=1e-3)
+    for name in ("peak_penetration", "impacts", "share_free_flight", "share_contact"):
+        assert entries[name] is None
+
+
+def test_peak_force_is_a_length():
+    force = np.zeros((1001, 2))
+    force[500] = (-3.0, 4.0)
+    assert observe(np.zeros(1001), force=force)["peak_force"] == pytest.approx(5.0)
+
+
+def test_mixed_film_touches_from_the_asperities_on():
+    distance = np.full(1001, 0.5 * CLEARANCE)
+    distance[100:201] = 0.97 * CLEARANCE
+    kind = {"film": True, "contact": True}
+    assert observe(distance, **kind)["impacts"] == 0
+    entries = observe(distance, **kind, onset=0.05 * CLEARANCE)
+    assert entries["impacts"] == 1
+    assert entries["share_contact"] == pytest.approx(0.1, abs=1e-12)
+    assert entries["min_film"] == pytest.approx(0.03 * CLEARANCE)
+
+
+def test_a_single_instant():
+    entries = observe(np.zeros(1), time=np.zeros(1))
+    assert entries["share_contact"] == 0.0
+    assert entries["share_free_flight"] == 1.0
+
+
+def test_entries_are_plain_numbers():
+    for value in observe(np.full(1001, CLEARANCE + 1e-6)).values():
+        assert value is None or type(value) in (int, float)

@@ -1,0 +1,19 @@
+import pytest
+
+from exu_press.plots import energy_figure
+
+LABELS = ["dry", "lubricated", "slider_crank", "stopped"]
+
+
+@pytest.mark.parametrize("label", LABELS)
+def test_balance_losses_and_residual_with_units(results, label):
+    panels = {axes.get_title("left"): axes for axes in energy_figure(results[label]).axes}
+    assert set(panels) == {"Balance", "Dissipated in", "Residual"}
+    assert all(axes.get_ylabel().endswith(("J", "mJ")) for axes in panels.values())
+    names = [text.get_text() for text in panels["Dissipated in"].get_legend().get_texts()]
+    assert names == ["crank pin"] + ["ball, each side"] * (label != "slider_crank")
+
+
+def test_ideal_joints_dissipate_nothing(results):
+    titles = {axes.get_title("left") for axes in energy_figure(results["ideal"]).axes}
+    assert titles == {"Balance", "Residual"}

@@ -1,0 +1,57 @@
+import dataclasses
+
+import numpy as np
+import pytest
+
+from exu_press.errors import InputError
+from exu_press.plots import orbit_figure
+
+
+def titled(figure):
+    return {axes.get_title("left"): axes for axes in figure.axes if axes.get_title("left")}
+
+
+@pytest.mark.parametrize("label", ["dry", "lubricated", "stopped"])
+def test_pin_and_ball_in_their_circles_with_units(results, label):
+    panels = titled(orbit_figure(results[label]))
+    assert list(panels) == [
+        "Crank pin: path",
+        "Crank pin: eccentricity",
+        "Ball, each side: path",
+        "Ball, each side: height in its socket",
+    ]
+    assert all(axes.get_ylabel().endswith(", µm") for axes in panels.values())
+
+
+def test_a_slider_crank_has_a_pin_alone(results):
+    assert len(titled(orbit_figure(results["slider_crank"]))) == 2
+
+
+def test_a_small_path_is_magnified_beside_the_whole_circle(results):
+    path = titled(orbit_figure(results["lubricated"]))["Crank pin: path"]
+    assert path.get_xlim()[1] < 50.0  # um, of 100
+    (inset,) = path.child_axes
+    assert inset.get_xlim()[1] > 100.0
+
+
+def test_a_circle_is_round_and_a_large_path_is_whole(results):
+    path = titled(orbit_figure(results["dry"]))["Crank pin: path"]
+    reach = 1e6 * np.linalg.norm(results["dry"]["crank_pin_eccentricity"], axis=1).max()
+    assert path.get_aspect() == 1.0
+    assert path.get_xlim()[1] > reach > 100.0
+    assert not path.child_axes
+
+
+def test_balls_that_move_sideways_are_both_shown(results):
+    channels = dict(results["dry"].channels)
+    for name, shift in (("ball_left", 1e-5), ("ball_right", 2e-5)):
+        channel = channels[f"{name}_eccentricity"]
+        moved = channel.values + shift * np.array([1.0, 0.0, 0.0])
+        channels[f"{name}_eccentricity"] = dataclasses.replace(channel, values=moved)
+    figure = orbit_figure(dataclasses.replace(results["dry"], channels=channels))
+    assert {"Ball, left: path", "Ball, right: path"} <= set(titled(figure))
+
+
+def test_ideal_joints_have_no_paths(results):
+    with pytest.raises(InputError, match="no joint with clearance"):
+        orbit_figure(results["ideal"])

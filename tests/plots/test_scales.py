@@ -1,0 +1,55 @@
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+from exu_press.plots.scales import angle_ticks, crank_angle_axis, impact_scale, widen
+
+
+@pytest.mark.parametrize(
+    ("low", "high"), [(0, 720), (0, 18), (0, 0.5), (90, 2250), (-180, 180), (0, 36_000)]
+)
+def test_angle_ticks_are_few_round_and_inside(low, high):
+    ticks = angle_ticks(low, high)
+    assert 2 <= len(ticks) <= 10
+    assert low - 1e-6 <= ticks[0] < ticks[-1] <= high + 1e-6
+
+
+def test_dead_centres_are_marked_and_named():
+    figure = Figure()
+    axes = figure.subplots()
+    crank_angle_axis([axes], 0.0, 400.0)
+    figure.draw_without_rendering()
+    labels = [label.get_text() for label in axes.get_xticklabels()]
+    assert "0\nTDC" in labels
+    assert "180\nBDC" in labels
+    assert [line.get_xdata()[0] for line in axes.lines] == [0.0, 180.0, 360.0]
+
+
+def test_an_axis_without_impacts_stays_linear():
+    axes, angle = Figure().subplots(), np.linspace(0, 720, 1000)
+    assert impact_scale(axes, [(angle, np.sin(angle))], signed=True) == ""
+    assert axes.get_yscale() == "linear"
+
+
+@pytest.mark.parametrize("signed", [True, False])
+def test_an_axis_with_impacts_says_where_it_is_linear(signed):
+    axes, angle = Figure().subplots(), np.linspace(0, 720, 10_001)
+    values = 8.0 * np.abs(np.sin(np.radians(angle)))
+    values[5000] = 900.0
+    assert "linear to 10 " in impact_scale(axes, [(angle, values)], signed=signed)
+    low, high = axes.get_ylim()
+    assert low == (-high if signed else 0.0)
+    assert high > 900.0
+    assert {0.0, 10.0, 100.0} <= set(axes.get_yticks())
+
+
+def test_nothing_to_scale():
+    axes = Figure().subplots()
+    assert impact_scale(axes, [(np.zeros(1), np.zeros(1))], signed=False) == ""
+
+
+def test_rounding_errors_do_not_fill_a_panel():
+    axes = Figure().subplots()
+    axes.plot([0, 1], [0, 1e-9])
+    widen(axes, 1.0)
+    assert axes.get_ylim() == (-1.0, 1.0)

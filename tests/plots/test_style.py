@@ -1,0 +1,48 @@
+import subprocess
+import sys
+
+import matplotlib
+import pytest
+from matplotlib.figure import Figure
+
+from exu_press.plots import force_figure
+from exu_press.plots.style import COLOURS, colour_of, look, styled
+
+
+def test_no_global_state_changes(results):
+    matplotlib.rcParams["font.size"] = 7.0
+    before = dict(matplotlib.rcParams)
+    force_figure({"run": results["dry"]})
+    assert dict(matplotlib.rcParams) == before
+    matplotlib.rcdefaults()
+
+
+def test_no_global_state_changes_when_drawing_fails():
+    @styled
+    def failing() -> Figure:
+        raise RuntimeError
+
+    before = dict(matplotlib.rcParams)
+    with pytest.raises(RuntimeError):
+        failing()
+    assert dict(matplotlib.rcParams) == before
+
+
+def test_the_users_settings_do_not_reach_our_pictures():
+    with matplotlib.rc_context({"lines.marker": "o"}), look():
+        assert matplotlib.rcParams["lines.marker"] == "None"
+
+
+def test_colours_start_again():
+    assert colour_of(len(COLOURS)) == colour_of(0)
+
+
+def test_only_pictures_import_matplotlib_and_never_pyplot():
+    code = (
+        "import sys, exu_press, exu_press.simulation, exu_press.result;"
+        "assert 'matplotlib' not in sys.modules;"
+        "import exu_press.plots;"
+        "assert 'matplotlib' in sys.modules;"
+        "assert 'matplotlib.pyplot' not in sys.modules"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)

@@ -1,0 +1,43 @@
+from exu_press import Scene
+from exu_press.plots.words import describe, early_stops, joint_in_words
+
+
+def test_a_scene_in_words():
+    scene = Scene(clearance={"crank_pin": 5e-5}, speed_rpm=200, blanking={"force": 1e4})
+    words = describe([scene])
+    for part in (
+        "Press",
+        "200 rpm",
+        "crank pin lubricated",
+        "crank pin radial clearance 0.05 mm",
+        "balls dry",
+        "ball radial clearance 0.1 mm",
+        "blanking force 10 kN",
+    ):
+        assert part in words
+
+
+def test_scenes_share_what_they_have_in_common():
+    words = describe([Scene(crank_pin="ideal", balls="ideal"), Scene(crank_pin="dry")])
+    assert "crank pin radial clearance 0.1 mm" in words
+    assert "dry" not in words
+    assert "ideal" not in words
+    assert "rpm" not in describe([Scene(), Scene(speed_rpm=300)])
+
+
+def test_long_words_break_between_phrases():
+    lines = describe([Scene()], width=40).splitlines()
+    assert len(lines) > 1
+    assert all(len(line) <= 40 for line in lines)
+
+
+def test_early_stops_are_named(results):
+    assert early_stops({"a": results["dry"]}) == ""
+    both = {"a": results["dry"], "b": results["stopped"]}
+    assert early_stops(both).startswith("b: stopped early")
+    assert "crank angle 18.00 deg" in early_stops(both)
+
+
+def test_joint_names():
+    assert joint_in_words("ball_right") == "Ball, right"
+    assert joint_in_words("knuckle_6_left") == "Knuckle 6, left"

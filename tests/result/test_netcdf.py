@@ -1,0 +1,180 @@
+"""A result as a file: complete, readable by others, never half written."""
+
+import errno
+
+import numpy as np
+import pytest
+from scipy.io import netcdf_file
+
+from exu_press import InputError, Result, Scene, simulate
+from exu_press.result import netcdf
+
+
+@pytest.fixture(scope="module")
+def result():
+    scene = {
+        "mechanism": "press",
+        "crank_pin": "dry",
+        "revolutions": 0.02,
+        "friction": {"law": "lugre"},
+        "solver": {"step": 2e-5},
+    }
+    return simulate(Scene.from_dict(scene))
+
+
+@pytest.fixture
+def path(tmp_path):
+    return tmp_path / "run.nc"
+
+
+def assert_equal(first, second):
+    assert set(first.channels) == set(second.channels)
+    for name, channel in first.channels.items():
+        other = second.channels[name]
+        assert np.array_equal(channel.values, other.values), name
+        assert (channel.unit, channel.long_name, channel.axis) == (
+            other.unit,
+            other.long_name,
+            other.axis,
+        ), name
+
+
+def test_round_trip(result, path):
+    result.save(path)
+    loaded = Result.load(path)
+    assert_equal(result, loaded)
+    assert loaded.scene == result.scene
+    assert loaded.info == result.info
+    assert loaded.bodies == result.bodies
+    assert loaded.summary() == result.summary()
+
+
+def test_round_trip_without_clearance_joints(path):
+    scene = {"mechanism": "slider_crank", "crank_pin": "ideal", "revolutions": 0.01}
+    ideal = simulate(Scene.from_dict({**scene, "solver": {"step": 1e-4}}))
+    ideal.save(str(path))
+    assert_equal(ideal, Result.load(str(path)))
+
+
+def test_opens_without_the_package(result, path):
+    """SciPy alone: every variable has units and a long name, time is a dimension."""
+    result.save(path)
+    with netcdf_file(path, mmap=False) as file:
+        assert set(file.variables) == set(result.channels)
+        for name, variable in file.variables.items():
+            assert variable.units.decode() == result.channels[name].unit
+            assert variable.long_name.decode() == result.channels[name].long_name
+            assert variable.dimensions[0] == "time"
+        assert file.dimensions["time"] == len(result.time)
+        assert file.variables["slider_position"][-1] == result["slider_position"][-1]
+        assert b'"exudyn"' in file.info
+        assert b'"law": "lugre"' in file.scene
+
+
+def test_scene_in_the_file_reproduces_the_run_bit_for_bit(result, path):
+    result.save(path)
+    again = simulate(Result.load(path).scene)
+    assert_equal(result, again)
+    for key in ("status", "steps", "newton_iterations", "law_evaluations"):
+        assert again.info[key] == result.info[key]
+
+
+@pytest.mark.parametrize("moment", ["while writing", "when closing", "when renaming"])
+@pytest.mark.parametrize("kind", [OSError, KeyboardInterrupt])
+def test_a_write_that_fails_leaves_the_old_file_and_no_half_one(
+    result, path, monkeypatch, moment, kind
+):
+    """A full disk or Ctrl-C: what was there stays, nothing else is left."""
+    path.write_bytes(b"what was there")
+
+    def fail(*arguments, **options):
+        raise OSError(errno.ENOSPC, "No space left on device") if kind is OSError else kind
+
+    if moment == "while writing":
+        monkeypatch.setattr(netcdf.netcdf_file, "createVariable", fail)
+    elif moment == "when closing":
+        monkeypatch.setattr(netcdf.netcdf_file, "flush", fail)
+    else:
+        monkeypatch.setattr(type(path), "replace", fail)
+    expected = InputError if kind is OSError else kind
+    with pytest.raises(expected) as caught:
+        result.save(path)
+    monkeypatch.undo()
+    if kind is OSError:
+        assert str(caught.value) == f"{path}: cannot be written (No space left on device)"
+    assert path.read_bytes() == b"what was there"
+    assert [entry.name for entry in path.parent.iterdir()] == ["run.nc"]
+
+
+def test_a_killed_process_leaves_no_half_file(result, path, monkeypatch):
+    """Until all is written nothing bears the name: looked at in the middle of a write."""
+    seen = []
+    original = netcdf.netcdf_file.createVariable
+
+    def watch(self, *arguments, **options):
+        seen.append(path.exists())
+        return original(self, *arguments, **options)
+
+    monkeypatch.setattr(netcdf.netcdf_file, "createVariable", watch)
+    result.save(path)
+    assert seen
+    assert not any(seen), "the name appears with the rename, after the last variable"
+    assert path.exists()
+
+
+def test_no_such_directory(result, tmp_path):
+    with pytest.raises(InputError, match=r"run\.nc: cannot be written \(No such file"):
+        result.save(tmp_path / "nowhere" / "run.nc")
+
+
+def test_missing_file(path):
+    with pytest.raises(InputError, match=r"run\.nc: cannot be read \(No such file"):
+        Result.load(path)
+
+
+def test_directory(tmp_path):
+    with pytest.raises(InputError, match="cannot be read"):
+        Result.load(tmp_path)
+
+
+@pytest.mark.parametrize(
+    "content",
+    [b"", b"nothing like it", b"CDF", b"CDF\x02", b"\x89HDF\r\n\x1a\n" + bytes(100), b"CDF\x02abc"],
+    ids=["empty", "text", "CDF", "CDF 2", "HDF5", "garbage"],
+)
+def test_files_that_are_no_results_are_refused(path, content):
+    path.write_bytes(content)
+    with pytest.raises(InputError, match=r"run\.nc: not a result of exu_press"):
+        Result.load(path)
+
+
+def test_netcdf_of_others_is_refused(path):
+    with netcdf_file(path, "w") as file:
+        file.createDimension("time", 3)
+        file.createVariable("time", "d", ("time",))[:] = 0.0
+    with pytest.raises(InputError, match=r"run\.nc: not a result of exu_press"):
+        Result.load(path)
+
+
+@pytest.mark.parametrize("share", [0.1, 0.5, 0.99])
+def test_truncated_file_is_refused(result, path, share):
+    result.save(path)
+    content = path.read_bytes()
+    path.write_bytes(content[: int(share * len(content))])
+    with pytest.raises(InputError, match=r"run\.nc"):
+        Result.load(path)
+
+
+def test_early_stop_is_saved_with_its_reason(path):
+    scene = {
+        "mechanism": "slider_crank",
+        "revolutions": 0.2,
+        "film": {"viscosity": 1e-7},
+        "solver": {"step": 1e-4},
+    }
+    stopped = simulate(Scene.from_dict(scene))
+    assert not stopped.completed
+    stopped.save(path)
+    loaded = Result.load(path)
+    assert not loaded.completed
+    assert loaded.info["reason"] == stopped.info["reason"] != ""

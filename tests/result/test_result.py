@@ -1,0 +1,130 @@
+"""A result's channels, status and summary."""
+
+import json
+
+import numpy as np
+import pytest
+
+from exu_press import InputError, Result, Scene, simulate
+
+SCENE = {"mechanism": "press", "revolutions": 0.02, "solver": {"step": 1e-4}}
+
+
+@pytest.fixture(scope="module")
+def result():
+    return simulate(Scene.from_dict({**SCENE, "blanking": {"force": 1e4}}))
+
+
+def test_channels_of_the_interface(result):
+    n = len(result.time)
+    for name in ("slider_position", "slider_velocity", "slider_acceleration", "crank_angle"):
+        assert result[name].shape == (n,)
+    assert result["crank_pin_eccentricity"].shape == (n, 2)
+    assert result["crank_pin_force"].shape == (n, 2)
+    for side in ("left", "right"):
+        assert result[f"ball_{side}_eccentricity"].shape == (n, 3)
+        assert result[f"ball_{side}_force"].shape == (n, 3)
+    assert result["guide_force"].shape == (n,)
+    assert result["body_position"].shape == (n, len(result.bodies), 3)
+
+
+def test_channels_have_units_and_names(result):
+    for name in result:
+        channel = result.channels[name]
+        assert channel.long_name
+        assert channel.unit
+    assert result.channels["slider_acceleration"].unit == "m/s^2"
+    assert result.channels["crank_pin_force"].unit == "N"
+
+
+def test_time_holds_the_start_and_every_step(result):
+    assert result.time[0] == 0.0
+    assert result.time[-1] == pytest.approx(result.scene.duration, rel=1e-9)
+    assert len(result.time) == result.info["steps"] + 1
+    assert np.all(np.diff(result.time) > 0.0)
+
+
+def test_run_starts_on_the_ideal_mechanism_with_centred_journals(result):
+    for joint in result.clearance_joints:
+        assert np.abs(result[f"{joint}_eccentricity"][0]).max() < 1e-12
+    assert result["slider_position"][0] == pytest.approx(0.47 + 26.19e-3, abs=0.02e-3)
+    assert result["slider_velocity"][0] == pytest.approx(0.0, abs=1e-9)
+
+
+def test_clearance_joints(result):
+    assert sorted(result.clearance_joints) == ["ball_left", "ball_right", "crank_pin"]
+
+
+def test_unknown_channel_shows_the_known_ones(result):
+    with pytest.raises(InputError, match=r"channel 'slider'.*slider_position.*time") as caught:
+        result["slider"]
+    assert "\n" not in str(caught.value)
+    assert "slider" not in result
+    assert "slider_position" in result
+
+
+def test_summary_has_what_the_interface_promises(result):
+    summary = result.summary()
+    top = {
+        "status",
+        "reason",
+        "end_time",
+        "wall_time",
+        "total_time",
+        "steps",
+        "rejected_steps",
+        "newton_iterations",
+        "law_evaluations",
+        "coordinates",
+        "bodies",
+        "connectors",
+        "peak_acceleration",
+        "peak_velocity",
+        "stroke",
+        "ldp",
+        "energy",
+        "versions",
+        "scene",
+    }
+    assert top <= set(summary)
+    assert set(summary["peak_acceleration"]) == {"resolved", "mean_1ms", "differentiated_1khz"}
+    assert set(summary["energy"]) == {"input", "dissipated", "stored", "residual"}
+    assert summary["status"] == "completed"
+    assert summary["reason"] == ""
+    assert summary["bodies"] == 14
+    assert summary["coordinates"] == 42
+    assert summary["newton_iterations"] >= summary["steps"] > 0
+    assert summary["law_evaluations"] > summary["steps"]
+    assert summary["total_time"] >= summary["wall_time"] > 0.0
+    joint = {
+        "max_eccentricity_ratio",
+        "peak_force",
+        "peak_penetration",
+        "min_film",
+        "impacts",
+        "share_free_flight",
+        "share_contact",
+    }
+    assert set(summary["joints"]) == {"crank_pin", "ball_left", "ball_right"}
+    assert all(set(entries) == joint for entries in summary["joints"].values())
+
+
+def test_summary_is_strict_json(result):
+    text = json.dumps(result.summary(), allow_nan=False)
+    assert json.loads(text) == result.summary()
+
+
+def test_summary_holds_the_complete_scene(result):
+    assert Scene.from_dict(result.summary()["scene"]) == result.scene
+
+
+def test_the_same_scene_gives_the_same_result():
+    first, second = (simulate(Scene.from_dict(SCENE)) for _ in range(2))
+    for name in first:
+        assert np.array_equal(first[name], second[name]), name
+
+
+def test_result_is_a_plain_object(result):
+    assert isinstance(result, Result)
+    assert result.completed
+    assert len(list(result)) == len(result.channels)

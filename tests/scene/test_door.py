@@ -1,0 +1,336 @@
+"""The door: what a scene allows, what it refuses and what it says; what it fills in."""
+
+import math
+
+import pytest
+
+from exu_press import InputError, Scene
+from exu_press.scene import Clearance, Film, Solver
+
+PRESS = {"mechanism": "press"}
+CRANK = {"mechanism": "slider_crank"}
+IDEAL = {"mechanism": "press", "crank_pin": "ideal", "balls": "ideal"}
+DRY = {"mechanism": "press", "crank_pin": "dry", "balls": "dry"}
+
+NUMBER_OF_EVERY_TABLE = [
+    ("speed_rpm", PRESS),
+    ("revolutions", PRESS),
+    ("gravity", PRESS),
+    ("start_angle_deg", PRESS),
+    ("clearance.crank_pin", PRESS),
+    ("clearance.balls", PRESS),
+    ("contact.radius", DRY),
+    ("contact.damping_max", DRY),
+    ("friction.mu_kinetic", DRY),
+    ("film.viscosity", PRESS),
+    ("blanking.force", PRESS),
+    ("blanking.rise", PRESS),
+    ("solver.step", PRESS),
+    ("press.slider_mass", PRESS),
+    ("press.crank_radius", PRESS),
+    ("slider_crank.rod_length", CRANK),
+    ("slider_crank.slider_mass", CRANK),
+]
+NOT_A_NUMBER = [math.nan, math.inf, -math.inf, True, "1.0", [1.0], {}, None]
+
+
+def with_key(base, key, value):
+    table, _, inner = key.rpartition(".")
+    return {**base, table: {inner: value}} if table else {**base, key: value}
+
+
+def refusal(data):
+    """Return the message with which a scene is refused."""
+    with pytest.raises(InputError) as caught:
+        Scene.from_dict(data)
+    message = str(caught.value)
+    assert "\n" not in message, "one line"
+    return message
+
+
+@pytest.mark.parametrize(
+    ("key", "base", "value"),
+    [
+        (key, base, value)
+        for key, base in NUMBER_OF_EVERY_TABLE
+        for value in NOT_A_NUMBER
+        if not (value is None and key.startswith("clearance."))  # None: no such joint
+    ],
+)
+def test_what_is_not_a_finite_number_is_refused(key, base, value):
+    """NaN, infinity, true, a text, a list, a table; the message names key, value and what is."""
+    message = refusal(with_key(base, key, value))
+    assert f"{key} = {value!r}: allowed is a number" in message
+
+
+def test_a_whole_number_too_large_for_a_float_is_refused():
+    message = refusal({"speed_rpm": 10**400})
+    assert "speed_rpm" in message
+
+
+@pytest.mark.parametrize(
+    ("key", "base"), [case for case in NUMBER_OF_EVERY_TABLE if "angle" not in case[0]]
+)
+def test_negative_is_refused(key, base):
+    """Lengths, masses, clearances, times, coefficients."""
+    message = refusal(with_key(base, key, -1e-3))
+    assert message.startswith(f"{key} = -0.001: allowed is a number >")
+
+
+@pytest.mark.parametrize(
+    ("key", "base"),
+    [
+        ("speed_rpm", PRESS),
+        ("revolutions", PRESS),
+        ("clearance.crank_pin", PRESS),
+        ("clearance.balls", PRESS),
+        ("contact.stiffness", DRY),
+        ("film.viscosity", PRESS),
+        ("film.length", PRESS),
+        ("blanking.fall", PRESS),
+        ("solver.step", PRESS),
+        ("press.plunger_mass", PRESS),
+        ("slider_crank.rod_inertia", CRANK),
+    ],
+)
+def test_zero_is_refused_where_it_has_no_meaning(key, base):
+    assert "allowed is a number > 0" in refusal(with_key(base, key, 0))
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "allowed"),
+    [
+        ("solver.spectral_radius", 1.0, ">= 0.5 and <= 0.95"),
+        ("solver.spectral_radius", 0.3, ">= 0.5 and <= 0.95"),
+        ("contact.exponent", 0.9, ">= 1"),
+        ("contact.exponent", 3.1, "<= 3"),
+        ("blanking.end_angle_deg", 361, "<= 360"),
+    ],
+)
+def test_ranges(key, value, allowed):
+    assert allowed in refusal(with_key(PRESS, key, value))
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "choices"),
+    [
+        ("mechanism", "crank_slider", ("'press'", "'slider_crank'")),
+        ("crank_pin", "lubricate", ("'ideal'", "'dry'", "'lubricated'")),
+        ("balls", "lubricated", ("'ideal'", "'dry'")),
+        ("bodies", "elastic", ("'rigid'",)),
+        ("friction.law", "coulumb", ("'none'", "'lugre_steady'", "'lugre'")),
+        ("film.law", "pinkus-sternlicht", ("'pinkus'", "'pi_film'")),
+        ("contact.damping", "kelvin", ("'step'",)),
+        ("mechanism", 1, ("'press'",)),
+        ("crank_pin", None, ("'dry'",)),
+        ("crank_pin", True, ("'dry'",)),
+        ("crank_pin", ["dry"], ("'dry'",)),
+        ("film.law", [], ("'pinkus'",)),
+    ],
+)
+def test_choices_are_shown(key, value, choices):
+    message = refusal(with_key(PRESS, key, value))
+    assert f"{key} = {value!r}: allowed is one of " in message
+    assert all(choice in message for choice in choices)
+
+
+@pytest.mark.parametrize("value", [0, 1, "true", None], ids=repr)
+def test_a_switch_is_true_or_false(value):
+    assert "allowed is true or false" in refusal({**DRY, "contact": {"tension": value}})
+
+
+@pytest.mark.parametrize(
+    ("key", "known"),
+    [
+        ("speed", "speed_rpm"),
+        ("film.viscocity", "viscosity"),
+        ("clearance.ball", "balls"),
+        ("solver.stepsize", "step"),
+        ("press.knuckle_length", "link_6_length"),
+        ("joints.crank_pin", "crank_pin"),
+        ("", "mechanism"),
+    ],
+)
+def test_unknown_key_shows_the_known_ones(key, known):
+    message = refusal(with_key(PRESS, key, 3))
+    table = key.partition(".")[0] if key.startswith("joints") else key
+    assert message.startswith(f"{table} = ")
+    assert "unknown key; allowed are " in message
+    assert known in message
+
+
+@pytest.mark.parametrize(
+    "name", ["clearance", "contact", "friction", "film", "blanking", "solver", "press"]
+)
+@pytest.mark.parametrize("value", [5, 0.5, "pinkus", True, [], [{"law": "pinkus"}]], ids=repr)
+def test_a_table_must_be_a_table(name, value):
+    message = refusal({**PRESS, name: value})
+    assert message.startswith(f"{name} = {value!r}: allowed is a table")
+
+
+@pytest.mark.parametrize("data", [None, 3, [], "press"], ids=repr)
+def test_a_scene_must_be_a_table(data):
+    assert "allowed is a table" in refusal(data)
+
+
+def test_clearance_must_be_smaller_than_the_radius():
+    message = refusal({**PRESS, "clearance": {"crank_pin": 0.07}})
+    assert message.startswith("clearance.crank_pin = 0.07: allowed is a number < contact.radius")
+    message = refusal({**PRESS, "clearance": {"balls": 2e-3}, "contact": {"radius": 1e-3}})
+    assert message.startswith("clearance.")
+    assert "contact.radius = 0.001" in message
+
+
+def test_static_friction_is_at_least_kinetic_friction():
+    message = refusal({**DRY, "friction": {"mu_static": 0.005}})
+    assert message.startswith("friction.mu_static = 0.005: allowed is a number >= friction.mu_kin")
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "names"),
+    [
+        ("linkage_length", 0.02, "press.linkage_length"),
+        ("counter_linkage_length", 0.01, "press.counter_linkage_length"),
+        ("link_5_length", 0.1, "press.link_5_length"),
+        ("link_5_length", 0.1655, "press.link_5_length"),
+        ("link_6_length", 0.01, "link_6_length"),
+        ("link_7_length", 0.005, "press.link_7_length"),
+        ("pivot_distance", 0.3, "press.link_5_length"),
+        ("crank_radius", 0.25, "link"),
+    ],
+)
+def test_links_that_cannot_be_assembled(key, value, names):
+    message = refusal({**PRESS, "press": {key: value}})
+    assert names in message
+    assert " deg" in message, "says at which crank angle"
+
+
+def test_slider_crank_that_cannot_be_assembled():
+    message = refusal({**CRANK, "slider_crank": {"crank_radius": 0.5}})
+    assert message.startswith("slider_crank.rod_length = 0.383: needs > ")
+    assert " deg" in message
+
+
+@pytest.mark.parametrize(
+    ("data", "name", "reason"),
+    [
+        ({**DRY, "film": {}}, "[film]", "crank_pin is 'dry'"),
+        ({**DRY, "film": {"viscosity": 0.1}}, "[film]", "crank_pin is 'dry'"),
+        ({**IDEAL, "film": {}}, "[film]", "crank_pin is 'ideal'"),
+        ({**IDEAL, "clearance": {}}, "[clearance]", "every joint is 'ideal'"),
+        ({**IDEAL, "contact": {}}, "[contact]", "every joint is 'ideal'"),
+        ({**IDEAL, "friction": {}}, "[friction]", "no joint is 'dry'"),
+        ({**PRESS, "balls": "ideal", "friction": {}}, "[friction]", "no joint is 'dry'"),
+        (
+            {**PRESS, "balls": "ideal", "clearance": {"balls": 1e-4}},
+            "clearance.balls",
+            "balls is 'ideal'",
+        ),
+        (
+            {**PRESS, "crank_pin": "ideal", "clearance": {"crank_pin": 1e-4}},
+            "clearance.crank_pin",
+            "crank_pin is 'ideal'",
+        ),
+        ({**CRANK, "balls": "dry"}, "balls", "mechanism is 'slider_crank'"),
+        ({**CRANK, "clearance": {"balls": 1e-4}}, "clearance.balls", ""),
+        ({**CRANK, "press": {}}, "[press]", "mechanism is 'slider_crank'"),
+        ({**PRESS, "slider_crank": {}}, "[slider_crank]", "mechanism is 'press'"),
+    ],
+)
+def test_what_a_scene_does_not_use_is_refused(data, name, reason):
+    message = refusal(data)
+    assert message.startswith(name)
+    assert "not used by this scene" in message
+    assert reason in message
+
+
+def test_blanking_longer_than_a_revolution_is_refused():
+    message = refusal({**PRESS, "blanking": {"force": 1.0, "rise": 0.2, "fall": 0.06}})
+    assert "blanking.rise + blanking.fall = 0.26" in message
+    assert "0.25 s" in message
+
+
+def test_mixed_film_needs_asperities_within_the_clearance():
+    film = {"at_contact": "mixed", "roughness": 5e-5}
+    message = refusal({**PRESS, "film": film})
+    assert "film.roughness" in message
+    assert "clearance.crank_pin" in message
+
+
+def test_defaults():
+    """Table 2 and assumptions A-1 .. A-14, as the interface shows them."""
+    scene = Scene()
+    assert (scene.mechanism, scene.bodies, scene.crank_pin, scene.balls) == (
+        "press",
+        "rigid",
+        "lubricated",
+        "dry",
+    )
+    assert (scene.speed_rpm, scene.revolutions, scene.start_angle_deg) == (240.0, 2.0, 0.0)
+    assert scene.clearance == Clearance(crank_pin=1e-4, balls=1e-4)
+    assert (scene.contact.stiffness, scene.contact.exponent) == (2.5545e10, 1.5)
+    assert (scene.contact.damping_max, scene.contact.damping_depth) == (2.5545e8, 1e-5)
+    assert scene.contact.tension is False
+    assert (scene.friction.sigma_0, scene.friction.sigma_1, scene.friction.sigma_2) == (1e5, 400, 0)
+    assert (scene.film.viscosity, scene.film.length) == (0.4, 0.1)
+    assert scene.press.pivot_distance == 0.1655
+    assert scene.press.counter_eccentricity == 0.016
+    assert scene.press.slide_mass == 60.0
+    assert scene.press.bottom_dead_centre == 0.47
+    assert scene.blanking is None
+    assert scene.slider_crank is None
+
+
+def test_what_is_not_used_is_none():
+    scene = Scene.from_dict(IDEAL)
+    assert scene.clearance is scene.contact is scene.friction is scene.film is None
+    assert Scene.from_dict({**DRY}).film is None
+    assert Scene.from_dict(CRANK).balls is None
+    assert Scene.from_dict(CRANK).clearance == Clearance(crank_pin=1e-4)
+
+
+def test_tables_may_be_dataclasses_or_mappings():
+    by_mapping = Scene.from_dict({"film": {"viscosity": 0.1}, "solver": {"step": 1e-4}})
+    assert Scene(film=Film(viscosity=0.1), solver=Solver(step=1e-4)) == by_mapping
+
+
+def test_a_whole_number_is_taken_for_a_number():
+    scene = Scene.from_dict({"speed_rpm": 300})
+    assert type(scene.speed_rpm) is float
+
+
+def test_a_scene_is_frozen():
+    with pytest.raises(AttributeError):
+        Scene().speed_rpm = 3.0
+
+
+def test_derived_quantities():
+    scene = Scene.from_dict({"speed_rpm": 120, "revolutions": 3, "start_angle_deg": 90})
+    assert scene.angular_speed == pytest.approx(4 * math.pi)
+    assert scene.duration == pytest.approx(1.5)
+    assert scene.start_angle == pytest.approx(math.pi / 2)
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        *[
+            {"mechanism": "press", "crank_pin": pin, "balls": balls}
+            for pin in ("ideal", "dry", "lubricated")
+            for balls in ("ideal", "dry")
+        ],
+        *[{"mechanism": "slider_crank", "crank_pin": p} for p in ("ideal", "dry", "lubricated")],
+        {"blanking": {"force": 1e4}, "film": {"at_contact": "mixed"}, "gravity": 0.0},
+    ],
+    ids=lambda data: " ".join(map(str, data.values())),
+)
+def test_complete_scene_round_trip(data):
+    """to_dict is complete, plain and leads back to the same scene."""
+    scene = Scene.from_dict(data)
+    complete = scene.to_dict()
+    assert Scene.from_dict(complete) == scene
+    plain = (str, float, int, bool)
+    for name, value in complete.items():
+        values = value.values() if isinstance(value, dict) else [value]
+        assert all(type(v) in plain for v in values), name
+    assert Scene.from_dict(complete).to_dict() == complete

@@ -1,0 +1,156 @@
+"""A scene file: what is read, what is refused, and that the message names the file."""
+
+from pathlib import Path
+
+import pytest
+
+import exu_press
+from exu_press import InputError, Scene, load_scene
+from exu_press.scene import parse_assignment
+
+SHIPPED = sorted((Path(exu_press.__file__).parent / "scenes").glob("*.toml"))
+
+
+def write(directory, text):
+    path = directory / "scene.toml"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def refusal(path, assignments=()):
+    with pytest.raises(InputError) as caught:
+        load_scene(path, assignments)
+    message = str(caught.value)
+    assert "\n" not in message
+    return message
+
+
+def test_file_with_tables(tmp_path):
+    path = write(
+        tmp_path,
+        'mechanism = "slider_crank"\nspeed_rpm = 300\n[film]\nviscosity = 0.1\n'
+        "[clearance]\ncrank_pin = 5e-5\n",
+    )
+    scene = load_scene(path)
+    assert scene == Scene.from_dict(
+        {
+            "mechanism": "slider_crank",
+            "speed_rpm": 300,
+            "film": {"viscosity": 0.1},
+            "clearance": {"crank_pin": 5e-5},
+        }
+    )
+    assert load_scene(str(path)) == scene
+
+
+def test_empty_file_is_the_default_scene(tmp_path):
+    assert load_scene(write(tmp_path, "")) == Scene()
+
+
+@pytest.mark.parametrize(
+    ("text", "shown"),
+    [
+        ("speed = 3", "speed = 3: unknown key"),
+        ("speed_rpm = -3", "speed_rpm = -3.0: allowed is a number > 0"),
+        ("speed_rpm = nan", "speed_rpm = nan: allowed is a number"),
+        ("speed_rpm = inf", "speed_rpm = inf: allowed is a number"),
+        ("speed_rpm = true", "speed_rpm = True: allowed is a number"),
+        ("speed_rpm = 2020-01-01", "speed_rpm = "),
+        ('crank_pin = "wet"', "crank_pin = 'wet': allowed is one of"),
+        ("film = 3", "film = 3: allowed is a table"),
+        ("[[film]]\nviscosity = 1", "film = "),
+        ('crank_pin = "dry"\n[film]\nviscosity = 1', "[film]: not used by this scene"),
+        ("[solver]\nstep = 1e-5\ntolerance = 1e-3", "solver.tolerance = 0.001"),
+        ("[press]\nlinkage_length = 0.01", "press.linkage_length = 0.01: needs > "),
+        ("[clearance]\ncrank_pin = 1.0", "clearance.crank_pin = 1.0: allowed is a number < "),
+    ],
+)
+def test_refusal_names_file_key_value_and_what_is_allowed(tmp_path, text, shown):
+    path = write(tmp_path, text)
+    assert refusal(path).startswith(f"{path}: {shown}")
+
+
+@pytest.mark.parametrize("text", ["speed_rpm =", "[film", "a = 1\na = 2", "speed_rpm: 3"])
+def test_not_toml(tmp_path, text):
+    path = write(tmp_path, text)
+    assert refusal(path).startswith(f"{path}: not a TOML file")
+
+
+def test_not_a_text_file(tmp_path):
+    path = tmp_path / "scene.toml"
+    path.write_bytes(b"\xff\xfe\x00")
+    assert refusal(path).startswith(f"{path}: not a TOML file")
+
+
+def test_missing_file(tmp_path):
+    path = tmp_path / "nowhere.toml"
+    assert refusal(path) == f"{path}: cannot be read (No such file or directory)"
+
+
+def test_directory_for_a_file(tmp_path):
+    assert refusal(tmp_path).startswith(f"{tmp_path}: cannot be read")
+
+
+@pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)
+def test_shipped_scenes_load(path):
+    assert load_scene(path).mechanism == path.stem
+
+
+def test_there_are_shipped_scenes():
+    assert {path.stem for path in SHIPPED} >= {"press", "slider_crank"}
+
+
+def test_assignments_change_the_file(tmp_path):
+    path = write(tmp_path, "speed_rpm = 300\n[film]\nviscosity = 0.1")
+    scene = load_scene(path, ["speed_rpm=200", "film.viscosity = 0.2", "film.law=pi_film"])
+    assert (scene.speed_rpm, scene.film.viscosity, scene.film.law) == (200.0, 0.2, "pi_film")
+
+
+def test_assignment_drops_what_is_no_longer_used(tmp_path):
+    path = write(tmp_path, "[film]\nviscosity = 0.1")
+    assert load_scene(path, ["crank_pin=dry"]).film is None
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("a=1", 1),
+        ("a=1e-5", 1e-5),
+        ("a = true", True),
+        ("a=dry", "dry"),
+        ('a="dry"', "dry"),
+        ("a.b=[1, 2]", [1, 2]),
+        ("a=nan", pytest.approx(float("nan"), nan_ok=True)),
+        ("a=b=c", "b=c"),
+    ],
+)
+def test_assignment_values(text, value):
+    name, given = parse_assignment(text)
+    assert name == ("a.b" if "." in text.partition("=")[0] else "a")
+    assert given == value
+
+
+@pytest.mark.parametrize("text", ["", "=", "speed_rpm", "speed_rpm=", "=3", "  = 3", "a ="])
+def test_assignment_without_key_or_value(text):
+    with pytest.raises(InputError, match=r"--set .*allowed is key=value"):
+        parse_assignment(text)
+
+
+@pytest.mark.parametrize(
+    ("assignment", "shown"),
+    [
+        ("speed=3", "speed = 3: unknown key"),
+        ("film.viscocity=3", "film.viscocity = 3: unknown key"),
+        ("film.viscosity=thick", "film.viscosity = 'thick': allowed is a number"),
+        ("clearance.crank_pin=-1e-4", "clearance.crank_pin = -0.0001: allowed is a number > 0"),
+        ("speed_rpm.now=3", "speed_rpm"),
+        ("film.law.name=pinkus", "film.law"),
+        ("nothing.at.all=3", "nothing.at"),
+        ("film=3", "film = 3: allowed is a table"),
+        ("mechanism=3", "mechanism = 3: allowed is one of"),
+        ("crank_pin=3", "crank_pin = 3: allowed is one of"),
+        ("slider_crank.rod_mass=3", "[slider_crank]: not used by this scene"),
+    ],
+)
+def test_bad_assignment_is_refused_by_name(tmp_path, assignment, shown):
+    assert shown in refusal(write(tmp_path, ""), [assignment])

@@ -1,0 +1,98 @@
+"""scene.replace: the same scene with other values."""
+
+import pytest
+
+from exu_press import InputError, Scene
+
+PRESS = Scene()
+
+
+def test_one_key():
+    changed = PRESS.replace("film.viscosity", 0.1)
+    assert changed.film.viscosity == 0.1
+    assert PRESS.film.viscosity == 0.4, "the original stays as it is"
+    assert changed.replace("film.viscosity", 0.4) == PRESS
+
+
+def test_several_keys():
+    changed = PRESS.replace({"film.viscosity": 0.1, "speed_rpm": 200.0})
+    assert (changed.film.viscosity, changed.speed_rpm) == (0.1, 200.0)
+
+
+def test_keyword_arguments():
+    assert PRESS.replace(speed_rpm=200.0, revolutions=1.0).duration == pytest.approx(0.3)
+
+
+def test_nothing_changed_is_equal():
+    assert PRESS.replace() == PRESS
+    assert PRESS.replace({}) == PRESS
+
+
+def test_other_keys_of_the_table_are_kept():
+    changed = PRESS.replace("film.viscosity", 0.1).replace("film.length", 0.05)
+    assert (changed.film.viscosity, changed.film.length) == (0.1, 0.05)
+
+
+def test_a_table_that_was_not_there():
+    assert PRESS.replace("blanking.force", 1e4).blanking.force == 1e4
+
+
+def test_made_dry_it_loses_its_film_and_made_ideal_everything():
+    dry = PRESS.replace("crank_pin", "dry")
+    assert dry.film is None
+    assert dry.clearance == PRESS.clearance
+    ideal = dry.replace(crank_pin="ideal", balls="ideal")
+    assert ideal.clearance is ideal.contact is ideal.friction is None
+
+
+def test_made_ideal_in_one_joint_it_loses_that_clearance_alone():
+    scene = PRESS.replace("clearance.balls", 2e-4).replace("crank_pin", "ideal")
+    assert scene.clearance.crank_pin is None
+    assert scene.clearance.balls == 2e-4
+
+
+def test_made_lubricated_it_gets_a_film():
+    dry = PRESS.replace("crank_pin", "dry")
+    assert dry.replace("crank_pin", "lubricated") == PRESS
+    assert dry.replace({"crank_pin": "lubricated", "film.viscosity": 0.1}).film.viscosity == 0.1
+
+
+def test_another_mechanism():
+    other = PRESS.replace("mechanism", "slider_crank")
+    assert other.press is other.balls is None
+    assert other.clearance.balls is None
+    assert other.slider_crank is not None
+    assert other.replace("mechanism", "press") == PRESS
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"crank_pin": "dry", "film.viscosity": 0.1}, r"\[film\]: not used"),
+        ({"crank_pin": "ideal", "clearance.crank_pin": 1e-4}, r"clearance\.crank_pin.*not used"),
+        ({"mechanism": "slider_crank", "balls": "dry"}, "balls = 'dry': not used"),
+        ({"mechanism": "slider_crank", "press.slider_mass": 1.0}, r"\[press\]: not used"),
+    ],
+)
+def test_what_the_change_itself_names_is_not_dropped_in_silence(change, message):
+    with pytest.raises(InputError, match=message):
+        PRESS.replace(change)
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "message"),
+    [
+        ("film.viscosity", -1.0, r"film\.viscosity = -1\.0: allowed is a number > 0"),
+        ("film.viscocity", 1.0, r"film\.viscocity = 1\.0: unknown key"),
+        ("viscosity", 1.0, r"viscosity = 1\.0: unknown key"),
+        ("speed_rpm.now", 1.0, "speed_rpm"),
+        ("clearance.crank_pin", 0.07, r"clearance\.crank_pin = 0\.07: allowed is a number <"),
+    ],
+)
+def test_bad_values_are_refused(key, value, message):
+    with pytest.raises(InputError, match=message):
+        PRESS.replace(key, value)
+
+
+def test_step_is_replaced():
+    assert PRESS.replace("solver.step", 1e-4).solver.step == 1e-4

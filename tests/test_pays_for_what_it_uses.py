@@ -1,0 +1,155 @@
+"""A scene pays for what it uses: modules that are imported, Exudyn items that are built."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+from exu_press import Scene
+from exu_press.joints import overlay_of
+
+
+def imported_after(code):
+    """Return the names of all modules a fresh process has imported after some code."""
+    printed = "import sys, json; print(json.dumps(sorted(sys.modules)))"
+    done = subprocess.run(
+        [sys.executable, "-c", f"{code}\n{printed}"], capture_output=True, text=True, check=True
+    )
+    return set(json.loads(done.stdout.splitlines()[-1]))
+
+
+def test_importing_the_package_imports_no_package():
+    modules = imported_after("import exu_press")
+    assert not modules & {"exudyn", "numpy", "scipy", "matplotlib", "ngsolve", "netgen", "tqdm"}
+    assert {name for name in modules if name.startswith("exu_press")} == {"exu_press"}
+
+
+def test_a_scene_is_checked_without_exudyn():
+    """Bad input is refused before anything heavy is loaded."""
+    modules = imported_after("from exu_press import Scene; Scene()")
+    assert not modules & {"exudyn", "matplotlib", "ngsolve", "netgen"}
+
+
+RIGID_RUN = """
+from exu_press import Scene, simulate
+result = simulate(Scene.from_dict({
+    "mechanism": "press", "revolutions": 0.01, "solver": {"step": 1e-4}}))
+result.summary()
+result.save(r"%s")
+"""
+
+
+def test_a_rigid_run_imports_neither_ngsolve_nor_matplotlib(tmp_path):
+    modules = imported_after(RIGID_RUN % (tmp_path / "run.nc"))
+    assert "exudyn" in modules
+    tops = {name.partition(".")[0] for name in modules}
+    assert not tops & {"ngsolve", "netgen", "pyngcore", "matplotlib", "fe_models"}
+
+
+COMMAND = """
+from exu_press.cli import main
+assert main(["run", "slider_crank", "--set", "revolutions=0.01", "--set", "solver.step=1e-4",
+             "--out", r"%s", "--quiet"%s]) == 0
+"""
+
+
+def test_a_command_without_pictures_imports_no_matplotlib(tmp_path):
+    modules = imported_after(COMMAND % (tmp_path, ', "--no-pictures"'))
+    assert not {name.partition(".")[0] for name in modules} & {"matplotlib", "ngsolve", "netgen"}
+    assert not list(tmp_path.glob("*.png"))
+
+
+def build(**scene):
+    mechanism = scene.pop("mechanism", "press")
+    return Scene.from_dict({"mechanism": mechanism, **scene}).build()
+
+
+def objects(model):
+    mbs = model.mbs
+    return [mbs.GetObject(i) for i in range(mbs.systemData.NumberOfObjects())]
+
+
+def kinds(model):
+    return [item["objectType"] for item in objects(model)]
+
+
+def user_functions(model):
+    """Return every user function that is set, of objects and of loads."""
+    mbs = model.mbs
+    loads = [mbs.GetLoad(i) for i in range(mbs.systemData.NumberOfLoads())]
+    return [
+        f"{item.get('objectType', item.get('loadType'))}.{name}"
+        for item in [*objects(model), *loads]
+        for name, value in item.items()
+        if "UserFunction" in name and value  # 0 where none is set
+    ]
+
+
+def test_an_ideal_scene_has_no_overlay_and_no_callback():
+    model = build(crank_pin="ideal", balls="ideal")
+    assert "GenericODE2" not in kinds(model)
+    assert user_functions(model) == []
+    assert model.clearance_joints == {}
+    assert overlay_of(model.mbs).item is None
+
+
+@pytest.mark.parametrize(
+    ("scene", "joints"),
+    [
+        ({"crank_pin": "lubricated", "balls": "ideal"}, ["crank_pin"]),
+        ({"crank_pin": "dry", "balls": "ideal"}, ["crank_pin"]),
+        ({"crank_pin": "ideal", "balls": "dry"}, ["ball_right", "ball_left"]),
+        ({"crank_pin": "lubricated", "balls": "dry"}, ["crank_pin", "ball_right", "ball_left"]),
+        ({"mechanism": "slider_crank", "crank_pin": "dry"}, ["crank_pin"]),
+    ],
+    ids=str,
+)
+def test_clearance_joints_are_one_item_over_their_own_nodes(scene, joints):
+    model = build(**scene)
+    assert sorted(model.clearance_joints) == sorted(joints)
+    assert kinds(model).count("GenericODE2") == 1
+    assert sorted(user_functions(model)) == [
+        "GenericODE2.forceUserFunction",
+        "GenericODE2.jacobianUserFunction",
+    ]
+    item = next(item for item in objects(model) if item["objectType"] == "GenericODE2")
+    bodies = {
+        body
+        for joint in model.mechanism.joints
+        if joint.kind != "ideal"
+        for body in (joint.journal, joint.bearing)
+    }
+    assert len(item["nodeNumbers"]) == len(bodies)
+
+
+def test_a_clearance_joint_replaces_its_ideal_one():
+    ideal, with_clearance = build(crank_pin="ideal", balls="ideal"), build(balls="ideal")
+    revolutes = [kinds(model).count("JointRevolute2D") for model in (ideal, with_clearance)]
+    assert revolutes[0] - revolutes[1] == 1
+    assert len(objects(with_clearance)) == len(objects(ideal))
+
+
+def loads(model):
+    return model.mbs.systemData.NumberOfLoads()
+
+
+def test_gravity_is_one_load_a_body_and_none_where_there_is_none():
+    model = build(crank_pin="ideal", balls="ideal")
+    assert loads(model) == len(model.mechanism.bodies) == 14
+    assert loads(build(crank_pin="ideal", balls="ideal", gravity=0.0)) == 0
+
+
+def test_blanking_is_one_load_and_none_without_force():
+    none = loads(build())
+    assert loads(build(blanking={"force": 0.0})) == none
+    pressed = build(blanking={"force": 1e4})
+    assert loads(pressed) == none + 1
+    assert "Coordinate.loadUserFunction" in user_functions(pressed)
+    assert ("blanking", "force") in pressed.sensors
+
+
+def test_bodies_and_coordinates():
+    press, slider_crank = build(), build(mechanism="slider_crank")
+    assert press.mbs.systemData.ODE2Size() == 3 * 14
+    assert slider_crank.mbs.systemData.ODE2Size() == 3 * 3

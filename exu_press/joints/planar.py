@@ -59,15 +59,23 @@ class PlanarState:
         eccentricity: journal centre - bearing centre, (2,), m.
         force: on the journal at its centre, (2,), N; the bearing has its opposite.
         moments: on the journal and on the bearing about their centres, (2,), N m.
-        power: what forces and moments bring into the two bodies, W.
+        velocity: rate of the eccentricity, (2,), m/s.
+        spins: angular velocities of journal and bearing, (2,), rad/s.
         stored_energy: elastic energy of the contact, J.
     """
 
     eccentricity: tuple[float, float]
     force: tuple[float, float]
     moments: tuple[float, float]
-    power: float
+    velocity: tuple[float, float]
+    spins: tuple[float, float]
     stored_energy: float
+
+    @property
+    def power(self) -> float:
+        """What forces and moments bring into the two bodies, W."""
+        pairs = zip(self.force + self.moments, self.velocity + self.spins, strict=True)
+        return sum(load * rate for load, rate in pairs)
 
 
 class PlanarJoint:
@@ -169,7 +177,7 @@ class PlanarJoint:
     def state(self, q: Sequence[float], q_t: Sequence[float]) -> PlanarState:
         """Return what the joint does in a state of its two bodies."""
         self.add_force(q, q_t, [0.0] * len(q))
-        e, n_x, n_y, e_dot, v_t, w_j, _, _, w_b, _, _ = self._place
+        e, n_x, n_y, _, _, w_j, _, _, w_b, _, _ = self._place
         f_n = f_t = m_j = m_b = 0.0
         for ((p_n, p_t), _, _), (arm_j, arm_b, _, _) in self._acting:
             f_n += p_n
@@ -180,7 +188,8 @@ class PlanarJoint:
             eccentricity=(e * n_x, e * n_y),
             force=(f_n * n_x - f_t * n_y, f_n * n_y + f_t * n_x),
             moments=(m_j, m_b),
-            power=f_n * e_dot + f_t * v_t + m_j * w_j + m_b * w_b,
+            velocity=self.relative_velocity,
+            spins=(w_j, w_b),
             stored_energy=sum(pair.stored_energy(e) for pair in self.pairs),
         )
 

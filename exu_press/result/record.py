@@ -57,7 +57,9 @@ def record(model: Model, outcome: Outcome) -> Result:
         )
         spherical = name.startswith("ball")
         elastic = np.array([state.stored_energy for state in states])
-        lost = -work(time, np.array([state.power for state in states])) - (elastic - elastic[0])
+        loads = np.array([state.force + state.moments for state in states])
+        rates = np.array([state.velocity + state.spins for state in states])
+        lost = -work(time, loads, rates) - (elastic - elastic[0])
         stored += elastic
         dissipated += lost
         in_words = name.replace("_", " ")
@@ -73,9 +75,9 @@ def record(model: Model, outcome: Outcome) -> Result:
             ),
             f"{name}_loss": Channel(lost, "J", f"{in_words}: energy dissipated since the start"),
         }
-    driven = work(time, channels["drive_torque"].values * velocity[:, crank, 2])
+    driven = work(time, channels["drive_torque"].values, velocity[:, crank, 2])
     if "blanking_force" in channels:
-        driven += work(time, channels["blanking_force"].values * velocity[:, slider, 1])
+        driven += work(time, channels["blanking_force"].values, velocity[:, slider, 1])
     channels |= {
         "energy_input": Channel(driven, "J", "work of drive and load since the start"),
         "energy_stored": Channel(stored - stored[0], "J", "change of stored energy"),

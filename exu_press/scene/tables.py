@@ -129,7 +129,7 @@ class Solver(Table):
         1.5, "tolerance: largest step, in degrees of the crank", "deg", above=0, at_most=15
     )
     spectral_radius: float = key(
-        0.6, "spectral radius at infinity of generalized-alpha", at_least=0.5, at_most=0.95
+        0.8, "spectral radius at infinity of generalized-alpha", at_least=0.5, at_most=0.95
     )
 
     def __post_init__(self) -> None:

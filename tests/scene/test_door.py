@@ -31,6 +31,7 @@ NUMBER_OF_EVERY_TABLE = [
     ("slider_crank.rod_length", CRANK),
     ("slider_crank.slider_mass", CRANK),
 ]
+MAY_BE_ABSENT = ("clearance.crank_pin", "clearance.balls", "solver.step")
 NOT_A_NUMBER = [math.nan, math.inf, -math.inf, True, "1.0", [1.0], {}, None]
 
 
@@ -54,7 +55,7 @@ def refusal(data):
         (key, base, value)
         for key, base in NUMBER_OF_EVERY_TABLE
         for value in NOT_A_NUMBER
-        if not (value is None and key.startswith("clearance."))  # None: no such joint
+        if not (value is None and key in MAY_BE_ABSENT)
     ],
 )
 def test_what_is_not_a_finite_number_is_refused(key, base, value):
@@ -179,6 +180,12 @@ def test_clearance_must_be_smaller_than_the_radius():
     message = refusal({**PRESS, "clearance": {"balls": 2e-3}, "contact": {"radius": 1e-3}})
     assert message.startswith("clearance.")
     assert "contact.radius = 0.001" in message
+
+
+def test_step_and_tolerance_together_are_refused():
+    message = refusal({**PRESS, "solver": {"step": 1e-5, "tolerance": 1e-3}})
+    assert "solver.tolerance = 0.001" in message
+    assert "allowed" in message
 
 
 def test_static_friction_is_at_least_kinetic_friction():

@@ -94,5 +94,17 @@ def test_bad_values_are_refused(key, value, message):
         PRESS.replace(key, value)
 
 
-def test_step_is_replaced():
-    assert PRESS.replace("solver.step", 1e-4).solver.step == 1e-4
+def test_step_clears_the_tolerance_and_the_other_way_round():
+    """Interface: one of the two decides."""
+    stepped = PRESS.replace("solver.step", 1e-4)
+    assert (stepped.solver.step, stepped.solver.tolerance) == (1e-4, None)
+    tolerant = stepped.replace("solver.tolerance", 1e-2)
+    assert (tolerant.solver.step, tolerant.solver.tolerance) == (None, 1e-2)
+    with pytest.raises(InputError, match=r"solver\.tolerance"):
+        PRESS.replace({"solver.step": 1e-4, "solver.tolerance": 1e-3})
+
+
+def test_step_is_kept_by_other_changes():
+    stepped = PRESS.replace("solver.step", 1e-4).replace("solver.spectral_radius", 0.7)
+    assert stepped.solver.step == 1e-4
+    assert stepped.replace("crank_pin", "dry").solver == stepped.solver

@@ -1,7 +1,8 @@
 """The energy balance closes: work of drive and load = change of stored + dissipated energy.
 
 Bound for every rigid variant: the worst imbalance of the run is below 1e-3 of the largest work the
-drive has done. Dry joints need steps of 1e-5 s (measured 4e-4), the others do with 1e-4 s (measured 6e-6).
+drive has done. Dry joints need steps of 1e-5 s (measured 4e-4), the others
+do with 1e-4 s (measured 6e-6).
 """
 
 import functools

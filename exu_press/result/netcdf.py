@@ -40,8 +40,9 @@ def write(result: Result, path: Path) -> None:
                 variable.long_name = channel.long_name
         partial.replace(path)
     except OSError as error:
-        partial.unlink(missing_ok=True)
         raise InputError(f"{path}: cannot be written ({error.strerror})") from None
+    finally:
+        partial.unlink(missing_ok=True)
 
 
 def read(path: Path) -> Result:

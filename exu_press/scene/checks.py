@@ -78,7 +78,7 @@ def _checked(field: dataclasses.Field[Any], name: str, value: Any) -> Any:
     kind = _kind(field)
     if not isinstance(value, bool):
         if kind is float and isinstance(value, numbers.Real):
-            value = float(value)
+            value = _float(value)
         elif kind is int and isinstance(value, numbers.Integral):
             value = int(value)
     meta = field.metadata
@@ -93,6 +93,13 @@ def _checked(field: dataclasses.Field[Any], name: str, value: Any) -> Any:
     if not right:
         raise InputError(f"{name} = {value!r}: allowed is {_allowed(field)}")
     return value
+
+
+def _float(value: Any) -> float:
+    try:
+        return float(value)
+    except OverflowError:
+        return math.inf
 
 
 def table_from(table: type[T], name: str, data: Any) -> T:

@@ -114,7 +114,10 @@ class Scene(Table):
         data = self.to_dict()
         for name, value in changes.items():
             table, _, inner = name.rpartition(".")
-            (data.setdefault(table, {}) if table else data)[inner] = value
+            place = data.setdefault(table, {}) if table else data
+            if not isinstance(place, dict) or (table and table not in TABLES):
+                raise InputError(f"{name} = {value!r}: {table} is no table of a scene")
+            place[inner] = value
         for kept, dropped in (("step", "tolerance"), ("tolerance", "step")):
             if f"solver.{kept}" in changes and f"solver.{dropped}" not in changes:
                 data["solver"].pop(dropped, None)
@@ -198,8 +201,9 @@ class Scene(Table):
 
 def _at_contact(film: Any) -> str:
     """Return what a film table asks for at contact, before the table itself is checked."""
-    given = film.get("at_contact") if isinstance(film, Mapping) else film and film.at_contact
-    return str(given or "stop")
+    if isinstance(film, Mapping):
+        return str(film.get("at_contact"))
+    return str(getattr(film, "at_contact", "stop"))
 
 
 def _unused(mechanism: str, crank_pin: str, balls: str | None, at_contact: str) -> dict[str, str]:

@@ -8,28 +8,38 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from exu_press.errors import InputError
-    from exu_press.joints import add_dry_revolute, add_dry_spherical, add_lubricated_revolute
+    from exu_press.joints import (
+        FlexiblePoint,
+        add_dry_revolute,
+        add_dry_spherical,
+        add_joint_sensor,
+        add_lubricated_revolute,
+    )
     from exu_press.result import Result
     from exu_press.scene import Scene, load_scene
     from exu_press.simulation import simulate
 
 __all__ = [
+    "FlexiblePoint",
     "InputError",
     "Result",
     "Scene",
     "add_dry_revolute",
     "add_dry_spherical",
+    "add_joint_sensor",
     "add_lubricated_revolute",
     "load_scene",
     "simulate",
 ]
 
 _HOMES = {
+    "FlexiblePoint": "exu_press.joints",
     "InputError": "exu_press.errors",
     "Result": "exu_press.result",
     "Scene": "exu_press.scene",
     "add_dry_revolute": "exu_press.joints",
     "add_dry_spherical": "exu_press.joints",
+    "add_joint_sensor": "exu_press.joints",
     "add_lubricated_revolute": "exu_press.joints",
     "load_scene": "exu_press.scene",
     "simulate": "exu_press.simulation",

@@ -26,7 +26,7 @@ from exudyn.itemInterface import (
 )
 
 from exu_press.joints import (
-    PlanarJoint,
+    ClearanceJoint,
     add_dry_revolute,
     add_dry_spherical,
     add_lubricated_revolute,
@@ -64,13 +64,13 @@ class Model:
     mbs: exu.MainSystem
     bodies: dict[str, int]
     nodes: dict[str, int]
-    clearance_joints: dict[str, PlanarJoint]
+    clearance_joints: dict[str, ClearanceJoint]
     ideal_joints: dict[str, int]
     guides: dict[str, tuple[int, ...]]
     drive: int
     sensors: dict[tuple[str, str], int]
 
-    def joint_clearances(self) -> list[tuple[PlanarJoint, float]]:
+    def joint_clearances(self) -> list[tuple[ClearanceJoint, float]]:
         """Return every clearance joint with its radial clearance, m."""
         sizes = self.scene.clearance
         return [
@@ -146,7 +146,7 @@ class _Builder:
             self.mbs.AddObject(ObjectJointRevolute2D(name=joint.name, markerNumbers=markers))
         )
 
-    def add_clearance_joint(self, joint: Joint) -> PlanarJoint:
+    def add_clearance_joint(self, joint: Joint) -> ClearanceJoint:
         """Add a joint with clearance."""
         scene = self.scene
         assert scene.clearance is not None
@@ -155,22 +155,31 @@ class _Builder:
         bearing = self.bodies[joint.bearing], joint.bearing_point
         clearance = scene.clearance.balls if joint.spherical else scene.clearance.crank_pin
         assert clearance is not None
-        size = {"radius": scene.contact.radius, "clearance": clearance}
+        radius = scene.contact.radius
         contact = contact_law(scene.contact, clearance, revolute=not joint.spherical)
         friction = no_friction() if scene.friction is None else friction_law(scene.friction)
         if joint.kind == "dry":
             add = add_dry_spherical if joint.spherical else add_dry_revolute
-            return add(self.mbs, journal, bearing, **size, contact=contact, friction=friction)
+            return add(
+                self.mbs,
+                journal,
+                bearing,
+                radius=radius,
+                clearance=clearance,
+                contact=contact,
+                friction=friction,
+            )
         assert scene.film is not None
         onset = asperity_onset(scene.film)
         return add_lubricated_revolute(
             self.mbs,
             journal,
             bearing,
-            **size,
+            radius=radius,
+            clearance=clearance,
             length=scene.film.length,
             viscosity=scene.film.viscosity,
-            law=film_law(scene.film, scene.contact.radius, clearance),
+            law=film_law(scene.film, radius, clearance),
             contact=None if onset is None else contact,
             friction=friction,
             asperity_onset=onset or 0.0,

@@ -25,6 +25,13 @@ MASS = {"crank": 217.6, "linkage": 184.5}  # Table 2 of the paper, kg
 WALL = 0.032  # m, the thinnest wall around a bore
 SIDE_PLAY = 0.002  # m on each side between the linkage's big end and the webs
 
+# How much stiffer the fit's coarse mesh is than a converged one, measured on the first fits:
+# the frequencies of modes 2, 5, 6, 10, 16 on 0.06 m over those on 0.015 m.
+MESH_BIAS = {
+    "crank": (0.013, 0.027, 0.012, 0.010, 0.006),
+    "linkage": (0.010, 0.005, 0.006, 0.012, 0.006),
+}
+
 # lowest and highest value of what is fitted, m
 BOUNDS = {
     "crank": {
@@ -107,6 +114,8 @@ def answer(request):
     try:
         part = part_of(name, values).replace(mesh_size=request["mesh_size"])
         errors = relative_errors(clamped_frequencies(part, 16), PUBLISHED_HZ[name])
+        if part.mesh_size >= 0.04:
+            errors = errors - np.array(MESH_BIAS[name])
     except InputError as error:
         print(error, file=sys.stderr)
         return

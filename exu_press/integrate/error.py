@@ -6,7 +6,7 @@ import exudyn as exu
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.joints import PlanarJoint
+from exu_press.joints import ClearanceJoint
 from exu_press.model import Model
 
 __all__ = ["StepError"]
@@ -86,25 +86,25 @@ class StepError:
 class _JointError:
     """The eccentricity's error of one clearance joint, from its velocities at the steps' ends."""
 
-    def __init__(self, joint: PlanarJoint, limit: float) -> None:
+    def __init__(self, joint: ClearanceJoint, limit: float) -> None:
         self._joint = joint
         self._limit = limit
-        self._velocity: tuple[float, float] | None = None
-        self._acceleration: tuple[float, float] | None = None
+        self._velocity: tuple[float, ...] | None = None
+        self._acceleration: tuple[float, ...] | None = None
 
     def error(self, step: float) -> float:
         mean = self._mean_acceleration(step)
         if mean is None or self._acceleration is None:
             return 0.0
-        change = math.hypot(mean[0] - self._acceleration[0], mean[1] - self._acceleration[1])
+        change = math.dist(mean, self._acceleration)
         return step * step * change / self._limit
 
     def accept(self, step: float) -> None:
         self._acceleration = self._mean_acceleration(step)
         self._velocity = self._joint.relative_velocity
 
-    def _mean_acceleration(self, step: float) -> tuple[float, float] | None:
+    def _mean_acceleration(self, step: float) -> tuple[float, ...] | None:
         if self._velocity is None:
             return None
-        x, y = self._joint.relative_velocity
-        return (x - self._velocity[0]) / step, (y - self._velocity[1]) / step
+        now = self._joint.relative_velocity
+        return tuple((v - v0) / step for v, v0 in zip(now, self._velocity, strict=True))

@@ -17,7 +17,6 @@ from exu_press.integrate.progress import Progress
 from exu_press.integrate.settings import largest_step, settings_for, smallest_step
 from exu_press.integrate.stepping import StepControl
 from exu_press.joints import overlay_of
-from exu_press.joints.pairs import FilmPair
 from exu_press.model import Model
 
 __all__ = ["integrate"]
@@ -121,12 +120,11 @@ def _how_it_ended(
     if interrupted:
         return Status.INTERRUPTED, f"interrupted {where}"
     for name, joint in model.clearance_joints.items():
-        for pair in joint.pairs:
-            if isinstance(pair, FilmPair) and pair.outside is not None:
-                return Status.FILM_BROKE_DOWN, (
-                    f"film broke down {where}, eccentricity ratio {pair.outside:.4f} "
-                    f"({name}); try a larger film.viscosity or film.length"
-                )
+        if joint.outside is not None:
+            return Status.FILM_BROKE_DOWN, (
+                f"film broke down {where}, eccentricity ratio {joint.outside:.4f} ({name}); "
+                "try film.at_contact = 'mixed', or a larger film.viscosity or film.length"
+            )
     if control is not None and control.error > 1.0:
         return Status.STEP_TOO_SMALL, (
             f"the tolerance needs a step below {smallest_step(scene):.2g} s {where}; "

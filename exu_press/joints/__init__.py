@@ -1,14 +1,23 @@
 """Clearance joints: the only place where a law meets Exudyn."""
 
-from exu_press.joints.add import add_dry_revolute, add_dry_spherical, add_lubricated_revolute
+from exu_press.joints.add import (
+    add_dry_revolute,
+    add_dry_spherical,
+    add_joint_sensor,
+    add_lubricated_revolute,
+)
+from exu_press.joints.ends import FlexiblePoint
+from exu_press.joints.joint import ClearanceJoint, JointState, history
 from exu_press.joints.overlay import overlay_of
-from exu_press.joints.planar import PlanarJoint, PlanarState
 
 __all__ = [
-    "PlanarJoint",
-    "PlanarState",
+    "ClearanceJoint",
+    "FlexiblePoint",
+    "JointState",
     "add_dry_revolute",
     "add_dry_spherical",
+    "add_joint_sensor",
     "add_lubricated_revolute",
+    "history",
     "overlay_of",
 ]

@@ -1,20 +1,33 @@
 """The joints for anybody's Exudyn system: two bodies, two points, and the laws between them."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import exudyn as exu
+import numpy as np
+from exudyn.itemInterface import SensorUserFunction
 
 from exu_press.errors import InputError
+from exu_press.joints.ends import ROTATIONS, BodyEnd, FlexiblePoint
+from exu_press.joints.joint import ClearanceJoint
 from exu_press.joints.overlay import overlay_of
 from exu_press.joints.pairs import DryPair, FilmPair, Pair
 from exu_press.joints.planar import PlanarEnd, PlanarJoint
+from exu_press.joints.spatial import SpatialRevolute
+from exu_press.joints.spherical import SpatialSpherical
 from exu_press.laws.contact import NormalContact
 from exu_press.laws.film import FilmLaw, film_scale
 from exu_press.laws.friction import Friction, LuGre, no_friction
 
-__all__ = ["add_dry_revolute", "add_dry_spherical", "add_lubricated_revolute"]
+__all__ = [
+    "add_dry_revolute",
+    "add_dry_spherical",
+    "add_joint_sensor",
+    "add_lubricated_revolute",
+]
 
-BodyPoint = tuple[int, Sequence[float]]
+BodyPoint = tuple[int, Sequence[float]] | FlexiblePoint
+"""Object number of a body and a point in its frame (m), or an interface of a flexible body."""
 
 
 def add_dry_revolute(
@@ -26,22 +39,24 @@ def add_dry_revolute(
     clearance: float,
     contact: NormalContact,
     friction: Friction | LuGre,
-) -> PlanarJoint:
+    axis: Sequence[float] = (0, 0, 1),
+) -> ClearanceJoint:
     """Put a dry revolute joint with clearance between two bodies (spec 2, Eqs. 7-11, 23-33).
 
     Args:
         mbs: system, not yet assembled.
-        journal: object number of the body that carries the journal, and its centre there, m.
-        bearing: the same of the bearing.
+        journal: body that carries the journal, and its centre in that body.
+        bearing: the same of the bearing; the film turns with it.
         radius: radius of the journal, m.
         clearance: radius of the bearing minus that of the journal, m.
         contact: normal contact law.
         friction: friction law.
+        axis: of the bearing, in its body's frame.
 
     Returns:
-        The joint, whose `state` tells what it does in a state of the two bodies.
+        The joint; `add_joint_sensor` records it.
     """
-    return _add(mbs, journal, bearing, [DryPair(contact, friction, radius, clearance)])
+    return _revolute(mbs, journal, bearing, axis, [DryPair(contact, friction, radius, clearance)])
 
 
 def add_dry_spherical(
@@ -53,21 +68,28 @@ def add_dry_spherical(
     clearance: float,
     contact: NormalContact,
     friction: Friction | LuGre,
-) -> PlanarJoint:
+) -> ClearanceJoint:
     """Put a dry spherical joint with clearance between two bodies (spec 4, Eqs. 12-22).
 
     Between planar bodies ball and socket touch in the plane, like a journal and its bearing.
 
     Args:
         mbs: system, not yet assembled.
-        ball: object number of the body that carries the ball, and its centre there, m.
+        ball: body that carries the ball, and its centre in that body.
         socket: the same of the socket.
         radius: radius of the ball, m.
         clearance: radius of the socket minus that of the ball, m.
         contact: normal contact law.
         friction: friction law.
     """
-    return _add(mbs, ball, socket, [DryPair(contact, friction, radius, clearance)])
+    if _in_plane(mbs, ball) and _in_plane(mbs, socket):
+        pairs: list[Pair] = [DryPair(contact, friction, radius, clearance)]
+        return _revolute(mbs, ball, socket, (0, 0, 1), pairs)
+    joint = SpatialSpherical(
+        _end(mbs, ball), _end(mbs, socket), contact, friction, radius, clearance
+    )
+    overlay_of(mbs).add(joint)
+    return joint
 
 
 def add_lubricated_revolute(
@@ -83,7 +105,8 @@ def add_lubricated_revolute(
     contact: NormalContact | None = None,
     friction: Friction | LuGre | None = None,
     asperity_onset: float = 0.0,
-) -> PlanarJoint:
+    axis: Sequence[float] = (0, 0, 1),
+) -> ClearanceJoint:
     """Put a lubricated revolute joint between two bodies (spec 3, Eqs. 34-35 corrected).
 
     With a contact law, film and contact act in parallel: pass a film law that goes on beyond an
@@ -91,8 +114,8 @@ def add_lubricated_revolute(
 
     Args:
         mbs: system, not yet assembled.
-        journal: object number of the body that carries the journal, and its centre there, m.
-        bearing: the same of the bearing.
+        journal: body that carries the journal, and its centre in that body.
+        bearing: the same of the bearing; the film turns with it.
         radius: radius of the journal, m.
         clearance: radius of the bearing minus that of the journal, m.
         length: length of the bearing, m.
@@ -101,36 +124,115 @@ def add_lubricated_revolute(
         contact: normal contact law of the asperities and what is below them.
         friction: friction law of the contact.
         asperity_onset: gap at which the surfaces begin to touch, m.
+        axis: of the bearing, in its body's frame.
     """
     scale = film_scale(viscosity, length, radius, clearance)
     pairs: list[Pair] = [FilmPair(law, scale, clearance)]
     if contact is not None:
         friction = no_friction() if friction is None else friction
         pairs.append(DryPair(contact, friction, radius, clearance - asperity_onset))
-    return _add(mbs, journal, bearing, pairs)
+    return _revolute(mbs, journal, bearing, axis, pairs)
 
 
-def _add(
-    mbs: exu.MainSystem, journal: BodyPoint, bearing: BodyPoint, pairs: Sequence[Pair]
-) -> PlanarJoint:
+def add_joint_sensor(mbs: exu.MainSystem, joint: ClearanceJoint) -> int:
+    """Record a joint at every step; return the sensor's number for mbs.GetSensorStoredData.
+
+    Columns behind the time: eccentricity (m) and force on the journal (N), each with two components
+    between planar bodies and three otherwise; the moments on journal and bearing (N m, one each, or
+    three each for a spherical joint in space); the gap (m: the film's least thickness, or minus the
+    penetration); the dissipated power (W).
+    """
     overlay = overlay_of(mbs)
-    joint = PlanarJoint(_end(mbs, journal), _end(mbs, bearing), pairs)
-    overlay.add(joint)
+
+    def values(mbs: Any, t: float, sensors: Any, factors: Any, configuration: Any) -> list[float]:
+        state = overlay.state(joint)
+        vectors = [*state.eccentricity, *state.force, *state.moments]
+        return [*vectors, state.gap, state.dissipated_power]
+
+    user_function: Any = values
+    return int(
+        mbs.AddSensor(SensorUserFunction(storeInternal=True, sensorUserFunction=user_function))
+    )
+
+
+def _revolute(
+    mbs: exu.MainSystem,
+    journal: BodyPoint,
+    bearing: BodyPoint,
+    axis: Sequence[float],
+    pairs: Sequence[Pair],
+) -> ClearanceJoint:
+    """Join two bodies by pairs; planar bodies have a joint of their own, ten times faster."""
+    joint: ClearanceJoint
+    if _in_plane(mbs, journal) and _in_plane(mbs, bearing):
+        if tuple(axis) != (0, 0, 1):
+            raise InputError(f"axis = {tuple(axis)}: allowed between planar bodies is (0, 0, 1)")
+        joint = PlanarJoint(_planar_end(mbs, journal), _planar_end(mbs, bearing), pairs)
+    else:
+        joint = SpatialRevolute(_end(mbs, journal), _end(mbs, bearing), axis, pairs)
+    overlay_of(mbs).add(joint)
     return joint
 
 
-def _end(mbs: exu.MainSystem, body_point: BodyPoint) -> PlanarEnd:
-    """Return the planar end of a body's point."""
-    body, point = body_point
+def _in_plane(mbs: exu.MainSystem, point: BodyPoint) -> bool:
+    """Return whether a point belongs to a planar body or, in the plane, to the ground."""
+    if isinstance(point, FlexiblePoint):
+        return False
+    kind = mbs.GetObject(point[0])["objectType"]
+    return kind == "RigidBody2D" or (kind == "Ground" and (len(point[1]) < 3 or point[1][2] == 0))
+
+
+def _planar_end(mbs: exu.MainSystem, point: BodyPoint) -> PlanarEnd:
+    """Return the end on a planar body or the ground."""
+    assert not isinstance(point, FlexiblePoint)
+    body, place = point
     item = mbs.GetObject(body)
-    along, across = float(point[0]), float(point[1])
+    local = (float(place[0]), float(place[1]))
     if item["objectType"] == "Ground":
         x, y, _ = (float(value) for value in item["referencePosition"])
-        return PlanarEnd(overlay_of(mbs).index_of(None), (x, y, 0.0), (along, across))
-    if item["objectType"] != "RigidBody2D":
-        raise InputError(
-            f"body {body} is a {item['objectType']}: allowed are RigidBody2D and Ground"
-        )
+        return PlanarEnd(overlay_of(mbs).index_of(None), (x, y, 0.0), local)
     node = int(item["nodeNumber"])
-    x, y, angle = (float(value) for value in mbs.GetNodeParameter(node, "referenceCoordinates"))
-    return PlanarEnd(overlay_of(mbs).index_of(node), (x, y, angle), (along, across))
+    x, y, angle = (float(v) for v in mbs.GetNodeParameter(node, "referenceCoordinates"))
+    return PlanarEnd(overlay_of(mbs).index_of(node), (x, y, angle), local)
+
+
+def _end(mbs: exu.MainSystem, point: BodyPoint) -> BodyEnd:
+    """Return the end on a body of any kind."""
+    flexible = point if isinstance(point, FlexiblePoint) else None
+    body, place = (
+        (point.body, point.centre) if isinstance(point, FlexiblePoint) else (point[0], point[1])
+    )
+    item = mbs.GetObject(body)
+    local = np.zeros(3)
+    local[: len(place)] = place
+    kind = item["objectType"]
+    if kind == "Ground":
+        local += item["referencePosition"]
+        return BodyEnd("Ground", 0, np.zeros(0), local)
+    if flexible is not None and kind == "FFRFreducedOrder":
+        rigid, modal = (int(node) for node in item["nodeNumbers"])
+    elif flexible is None and kind in ("RigidBody", "RigidBody2D"):
+        rigid, modal = int(item["nodeNumber"]), None
+    else:
+        raise InputError(
+            f"body {body} is a {kind}: allowed are RigidBody, RigidBody2D and Ground with a point "
+            "of theirs, and FFRFreducedOrder with a FlexiblePoint"
+        )
+    node_kind = mbs.GetNode(rigid)["nodeType"]
+    if node_kind not in ROTATIONS:
+        raise InputError(
+            f"body {body} has a {node_kind} node: allowed are {', '.join(sorted(ROTATIONS))}"
+        )
+    reference = np.array(mbs.GetNodeParameter(rigid, "referenceCoordinates"), dtype=float)
+    index = overlay_of(mbs).index_of(rigid)
+    if flexible is None or modal is None:
+        return BodyEnd(node_kind, index, reference, local)
+    return BodyEnd(
+        node_kind,
+        index,
+        reference,
+        local,
+        overlay_of(mbs).index_of(modal),
+        flexible.translation,
+        flexible.turn,
+    )

@@ -15,7 +15,7 @@ from exudyn.itemInterface import (
     VObjectGenericODE2,
 )
 
-from exu_press.joints.planar import GROUND, PlanarJoint
+from exu_press.joints.joint import GROUND, ClearanceJoint, JointState
 
 __all__ = ["JointOverlay", "overlay_of"]
 
@@ -29,17 +29,19 @@ class JointOverlay:
         joints: in the order in which they were added.
         evaluations: how often forces were asked for.
         item: Exudyn's object number.
-        nodes: whose coordinates the item has, in this order.
+        nodes: node number -> where its coordinates start among the item's.
+        size: number of the item's coordinates.
     """
 
     def __init__(self, mbs: exu.MainSystem) -> None:
         """Start without joints; the item is made with the first one."""
-        self.joints: list[PlanarJoint] = []
+        self.joints: list[ClearanceJoint] = []
         self.evaluations = 0
         self.item: int | None = None
         self._mbs = mbs
-        self.nodes: list[int] = []
-        self._stateful: list[PlanarJoint] = []
+        self.nodes: dict[int, int] = {}
+        self.size = 0
+        self._stateful: list[ClearanceJoint] = []
         self._step_start: float | None = None
         self._places: list[list[int]] = []
         self._last: tuple[Any, Any] = None, None
@@ -52,22 +54,23 @@ class JointOverlay:
         if node is None:
             return -len(GROUND)
         if node not in self.nodes:
-            self.nodes.append(node)
-        return 3 * self.nodes.index(node)
+            self.nodes[node] = self.size
+            self.size += len(self._mbs.GetNodeParameter(node, "referenceCoordinates"))
+        return self.nodes[node]
 
-    def add(self, joint: PlanarJoint) -> None:
+    def add(self, joint: ClearanceJoint) -> None:
         """Take in a joint whose ends' indices come from `index_of`."""
         self.joints.append(joint)
         if joint.stateful:
             self._stateful.append(joint)
-        size = 3 * len(self.nodes)
+        size, nodes = self.size, list(self.nodes)
         self._places = [_places(joint, size + len(GROUND)) for joint in self.joints]
         if self.item is None:
             forces: Any = self._forces
             jacobian: Any = self._jacobian
             self.item = self._mbs.AddObject(
                 ObjectGenericODE2(
-                    nodeNumbers=self.nodes,
+                    nodeNumbers=nodes,
                     massMatrix=np.zeros((size, size)),
                     forceUserFunction=forces,
                     jacobianUserFunction=jacobian,
@@ -75,8 +78,15 @@ class JointOverlay:
                 )
             )
         else:
-            self._mbs.SetObjectParameter(self.item, "nodeNumbers", self.nodes)
+            self._mbs.SetObjectParameter(self.item, "nodeNumbers", nodes)
             self._mbs.SetObjectParameter(self.item, "massMatrix", np.zeros((size, size)))
+
+    def state(self, joint: ClearanceJoint) -> JointState:
+        """Return what a joint did when forces were last asked for."""
+        q, q_t = self._last
+        if q is None:
+            q = q_t = [0.0] * self.size
+        return joint.state([*q, *GROUND], [*q_t, *GROUND])
 
     def _forces(self, mbs: exu.MainSystem, time: float, item: int, q: Any, q_t: Any) -> Any:
         """Return the generalised forces of all joints, a list as Exudyn passes and takes it."""
@@ -123,13 +133,12 @@ class JointOverlay:
         accepted = start != self._step_start
         self._step_start = start
         for joint in self._stateful:
-            for pair in joint.pairs:
-                pair.begin_step(time - start, accepted)
+            joint.begin_step(time - start, accepted)
 
 
-def _places(joint: PlanarJoint, size: int) -> list[int]:
+def _places(joint: ClearanceJoint, size: int) -> list[int]:
     """Return where the entries of a joint's Jacobian lie in a square matrix of a size."""
-    indices = [(end.index % size) + c for end in (joint.journal, joint.bearing) for c in range(3)]
+    indices = [place % size for place in joint.places]
     return [size * row + column for row in indices for column in indices]
 
 

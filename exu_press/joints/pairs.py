@@ -6,6 +6,7 @@ pair turns (|e|, d|e|/dt, v_t, omega_J, omega_B) into the force on the journal F
 centre. a_J + a_B + |e| = 0, so that momentum and angular momentum are conserved exactly.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
 
@@ -13,7 +14,7 @@ from exu_press.laws.contact import NormalContact
 from exu_press.laws.film import FilmLaw
 from exu_press.laws.friction import Friction, LuGre
 
-__all__ = ["Arms", "DryPair", "FilmPair", "Pair", "PolarForce"]
+__all__ = ["Arms", "DryPair", "FilmPair", "Pair", "PairedJoint", "PolarForce"]
 
 PolarForce = tuple[
     tuple[float, float],
@@ -33,6 +34,10 @@ class Pair(Protocol):
 
     stateful: bool
     """Whether the pair remembers something from step to step."""
+    clearance: float
+    """Distance of the centres at which the surfaces touch, m."""
+    outside: float | None
+    """Eccentricity ratio of the last state if the pair's law did not hold there."""
 
     def force(
         self, e: float, e_dot: float, v_t: float, omega_j: float, omega_b: float
@@ -44,6 +49,9 @@ class Pair(Protocol):
 
     def stored_energy(self, e: float) -> float:
         """Return the elastic energy at an eccentricity, J."""
+
+    def stored_force(self, e: float) -> float:
+        """Return the derivative of the elastic energy with respect to |e|, N."""
 
     def begin_step(self, step: float, accepted: bool) -> None:
         """Start a step of size `step` (s), after the last one was accepted or is repeated."""
@@ -72,6 +80,7 @@ class DryPair:
     clearance: float
     bristle: float = 0.0
     approach_speed: float = 0.0
+    outside: float | None = field(default=None, init=False)
     stateful: bool = field(init=False)
     _step: float = field(default=0.0, init=False)
     _next: tuple[float, float] = field(default=(0.0, 0.0), init=False)
@@ -117,6 +126,11 @@ class DryPair:
     def stored_energy(self, e: float) -> float:
         """Return the elastic energy of the penetration."""
         return self.contact.elastic_energy(e - self.clearance)
+
+    def stored_force(self, e: float) -> float:
+        """Return the elastic part of the normal force."""
+        depth = e - self.clearance
+        return self.contact.stiffness.force(depth)[0] if depth > 0.0 else 0.0
 
     def begin_step(self, step: float, accepted: bool) -> None:
         """Keep bristle deflection and approach speed of the last step if it was accepted."""
@@ -177,8 +191,43 @@ class FilmPair:
         """Return zero: a film stores nothing."""
         return 0.0
 
+    def stored_force(self, e: float) -> float:
+        """Return zero: a film stores nothing."""
+        return 0.0
+
     def begin_step(self, step: float, accepted: bool) -> None:
         """Do nothing: a film remembers nothing."""
 
     def reset(self) -> None:
         """Do nothing: a film remembers nothing."""
+
+
+class PairedJoint:
+    """What revolute joints in the plane and in space have in common: pairs acting in parallel.
+
+    Attributes:
+        pairs: the first one has the joint's clearance.
+        clearance: radial clearance, m.
+        stateful: whether a pair remembers something from step to step.
+    """
+
+    def __init__(self, pairs: Sequence[Pair]) -> None:
+        """Let the pairs act in parallel."""
+        self.pairs = tuple(pairs)
+        self.clearance = self.pairs[0].clearance
+        self.stateful = any(pair.stateful for pair in self.pairs)
+
+    @property
+    def outside(self) -> float | None:
+        """Eccentricity ratio of the last state if a film's law did not hold there."""
+        return next((pair.outside for pair in self.pairs if pair.outside is not None), None)
+
+    def begin_step(self, step: float, accepted: bool) -> None:
+        """Start a step of size `step` (s), after the last one was accepted or is repeated."""
+        for pair in self.pairs:
+            pair.begin_step(step, accepted)
+
+    def reset(self) -> None:
+        """Forget everything."""
+        for pair in self.pairs:
+            pair.reset()

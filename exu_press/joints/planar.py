@@ -4,17 +4,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import cos, sin, sqrt
 
-import numpy as np
-from numpy.typing import NDArray
+from exu_press.joints.joint import JointState
+from exu_press.joints.pairs import Arms, Pair, PairedJoint, PolarForce
 
-from exu_press.joints.pairs import Arms, Pair, PolarForce
-
-__all__ = ["GROUND", "PlanarEnd", "PlanarJoint", "PlanarState"]
-
-Array = NDArray[np.float64]
-
-GROUND = (0.0, 0.0, 0.0)
-"""Stands behind all other coordinates for those of the ground."""
+__all__ = ["PlanarEnd", "PlanarJoint"]
 
 
 @dataclass(frozen=True)
@@ -51,44 +44,22 @@ class PlanarEnd:
         )
 
 
-@dataclass(frozen=True)
-class PlanarState:
-    """What a joint does at one instant; forces and moments in the x-y plane.
-
-    Attributes:
-        eccentricity: journal centre - bearing centre, (2,), m.
-        force: on the journal at its centre, (2,), N; the bearing has its opposite.
-        moments: on the journal and on the bearing about their centres, (2,), N m.
-        velocity: rate of the eccentricity, (2,), m/s.
-        spins: angular velocities of journal and bearing, (2,), rad/s.
-        stored_energy: elastic energy of the contact, J.
-    """
-
-    eccentricity: tuple[float, float]
-    force: tuple[float, float]
-    moments: tuple[float, float]
-    velocity: tuple[float, float]
-    spins: tuple[float, float]
-    stored_energy: float
-
-    @property
-    def power(self) -> float:
-        """What forces and moments bring into the two bodies, W."""
-        pairs = zip(self.force + self.moments, self.velocity + self.spins, strict=True)
-        return sum(load * rate for load, rate in pairs)
-
-
-class PlanarJoint:
+class PlanarJoint(PairedJoint):
     """One journal in one bearing, acting through one pair or several in parallel."""
 
     def __init__(self, journal: PlanarEnd, bearing: PlanarEnd, pairs: Sequence[Pair]) -> None:
         """Join the two ends by the pairs."""
+        super().__init__(pairs)
         self.journal = journal
         self.bearing = bearing
-        self.pairs = tuple(pairs)
-        self.stateful = any(pair.stateful for pair in pairs)
         self._acting: list[tuple[PolarForce, Arms]] = []
         self._place = (0.0, 1.0, *(0.0,) * 9)
+
+    @property
+    def places(self) -> list[int]:
+        """Where the joint's coordinates lie: the journal's three, then the bearing's."""
+        ends = (self.journal, self.bearing)
+        return [end.index + coordinate for end in ends for coordinate in range(3)]
 
     def add_force(self, q: Sequence[float], q_t: Sequence[float], out: list[float]) -> None:
         """Add the joint's generalised forces to `out`."""
@@ -170,11 +141,11 @@ class PlanarJoint:
 
     @property
     def relative_velocity(self) -> tuple[float, float]:
-        """Rate of the eccentricity (x, y) at the last `add_force`, m/s."""
+        """Rate of the eccentricity at the last `add_force`, m/s."""
         _, n_x, n_y, e_dot, v_t, *_ = self._place
         return e_dot * n_x - v_t * n_y, e_dot * n_y + v_t * n_x
 
-    def state(self, q: Sequence[float], q_t: Sequence[float]) -> PlanarState:
+    def state(self, q: Sequence[float], q_t: Sequence[float]) -> JointState:
         """Return what the joint does in a state of its two bodies."""
         self.add_force(q, q_t, [0.0] * len(q))
         e, n_x, n_y, _, _, w_j, _, _, w_b, _, _ = self._place
@@ -184,24 +155,13 @@ class PlanarJoint:
             f_t += p_t
             m_j += arm_j * p_t
             m_b += arm_b * p_t
-        return PlanarState(
+        return JointState(
             eccentricity=(e * n_x, e * n_y),
             force=(f_n * n_x - f_t * n_y, f_n * n_y + f_t * n_x),
             moments=(m_j, m_b),
             velocity=self.relative_velocity,
             spins=(w_j, w_b),
+            gap=self.clearance - e,
             stored_energy=sum(pair.stored_energy(e) for pair in self.pairs),
+            stored_power=sum(pair.stored_force(e) for pair in self.pairs) * self._place[3],
         )
-
-    def history(self, time: Array, q: Array, q_t: Array) -> list[PlanarState]:
-        """Return what the joint did over recorded steps: (n,), and (n, m) coordinates."""
-        for pair in self.pairs:
-            pair.reset()
-        states = []
-        before = time[0]
-        for now, row, row_t in zip(time.tolist(), q.tolist(), q_t.tolist(), strict=True):
-            for pair in self.pairs:
-                pair.begin_step(now - before, accepted=True)
-            states.append(self.state([*row, *GROUND], [*row_t, *GROUND]))
-            before = now
-        return states

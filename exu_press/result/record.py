@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.integrate import Outcome
-from exu_press.joints import overlay_of
+from exu_press.joints import history, overlay_of
 from exu_press.model import Model
 from exu_press.result.energy import mechanical_energy, work
 from exu_press.result.result import Channel, Result
@@ -50,7 +50,8 @@ def record(model: Model, outcome: Outcome) -> Result:
     for name, joint in model.clearance_joints.items():
         assert overlay is not None
         indices = [list(model.nodes.values()).index(node) for node in overlay.nodes]
-        states = joint.history(
+        states = history(
+            joint,
             time,
             displacement[:, indices].reshape(len(time), -1),
             velocity[:, indices].reshape(len(time), -1),
@@ -98,12 +99,15 @@ def _sensor(model: Model, name: str, quantity: str, *, with_time: bool = False) 
     return data if with_time else data[:, 1:]
 
 
-def _vector(rows: list[tuple[float, float]], unit: str, words: str, spherical: bool) -> Channel:
-    """Return a channel of vectors in the plane, or in space with z = 0."""
-    values = np.array(rows)
-    if spherical:
-        return Channel(np.column_stack([values, np.zeros(len(values))]), unit, words, "space")
-    return Channel(values, unit, words, "plane")
+def _vector(rows: list[tuple[float, ...]], unit: str, words: str, spherical: bool) -> Channel:
+    """Return a channel of vectors in space for spherical joints, else of their x and y."""
+    values = np.zeros((len(rows), 3))
+    values[:, : len(rows[0])] = rows
+    return (
+        Channel(values, unit, words, "space")
+        if spherical
+        else Channel(values[:, :2], unit, words, "plane")
+    )
 
 
 def _constraint_forces(model: Model) -> dict[str, Channel]:
@@ -129,7 +133,7 @@ def _constraint_forces(model: Model) -> dict[str, Channel]:
                 -values[:, 0], unit, f"{in_words}: {quantity} on the body, {along}"
             )
         elif values.shape[1] == 1:
-            rows = [(0.0, value) for value in values[:, 0]]
+            rows: list[tuple[float, ...]] = [(0.0, value) for value in values[:, 0]]
             channels[f"{name}_force"] = _vector(
                 rows, "N", f"{in_words}: force on journal", spherical=True
             )

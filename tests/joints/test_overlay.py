@@ -16,7 +16,7 @@ from exudyn.itemInterface import (
 )
 
 from exu_press import InputError, add_dry_revolute, add_dry_spherical, add_lubricated_revolute
-from exu_press.joints import overlay_of
+from exu_press.joints import history, overlay_of
 from exu_press.laws.contact import hertz, step_damping
 from exu_press.laws.film import pi_film
 from exu_press.laws.friction import LuGre, lugre_steady
@@ -100,7 +100,7 @@ class Bodies:
         )
         order = [self.nodes.index(node) for node in overlay_of(self.mbs).nodes]
         columns = [3 * i + c for i in order for c in range(3)]
-        return joint.history(self.time, q[:, columns], q_t[:, columns])
+        return history(joint, self.time, q[:, columns], q_t[:, columns])
 
 
 def free_pair(relative=(0.05, 0.03), spin=(4.0, -6.0)):
@@ -288,5 +288,7 @@ def test_other_bodies_are_refused():
     body = bodies.add(1.0, 1.0, [0.0, 0.0, 0.0], [0.0, 0.0, 0.0])
     node = bodies.mbs.AddNode(exu.itemInterface.NodePoint2D(referenceCoordinates=[0.0, 0.0]))
     point = bodies.mbs.AddObject(ObjectMassPoint2D(mass=1.0, nodeNumber=node))
-    with pytest.raises(InputError, match="MassPoint2D: allowed are RigidBody2D and Ground"):
+    with pytest.raises(
+        InputError, match="MassPoint2D: allowed are RigidBody, RigidBody2D and Ground"
+    ):
         add_joint("dry", bodies.mbs, (body, (0.0, 0.0)), (point, (0.0, 0.0)))

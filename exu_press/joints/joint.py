@@ -1,0 +1,108 @@
+"""What the overlay needs of a joint, and what a joint says of itself."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["GROUND", "ClearanceJoint", "JointState", "history"]
+
+Array = NDArray[np.float64]
+Vector = tuple[float, ...]
+
+GROUND = (0.0, 0.0, 0.0)
+"""Stands behind all other coordinates of the item for those of the ground in the plane."""
+
+
+@dataclass(frozen=True)
+class JointState:
+    """What a joint does at one instant, in the global frame: x, y in the plane, x, y, z in space.
+
+    Attributes:
+        eccentricity: journal centre - bearing centre, m.
+        force: on the journal at its centre, N; the bearing has its opposite.
+        velocity: rate of the eccentricity, m/s.
+        moments: on the journal, then on the bearing, about their centres, N m; of a revolute joint
+            about its axis.
+        spins: the angular velocities that the moments act on, rad/s.
+        gap: clearance - |eccentricity|, m: the film's least thickness, or minus the penetration.
+        stored_energy: elastic energy of the contact, J.
+        stored_power: its rate, W.
+    """
+
+    eccentricity: Vector
+    force: Vector
+    velocity: Vector
+    moments: Vector
+    spins: Vector
+    gap: float
+    stored_energy: float
+    stored_power: float
+
+    @property
+    def dissipated_power(self) -> float:
+        """What contact, friction and film turn into heat, W."""
+        return -self.power - self.stored_power
+
+    @property
+    def power(self) -> float:
+        """What forces and moments bring into the two bodies, W."""
+        pairs = zip(self.force + self.moments, self.velocity + self.spins, strict=True)
+        return sum(load * rate for load, rate in pairs)
+
+
+class ClearanceJoint(Protocol):
+    """A joint over some of the coordinates of the overlay's item."""
+
+    stateful: bool
+    """Whether it remembers something from step to step."""
+    clearance: float
+    """Radial clearance, m."""
+
+    @property
+    def outside(self) -> float | None:
+        """Eccentricity ratio of the last state if a film's law did not hold there."""
+
+    @property
+    def places(self) -> list[int]:
+        """Where the joint's coordinates lie among those of the item."""
+
+    @property
+    def relative_velocity(self) -> Vector:
+        """Rate of the eccentricity at the last `add_force`, m/s."""
+
+    def add_force(self, q: Sequence[float], q_t: Sequence[float], out: list[float]) -> None:
+        """Add the joint's generalised forces to `out`."""
+
+    def jacobian(self, by_q: float, by_q_t: float) -> list[float] | None:
+        """Return -(by_q dQ/dq + by_q_t dQ/dq_t) at the state of the last `add_force`, by rows."""
+
+    def state(self, q: Sequence[float], q_t: Sequence[float]) -> JointState:
+        """Return what the joint does in a state of its two bodies."""
+
+    def begin_step(self, step: float, accepted: bool) -> None:
+        """Start a step of size `step` (s), after the last one was accepted or is repeated."""
+
+    def reset(self) -> None:
+        """Forget everything."""
+
+
+def history(joint: ClearanceJoint, time: Array, q: Array, q_t: Array) -> list[JointState]:
+    """Return what a joint did over recorded steps.
+
+    Args:
+        joint: forgets what it remembers, and goes through the steps again.
+        time: (n,), s.
+        q: (n, m) coordinates of the overlay's item.
+        q_t: (n, m) their rates.
+    """
+    joint.reset()
+    states = []
+    before = time[0]
+    for now, row, row_t in zip(time.tolist(), q.tolist(), q_t.tolist(), strict=True):
+        joint.begin_step(now - before, accepted=True)
+        states.append(joint.state([*row, *GROUND], [*row_t, *GROUND]))
+        before = now
+    return states

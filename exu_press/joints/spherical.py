@@ -1,0 +1,175 @@
+"""A dry spherical clearance joint between bodies of any kind (spec 4, Eqs. 12-22)."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exu_press.joints.ends import BodyEnd, cross_matrix
+from exu_press.joints.joint import JointState
+from exu_press.laws.contact import NormalContact
+from exu_press.laws.friction import Friction, LuGre
+
+__all__ = ["SpatialSpherical"]
+
+Array = NDArray[np.float64]
+
+
+class SpatialSpherical:
+    """A ball in a socket, touching where their centres are further apart than the clearance.
+
+    Both forces act at the contact point on the ball's surface, so that momentum and angular
+    momentum are conserved exactly; friction opposes the sliding of the two surfaces there.
+    """
+
+    outside = None
+
+    def __init__(
+        self,
+        ball: BodyEnd,
+        socket: BodyEnd,
+        contact: NormalContact,
+        friction: Friction | LuGre,
+        radius: float,
+        clearance: float,
+    ) -> None:
+        """Join ball and socket; radius of the ball and radial clearance in m."""
+        self.ball = ball
+        self.socket = socket
+        self.stateful = isinstance(friction, LuGre) or contact.needs_impact_speed
+        self._contact, self._friction = contact, friction
+        self._radius, self.clearance = radius, clearance
+        self._next: tuple[Array, float] = np.zeros(3), 0.0
+        self.reset()
+
+    @property
+    def places(self) -> list[int]:
+        """Where the joint's coordinates lie: the ball's, then the socket's."""
+        return self.ball.places + self.socket.places
+
+    def begin_step(self, step: float, accepted: bool) -> None:
+        """Keep bristle deflection and approach speed of the last step if it was accepted."""
+        if accepted:
+            self._bristle, self._approach_speed = self._next
+        self._step = step
+
+    def reset(self) -> None:
+        """Relax the bristle."""
+        self._bristle, self._approach_speed, self._step = np.zeros(3), 0.0, 0.0
+        self._next = self._bristle, 0.0
+        self._touching = False
+
+    def add_force(self, q: Sequence[float], q_t: Sequence[float], out: list[float]) -> None:
+        """Add the joint's generalised forces to `out`."""
+        self._move(q, q_t)
+        if self._touching:
+            forces = self._normal_force @ self._centre_rates + self._drag @ self._surface_rates
+            for place, force in zip(self.places, forces.tolist(), strict=True):
+                out[place] += force
+
+    def jacobian(self, by_q: float, by_q_t: float) -> list[float] | None:
+        """Return -(by_q dQ/dq + by_q_t dQ/dq_t), but for what only turns arms."""
+        if not self._touching:
+            return None
+        n, e = self._n, self._e
+        normal, stiffness, damping = self._law
+        across = np.eye(3) - np.outer(n, n)
+        by_normal = stiffness * n + damping * (across @ self._relative) / e  # dN by e
+        slipping = (  # sliding by the direction n
+            across @ cross_matrix(self._swirl) - float(n @ self._surface) * np.eye(3)
+        ) - np.outer(n, self._surface)
+        by_e = -np.outer(n, by_normal) - normal / e * across
+        by_v = -damping * np.outer(n, n)
+        drag_by_e = -np.outer(self._mu, by_normal) + self._drag_by_sliding @ slipping @ across / e
+        drag_by_v = -np.outer(self._mu, damping * n)
+        centre, surface = self._centre_rates, self._surface_rates
+        matrix = centre.T @ ((by_q * by_e + by_q_t * by_v) @ centre)
+        matrix += surface.T @ ((by_q * drag_by_e + by_q_t * drag_by_v) @ centre)
+        matrix += surface.T @ (by_q_t * (self._drag_by_sliding @ across) @ surface)
+        values: list[float] = (-matrix).ravel().tolist()
+        return values
+
+    @property
+    def relative_velocity(self) -> tuple[float, ...]:
+        """Rate of the eccentricity at the last `add_force`, m/s."""
+        return tuple(self._relative.tolist())
+
+    def state(self, q: Sequence[float], q_t: Sequence[float]) -> JointState:
+        """Return what the joint does in a state of its two bodies."""
+        self._move(q, q_t)
+        force = self._normal_force + self._drag
+        reach, depth = self._radius + self._e, self._e - self.clearance
+        elastic = self._contact.stiffness.force(depth)[0] if depth > 0.0 else 0.0
+        moments = np.concatenate(
+            [
+                self._radius * np.cross(self._n, self._drag),
+                -reach * np.cross(self._n, self._drag),
+            ]
+        )
+        return JointState(
+            eccentricity=tuple((self._e * self._n).tolist()),
+            force=tuple(force.tolist()),
+            velocity=self.relative_velocity,
+            moments=tuple(moments.tolist()),
+            spins=tuple(self._spins.tolist()),
+            gap=-depth,
+            stored_energy=self._contact.elastic_energy(depth),
+            stored_power=elastic * float(self._n @ self._relative),
+        )
+
+    def _move(self, q: Sequence[float], q_t: Sequence[float]) -> None:
+        """Find eccentricity, velocities and forces."""
+        ball, socket = self.ball.motion(q, q_t), self.socket.motion(q, q_t)
+        apart = ball.position - socket.position
+        self._e = e = float(np.sqrt(apart @ apart))
+        self._n = n = apart / e if e > 0.0 else np.array([1.0, 0.0, 0.0])
+        self._relative = ball.velocity - socket.velocity
+        self._spins = np.concatenate([ball.spin, socket.spin])
+        self._normal_force = self._drag = np.zeros(3)
+        penetration = e - self.clearance
+        self._touching = penetration > 0.0
+        if not self._touching and not self.stateful:
+            return
+        reach = self._radius + e
+        self._centre_rates = np.hstack([ball.by_rates, -socket.by_rates])
+        self._surface_rates = self._centre_rates + np.hstack(
+            [
+                -self._radius * np.cross(n, ball.spin_by_rates, axisb=0, axisc=0),
+                reach * np.cross(n, socket.spin_by_rates, axisb=0, axisc=0),
+            ]
+        )
+        self._swirl = self._radius * ball.spin - reach * socket.spin
+        self._surface = self._relative + np.cross(self._swirl, n)
+        sliding = self._surface - n * (n @ self._surface)
+        rate = float(n @ self._relative)
+        self._mu, by_sliding, bristle = self._coefficient(sliding)
+        self._next = bristle, self._approach_speed if self._touching else rate
+        if self._touching:
+            self._law = self._contact.force(penetration, rate, self._approach_speed)
+            self._normal_force = -self._law[0] * n
+            self._drag = -self._law[0] * self._mu
+            self._drag_by_sliding = -self._law[0] * by_sliding
+
+    def _coefficient(self, sliding: Array) -> tuple[Array, Array, Array]:
+        """Return the friction coefficient as a vector, its derivative and the bristle's end.
+
+        A bristle deflects in the plane of contact; its length along the sliding follows the law of
+        the plane, the rest of it relaxes with the same time constant.
+        """
+        speed = float(np.sqrt(sliding @ sliding))
+        along = sliding / speed if speed > 0.0 else np.zeros(3)
+        if not isinstance(self._friction, LuGre):
+            mu, slope = self._friction(speed)
+            secant = mu / speed if speed > 0.0 else slope
+            turning = np.eye(3) - np.outer(along, along)
+            return mu * along, slope * np.outer(along, along) + secant * turning, self._bristle
+        friction, step = self._friction, self._step
+        bristle = self._bristle - self._n * (self._n @ self._bristle)
+        deflection = float(along @ bristle)
+        mu, slope, end = friction.advance(speed, deflection, step)
+        _, _, decay = friction.advance(speed, 1.0, step)
+        _, _, rest = friction.advance(speed, 0.0, step)
+        aside = (bristle - deflection * along) * (decay - rest)
+        rate = (aside - (bristle - deflection * along)) / step if step > 0.0 else np.zeros(3)
+        vector = mu * along + friction.sigma_0 * aside + friction.sigma_1 * rate
+        return vector, slope * np.eye(3), end * along + aside

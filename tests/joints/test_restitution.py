@@ -1,0 +1,69 @@
+"""A mass that bounces in a real Exudyn joint delivers the restitution that the literature says."""
+
+import exudyn as exu
+import numpy as np
+import pytest
+from exudyn.itemInterface import NodeRigidBody2D, ObjectGround, ObjectRigidBody2D, SensorNode
+
+from exu_press import add_dry_revolute
+from exu_press.laws.contact import DAMPING_LAWS, hertz, step_damping
+from exu_press.laws.friction import no_friction
+
+WANTED = (0.1, 0.5, 0.9)
+DELIVERED = {  # exact for F = K delta^n (1 + chi rate / v0): ln[(1+chi)/(1-chi e)] = chi (1+e)
+    "hunt_crossley": (0.5158, 0.6630, 0.9090),
+    "lankarani_nikravesh": (0.6653, 0.7252, 0.9132),
+    "flores": (0.0694, 0.4704, 0.8939),
+    "gonthier": (0.1010, 0.4877, 0.8764),
+    "hu_guo": (0.0741, 0.4877, 0.8999),
+}
+
+
+def bounce(contact, mass, speed, duration, step=1e-6, clearance=1e-4):
+    """Return rebound over approach speed of a body in a clearance around a point of the ground."""
+    container = exu.SystemContainer()
+    mbs = container.AddSystem()
+    node = mbs.AddNode(
+        NodeRigidBody2D(
+            referenceCoordinates=[0.99 * clearance, 0, 0], initialVelocities=[speed, 0, 0]
+        )
+    )
+    body = mbs.AddObject(ObjectRigidBody2D(nodeNumber=node, mass=mass, inertia=1.0))
+    ground = mbs.AddObject(ObjectGround())
+    add_dry_revolute(
+        mbs, (body, (0, 0)), (ground, (0, 0)), radius=0.05, clearance=clearance,
+        contact=contact, friction=no_friction(),
+    )  # fmt: skip
+    velocity = mbs.AddSensor(
+        SensorNode(
+            nodeNumber=node,
+            storeInternal=True,
+            outputVariableType=exu.OutputVariableType.Coordinates_t,
+        )
+    )
+    mbs.Assemble()
+    settings = exu.SimulationSettings()
+    settings.timeIntegration.numberOfSteps = round(duration / step)
+    settings.timeIntegration.endTime = duration
+    settings.timeIntegration.verboseMode = 0
+    settings.timeIntegration.generalizedAlpha.spectralRadius = 0.9
+    settings.timeIntegration.newton.modifiedNewtonJacUpdatePerStep = True
+    settings.solution.file.write = False
+    settings.solution.sensors.writePeriod = 0.0
+    mbs.SolveDynamic(settings, showHints=False)
+    return -np.asarray(mbs.GetSensorStoredData(velocity))[:, 1].min() / speed
+
+
+@pytest.mark.parametrize("law", DELIVERED)
+@pytest.mark.parametrize("index", range(3))
+def test_hysteretic_laws(law, index):
+    contact = DAMPING_LAWS[law](hertz(1e10), restitution=WANTED[index])
+    delivered = bounce(contact, mass=1.0, speed=0.5, duration=1.2e-3)
+    assert delivered == pytest.approx(DELIVERED[law][index], abs=1e-3)
+
+
+@pytest.mark.parametrize(("speed", "expected"), [(0.1, 0.51842), (1.0, 0.41655)])
+def test_step_damping(speed, expected):
+    """K 1e8, n 1.5, c_max 1e3, d_max 1e-4, m 1."""
+    contact = step_damping(hertz(1e8), damping_max=1e3, damping_depth=1e-4)
+    assert bounce(contact, 1.0, speed, 6e-3, step=2e-6) == pytest.approx(expected, abs=1e-3)

@@ -1,0 +1,209 @@
+"""Clearance joints between bodies in space: equal to the plane's, momentum, Jacobian."""
+
+import exudyn as exu
+import numpy as np
+import pytest
+from exudyn.itemInterface import (
+    NodeRigidBody2D,
+    NodeRigidBodyEP,
+    NodeRigidBodyRotVecLG,
+    NodeRigidBodyRxyz,
+    ObjectGround,
+    ObjectRigidBody,
+    ObjectRigidBody2D,
+    SensorNode,
+)
+
+from exu_press import (
+    InputError,
+    add_dry_revolute,
+    add_dry_spherical,
+    add_joint_sensor,
+    add_lubricated_revolute,
+)
+from exu_press.joints import overlay_of
+from exu_press.laws.contact import hertz, step_damping
+from exu_press.laws.film import pi_film
+from exu_press.laws.friction import LuGre, lugre_steady
+
+NODES = {"EP": NodeRigidBodyEP, "Rxyz": NodeRigidBodyRxyz, "RotVecLG": NodeRigidBodyRotVecLG}
+CONTACT = step_damping(hertz(1e9), 1e4, 1e-4)
+FRICTION = lugre_steady(0.3, 0.2, 0.0, 0.01, 2.0, 1e-3)
+JOINTS = {
+    "dry": (add_dry_revolute, {"contact": CONTACT, "friction": FRICTION}),
+    "lubricated": (add_lubricated_revolute, {"length": 0.1, "viscosity": 0.05, "law": pi_film()}),
+    "spherical": (add_dry_spherical, {"contact": CONTACT, "friction": FRICTION}),
+}
+MASS, INERTIA, RADIUS, CLEARANCE = 2.0, np.diag([0.02, 0.03, 0.04]), 0.03, 1e-3
+
+
+def system():
+    container = exu.SystemContainer()
+    return container, container.AddSystem()
+
+
+def add_body(mbs, kind, place, velocity, spin):
+    """A body with the orientation of the axes; spin is its angular velocity."""
+    if kind == "2D":
+        node = mbs.AddNode(
+            NodeRigidBody2D(
+                referenceCoordinates=[*place[:2], 0.0],
+                initialVelocities=[*velocity[:2], spin[2]],
+            )
+        )
+        body = mbs.AddObject(ObjectRigidBody2D(nodeNumber=node, mass=MASS, inertia=INERTIA[2, 2]))
+    else:
+        turn, rates = {
+            "EP": ([1.0, 0.0, 0.0, 0.0], [0.0, *(0.5 * np.array(spin))]),
+            "Rxyz": ([0.0] * 3, spin),
+            "RotVecLG": ([0.0] * 3, spin),
+        }[kind]
+        node = mbs.AddNode(
+            NODES[kind](referenceCoordinates=[*place, *turn], initialVelocities=[*velocity, *rates])
+        )
+        inertia = [*np.diag(INERTIA), 0.0, 0.0, 0.0]
+        body = mbs.AddObject(ObjectRigidBody(nodeNumber=node, mass=MASS, inertia=inertia))
+    outputs = exu.OutputVariableType
+    sensors = [
+        mbs.AddSensor(SensorNode(nodeNumber=node, storeInternal=True, outputVariableType=output))
+        for output in (
+            outputs.Position,
+            outputs.Velocity,
+            outputs.AngularVelocity,
+            outputs.RotationMatrix,
+        )
+    ]
+    return body, sensors
+
+
+def run(mbs, duration, step):
+    mbs.Assemble()
+    settings = exu.SimulationSettings()
+    settings.timeIntegration.numberOfSteps = round(duration / step)
+    settings.timeIntegration.endTime = duration
+    settings.timeIntegration.verboseMode = 0
+    settings.timeIntegration.generalizedAlpha.spectralRadius = 0.9
+    settings.timeIntegration.newton.useModifiedNewton = False
+    settings.solution.file.write = False
+    settings.solution.sensors.writePeriod = 0.0
+    mbs.SolveDynamic(settings, showHints=False)
+
+
+def two_bodies(kind, joint, velocity, spin, duration=0.02, step=1e-5):
+    """Run two free bodies joined at a point that starts centred; return records and joint's."""
+    container, mbs = system()
+    first, sensors_a = add_body(mbs, kind, (0.0, 0.0, 0.0), velocity, spin)
+    second, sensors_b = add_body(mbs, kind, (0.3, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+    add, laws = JOINTS[joint]
+    made = add(
+        mbs, (first, (0.2, 0.0, 0.0)), (second, (-0.1, 0.0, 0.0)),
+        radius=RADIUS, clearance=CLEARANCE, **laws,
+    )  # fmt: skip
+    sensor = add_joint_sensor(mbs, made)
+    run(mbs, duration, step)
+    records = [
+        [np.asarray(mbs.GetSensorStoredData(s))[:, 1:] for s in sensors]
+        for sensors in (sensors_a, sensors_b)
+    ]
+    return records, np.asarray(mbs.GetSensorStoredData(sensor))
+
+
+@pytest.mark.parametrize("joint", JOINTS)
+@pytest.mark.parametrize("kind", NODES)
+def test_motion_in_the_plane_is_that_of_planar_bodies(kind, joint):
+    motion = ((0.3, 0.2, 0.0), (0.0, 0.0, 5.0))
+    (flat, _), record = two_bodies("2D", joint, *motion, step=5e-5)
+    (spatial, _), spatial_record = two_bodies(kind, joint, *motion, step=5e-5)
+    assert np.abs(flat[0] - spatial[0]).max() < 2e-7
+    moved = np.abs(flat[0][:, 1] - 0.2 * record[:, 0]).max()
+    assert moved > 1e-5, "the joint must have done something"
+    assert record[:, 1:3] == pytest.approx(spatial_record[:, 1:3], abs=2e-7)
+
+
+@pytest.mark.parametrize("joint", JOINTS)
+@pytest.mark.parametrize("kind", NODES)
+def test_momentum_and_angular_momentum_in_space(kind, joint):
+    """With bodies that tumble and slide along the axis, so that both ends are far apart."""
+    records, joint_record = two_bodies(kind, joint, (0.3, 0.2, 0.1), (2.0, 1.0, 5.0), step=2e-6,
+                                       duration=0.006)  # fmt: skip
+    momentum = MASS * sum(record[1] for record in records)
+    angular = 0.0
+    for position, velocity, spin, matrix in records:
+        rotation = matrix.reshape(-1, 3, 3)
+        own = rotation @ INERTIA @ rotation.transpose(0, 2, 1) @ spin[:, :, None]
+        angular = angular + MASS * np.cross(position, velocity) + own[:, :, 0]
+    assert np.abs(joint_record[:, 4:7]).max() > 1.0
+    assert np.abs(momentum - momentum[0]).max() < 1e-9
+    assert np.abs(angular - angular[0]).max() < 2e-6 * np.abs(angular[0]).max()
+
+
+@pytest.mark.parametrize("joint", JOINTS)
+def test_dissipated_power_is_never_negative(joint):
+    _, record = two_bodies("EP", joint, (0.3, 0.2, 0.1), (2.0, 1.0, 5.0))
+    power = record[:, -1]
+    assert power.min() >= -1e-9 * power.max()
+    assert power.max() > 0.0
+
+
+@pytest.mark.parametrize("joint", JOINTS)
+@pytest.mark.parametrize("kind", ["Rxyz", "2D"])
+def test_jacobian_against_differences(kind, joint):
+    """Between a spatial body and another kind, near the reference, to the arms' small terms."""
+    container, mbs = system()
+    first, _ = add_body(mbs, "Rxyz", (0.0, 0.0, 0.0), (0, 0, 0), (0, 0, 0))
+    second, _ = add_body(mbs, kind, (0.3, 0.0, 0.0), (0, 0, 0), (0, 0, 0))
+    add, laws = JOINTS[joint]
+    made = add(
+        mbs, (first, (0.2, 0.0, 0.0)), (second, (-0.1, 0.0, 0.0)),
+        radius=RADIUS, clearance=CLEARANCE, **laws,
+    )  # fmt: skip
+    size = overlay_of(mbs).size
+    q, q_t = np.zeros(size), np.random.default_rng(1).normal(size=size) * 1e-2
+    q[:2] = (CLEARANCE + 2e-4, 3e-4) if joint != "lubricated" else (4e-4, 3e-4)
+
+    def force(q, q_t):
+        out = [0.0] * (size + 3)
+        made.add_force([*q, 0, 0, 0], [*q_t, 0, 0, 0], out)
+        return np.array(out[:size])
+
+    force(q, q_t)
+    matrix = np.zeros((size, size))
+    matrix[np.ix_(made.places, made.places)] = np.reshape(
+        made.jacobian(1.0, 0.01), (len(made.places), -1)
+    )
+    numeric = np.zeros((size, size))
+    for i, unit in enumerate(np.eye(size)):
+        numeric[:, i] -= (force(q + 1e-8 * unit, q_t) - force(q - 1e-8 * unit, q_t)) / 2e-8
+        numeric[:, i] -= 0.01 * (force(q, q_t + 1e-6 * unit) - force(q, q_t - 1e-6 * unit)) / 2e-6
+    assert np.abs(matrix - numeric).max() < 2e-3 * np.abs(numeric).max()
+
+
+def test_bristle_of_a_ball_works_in_space():
+    bristle = LuGre(0.3, 0.2, 1e5, 10.0, 0.0, 0.01, 2.0)
+    container, mbs = system()
+    body, sensors = add_body(mbs, "EP", (0.0, 0.0, -CLEARANCE), (0.1, 0.05, -0.01), (0, 0, 0))
+    ground = mbs.AddObject(ObjectGround())
+    joint = add_dry_spherical(
+        mbs, (body, (0, 0, 0)), (ground, (0, 0, 0)),
+        radius=RADIUS, clearance=CLEARANCE, contact=CONTACT, friction=bristle,
+    )  # fmt: skip
+    sensor = add_joint_sensor(mbs, joint)
+    run(mbs, 2e-3, 1e-6)
+    record = np.asarray(mbs.GetSensorStoredData(sensor))
+    force, eccentricity = record[:, 4:7], record[:, 1:4]
+    normal = eccentricity / np.linalg.norm(eccentricity, axis=1)[:, None]
+    pressed = -(force * normal).sum(axis=1)
+    drag = np.linalg.norm(force + pressed[:, None] * normal, axis=1)
+    late = pressed > 0.5 * pressed.max()
+    assert late.any()
+    assert drag[late] / pressed[late] == pytest.approx(0.2, rel=0.05)
+
+
+def test_axis_between_planar_bodies_is_refused():
+    container, mbs = system()
+    bodies = [add_body(mbs, "2D", (0.0, 0.0, 0.0), (0, 0, 0), (0, 0, 0))[0] for _ in range(2)]
+    with pytest.raises(InputError, match=r"axis = \(1, 0, 0\): allowed between planar bodies"):
+        add_dry_revolute(
+            mbs, (bodies[0], (0, 0, 0)), (bodies[1], (0, 0, 0)), radius=RADIUS,
+            clearance=CLEARANCE, contact=CONTACT, friction=FRICTION, axis=(1, 0, 0),
+        )  # fmt: skip

@@ -1,7 +1,7 @@
 """Reduced parts on disk: made once, read in milliseconds without NGSolve.
 
 A file's name is the digest of everything that determines its content: geometry, material,
-interfaces, mesh size, reduction, versions of NGSolve, Netgen, NumPy, SciPy and of this layout. It
+interfaces, mesh size, reduction, versions of NGSolve, Netgen, NumPy, SciPy, and our own code. It
 is an .npz of plain arrays (nothing is unpickled) and carries a checksum; a damaged or foreign file
 is rebuilt. It is written under another name and renamed, so no half-written one is ever read.
 """
@@ -27,7 +27,7 @@ from fe_models.reduction import Reduction, Report, reduce_part
 
 __all__ = ["cache_file", "default_folder", "load", "reduced_part", "save"]
 
-LAYOUT = 1  # raise it when the content of the arrays changes its meaning
+SOURCES = ("shapes", "mesh", "elasticity", "saddle", "reduction", "stress", "reduced", "cache")
 PACKAGES = ("ngsolve", "netgen-mesher", "numpy", "scipy")
 PLAIN = (  # the arrays of a ReducedPart stored under their own names
     "centre_of_mass",
@@ -84,7 +84,7 @@ def cache_file(part: Part, reduction: Reduction, folder: Path) -> Path:
         "part": part.key(),
         "reduction": reduction.key(),
         "versions": {package: version(package) for package in PACKAGES},
-        "layout": LAYOUT,
+        "sources": _source_digest(),
     }
     digest = hashlib.sha256(json.dumps(determined_by, sort_keys=True).encode()).hexdigest()
     return folder / f"{_plain_name(part.name)}-{digest[:32]}.npz"
@@ -160,6 +160,15 @@ def _checksum(arrays: Mapping[str, NDArray[Any]]) -> bytes:
         digest.update(f"{key} {array.dtype.str} {array.shape};".encode())
         digest.update(array.tobytes())
     return digest.digest()
+
+
+def _source_digest() -> str:
+    """Return a digest of the modules that a reduced part's numbers come from."""
+    folder = Path(__file__).parent
+    digest = hashlib.sha256()
+    for module in SOURCES:
+        digest.update((folder / f"{module}.py").read_bytes())
+    return digest.hexdigest()
 
 
 def _plain_name(name: str) -> str:

@@ -20,8 +20,8 @@ def test_rigid_motions_cost_no_energy(linkage_model):
 
 
 def test_mass_matrix_knows_the_mass(crank_model, linkage_model):
-    assert crank_model.nodal_mass.sum() == pytest.approx(217.6, rel=3e-4)
-    assert linkage_model.nodal_mass.sum() == pytest.approx(184.5, rel=3e-4)
+    assert crank_model.nodal_mass.sum() == pytest.approx(217.6, abs=1e-3)
+    assert linkage_model.nodal_mass.sum() == pytest.approx(184.5, abs=1e-3)
 
 
 def test_face_motion_reads_rigid_motion_exactly(crank_model):

@@ -123,7 +123,7 @@ def test_bit_for_bit_reproducible(linkage, method):
 def test_no_modes(crank, crank_model):
     rigid = reduce_model(crank, crank_model, Reduction(modes=0))
     assert rigid.mode_count == 0
-    assert rigid.mass == pytest.approx(217.6, rel=3e-4)
+    assert rigid.mass == pytest.approx(217.6, abs=1e-3)
     assert rigid.interface("pin").translation.shape == (3, 0)
 
 

@@ -1,8 +1,9 @@
 """From a scene to an assembled Exudyn system: only what the scene uses is built."""
 
 import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import exudyn as exu
 import numpy as np
@@ -33,11 +34,18 @@ from exu_press.joints import (
 )
 from exu_press.laws.blanking import blanking_force
 from exu_press.laws.friction import no_friction
-from exu_press.mechanism import GROUND, Guide, Joint, Mechanism, mechanism_of
+from exu_press.mechanism import GROUND, Guide, Joint, Mechanism, Motion, mechanism_of
+from exu_press.mechanism.kinematics import along, turning
 from exu_press.scene import Scene
 from exu_press.scene.laws import asperity_onset, contact_law, film_law, friction_law
 
-__all__ = ["Model", "build"]
+if TYPE_CHECKING:
+    from fe_models import FlexibleBody, ReducedPart
+
+__all__ = ["DRIVE", "Model", "build"]
+
+DRIVE = "drive"
+"""Name of the disc that turns a flexible crank at its flange."""
 
 
 @dataclass(frozen=True)
@@ -55,6 +63,7 @@ class Model:
         ideal_joints: name -> object number.
         guides: name of the body -> object numbers of what holds x and, if held, the angle.
         drive: object number of the constraint that turns the crank.
+        parts: name -> flexible body's part; empty for rigid bodies.
         sensors: (name, quantity) -> sensor number.
     """
 
@@ -69,6 +78,7 @@ class Model:
     guides: dict[str, tuple[int, ...]]
     drive: int
     sensors: dict[tuple[str, str], int]
+    parts: Mapping[str, "ReducedPart"]
 
     def joint_clearances(self) -> list[tuple[ClearanceJoint, float]]:
         """Return every clearance joint with its radial clearance, m."""
@@ -95,8 +105,14 @@ class Model:
 class _Builder:
     """Puts a mechanism's parts into a new system, one kind after the other."""
 
-    def __init__(self, scene: Scene) -> None:
+    def __init__(self, scene: Scene, quiet: bool) -> None:
         self.scene = scene
+        self.parts: Mapping[str, ReducedPart] = {}
+        self.flexible: dict[str, FlexibleBody] = {}
+        if scene.flexible is not None:
+            from exu_press.flexible import reduced_parts
+
+            self.parts = reduced_parts(scene, quiet=quiet)
         self.mechanism = mechanism_of(scene)
         self.SC = exu.SystemContainer()
         self.mbs = self.SC.AddSystem()
@@ -113,6 +129,9 @@ class _Builder:
         motion = self.mechanism.motion(angle, self.scene.angular_speed)
         for body in self.mechanism.bodies:
             start = motion[body.name]
+            if body.name in self.parts:
+                self._add_flexible_body(body.name, start)
+                continue
             node = self.mbs.AddNode(
                 NodeRigidBody2D(
                     name=body.name,
@@ -134,13 +153,50 @@ class _Builder:
                     )
                 )
 
+    def _add_flexible_body(self, name: str, start: Motion) -> None:
+        """Add a flexible body; its frame lies where the solid's does, not in the centre of mass."""
+        from exu_press.flexible import add_part
+
+        assert self.scene.press is not None
+        if name == self.mechanism.crank:
+            frame = turning(start.position[:, 2], self.scene.angular_speed, 0.0)
+        else:
+            frame = along(start, -self.scene.press.linkage_mass_offset)
+        body = add_part(self.mbs, self.scene, name, self.parts[name], frame)
+        self.flexible[name] = body
+        self.bodies[name], self.nodes[name] = body.object_number, body.node_rigid
+        if body.node_modes is not None:
+            self.nodes[f"{name}_modes"] = body.node_modes
+
+    def hold_flexible_bodies(self) -> dict[str, int]:
+        """Hold crank and linkage in space; the crank is driven at its flange by a disc."""
+        from exu_press.flexible import hold_crank, hold_linkage
+
+        disc = NodeRigidBody2D(
+            name=DRIVE,
+            referenceCoordinates=[0.0, 0.0, self.scene.start_angle],
+            initialVelocities=[0.0, 0.0, self.scene.angular_speed],
+        )
+        self.nodes[DRIVE] = int(self.mbs.AddNode(disc))
+        self.bodies[DRIVE] = int(
+            self.mbs.AddObject(
+                ObjectRigidBody2D(nodeNumber=self.nodes[DRIVE], mass=1.0, inertia=1.0)
+            )
+        )
+        for coordinate in (0, 1):
+            self._hold(DRIVE, coordinate)
+        slide = self._marker("slide", (0.0, 0.0))
+        hold_linkage(self.mbs, slide, self.flexible["linkage"])
+        disc_marker = self._marker(DRIVE, (0.0, 0.0))
+        return hold_crank(self.mbs, self.ground, self.flexible["crank"], disc_marker)
+
     def add_ideal_joint(self, joint: Joint) -> int:
         """Add a revolute joint, or what holds a ball of a guided body in a guided body."""
         if joint.vertical_only:
             return self._hold_vertically(joint)
         markers = [
-            self._point(joint.journal, joint.journal_point),
-            self._point(joint.bearing, joint.bearing_point),
+            self._point(joint, joint.journal, joint.journal_point),
+            self._point(joint, joint.bearing, joint.bearing_point),
         ]
         return int(
             self.mbs.AddObject(ObjectJointRevolute2D(name=joint.name, markerNumbers=markers))
@@ -151,8 +207,8 @@ class _Builder:
         scene = self.scene
         assert scene.clearance is not None
         assert scene.contact is not None
-        journal = self.bodies[joint.journal], joint.journal_point
-        bearing = self.bodies[joint.bearing], joint.bearing_point
+        journal = self._end(joint, joint.journal, joint.journal_point)
+        bearing = self._end(joint, joint.bearing, joint.bearing_point)
         clearance = scene.clearance.balls if joint.spherical else scene.clearance.crank_pin
         assert clearance is not None
         radius = scene.contact.radius
@@ -192,9 +248,8 @@ class _Builder:
 
     def add_drive(self) -> int:
         """Turn the crank at constant speed, by a constraint on its angular velocity."""
-        return self._hold(
-            self.mechanism.crank, 2, velocityLevel=True, offset=self.scene.angular_speed
-        )
+        turned = DRIVE if self.flexible else self.mechanism.crank
+        return self._hold(turned, 2, velocityLevel=True, offset=self.scene.angular_speed)
 
     def add_blanking(self) -> None:
         """Press the slider upwards once a revolution."""
@@ -252,8 +307,10 @@ class _Builder:
         ideal = {
             joint.name: self.add_ideal_joint(joint)
             for joint in self.mechanism.joints
-            if joint.kind == "ideal"
+            if joint.kind == "ideal" and not (joint.name == "shaft" and self.flexible)
         }
+        if self.flexible:
+            ideal |= self.hold_flexible_bodies()
         guides = {guide.body: self.add_guide(guide) for guide in self.mechanism.guides}
         drive = self.add_drive()
         self.add_blanking()
@@ -271,14 +328,41 @@ class _Builder:
             guides=guides,
             drive=drive,
             sensors=self.sensors,
+            parts=self.parts,
         )
 
-    def _point(self, body: str, point: tuple[float, float]) -> int:
-        return int(
-            self.mbs.AddMarker(
-                MarkerBodyRigid(bodyNumber=self.bodies[body], localPosition=[*point, 0.0])
-            )
+    def _marker(self, body: str, point: Sequence[float]) -> int:
+        """Add a marker on a rigid body."""
+        marker = MarkerBodyRigid(
+            bodyNumber=self.bodies[body], localPosition=[point[0], point[1], 0.0]
         )
+        return int(self.mbs.AddMarker(marker))
+
+    def _point(self, joint: Joint, body: str, point: Sequence[float]) -> int:
+        """Add a marker for a joint; on a flexible body it follows the interface's mean motion."""
+        if body not in self.flexible:
+            return self._marker(body, point)
+        from exu_press.flexible import FACES, joint_marker
+
+        face = FACES[body, joint.name]
+        return joint_marker(self.mbs, self.flexible[body], face, self._in_frame(body, point))
+
+    def _in_frame(self, body: str, point: Sequence[float]) -> tuple[float, float]:
+        """Return a point given from the centre of mass in the frame of a flexible body's solid."""
+        size = self.scene.press
+        assert size is not None
+        if body == self.mechanism.crank:
+            return point[0], point[1] + size.crank_mass_offset
+        return point[0] + size.linkage_mass_offset, point[1]
+
+    def _end(self, joint: Joint, body: str, point: Sequence[float]) -> Any:
+        """Return what a clearance joint holds on to."""
+        if body not in self.flexible:
+            return self.bodies[body], point
+        from exu_press.flexible import FACES, joint_end
+
+        face = FACES[body, joint.name]
+        return joint_end(self.flexible[body], face, self._in_frame(body, point))
 
     def _hold_vertically(self, joint: Joint) -> int:
         """Hold the y of two guided bodies' points together; the guides hold x already.
@@ -330,6 +414,11 @@ def _pulse_period(scene: Scene) -> tuple[float, float]:
     return period, end - pulse.rise - pulse.fall
 
 
-def build(scene: Scene) -> Model:
-    """Return the assembled Exudyn model of a scene, on the ideal mechanism's start."""
-    return _Builder(scene).build()
+def build(scene: Scene, *, quiet: bool = True) -> Model:
+    """Return the assembled Exudyn model of a scene, on the ideal mechanism's start.
+
+    Args:
+        scene: what is asked.
+        quiet: False shows the progress of what takes long, the modes of flexible bodies.
+    """
+    return _Builder(scene, quiet).build()

@@ -4,6 +4,7 @@ import time
 from dataclasses import replace
 
 from exu_press.integrate import integrate
+from exu_press.model import build
 from exu_press.result import Result, record
 from exu_press.scene import Scene
 
@@ -18,7 +19,7 @@ def simulate(scene: Scene, *, quiet: bool = True) -> Result:
         quiet: False shows the progress on standard error.
     """
     start = time.perf_counter()
-    model = scene.build()
+    model = build(scene, quiet=quiet)
     outcome = integrate(model, quiet=quiet)
     result = record(model, outcome)
     total = time.perf_counter() - start

@@ -4,12 +4,12 @@ import argparse
 import sys
 from collections.abc import Sequence
 
-from exu_press.cli import compare, run
+from exu_press.cli import compare, precision, run
 from exu_press.errors import InputError
 
 __all__ = ["main"]
 
-COMMANDS = {"run": run, "compare": compare}
+COMMANDS = {"run": run, "compare": compare, "precision": precision}
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -43,9 +43,11 @@ def settings_for(scene: Scene) -> exu.SimulationSettings:
 
     # One Jacobian a step: with Exudyn's default (one as long as it seems to converge) dry contact
     # drifts by 4 % at 1e-4 s; a Jacobian an iteration costs more than the iterations it saves.
+    # Flexible bodies' Jacobians cost as much as ten iterations: there it is kept while it serves.
     newton = integration.newton
     newton.useModifiedNewton = True
-    newton.modifiedNewtonJacUpdatePerStep = True
+    newton.modifiedNewtonJacUpdatePerStep = scene.flexible is None
+    newton.modifiedNewtonContractivity = 0.5 if scene.flexible is None else 0.1
     # Each step starts from zero multipliers, so that this is relative to the joint forces; what it
     # leaves is 1e-10 m in a revolution, and tighter ones only cost iterations.
     tolerance = 1e-4 if solver.tolerance is None else solver.tolerance

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 __all__ = [
     "AssemblyError",
     "Motion",
+    "along",
     "dyad",
     "fixed",
     "guided",
@@ -169,6 +170,20 @@ def sliding(point: Motion) -> Motion:
     """Return the motion (x, y, angle) of a body that a guide keeps upright."""
     parts = (point.position, point.velocity, point.acceleration)
     return Motion(*(np.column_stack([part, np.zeros(len(part))]) for part in parts))
+
+
+def along(body: Motion, offset: float) -> Motion:
+    """Return the motion (x, y, angle) of the point an offset (m) along a body's own x axis."""
+    if offset == 0.0:
+        return body
+    angle, spin, turn = body.position[:, 2], body.velocity[:, 2], body.acceleration[:, 2]
+    axis = offset * np.column_stack([np.cos(angle), np.sin(angle), np.zeros_like(angle)])
+    across = np.column_stack([-axis[:, 1], axis[:, 0], np.zeros_like(angle)])
+    return Motion(
+        body.position + axis,
+        body.velocity + spin[:, None] * across,
+        body.acceleration + turn[:, None] * across - (spin**2)[:, None] * axis,
+    )
 
 
 def _meet(u: Array, v: Array, along_u: Array, along_v: Array) -> Array:

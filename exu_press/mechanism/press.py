@@ -7,6 +7,7 @@ from exu_press.mechanism.kinematics import (
     Array,
     AssemblyError,
     Motion,
+    along,
     dyad,
     fixed,
     guided,
@@ -46,7 +47,7 @@ def press(size: Press, crank_pin: str, balls: str) -> Mechanism:
         )
         bodies = {
             "crank": turning(angle, speed, offset),
-            "linkage": rod(pin, slide),
+            "linkage": along(rod(pin, slide), size.linkage_mass_offset),
             "slide": sliding(slide),
             "counter_linkage": rod(counter_pin, counterweight),
             "counterweight": sliding(counterweight),
@@ -76,16 +77,18 @@ def press(size: Press, crank_pin: str, balls: str) -> Mechanism:
         bodies["slider"] = sliding(ball)
         return bodies
 
+    shift = size.linkage_mass_offset
+    rod_inertia = size.linkage_mass * size.linkage_length**2 / 12
     bodies = [
         Body("crank", size.crank_mass, size.crank_mass * size.crank_radius**2 / 12),
-        _rod("linkage", size.linkage_mass, size.linkage_length),
+        Body("linkage", size.linkage_mass, size.linkage_inertia or rod_inertia),
         _held("slide", size.slide_mass),
     ]
     crank_tip, linkage_end = (0.0, size.crank_radius - offset), size.linkage_length / 2
     joints = [
         Joint("shaft", "crank", (0.0, -offset), GROUND, (0.0, 0.0)),
-        Joint("crank_pin", "crank", crank_tip, "linkage", (-linkage_end, 0.0), crank_pin),
-        Joint("slide_pin", "linkage", (linkage_end, 0.0), "slide", (0.0, 0.0)),
+        Joint("crank_pin", "crank", crank_tip, "linkage", (-linkage_end - shift, 0.0), crank_pin),
+        Joint("slide_pin", "linkage", (linkage_end - shift, 0.0), "slide", (0.0, 0.0)),
     ]
     guides = [Guide("slide")]
     for side, sign in SIDES.items():

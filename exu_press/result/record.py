@@ -11,6 +11,8 @@ from exu_press.integrate import Outcome
 from exu_press.joints import history, overlay_of
 from exu_press.model import Model
 from exu_press.result.energy import mechanical_energy, work
+from exu_press.result.flexible import record_parts, worst_stress
+from exu_press.result.motion import body_motion, sensor
 from exu_press.result.result import Channel, Result
 
 __all__ = ["record"]
@@ -21,16 +23,12 @@ Array = NDArray[np.float64]
 def record(model: Model, outcome: Outcome) -> Result:
     """Return the result of an integrated model."""
     scene, mechanism = model.scene, model.mechanism
-    time = _sensor(model, mechanism.slider, "position", with_time=True)[:, 0]
+    time = sensor(model, mechanism.slider, "position", with_time=True)[:, 0]
+    poses = [body_motion(model, body.name) for body in mechanism.bodies]
     position, velocity, acceleration = (
-        np.stack([_sensor(model, body.name, level) for body in mechanism.bodies], axis=1)
-        for level in ("position", "velocity", "acceleration")
+        np.stack(level, axis=1) for level in zip(*poses, strict=True)
     )
     names = [body.name for body in mechanism.bodies]
-    displacement = position.copy()
-    for index, name in enumerate(names):
-        reference = model.mbs.GetNodeParameter(model.nodes[name], "referenceCoordinates")
-        position[:, index] += reference
     slider, crank = names.index(mechanism.slider), names.index(mechanism.crank)
     channels = {
         "time": Channel(time, "s", "time"),
@@ -44,18 +42,27 @@ def record(model: Model, outcome: Outcome) -> Result:
         ),
     }
     channels |= _constraint_forces(model)
-    stored = mechanical_energy(mechanism.bodies, position, velocity, scene.gravity)
+    rigid = [index for index, name in enumerate(names) if name not in model.parts]
+    stored = mechanical_energy(
+        [mechanism.bodies[index] for index in rigid],
+        position[:, rigid],
+        velocity[:, rigid],
+        scene.gravity,
+    )
     dissipated = np.zeros_like(time)
+    if model.parts:
+        flexible_channels, flexible_stored, dissipated = record_parts(model, time)
+        channels |= flexible_channels
+        stored += flexible_stored
     overlay = overlay_of(model.mbs) if model.clearance_joints else None
     for name, joint in model.clearance_joints.items():
         assert overlay is not None
-        indices = [list(model.nodes.values()).index(node) for node in overlay.nodes]
-        states = history(
-            joint,
-            time,
-            displacement[:, indices].reshape(len(time), -1),
-            velocity[:, indices].reshape(len(time), -1),
+        held = {number: name for name, number in model.nodes.items()}
+        q, q_t = (
+            np.hstack([sensor(model, held[node], level) for node in overlay.nodes])
+            for level in ("position", "velocity")
         )
+        states = history(joint, time, q, q_t)
         spherical = name.startswith("ball")
         elastic = np.array([state.stored_energy for state in states])
         loads = np.array([state.force + state.moments for state in states])
@@ -88,15 +95,9 @@ def record(model: Model, outcome: Outcome) -> Result:
     return Result(
         scene=scene,
         channels=channels,
-        info=_info(model, outcome),
+        info=_info(model, outcome, time),
         bodies=tuple(names),
     )
-
-
-def _sensor(model: Model, name: str, quantity: str, *, with_time: bool = False) -> Array:
-    """Return what a sensor recorded, (n, k)."""
-    data = np.asarray(model.mbs.GetSensorStoredData(model.sensors[name, quantity]))
-    return data if with_time else data[:, 1:]
 
 
 def _vector(rows: list[tuple[float, ...]], unit: str, words: str, spherical: bool) -> Channel:
@@ -117,7 +118,7 @@ def _constraint_forces(model: Model) -> dict[str, Channel]:
     for name, quantity in model.sensors:
         if quantity not in ("force", "moment"):
             continue
-        values = _sensor(model, name, quantity)
+        values = sensor(model, name, quantity)
         in_words = name.replace("_", " ")
         if name == "drive":
             channels["drive_torque"] = Channel(-values[:, 0], "N m", "torque that turns the crank")
@@ -144,7 +145,7 @@ def _constraint_forces(model: Model) -> dict[str, Channel]:
     return channels
 
 
-def _info(model: Model, outcome: Outcome) -> dict[str, Any]:
+def _info(model: Model, outcome: Outcome, time: Array) -> dict[str, Any]:
     """Return status, statistics, sizes and versions."""
     mbs = model.mbs
     packages = ("exu-press", "exudyn", "numpy", "scipy")
@@ -157,6 +158,7 @@ def _info(model: Model, outcome: Outcome) -> dict[str, Any]:
         "rejected_steps": outcome.rejected_steps,
         "newton_iterations": outcome.newton_iterations,
         "law_evaluations": outcome.law_evaluations,
+        **({"stress": worst_stress(model, time)} if model.parts else {}),
         "coordinates": mbs.systemData.ODE2Size(),
         "bodies": len(model.nodes),
         "connectors": mbs.systemData.NumberOfObjects() - len(model.nodes) - 1,

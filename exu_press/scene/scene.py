@@ -13,6 +13,7 @@ from exu_press.scene.tables import (
     Clearance,
     Contact,
     Film,
+    Flexible,
     Friction,
     Press,
     SliderCrank,
@@ -27,12 +28,20 @@ __all__ = ["Scene"]
 DEFAULT_CLEARANCE = 1e-4  # m, Table 2
 RPM = math.pi / 30  # rad/s
 
+PARTS_ARE_MADE_FOR = {
+    "crank_radius": 0.03,
+    "linkage_length": 0.383,
+    "crank_mass": 217.6,
+    "linkage_mass": 184.5,
+}
+
 TABLES = {
     "clearance": Clearance,
     "contact": Contact,
     "friction": Friction,
     "film": Film,
     "blanking": Blanking,
+    "flexible": Flexible,
     "solver": Solver,
     "press": Press,
     "slider_crank": SliderCrank,
@@ -52,7 +61,7 @@ class Scene(Table):
 
     table: ClassVar[str] = ""
     mechanism: str = key("press", "mechanism", choices=("press", "slider_crank"))
-    bodies: str = key("rigid", "bodies", choices=("rigid",))
+    bodies: str = key("rigid", "bodies", choices=("rigid", "flexible"))
     crank_pin: str = key("lubricated", "joint 2-3", choices=("ideal", "dry", "lubricated"))
     balls: str | None = key(None, "joints 9-10, press only", choices=("ideal", "dry"))
     speed_rpm: float = key(240.0, "crank speed", "rpm", above=0)
@@ -64,6 +73,7 @@ class Scene(Table):
     friction: Friction | None = None
     film: Film | None = None
     blanking: Blanking | None = None
+    flexible: Flexible | None = None
     solver: Solver | None = None
     press: Press | None = None
     slider_crank: SliderCrank | None = None
@@ -73,7 +83,9 @@ class Scene(Table):
         super().__post_init__()
         if self.mechanism == "press" and self.balls is None:
             object.__setattr__(self, "balls", "dry")
-        unused = _unused(self.mechanism, self.crank_pin, self.balls, _at_contact(self.film))
+        unused = _unused(
+            self.mechanism, self.bodies, self.crank_pin, self.balls, _at_contact(self.film)
+        )
         self._refuse(unused, "balls", self.balls)
         for name, table in TABLES.items():
             given = getattr(self, name)
@@ -124,7 +136,9 @@ class Scene(Table):
         if data["mechanism"] != "press" and "balls" not in changes:
             data.pop("balls", None)
         at_contact = _at_contact(data.get("film"))
-        unused = _unused(data["mechanism"], data["crank_pin"], data.get("balls"), at_contact)
+        unused = _unused(
+            data["mechanism"], data["bodies"], data["crank_pin"], data.get("balls"), at_contact
+        )
         for name in unused.keys() - changes.keys():
             table, _, inner = name.rpartition(".")
             if not any(changed.startswith(f"{name}.") for changed in changes):
@@ -190,6 +204,15 @@ class Scene(Table):
         from exu_press.mechanism import check_assembly
 
         check_assembly(self)
+        if self.flexible is not None:
+            if self.press is None:
+                raise InputError("bodies = 'flexible': allowed with mechanism = 'press' alone")
+            for name, fitted in PARTS_ARE_MADE_FOR.items():
+                if getattr(self.press, name) != fitted:
+                    raise InputError(
+                        f"press.{name} = {getattr(self.press, name)!r}: allowed with "
+                        f"bodies = 'flexible' is {fitted!r}, for which the parts are made"
+                    )
         if self.blanking is not None:
             pulse, period = self.blanking.rise + self.blanking.fall, 60 / self.speed_rpm
             if pulse > period:
@@ -206,7 +229,9 @@ def _at_contact(film: Any) -> str:
     return str(getattr(film, "at_contact", "stop"))
 
 
-def _unused(mechanism: str, crank_pin: str, balls: str | None, at_contact: str) -> dict[str, str]:
+def _unused(
+    mechanism: str, bodies: str, crank_pin: str, balls: str | None, at_contact: str
+) -> dict[str, str]:
     """Return the names a scene does not use, each with its reason."""
     touching = "dry" in (crank_pin, balls) or (crank_pin == "lubricated" and at_contact == "mixed")
     pin, ball = f"crank_pin is {crank_pin!r}", f"balls is {balls!r}"
@@ -220,5 +245,6 @@ def _unused(mechanism: str, crank_pin: str, balls: str | None, at_contact: str) 
         "contact": (crank_pin != "ideal" or balls == "dry", "every joint is 'ideal'"),
         "friction": (touching, "no joint is 'dry' or has a mixed film"),
         "film": (crank_pin == "lubricated", pin),
+        "flexible": (bodies == "flexible", f"bodies is {bodies!r}"),
     }
     return {name: reason for name, (used, reason) in wanted.items() if not used}

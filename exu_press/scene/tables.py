@@ -16,6 +16,7 @@ __all__ = [
     "Clearance",
     "Contact",
     "Film",
+    "Flexible",
     "Friction",
     "Press",
     "SliderCrank",
@@ -114,6 +115,20 @@ class Blanking(Table):
 
 
 @dataclass(frozen=True)
+class Flexible(Table):
+    """Crank shaft and linkage as flexible bodies (section 4, Table 1)."""
+
+    table: ClassVar[str] = "flexible"
+    crank: str = key("crank", "shape of the crank shaft", choices=("crank", "crank_2"))
+    linkage: str = key("linkage", "shape of the linkage", choices=("linkage", "linkage_2"))
+    modes: int = key(20, "modal coordinates of each part", at_least=0, at_most=500)
+    method: str = key("craig_bampton", "reduction", choices=("craig_bampton", "free"))
+    damping_ratio: float = key(0.02, "of every mode", at_least=0, at_most=0.9)
+    mesh_size: float = key(0.03, "of the tetrahedra", "m", at_least=0.01, at_most=0.1)
+    modulus_factor: float = key(1.0, "times the paper's moduli of elasticity", above=0)
+
+
+@dataclass(frozen=True)
 class Solver(Table):
     """Exudyn's generalized-alpha, with steps that follow a tolerance or with fixed ones."""
 
@@ -162,6 +177,12 @@ class Press(Table):
     crank_mass: float = key(217.6, "crank shaft (2)", "kg", above=0)
     crank_mass_offset: float = key(0.015, "centre of mass, from shaft to pin (A-6)", "m")
     linkage_mass: float = key(184.5, "linkage (3)", "kg", above=0)
+    linkage_mass_offset: float = key(
+        0.0, "centre of mass, from the linkage's middle to the slide (A-6)", "m"
+    )
+    linkage_inertia: float | None = key(
+        None, "about its centre of mass; a uniform rod's unless given (A-6)", "kg m^2", above=0
+    )
     slide_mass: float = key(60.0, "slide (4) (A-4)", "kg", above=0)
     link_5_mass: float = key(22.72, "link (5)", "kg", above=0)
     link_6_mass: float = key(24.13, "link (6)", "kg", above=0)

@@ -1,0 +1,151 @@
+"""Crank shaft and linkage of the press as flexible bodies, and what holds them in space.
+
+NGSolve's modes come from fe_models: from its cache, or made there on first use. In the plane the
+joints are those of rigid bodies; what the plane holds of itself is held here: the linkage sideways
+and upright by the slide, the crank shaft lengthwise by its first main bearing.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+import exudyn as exu
+import numpy as np
+from exudyn.itemInterface import MarkerBodyRigid, ObjectJointGeneric, ObjectJointRevolute2D
+from exudyn.rigidBodyUtilities import RotationMatrixZ
+
+from exu_press.integrate.progress import Progress
+from exu_press.joints import FlexiblePoint
+from exu_press.mechanism import Motion
+from exu_press.scene import Scene
+from exu_press.scene.tables import Flexible
+from fe_models import (
+    FlexibleBody,
+    ReducedPart,
+    Reduction,
+    add_flexible_body,
+    reduced_part,
+    shipped_part,
+)
+
+__all__ = [
+    "FACES",
+    "add_part",
+    "hold_crank",
+    "hold_linkage",
+    "joint_end",
+    "joint_marker",
+    "reduced_parts",
+]
+
+FACES = {
+    ("crank", "crank_pin"): "pin",
+    ("crank", "counter_pin"): "journal A",
+    ("linkage", "crank_pin"): "big bore",
+    ("linkage", "slide_pin"): "small bore",
+}
+"""(body, joint) -> the interface of the part that carries the joint."""
+
+
+def reduced_parts(scene: Scene, *, quiet: bool = True) -> dict[str, ReducedPart]:
+    """Return crank and linkage as the scene wants them, showing progress while they are made."""
+    table = scene.flexible
+    if table is None:
+        return {}
+    shapes = {"crank": table.crank, "linkage": table.linkage}
+    return {name: _reduced(table, shape, quiet) for name, shape in shapes.items()}
+
+
+def add_part(
+    mbs: exu.MainSystem, scene: Scene, name: str, part: ReducedPart, start: Motion
+) -> FlexibleBody:
+    """Add a part on the ideal mechanism's motion.
+
+    The frames of the solids: the crank's in the shaft's axis, its pin upwards at angle 0; the
+    linkage's in the middle of its bores, x towards the slide.
+
+    Args:
+        mbs: the system.
+        scene: for gravity and damping.
+        name: "crank" or "linkage".
+        part: reduced.
+        start: motion (x, y, angle) of the frame, one instant.
+    """
+    assert scene.flexible is not None
+    (x, y, angle), (u, v, spin) = start.position[0], start.velocity[0]
+    return add_flexible_body(
+        mbs,
+        part,
+        position=(x, y, 0.0),
+        rotation=RotationMatrixZ(angle),
+        velocity=(u, v, 0.0),
+        angular_velocity=(0.0, 0.0, spin),
+        gravity=(0.0, -scene.gravity, 0.0),
+        damping_ratio=scene.flexible.damping_ratio,
+        name=name,
+    )
+
+
+def joint_end(body: FlexibleBody, face: str, point: Sequence[float]) -> Any:
+    """Return what a clearance joint holds on to: the interface's motion, at the point (x, y)."""
+    interface = body.part.interface(face)
+    centre = np.array([*point, interface.centre[2]])
+    if body.node_modes is None:
+        return body.object_number, centre
+    return FlexiblePoint(body.object_number, centre, interface.translation, interface.rotation)
+
+
+def joint_marker(mbs: exu.MainSystem, body: FlexibleBody, face: str, point: Sequence[float]) -> int:
+    """Add a marker that follows an interface's mean motion, at the point (x, y) of its body.
+
+    A mesh's interface has its centre a micrometre beside the drawing's; the joint is the drawing's.
+    """
+    centre = body.part.interface(face).centre
+    return body.add_marker(mbs, face, (point[0] - centre[0], point[1] - centre[1], 0.0))
+
+
+def hold_crank(mbs: exu.MainSystem, ground: int, crank: FlexibleBody, drive: int) -> dict[str, int]:
+    """Rest the main journals in the frame and turn the flange; return the bearings by name.
+
+    Args:
+        mbs: the system.
+        ground: object number of the frame.
+        crank: the body.
+        drive: marker that turns at the crank's speed; the flange follows it about its axis alone.
+    """
+    bearings = {}
+    for face in ("journal A", "journal B"):
+        along = float(crank.part.interface(face).centre[2])
+        seat = mbs.AddMarker(MarkerBodyRigid(bodyNumber=ground, localPosition=[0.0, 0.0, along]))
+        journal = joint_marker(mbs, crank, face, (0.0, 0.0))
+        name = f"main_bearing_{face[-1].lower()}"
+        bearings[name] = int(
+            mbs.AddObject(ObjectJointRevolute2D(name=name, markerNumbers=[journal, seat]))
+        )
+        if face == "journal A":
+            _hold(mbs, seat, journal, [0, 0, 1, 0, 0, 0])
+    _hold(mbs, drive, crank.add_marker(mbs, "flange"), [0, 0, 0, 0, 0, 1])
+    return bearings
+
+
+def hold_linkage(mbs: exu.MainSystem, slide: int, linkage: FlexibleBody) -> None:
+    """Keep the linkage in the plane of the slide, whose marker is given."""
+    _, _, z = linkage.part.interface("small bore").centre
+    bore = linkage.add_marker(mbs, "small bore", (0.0, 0.0, -z))  # a mesh is not quite symmetric
+    _hold(mbs, slide, bore, [0, 0, 1, 1, 1, 0])
+
+
+def _hold(mbs: exu.MainSystem, by: int, marker: int, axes: list[int]) -> None:
+    """Hold relative motions along and about the axes of marker `by`."""
+    mbs.AddObject(ObjectJointGeneric(markerNumbers=[by, marker], constrainedAxes=axes))
+
+
+def _reduced(table: Flexible, name: str, quiet: bool) -> ReducedPart:
+    """Return one part reduced."""
+    part = shipped_part(name, table.mesh_size)
+    if table.modulus_factor != 1.0:
+        modulus = part.material.youngs_modulus * table.modulus_factor
+        part = part.replace(material=replace(part.material, youngs_modulus=modulus))
+    reduction = Reduction(modes=table.modes, method=table.method)
+    with Progress(f"modes of {name}", 1.0, "", quiet=quiet) as progress:
+        return reduced_part(part, reduction, report=lambda what, share: progress.update(share))

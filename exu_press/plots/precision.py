@@ -1,0 +1,155 @@
+"""Work-precision pictures: error against run time, one picture a case, all solvers in it."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.text import Annotation
+
+from exu_press.plots.save import _save
+from exu_press.plots.style import COLOURS, GREY, SHADE, styled
+from exu_press.studies.precision import Report, Row
+from exu_press.studies.precision.own import FIXED, TOLERANCE
+from exu_press.studies.precision.rows import series_of
+
+__all__ = ["precision_figure", "save_precision"]
+
+OWN = {
+    TOLERANCE: {"color": COLOURS["vermilion"], "marker": "o", "linewidth": 2.2, "zorder": 4},
+    FIXED: {"color": COLOURS["blue"], "marker": "s", "linewidth": 2.2, "zorder": 4},
+}
+PEERS = {
+    "SciPy Radau": {"color": COLOURS["green"], "marker": "^"},
+    "SciPy BDF": {"color": COLOURS["green"], "marker": "v", "linestyle": "--"},
+    "SciPy LSODA": {"color": COLOURS["purple"], "marker": "D"},
+    "CVODE": {"color": COLOURS["sky blue"], "marker": "P"},
+    "IDA": {"color": COLOURS["sky blue"], "marker": "X", "linestyle": "--"},
+    "numbalsoda LSODA": {"color": COLOURS["purple"], "marker": "d", "linestyle": "--"},
+}
+MARKERS = ("1", "2", "3", "4", "+", "x")
+"""Of the package's own settings that are varied, in grey."""
+
+
+@styled
+def precision_figure(report: Report, name: str) -> Figure:
+    """Return position and peak acceleration error of a case over run time.
+
+    Errors that the reference cannot tell lie hollow on the shaded band's edge; failed runs are
+    crosses above.
+    """
+    case = report.cases[name]
+    series = {solver: rows for (of, solver), rows in series_of(report.rows).items() if of == name}
+    panels = {"error_position": f"{'angle, rad' if case['scene'] is None else 'position, m'}"}
+    if any(row.error_peak_acceleration is not None for rows in series.values() for row in rows):
+        panels["error_peak_acceleration"] = "peak acceleration, relative"
+    else:
+        panels["error_velocity"] = "angular velocity, rad/s" if case["scene"] is None else "m/s"
+    figure = Figure(figsize=(13.0, 6.0), layout="constrained")
+    below = figure.suptitle(f"\n{_words(report, case)}", x=0.012, ha="left", fontsize=9.5)
+    heading = f"{case['title']}: error against run time"
+    figure.add_artist(
+        Annotation(heading, (0, 1), xycoords=below, va="top", fontsize=13, fontweight="bold")
+    ).set_in_layout(False)
+    *axes, key = figure.subplots(1, 3, width_ratios=(1.0, 1.0, 0.34))
+    for panel, (error, words) in zip(axes, panels.items(), strict=True):
+        _draw(panel, series, error, case)
+        panel.set_title(f"Error of the {words}")
+        panel.set_xlabel("time of the integration, s")
+    key.axis("off")
+    handles = [_handle(solver, index) for index, solver in enumerate(_in_order(series))]
+    key.legend(handles=handles, loc="upper left", handlelength=2.6, borderaxespad=0.0)
+    return figure
+
+
+def save_precision(report: Report, directory: str | Path) -> list[Path]:
+    """Draw every case; return the files, precision_CASE.png.
+
+    Raises:
+        InputError: a file cannot be written.
+    """
+    return [
+        _save(precision_figure(report, name), Path(directory) / f"precision_{name}.png")
+        for name in report.cases
+    ]
+
+
+def _draw(axes: Axes, series: Mapping[str, Sequence[Row]], error: str, case: Any) -> None:
+    """Draw one kind of error of every solver."""
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.margins(0.06, 0.08)
+    floor = case["reference"]["floor"][error.removeprefix("error_")]
+    failed = []
+    for index, solver in enumerate(_in_order(series)):
+        style = _style(solver, index)
+        done = [row for row in series[solver] if row.status == "completed"]
+        failed += [(row, style["color"]) for row in series[solver] if row.status != "completed"]
+        points = [(row.wall_time, getattr(row, error), error in row.at_most) for row in done]
+        points = [point for point in points if point[1] is not None and point[1] > 0.0]
+        axes.plot([x for x, _, _ in points], [y for _, y, _ in points], **{**style, "marker": ""})
+        for hollow in (False, True):
+            some = [(x, y) for x, y, least in points if least is hollow]
+            axes.plot(
+                [x for x, _ in some],
+                [y for _, y in some],
+                **{**style, "linestyle": "", "clip_on": False},
+                markerfacecolor="white" if hollow else style["color"],
+            )
+    if floor and axes.has_data():
+        low, high = axes.get_ylim()
+        axes.set_ylim(min(low, 0.5 * floor), high)
+        axes.axhspan(axes.get_ylim()[0], floor, color=SHADE, linewidth=0, zorder=0.5)
+    _draw_failed(axes, failed)
+
+
+def _draw_failed(axes: Axes, failed: Sequence[tuple[Row, str]]) -> None:
+    """Mark failed runs along the upper edge, where they spent their time."""
+    for row, colour in failed:
+        axes.plot(
+            row.wall_time,
+            0.975,
+            transform=axes.get_xaxis_transform(),
+            marker="x",
+            markersize=8,
+            markeredgewidth=2.0,
+            color=colour,
+            clip_on=False,
+        )
+    if failed:
+        axes.set_title(f"x: {len(failed)} failed", loc="right", fontsize=8.5, color=GREY)
+
+
+def _in_order(series: Mapping[str, Sequence[Row]]) -> list[str]:
+    """Return the solvers: ours, peers, then variations of ours."""
+    known = [*OWN, *PEERS]
+    return sorted(series, key=lambda s: known.index(s) if s in known else len(known))
+
+
+def _style(solver: str, index: int) -> dict[str, Any]:
+    style = {"linewidth": 1.3, "markersize": 6.0, "zorder": 3, "linestyle": "-"}
+    if solver in OWN:
+        return {**style, **OWN[solver]}
+    if solver in PEERS:
+        return {**style, **PEERS[solver]}
+    varied = {"color": GREY, "marker": MARKERS[index % len(MARKERS)], "linewidth": 0.8}
+    return {**style, **varied, "markersize": 9.0, "zorder": 2, "linestyle": ":"}
+
+
+def _handle(solver: str, index: int) -> Line2D:
+    return Line2D([], [], label=solver, **_style(solver, index))
+
+
+def _words(report: Report, case: Mapping[str, Any]) -> str:
+    """Return what the errors are measured against, and where the times come from."""
+    reference = case["reference"]
+    text = f"reference: {reference['method']}"
+    if reference["status"] != "ok":
+        text = f"NO REFERENCE ({reference['method']})"
+    if case["horizon"] < case["duration"]:
+        text += f"; errors up to {case['horizon']:g} of {case['duration']:g} s"
+    if report.quick:
+        text += "; reduced form, times mean nothing"
+    return f"{text}; {report.machine['processor']}"

@@ -1,0 +1,117 @@
+"""How far a trajectory is from the reference: pointwise up to a horizon, by figures beyond it.
+
+Dry impacts drive neighbouring motions apart, so that after a while no two integrators agree point
+by point. What happens then is compared as a whole: when surfaces touch, how large the forces are,
+and how far apart the graphs of the velocity lie.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial.distance import directed_hausdorff
+
+from exu_press.observe.clearance import TOUCH
+from exu_press.studies.precision.trajectory import Array, Trajectory
+
+__all__ = ["INSTANTS_APART", "Errors", "Late", "errors_of", "instants_until", "late_of"]
+
+INSTANTS_APART = 1e-3
+"""s, between the instants that are compared: every fixed step up to it lands on them."""
+
+GRAPH_POINTS = 4001
+"""Of a graph over the whole run; the distance is resolved to about the run's length over this."""
+
+
+@dataclass(frozen=True)
+class Errors:
+    """Largest errors up to the horizon; None where there is nothing to compare.
+
+    Attributes:
+        position: m (rad for the squeezer).
+        velocity: m/s (rad/s).
+        peak_acceleration: of the largest magnitude, relative.
+    """
+
+    position: float | None
+    velocity: float | None
+    peak_acceleration: float | None
+
+
+@dataclass(frozen=True)
+class Late:
+    """What is compared of a whole dry run.
+
+    Attributes:
+        impacts: touches in the joint.
+        impact_time: largest difference of the touches' instants, s; None unless as many as in the
+            reference.
+        peak_force: relative error.
+        rms_force: relative error.
+        graph_distance: Hausdorff distance of the slider velocity's graph, time over the run's
+            length and velocity over its peak.
+    """
+
+    impacts: int
+    impact_time: float | None
+    peak_force: float
+    rms_force: float
+    graph_distance: float
+
+
+def instants_until(horizon: float) -> Array:
+    """Return the instants that are compared, s."""
+    count = int(horizon / INSTANTS_APART * (1 + 1e-9)) + 1
+    return np.asarray(INSTANTS_APART * np.arange(count), dtype=float)
+
+
+def errors_of(run: Trajectory, reference: Trajectory, horizon: float) -> Errors:
+    """Return the errors of a run that reached its end."""
+    instants = instants_until(horizon)
+    (position, velocity), (x, v) = run.at(instants), reference.at(instants)
+    peak, true_peak = (float(np.abs(t.until(horizon).acceleration).max()) for t in (run, reference))
+    return Errors(
+        float(np.abs(position - x).max()),
+        float(np.abs(velocity - v).max()),
+        abs(peak / true_peak - 1.0),
+    )
+
+
+def late_of(run: Trajectory, reference: Trajectory) -> Late | None:
+    """Return the figures of a dry run, or None where no surfaces touch."""
+    if run.force is None or reference.force is None or run.penetration is None:
+        return None
+    touches, true_touches = _touches(run), _touches(reference)
+    same = len(touches) == len(true_touches) > 0
+    rms, true_rms = _rms(run), _rms(reference)
+    return Late(
+        impacts=len(touches),
+        impact_time=float(np.abs(touches - true_touches).max()) if same else None,
+        peak_force=abs(float(run.force.max()) / float(reference.force.max()) - 1.0),
+        rms_force=abs(rms / true_rms - 1.0),
+        graph_distance=_graph_distance(run, reference),
+    )
+
+
+def _touches(run: Trajectory) -> Array:
+    """Return the instants at which surfaces begin to touch, s."""
+    assert run.penetration is not None
+    touching = run.penetration > TOUCH
+    return np.asarray(run.time[1:][touching[1:] & ~touching[:-1]])
+
+
+def _rms(run: Trajectory) -> float:
+    """Return the root of the mean square of the joint's force over time, N."""
+    assert run.force is not None
+    mean_square = np.trapezoid(run.force**2, run.time) / (run.time[-1] - run.time[0])
+    return float(np.sqrt(mean_square))
+
+
+def _graph_distance(run: Trajectory, reference: Trajectory) -> float:
+    """Return the Hausdorff distance between the graphs of the slider's velocity."""
+    end, speed = float(reference.time[-1]), float(np.abs(reference.velocity).max())
+    instants = np.linspace(0.0, end, GRAPH_POINTS)
+    graphs = [
+        np.column_stack([instants / end, np.interp(instants, t.time, t.velocity) / speed])
+        for t in (run, reference)
+    ]
+    return float(max(directed_hausdorff(*graphs)[0], directed_hausdorff(*graphs[::-1])[0]))

@@ -1,0 +1,88 @@
+"""The ratios the package has set itself, computed from the rows of one run on one machine."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from exu_press.studies.precision.own import FIXED, TOLERANCE
+from exu_press.studies.precision.rows import Row, cheapest, series_of
+
+__all__ = ["Goal", "goals_of"]
+
+PEAK, PEAK_LIMIT = "error_peak_acceleration", 5e-3
+POSITION, POSITION_LIMIT = "error_position", 1e-6
+
+FIXED_RATIOS = {"press_lubricated": 60.0, "press_dry": 20.0}
+PEER_RATIOS = {"SciPy Radau": 1.0, "SciPy BDF": 1.0, "SciPy LSODA": 10.0}
+PEER_CASE = "slider_crank_dry_0.1mm"
+REAL_TIME = ("press_ideal", "press_lubricated", "press_dry")
+
+
+@dataclass(frozen=True)
+class Goal:
+    """One ratio of run times.
+
+    Attributes:
+        what: in words.
+        ratio: our time over the other's; None where one of them did not get there.
+        at_most: what is aimed at.
+        ours: our run, in words.
+        other: what it is compared with, in words.
+    """
+
+    what: str
+    ratio: float | None
+    at_most: float
+    ours: str
+    other: str
+
+    @property
+    def met(self) -> bool | None:
+        """Whether the goal is met; None where there is nothing to compare."""
+        return None if self.ratio is None else self.ratio <= self.at_most
+
+
+def goals_of(rows: Sequence[Row], durations: dict[str, float]) -> list[Goal]:
+    """Return every goal whose cases were run.
+
+    Args:
+        rows: of all cases.
+        durations: case -> simulated time, s.
+    """
+    series, goals = series_of(rows), []
+    for case, ratio in FIXED_RATIOS.items():
+        if case in durations:
+            ours = cheapest(series.get((case, TOLERANCE), []), PEAK, PEAK_LIMIT)
+            other = cheapest(series.get((case, FIXED), []), PEAK, PEAK_LIMIT)
+            what = f"{case}: peak acceleration within 0.5 %, time over the best fixed step's"
+            goals.append(_goal(what, ours, other, 1.0 / ratio))
+    if PEER_CASE in durations:
+        ours = cheapest(series.get((PEER_CASE, TOLERANCE), []), POSITION, POSITION_LIMIT)
+        for peer, ratio in PEER_RATIOS.items():
+            other = cheapest(series.get((PEER_CASE, peer), []), POSITION, POSITION_LIMIT)
+            what = f"{PEER_CASE}: position within 1e-6 m, time over {peer}'s"
+            goals.append(_goal(what, ours, other, ratio))
+    for case in REAL_TIME:
+        if case in durations:
+            ours = cheapest(series.get((case, TOLERANCE), []), PEAK, PEAK_LIMIT)
+            time = durations[case]
+            goals.append(
+                Goal(
+                    f"{case}: peak acceleration within 0.5 %, wall time over simulated time",
+                    None if ours is None else ours.wall_time / time,
+                    1.0,
+                    _words(ours),
+                    f"{time:g} s simulated",
+                )
+            )
+    return goals
+
+
+def _goal(what: str, ours: Row | None, other: Row | None, at_most: float) -> Goal:
+    ratio = None if ours is None or other is None else ours.wall_time / other.wall_time
+    return Goal(what, ratio, at_most, _words(ours), _words(other))
+
+
+def _words(row: Row | None) -> str:
+    if row is None:
+        return "no setting that was run gets there"
+    return f"{row.solver} {row.setting} {row.value:g}: {row.wall_time:.3g} s"

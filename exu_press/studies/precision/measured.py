@@ -1,0 +1,84 @@
+"""One run, timed: the median of several after a warm-up."""
+
+import statistics
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+from exu_press.result import Result
+from exu_press.studies.precision.trajectory import Trajectory, trajectory_of
+
+__all__ = ["LONG_RUN", "Attempt", "Measured", "measured_of", "timed"]
+
+LONG_RUN = 10.0
+"""s; a run that takes longer is not repeated: noise of tenths of seconds does not matter there."""
+
+
+@dataclass(frozen=True)
+class Measured:
+    """What one run gave and took.
+
+    Attributes:
+        trajectory: None if it failed.
+        wall_times: of the integration alone, of every repetition, s.
+        status: as in summary.json.
+        reason: empty when completed.
+        steps: accepted ones, None where the integrator does not say.
+        rejected_steps: repeated ones.
+        newton_iterations: of all steps.
+        law_evaluations: evaluations of the joints' forces, or of the right-hand side.
+    """
+
+    trajectory: Trajectory | None
+    wall_times: tuple[float, ...]
+    status: str = "completed"
+    reason: str = ""
+    steps: int | None = None
+    rejected_steps: int | None = None
+    newton_iterations: int | None = None
+    law_evaluations: int | None = None
+
+    @property
+    def wall_time(self) -> float:
+        """Median, s."""
+        return statistics.median(self.wall_times)
+
+
+@dataclass(frozen=True)
+class Attempt:
+    """A solver with one setting, ready to run.
+
+    Attributes:
+        solver: as it is shown.
+        setting: what is varied: "step", "tolerance".
+        value: of the setting, s or dimensionless.
+        run: does it once.
+    """
+
+    solver: str
+    setting: str
+    value: float
+    run: Callable[[], Measured] = field(repr=False)
+
+
+def timed(attempt: Attempt, repeats: int) -> Measured:
+    """Run an attempt so many times, once if it is long; the trajectory is the first one's."""
+    first = attempt.run()
+    times = list(first.wall_times)
+    if first.status == "completed" and times[0] < LONG_RUN:
+        times += [attempt.run().wall_times[0] for _ in range(repeats - 1)]
+    return replace(first, wall_times=tuple(times))
+
+
+def measured_of(result: Result) -> Measured:
+    """Return what a result of the package says."""
+    info = result.info
+    return Measured(
+        trajectory=trajectory_of(result) if result.completed else None,
+        wall_times=(float(info["wall_time"]),),
+        status=info["status"],
+        reason=info["reason"],
+        steps=info["steps"],
+        rejected_steps=info["rejected_steps"],
+        newton_iterations=info["newton_iterations"],
+        law_evaluations=info["law_evaluations"],
+    )

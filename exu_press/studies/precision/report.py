@@ -1,0 +1,39 @@
+"""Everything that was measured, as it is written and read again."""
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from exu_press.studies.precision.goals import Goal
+from exu_press.studies.precision.rows import Row
+
+__all__ = ["Report"]
+
+
+@dataclass(frozen=True)
+class Report:
+    """The study's outcome.
+
+    Attributes:
+        quick: whether it is the reduced form, whose times mean nothing.
+        cases: name -> title, scene, duration, horizon (s) and reference.
+        rows: one a run.
+        orders: observed orders, one entry a case and solver.
+        goals: ratios of run times.
+        left_out: what was not run, and why.
+        machine: processor, system, versions.
+    """
+
+    quick: bool
+    cases: Mapping[str, Mapping[str, Any]]
+    rows: tuple[Row, ...]
+    orders: tuple[Mapping[str, Any], ...]
+    goals: tuple[Goal, ...]
+    left_out: tuple[str, ...]
+    machine: Mapping[str, Any]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the dictionary of precision.json."""
+        data = asdict(self)
+        data["goals"] = [{**asdict(goal), "met": goal.met} for goal in self.goals]
+        return data

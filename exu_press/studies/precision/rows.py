@@ -1,0 +1,136 @@
+"""A row of precision.json, and what a series of rows says."""
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from exu_press.studies.precision.errors import Errors, Late
+from exu_press.studies.precision.measured import Attempt, Measured
+
+__all__ = ["ERRORS", "Row", "cheapest", "order_of", "row_of", "series_of"]
+
+ERRORS = ("error_position", "error_velocity", "error_peak_acceleration")
+
+
+@dataclass(frozen=True)
+class Row:
+    """One run.
+
+    Attributes:
+        case: name.
+        solver: who.
+        setting: "step" or "tolerance".
+        value: of the setting, s or dimensionless.
+        error_position: largest up to the horizon, m; None if the run failed or there is no
+            reference.
+        error_velocity: the same, m/s.
+        error_peak_acceleration: relative.
+        at_most: names of the errors that are smaller than can be told: they are at most this.
+        wall_time: median, s.
+        wall_times: of every repetition, s.
+        steps: accepted ones.
+        rejected_steps: repeated ones.
+        newton_iterations: of all steps.
+        law_evaluations: of the joints' forces, or of the right-hand side.
+        status: "completed" or how it failed.
+        reason: why it failed.
+        late: what is compared of the whole of a dry run.
+    """
+
+    case: str
+    solver: str
+    setting: str
+    value: float
+    error_position: float | None
+    error_velocity: float | None
+    error_peak_acceleration: float | None
+    at_most: tuple[str, ...]
+    wall_time: float
+    wall_times: tuple[float, ...]
+    steps: int | None
+    rejected_steps: int | None
+    newton_iterations: int | None
+    law_evaluations: int | None
+    status: str
+    reason: str
+    late: Late | None
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the row as it stands in precision.json."""
+        return asdict(self)
+
+    def resolved(self, error: str) -> float | None:
+        """Return an error, or None where it is missing or smaller than can be told."""
+        value: float | None = getattr(self, error)
+        return None if error in self.at_most else value
+
+
+def row_of(
+    case: str, attempt: Attempt, run: Measured, errors: Errors, floor: Errors, late: Late | None
+) -> Row:
+    """Return the row of a run; errors below the floor are raised to it and marked."""
+    names = dict(zip(ERRORS, ("position", "velocity", "peak_acceleration"), strict=True))
+    values: dict[str, float | None] = {}
+    at_most = []
+    for error, name in names.items():
+        value, least = getattr(errors, name), getattr(floor, name)
+        if value is not None and least is not None and value <= least > 0.0:
+            value = least
+            at_most.append(error)
+        values[error] = value
+    return Row(
+        case=case,
+        solver=attempt.solver,
+        setting=attempt.setting,
+        value=attempt.value,
+        at_most=tuple(at_most),
+        wall_time=run.wall_time,
+        wall_times=run.wall_times,
+        steps=run.steps,
+        rejected_steps=run.rejected_steps,
+        newton_iterations=run.newton_iterations,
+        law_evaluations=run.law_evaluations,
+        status=run.status,
+        reason=run.reason,
+        late=late,
+        **values,
+    )
+
+
+def series_of(rows: Iterable[Row]) -> dict[tuple[str, str], list[Row]]:
+    """Return the rows by case and solver, each series from its coarsest setting on."""
+    series: dict[tuple[str, str], list[Row]] = {}
+    for row in rows:
+        series.setdefault((row.case, row.solver), []).append(row)
+    return {key: sorted(some, key=lambda row: -row.value) for key, some in series.items()}
+
+
+def order_of(series: Sequence[Row], error: str = "error_position") -> float | None:
+    """Return the observed order: the slope of error over setting at its three finest points."""
+    points = [
+        (math.log(row.value), math.log(value))
+        for row in series
+        if row.status == "completed" and (value := row.resolved(error)) is not None and value > 0.0
+    ][-3:]
+    if len(points) < 2:
+        return None
+    mean_x, mean_y = (sum(p[i] for p in points) / len(points) for i in (0, 1))
+    square = sum((x - mean_x) ** 2 for x, _ in points)
+    return sum((x - mean_x) * (y - mean_y) for x, y in points) / square
+
+
+def cheapest(series: Sequence[Row], error: str, limit: float) -> Row | None:
+    """Return the quickest run with at most an error, among settings that are not just lucky.
+
+    A setting counts where it and every finer one that was completed has at most this error.
+    """
+    good: list[Row] = []
+    for row in reversed(series):
+        if row.status != "completed":
+            continue
+        value = getattr(row, error)
+        if value is None or value > limit:
+            break
+        good.append(row)
+    return min(good, key=lambda row: row.wall_time, default=None)

@@ -1,0 +1,153 @@
+"""The report as a person reads it in a terminal."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+from exu_press.studies.precision.report import Report
+from exu_press.studies.precision.rows import Row
+
+__all__ = ["report_lines"]
+
+HEAD = (
+    "solver",
+    "setting",
+    "position",
+    "velocity",
+    "peak acc.",
+    "time, s",
+    "steps",
+    "rejected",
+    "Newton",
+    "laws",
+    "us/step",
+    "status",
+)
+
+LATE_HEAD = ("solver", "setting", "impacts", "their times, s", "peak force", "rms force", "graph")
+
+
+def report_lines(report: Report) -> list[str]:
+    """Return everything: machine, a table a case, observed orders, goals, what was left out."""
+    lines = [*_machine_lines(report), ""]
+    for name, case in report.cases.items():
+        rows = [row for row in report.rows if row.case == name]
+        reference = case["reference"]
+        units = "rad, rad/s" if case["scene"] is None else "m, m/s"
+        lines += [
+            f"{name}: {case['title']}",
+            f"  {case['duration']:g} s simulated; errors up to {case['horizon']:g} s, {units} and "
+            "relative; < is smaller than the reference can tell",
+            f"  reference: {reference['method']}; {_difference(reference)}",
+            *_aligned([HEAD, *(_cells(row) for row in rows)]),
+            *_reasons(rows),
+            *(_late_lines(rows) if case["horizon"] < case["duration"] else ()),
+            "",
+        ]
+    lines += ["observed orders (slope of the error over the setting, three finest points)"]
+    orders = [
+        (
+            order["case"],
+            order["solver"],
+            order["setting"],
+            *(_number(order[name], 2) for name in order if name.startswith("error")),
+        )
+        for order in report.orders
+    ]
+    lines += _aligned([("case", "solver", "setting", "position", "velocity", "peak"), *orders])
+    lines += _goal_lines(report)
+    return [*lines, "", *report.left_out] if report.left_out else lines
+
+
+def _machine_lines(report: Report) -> list[str]:
+    machine = report.machine
+    versions = ", ".join(f"{name} {v}" for name, v in machine["versions"].items() if v)
+    load = machine["load"]
+    busy = "" if load is None else f", load {load[0]:.1f}"
+    lines = [f"{machine['processor']}, {machine['cores']} cores{busy}; {versions}"]
+    if report.quick:
+        lines.append("reduced form: short runs, loose references; the times mean nothing")
+    return lines
+
+
+def _difference(reference: Mapping[str, Any]) -> str:
+    """Return how far the two integrators of a reference are apart."""
+    if reference["status"] != "ok":
+        return "NO REFERENCE: its integrators are too far apart, or one failed"
+    parts = reference["difference"]
+    if not any(parts.values()):
+        return "exact"
+    texts = [f"{_number(value, 2)}" for value in parts.values() if value is not None]
+    return f"known to {' / '.join(texts)}"
+
+
+def _cells(row: Row) -> tuple[str, ...]:
+    per_step = None if not row.steps else 1e6 * row.wall_time / row.steps
+    return (
+        row.solver,
+        f"{row.value:g}{' s' if row.setting == 'step' else ''}",
+        _error(row, "error_position"),
+        _error(row, "error_velocity"),
+        _error(row, "error_peak_acceleration"),
+        f"{row.wall_time:.3g}" + ("" if len(row.wall_times) > 1 else "*"),
+        _number(row.steps, 7),
+        _number(row.rejected_steps, 7),
+        _number(row.newton_iterations, 7),
+        _number(row.law_evaluations, 7),
+        _number(per_step, 3),
+        row.status,
+    )
+
+
+def _error(row: Row, name: str) -> str:
+    return ("<" if name in row.at_most else "") + _number(getattr(row, name), 2)
+
+
+def _reasons(rows: Sequence[Row]) -> list[str]:
+    return [
+        f"  {row.solver} {row.setting} {row.value:g}: {row.reason}" for row in rows if row.reason
+    ]
+
+
+def _late_lines(rows: Sequence[Row]) -> list[str]:
+    """Return what is compared of the whole of dry runs, where any errors are."""
+    cells: list[tuple[str, ...]] = [
+        (
+            row.solver,
+            f"{row.value:g}",
+            str(row.late.impacts),
+            _number(row.late.impact_time, 2),
+            _number(row.late.peak_force, 2),
+            _number(row.late.rms_force, 2),
+            _number(row.late.graph_distance, 2),
+        )
+        for row in rows
+        if row.late is not None
+    ]
+    if not cells:
+        return []
+    title = "  the whole run: touches, their error; relative errors; graph distance"
+    return [title, *_aligned([LATE_HEAD, *cells])]
+
+
+def _goal_lines(report: Report) -> list[str]:
+    lines = [""] if report.goals else []
+    for goal in report.goals:
+        verdict = {True: "met", False: "NOT MET", None: "not to be told"}[goal.met]
+        ratio = "-" if goal.ratio is None else f"{goal.ratio:.3g}"
+        lines.append(f"goal {verdict}: {goal.what}: {ratio}, wanted <= {goal.at_most:.3g}")
+        lines.append(f"  {goal.ours} against {goal.other}")
+    return lines
+
+
+def _number(value: float | None, digits: int) -> str:
+    return "-" if value is None else f"{value:.{digits}g}"
+
+
+def _aligned(cells: Iterable[Sequence[str]]) -> list[str]:
+    """Return rows with their columns under each other, indented."""
+    rows = [tuple(row) for row in cells]
+    widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
+    return [
+        "  " + "  ".join(c.ljust(w) for c, w in zip(row, widths, strict=True)).rstrip()
+        for row in rows
+    ]

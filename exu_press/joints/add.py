@@ -227,12 +227,5 @@ def _end(mbs: exu.MainSystem, point: BodyPoint) -> BodyEnd:
     index = overlay_of(mbs).index_of(rigid)
     if flexible is None or modal is None:
         return BodyEnd(node_kind, index, reference, local)
-    return BodyEnd(
-        node_kind,
-        index,
-        reference,
-        local,
-        overlay_of(mbs).index_of(modal),
-        flexible.translation,
-        flexible.turn,
-    )
+    modes = (overlay_of(mbs).index_of(modal), flexible.translation, flexible.turn)
+    return BodyEnd(node_kind, index, reference, local, modes)

@@ -60,14 +60,12 @@ class ClearanceJoint(Protocol):
     """Whether it remembers something from step to step."""
     clearance: float
     """Radial clearance, m."""
+    places: list[int]
+    """Where the joint's coordinates lie among those of the item."""
 
     @property
     def outside(self) -> float | None:
         """Eccentricity ratio of the last state if a film's law did not hold there."""
-
-    @property
-    def places(self) -> list[int]:
-        """Where the joint's coordinates lie among those of the item."""
 
     @property
     def relative_velocity(self) -> Vector:

@@ -52,14 +52,9 @@ class PlanarJoint(PairedJoint):
         super().__init__(pairs)
         self.journal = journal
         self.bearing = bearing
+        self.places = [end.index + c for end in (journal, bearing) for c in range(3)]
         self._acting: list[tuple[PolarForce, Arms]] = []
         self._place = (0.0, 1.0, *(0.0,) * 9)
-
-    @property
-    def places(self) -> list[int]:
-        """Where the joint's coordinates lie: the journal's three, then the bearing's."""
-        ends = (self.journal, self.bearing)
-        return [end.index + coordinate for end in ends for coordinate in range(3)]
 
     def add_force(self, q: Sequence[float], q_t: Sequence[float], out: list[float]) -> None:
         """Add the joint's generalised forces to `out`."""

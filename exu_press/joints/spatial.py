@@ -1,11 +1,12 @@
 """A revolute clearance joint between bodies of any kind, through the same pairs as in the plane."""
 
 from collections.abc import Sequence
+from math import sqrt
 
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.joints.ends import BodyEnd
+from exu_press.joints.ends import BodyEnd, cross, cross_matrix
 from exu_press.joints.joint import JointState
 from exu_press.joints.pairs import Arms, Pair, PairedJoint, PolarForce
 
@@ -29,30 +30,31 @@ class SpatialRevolute(PairedJoint):
         self.journal = journal
         self.bearing = bearing
         self._axis = np.asarray(axis, dtype=float) / np.linalg.norm(axis)
+        self.places = journal.places + bearing.places
         self._acting: list[tuple[PolarForce, Arms]] = []
-
-    @property
-    def places(self) -> list[int]:
-        """Where the joint's coordinates lie: the journal's, then the bearing's."""
-        return self.journal.places + self.bearing.places
 
     def add_force(self, q: Sequence[float], q_t: Sequence[float], out: list[float]) -> None:
         """Add the joint's generalised forces to `out`."""
         self._move(q, q_t)
         self._acting = []
-        polar_state = (self._e, self._e_dot, self._v_t, self._w_j, self._w_b)
-        wrench = np.zeros(4)
+        f_n = f_t = m_j = m_b = 0.0
         for pair in self.pairs:
-            polar = pair.force(*polar_state)
+            polar = pair.force(self._e, self._e_dot, self._v_t, self._w_j, self._w_b)
             if polar is not None:
                 arms = pair.arms(self._e)
                 self._acting.append((polar, arms))
-                f_n, f_t = polar[0]
-                wrench += (f_n, f_t, arms[0] * f_t, arms[1] * f_t)
-        self._wrench = wrench
+                p_n, p_t = polar[0]
+                f_n += p_n
+                f_t += p_t
+                m_j += arms[0] * p_t
+                m_b += arms[1] * p_t
+        self._wrench = f_n, f_t, m_j, m_b
         if self._acting:
-            for place, force in zip(self.places, (wrench @ self._rates).tolist(), strict=True):
-                out[place] += force
+            force, axis = f_n * self._n + f_t * self._t, self._turned_axis
+            forces = self.journal.forces(force, m_j * axis)
+            forces += self.bearing.forces(-force, m_b * axis - cross(self._along, force))
+            for place, value in zip(self.places, forces, strict=True):
+                out[place] += value
 
     def jacobian(self, by_q: float, by_q_t: float) -> list[float] | None:
         """Return -(by_q dQ/dq + by_q_t dQ/dq_t), but for what only turns arms and axes."""
@@ -71,7 +73,7 @@ class SpatialRevolute(PairedJoint):
             law[2] += arm_j * drag
             law[3] += arm_b * drag
             law[2:, 0] += (slope_j * f_t, slope_b * f_t)
-        rates = self._rates
+        rates = self._rates()
         changes = np.concatenate([by_q * rates[:2], by_q_t * rates])
         matrix: list[float] = (-rates.T @ (law @ changes)).ravel().tolist()
         return matrix
@@ -84,7 +86,7 @@ class SpatialRevolute(PairedJoint):
     def state(self, q: Sequence[float], q_t: Sequence[float]) -> JointState:
         """Return what the joint does in a state of its two bodies."""
         self.add_force(q, q_t, [0.0] * len(q))
-        f_n, f_t, m_j, m_b = self._wrench.tolist()
+        f_n, f_t, m_j, m_b = self._wrench
         return JointState(
             eccentricity=tuple((self._e * self._n).tolist()),
             force=tuple((f_n * self._n + f_t * self._t).tolist()),
@@ -97,27 +99,34 @@ class SpatialRevolute(PairedJoint):
         )
 
     def _move(self, q: Sequence[float], q_t: Sequence[float]) -> None:
-        """Find eccentricity, directions and velocities, and how rates make the latter."""
-        journal, bearing = self.journal.motion(q, q_t), self.bearing.motion(q, q_t)
-        axis = bearing.rotation @ self._axis
+        """Find eccentricity, directions and velocities."""
+        journal, bearing = self.journal, self.bearing
+        journal.move(q, q_t)
+        bearing.move(q, q_t)
+        self._turned_axis = axis = bearing.rotation @ self._axis
         apart = journal.position - bearing.position
-        along = axis * (axis @ apart)  # the bearing's force acts opposite the journal
+        self._along = along = axis * (axis @ apart)  # the bearing's force acts beside the journal
         across = apart - along
-        self._e = e = float(np.sqrt(across @ across))
+        self._e = e = sqrt(float(across @ across))
         self._n = n = across / e if e > 0.0 else _normal_to(axis)
-        self._t = t = np.cross(axis, n)
-        bearing_by_rates = bearing.by_rates - np.cross(
-            along, bearing.spin_by_rates, axisb=0, axisc=0
-        )
-        relative = journal.velocity - bearing.velocity + np.cross(along, bearing.spin)
+        self._t = t = cross(axis, n)
+        relative = journal.velocity - bearing.velocity + cross(along, bearing.spin)
         self._e_dot, self._v_t = float(n @ relative), float(t @ relative)
         self._w_j, self._w_b = float(axis @ journal.spin), float(axis @ bearing.spin)
-        left, right = journal.by_rates.shape[1], bearing_by_rates.shape[1]
-        self._rates = np.zeros((4, left + right))
-        self._rates[0, :left], self._rates[0, left:] = n @ journal.by_rates, -n @ bearing_by_rates
-        self._rates[1, :left], self._rates[1, left:] = t @ journal.by_rates, -t @ bearing_by_rates
-        self._rates[2, :left] = axis @ journal.spin_by_rates
-        self._rates[3, left:] = axis @ bearing.spin_by_rates
+
+    def _rates(self) -> Array:
+        """Return velocities along n and t and both spins about the axis by all rates, (4, n)."""
+        journal, journal_spin = self.journal.rates()
+        bearing, bearing_spin = self.bearing.rates()
+        bearing -= cross_matrix(self._along) @ bearing_spin
+        none_j, none_b = np.zeros(journal.shape[1]), np.zeros(bearing.shape[1])
+        rows = [
+            (self._n @ journal, -self._n @ bearing),
+            (self._t @ journal, -self._t @ bearing),
+            (self._turned_axis @ journal_spin, none_b),
+            (none_j, self._turned_axis @ bearing_spin),
+        ]
+        return np.array([np.concatenate(row) for row in rows])
 
 
 def _normal_to(axis: Array) -> Array:

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.joints.ends import BodyEnd, cross_matrix
+from exu_press.joints.ends import BodyEnd, cross, cross_matrix
 from exu_press.joints.joint import JointState
 from exu_press.laws.contact import NormalContact
 from exu_press.laws.friction import Friction, LuGre
@@ -36,16 +36,12 @@ class SpatialSpherical:
         """Join ball and socket; radius of the ball and radial clearance in m."""
         self.ball = ball
         self.socket = socket
+        self.places = ball.places + socket.places
         self.stateful = isinstance(friction, LuGre) or contact.needs_impact_speed
         self._contact, self._friction = contact, friction
         self._radius, self.clearance = radius, clearance
         self._next: tuple[Array, float] = np.zeros(3), 0.0
         self.reset()
-
-    @property
-    def places(self) -> list[int]:
-        """Where the joint's coordinates lie: the ball's, then the socket's."""
-        return self.ball.places + self.socket.places
 
     def begin_step(self, step: float, accepted: bool) -> None:
         """Keep bristle deflection and approach speed of the last step if it was accepted."""
@@ -63,9 +59,11 @@ class SpatialSpherical:
         """Add the joint's generalised forces to `out`."""
         self._move(q, q_t)
         if self._touching:
-            forces = self._normal_force @ self._centre_rates + self._drag @ self._surface_rates
-            for place, force in zip(self.places, forces.tolist(), strict=True):
-                out[place] += force
+            force, couple = self._normal_force + self._drag, cross(self._n, self._drag)
+            forces = self.ball.forces(force, self._radius * couple)
+            forces += self.socket.forces(-force, -(self._radius + self._e) * couple)
+            for place, value in zip(self.places, forces, strict=True):
+                out[place] += value
 
     def jacobian(self, by_q: float, by_q_t: float) -> list[float] | None:
         """Return -(by_q dQ/dq + by_q_t dQ/dq_t), but for what only turns arms."""
@@ -82,7 +80,7 @@ class SpatialSpherical:
         by_v = -damping * np.outer(n, n)
         drag_by_e = -np.outer(self._mu, by_normal) + self._drag_by_sliding @ slipping @ across / e
         drag_by_v = -np.outer(self._mu, damping * n)
-        centre, surface = self._centre_rates, self._surface_rates
+        centre, surface = self._rates()
         matrix = centre.T @ ((by_q * by_e + by_q_t * by_v) @ centre)
         matrix += surface.T @ ((by_q * drag_by_e + by_q_t * drag_by_v) @ centre)
         matrix += surface.T @ (by_q_t * (self._drag_by_sliding @ across) @ surface)
@@ -102,8 +100,8 @@ class SpatialSpherical:
         elastic = self._contact.stiffness.force(depth)[0] if depth > 0.0 else 0.0
         moments = np.concatenate(
             [
-                self._radius * np.cross(self._n, self._drag),
-                -reach * np.cross(self._n, self._drag),
+                self._radius * cross(self._n, self._drag),
+                -reach * cross(self._n, self._drag),
             ]
         )
         return JointState(
@@ -119,7 +117,9 @@ class SpatialSpherical:
 
     def _move(self, q: Sequence[float], q_t: Sequence[float]) -> None:
         """Find eccentricity, velocities and forces."""
-        ball, socket = self.ball.motion(q, q_t), self.socket.motion(q, q_t)
+        ball, socket = self.ball, self.socket
+        ball.move(q, q_t)
+        socket.move(q, q_t)
         apart = ball.position - socket.position
         self._e = e = float(np.sqrt(apart @ apart))
         self._n = n = apart / e if e > 0.0 else np.array([1.0, 0.0, 0.0])
@@ -131,15 +131,8 @@ class SpatialSpherical:
         if not self._touching and not self.stateful:
             return
         reach = self._radius + e
-        self._centre_rates = np.hstack([ball.by_rates, -socket.by_rates])
-        self._surface_rates = self._centre_rates + np.hstack(
-            [
-                -self._radius * np.cross(n, ball.spin_by_rates, axisb=0, axisc=0),
-                reach * np.cross(n, socket.spin_by_rates, axisb=0, axisc=0),
-            ]
-        )
         self._swirl = self._radius * ball.spin - reach * socket.spin
-        self._surface = self._relative + np.cross(self._swirl, n)
+        self._surface = self._relative + cross(self._swirl, n)
         sliding = self._surface - n * (n @ self._surface)
         rate = float(n @ self._relative)
         self._mu, by_sliding, bristle = self._coefficient(sliding)
@@ -149,6 +142,16 @@ class SpatialSpherical:
             self._normal_force = -self._law[0] * n
             self._drag = -self._law[0] * self._mu
             self._drag_by_sliding = -self._law[0] * by_sliding
+
+    def _rates(self) -> tuple[Array, Array]:
+        """Return velocities of the centres and of the surfaces past each other by all rates."""
+        ball, ball_spin = self.ball.rates()
+        socket, socket_spin = self.socket.rates()
+        outward = cross_matrix(self._n)
+        centre = np.hstack([ball, -socket])
+        reach = self._radius + self._e
+        spins = np.hstack([-self._radius * outward @ ball_spin, reach * outward @ socket_spin])
+        return centre, centre + spins
 
     def _coefficient(self, sliding: Array) -> tuple[Array, Array, Array]:
         """Return the friction coefficient as a vector, its derivative and the bristle's end.

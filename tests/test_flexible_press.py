@@ -1,0 +1,98 @@
+"""The press with flexible crank shaft and linkage."""
+
+import numpy as np
+import pytest
+
+from exu_press import InputError, Scene, simulate
+
+SHORT = {"revolutions": 0.04}
+VARIANTS = [("ideal", "ideal"), ("ideal", "dry"), ("dry", "dry"), ("lubricated", "dry")]
+
+
+@pytest.fixture(scope="module")
+def linkage_as_solid():
+    """Mass properties of the solid linkage, for a rigid twin of the flexible body."""
+    from fe_models import Reduction, reduced_part, shipped_part
+
+    part = reduced_part(shipped_part("linkage"), Reduction(modes=0))
+    offset = float(part.centre_of_mass[0])
+    inertia = float(part.inertia[2, 2]) - part.mass * offset**2
+    return {"linkage_mass_offset": offset, "linkage_inertia": inertia, "linkage_mass": part.mass}
+
+
+@pytest.mark.parametrize(("crank_pin", "balls"), VARIANTS)
+def test_without_modes_it_is_the_rigid_press(crank_pin, balls, linkage_as_solid):
+    """Fixed steps, so that both take the same ones; masses to the mesh's 1e-3."""
+    scene = Scene(
+        crank_pin=crank_pin, balls=balls, revolutions=0.02, solver={"step": 1e-5}
+    )
+    twin = {k: v for k, v in linkage_as_solid.items() if k != "linkage_mass"}
+    rigid = simulate(scene.replace({f"press.{key}": value for key, value in twin.items()}))
+    flexible = simulate(scene.replace(bodies="flexible").replace("flexible.modes", 0))
+    assert np.abs(rigid["slider_position"] - flexible["slider_position"]).max() < 1e-8
+    assert flexible.completed
+
+
+@pytest.mark.parametrize(("crank_pin", "balls"), VARIANTS)
+def test_every_pin_variant_runs(crank_pin, balls):
+    result = simulate(Scene(bodies="flexible", crank_pin=crank_pin, balls=balls, **SHORT))
+    summary = result.summary()
+    assert result.completed, summary["reason"]
+    assert summary["energy"]["residual"] < 1e-2
+    assert 1e-7 < np.abs(result["crank_pin_deflection"]).max() < 1e-3
+    assert np.abs(result["linkage_elongation"]).max() > 1e-8
+    assert 1e5 < summary["stress"]["linkage"]["von_mises"] < 1e9
+
+
+def test_a_hundred_and_ten_thousand_times_stiffer_it_approaches_the_rigid_press():
+    """After the start has died away the ideal press bends with 1/E."""
+    scene = Scene(
+        bodies="flexible", crank_pin="ideal", balls="ideal", revolutions=0.1,
+        start_angle_deg=60.0, solver={"step": 1e-4}, flexible={"damping_ratio": 0.5},
+    )  # fmt: skip
+    bends = []
+    for factor in (1.0, 100.0, 1e4):
+        result = simulate(scene.replace("flexible.modulus_factor", factor))
+        late = result.time > 0.5 * scene.duration
+        ideal = scene.build().mechanism.ideal_slider(
+            scene.start_angle + scene.angular_speed * result.time, scene.angular_speed
+        )[0]
+        bends.append(np.abs(result["slider_position"] - ideal)[late].max())
+    assert bends[0] > 1e-7
+    assert bends[1] < 0.02 * bends[0]
+    assert bends[2] < 0.02 * bends[1] + 1e-11
+
+
+def test_blanking_bends_the_crank():
+    scene = Scene(
+        bodies="flexible", crank_pin="ideal", balls="ideal", start_angle_deg=140.0,
+        revolutions=0.03, blanking={"force": 1e6, "end_angle_deg": 150.0},
+    )  # fmt: skip
+    pressed, free = simulate(scene), simulate(scene.replace("blanking.force", 0.0))
+    pulse = np.radians(147.5)
+    bent, straight = (
+        np.abs(run["crank_pin_deflection"][run["crank_angle"] > pulse]).max()
+        for run in (pressed, free)
+    )
+    lift = bent / straight
+    assert lift > 1.5
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"press.linkage_length": 0.4}, r"press\.linkage_length = 0\.4: .*'flexible' is 0\.383"),
+        ({"press.crank_mass": 200.0}, r"press\.crank_mass = 200\.0"),
+        ({"flexible.modes": -1}, r"flexible\.modes = -1: allowed is a whole number >= 0"),
+        ({"flexible.modes": 2.5}, r"flexible\.modes = 2\.5"),
+        ({"flexible.crank": "wheel"}, r"flexible\.crank = 'wheel': allowed is one of 'crank'"),
+    ],
+)
+def test_what_flexible_bodies_cannot_be_is_refused(change, message):
+    with pytest.raises(InputError, match=message):
+        Scene(bodies="flexible").replace(change)
+
+
+def test_slider_crank_has_no_flexible_bodies():
+    with pytest.raises(InputError, match="bodies = 'flexible': allowed with mechanism = 'press'"):
+        Scene(mechanism="slider_crank", bodies="flexible")

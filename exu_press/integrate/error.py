@@ -13,6 +13,9 @@ __all__ = ["StepError"]
 
 Array = NDArray[np.float64]
 
+TINY = 1e-14
+"""Relative to the trace of the mass matrix: negligible beside any mass or mode."""
+
 STEPS_ADD_UP = 10.0
 """One step may use a tenth of the tolerance: then the error of a whole run is about the tolerance,
 as measured on the slider's velocity over a third of a revolution of the lubricated press."""
@@ -50,13 +53,12 @@ class StepError:
         """Return the error of the step that ends in the current state."""
         data = self._mbs.systemData
         if self._mass is None:
-            matrix = np.asarray(self._mbs.sys["dynamicSolver"].GetSystemMassMatrix())
-            self._mass = np.diag(matrix)
+            self._mass = np.diag(self._mass_matrix())
         now = np.array(data.GetODE2Coordinates_tt(exu.ConfigurationType.Current, False))
         before = np.array(data.GetODE2Coordinates_tt(exu.ConfigurationType.StartOfStep, False))
         error = self._velocity_error(step, now - before, self._mass)
         if error > 1.0:
-            error = self._velocity_error(step, self._free(now - before, self._mass), self._mass)
+            error = self._velocity_error(step, self._free(now - before), self._mass)
         return max([error, *(joint.error(step) for joint in self._joints)])
 
     def accept(self, step: float) -> None:
@@ -69,14 +71,19 @@ class StepError:
         largest = self._bodies.largest(jump * jump * mass)
         return step * math.sqrt(largest) / self._velocity_limit
 
-    def _free(self, jump: Array, mass: Array) -> Array:
+    def _free(self, jump: Array) -> Array:
         """Return the part of a jump that no constraint force can make or undo."""
+        mass = self._mass_matrix()
+        # Euler parameters have no mass along themselves, where a constraint holds them
+        root = np.linalg.cholesky(mass + np.diag(np.full(len(jump), TINY * np.trace(mass))))
         jacobian = np.asarray(self._mbs.sys["dynamicSolver"].GetSystemJacobian())
-        size, root = len(jump), np.sqrt(mass)
-        reactions = jacobian[:size, size:] / root[:, None]
-        weighted = jump * root
+        reactions = np.linalg.solve(root, jacobian[: len(jump), len(jump) :])
+        weighted = root.T @ jump
         multipliers = np.linalg.lstsq(reactions, weighted, rcond=1e-12)[0]
-        return np.asarray((weighted - reactions @ multipliers) / root)
+        return np.asarray(np.linalg.solve(root.T, weighted - reactions @ multipliers))
+
+    def _mass_matrix(self) -> Array:
+        return np.asarray(self._mbs.sys["dynamicSolver"].GetSystemMassMatrix())
 
 
 class _Bodies:

@@ -63,7 +63,7 @@ class StepControl:
         self._next_corner = next_corner
         self._step = min(largest, max(largest / 64.0, 64.0 * smallest))
         self._calm = 0
-        self._tried: tuple[float, float] | None = None  # start and error of the last rejection
+        self._tried = (0.0, 0.0)  # step and error of the last rejection
 
     def attach(self, mbs: exu.MainSystem) -> None:
         """Let Exudyn ask this control after every Newton solve and every step."""
@@ -77,14 +77,13 @@ class StepControl:
         if step <= 0.0:
             return [0.0, -1.0]
         self.error = error = self._estimate(step)
-        if error > 1.0 and not self._inherited(start, error):
+        if error > 1.0 and not self._inherited(step, error):
             self.rejected += 1
             self._calm = 0
-            self._tried = start, error
+            self._tried = step, error
             cut = max(SMALLEST_CUT, 0.5 ** math.ceil(0.5 * math.log2(error / 0.5)))
             self._step = step * cut
             return [2.0, self._step]
-        self._tried = None
         self._estimate.accept(step)
         self._calm += 1
         if step >= 0.5 * self._step:  # else it was cut short by a corner or by the end
@@ -94,14 +93,10 @@ class StepControl:
             self._calm = 0
         return [0.0, -1.0]
 
-    def _inherited(self, start: float, error: float) -> bool:
-        """Return whether the error has not shrunk with the step since its last rejection."""
-        return (
-            self._tried is not None
-            and self._tried[0] == start
-            and error < INHERITED
-            and error > 0.75 * self._tried[1]
-        )
+    def _inherited(self, step: float, error: float) -> bool:
+        """Return whether the error is as large as that of the longer step rejected last."""
+        rejected_step, rejected_error = self._tried
+        return error < INHERITED and step < 0.75 * rejected_step and error > 0.75 * rejected_error
 
     def _after_step(self, mbs: exu.MainSystem, time: float) -> bool:
         """Set the next step; corners and the end are stepped on exactly."""

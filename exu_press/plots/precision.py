@@ -4,9 +4,11 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 from matplotlib.text import Annotation
 
 from exu_press.plots.save import _save
@@ -48,7 +50,9 @@ def precision_figure(report: Report, name: str) -> Figure:
     else:
         panels["error_velocity"] = "angular velocity, rad/s" if case["scene"] is None else "m/s"
     figure = Figure(figsize=(13.0, 6.0), layout="constrained")
-    below = figure.suptitle(f"\n{_words(report, case)}", x=0.012, ha="left", fontsize=9.5)
+    below = figure.suptitle(
+        f"\n{_words(report, case)}", x=0.012, ha="left", fontsize=9.5, linespacing=1.6
+    )
     heading = f"{case['title']}: error against run time"
     figure.add_artist(
         Annotation(heading, (0, 1), xycoords=below, va="top", fontsize=13, fontweight="bold")
@@ -59,7 +63,8 @@ def precision_figure(report: Report, name: str) -> Figure:
         panel.set_title(f"Error of the {words}")
         panel.set_xlabel("time of the integration, s")
     key.axis("off")
-    handles = [_handle(solver, index) for index, solver in enumerate(_in_order(series))]
+    handles: list[Artist] = [_handle(s, index) for index, s in enumerate(_in_order(series))]
+    handles.append(Patch(color=SHADE, label="below what the\nreference can tell"))
     key.legend(handles=handles, loc="upper left", handlelength=2.6, borderaxespad=0.0)
     return figure
 
@@ -95,7 +100,7 @@ def _draw(axes: Axes, series: Mapping[str, Sequence[Row]], error: str, case: Any
             axes.plot(
                 [x for x, _ in some],
                 [y for _, y in some],
-                **{**style, "linestyle": "", "clip_on": False},
+                **{**style, "linestyle": ""},
                 markerfacecolor="white" if hollow else style["color"],
             )
     if floor and axes.has_data():
@@ -116,7 +121,6 @@ def _draw_failed(axes: Axes, failed: Sequence[tuple[Row, str]]) -> None:
             markersize=8,
             markeredgewidth=2.0,
             color=colour,
-            clip_on=False,
         )
     if failed:
         axes.set_title(f"x: {len(failed)} failed", loc="right", fontsize=8.5, color=GREY)

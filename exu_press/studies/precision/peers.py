@@ -26,6 +26,14 @@ SCALES = np.array([1.0, 1.0, 10.0, 10.0])
 """Absolute tolerance of the state's parts, times the relative one: m and rad, m/s and rad/s."""
 MOST_STEPS = 10_000_000
 
+HOW = {
+    "scipy": "pip install scipy",
+    "numba": "pip install '.[benchmark]'",
+    "sksundae": "pip install '.[benchmark]'",
+    "numbalsoda": "pip install numbalsoda builds it, with cmake and a Fortran compiler",
+}
+"""How to install what; numbalsoda has no wheels, so that the extra would fail with it."""
+
 Solution = tuple[Array, Array, int | None]
 """Instants (n,), states (n, 4), and how often the right-hand side was asked for."""
 
@@ -67,7 +75,7 @@ def installed(peer: Peer) -> str:
     """Return an empty text, or why the peer is left out."""
     for package in (peer.package, *(("numba",) if peer.needs_numba else ())):
         if importlib.util.find_spec(package) is None:
-            return f"{peer.name} left out: {package} is not installed (pip install .[benchmark])"
+            return f"{peer.name} left out: {package} is not installed ({HOW[package]})"
     return ""
 
 

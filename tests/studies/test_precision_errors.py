@@ -1,0 +1,67 @@
+"""Errors of trajectories whose errors are known."""
+
+import numpy as np
+import pytest
+
+from exu_press.studies.precision.errors import errors_of, instants_until, late_of
+from exu_press.studies.precision.trajectory import Trajectory
+
+TIME = np.linspace(0.0, 0.1, 401)
+
+
+def wave(time=TIME, shift=0.0, amplitude=1.0, force=None, penetration=None):
+    a, w = amplitude, 50.0
+    x = w * (time - shift)
+    return Trajectory(
+        time,
+        a * np.sin(x),
+        a * w * np.cos(x),
+        -a * w * w * np.sin(x),
+        force,
+        penetration,
+    )
+
+
+def test_a_larger_amplitude_is_seen_in_all_three():
+    errors = errors_of(wave(amplitude=1.01), wave(), 0.1)
+    assert errors.position == pytest.approx(0.01, rel=1e-2)
+    assert errors.velocity == pytest.approx(0.5, rel=1e-6)
+    assert errors.peak_acceleration == pytest.approx(0.01, rel=1e-6)
+
+
+def test_interpolation_does_not_count_as_an_error():
+    coarse = wave(np.linspace(0.0, 0.1, 201))
+    assert errors_of(coarse, wave(), 0.1).position < 2e-8
+
+
+def test_what_lies_behind_the_horizon_does_not_count():
+    position = wave().position + np.where(TIME > 0.05, 1.0, 0.0)
+    run = Trajectory(TIME, position, wave().velocity, wave().acceleration)
+    assert errors_of(run, wave(), 0.049).position == 0.0
+    assert errors_of(run, wave(), 0.1).position == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("horizon", [0.05, 0.225, 0.25])
+def test_instants_end_at_the_horizon(horizon):
+    assert instants_until(horizon)[-1] == pytest.approx(horizon, abs=1e-12)
+
+
+def test_late_figures_of_a_shifted_run():
+    depth = np.sin(300.0 * TIME) * 1e-6
+    late = late_of(
+        wave(shift=1e-3, force=1.1 * np.maximum(depth, 0.0), penetration=np.roll(depth, 1)),
+        wave(force=np.maximum(depth, 0.0), penetration=depth),
+    )
+    assert late.impact_time == pytest.approx(TIME[1], rel=1e-6)
+    assert late.peak_force == pytest.approx(0.1) and late.rms_force == pytest.approx(0.1)
+    assert 0.009 < late.graph_distance < 0.05  # the shift over the length; more at the end
+
+
+def test_impact_times_need_equally_many_impacts():
+    depth, fewer = np.sin(300.0 * TIME), np.sin(100.0 * TIME)
+    late = late_of(wave(force=depth, penetration=fewer), wave(force=depth, penetration=depth))
+    assert late.impacts == 2 and late.impact_time is None
+
+
+def test_a_film_has_no_late_figures():
+    assert late_of(wave(force=TIME), wave(force=TIME)) is None

@@ -1,0 +1,81 @@
+"""The package's hand-reduced slider-crank against the tests' own one, which shares no code."""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from exu_press import InputError, Scene
+from exu_press.studies.precision.compiled import compile_model, has_numba
+from exu_press.studies.precision.reduced import numbers_of, rate_of, start_of
+
+sys.path.append(str(Path(__file__).parents[1]))
+from independent.reduced_slider_crank import ReducedSliderCrank
+
+PINS = {"dry": "lugre_steady", "lubricated": "pinkus"}
+
+
+def scene(pin, **changes):
+    return Scene(mechanism="slider_crank", crank_pin=pin, revolutions=1.0, **changes)
+
+
+def states(pin, count=40):
+    """States around the start: in free flight, in the film and in contact."""
+    reach = 2e-4 if pin == "dry" else 2e-5
+    noise = np.random.default_rng(1).normal(size=(count, 4))
+    return np.array(start_of(numbers_of(scene(pin)))) + noise * [reach, reach, 1e-2, 1e-3]
+
+
+@pytest.mark.parametrize("pin", PINS)
+def test_rates_equal_those_of_the_independent_model(pin):
+    rate, _ = rate_of(scene(pin))
+    other = ReducedSliderCrank(PINS[pin])
+    for x in states(pin):
+        assert rate(1e-5, *x.tolist()) == pytest.approx(other.rate(1e-5, x.tolist()), rel=1e-9)
+
+
+def test_some_of_these_states_touch_and_some_do_not():
+    _, pin = rate_of(scene("dry"))
+    depths = np.array([pin(1e-5, *x.tolist())[3] for x in states("dry")])
+    assert (depths > 0).any() and (depths < 0).any()
+
+
+@pytest.mark.parametrize("angle", [0.0, 40.0, 200.0, -90.0])
+def test_the_start_is_the_ideal_mechanism(angle):
+    turned = scene("dry", start_angle_deg=angle)
+    model = turned.build()
+    position, velocity, _ = model.mechanism.ideal_slider(
+        np.array([turned.start_angle]), turned.angular_speed
+    )
+    _, y, _, y_t = start_of(numbers_of(turned))
+    assert (y, y_t) == pytest.approx((position[0], velocity[0]), abs=1e-12)
+    _, pin = rate_of(turned)
+    *_, e_x, e_y = pin(0.0, *start_of(numbers_of(turned)))
+    assert (e_x, e_y) == pytest.approx((0.0, 0.0), abs=1e-15)
+
+
+@pytest.mark.skipif(not has_numba(), reason="numba is not installed")
+def test_compiled_is_the_same():
+    dry = scene("dry")
+    plain, _ = rate_of(dry)
+    model = compile_model(dry)
+    assert model.compiled
+    out = np.empty(4)
+    for x in states("dry", 10):
+        model.fill(1e-5, x, out)
+        assert out == pytest.approx(plain(1e-5, *x.tolist()), rel=1e-9)
+        assert model.rate(1e-5, x) == pytest.approx(out, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"friction": {"law": "lugre"}},
+        {"contact": {"damping": "flores"}},
+        {"blanking": {"force": 1e3}},
+    ],
+)
+def test_what_is_not_reduced_is_refused(changes):
+    with pytest.raises(InputError, match="reduced model"):
+        numbers_of(scene("dry", **changes))

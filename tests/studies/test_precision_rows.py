@@ -1,0 +1,75 @@
+"""What rows and series say: floors, orders, cheapest settings, goals."""
+
+from dataclasses import replace
+
+import pytest
+
+from exu_press.studies.precision.errors import Errors
+from exu_press.studies.precision.goals import goals_of
+from exu_press.studies.precision.measured import Attempt, Measured, timed
+from exu_press.studies.precision.rows import cheapest, order_of, row_of, series_of
+
+NO_FLOOR = Errors(0.0, 0.0, 0.0)
+
+
+def row(value, error, wall_time=1.0, case="case", solver="fixed step", floor=NO_FLOOR):
+    attempt = Attempt(solver, "step", value, lambda: Measured(None, (wall_time,)))
+    return row_of(case, attempt, attempt.run(), Errors(error, error, error), floor, None)
+
+
+def test_errors_below_the_floor_are_raised_to_it_and_marked():
+    low = row(1e-3, 1e-9, floor=Errors(1e-8, 1e-10, None))
+    assert (low.error_position, low.error_velocity) == (1e-8, 1e-9)
+    assert low.at_most == ("error_position",)
+    assert low.resolved("error_position") is None and low.resolved("error_velocity") == 1e-9
+
+
+def test_order_of_a_second_order_method():
+    assert order_of([row(h, 3.0 * h**2) for h in (1e-2, 1e-3, 1e-4)]) == pytest.approx(2.0)
+
+
+def test_order_leaves_out_what_cannot_be_told():
+    floor = Errors(1e-7, 0.0, 0.0)
+    series = [row(h, 3.0 * h**2, floor=floor) for h in (1e-1, 1e-2, 1e-3, 1e-4)]
+    assert order_of(series) == pytest.approx(2.0)
+    assert order_of(series[-1:]) is None
+
+
+def test_the_cheapest_setting_is_not_a_lucky_one():
+    lucky = [row(1e-1, 1e-6, 0.1), row(1e-2, 1e-2, 1.0), row(1e-3, 1e-5, 3.0), row(1e-4, 0.0, 9.0)]
+    assert cheapest(lucky, "error_position", 1e-4).wall_time == 3.0
+    assert cheapest(lucky[:2], "error_position", 1e-4) is None
+
+
+def test_failed_runs_do_not_count_as_quick():
+    failed = replace(row(1e-4, None, 0.01), status="not converged")
+    assert cheapest([row(1e-3, 1e-5, 3.0), failed], "error_position", 1e-4).wall_time == 3.0
+
+
+def test_series_run_from_coarse_to_fine():
+    rows = [row(1e-4, 0.0), row(1e-2, 0.0), row(1e-3, 0.0, solver="other")]
+    assert [r.value for r in series_of(rows)["case", "fixed step"]] == [1e-2, 1e-4]
+
+
+def test_goals_compare_the_cheapest_runs():
+    rows = [
+        row(1e-5, 1e-3, 6.0, "press_lubricated"),
+        row(1e-3, 1e-3, 0.05, "press_lubricated", "tolerance"),
+    ]
+    fixed, real_time = goals_of(rows, {"press_lubricated": 0.5})
+    assert fixed.ratio == pytest.approx(1 / 120) and fixed.met
+    assert real_time.ratio == pytest.approx(0.1) and real_time.met
+
+
+def test_a_goal_without_a_run_is_not_told():
+    (fixed, real_time) = goals_of([row(1e-5, 0.5, case="press_dry")], {"press_dry": 0.5})
+    assert fixed.ratio is None and fixed.met is None and real_time.met is None
+
+
+def test_long_runs_and_failed_ones_are_not_repeated():
+    def attempt(seconds, status="completed"):
+        return Attempt("s", "step", 1.0, lambda: Measured(None, (seconds,), status))
+
+    assert len(timed(attempt(1.0), 3).wall_times) == 3
+    assert len(timed(attempt(100.0), 3).wall_times) == 1
+    assert len(timed(attempt(1.0, "failed"), 3).wall_times) == 1

@@ -5,13 +5,13 @@ joints are those of rigid bodies; what the plane holds of itself is held here: t
 and upright by the slide, the crank shaft lengthwise by its first main bearing.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
 import exudyn as exu
 import numpy as np
-from exudyn.itemInterface import MarkerBodyRigid, ObjectJointGeneric, ObjectJointRevolute2D
+from exudyn.itemInterface import MarkerBodyRigid, ObjectJointGeneric, ObjectJointSpherical
 from exudyn.rigidBodyUtilities import RotationMatrixZ
 
 from exu_press.integrate.progress import Progress
@@ -30,11 +30,11 @@ from fe_models import (
 
 __all__ = [
     "FACES",
+    "MAIN_BEARINGS",
     "add_part",
     "hold_crank",
     "hold_linkage",
     "joint_end",
-    "joint_marker",
     "reduced_parts",
 ]
 
@@ -45,6 +45,8 @@ FACES = {
     ("linkage", "slide_pin"): "small bore",
 }
 """(body, joint) -> the interface of the part that carries the joint."""
+
+MAIN_BEARINGS = {"main_bearing_a": "journal A", "main_bearing_b": "journal B"}
 
 
 def reduced_parts(scene: Scene, *, quiet: bool = True) -> dict[str, ReducedPart]:
@@ -57,7 +59,12 @@ def reduced_parts(scene: Scene, *, quiet: bool = True) -> dict[str, ReducedPart]
 
 
 def add_part(
-    mbs: exu.MainSystem, scene: Scene, name: str, part: ReducedPart, start: Motion
+    mbs: exu.MainSystem,
+    scene: Scene,
+    name: str,
+    part: ReducedPart,
+    start: Motion,
+    joints: Mapping[str, Sequence[float]],
 ) -> FlexibleBody:
     """Add a part on the ideal mechanism's motion.
 
@@ -70,9 +77,16 @@ def add_part(
         name: "crank" or "linkage".
         part: reduced.
         start: motion (x, y, angle) of the frame, one instant.
+        joints: name -> place (x, y) of the ideal joints in the frame. They sit where the drawing
+            has them; a mesh's interface has its centre a micrometre beside.
     """
     assert scene.flexible is not None
     (x, y, angle), (u, v, spin) = start.position[0], start.velocity[0]
+    points = {}
+    for joint, place in joints.items():
+        face = MAIN_BEARINGS.get(joint) or FACES[name, joint]
+        along = 0.0 if name == "linkage" else part.interface(face).centre[2]
+        points[joint] = face, (*place, along)
     return add_flexible_body(
         mbs,
         part,
@@ -82,6 +96,7 @@ def add_part(
         angular_velocity=(0.0, 0.0, spin),
         gravity=(0.0, -scene.gravity, 0.0),
         damping_ratio=scene.flexible.damping_ratio,
+        points=points,
         name=name,
     )
 
@@ -95,15 +110,6 @@ def joint_end(body: FlexibleBody, face: str, point: Sequence[float]) -> Any:
     return FlexiblePoint(body.object_number, centre, interface.translation, interface.rotation)
 
 
-def joint_marker(mbs: exu.MainSystem, body: FlexibleBody, face: str, point: Sequence[float]) -> int:
-    """Add a marker that follows an interface's mean motion, at the point (x, y) of its body.
-
-    A mesh's interface has its centre a micrometre beside the drawing's; the joint is the drawing's.
-    """
-    centre = body.part.interface(face).centre
-    return body.add_marker(mbs, face, (point[0] - centre[0], point[1] - centre[1], 0.0))
-
-
 def hold_crank(mbs: exu.MainSystem, ground: int, crank: FlexibleBody, drive: int) -> dict[str, int]:
     """Rest the main journals in the frame and turn the flange; return the bearings by name.
 
@@ -114,16 +120,16 @@ def hold_crank(mbs: exu.MainSystem, ground: int, crank: FlexibleBody, drive: int
         drive: marker that turns at the crank's speed; the flange follows it about its axis alone.
     """
     bearings = {}
-    for face in ("journal A", "journal B"):
+    for name, face in MAIN_BEARINGS.items():
         along = float(crank.part.interface(face).centre[2])
         seat = mbs.AddMarker(MarkerBodyRigid(bodyNumber=ground, localPosition=[0.0, 0.0, along]))
-        journal = joint_marker(mbs, crank, face, (0.0, 0.0))
-        name = f"main_bearing_{face[-1].lower()}"
-        bearings[name] = int(
-            mbs.AddObject(ObjectJointRevolute2D(name=name, markerNumbers=[journal, seat]))
+        held = [1, 1, 1] if face == "journal A" else [1, 1, 0]
+        bearing = ObjectJointSpherical(
+            name=name,
+            markerNumbers=[crank.add_point_marker(mbs, name), seat],
+            constrainedAxes=held,
         )
-        if face == "journal A":
-            _hold(mbs, seat, journal, [0, 0, 1, 0, 0, 0])
+        bearings[name] = int(mbs.AddObject(bearing))
     _hold(mbs, drive, crank.add_marker(mbs, "flange"), [0, 0, 0, 0, 0, 1])
     return bearings
 

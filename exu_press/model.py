@@ -155,14 +155,25 @@ class _Builder:
 
     def _add_flexible_body(self, name: str, start: Motion) -> None:
         """Add a flexible body; its frame lies where the solid's does, not in the centre of mass."""
-        from exu_press.flexible import add_part
+        from exu_press.flexible import MAIN_BEARINGS, add_part
 
         assert self.scene.press is not None
         if name == self.mechanism.crank:
             frame = turning(start.position[:, 2], self.scene.angular_speed, 0.0)
         else:
             frame = along(start, -self.scene.press.linkage_mass_offset)
-        body = add_part(self.mbs, self.scene, name, self.parts[name], frame)
+        joints = {
+            joint.name: self._in_frame(name, point)
+            for joint in self.mechanism.joints
+            for body, point in (
+                (joint.journal, joint.journal_point),
+                (joint.bearing, joint.bearing_point),
+            )
+            if body == name and joint.name != "shaft"
+        }
+        if name == self.mechanism.crank:
+            joints |= dict.fromkeys(MAIN_BEARINGS, (0.0, 0.0))
+        body = add_part(self.mbs, self.scene, name, self.parts[name], frame, joints)
         self.flexible[name] = body
         self.bodies[name], self.nodes[name] = body.object_number, body.node_rigid
         if body.node_modes is not None:
@@ -342,10 +353,7 @@ class _Builder:
         """Add a marker for a joint; on a flexible body it follows the interface's mean motion."""
         if body not in self.flexible:
             return self._marker(body, point)
-        from exu_press.flexible import FACES, joint_marker
-
-        face = FACES[body, joint.name]
-        return joint_marker(self.mbs, self.flexible[body], face, self._in_frame(body, point))
+        return self.flexible[body].add_point_marker(self.mbs, joint.name)
 
     def _in_frame(self, body: str, point: Sequence[float]) -> tuple[float, float]:
         """Return a point given from the centre of mass in the frame of a flexible body's solid."""

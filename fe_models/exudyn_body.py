@@ -6,7 +6,7 @@ the same to 4e-11 (they move with the face's mean motion), so those are the body
 the surface nodes.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,6 +17,7 @@ from exudyn.itemInterface import (
     LoadMassProportional,
     MarkerBodyMass,
     MarkerBodyRigid,
+    MarkerSuperElementPosition,
     MarkerSuperElementRigid,
     NodeGenericODE2,
     ObjectFFRFreducedOrder,
@@ -53,6 +54,24 @@ class FlexibleBody:
     node_rigid: int
     node_modes: int | None
     virtual_nodes: dict[str, list[int]]
+    points: dict[str, int]
+    places: Mapping[str, Sequence[float]]
+
+    def add_point_marker(self, mbs: Any, point: str) -> int:
+        """Add a position marker on one of the `points` that the body was made with.
+
+        It has one mesh node, so that it costs a sixth of `add_marker`, and no orientation.
+        """
+        if self.node_modes is None:
+            place = [float(value) for value in self.places[point]]
+            marker: Any = MarkerBodyRigid(bodyNumber=self.object_number, localPosition=place)
+        else:
+            marker = MarkerSuperElementPosition(
+                bodyNumber=self.object_number,
+                meshNodeNumbers=[self.points[point]],
+                weightingFactors=[1.0],
+            )
+        return int(mbs.AddMarker(marker))
 
     def add_marker(self, mbs: Any, face: str, offset: Sequence[float] = (0.0, 0.0, 0.0)) -> int:
         """Add a rigid-body marker that follows the mean motion of an interface.
@@ -86,6 +105,7 @@ def add_flexible_body(
     rotation_parameters: str = "euler_parameters",
     initial_modes: ArrayLike | None = None,
     initial_modes_t: ArrayLike | None = None,
+    points: Mapping[str, tuple[str, Sequence[float]]] | None = None,
     color: Sequence[float] = (0.45, 0.55, 0.65, 1.0),
     name: str = "",
 ) -> FlexibleBody:
@@ -98,6 +118,8 @@ def add_flexible_body(
     damping_ratio : of critical, the same for every mode.
     rotation_parameters : "euler_parameters" or "rotation_vector".
     initial_modes, initial_modes_t : (n,) modal coordinates and velocities at the start.
+    points : name -> (face, place (3,) in the body frame, m): points that move with the mean motion
+        of a face, for `add_point_marker`.
     name : of the object; its nodes become "<name> frame" and "<name> modes".
     """
     if rotation_parameters not in ROTATIONS:
@@ -116,7 +138,9 @@ def add_flexible_body(
     node_item.name = f"{name} frame" if name else ""
     node = int(mbs.AddNode(node_item))
     if part.mode_count == 0:
-        body = FlexibleBody(part, _add_rigid(mbs, part, node, color, name), node, None, {})
+        rigid = _add_rigid(mbs, part, node, color, name)
+        places = {point: place for point, (_, place) in (points or {}).items()}
+        body = FlexibleBody(part, rigid, node, None, {}, {}, places)
     else:
         modes_node = int(
             mbs.AddNode(
@@ -129,7 +153,7 @@ def add_flexible_body(
                 )
             )
         )
-        body = _add_flexible(mbs, part, (node, modes_node), damping, color, name)
+        body = _add_flexible(mbs, part, (node, modes_node), damping, points or {}, color, name)
     if any(gravity):
         carrier = mbs.AddMarker(MarkerBodyMass(bodyNumber=body.object_number))
         mbs.AddLoad(LoadMassProportional(markerNumber=carrier, loadVector=list(gravity)))
@@ -156,11 +180,13 @@ def _add_flexible(
     part: ReducedPart,
     nodes: tuple[int, int],
     damping: NDArray[np.float64],
+    points: Mapping[str, tuple[str, Sequence[float]]],
     color: Sequence[float],
     name: str,
 ) -> FlexibleBody:
     """Add the part with its modes; mesh nodes: the surface, then six for each interface."""
     virtual = [interface.virtual_nodes() for interface in part.interfaces]
+    virtual += [part.interface(face).moved_point(place) for face, place in points.values()]
     positions = np.vstack([part.nodes, *(points for points, _ in virtual)])
     modes = np.vstack([part.modes, *(modes for _, modes in virtual)])
     first = len(part.nodes)
@@ -170,7 +196,7 @@ def _add_flexible(
     }
     terms: dict[str, Any] = dict(part.couplings)
     if len(part.stress):
-        padding = np.zeros((6 * VIRTUAL * len(virtual), part.mode_count))
+        padding = np.zeros((6 * (len(positions) - first), part.mode_count))
         # Exudyn wants one row per node and the six components of each mode side by side
         by_node = np.vstack([part.stress, padding]).reshape(-1, 6, part.mode_count)
         terms |= {
@@ -194,7 +220,11 @@ def _add_flexible(
         ),
         **terms,
     )
-    return FlexibleBody(part, int(mbs.AddObject(item)), nodes[0], nodes[1], numbers)
+    alone = first + VIRTUAL * len(part.interfaces)
+    numbered = {point: alone + i for i, point in enumerate(points)}
+    places = {point: place for point, (_, place) in points.items()}
+    body = int(mbs.AddObject(item))
+    return FlexibleBody(part, body, nodes[0], nodes[1], numbers, numbered, places)
 
 
 def _container(matrix: NDArray[np.float64]) -> Any:

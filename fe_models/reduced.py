@@ -4,7 +4,7 @@ The body frame is the frame of the geometry. Its modes are mass-normalised and o
 six rigid motions (mean-axis frame), so that mass, stiffness and damping matrices are diagonal.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -38,6 +38,12 @@ class ReducedInterface:
         turned = np.cross(self.rotation.T[None, :, :], arms[:, None, :])  # theta x arm
         modes = (self.translation.T[None, :, :] + turned).transpose(0, 2, 1)
         return self.centre + arms, modes.reshape(18, self.translation.shape[1])
+
+    def moved_point(self, place: Sequence[float]) -> tuple[Array, Array]:
+        """Return a point (1, 3) that moves rigidly with the mean motion, and its modes (3, n)."""
+        arm = np.asarray(place, dtype=float) - self.centre
+        turned = np.cross(self.rotation.T, arm).T
+        return np.asarray(place, dtype=float)[None, :], self.translation + turned
 
 
 @dataclass(frozen=True)

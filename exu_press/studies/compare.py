@@ -4,17 +4,23 @@ from exu_press.scene import Scene
 
 __all__ = ["variants"]
 
+PINS = {"ideal": "ideal", "dry": "dry", "lubricated": "dry"}
+"""Crank pin -> balls beside it: as in the paper, dry beside a dry or a lubricated pin."""
+
 
 def variants(scene: Scene) -> dict[str, Scene]:
     """Return the scene with ideal joints, dry joints and a lubricated crank pin, by label.
 
-    As in the paper, the balls are dry beside a dry or a lubricated pin. Clearances, loads and
-    whatever else a variant uses are the scene's.
+    A scene with flexible bodies is compared with rigid ones too. Clearances, loads and whatever
+    else a variant uses are the scene's.
     """
-    full = scene.replace(crank_pin="lubricated", **_balls(scene, "dry"))
-    pins = {"ideal": "ideal", "dry": "dry", "lubricated": "dry"}
-    return {pin: full.replace(crank_pin=pin, **_balls(scene, balls)) for pin, balls in pins.items()}
-
-
-def _balls(scene: Scene, kind: str) -> dict[str, str]:
-    return {"balls": kind} if scene.mechanism == "press" else {}
+    kinds = ["rigid"] if scene.bodies == "rigid" else ["rigid", "flexible"]
+    press = scene.mechanism == "press"
+    found = {}
+    for bodies in kinds:
+        full = {"bodies": bodies, "crank_pin": "lubricated"} | ({"balls": "dry"} if press else {})
+        for pin, balls in PINS.items():
+            change = {"crank_pin": pin} | ({"balls": balls} if press else {})
+            label = f"{bodies} {pin}" if len(kinds) > 1 else pin
+            found[label] = scene.replace(full).replace(change)
+    return found

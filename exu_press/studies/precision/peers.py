@@ -8,7 +8,7 @@ import sys
 import time
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -25,6 +25,8 @@ FIRST_STEP = 1e-7  # s: all of them start in the middle of a clearance, where no
 SCALES = np.array([1.0, 1.0, 10.0, 10.0])
 """Absolute tolerance of the state's parts, times the relative one: m and rad, m/s and rad/s."""
 MOST_STEPS = 10_000_000
+SAMPLES_APART = 5e-6
+"""s, between the instants at which a peer's dense output is looked at."""
 
 HOW = {
     "scipy": "pip install scipy",
@@ -59,15 +61,19 @@ class Peer:
     solve: Callable[[CompiledModel, float, Array | None], Solution]
     needs_numba: bool = False
 
-    def run(self, model: CompiledModel, tolerance: float) -> int | None:
-        """Integrate once, as it is timed; return the evaluations of the right-hand side."""
-        return self.solve(model, tolerance, None)[2]
+    def run(self, model: CompiledModel, tolerance: float) -> Solution:
+        """Integrate once, as it is timed."""
+        return self.solve(model, tolerance, None)
 
     def trajectory(self, model: CompiledModel, tolerance: float) -> Trajectory:
-        """Integrate once for the result, which is dense."""
-        count = round(model.scene.duration / 1e-5)
-        instants = np.linspace(0.0, model.scene.duration, count + 1)
-        time, states, _ = self.solve(model, tolerance, instants)
+        """Integrate once for the result: dense, and at its own steps, which resolve impacts."""
+        own_steps = self.run(model, tolerance)[0]
+        count = round(model.scene.duration / SAMPLES_APART)
+        grid = np.linspace(0.0, model.scene.duration, count + 1)
+        steps = own_steps[
+            np.abs(own_steps - SAMPLES_APART * np.rint(own_steps / SAMPLES_APART)) > 1e-9
+        ]
+        time, states, _ = self.solve(model, tolerance, np.sort(np.concatenate([grid, steps])))
         return model.trajectory(time, states)
 
 
@@ -182,27 +188,43 @@ def peer_attempts(model: CompiledModel, tolerances: Iterable[float]) -> list[Att
     """Return the runs of every peer that is installed."""
     tolerances = tuple(tolerances)
     return [
-        Attempt(peer.name, "tolerance", tol, partial(_measure, peer, model, tol))
+        Attempt(
+            peer.name,
+            "tolerance",
+            tol,
+            partial(_measure, peer, model, tol),
+            again=partial(_time, peer, model, tol),
+        )
         for peer in PEERS
         if not installed(peer)
         for tol in tolerances
     ]
 
 
-def _measure(peer: Peer, model: CompiledModel, tolerance: float) -> Measured:
-    """Integrate twice: as it is timed, and for the result."""
-    trajectory, evaluations, status, reason = None, None, "completed", ""
+def _time(peer: Peer, model: CompiledModel, tolerance: float) -> Measured:
+    """Integrate as it is timed."""
     start = time.perf_counter()
     try:
         with _silent_libraries():
-            evaluations = peer.run(model, tolerance)
-            wall_time = time.perf_counter() - start
+            evaluations = peer.run(model, tolerance)[2]
+    except PeerError as error:
+        return Measured(None, (time.perf_counter() - start,), "failed", str(error))
+    return Measured(None, (time.perf_counter() - start,), law_evaluations=evaluations)
+
+
+def _measure(peer: Peer, model: CompiledModel, tolerance: float) -> Measured:
+    """Integrate as it is timed, then for the result."""
+    run = _time(peer, model, tolerance)
+    if run.status != "completed":
+        return run
+    try:
+        with _silent_libraries():
             trajectory = peer.trajectory(model, tolerance)
-        if not all(np.isfinite(x).all() for x in (trajectory.position, trajectory.acceleration)):
-            trajectory, status, reason = None, "failed", "its result is not finite"
-    except PeerError as failure:
-        wall_time, status, reason = time.perf_counter() - start, "failed", str(failure)
-    return Measured(trajectory, (wall_time,), status, reason, law_evaluations=evaluations)
+    except PeerError as error:
+        return replace(run, status="failed", reason=str(error))
+    if not all(np.isfinite(x).all() for x in (trajectory.position, trajectory.acceleration)):
+        return replace(run, status="failed", reason="its result is not finite")
+    return replace(run, trajectory=trajectory)
 
 
 @contextmanager

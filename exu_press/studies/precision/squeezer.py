@@ -10,11 +10,9 @@ References
 .. [2] E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, Springer 1996, VII.7.
 """
 
-import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from functools import partial
-from math import cos, inf, sin
-from types import SimpleNamespace
+from math import cos, pi, sin
 from typing import Any
 
 import exudyn as exu
@@ -28,13 +26,15 @@ from exudyn.itemInterface import (
     ObjectGround,
     ObjectJointRevolute2D,
     ObjectRigidBody2D,
+    SensorNode,
 )
 
-from exu_press.integrate.error import StepError
-from exu_press.integrate.settings import largest_step, settings_for, smallest_step
-from exu_press.integrate.stepping import StepControl
-from exu_press.mechanism import Body
-from exu_press.scene.tables import Solver
+from exu_press.integrate import Status, integrate
+from exu_press.mechanism import Body, Mechanism
+from exu_press.mechanism.kinematics import Motion
+from exu_press.model import Model
+from exu_press.scene import Scene
+from exu_press.scene.tables import SliderCrank, Solver
 from exu_press.studies.precision.errors import Errors
 from exu_press.studies.precision.measured import Attempt, Measured
 from exu_press.studies.precision.own import FIXED, TOLERANCE
@@ -109,7 +109,13 @@ JOINTS = (
 )
 """Name and the two bodies, 0 the frame."""
 
-CRANK_RADIUS, CRANK_SPEED = 0.007, 530.0  # m; rad/s on average: the scales of the tolerance
+CRANK_RADIUS, CRANK_ROD = 0.007, 0.028  # m
+CRANK_SPEED = 530.0  # rad/s, on average; with the radius the scale of the tolerance
+
+LEVELS = {
+    "position": exu.OutputVariableType.Coordinates,
+    "velocity": exu.OutputVariableType.Coordinates_t,
+}
 
 
 def squeezer_attempts(steps: Iterable[float], tolerances: Iterable[float]) -> list[Attempt]:
@@ -129,82 +135,52 @@ def squeezer_errors(run: Trajectory) -> Errors:
 
 
 def _run(solver: Solver) -> Measured:
-    """Integrate as the package does a scene, with its settings and its step control."""
-    mbs, nodes = _build()
-    scene: Any = SimpleNamespace(
-        solver=solver,
-        duration=DURATION,
-        angular_speed=CRANK_SPEED,
-        press=SimpleNamespace(crank_radius=CRANK_RADIUS),
-    )
-    bodies = [Body(str(i), m, j) for i, (m, j) in enumerate(zip(MASS, INERTIA, strict=True))]
-    model: Any = SimpleNamespace(
-        scene=scene,
-        mbs=mbs,
-        mechanism=SimpleNamespace(bodies=bodies),
-        joint_clearances=list,
-    )
-    counted = _Counter()
-    mbs.SetPreStepUserFunction(counted)
-    control = None
-    if solver.tolerance is not None:
-        control = StepControl(
-            StepError(model, solver.tolerance),
-            duration=DURATION,
-            smallest=smallest_step(scene),
-            largest=largest_step(scene),
-            next_corner=lambda time: inf,
-        )
-        control.attach(mbs)
-    silent, exu.config.printToConsole = exu.config.printToConsole, False
-    reason = ""
-    start = time.perf_counter()
-    try:
-        mbs.SolveDynamic(settings_for(scene), showHints=False)
-    except exu.ExudynError as error:
-        reason = str(error).strip().splitlines()[0]
-    finally:
-        wall_time = time.perf_counter() - start
-        exu.config.printToConsole = silent
-    iteration = mbs.sys["dynamicSolver"].it
-    rejected = control.rejected if control is not None else 0
+    """Integrate as the package does a scene: its settings, its step control, its statistics."""
+    model = _build(solver)
+    outcome = integrate(model)
+    done = outcome.status is Status.COMPLETED
     return Measured(
-        trajectory=None if reason else _end_of(mbs, nodes),
-        wall_times=(wall_time,),
-        status="not converged" if reason else "completed",
-        reason=reason,
-        steps=counted.calls - rejected,
-        rejected_steps=rejected,
-        newton_iterations=iteration.newtonStepsCount,
-        law_evaluations=0,
+        trajectory=_end_of(model) if done else None,
+        wall_times=(outcome.wall_time,),
+        status=outcome.status.value,
+        reason=outcome.reason,
+        steps=outcome.steps,
+        rejected_steps=outcome.rejected_steps,
+        newton_iterations=outcome.newton_iterations,
+        law_evaluations=outcome.law_evaluations,
     )
 
 
-class _Counter:
-    """Counts the steps that are tried."""
-
-    def __init__(self) -> None:
-        self.calls = 0
-
-    def __call__(self, mbs: exu.MainSystem, now: float) -> bool:
-        self.calls += 1
-        return True
-
-
-def _build() -> tuple[exu.MainSystem, list[int]]:
-    """Return the assembled system and the numbers of its seven nodes."""
-    mbs = exu.SystemContainer().AddSystem()
-    places = _start_places()
+def _build(solver: Solver) -> Model:
+    """Return the assembled model; its scene holds the run's length and the tolerance's scales."""
+    scene = Scene(
+        mechanism="slider_crank",
+        crank_pin="ideal",
+        speed_rpm=CRANK_SPEED * 30.0 / pi,
+        revolutions=DURATION * CRANK_SPEED / (2.0 * pi),
+        slider_crank=SliderCrank(crank_radius=CRANK_RADIUS, rod_length=CRANK_ROD),
+        solver=solver,
+    )
+    container = exu.SystemContainer()
+    mbs = container.AddSystem()
     ground = mbs.AddObject(ObjectGround())
-    objects, nodes = [ground], []
-    for place, mass, inertia in zip(places, MASS, INERTIA, strict=True):
-        nodes.append(int(mbs.AddNode(NodeRigidBody2D(referenceCoordinates=place))))
-        objects.append(
-            mbs.AddObject(ObjectRigidBody2D(nodeNumber=nodes[-1], mass=mass, inertia=inertia))
+    objects, nodes = {"frame": ground}, {}
+    bodies = []
+    places = _start_places()
+    for number, (place, mass, inertia) in enumerate(zip(places, MASS, INERTIA, strict=True), 1):
+        name = str(number)
+        nodes[name] = int(mbs.AddNode(NodeRigidBody2D(referenceCoordinates=place)))
+        objects[name] = mbs.AddObject(
+            ObjectRigidBody2D(nodeNumber=nodes[name], mass=mass, inertia=inertia)
         )
+        bodies.append(Body(name, mass, inertia))
+
+    bodies_by_number = list(objects.values())
 
     def marker(body: int, point: tuple[float, float], kind: Any = MarkerBodyRigid) -> int:
-        return int(mbs.AddMarker(kind(bodyNumber=objects[body], localPosition=[*point, 0.0])))
+        return int(
+            mbs.AddMarker(kind(bodyNumber=bodies_by_number[body], localPosition=[*point, 0.0]))
+        )
 
     for name, first, second in JOINTS:
         ends = [
@@ -222,8 +198,43 @@ def _build() -> tuple[exu.MainSystem, list[int]]:
         )
     )
     mbs.AddLoad(LoadTorqueVector(markerNumber=marker(1, (0.0, 0.0)), loadVector=[0, 0, TORQUE]))
+    recorded = {
+        (name, level): int(
+            mbs.AddSensor(
+                SensorNode(nodeNumber=node, storeInternal=True, outputVariableType=output)
+            )
+        )
+        for name, node in nodes.items()
+        for level, output in LEVELS.items()
+    }
     mbs.Assemble()
-    return mbs, nodes
+    mechanism = Mechanism(
+        bodies=tuple(bodies),
+        joints=(),
+        guides=(),
+        crank="1",
+        slider="3",
+        slider_origin=0.0,
+        motion=_no_closed_form,
+    )
+    return Model(
+        scene=scene,
+        mechanism=mechanism,
+        SC=container,
+        mbs=mbs,
+        bodies=objects,
+        nodes=nodes,
+        clearance_joints={},
+        ideal_joints={},
+        guides={},
+        drive=-1,
+        sensors=recorded,
+        parts={},
+    )
+
+
+def _no_closed_form(angle: Array, speed: float) -> Mapping[str, Motion]:
+    raise NotImplementedError("the squeezer's motion has no closed form")
 
 
 def _start_places() -> list[list[float]]:
@@ -249,14 +260,20 @@ def _turned(point: tuple[float, float], angle: float) -> tuple[float, float]:
     return point[0] * c - point[1] * s, point[0] * s + point[1] * c
 
 
-def _end_of(mbs: exu.MainSystem, nodes: list[int]) -> Trajectory:
+def _end_of(model: Model) -> Trajectory:
     """Return the seven angles and rates at the end, (1, 7)."""
-    kinds = exu.OutputVariableType
-    places = [mbs.GetNodeOutput(node, kinds.Coordinates)[2] for node in nodes]
-    absolute = np.array(places) + [place[2] for place in _start_places()]
-    rates = np.array([mbs.GetNodeOutput(node, kinds.Coordinates_t)[2] for node in nodes])
+    angles, rates = (
+        np.array(
+            [
+                np.asarray(model.mbs.GetSensorStoredData(model.sensors[name, level]))[-1, -1]
+                for name in model.nodes
+            ]
+        )
+        for level in LEVELS
+    )
+    angles += [place[2] for place in _start_places()]
     end = np.array([DURATION])
-    return Trajectory(end, _relative(absolute)[None, :], _relative(rates)[None, :], end)
+    return Trajectory(end, _relative(angles)[None, :], _relative(rates)[None, :], end)
 
 
 def _relative(absolute: Array) -> Array:

@@ -131,7 +131,7 @@ def _run(
     with Progress(case.name, len(attempts), unit="runs", quiet=quiet) as progress:
         for done, attempt in enumerate(attempts):
             if attempt.solver not in warm:
-                attempt.run()
+                (attempt.again or attempt.run)()
                 warm.add(attempt.solver)
             run = timed(attempt, repeats)
             errors, late = _errors(case, run, reference, horizon)

@@ -17,7 +17,7 @@ __all__ = ["ROTATIONS", "BodyEnd", "FlexiblePoint", "cross", "cross_matrix"]
 
 Array = NDArray[np.float64]
 
-ROTATIONS: dict[str, tuple[Callable[[Array], Array], Callable[[Array], Array]]] = {
+ROTATIONS: dict[str, tuple[Callable[[list[float]], Array], Callable[[list[float]], Array]]] = {
     "RigidBodyEP": (EulerParameters2RotationMatrix, EulerParameters2G),
     "RigidBodyRxyz": (RotXYZ2RotationMatrix, RotXYZ2G),
     "RigidBodyRotVecLG": (RotationVector2RotationMatrix, RotationVector2RotationMatrix),
@@ -77,7 +77,7 @@ class BodyEnd:
         """
         self._matrix_of, self._spins_of = ROTATIONS[kind]
         self._moved = 2 if kind == "RigidBody2D" else len(reference) and 3
-        self._reference, self._point = reference, point
+        self._reference, self._point = reference.tolist(), point
         self._rigid = slice(index, index + len(reference))
         self.places = list(range(index, index + len(reference)))
         self._modal: slice | None = None
@@ -91,13 +91,15 @@ class BodyEnd:
     def move(self, q: Sequence[float], q_t: Sequence[float]) -> None:
         """Go to a state."""
         moved = self._moved
-        pose = self._reference + q[self._rigid]
-        rates = np.array(q_t[self._rigid])
+        pose = [
+            value + change for value, change in zip(self._reference, q[self._rigid], strict=True)
+        ]
+        rates = q_t[self._rigid]
         self.rotation = rotation = self._matrix_of(pose[moved:])
         self._spins = self._spins_of(pose[moved:])
         spin = self._spins @ rates[moved:]
-        position, velocity = np.zeros(3), np.zeros(3)
-        position[:moved], velocity[:moved] = pose[:moved], rates[:moved]
+        still = [0.0] * (3 - moved)
+        position, velocity = np.array(pose[:moved] + still), np.array([*rates[:moved], *still])
         if self._modal is None:
             self.arm = arm = rotation @ self._point
             self.spin = spin

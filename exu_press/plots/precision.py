@@ -103,8 +103,8 @@ def _draw(axes: Axes, series: Mapping[str, Sequence[Row]], error: str, case: Any
                 **{**style, "linestyle": ""},
                 markerfacecolor="white" if hollow else style["color"],
             )
-    if floor and axes.has_data():
-        low, high = axes.get_ylim()
+    low, high = axes.get_ylim()
+    if floor and floor > 0.03 * low:  # else so far below that it would only flatten the curves
         axes.set_ylim(min(low, 0.5 * floor), high)
         axes.axhspan(axes.get_ylim()[0], floor, color=SHADE, linewidth=0, zorder=0.5)
     _draw_failed(axes, failed)

@@ -1,0 +1,88 @@
+"""exu-press run and compare: exit status, files, and what is left alone."""
+
+import json
+
+import pytest
+
+from exu_press import Result
+from exu_press.cli import main
+
+QUICK = ["--set", "revolutions=0.02", "--no-pictures"]
+KEYS = {
+    "status", "reason", "end_time", "wall_time", "total_time", "steps", "rejected_steps",
+    "newton_iterations", "law_evaluations", "coordinates", "bodies", "connectors",
+    "peak_acceleration", "peak_velocity", "stroke", "ldp", "joints", "energy", "versions", "scene",
+}  # fmt: skip
+
+
+def test_run_writes_summary_and_result(tmp_path, capsys):
+    assert main(["run", "press", *QUICK, "--out", str(tmp_path / "a" / "b")]) == 0
+    summary = json.loads((tmp_path / "a" / "b" / "summary.json").read_text())
+    assert set(summary) == KEYS
+    assert set(summary["joints"]) == {"crank_pin", "ball_left", "ball_right"}
+    assert Result.load(tmp_path / "a" / "b" / "run.nc").summary() == summary
+    assert "peak acceleration" in capsys.readouterr().out
+
+
+def test_quiet_prints_nothing(tmp_path, capsys):
+    assert main(["run", "press", *QUICK, "--quiet", "--out", str(tmp_path)]) == 0
+    captured = capsys.readouterr()
+    assert captured.out == captured.err == ""
+
+
+def test_early_stop_is_status_3_and_keeps_what_was_computed(tmp_path, capsys):
+    arguments = ["run", "press", "--set", "film.viscosity=1e-7", "--set", "solver.step=1e-4"]
+    arguments += ["--set", "revolutions=0.1", "--no-pictures", "--out", str(tmp_path)]
+    assert main(arguments) == 3
+    summary = json.loads((tmp_path / "summary.json").read_text())
+    assert summary["status"] == "film broke down"
+    assert summary["reason"].startswith("film broke down at t = ")
+    assert summary["reason"] in capsys.readouterr().err
+    assert 0.0 < Result.load(tmp_path / "run.nc").time[-1] < 0.025
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["run", "no_such_file.toml"], "no_such_file.toml: cannot be read"),
+        (["run", "press", "--set", "speed_rpm=-1"], "speed_rpm = -1"),
+        (["run", "press", "--set", "colour=red"], "colour = 'red': unknown key"),
+        (["compare", "press", "--set", "clearance.balls=nan"], "clearance.balls = nan"),
+        (["run", "press", "--set", "solver.tolerance=1"], "solver.tolerance = 1"),
+    ],
+)
+def test_wrong_input_is_status_2_in_one_line(arguments, message, tmp_path, capsys):
+    out = tmp_path / "out"
+    assert main([*arguments, "--out", str(out)]) == 2
+    captured = capsys.readouterr()
+    assert message in captured.err
+    assert captured.err.count("\n") == 1
+    assert not out.exists()
+
+
+def test_directory_that_cannot_be_written(tmp_path, capsys):
+    (tmp_path / "file").write_text("kept")
+    assert main(["run", "press", *QUICK, "--out", str(tmp_path / "file" / "out")]) == 2
+    assert "cannot be written to" in capsys.readouterr().err
+    assert (tmp_path / "file").read_text() == "kept"
+
+
+def test_compare_shows_the_variants_side_by_side(tmp_path, capsys):
+    assert main(["compare", "press", *QUICK, "--out", str(tmp_path)]) == 0
+    header = capsys.readouterr().out.splitlines()[0].split()
+    assert header == ["ideal", "dry", "lubricated"]
+    comparison = json.loads((tmp_path / "comparison.json").read_text())
+    assert comparison["ideal"]["joints"] == {}
+    for label in header:
+        assert (tmp_path / label / "run.nc").exists()
+
+
+def test_compare_of_a_flexible_scene_has_rigid_ones_beside(tmp_path):
+    arguments = ["--set", "bodies=flexible", "--set", "revolutions=0.005", "--no-pictures"]
+    assert main(["compare", "press", *arguments, "--out", str(tmp_path), "--quiet"]) == 0
+    comparison = json.loads((tmp_path / "comparison.json").read_text())
+    assert set(comparison) == {
+        f"{bodies} {pin}"
+        for bodies in ("rigid", "flexible")
+        for pin in ("ideal", "dry", "lubricated")
+    }

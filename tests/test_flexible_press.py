@@ -23,9 +23,7 @@ def linkage_as_solid():
 @pytest.mark.parametrize(("crank_pin", "balls"), VARIANTS)
 def test_without_modes_it_is_the_rigid_press(crank_pin, balls, linkage_as_solid):
     """Fixed steps, so that both take the same ones; masses to the mesh's 1e-3."""
-    scene = Scene(
-        crank_pin=crank_pin, balls=balls, revolutions=0.02, solver={"step": 1e-5}
-    )
+    scene = Scene(crank_pin=crank_pin, balls=balls, revolutions=0.02, solver={"step": 1e-5})
     twin = {k: v for k, v in linkage_as_solid.items() if k != "linkage_mass"}
     rigid = simulate(scene.replace({f"press.{key}": value for key, value in twin.items()}))
     flexible = simulate(scene.replace(bodies="flexible").replace("flexible.modes", 0))

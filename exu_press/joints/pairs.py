@@ -14,19 +14,40 @@ from exu_press.laws.contact import NormalContact
 from exu_press.laws.film import FilmLaw
 from exu_press.laws.friction import Friction, LuGre
 
-__all__ = ["Arms", "DryPair", "FilmPair", "Pair", "PairedJoint", "PolarForce"]
+__all__ = [
+    "Answer",
+    "Arms",
+    "DryPair",
+    "FilmPair",
+    "Load",
+    "Pair",
+    "PairedJoint",
+    "PolarForce",
+    "Slopes",
+]
+
+Slopes = tuple[
+    tuple[float, float, float, float, float],
+    tuple[float, float, float, float, float],
+]
+"""Derivatives of f_n and of f_t with respect to (|e|, d|e|/dt, v_t, omega_J, omega_B)."""
 
 PolarForce = tuple[
     tuple[float, float],
     tuple[float, float, float, float, float],
     tuple[float, float, float, float, float],
 ]
-"""(f_n, f_t), then the derivatives of f_n and of f_t with respect to
-(|e|, d|e|/dt, v_t, omega_J, omega_B)."""
-
+"""(f_n, f_t), then their slopes."""
 
 Arms = tuple[float, float, float, float]
 """a_J, a_B, m, and their derivatives with respect to |e|."""
+
+
+Answer = tuple[float, ...]
+"""What a pair's laws answered: their values and derivatives."""
+
+Load = tuple[float, float, float, float, Answer]
+"""f_n, f_t, the moments f_t a_J and f_t a_B, and the laws' answer they come from."""
 
 
 class Pair(Protocol):
@@ -38,11 +59,27 @@ class Pair(Protocol):
     """Distance of the centres at which the surfaces touch, m."""
     outside: float | None
     """Eccentricity ratio of the last state if the pair's law did not hold there."""
+    bends: bool
+    """Whether the force bends with the speeds, so that Newton's method is better off with a secant:
+    a film's does (of first degree in the speeds, but with a kink at rest), a contact's does not."""
+
+    def load(
+        self, e: float, e_dot: float, v_t: float, omega_j: float, omega_b: float
+    ) -> Load | None:
+        """Return force and moments, SI."""
+
+    def slopes(self, answer: Answer, e: float, omega_j: float, omega_b: float) -> Slopes:
+        """Return the derivatives of the force that goes with an answer of the laws, SI."""
 
     def force(
         self, e: float, e_dot: float, v_t: float, omega_j: float, omega_b: float
     ) -> PolarForce | None:
-        """Return force and derivatives, SI."""
+        """Return force and derivatives together, SI."""
+        load = self.load(e, e_dot, v_t, omega_j, omega_b)
+        if load is None:
+            return None
+        f_n, f_t, _, _, answer = load
+        return ((f_n, f_t), *self.slopes(answer, e, omega_j, omega_b))
 
     def arms(self, e: float) -> Arms:
         """Return a_J, a_B (m) and their derivatives with respect to |e|."""
@@ -61,7 +98,7 @@ class Pair(Protocol):
 
 
 @dataclass
-class DryPair:
+class DryPair(Pair):
     """Contact with friction: journal (or ball) and bearing (or socket) touch where |e| > c.
 
     The friction force acts at the contact point on the journal's surface, with the sliding velocity
@@ -81,6 +118,7 @@ class DryPair:
     bristle: float = 0.0
     approach_speed: float = 0.0
     outside: float | None = field(default=None, init=False)
+    bends: bool = field(default=False, init=False)
     stateful: bool = field(init=False)
     _step: float = field(default=0.0, init=False)
     _next: tuple[float, float] = field(default=(0.0, 0.0), init=False)
@@ -89,10 +127,10 @@ class DryPair:
         """Find out whether there is anything to remember."""
         self.stateful = isinstance(self.friction, LuGre) or self.contact.needs_impact_speed
 
-    def force(
+    def load(
         self, e: float, e_dot: float, v_t: float, omega_j: float, omega_b: float
-    ) -> PolarForce | None:
-        """Return force and derivatives, or None in free flight."""
+    ) -> Load | None:
+        """Return force and moments, or None in free flight."""
         penetration = e - self.clearance
         if penetration <= 0.0 and not self.stateful:
             return None
@@ -102,20 +140,26 @@ class DryPair:
             mu, slope, bristle = self.friction.advance(sliding, self.bristle, self._step)
         else:
             (mu, slope), bristle = self.friction(sliding), 0.0
-        self._next = bristle, e_dot if penetration <= 0.0 else self.approach_speed
-        if penetration <= 0.0:
-            return None
-        normal, stiffness, damping = self.contact.force(penetration, e_dot, self.approach_speed)
+        if self.stateful:
+            self._next = bristle, e_dot if penetration <= 0.0 else self.approach_speed
+            if penetration <= 0.0:
+                return None
+        law = self.contact.force(penetration, e_dot, self.approach_speed)
+        drag = -mu * law[0]
+        return -law[0], drag, self.radius * drag, -reach * drag, (mu, slope, *law)
+
+    def slopes(self, answer: Answer, e: float, omega_j: float, omega_b: float) -> Slopes:
+        """Return the derivatives of the force."""
+        mu, slope, normal, stiffness, damping = answer
         drag = slope * normal
         return (
-            (-normal, -mu * normal),
             (-stiffness, -damping, 0.0, 0.0, 0.0),
             (
                 -mu * stiffness + drag * omega_b,
                 -mu * damping,
                 -drag,
                 -drag * self.radius,
-                drag * reach,
+                drag * (self.radius + e),
             ),
         )
 
@@ -145,7 +189,7 @@ class DryPair:
 
 
 @dataclass
-class FilmPair:
+class FilmPair(Pair):
     """A lubricant film between journal and bearing.
 
     The resultant acts half-way between the two centres, as the shear of the pressure flow divides
@@ -162,25 +206,32 @@ class FilmPair:
     scale: float
     clearance: float
     outside: float | None = field(default=None, init=False)
+    bends: bool = field(default=True, init=False)
     stateful: bool = field(default=False, init=False)
 
-    def force(
+    def load(
         self, e: float, e_dot: float, v_t: float, omega_j: float, omega_b: float
-    ) -> PolarForce | None:
-        """Return force and derivatives; NaN where the law does not hold."""
+    ) -> Load | None:
+        """Return force and moments; NaN where the law does not hold."""
         c, p = self.clearance, self.scale
-        turning = omega_j + omega_b
-        f_r, f_t, r_eps, r_dot, r_w, t_eps, t_dot, t_w = self.law(
-            e / c, e_dot / c, (e * turning - 2.0 * v_t) / c
-        )
+        answer = self.law(e / c, e_dot / c, (e * (omega_j + omega_b) - 2.0 * v_t) / c)
+        f_r = answer[0]
         self.outside = None if f_r == f_r else e / c
-        q = p / c
+        f_t = p * answer[1]
+        moment = -0.5 * e * f_t
+        return p * f_r, f_t, moment, moment, answer
+
+    def slopes(self, answer: Answer, e: float, omega_j: float, omega_b: float) -> Slopes:
+        """Return the derivatives of the force."""
+        _, _, r_eps, r_dot, r_w, t_eps, t_dot, t_w = answer
+        turning = omega_j + omega_b
+        q = self.scale / self.clearance
         r_w *= q
         t_w *= q
+        r_turn, t_turn = r_w * e, t_w * e
         return (
-            (p * f_r, p * f_t),
-            (q * r_eps + r_w * turning, q * r_dot, -2.0 * r_w, r_w * e, r_w * e),
-            (q * t_eps + t_w * turning, q * t_dot, -2.0 * t_w, t_w * e, t_w * e),
+            (q * r_eps + r_w * turning, q * r_dot, -2.0 * r_w, r_turn, r_turn),
+            (q * t_eps + t_w * turning, q * t_dot, -2.0 * t_w, t_turn, t_turn),
         )
 
     def arms(self, e: float) -> Arms:

@@ -69,9 +69,13 @@ def stribeck(
     positive(regularisation_velocity=regularisation_velocity)
     not_negative(viscous=viscous)
 
+    rise = mu_static - mu_kinetic
+
     def friction(v: float) -> tuple[float, float]:
         direction = tanh(v / regularisation_velocity)
-        g, v_times_slope = _curve(v, mu_static, mu_kinetic, stribeck_velocity, stribeck_exponent)
+        decay = (abs(v) / stribeck_velocity) ** stribeck_exponent
+        peak = rise * exp(-decay)
+        g, v_times_slope = mu_kinetic + peak, -stribeck_exponent * decay * peak  # as in _curve
         slope = g * (1.0 - direction * direction) / regularisation_velocity + viscous
         if v != 0.0:
             slope += v_times_slope * direction / v

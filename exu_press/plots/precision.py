@@ -61,7 +61,7 @@ def precision_figure(report: Report, name: str) -> Figure:
     for panel, (error, words) in zip(axes, panels.items(), strict=True):
         _draw(panel, series, error, case)
         panel.set_title(f"Error of the {words}")
-        panel.set_xlabel("time of the integration, s")
+        panel.set_xlabel("processor time of the integration, s")
     key.axis("off")
     handles: list[Artist] = [_handle(s, index) for index, s in enumerate(_in_order(series))]
     handles.append(Patch(color=SHADE, label="below what the\nreference can tell"))
@@ -92,7 +92,7 @@ def _draw(axes: Axes, series: Mapping[str, Sequence[Row]], error: str, case: Any
         style = _style(solver, index)
         done = [row for row in series[solver] if row.status == "completed"]
         failed += [(row, style["color"]) for row in series[solver] if row.status != "completed"]
-        points = [(row.wall_time, getattr(row, error), error in row.at_most) for row in done]
+        points = [(row.cpu_time, getattr(row, error), error in row.at_most) for row in done]
         points = [point for point in points if point[1] is not None and point[1] > 0.0]
         axes.plot([x for x, _, _ in points], [y for _, y, _ in points], **{**style, "marker": ""})
         for hollow in (False, True):
@@ -114,7 +114,7 @@ def _draw_failed(axes: Axes, failed: Sequence[tuple[Row, str]]) -> None:
     """Mark failed runs along the upper edge, where they spent their time."""
     for row, colour in failed:
         axes.plot(
-            row.wall_time,
+            row.cpu_time,
             0.975,
             transform=axes.get_xaxis_transform(),
             marker="x",

@@ -14,6 +14,7 @@ COLUMNS = {
     "error_velocity",
     "error_peak_acceleration",
     "wall_time",
+    "cpu_time",
     "steps",
     "rejected_steps",
     "newton_iterations",

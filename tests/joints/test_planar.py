@@ -7,8 +7,8 @@ import random
 import numpy as np
 import pytest
 
+from exu_press.joints.joint import GROUND
 from exu_press.joints.pairs import DryPair, FilmPair
-from exu_press.joints.joint import GROUND, history
 from exu_press.joints.planar import PlanarEnd, PlanarJoint
 from exu_press.laws.contact import hertz, hunt_crossley, step_damping
 from exu_press.laws.film import film_scale, finite, pi_film, pinkus, short, with_asperities

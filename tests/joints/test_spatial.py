@@ -91,7 +91,7 @@ def run(mbs, duration, step):
 
 def two_bodies(kind, joint, velocity, spin, duration=0.02, step=1e-5):
     """Run two free bodies joined at a point that starts centred; return records and joint's."""
-    container, mbs = system()
+    _container, mbs = system()
     first, sensors_a = add_body(mbs, kind, (0.0, 0.0, 0.0), velocity, spin)
     second, sensors_b = add_body(mbs, kind, (0.3, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
     add, laws = JOINTS[joint]
@@ -149,7 +149,7 @@ def test_dissipated_power_is_never_negative(joint):
 @pytest.mark.parametrize("kind", ["Rxyz", "2D"])
 def test_jacobian_against_differences(kind, joint):
     """Between a spatial body and another kind, near the reference, to the arms' small terms."""
-    container, mbs = system()
+    _container, mbs = system()
     first, _ = add_body(mbs, "Rxyz", (0.0, 0.0, 0.0), (0, 0, 0), (0, 0, 0))
     second, _ = add_body(mbs, kind, (0.3, 0.0, 0.0), (0, 0, 0), (0, 0, 0))
     add, laws = JOINTS[joint]
@@ -180,7 +180,7 @@ def test_jacobian_against_differences(kind, joint):
 
 def test_bristle_of_a_ball_works_in_space():
     bristle = LuGre(0.3, 0.2, 1e5, 10.0, 0.0, 0.01, 2.0)
-    container, mbs = system()
+    _container, mbs = system()
     body, sensors = add_body(mbs, "EP", (0.0, 0.0, -CLEARANCE), (0.1, 0.05, -0.01), (0, 0, 0))
     ground = mbs.AddObject(ObjectGround())
     joint = add_dry_spherical(
@@ -200,7 +200,7 @@ def test_bristle_of_a_ball_works_in_space():
 
 
 def test_axis_between_planar_bodies_is_refused():
-    container, mbs = system()
+    _container, mbs = system()
     bodies = [add_body(mbs, "2D", (0.0, 0.0, 0.0), (0, 0, 0), (0, 0, 0))[0] for _ in range(2)]
     with pytest.raises(InputError, match=r"axis = \(1, 0, 0\): allowed between planar bodies"):
         add_dry_revolute(

@@ -13,7 +13,7 @@ NO_FLOOR = Errors(0.0, 0.0, 0.0)
 
 
 def row(value, error, wall_time=1.0, case="case", solver="fixed step", floor=NO_FLOOR):
-    attempt = Attempt(solver, "step", value, lambda: Measured(None, (wall_time,)))
+    attempt = Attempt(solver, "step", value, lambda: Measured(None, (wall_time,), (wall_time,)))
     return row_of(case, attempt, attempt.run(), Errors(error, error, error), floor, None)
 
 
@@ -68,7 +68,7 @@ def test_a_goal_without_a_run_is_not_told():
 
 def test_long_runs_and_failed_ones_are_not_repeated():
     def attempt(seconds, status="completed"):
-        return Attempt("s", "step", 1.0, lambda: Measured(None, (seconds,), status))
+        return Attempt("s", "step", 1.0, lambda: Measured(None, (seconds,), (seconds,), status))
 
     assert len(timed(attempt(1.0), 3).wall_times) == 3
     assert len(timed(attempt(100.0), 3).wall_times) == 1

@@ -55,36 +55,27 @@ def pinkus() -> FilmLaw:
         s = math.sqrt(s2)
         n = 2.0 + eps * eps
         rho = math.hypot(eps_dot, 0.5 * eps_w)
-        big_s = s * rho
-        ds_eps = -eps * rho / s
-        ds_dot = s * eps_dot / rho
-        ds_w = 0.25 * s * eps_w / rho
-
-        b = abs(eps_dot)
-        d = big_s + 1.5 * eps * b
+        d = s * rho + 1.5 * eps * abs(eps_dot)
         x = 1.0 + 1.5 * eps * eps_dot / d
-        y = (x - 1.0) / d
-        dx_eps = 1.5 * eps_dot / d - y * (ds_eps + 1.5 * b)
-        dx_dot = 1.5 * eps / d - y * (ds_dot + math.copysign(1.5 * eps, eps_dot))
-        dx_w = -y * ds_w
+        k = 1.5 / (d * d)  # of x's derivatives, in which d's cancel to
+        dx_eps = k * rho / s * eps_dot
+        k *= 0.25 * eps * s / rho * eps_w
+        dx_dot, dx_w = k * eps_w, -k * eps_dot
 
-        wedge = 24.0 * eps / (n * s2 * s)
+        wedge = 24.0 * eps / (n * s2)  # times S / s
         squeeze = 6.0 * math.pi / (s2 * s)
         turn = 6.0 * math.pi / (n * s)
-        f_r = -wedge * big_s - squeeze * eps_dot * x
-        f_t = turn * eps_w * x
+        drag, push = turn * eps_w, squeeze * eps_dot
+        d_wedge = 24.0 / (n * s2) * (1.0 + 2.0 * eps * eps * (1.0 / s2 - 1.0 / n))
         return (
-            f_r,
-            f_t,
-            f_r * 3.0 * eps / s2
-            - 24.0 * big_s * (2.0 - eps * eps) / (n * n * s2 * s)
-            - wedge * ds_eps
-            - squeeze * eps_dot * dx_eps,
-            -wedge * ds_dot - squeeze * (x + eps_dot * dx_dot),
-            -wedge * ds_w - squeeze * eps_dot * dx_w,
-            f_t * eps * (1.0 / s2 - 2.0 / n) + turn * eps_w * dx_eps,
-            turn * eps_w * dx_dot,
-            turn * (x + eps_w * dx_w),
+            -wedge * rho - push * x,
+            drag * x,
+            -d_wedge * rho - push * (3.0 * eps / s2 * x + dx_eps),
+            -wedge * eps_dot / rho - squeeze * x - push * dx_dot,
+            -0.25 * wedge * eps_w / rho - push * dx_w,
+            drag * (eps * (1.0 / s2 - 2.0 / n) * x + dx_eps),
+            drag * dx_dot,
+            turn * x + drag * dx_w,
         )
 
     return law

@@ -124,7 +124,7 @@ def cases() -> tuple[Case, ...]:
             steps=STEPS[:8],
             tolerances=TOLERANCES[:8],
             reference_tolerance=1e-5,
-            reference_step=2e-6,
+            reference_step=1e-6,
         ),
         Case(
             "squeezer",

@@ -1,4 +1,8 @@
-"""One run, timed: the median of several after a warm-up."""
+"""One run, timed: the median of several after a warm-up.
+
+Processor time is what the run took from the one thread it has; on a machine with nothing else to do
+it is the wall time, on a busy one it is what can still be compared.
+"""
 
 import statistics
 from collections.abc import Callable
@@ -20,6 +24,7 @@ class Measured:
     Attributes:
         trajectory: None if it failed.
         wall_times: of the integration alone, of every repetition, s.
+        cpu_times: processor time of the same, s.
         status: as in summary.json.
         reason: empty when completed.
         steps: accepted ones, None where the integrator does not say.
@@ -30,6 +35,7 @@ class Measured:
 
     trajectory: Trajectory | None
     wall_times: tuple[float, ...]
+    cpu_times: tuple[float, ...]
     status: str = "completed"
     reason: str = ""
     steps: int | None = None
@@ -41,6 +47,11 @@ class Measured:
     def wall_time(self) -> float:
         """Median, s."""
         return statistics.median(self.wall_times)
+
+    @property
+    def cpu_time(self) -> float:
+        """Median, s."""
+        return statistics.median(self.cpu_times)
 
 
 @dataclass(frozen=True)
@@ -65,19 +76,24 @@ class Attempt:
 def timed(attempt: Attempt, repeats: int) -> Measured:
     """Run an attempt so many times, once if it is long; the trajectory is the first one's."""
     first = attempt.run()
-    times = list(first.wall_times)
-    if first.status == "completed" and times[0] < LONG_RUN:
+    runs = [first]
+    if first.status == "completed" and first.cpu_time < LONG_RUN:
         again = attempt.again or attempt.run
-        times += [again().wall_times[0] for _ in range(repeats - 1)]
-    return replace(first, wall_times=tuple(times))
+        runs += [again() for _ in range(repeats - 1)]
+    return replace(
+        first,
+        wall_times=tuple(run.wall_time for run in runs),
+        cpu_times=tuple(run.cpu_time for run in runs),
+    )
 
 
-def measured_of(result: Result) -> Measured:
-    """Return what a result of the package says."""
+def measured_of(result: Result, cpu_time: float) -> Measured:
+    """Return what a result of the package says, with the processor time it took, s."""
     info = result.info
     return Measured(
         trajectory=trajectory_of(result) if result.completed else None,
         wall_times=(float(info["wall_time"]),),
+        cpu_times=(cpu_time,),
         status=info["status"],
         reason=info["reason"],
         steps=info["steps"],

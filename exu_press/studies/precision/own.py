@@ -6,12 +6,11 @@ from functools import partial
 
 import exudyn as exu
 
-from exu_press.integrate import Outcome, Status
+from exu_press.integrate import Outcome, Status, integrate
 from exu_press.integrate.settings import settings_for
 from exu_press.joints import overlay_of
 from exu_press.result import record
 from exu_press.scene import Scene
-from exu_press.simulation import simulate
 from exu_press.studies.precision.measured import Attempt, Measured, measured_of
 
 __all__ = [
@@ -33,7 +32,11 @@ NEWTON_MODES = {"full Newton": (False, False), "modified Newton": (True, False)}
 
 def run_scene(scene: Scene, setting: str, value: float) -> Measured:
     """Run a scene with `setting` ("step" or "tolerance") at a value."""
-    return measured_of(simulate(scene.replace(f"solver.{setting}", value)))
+    model = scene.replace(f"solver.{setting}", value).build()
+    start = time.process_time()
+    outcome = integrate(model)
+    cpu_time = time.process_time() - start
+    return measured_of(record(model, outcome), cpu_time)
 
 
 def fixed_steps(scene: Scene, steps: Iterable[float]) -> list[Attempt]:
@@ -83,14 +86,14 @@ def _with_newton(scene: Scene, mode: str, step: float) -> Measured:
     newton = settings.timeIntegration.newton
     newton.useModifiedNewton, newton.modifiedNewtonJacUpdatePerStep = NEWTON_MODES[mode]
     silent, exu.config.printToConsole = exu.config.printToConsole, False
-    start = time.perf_counter()
+    start, cpu_start = time.perf_counter(), time.process_time()
     try:
         model.mbs.SolveDynamic(settings, showHints=False)
         status, reason = Status.COMPLETED, ""
     except exu.ExudynError as error:
         status, reason = Status.NOT_CONVERGED, str(error).strip().splitlines()[0]
     finally:
-        wall_time = time.perf_counter() - start
+        wall_time, cpu_time = time.perf_counter() - start, time.process_time() - cpu_start
         exu.config.printToConsole = silent
     solver = model.mbs.sys["dynamicSolver"]
     outcome = Outcome(
@@ -103,4 +106,4 @@ def _with_newton(scene: Scene, mode: str, step: float) -> Measured:
         newton_iterations=solver.it.newtonStepsCount,
         law_evaluations=overlay_of(model.mbs).evaluations,
     )
-    return measured_of(record(model, outcome))
+    return measured_of(record(model, outcome), cpu_time)

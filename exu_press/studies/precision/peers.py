@@ -203,13 +203,16 @@ def peer_attempts(model: CompiledModel, tolerances: Iterable[float]) -> list[Att
 
 def _time(peer: Peer, model: CompiledModel, tolerance: float) -> Measured:
     """Integrate as it is timed."""
-    start = time.perf_counter()
-    try:
-        with _silent_libraries():
+    evaluations, reason = None, ""
+    with _silent_libraries():
+        start, cpu_start = time.perf_counter(), time.process_time()
+        try:
             evaluations = peer.run(model, tolerance)[2]
-    except PeerError as error:
-        return Measured(None, (time.perf_counter() - start,), "failed", str(error))
-    return Measured(None, (time.perf_counter() - start,), law_evaluations=evaluations)
+        except PeerError as error:
+            reason = str(error)
+        times = (time.perf_counter() - start,), (time.process_time() - cpu_start,)
+    status = "failed" if reason else "completed"
+    return Measured(None, *times, status, reason, law_evaluations=evaluations)
 
 
 def _measure(peer: Peer, model: CompiledModel, tolerance: float) -> Measured:

@@ -89,8 +89,9 @@ def from_own(case: Case, scene: Scene, horizon: float, amount: Amount) -> Refere
     step = max(case.reference_step, amount.reference_step)
     method = f"tolerance {tolerance:.0e} against fixed steps {2 * step:.0e}, {step:.0e} s"
     tight = run_scene(scene, "tolerance", tolerance).trajectory
-    coarse = run_scene(scene, "step", 2.0 * step).trajectory
-    fine = run_scene(scene, "step", step).trajectory
+    until_horizon = scene.replace(revolutions=scene.revolutions * horizon / scene.duration)
+    coarse = run_scene(until_horizon, "step", 2.0 * step).trajectory
+    fine = run_scene(until_horizon, "step", step).trajectory
     if tight is None or coarse is None or fine is None:
         return Reference(f"{method}: not all of them reached the end", None, NOTHING)
     instants = instants_until(horizon)
@@ -98,11 +99,10 @@ def from_own(case: Case, scene: Scene, horizon: float, amount: Amount) -> Refere
         float(np.abs(_at_zero(c, f) - t).max())
         for c, f, t in zip(*(run.at(instants) for run in (coarse, fine, tight)), strict=True)
     )
-    peaks = [float(np.abs(run.until(horizon).acceleration).max()) for run in (coarse, fine, tight)]
-    peak = abs(float(_at_zero(peaks[0], peaks[1])) / peaks[2] - 1.0)
+    peak = errors_of(fine, tight, horizon).peak_acceleration  # as sampled; no order to rely on
     return Reference(f"{method}, extrapolated", tight, Errors(position, velocity, peak))
 
 
-def _at_zero(coarse: Array | float, fine: Array | float) -> Array:
+def _at_zero(coarse: Array, fine: Array) -> Array:
     """Return what a second-order method would give at step zero, from a step and its double."""
     return np.asarray(fine + (fine - coarse) / 3.0)

@@ -10,6 +10,7 @@ References
 .. [2] E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, Springer 1996, VII.7.
 """
 
+import time
 from collections.abc import Iterable, Mapping
 from functools import partial
 from math import cos, pi, sin
@@ -137,11 +138,14 @@ def squeezer_errors(run: Trajectory) -> Errors:
 def _run(solver: Solver) -> Measured:
     """Integrate as the package does a scene: its settings, its step control, its statistics."""
     model = _build(solver)
+    start = time.process_time()
     outcome = integrate(model)
+    cpu_time = time.process_time() - start
     done = outcome.status is Status.COMPLETED
     return Measured(
         trajectory=_end_of(model) if done else None,
         wall_times=(outcome.wall_time,),
+        cpu_times=(cpu_time,),
         status=outcome.status.value,
         reason=outcome.reason,
         steps=outcome.steps,

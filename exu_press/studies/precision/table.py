@@ -15,6 +15,7 @@ HEAD = (
     "velocity",
     "peak acc.",
     "time, s",
+    "cpu, s",
     "steps",
     "rejected",
     "Newton",
@@ -36,7 +37,7 @@ def report_lines(report: Report) -> list[str]:
         lines += [
             f"{name}: {case['title']}",
             f"  {case['duration']:g} s simulated; errors up to {case['horizon']:g} s, {units} and "
-            "relative; < is smaller than the reference can tell",
+            "relative; < smaller than the reference can tell; * one run, not the median of three",
             f"  reference: {reference['method']}; {_difference(reference)}",
             *_aligned([HEAD, *(_cells(row) for row in rows)]),
             *_reasons(rows),
@@ -81,7 +82,7 @@ def _difference(reference: Mapping[str, Any]) -> str:
 
 
 def _cells(row: Row) -> tuple[str, ...]:
-    per_step = None if not row.steps else 1e6 * row.wall_time / row.steps
+    per_step = None if not row.steps else 1e6 * row.cpu_time / row.steps
     return (
         row.solver,
         f"{row.value:g}{' s' if row.setting == 'step' else ''}",
@@ -89,6 +90,7 @@ def _cells(row: Row) -> tuple[str, ...]:
         _error(row, "error_velocity"),
         _error(row, "error_peak_acceleration"),
         f"{row.wall_time:.3g}" + ("" if len(row.wall_times) > 1 else "*"),
+        f"{row.cpu_time:.3g}",
         _number(row.steps, 7),
         _number(row.rejected_steps, 7),
         _number(row.newton_iterations, 7),

@@ -1,0 +1,29 @@
+"""The benchmark of the joints' cost runs and prints its table; times are not tested."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+SCRIPT = Path(__file__).parents[2] / "scripts" / "benchmark_joint_cost.py"
+ROWS = [
+    "press, ideal joints",
+    "press, lubricated pin, dry balls",
+    "press, dry pin, dry balls",
+    "chain, ideal joints",
+    "chain, ten lubricated joints",
+    "chain, user functions",
+]
+
+
+def test_quick_table():
+    done = subprocess.run(
+        [sys.executable, str(SCRIPT), "--quick"], capture_output=True, text=True, timeout=120
+    )
+    assert done.returncode == 0, done.stderr
+    head, *lines = done.stdout.splitlines()
+    assert head.split() == ["us/step", "Newton/step", "ratio"]
+    table = {line[:34].strip(): [float(word) for word in line[34:].split()] for line in lines}
+    assert list(table) == ROWS
+    for name, (per_step, iterations, ratio) in table.items():
+        assert per_step > 0.0 and iterations >= 1.0 and ratio > 0.0, name
+        assert "ideal" not in name or ratio == 1.0

@@ -181,7 +181,7 @@ def test_jacobian_against_differences(kind, joint):
 def test_bristle_of_a_ball_works_in_space():
     bristle = LuGre(0.3, 0.2, 1e5, 10.0, 0.0, 0.01, 2.0)
     _container, mbs = system()
-    body, sensors = add_body(mbs, "EP", (0.0, 0.0, -CLEARANCE), (0.1, 0.05, -0.01), (0, 0, 0))
+    body, _ = add_body(mbs, "EP", (0.0, 0.0, -CLEARANCE), (0.1, 0.05, -0.01), (0, 0, 0))
     ground = mbs.AddObject(ObjectGround())
     joint = add_dry_spherical(
         mbs, (body, (0, 0, 0)), (ground, (0, 0, 0)),

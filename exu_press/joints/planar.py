@@ -45,18 +45,13 @@ class PlanarJoint(PairedJoint):
         super().__init__(pairs)
         self.journal = journal
         self.bearing = bearing
-        i, k = self.places[::3]
+        self.places = [end.index + c for end in (journal, bearing) for c in range(3)]
+        i, k = journal.index, bearing.index
         offset = complex(*journal.reference[:2]) - complex(*bearing.reference[:2])
         self._ends = (i, i + 1, i + 2, *journal.polar, k, k + 1, k + 2, *bearing.polar, offset)
         self._loads: list[Load | None] = [None for _ in self.pairs]
         self._place = (0.0, 1.0 + 0j, 0j, 0.0, 0.0, 0j, 0j)
         self._before = self._place, self._loads
-
-    @property
-    def places(self) -> list[int]:
-        """Where the joint's coordinates lie: the journal's three, then the bearing's."""
-        ends = (self.journal, self.bearing)
-        return [end.index + coordinate for end in ends for coordinate in range(3)]
 
     def add_force(self, q: Sequence[float], q_t: Sequence[float], out: list[float]) -> None:
         """Add the joint's generalised forces to `out`."""

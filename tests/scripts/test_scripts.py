@@ -1,0 +1,27 @@
+"""Every script runs, reduced, and ends in numbers."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+SCRIPTS = Path(__file__).parents[2] / "scripts"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "expected"),
+    [
+        (["joint_in_your_model.py"], "least film thickness"),
+        (["contact_restitution.py"], "(default)"),
+        (["benchmark_modes.py", "--quick"], "ratio"),
+        (["flexible_parts.py", "--quick", "--out", "parts"], "flexible, second shapes"),
+    ],
+)
+def test_script(arguments, expected, tmp_path):
+    done = subprocess.run(
+        [sys.executable, str(SCRIPTS / arguments[0]), *arguments[1:]],
+        cwd=tmp_path, capture_output=True, text=True, timeout=200,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert expected in done.stdout

@@ -27,6 +27,7 @@ class Amount:
         revolutions: a scene is not run longer.
         finest_step: smaller fixed steps are left out, s.
         finest_tolerance: smaller tolerances are left out.
+        finest_peer: smaller tolerances of the peers are left out.
         loosen: factor on the tolerances of the references.
         reference_step: smallest fixed step of a reference, s.
     """
@@ -35,12 +36,13 @@ class Amount:
     revolutions: float
     finest_step: float
     finest_tolerance: float
+    finest_peer: float
     loosen: float
     reference_step: float
 
 
-FULL = Amount(3, 2.0, 1e-6, 1e-6, 1.0, 1e-6)
-QUICK = Amount(1, 0.2, 1e-4, 1e-4, 30.0, 1e-5)
+FULL = Amount(3, 2.0, 1e-6, 1e-6, 1e-10, 1.0, 1e-6)
+QUICK = Amount(1, 0.2, 1e-4, 1e-4, 1e-5, 30.0, 1e-5)
 
 
 @dataclass(frozen=True)

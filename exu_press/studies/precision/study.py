@@ -22,7 +22,7 @@ from exu_press.studies.precision.squeezer import DURATION, squeezer_attempts, sq
 
 __all__ = ["precision"]
 
-PEER_TOLERANCES = tuple(10.0**-k for k in range(3, 11))
+PEER_TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10)
 RADII = (0.5, 0.65, 0.95)
 """Beside the default of 0.8."""
 VARIED_TOLERANCES = (1e-2, 1e-3, 1e-4)
@@ -113,7 +113,7 @@ def _attempts(
         varied = [h for h in VARIED_STEPS if h >= amount.finest_step]
         attempts += own.newton_modes(scene, varied)
     if model is not None:
-        tight = [tol for tol in PEER_TOLERANCES if tol >= 1e-2 * amount.finest_tolerance]
+        tight = [tol for tol in PEER_TOLERANCES if tol >= amount.finest_peer]
         attempts += peer_attempts(model, tight)
     return attempts
 

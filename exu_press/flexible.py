@@ -14,9 +14,9 @@ import numpy as np
 from exudyn.itemInterface import MarkerBodyRigid, ObjectJointGeneric, ObjectJointSpherical
 from exudyn.rigidBodyUtilities import RotationMatrixZ
 
-from exu_press.integrate.progress import Progress
 from exu_press.joints import FlexiblePoint
 from exu_press.mechanism import Motion
+from exu_press.progress import Progress
 from exu_press.scene import Scene
 from exu_press.scene.tables import Flexible
 from fe_models import (

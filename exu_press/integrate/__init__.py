@@ -1,7 +1,6 @@
-"""Integration: Exudyn's generalized-alpha with progress, early stops and statistics."""
+"""Integration: Exudyn's generalized-alpha with steps by tolerance, early stops, statistics."""
 
 from exu_press.integrate.outcome import Outcome, Status
-from exu_press.integrate.progress import Progress
 from exu_press.integrate.run import integrate
 
-__all__ = ["Outcome", "Progress", "Status", "integrate"]
+__all__ = ["Outcome", "Status", "integrate"]

@@ -13,11 +13,11 @@ import numpy as np
 
 from exu_press.integrate.error import StepError
 from exu_press.integrate.outcome import Outcome, Status
-from exu_press.integrate.progress import Progress
 from exu_press.integrate.settings import largest_step, settings_for, smallest_step
 from exu_press.integrate.stepping import StepControl
 from exu_press.joints import overlay_of
 from exu_press.model import Model
+from exu_press.progress import Progress
 
 __all__ = ["integrate"]
 

@@ -35,4 +35,5 @@ def check_assembly(scene: Scene) -> None:
     try:
         mechanism_of(scene).motion(np.radians(degrees), 1.0)
     except AssemblyError as error:
-        raise InputError(f"{error} m at crank angle {degrees[error.index]:g} deg") from None
+        angle = 180.0 if error.index is None else degrees[error.index]
+        raise InputError(f"{error} m at crank angle {angle:g} deg") from None

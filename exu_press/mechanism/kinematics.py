@@ -28,9 +28,12 @@ Array = NDArray[np.float64]
 
 
 class AssemblyError(ValueError):
-    """Links do not reach; the text names them, `index` is the first crank angle concerned."""
+    """Links do not reach; the text names them.
 
-    def __init__(self, text: str, index: int) -> None:
+    `index` is the first crank angle concerned; None is bottom dead centre.
+    """
+
+    def __init__(self, text: str, index: int | None = None) -> None:
         """Remember where the links fail to meet."""
         super().__init__(text)
         self.index = index

@@ -20,7 +20,6 @@ from exu_press.scene.tables import Press
 
 __all__ = ["press"]
 
-BOTTOM = 360  # number of bottom dead centre among crank angles half a degree apart
 SIDES = {"right": 1, "left": -1}
 
 
@@ -32,7 +31,7 @@ def press(size: Press, crank_pin: str, balls: str) -> Mechanism:
     offset, half_plunger = size.crank_mass_offset, size.plunger_length / 2
     if size.link_5_length <= size.pivot_distance:
         short = f"press.link_5_length = {size.link_5_length:g}: needs > {size.pivot_distance:g}"
-        raise AssemblyError(short, BOTTOM)
+        raise AssemblyError(short)
     bottom = -size.crank_radius - size.linkage_length
     drop = math.sqrt(size.link_5_length**2 - size.pivot_distance**2)
     pivot_y = bottom - drop + size.link_6_length  # knuckle stretched at bottom dead centre

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.integrate import Progress
+from exu_press.progress import Progress
 from exu_press.scene import Scene
 from exu_press.studies.precision import own, references
 from exu_press.studies.precision.cases import FULL, QUICK, Amount, Case

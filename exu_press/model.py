@@ -80,14 +80,6 @@ class Model:
     sensors: dict[tuple[str, str], int]
     parts: Mapping[str, "ReducedPart"]
 
-    def joint_clearances(self) -> list[tuple[ClearanceJoint, float]]:
-        """Return every clearance joint with its radial clearance, m."""
-        sizes = self.scene.clearance
-        return [
-            (joint, getattr(sizes, "balls" if name.startswith("ball") else name))
-            for name, joint in self.clearance_joints.items()
-        ]
-
     def next_corner(self, time: float) -> float:
         """Return the next instant at which the blanking force has a corner, s, or infinity."""
         pulse = self.scene.blanking

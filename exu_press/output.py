@@ -3,12 +3,14 @@
 import json
 import os
 import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 from exu_press.errors import InputError
 
-__all__ = ["output_directory", "write_json"]
+__all__ = ["output_directory", "replacing", "write_json"]
 
 
 def output_directory(path: str | Path) -> Path:
@@ -26,13 +28,25 @@ def output_directory(path: str | Path) -> Path:
     return directory
 
 
-def write_json(path: Path, data: Any) -> None:
-    """Write strict JSON (no NaN) under a temporary name, then rename."""
+@contextmanager
+def replacing(path: Path) -> Iterator[Path]:
+    """Yield a temporary name beside `path`; on success it takes the place of `path`.
+
+    Whatever goes wrong, an existing file stays as it was and no half file is left. OSError becomes
+    InputError.
+    """
     partial = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
-        partial.write_text(json.dumps(data, indent=2, allow_nan=False) + "\n", encoding="utf-8")
+        yield partial
         partial.replace(path)
     except OSError as error:
         raise InputError(f"{path}: cannot be written ({error.strerror})") from None
     finally:
         partial.unlink(missing_ok=True)
+
+
+def write_json(path: Path, data: Any) -> None:
+    """Write strict JSON (no NaN)."""
+    text = json.dumps(data, indent=2, allow_nan=False) + "\n"
+    with replacing(path) as partial:
+        partial.write_text(text, encoding="utf-8")

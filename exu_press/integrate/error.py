@@ -45,8 +45,8 @@ class StepError:
         self._bodies = _Bodies(model)
         self._mass: Array | None = None
         self._joints = [
-            _JointError(joint, 12.0 * share * clearance)
-            for joint, clearance in model.joint_clearances()
+            _JointError(joint, 12.0 * share * joint.clearance)
+            for joint in model.clearance_joints.values()
         ]
 
     def __call__(self, step: float) -> float:

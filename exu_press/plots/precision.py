@@ -11,7 +11,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.text import Annotation
 
-from exu_press.plots.save import _save
+from exu_press.plots.save import save_figure
 from exu_press.plots.style import COLOURS, GREY, SHADE, styled
 from exu_press.studies.precision import Report, Row
 from exu_press.studies.precision.own import FIXED, TOLERANCE
@@ -76,7 +76,7 @@ def save_precision(report: Report, directory: str | Path) -> list[Path]:
         InputError: a file cannot be written.
     """
     return [
-        _save(precision_figure(report, name), Path(directory) / f"precision_{name}.png")
+        save_figure(precision_figure(report, name), Path(directory) / f"precision_{name}.png")
         for name in report.cases
     ]
 

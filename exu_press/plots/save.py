@@ -1,14 +1,13 @@
 """Pictures as PNG files."""
 
 import io
-import os
 from collections.abc import Mapping
 from pathlib import Path
 
 from matplotlib.figure import Figure
 from PIL import Image
 
-from exu_press.errors import InputError
+from exu_press.output import replacing
 from exu_press.plots.energy import energy_figure
 from exu_press.plots.force import force_figure
 from exu_press.plots.orbit import orbit_figure
@@ -16,7 +15,7 @@ from exu_press.plots.slider import slider_figure
 from exu_press.plots.style import DPI, look
 from exu_press.result import Result
 
-__all__ = ["save_comparison", "save_pictures"]
+__all__ = ["save_comparison", "save_figure", "save_pictures"]
 
 
 def save_pictures(result: Result, directory: str | Path) -> list[Path]:
@@ -32,7 +31,9 @@ def save_pictures(result: Result, directory: str | Path) -> list[Path]:
     if result.clearance_joints:
         figures["orbit"] = orbit_figure(result)
     figures |= {"force": force_figure(run), "energy": energy_figure(result)}
-    return [_save(figure, Path(directory) / f"{name}.png") for name, figure in figures.items()]
+    return [
+        save_figure(figure, Path(directory) / f"{name}.png") for name, figure in figures.items()
+    ]
 
 
 def save_comparison(results: Mapping[str, Result], directory: str | Path) -> list[Path]:
@@ -42,10 +43,12 @@ def save_comparison(results: Mapping[str, Result], directory: str | Path) -> lis
         InputError: a file cannot be written.
     """
     figures = {"compare_slider": slider_figure(results), "compare_force": force_figure(results)}
-    return [_save(figure, Path(directory) / f"{name}.png") for name, figure in figures.items()]
+    return [
+        save_figure(figure, Path(directory) / f"{name}.png") for name, figure in figures.items()
+    ]
 
 
-def _save(figure: Figure, path: Path) -> Path:
+def save_figure(figure: Figure, path: Path) -> Path:
     """Write under a temporary name, then rename.
 
     256 colours halve the file and do not show, except in what runs through a range of them.
@@ -57,11 +60,6 @@ def _save(figure: Figure, path: Path) -> Path:
     image = Image.open(pixels).convert("RGB")
     if path.stem != "orbit":
         image = image.quantize(256)
-    partial = path.with_name(f".{path.name}.{os.getpid()}.part")
-    try:
+    with replacing(path) as partial:
         image.save(partial, format="png", dpi=(DPI, DPI), optimize=True)
-        partial.replace(path)
-    except OSError as error:
-        partial.unlink(missing_ok=True)
-        raise InputError(f"{path}: cannot be written ({error.strerror})") from None
     return path

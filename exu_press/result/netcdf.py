@@ -1,13 +1,13 @@
 """A result as a NetCDF file: units and names as attributes, the complete scene inside."""
 
 import json
-import os
 from pathlib import Path
 
 import numpy as np
 from scipy.io import netcdf_file
 
 from exu_press.errors import InputError
+from exu_press.output import replacing
 from exu_press.result.result import AXES, Channel, Result
 from exu_press.scene import Scene
 
@@ -18,31 +18,24 @@ FORMAT = "exu_press result 1"
 
 def write(result: Result, path: Path) -> None:
     """Write to a temporary name beside `path`, then rename: no half file is ever left there."""
-    partial = path.with_name(f".{path.name}.{os.getpid()}.part")
-    try:
-        with netcdf_file(partial, "w", version=2) as file:
-            file.format = FORMAT
-            file.scene = json.dumps(result.scene.to_dict())
-            file.info = json.dumps(result.info)
-            file.bodies = json.dumps(result.bodies)
-            file.createDimension("time", len(result.time))
-            for axis, columns in AXES.items():
-                if columns:
-                    file.createDimension(axis, len(columns))
-            if result.bodies:
-                file.createDimension("body", len(result.bodies))
-            for name, channel in result.channels.items():
-                inner = ("body",) if channel.values.ndim == 3 else ()
-                outer = (channel.axis,) if channel.axis else ()
-                variable = file.createVariable(name, "d", ("time", *inner, *outer))
-                variable[:] = channel.values
-                variable.units = channel.unit
-                variable.long_name = channel.long_name
-        partial.replace(path)
-    except OSError as error:
-        raise InputError(f"{path}: cannot be written ({error.strerror})") from None
-    finally:
-        partial.unlink(missing_ok=True)
+    with replacing(path) as partial, netcdf_file(partial, "w", version=2) as file:
+        file.format = FORMAT
+        file.scene = json.dumps(result.scene.to_dict())
+        file.info = json.dumps(result.info)
+        file.bodies = json.dumps(result.bodies)
+        file.createDimension("time", len(result.time))
+        for axis, columns in AXES.items():
+            if columns:
+                file.createDimension(axis, len(columns))
+        if result.bodies:
+            file.createDimension("body", len(result.bodies))
+        for name, channel in result.channels.items():
+            inner = ("body",) if channel.values.ndim == 3 else ()
+            outer = (channel.axis,) if channel.axis else ()
+            variable = file.createVariable(name, "d", ("time", *inner, *outer))
+            variable[:] = channel.values
+            variable.units = channel.unit
+            variable.long_name = channel.long_name
 
 
 def read(path: Path) -> Result:

@@ -4,7 +4,7 @@ from PIL import Image
 
 from exu_press.errors import InputError
 from exu_press.plots import save_comparison, save_pictures
-from exu_press.plots.save import _save
+from exu_press.plots.save import save_figure
 
 EVERY = ["slider.png", "orbit.png", "force.png", "energy.png"]
 
@@ -35,4 +35,4 @@ def test_pictures_of_a_comparison(results, tmp_path):
 
 def test_a_directory_that_is_not_there(tmp_path):
     with pytest.raises(InputError, match="cannot be written"):
-        _save(Figure(), tmp_path / "missing" / "force.png")
+        save_figure(Figure(), tmp_path / "missing" / "force.png")

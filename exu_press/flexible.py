@@ -7,6 +7,8 @@ and upright by the slide, the crank shaft lengthwise by its first main bearing.
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from importlib.util import find_spec
+from math import cos, pi, sin
 from typing import Any
 
 import exudyn as exu
@@ -14,6 +16,7 @@ import numpy as np
 from exudyn.itemInterface import MarkerBodyRigid, ObjectJointGeneric, ObjectJointSpherical
 from exudyn.rigidBodyUtilities import RotationMatrixZ
 
+from exu_press.errors import InputError
 from exu_press.joints import FlexiblePoint
 from exu_press.mechanism import Motion
 from exu_press.progress import Progress
@@ -48,12 +51,24 @@ FACES = {
 
 MAIN_BEARINGS = {"main_bearing_a": "journal A", "main_bearing_b": "journal B"}
 
+HELD = ("held_a", "held_b", "held_c")
+"""Three points of the linkage around its small bore, in the plane that the slide keeps it in."""
+
 
 def reduced_parts(scene: Scene, *, quiet: bool = True) -> dict[str, ReducedPart]:
-    """Return crank and linkage as the scene wants them, showing progress while they are made."""
+    """Return crank and linkage as the scene wants them, showing progress while they are made.
+
+    Raises:
+        InputError: NGSolve is not installed.
+    """
     table = scene.flexible
     if table is None:
         return {}
+    if find_spec("ngsolve") is None:
+        raise InputError(
+            "bodies = 'flexible': needs NGSolve, which is not installed (there are no wheels for "
+            "Linux on ARM); allowed here is 'rigid'"
+        )
     shapes = {"crank": table.crank, "linkage": table.linkage}
     return {name: _reduced(table, shape, quiet) for name, shape in shapes.items()}
 
@@ -87,6 +102,11 @@ def add_part(
         face = MAIN_BEARINGS.get(joint) or FACES[name, joint]
         along = 0.0 if name == "linkage" else part.interface(face).centre[2]
         points[joint] = face, (*place, along)
+    if name == "linkage":
+        bore = part.interface("small bore")
+        for held, turn in zip(HELD, (0.0, 2.0 * pi / 3.0, 4.0 * pi / 3.0), strict=True):
+            x_held, y_held = bore.centre[:2] + bore.arm * np.array([cos(turn), sin(turn)])
+            points[held] = bore.face, (x_held, y_held, 0.0)
     return add_flexible_body(
         mbs,
         part,
@@ -135,10 +155,14 @@ def hold_crank(mbs: exu.MainSystem, ground: int, crank: FlexibleBody, drive: int
 
 
 def hold_linkage(mbs: exu.MainSystem, slide: int, linkage: FlexibleBody) -> None:
-    """Keep the linkage in the plane of the slide, whose marker is given."""
-    _, _, z = linkage.part.interface("small bore").centre
-    bore = linkage.add_marker(mbs, "small bore", (0.0, 0.0, -z))  # a mesh is not quite symmetric
-    _hold(mbs, slide, bore, [0, 0, 1, 1, 1, 0])
+    """Keep the linkage in the plane of the slide, whose marker is given.
+
+    Three points do what the height and the two tilts of a marker with an orientation would, which
+    costs more: it has three nodes and is asked for its rotation, too.
+    """
+    for name in HELD:
+        points = [slide, linkage.add_point_marker(mbs, name)]
+        mbs.AddObject(ObjectJointSpherical(markerNumbers=points, constrainedAxes=[0, 0, 1]))
 
 
 def _hold(mbs: exu.MainSystem, by: int, marker: int, axes: list[int]) -> None:

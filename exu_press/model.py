@@ -17,6 +17,7 @@ from exudyn.itemInterface import (
     NodePointGround,
     NodeRigidBody2D,
     ObjectConnectorCoordinate,
+    ObjectConnectorCoordinateSpringDamper,
     ObjectConnectorCoordinateVector,
     ObjectGround,
     ObjectJointRevolute2D,
@@ -34,7 +35,7 @@ from exu_press.joints import (
 )
 from exu_press.laws.blanking import blanking_force
 from exu_press.laws.friction import no_friction
-from exu_press.mechanism import GROUND, Guide, Joint, Mechanism, Motion, mechanism_of
+from exu_press.mechanism import GROUND, Guide, Joint, Mechanism, Motion, Spring, mechanism_of
 from exu_press.mechanism.kinematics import along, turning
 from exu_press.scene import Scene
 from exu_press.scene.laws import asperity_onset, contact_law, film_law, friction_law
@@ -245,9 +246,14 @@ class _Builder:
         )
 
     def add_guide(self, guide: Guide) -> tuple[int, ...]:
-        """Hold a body's x and, if the guide does so, its angle."""
-        held = (0, 2) if guide.holds_angle else (0,)
-        return tuple(self._hold(guide.body, coordinate) for coordinate in held)
+        """Hold a body's x and, if the guide does so, its angle, by constraints or springs."""
+        held = {0: guide.lateral, 2: guide.tilting} if guide.holds_angle else {0: guide.lateral}
+        return tuple(
+            self._hold(guide.body, coordinate)
+            if spring is None
+            else self._spring(guide.body, coordinate, spring)
+            for coordinate, spring in held.items()
+        )
 
     def add_drive(self) -> int:
         """Turn the crank at constant speed, by a constraint on its angular velocity."""
@@ -255,22 +261,29 @@ class _Builder:
         return self._hold(turned, 2, velocityLevel=True, offset=self.scene.angular_speed)
 
     def add_blanking(self) -> None:
-        """Press the slider upwards once a revolution."""
+        """Press the slider upwards once a revolution, at a place of the frame."""
         pulse = self.scene.blanking
         if pulse is None or pulse.force == 0.0:
             return
         period, begin = _pulse_period(self.scene)
 
-        def load(mbs: exu.MainSystem, t: float, load: float) -> float:
+        def force(mbs: exu.MainSystem, t: float, load: float) -> float:
             return blanking_force((t - begin) % period, pulse.force, pulse.rise, pulse.fall)
 
-        marker = self._coordinate(self.mechanism.slider, 1)
-        number = self.mbs.AddLoad(
-            LoadCoordinate(markerNumber=marker, load=0.0, loadUserFunction=load)
-        )
-        self.sensors["blanking", "force"] = self.mbs.AddSensor(
-            SensorLoad(loadNumber=number, storeInternal=True)
-        )
+        def moment(mbs: exu.MainSystem, t: float, load: float) -> float:
+            return pulse.eccentricity * force(mbs, t, load)
+
+        loads = {"force": (1, force)}
+        if pulse.eccentricity != 0.0:
+            loads["moment"] = (2, moment)
+        for quantity, (coordinate, load) in loads.items():
+            marker = self._coordinate(self.mechanism.slider, coordinate)
+            number = self.mbs.AddLoad(
+                LoadCoordinate(markerNumber=marker, load=0.0, loadUserFunction=load)
+            )
+            self.sensors["blanking", quantity] = self.mbs.AddSensor(
+                SensorLoad(loadNumber=number, storeInternal=True)
+            )
 
     def add_sensors(self, joints: dict[str, int], guides: dict[str, tuple[int, ...]]) -> None:
         """Record bodies' coordinates and the constraints' forces in memory, every step."""
@@ -401,6 +414,17 @@ class _Builder:
             self.mbs.AddObject(
                 ObjectConnectorCoordinate(
                     markerNumbers=[self.still, self._coordinate(body, coordinate)], **options
+                )
+            )
+        )
+
+    def _spring(self, body: str, coordinate: int, spring: Spring) -> int:
+        return int(
+            self.mbs.AddObject(
+                ObjectConnectorCoordinateSpringDamper(
+                    markerNumbers=[self.still, self._coordinate(body, coordinate)],
+                    stiffness=spring.stiffness,
+                    damping=spring.damping,
                 )
             )
         )

@@ -17,10 +17,17 @@ def simulate(scene: Scene, *, quiet: bool = True) -> Result:
     Args:
         scene: what is asked.
         quiet: False shows the progress on standard error.
+
+    Returns:
+        The result. After an early stop too, `completed` False and `info["reason"]` saying when,
+        where, why and what to try.
     """
     start = time.perf_counter()
     model = build(scene, quiet=quiet)
-    outcome = integrate(model, quiet=quiet)
-    result = record(model, outcome)
+    try:
+        outcome = integrate(model, quiet=quiet)
+        result = record(model, outcome)
+    finally:
+        model.SC.Reset()  # its systems and their solvers hold each other: never freed otherwise
     total = time.perf_counter() - start
     return replace(result, info={**result.info, "total_time": total})

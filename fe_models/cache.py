@@ -54,8 +54,14 @@ def reduced_part(
 ) -> ReducedPart:
     """Return a part reduced: from the cache if it is there and sound, made and stored otherwise.
 
-    folder : of the cache; `default_folder()` unless told.
-    report : called with (what is being done, share done) while it is made.
+    Args:
+        part: what is to be reduced.
+        reduction: how; 20 Craig-Bampton modes unless told.
+        folder: of the cache; `default_folder()` unless told.
+        report: called with (what is being done, share done) while it is made.
+
+    Raises:
+        InputError: the part cannot be meshed or lacks a face, or the reduction does not fit it.
     """
     reduction = reduction or Reduction()
     file = cache_file(part, reduction, default_folder() if folder is None else folder)

@@ -49,7 +49,13 @@ def clamped_modes(
 ) -> tuple[Array, Array, Any]:
     """Return frequencies [Hz] (count,), modes (3n, count) and the `FullModel` they belong to.
 
-    faces : those clamped; all bearings (interfaces with six motions) unless told.
+    Args:
+        part: is meshed here, and not reduced.
+        count: number of modes, from the lowest up.
+        faces: those clamped; all bearings (interfaces with six motions) unless told.
+
+    Raises:
+        InputError: a face is no interface of the part, or there is none to clamp.
     """
     from fe_models.elasticity import full_model
     from fe_models.saddle import Cholesky, lowest_modes
@@ -72,7 +78,11 @@ def clamped_modes(
 
 
 def clamped_frequencies(part: Part, count: int = 20, faces: Sequence[str] | None = None) -> Array:
-    """Return the lowest `count` frequencies [Hz] with the faces clamped (all bearings)."""
+    """Return the lowest `count` frequencies [Hz], (count,), with the faces clamped (all bearings).
+
+    Raises:
+        InputError: a face is no interface of the part, or there is none to clamp.
+    """
     return clamped_modes(part, count, faces)[0]
 
 
@@ -89,7 +99,14 @@ def mesh_convergence(
     count: int = 16,
     report: Callable[[str, float], None] | None = None,
 ) -> list[ConvergenceRow]:
-    """Return the clamped frequencies on ever finer meshes."""
+    """Return the clamped frequencies on ever finer meshes.
+
+    Args:
+        part: with its bearings clamped.
+        mesh_sizes: m, from coarse to fine.
+        count: number of modes.
+        report: called with (what is being done, share done).
+    """
     rows = []
     for i, size in enumerate(mesh_sizes):
         if report is not None:

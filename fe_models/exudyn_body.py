@@ -1,9 +1,9 @@
 """A reduced part as a body of an Exudyn system, with markers on its interfaces.
 
 Modes given, it is an ObjectFFRFreducedOrder; with 0 modes an ObjectRigidBody of the same mass.
-A marker over all nodes of a bearing face costs 20 times what its six virtual nodes cost and does
-the same to 4e-11 (they move with the face's mean motion), so those are the body's mesh nodes after
-the surface nodes.
+A marker's cost goes with its nodes. Three virtual nodes, moving with the mean motion of a bearing
+face, do the same to 4e-11 as all nodes of the face, which cost over twenty times as much; so they
+are the body's mesh nodes after those of the surface.
 """
 
 from collections.abc import Mapping, Sequence
@@ -39,7 +39,7 @@ ROTATIONS = {
     "euler_parameters": exu.NodeType.RotationEulerParameters,  # 4 coordinates, no singularity
     "rotation_vector": exu.NodeType.RotationRotationVector,  # 3
 }
-VIRTUAL = 6
+VIRTUAL = 3
 
 
 @dataclass(frozen=True)
@@ -74,9 +74,15 @@ class FlexibleBody:
         return int(mbs.AddMarker(marker))
 
     def add_marker(self, mbs: Any, face: str, offset: Sequence[float] = (0.0, 0.0, 0.0)) -> int:
-        """Add a rigid-body marker that follows the mean motion of an interface.
+        """Add a rigid-body marker that follows the mean motion of an interface; return its number.
 
-        offset [m] from the interface's centre, in the body frame.
+        Args:
+            mbs: the body's system.
+            face: name of the interface.
+            offset: from the interface's centre, in the body frame, (3,), m.
+
+        Raises:
+            InputError: the part has no such interface.
         """
         interface = self.part.interface(face)
         if self.node_modes is None:
@@ -111,16 +117,26 @@ def add_flexible_body(
 ) -> FlexibleBody:
     """Add a reduced part to an Exudyn MainSystem.
 
-    mbs : exudyn.MainSystem
-    position, rotation : pose of the body frame in the global frame, (3,) m and (3, 3).
-    velocity, angular_velocity : of the body frame's origin, global components, m/s and rad/s.
-    gravity : (3,) m/s^2; zero adds no load.
-    damping_ratio : of critical, the same for every mode.
-    rotation_parameters : "euler_parameters" or "rotation_vector".
-    initial_modes, initial_modes_t : (n,) modal coordinates and velocities at the start.
-    points : name -> (face, place (3,) in the body frame, m): points that move with the mean motion
-        of a face, for `add_point_marker`.
-    name : of the object; its nodes become "<name> frame" and "<name> modes".
+    Args:
+        mbs: exudyn.MainSystem, not yet assembled.
+        part: from `reduced_part`; one with 0 modes becomes a rigid body.
+        position: origin of the body frame, global, (3,), m.
+        rotation: from the body to the global frame, (3, 3); none unless given.
+        velocity: of the body frame's origin, global components, (3,), m/s.
+        angular_velocity: global components, (3,), rad/s.
+        gravity: (3,), m/s^2; zero adds no load.
+        damping_ratio: of critical, the same for every mode.
+        rotation_parameters: "euler_parameters" or "rotation_vector".
+        initial_modes: (n,) modal coordinates at the start, sqrt(kg) m.
+        initial_modes_t: (n,) their rates.
+        points: name -> (face, place (3,) in the body frame, m): points that move with the mean
+            motion of a face, for `add_point_marker`.
+        color: red, green, blue, opacity, 0 to 1.
+        name: of the object; its nodes become "<name> frame" and "<name> modes".
+
+    Raises:
+        InputError: unknown rotation parameters, a damping ratio outside 0 to 1, a face that the
+            part does not have, or initial values of a wrong shape.
     """
     if rotation_parameters not in ROTATIONS:
         raise InputError(
@@ -184,7 +200,7 @@ def _add_flexible(
     color: Sequence[float],
     name: str,
 ) -> FlexibleBody:
-    """Add the part with its modes; mesh nodes: the surface, then six for each interface."""
+    """Add the part with its modes; mesh nodes: the surface, then three for each interface."""
     virtual = [interface.virtual_nodes() for interface in part.interfaces]
     virtual += [part.interface(face).moved_point(place) for face, place in points.values()]
     positions = np.vstack([part.nodes, *(points for points, _ in virtual)])

@@ -23,9 +23,13 @@ PARTS_FILE = Path(__file__).with_name("parts.toml")
 class Interface:
     """A named face that loads or joints act on.
 
-    face : name of one or several faces of the shape, taken together.
-    motions : those of "x", "y", "z", "rx", "ry", "rz" in which it is loaded; each gets a static
-        mode, so that the reduced part is exact under such a load.
+    Attributes:
+        face: name of one or several faces of the shape, taken together.
+        motions: those of "x", "y", "z", "rx", "ry", "rz" in which it is loaded; each gets a static
+            mode, so that the reduced part is exact under such a load.
+
+    Raises:
+        InputError: a motion is unknown or named twice.
     """
 
     face: str
@@ -45,7 +49,15 @@ class Interface:
 class Part:
     """What a reduced flexible body is made from.
 
-    mesh_size : largest edge of a tetrahedron [m].
+    Attributes:
+        name: in messages, and part of the cache's file name.
+        geometry: what the solid is.
+        material: linear elastic.
+        interfaces: the faces that joints and loads hold on to.
+        mesh_size: largest edge of a tetrahedron, m.
+
+    Raises:
+        InputError: the mesh size is not positive, or a face is named twice.
     """
 
     name: str
@@ -93,7 +105,12 @@ LINKAGE_INTERFACES = (Interface("big bore"), Interface("small bore"))
 def shipped_part(name: str, mesh_size: float | None = None) -> Part:
     """Return "crank" or "linkage", or one of their second shapes ("crank_2", "linkage_2").
 
-    mesh_size [m] defaults to the one in parts.toml.
+    Args:
+        name: of the part.
+        mesh_size: m; the one in parts.toml unless told.
+
+    Raises:
+        InputError: there is no such part.
     """
     tables = _tables()
     if name not in tables:

@@ -26,6 +26,14 @@ def draw_mode_shapes(part: Part, file: Path, modes: tuple[int, ...] = MODE_NUMBE
     """Write a picture (.png): the undeformed part and modes clamped at the bearings, by number.
 
     Colour is the size of the displacement relative to the mode's largest.
+
+    Args:
+        part: is meshed here.
+        file: to write.
+        modes: numbers, from 1.
+
+    Raises:
+        InputError: the part cannot be meshed, or has no bearing to clamp.
     """
     frequencies, shapes, model = clamped_modes(part, max(modes))
     long_part = np.ptp(model.nodes[:, 2]) > 2.0 * np.ptp(model.nodes[:, :2], axis=0).max()

@@ -25,19 +25,20 @@ class ReducedInterface:
     face: str
     centre: Array  # (3,) m, undeformed, in the body frame
     area: float  # m^2
-    arm: float  # m, distance of the six virtual nodes from the centre
+    arm: float  # m, size of the virtual nodes' triangle
     translation: Array  # (3, modes)
     rotation: Array  # (3, modes) rad per unit of q
 
     def virtual_nodes(self) -> tuple[Array, Array]:
-        """Return six points (6, 3) at +-arm along each axis, and their modes (18, modes).
+        """Return three points (3, 3) around the centre, and their modes (9, modes).
 
-        Moving rigidly with the mean motion, they stand for the whole face.
+        Moving rigidly with the mean motion, they stand for the whole face. They are the ends of
+        the three axes, moved so that the centre is in their middle; fewer could not show a turn.
         """
-        arms = self.arm * np.vstack([np.eye(3), -np.eye(3)])
+        arms = self.arm * (np.eye(3) - 1.0 / 3.0)
         turned = np.cross(self.rotation.T[None, :, :], arms[:, None, :])  # theta x arm
         modes = (self.translation.T[None, :, :] + turned).transpose(0, 2, 1)
-        return self.centre + arms, modes.reshape(18, self.translation.shape[1])
+        return self.centre + arms, modes.reshape(9, self.translation.shape[1])
 
     def moved_point(self, place: Sequence[float]) -> tuple[Array, Array]:
         """Return a point (1, 3) that moves rigidly with the mean motion, and its modes (3, n)."""
@@ -78,7 +79,11 @@ class ReducedPart:
         return len(self.frequencies)
 
     def interface(self, face: str) -> ReducedInterface:
-        """Return an interface by the name of its face."""
+        """Return an interface by the name of its face.
+
+        Raises:
+            InputError: there is none of that name.
+        """
         for interface in self.interfaces:
             if interface.face == face:
                 return interface
@@ -88,7 +93,11 @@ class ReducedPart:
         )
 
     def damping_matrix(self, ratio: float) -> Array:
-        """Return the matrix (n, n) that damps every mode with `ratio` of critical damping."""
+        """Return the matrix (n, n), 1/s, that damps every mode with `ratio` of critical damping.
+
+        Raises:
+            InputError: the ratio is not in 0 to 1.
+        """
         if not 0.0 <= ratio < 1.0:
             raise InputError(f"{self.name}: damping_ratio = {ratio!r}: must lie in 0 ... 1")
         omega = 2.0 * np.pi * self.frequencies

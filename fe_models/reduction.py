@@ -32,11 +32,16 @@ Report = Callable[[str, float], None]  # (what is done next, share done so far)
 class Reduction:
     """How a part is reduced.
 
-    modes : number of modal coordinates, from 0 (a rigid body) up. Craig-Bampton spends them on the
-        static modes first (one for each loaded motion of an interface beyond six), then on the
-        lowest fixed-interface modes; fewer than the static ones: the lowest modes of their span.
-    method : "craig_bampton", or "free": the lowest modes of the free body.
-    stress : whether the stresses of the modes are kept too (more to store).
+    Attributes:
+        modes: number of modal coordinates, from 0 (a rigid body) up. Craig-Bampton spends them on
+            the static modes first (one for each loaded motion of an interface beyond six), then on
+            the lowest fixed-interface modes; fewer than the static ones: the lowest modes of their
+            span.
+        method: "craig_bampton", or "free": the lowest modes of the free body.
+        stress: whether the stresses of the modes are kept too (more to store).
+
+    Raises:
+        InputError: the number of modes is none, or the method unknown.
     """
 
     modes: int = 20
@@ -58,7 +63,16 @@ class Reduction:
 
 
 def reduce_part(part: Part, reduction: Reduction, report: Report | None = None) -> ReducedPart:
-    """Mesh, assemble and reduce a part."""
+    """Mesh, assemble and reduce a part, whatever the cache holds.
+
+    Args:
+        part: what is to be reduced.
+        reduction: how.
+        report: called with (what is being done, share done).
+
+    Raises:
+        InputError: the part cannot be meshed or lacks a face, or the reduction does not fit it.
+    """
     from fe_models.elasticity import full_model
 
     report = report or (lambda what, share: None)

@@ -25,6 +25,7 @@ from exudyn.itemInterface import (
 from exu_press import Scene, add_lubricated_revolute
 from exu_press.integrate import integrate
 from exu_press.integrate.settings import settings_for
+from exu_press.joints import COMPILED
 from exu_press.laws.film import film_scale, pinkus
 
 STEP = 1e-5  # s
@@ -137,7 +138,8 @@ def main():
     quick = parser.parse_args().quick
     steps, repeats = (100, 1) if quick else (2500, 7)
     exu.config.printToConsole = False
-    print(f"{'':34}{'us/step':>10}{'Newton/step':>12}{'ratio':>10}")
+    name = f"joints {'compiled' if COMPILED else 'in Python'}"
+    print(f"{name:34}{'us/step':>10}{'Newton/step':>12}{'ratio':>10}")
     medians(run_press, PRESS, steps, repeats)
     medians(run_chain, CHAIN, steps, repeats)
 

@@ -4,46 +4,27 @@ Run with: python scripts/joint_in_your_model.py
 """
 
 import exudyn as exu
+import exudyn.utilities as items
 import numpy as np
-from exudyn.itemInterface import (
-    LoadMassProportional,
-    MarkerBodyMass,
-    NodeRigidBody2D,
-    ObjectGround,
-    ObjectRigidBody2D,
-)
 
 from exu_press import add_joint_sensor, add_lubricated_revolute
 from exu_press.laws.film import finite
 
 mbs = exu.SystemContainer().AddSystem()
-ground = mbs.AddObject(ObjectGround())
-node = mbs.AddNode(NodeRigidBody2D(referenceCoordinates=[0.5, 0.0, 0.0]))
-pendulum = mbs.AddObject(ObjectRigidBody2D(nodeNumber=node, mass=10.0, inertia=10.0 / 12))
-mass = mbs.AddMarker(MarkerBodyMass(bodyNumber=pendulum))
-mbs.AddLoad(LoadMassProportional(markerNumber=mass, loadVector=[0.0, -9.81, 0.0]))
-
-radius, length = 0.02, 0.03
-joint = add_lubricated_revolute(
-    mbs,
-    journal=(pendulum, (-0.5, 0.0)),
-    bearing=(ground, (0.0, 0.0)),
-    radius=radius,
-    clearance=5e-5,
-    length=length,
-    viscosity=0.1,
-    law=finite(length / (2 * radius)),
-)
+ground = mbs.AddObject(items.ObjectGround())
+node = mbs.AddNode(items.NodeRigidBody2D(referenceCoordinates=[0.5, 0.0, 0.0]))
+pendulum = mbs.AddObject(items.ObjectRigidBody2D(nodeNumber=node, mass=10.0, inertia=10.0 / 12))
+mass = mbs.AddMarker(items.MarkerBodyMass(bodyNumber=pendulum))
+mbs.AddLoad(items.LoadMassProportional(markerNumber=mass, loadVector=[0.0, -9.81, 0.0]))
+journal, bearing = (pendulum, (-0.5, 0.0)), (ground, (0.0, 0.0))  # bodies, points in their frames
+film = {"length": 0.03, "viscosity": 0.1, "law": finite(0.03 / 0.04)}  # m, Pa s, L/D
+joint = add_lubricated_revolute(mbs, journal, bearing, radius=0.02, clearance=5e-5, **film)
 sensor = add_joint_sensor(mbs, joint)
 mbs.Assemble()
 settings = exu.SimulationSettings()
-settings.timeIntegration.endTime = 1.0
-settings.timeIntegration.numberOfSteps = 2000
-settings.timeIntegration.verboseMode = 0
-settings.solution.file.write = False
-settings.solution.sensors.writePeriod = 0.0
+settings.timeIntegration.endTime, settings.timeIntegration.numberOfSteps = 1.0, 2000
+settings.solution.file.write, settings.solution.sensors.writePeriod = False, 0.0
 mbs.SolveDynamic(settings)
-
 record = np.asarray(mbs.GetSensorStoredData(sensor))
-print(f"least film thickness {record[:, -2].min() * 1e6:.1f} um")
-print(f"largest force {np.hypot(record[:, 3], record[:, 4]).max():.0f} N")
+force = np.hypot(record[:, 3], record[:, 4])
+print(f"least film thickness {record[:, -2].min() * 1e6:.1f} um, largest force {force.max():.0f} N")

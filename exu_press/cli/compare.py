@@ -42,5 +42,6 @@ def execute(options: argparse.Namespace) -> int:
         print(f"written to {directory}")
     stopped = {label: s["reason"] for label, s in summaries.items() if s["reason"]}
     for label, reason in stopped.items():
-        print(f"exu-press: {label}: stopped early: {reason}", file=sys.stderr)
+        how = "" if results[label].completed else "stopped early: "
+        print(f"exu-press: {label}: {how}{reason}", file=sys.stderr)
     return 3 if stopped else 0

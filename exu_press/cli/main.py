@@ -4,12 +4,22 @@ import argparse
 import sys
 from collections.abc import Sequence
 
-from exu_press.cli import compare, precision, run
+from exu_press.cli import compare, doctor, paper, precision, report, run, stability, sweep, view
 from exu_press.errors import InputError
 
 __all__ = ["main"]
 
-COMMANDS = {"run": run, "compare": compare, "precision": precision}
+COMMANDS = {
+    "run": run,
+    "compare": compare,
+    "sweep": sweep,
+    "precision": precision,
+    "stability": stability,
+    "paper": paper,
+    "doctor": doctor,
+    "view": view,
+    "report": report,
+}
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

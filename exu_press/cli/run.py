@@ -2,10 +2,12 @@
 
 import argparse
 import sys
+import textwrap
 
 from exu_press.cli.options import add_scene_arguments, directory_of, scene_of
 from exu_press.cli.table import run_lines
 from exu_press.output import output_directory, write_json
+from exu_press.scene.assumptions import assumed_line
 from exu_press.simulation import simulate
 
 __all__ = ["EXAMPLE", "add_arguments", "execute"]
@@ -19,7 +21,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def execute(options: argparse.Namespace) -> int:
-    """Run the scene; return 0, or 3 if it stopped early."""
+    """Run the scene; return 0, or 3 if it stopped early or was not resolved."""
     scene = scene_of(options)
     directory = output_directory(directory_of(options))
     result = simulate(scene, quiet=options.quiet)
@@ -32,9 +34,11 @@ def execute(options: argparse.Namespace) -> int:
 
         written += save_pictures(result, directory)
     if not options.quiet:
-        print("\n".join(run_lines(summary)))
+        assumed = textwrap.wrap(assumed_line(scene), 100, subsequent_indent="  ")
+        print("\n".join([*run_lines(summary), *assumed]))
         print("written:", ", ".join(path.name for path in written), f"in {directory}")
-    if not result.completed:
-        print(f"exu-press: stopped early: {summary['reason']}", file=sys.stderr)
+    if summary["reason"]:
+        how = "" if result.completed else "stopped early: "
+        print(f"exu-press: {how}{summary['reason']}", file=sys.stderr)
         return 3
     return 0

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from typing import Any
 
-__all__ = ["comparison_lines", "run_lines"]
+__all__ = ["comparison_cells", "comparison_lines", "run_lines"]
 
 Summary = Mapping[str, Any]
 
@@ -27,6 +27,23 @@ def _joints(entry: str, scale: float) -> Callable[[Summary], str]:
     return text
 
 
+def _press(entry: str, scale: float) -> Callable[[Summary], str]:
+    """Return what reads one entry, by its dotted name, of what press builders look at."""
+
+    def text(summary: Summary) -> str:
+        value: Any = summary.get("press")
+        for name in entry.split("."):
+            value = None if value is None else value[name]
+        return _number(value, scale)
+
+    return text
+
+
+def _tilt(summary: Summary) -> str:
+    """Return the slider's largest tilt, where its guide lets it."""
+    return _press("slider_tilt", 1e6)(summary) if "guide" in summary["scene"] else "-"
+
+
 ROWS: tuple[tuple[str, Callable[[Summary], str]], ...] = (
     ("status", lambda s: str(s["status"])),
     ("stroke, mm", lambda s: _number(s["stroke"], 1e3, 5)),
@@ -41,6 +58,16 @@ ROWS: tuple[tuple[str, Callable[[Summary], str]], ...] = (
     ("film thickness, min, um", _joints("min_film", 1e6)),
     ("impacts", _joints("impacts", 1.0)),
     ("share in contact", _joints("share_contact", 1.0)),
+    ("dead centres differ by, um", _press("bottom_dead_centre.range", 1e6)),
+    ("slider tilt, max, urad", _tilt),
+    ("drive torque, max, kN m", _press("drive.peak_torque", 1e-3)),
+    ("drive power, mean, W", _press("drive.mean_power", 1.0)),
+    ("shaking force up, max, kN", _press("shaking_force.vertical", 1e-3)),
+    ("  mean over 1 ms", _press("shaking_force.vertical_mean_1ms", 1e-3)),
+    (
+        "  without counterweight",
+        _press("shaking_force_without_counterweight.vertical_mean_1ms", 1e-3),
+    ),
     ("energy put in, J", lambda s: _number(s["energy"]["input"])),
     ("energy dissipated, J", lambda s: _number(s["energy"]["dissipated"])),
     ("energy residual", lambda s: _number(s["energy"]["residual"], 1.0, 2)),
@@ -49,11 +76,16 @@ ROWS: tuple[tuple[str, Callable[[Summary], str]], ...] = (
 )
 
 
-def comparison_lines(summaries: Mapping[str, Summary]) -> list[str]:
-    """Return a table, one column a run."""
+def comparison_cells(summaries: Mapping[str, Summary]) -> list[list[str]]:
+    """Return the lines of a table as texts: the head, then a quantity a line, one column a run."""
     cells = [["", *summaries]]
     cells += [[name, *(row(s) for s in summaries.values())] for name, row in ROWS]
-    cells = [line for line in cells if set(line[1:]) != {"-"}]
+    return [line for line in cells if set(line[1:]) != {"-"}]
+
+
+def comparison_lines(summaries: Mapping[str, Summary]) -> list[str]:
+    """Return a table, one column a run."""
+    cells = comparison_cells(summaries)
     widths = [max(len(line[i]) for line in cells) for i in range(len(cells[0]))]
     return [
         "  ".join(cell.ljust(width) for cell, width in zip(line, widths, strict=True)).rstrip()

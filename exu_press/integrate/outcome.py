@@ -7,12 +7,18 @@ __all__ = ["Outcome", "Status"]
 
 
 class Status(Enum):
-    """How a run ended; everything but COMPLETED is an early stop (exit status 3)."""
+    """How a run ended; everything but COMPLETED makes exit status 3.
+
+    UNDER_RESOLVED reached its end too, but its steps did not resolve its impacts: its peaks are not
+    to be trusted. The others are early stops.
+    """
 
     COMPLETED = "completed"
+    UNDER_RESOLVED = "under-resolved"
     INTERRUPTED = "interrupted"
     FILM_BROKE_DOWN = "film broke down"
     STEP_TOO_SMALL = "step below minimum"
+    TOO_MANY_STEPS = "too many steps"
     NOT_CONVERGED = "not converged"
 
 

@@ -10,11 +10,14 @@ from types import FrameType
 
 import exudyn as exu
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from exu_press.integrate.error import StepError
 from exu_press.integrate.outcome import Outcome, Status
+from exu_press.integrate.resolution import unresolved
 from exu_press.integrate.settings import largest_step, settings_for, smallest_step
-from exu_press.integrate.stepping import StepControl
+from exu_press.integrate.step_change import StepChange
+from exu_press.integrate.stepping import FixedSteps, StepControl
 from exu_press.joints import overlay_of
 from exu_press.model import Model
 from exu_press.progress import Progress
@@ -23,14 +26,19 @@ __all__ = ["integrate"]
 
 SECONDS_BETWEEN_UPDATES = 0.1
 
+WIDE_CIRCLE = 0.3
+"""Of the friction circle's radius, in crank radii."""
+
 
 class _Watch:
     """Called by Exudyn before every step: counts, shows progress, stops when asked to."""
 
-    def __init__(self, progress: Progress) -> None:
+    def __init__(self, progress: Progress, step_change: StepChange, max_steps: int) -> None:
         self.calls = 0
-        self.interrupted = False
+        self.interrupted = self.over_budget = False
+        self._max_steps = max_steps
         self._progress = progress
+        self._step_change = step_change
         self._next_update = time.monotonic() + SECONDS_BETWEEN_UPDATES
 
     def before_step(self, mbs: exu.MainSystem, now: float) -> bool:
@@ -39,7 +47,9 @@ class _Watch:
         if not self.calls % 16 and time.monotonic() > self._next_update:
             self._next_update = time.monotonic() + SECONDS_BETWEEN_UPDATES
             self._progress.update(now)
-        return not self.interrupted
+        self._step_change.before_try(now)
+        self.over_budget = self.calls >= self._max_steps
+        return not (self.interrupted or self.over_budget)
 
     @contextmanager
     def catching_interrupts(self) -> Iterator[None]:
@@ -64,22 +74,30 @@ def integrate(model: Model, *, quiet: bool = True) -> Outcome:
     settings = settings_for(scene)
     failure = ""
     with Progress("run", scene.duration, quiet=quiet) as progress:
-        watch = _Watch(progress)
+        watch = _Watch(progress, StepChange(mbs), _max_steps(model))
         mbs.SetPreStepUserFunction(watch.before_step)
         control = _step_control(model)
         if control is not None:
             control.attach(mbs)
+        else:
+            FixedSteps(
+                scene.duration / settings.timeIntegration.numberOfSteps,
+                slow_start=scene.film is not None,
+            ).attach(mbs)
         start = time.perf_counter()
-        with watch.catching_interrupts(), _silent_console():
+        # matrices of a hundred rows: further threads only wait for each other
+        with watch.catching_interrupts(), _silent_console(), threadpool_limits(1):
             try:
                 mbs.SolveDynamic(settings, showHints=False)
             except exu.ExudynError as error:
                 failure = str(error)
+                if "USER FUNCTION" in failure:  # an error in our own code is no failure of Newton's
+                    raise
         wall_time = time.perf_counter() - start
         solver = mbs.sys["dynamicSolver"]
         progress.update(solver.it.currentTime)
     end_time = mbs.systemData.GetTime()
-    status, reason = _how_it_ended(model, watch.interrupted, end_time, control, failure)
+    status, reason = _how_it_ended(model, watch, end_time, control, failure)
     steps = _recorded_steps(model)
     return Outcome(
         status=status,
@@ -87,7 +105,7 @@ def integrate(model: Model, *, quiet: bool = True) -> Outcome:
         end_time=end_time,
         wall_time=wall_time,
         steps=steps,
-        rejected_steps=max(0, watch.calls - steps - watch.interrupted),
+        rejected_steps=watch.calls - steps,
         newton_iterations=solver.it.newtonStepsCount,
         law_evaluations=overlay_of(mbs).evaluations if model.clearance_joints else 0,
     )
@@ -104,21 +122,28 @@ def _step_control(model: Model) -> StepControl | None:
         duration=scene.duration,
         smallest=smallest_step(scene),
         largest=largest_step(scene),
+        slow_start=scene.film is not None,
         next_corner=model.next_corner,
     )
 
 
 def _how_it_ended(
-    model: Model, interrupted: bool, end_time: float, control: StepControl | None, failure: str
+    model: Model, watch: _Watch, end_time: float, control: StepControl | None, failure: str
 ) -> tuple[Status, str]:
     """Return status and reason of a run."""
     scene = model.scene
     if end_time >= scene.duration * (1.0 - 1e-9):
-        return Status.COMPLETED, ""
-    degrees = math.degrees(scene.start_angle + scene.angular_speed * end_time) % 360.0
-    where = f"at t = {end_time:.6g} s, crank angle {degrees:.2f} deg"
-    if interrupted:
+        return _resolution(model)
+    where = _place(model, end_time)
+    if watch.interrupted:
         return Status.INTERRUPTED, f"interrupted {where}"
+    if watch.over_budget:
+        return Status.TOO_MANY_STEPS, (
+            f"{_max_steps(model)} steps were used up {where}, "
+            f"{end_time / scene.duration:.1%} of the run; try fewer revolutions, a larger "
+            f"{'solver.step' if control is None else 'solver.tolerance'} or solver.max_steps"
+            f"{_seizing(model)}"
+        )
     for name, joint in model.clearance_joints.items():
         if joint.outside is not None:
             return Status.FILM_BROKE_DOWN, (
@@ -127,15 +152,75 @@ def _how_it_ended(
             )
     if control is not None and control.error > 1.0:
         return Status.STEP_TOO_SMALL, (
-            f"the tolerance needs a step below {smallest_step(scene):.2g} s {where}; "
-            "try a larger solver.tolerance or a smaller solver.min_step"
+            f"the tolerance needs a step below {smallest_step(scene):.2g} s {where}"
+            f"{_busiest_joint(model)}; "
+            f"try a larger solver.tolerance or a smaller solver.min_step{_seizing(model)}"
         )
     key = "solver.step" if control is None else "solver.tolerance"
     return Status.NOT_CONVERGED, (
-        f"Newton's method did not converge {where}, down to a step of "
-        f"{smallest_step(scene):.2g} s; try a smaller {key}"
+        f"Newton's method did not converge {where}{_busiest_joint(model)}, down to a step of "
+        f"{smallest_step(scene):.2g} s; try a smaller {key}{_seizing(model)}"
         + (f" [{failure.strip().splitlines()[0]}]" if failure.strip() else "")
     )
+
+
+def _resolution(model: Model) -> tuple[Status, str]:
+    """Return status and reason of a run that reached its end."""
+    worst = unresolved(model)
+    solver = model.scene.solver
+    if worst is None or solver is None:
+        return Status.COMPLETED, ""
+    help_ = (
+        f"solver.step = {worst.step_needed:.0e}"
+        if solver.tolerance is None
+        else f"solver.tolerance = {0.1 * solver.tolerance:.0e}"
+    )
+    return Status.UNDER_RESOLVED, (
+        f"under-resolved {_place(model, worst.time)}: {worst.what}; peaks are the step's; "
+        f"try {help_}"
+    )
+
+
+def _place(model: Model, time: float) -> str:
+    """Return time and crank angle in words."""
+    scene = model.scene
+    degrees = math.degrees(scene.start_angle + scene.angular_speed * time) % 360.0
+    return f"at t = {time:.6g} s, crank angle {degrees:.2f} deg"
+
+
+def _busiest_joint(model: Model) -> str:
+    """Return in words which clearance joint carries the largest force at the end, if one does."""
+    if not model.clearance_joints:
+        return ""
+    overlay = overlay_of(model.mbs)
+    forces = {n: math.hypot(*overlay.state(j).force) for n, j in model.clearance_joints.items()}
+    name = max(forces, key=lambda name: forces[name] if math.isfinite(forces[name]) else -1.0)
+    return f", {name} carrying {forces[name]:.3g} N"
+
+
+def _seizing(model: Model) -> str:
+    """Return in words that the crank pin's friction circle is wide enough to seize.
+
+    Near dead centre the rod's force passes within it: friction then holds the pin fast, whatever
+    the force, and a crank that turns at constant speed makes it grow without bound.
+    """
+    scene = model.scene
+    size, friction, contact = scene.press or scene.slider_crank, scene.friction, scene.contact
+    if size is None or friction is None or contact is None or friction.law == "none":
+        return ""
+    circle = contact.radius * math.sin(math.atan(friction.mu_static))
+    if "crank_pin" not in model.clearance_joints or circle < WIDE_CIRCLE * size.crank_radius:
+        return ""
+    return (
+        f"; the crank pin seizes near dead centre (friction circle {circle:.2g} m, crank radius "
+        f"{size.crank_radius:.2g} m): try a smaller friction.mu_static or contact.radius"
+    )
+
+
+def _max_steps(model: Model) -> int:
+    solver = model.scene.solver
+    assert solver is not None
+    return solver.max_steps
 
 
 def _recorded_steps(model: Model) -> int:

@@ -64,8 +64,7 @@ def settings_for(scene: Scene) -> exu.SimulationSettings:
     integration.adaptiveStep = True
     integration.adaptiveStepDecrease = 0.5
     integration.minimumStepSize = smallest_step(scene)
-    if solver.tolerance is not None:  # the step control decides about growth
-        integration.adaptiveStepRecoverySteps = 2**30
+    integration.adaptiveStepRecoverySteps = 2**30  # growth is decided in `stepping`
 
     # Two thirds of the dense solver's time, for the 30 to 90 unknowns here.
     settings.linearSolver.solverType = exu.LinearSolverType.EigenSparse

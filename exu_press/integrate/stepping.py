@@ -11,31 +11,36 @@ import exudyn as exu
 
 from exu_press.integrate.error import StepError
 
-__all__ = ["StepControl"]
+__all__ = ["FixedSteps", "StepControl"]
 
-GROW_BELOW = 0.15
-"""Error below which steps are doubled. Doubling makes it 4 times larger, 0.6; the reserve is for
-what a shorter step inherits: the velocities' constraint error of a long step, which then shows in
-the accelerations."""
+ORDER = 3
+"""Power of the step with which its error goes."""
 
-CALM_STEPS = 2
-"""Accepted steps between two doublings: a change of step rings for a few steps."""
+AIM = 0.5
+"""Error at which steps are aimed; the reserve saves repeated steps."""
 
-SMALLEST_CUT = 2.0**-5
-"""How far one rejection may shorten a step."""
+KEEP = (0.8, 1.3)
+"""A step is kept when it would change by a factor between these: a change costs about as much as a
+step."""
 
-INHERITED = 3.0
-"""An error up to this that does not shrink with the step is inherited, not made by the step."""
+FIRST = 1.0 / 64.0
+"""First step over the largest one."""
+
+FIRST_OF_FILM = 1e-7
+"""First step with a film, s: the journals start centred and without load, and a film takes up its
+load within about a microsecond. A longer first step would make it ring, a shorter one is lost in
+rounding."""
+
+CHANGE = (0.05, 2.0)
+"""How far a step may be shortened and lengthened at once."""
 
 
 class StepControl:
-    """Halves, keeps and doubles the step so that the error stays below 1.
-
-    Steps are changed by powers of two, and not often, as accelerations ring after a change.
+    """Sets the step so that its error stays below 1.
 
     Attributes:
         rejected: number of steps repeated for their error.
-        smallest: the smallest step that was accepted, s.
+        error: of the last try.
     """
 
     def __init__(
@@ -45,6 +50,7 @@ class StepControl:
         duration: float,
         smallest: float,
         largest: float,
+        slow_start: bool,
         next_corner: Callable[[float], float],
     ) -> None:
         """Control the steps of a run from 0 to `duration`, s.
@@ -54,6 +60,7 @@ class StepControl:
             duration: end of the run, s.
             smallest: below it the run is given up, s.
             largest: s; also the mean step of Exudyn's own settings.
+            slow_start: whether a film takes up its load.
             next_corner: time -> the next instant at which a load has a corner, s, or infinity.
         """
         self.rejected = 0
@@ -61,9 +68,7 @@ class StepControl:
         self._estimate = error
         self._duration, self._smallest, self._largest = duration, smallest, largest
         self._next_corner = next_corner
-        self._step = min(largest, max(largest / 64.0, 64.0 * smallest))
-        self._calm = 0
-        self._tried = (0.0, 0.0)  # step and error of the last rejection
+        self._step = max(_first(largest, FIRST * largest, slow_start), smallest)
 
     def attach(self, mbs: exu.MainSystem) -> None:
         """Let Exudyn ask this control after every Newton solve and every step."""
@@ -77,26 +82,17 @@ class StepControl:
         if step <= 0.0:
             return [0.0, -1.0]
         self.error = error = self._estimate(step)
-        if error > 1.0 and not self._inherited(step, error):
+        factor = (AIM / error) ** (1.0 / ORDER) if error > 0.0 else math.inf
+        if error > 1.0:
             self.rejected += 1
-            self._calm = 0
-            self._tried = step, error
-            cut = max(SMALLEST_CUT, 0.5 ** math.ceil(0.5 * math.log2(error / 0.5)))
-            self._step = step * cut
+            self._step = step * max(CHANGE[0], factor)
             return [2.0, self._step]
-        self._estimate.accept(step)
-        self._calm += 1
+        self._estimate.accept()
         if step >= 0.5 * self._step:  # else it was cut short by a corner or by the end
             self._step = step
-        if error < GROW_BELOW and self._calm > CALM_STEPS:
-            self._step *= 2.0
-            self._calm = 0
+        if not KEEP[0] < factor < KEEP[1]:
+            self._step *= min(CHANGE[1], factor)
         return [0.0, -1.0]
-
-    def _inherited(self, step: float, error: float) -> bool:
-        """Return whether the error is as large as that of the longer step rejected last."""
-        rejected_step, rejected_error = self._tried
-        return error < INHERITED and step < 0.75 * rejected_step and error > 0.75 * rejected_error
 
     def _after_step(self, mbs: exu.MainSystem, time: float) -> bool:
         """Set the next step; corners and the end are stepped on exactly."""
@@ -111,3 +107,39 @@ class StepControl:
                 step = 0.5 * left
         mbs.sys["dynamicSolver"].it.currentStepSize = step
         return True
+
+
+class FixedSteps:
+    """Keeps steps of one size on their grid t = n h.
+
+    The first one may be taken in pieces that double, so that a film takes up its load; and after a
+    step that Exudyn had to halve, steps double back to the grid.
+    """
+
+    def __init__(self, step: float, *, slow_start: bool) -> None:
+        """Take steps of a size, s."""
+        self._step = step
+        self._size = _first(step, step, slow_start)
+        self._next = self._size
+        self._time = 0.0
+
+    def attach(self, mbs: exu.MainSystem) -> None:
+        """Let Exudyn ask after every step."""
+        mbs.SetPostStepUserFunction(self._after_step)
+
+    def _after_step(self, mbs: exu.MainSystem, time: float) -> bool:
+        """Set the next step."""
+        h, done = self._step, time - self._time
+        if done > 0.0:
+            halved = done < 0.99 * self._next
+            self._size = done if halved else min(h, 2.0 * self._size)
+            to_grid = (math.floor(time / h * (1.0 + 1e-9)) + 1) * h - time
+            self._next = min(to_grid, self._size)
+        self._time = time
+        mbs.sys["dynamicSolver"].it.currentStepSize = self._next
+        return True
+
+
+def _first(largest: float, usual: float, slow: bool) -> float:
+    """Return the first step, s."""
+    return min(largest, FIRST_OF_FILM) if slow else usual

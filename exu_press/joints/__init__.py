@@ -6,11 +6,13 @@ from exu_press.joints.add import (
     add_joint_sensor,
     add_lubricated_revolute,
 )
+from exu_press.joints.compiled import COMPILED
 from exu_press.joints.ends import FlexiblePoint
 from exu_press.joints.joint import ClearanceJoint, JointState, history
 from exu_press.joints.overlay import overlay_of
 
 __all__ = [
+    "COMPILED",
     "ClearanceJoint",
     "FlexiblePoint",
     "JointState",

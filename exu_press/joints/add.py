@@ -8,7 +8,7 @@ import numpy as np
 from exudyn.itemInterface import SensorUserFunction
 
 from exu_press.errors import InputError
-from exu_press.joints.ends import ROTATIONS, BodyEnd, FlexiblePoint
+from exu_press.joints.ends import NODES, BodyEnd, FlexiblePoint
 from exu_press.joints.joint import ClearanceJoint
 from exu_press.joints.overlay import overlay_of
 from exu_press.joints.pairs import DryPair, FilmPair, Pair
@@ -41,7 +41,7 @@ def add_dry_revolute(
     friction: Friction | LuGre,
     axis: Sequence[float] = (0, 0, 1),
 ) -> ClearanceJoint:
-    """Put a dry revolute joint with clearance between two bodies (spec 2, Eqs. 7-11, 23-33).
+    """Put a dry revolute joint with clearance between two bodies (Eqs. 7-11, 23-33).
 
     Args:
         mbs: system, not yet assembled.
@@ -55,6 +55,10 @@ def add_dry_revolute(
 
     Returns:
         The joint; `add_joint_sensor` records it.
+
+    Raises:
+        InputError: a body or its node is of a kind that joints cannot hold on to (the message lists
+            those they can), or the axis of a joint between planar bodies is not theirs.
     """
     return _revolute(mbs, journal, bearing, axis, [DryPair(contact, friction, radius, clearance)])
 
@@ -69,7 +73,7 @@ def add_dry_spherical(
     contact: NormalContact,
     friction: Friction | LuGre,
 ) -> ClearanceJoint:
-    """Put a dry spherical joint with clearance between two bodies (spec 4, Eqs. 12-22).
+    """Put a dry spherical joint with clearance between two bodies (Eqs. 12-22).
 
     Between planar bodies ball and socket touch in the plane, like a journal and its bearing.
 
@@ -81,6 +85,12 @@ def add_dry_spherical(
         clearance: radius of the socket minus that of the ball, m.
         contact: normal contact law.
         friction: friction law.
+
+    Returns:
+        The joint; `add_joint_sensor` records it.
+
+    Raises:
+        InputError: as `add_dry_revolute`.
     """
     if _in_plane(mbs, ball) and _in_plane(mbs, socket):
         pairs: list[Pair] = [DryPair(contact, friction, radius, clearance)]
@@ -107,7 +117,7 @@ def add_lubricated_revolute(
     asperity_onset: float = 0.0,
     axis: Sequence[float] = (0, 0, 1),
 ) -> ClearanceJoint:
-    """Put a lubricated revolute joint between two bodies (spec 3, Eqs. 34-35 corrected).
+    """Put a lubricated revolute joint between two bodies (Eqs. 34-35 corrected).
 
     With a contact law, film and contact act in parallel: pass a film law that goes on beyond an
     eccentricity ratio of 1 (`exu_press.laws.film.with_asperities`) with the same onset.
@@ -125,6 +135,12 @@ def add_lubricated_revolute(
         friction: friction law of the contact.
         asperity_onset: gap at which the surfaces begin to touch, m.
         axis: of the bearing, in its body's frame.
+
+    Returns:
+        The joint; `add_joint_sensor` records it.
+
+    Raises:
+        InputError: as `add_dry_revolute`, or a length, radius, clearance or viscosity not positive.
     """
     scale = film_scale(viscosity, length, radius, clearance)
     pairs: list[Pair] = [FilmPair(law, scale, clearance)]
@@ -219,10 +235,8 @@ def _end(mbs: exu.MainSystem, point: BodyPoint) -> BodyEnd:
             "of theirs, and FFRFreducedOrder with a FlexiblePoint"
         )
     node_kind = mbs.GetNode(rigid)["nodeType"]
-    if node_kind not in ROTATIONS:
-        raise InputError(
-            f"body {body} has a {node_kind} node: allowed are {', '.join(sorted(ROTATIONS))}"
-        )
+    if node_kind not in NODES:
+        raise InputError(f"body {body} has a {node_kind} node: allowed are {', '.join(NODES)}")
     reference = np.array(mbs.GetNodeParameter(rigid, "referenceCoordinates"), dtype=float)
     index = overlay_of(mbs).index_of(rigid)
     if flexible is None or modal is None:

@@ -1,33 +1,26 @@
-"""Where a joint holds on to a body: position, velocity and how forces reach its coordinates."""
+"""Where a joint holds on to a body: position, velocity and how forces reach its coordinates.
 
-from collections.abc import Callable, Sequence
+In floats rather than arrays: less for three components, and this is called at every iteration.
+"""
+
 from dataclasses import dataclass
+from math import cos, sin
 
 import numpy as np
-from exudyn.rigidBodyUtilities import (
-    EulerParameters2G,
-    EulerParameters2RotationMatrix,
-    RotationVector2RotationMatrix,
-    RotXYZ2G,
-    RotXYZ2RotationMatrix,
-)
+from exudyn.rigidBodyUtilities import RotationVector2RotationMatrix, RotXYZ2G, RotXYZ2RotationMatrix
 from numpy.typing import NDArray
 
-__all__ = ["ROTATIONS", "BodyEnd", "FlexiblePoint", "cross", "cross_matrix"]
+__all__ = ["NODES", "BodyEnd", "FlexiblePoint", "Vector", "cross", "cross_matrix", "dot", "turned"]
 
 Array = NDArray[np.float64]
 
-ROTATIONS: dict[str, tuple[Callable[[list[float]], Array], Callable[[list[float]], Array]]] = {
-    "RigidBodyEP": (EulerParameters2RotationMatrix, EulerParameters2G),
-    "RigidBodyRxyz": (RotXYZ2RotationMatrix, RotXYZ2G),
-    "RigidBodyRotVecLG": (RotationVector2RotationMatrix, RotationVector2RotationMatrix),
-    "RigidBody2D": (
-        lambda angle: RotXYZ2RotationMatrix([0.0, 0.0, angle[0]]),
-        lambda angle: np.array([[0.0], [0.0], [1.0]]),
-    ),
-    "Ground": (lambda none: np.eye(3), lambda none: np.zeros((3, 0))),
-}
-"""Kind of node -> (rotation matrix, what turns rotation rates into the angular velocity)."""
+Vector = tuple[float, float, float]
+
+Matrix = tuple[float, float, float, float, float, float, float, float, float]
+"""By rows."""
+
+NODES = ("Ground", "RigidBody2D", "RigidBodyEP", "RigidBodyRotVecLG", "RigidBodyRxyz")
+"""Kinds of nodes."""
 
 
 @dataclass(frozen=True)
@@ -51,10 +44,11 @@ class BodyEnd:
     """A point of a rigid body in space or in the plane, or an interface of a flexible one.
 
     After `move`, in the global frame:
-        position: (3,), m.
-        velocity: (3,), m/s.
-        spin: angular velocity, (3,), rad/s.
-        rotation: (3, 3) from the body's to the global frame.
+        position: m.
+        velocity: m/s.
+        spin: angular velocity, rad/s.
+        arm: from the body's frame to the point, m.
+        rotation: from the body's to the global frame.
     """
 
     def __init__(
@@ -68,78 +62,193 @@ class BodyEnd:
         """Hold on to a point.
 
         Args:
-            kind: of the body's node, a key of ROTATIONS.
+            kind: of the body's node, one of NODES.
             index: where the node's coordinates start among those of the joint's item.
             reference: reference values of the node's coordinates.
             point: the end in the body's frame, (3,), m.
             modes: of a flexible body: where its modal coordinates start, and what they move and
                 turn the end, (3, modes) each, in the body's frame.
         """
-        self._matrix_of, self._spins_of = ROTATIONS[kind]
-        self._moved = 2 if kind == "RigidBody2D" else len(reference) and 3
-        self._reference, self._point = reference.tolist(), point
-        self._rigid = slice(index, index + len(reference))
-        self.places = list(range(index, index + len(reference)))
-        self._modal: slice | None = None
+        self._kind = kind
+        self._index = index
+        self._reference: list[float] = reference.tolist()
+        self._moved = 0 if kind == "Ground" else 2 if kind == "RigidBody2D" else 3
+        self._point: Vector = (float(point[0]), float(point[1]), float(point[2]))
+        self.places = list(range(index, index + len(self._reference)))
+        self._modal = 0
+        self._both = np.zeros((6, 0))
         if modes is not None:
-            start, translation, turn = modes
-            self._modal = slice(start, start + translation.shape[1])
-            self._translation = translation
+            self._modal, translation, turn = modes
             self._both = np.vstack([translation, turn])
-            self.places += range(start, start + translation.shape[1])
+            self.places += range(self._modal, self._modal + translation.shape[1])
+        self._modes: list[float] = self._both.T.ravel().tolist()  # six numbers for each mode
+        self.position: Vector = (0.0, 0.0, 0.0)
+        self.velocity: Vector = (0.0, 0.0, 0.0)
+        self.spin: Vector = (0.0, 0.0, 0.0)
+        self.arm: Vector = (0.0, 0.0, 0.0)
+        self.rotation: Matrix = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
+        self._spins: list[float] = []
 
-    def move(self, q: Sequence[float], q_t: Sequence[float]) -> None:
+    def move(self, q: list[float], q_t: list[float]) -> None:
         """Go to a state."""
-        moved = self._moved
-        pose = [
-            value + change for value, change in zip(self._reference, q[self._rigid], strict=True)
-        ]
-        rates = q_t[self._rigid]
-        self.rotation = rotation = self._matrix_of(pose[moved:])
-        self._spins = self._spins_of(pose[moved:])
-        spin = self._spins @ rates[moved:]
-        still = [0.0] * (3 - moved)
-        position, velocity = np.array(pose[:moved] + still), np.array([*rates[:moved], *still])
-        if self._modal is None:
-            self.arm = arm = rotation @ self._point
-            self.spin = spin
-        else:
-            self.arm = arm = rotation @ (self._point + self._translation @ q[self._modal])
-            moving = self._both @ q_t[self._modal]
-            velocity += rotation @ moving[:3]
-            self.spin = spin + rotation @ moving[3:]
-        self.position = position + arm
-        self.velocity = velocity + cross(spin, arm)
+        i, moved = self._index, self._moved
+        pose = self._reference.copy()
+        for c in range(len(pose)):
+            pose[c] += q[i + c]
+        self.rotation, self._spins = _orientation(self._kind, pose)
+        x = y = z = u = v = w = 0.0
+        if moved > 0:
+            x, y, u, v = pose[0], pose[1], q_t[i], q_t[i + 1]
+        if moved > 2:
+            z, w = pose[2], q_t[i + 2]
+        spins = self._spins
+        angles = len(pose) - moved
+        spin_x = spin_y = spin_z = 0.0
+        for c in range(angles):
+            rate = q_t[i + moved + c]
+            spin_x += spins[c] * rate
+            spin_y += spins[angles + c] * rate
+            spin_z += spins[2 * angles + c] * rate
+        rigid_spin = spin_x, spin_y, spin_z
+        along, across, up = self._point
+        modes, k = self._modes, self._modal
+        if modes:
+            shift_x = shift_y = shift_z = drift_x = drift_y = drift_z = 0.0
+            turn_x = turn_y = turn_z = 0.0
+            for m in range(0, len(modes), 6):
+                value, rate = q[k], q_t[k]
+                k += 1
+                t_x, t_y, t_z = modes[m], modes[m + 1], modes[m + 2]
+                shift_x += t_x * value
+                shift_y += t_y * value
+                shift_z += t_z * value
+                drift_x += t_x * rate
+                drift_y += t_y * rate
+                drift_z += t_z * rate
+                turn_x += modes[m + 3] * rate
+                turn_y += modes[m + 4] * rate
+                turn_z += modes[m + 5] * rate
+            along += shift_x
+            across += shift_y
+            up += shift_z
+            drift = turned(self.rotation, (drift_x, drift_y, drift_z))
+            turn = turned(self.rotation, (turn_x, turn_y, turn_z))
+            u += drift[0]
+            v += drift[1]
+            w += drift[2]
+            spin_x += turn[0]
+            spin_y += turn[1]
+            spin_z += turn[2]
+        arm = turned(self.rotation, (along, across, up))
+        around = cross(rigid_spin, arm)
+        self.arm = arm
+        self.spin = spin_x, spin_y, spin_z
+        self.position = x + arm[0], y + arm[1], z + arm[2]
+        self.velocity = u + around[0], v + around[1], w + around[2]
 
-    def forces(self, force: Array, moment: Array) -> list[float]:
-        """Return the generalised forces, in the order of `places`, of a force at the end."""
-        turning = (cross(self.arm, force) + moment) @ self._spins
-        values: list[float] = [*force[: self._moved].tolist(), *turning.tolist()]
-        if self._modal is not None:
-            back = self.rotation.T
-            values += (np.concatenate([back @ force, back @ moment]) @ self._both).tolist()
-        return values
+    def add_forces(self, force: Vector, moment: Vector, out: list[float]) -> None:
+        """Add the generalised forces of a force at the end and of a moment to `out`."""
+        i, moved = self._index, self._moved
+        if moved > 0:
+            out[i] += force[0]
+            out[i + 1] += force[1]
+        if moved > 2:
+            out[i + 2] += force[2]
+        leverage = cross(self.arm, force)
+        m_x, m_y, m_z = leverage[0] + moment[0], leverage[1] + moment[1], leverage[2] + moment[2]
+        spins = self._spins
+        angles = len(spins) // 3
+        for c in range(angles):
+            turning = spins[c] * m_x + spins[angles + c] * m_y + spins[2 * angles + c] * m_z
+            out[i + moved + c] += turning
+        modes, k = self._modes, self._modal
+        if modes:
+            f_x, f_y, f_z = turned_back(self.rotation, force)
+            m_x, m_y, m_z = turned_back(self.rotation, moment)
+            for m in range(0, len(modes), 6):
+                out[k] += (
+                    modes[m] * f_x
+                    + modes[m + 1] * f_y
+                    + modes[m + 2] * f_z
+                    + modes[m + 3] * m_x
+                    + modes[m + 4] * m_y
+                    + modes[m + 5] * m_z
+                )
+                k += 1
 
     def rates(self) -> tuple[Array, Array]:
         """Return velocity and angular velocity by the coordinates' rates, (3, n) each."""
         size, moved = len(self._reference), self._moved
         velocity, spin = np.zeros((3, len(self.places))), np.zeros((3, len(self.places)))
         velocity[:moved, :moved] = np.eye(moved)
-        spin[:, moved:size] = self._spins
-        velocity[:, moved:size] -= cross_matrix(self.arm) @ self._spins
-        if self._modal is not None:
-            velocity[:, size:] = self.rotation @ self._both[:3]
-            spin[:, size:] = self.rotation @ self._both[3:]
+        spins = np.array(self._spins).reshape(3, -1)
+        rotation = np.array(self.rotation).reshape(3, 3)
+        spin[:, moved:size] = spins
+        velocity[:, moved:size] -= cross_matrix(self.arm) @ spins
+        velocity[:, size:] = rotation @ self._both[:3]
+        spin[:, size:] = rotation @ self._both[3:]
         return velocity, spin
 
 
-def cross(v: Array, w: Array) -> Array:
-    """Return v x w; a tenth of numpy's time for two vectors."""
-    a, b, c = v.tolist()
-    x, y, z = w.tolist()
-    return np.array([b * z - c * y, c * x - a * z, a * y - b * x])
+def cross(v: Vector, w: Vector) -> Vector:
+    """Return v x w."""
+    a, b, c = v
+    x, y, z = w
+    return b * z - c * y, c * x - a * z, a * y - b * x
 
 
-def cross_matrix(v: Array) -> Array:
+def dot(v: Vector, w: Vector) -> float:
+    """Return v . w."""
+    return v[0] * w[0] + v[1] * w[1] + v[2] * w[2]
+
+
+def cross_matrix(v: Vector | Array) -> Array:
     """Return the matrix that turns w into v x w."""
     return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
+
+
+def _orientation(kind: str, pose: list[float]) -> tuple[Matrix, list[float]]:
+    """Return a rotation and, by rows, what turns rotation rates into the angular velocity."""
+    if kind == "RigidBodyEP":
+        e, x, y, z = pose[3], pose[4], pose[5], pose[6]
+        return (
+            1.0 - 2.0 * (z * z + y * y),
+            2.0 * (y * x - z * e),
+            2.0 * (z * x + y * e),
+            2.0 * (z * e + y * x),
+            1.0 - 2.0 * (z * z + x * x),
+            2.0 * (z * y - x * e),
+            2.0 * (z * x - y * e),
+            2.0 * (z * y + x * e),
+            1.0 - 2.0 * (y * y + x * x),
+        ), [
+            -2.0 * x, 2.0 * e, -2.0 * z, 2.0 * y,
+            -2.0 * y, 2.0 * z, 2.0 * e, -2.0 * x,
+            -2.0 * z, -2.0 * y, 2.0 * x, 2.0 * e,
+        ]  # fmt: skip
+    if kind == "RigidBody2D":
+        c, s = cos(pose[2]), sin(pose[2])
+        return (c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0), [0.0, 0.0, 1.0]
+    if kind == "Ground":
+        return (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0), []
+    if kind == "RigidBodyRxyz":
+        matrix, spins = RotXYZ2RotationMatrix(pose[3:]), RotXYZ2G(pose[3:])
+    else:
+        matrix = spins = RotationVector2RotationMatrix(pose[3:])
+    r = matrix.ravel().tolist()
+    rotation = r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8]
+    return rotation, spins.ravel().tolist()
+
+
+def turned(r: Matrix, v: Vector) -> Vector:
+    """Return a vector of the body's frame in the global one."""
+    a, b, c, d, e, f, g, h, i = r
+    x, y, z = v
+    return a * x + b * y + c * z, d * x + e * y + f * z, g * x + h * y + i * z
+
+
+def turned_back(r: Matrix, v: Vector) -> Vector:
+    """Return a vector of the global frame in the body's."""
+    a, b, c, d, e, f, g, h, i = r
+    x, y, z = v
+    return a * x + d * y + g * z, b * x + e * y + h * z, c * x + f * y + i * z

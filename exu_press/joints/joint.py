@@ -1,6 +1,5 @@
 """What the overlay needs of a joint, and what a joint says of itself."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -68,16 +67,20 @@ class ClearanceJoint(Protocol):
         """Eccentricity ratio of the last state if a film's law did not hold there."""
 
     @property
+    def eccentricity(self) -> Vector:
+        """Journal centre - bearing centre at the last `add_force`, m."""
+
+    @property
     def relative_velocity(self) -> Vector:
         """Rate of the eccentricity at the last `add_force`, m/s."""
 
-    def add_force(self, q: Sequence[float], q_t: Sequence[float], out: list[float]) -> None:
+    def add_force(self, q: list[float], q_t: list[float], out: list[float]) -> None:
         """Add the joint's generalised forces to `out`."""
 
     def jacobian(self, by_q: float, by_q_t: float) -> list[float] | None:
         """Return -(by_q dQ/dq + by_q_t dQ/dq_t) at the state of the last `add_force`, by rows."""
 
-    def state(self, q: Sequence[float], q_t: Sequence[float]) -> JointState:
+    def state(self, q: list[float], q_t: list[float]) -> JointState:
         """Return what the joint does in a state of its two bodies."""
 
     def begin_step(self, step: float, accepted: bool) -> None:

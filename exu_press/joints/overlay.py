@@ -48,7 +48,8 @@ class JointOverlay:
         self._jacobian_time: float | None = None
         self._last: tuple[Any, Any] = None, None
         self._idle: list[list[float]] = []
-        self._places: NDArray[np.intp] = np.zeros(0, dtype=np.intp)
+        self._kept: NDArray[np.intp] | None = None
+        self._triplets: NDArray[np.float64] = np.zeros((0, 3))
         self._pack = Struct("").pack
         self._matrix = exu.MatrixContainer()
 
@@ -69,26 +70,31 @@ class JointOverlay:
         self.joints.append(joint)
         if joint.stateful:
             self._stateful.append(joint)
-        size, nodes = self.size, list(self.nodes)
-        places = [_places(joint, size) for joint in self.joints]
-        self._idle = [[0.0] * len(joint_places) for joint_places in places]
-        self._places = np.concatenate(places)
-        self._pack = Struct(f"{len(self._places)}d").pack
+        nodes = list(self.nodes)
+        places = [
+            (row, column)
+            for joint in self.joints
+            for row in joint.places
+            for column in joint.places
+        ]
+        self._idle = [[0.0] * len(joint.places) ** 2 for joint in self.joints]
+        self._pack = Struct(f"{len(places)}d").pack
+        kept = [i for i, (row, column) in enumerate(places) if row >= 0 and column >= 0]
+        self._kept = np.array(kept) if len(kept) < len(places) else None  # all but the ground's
+        self._triplets = np.zeros((len(kept), 3))
+        self._triplets[:, :2] = [places[i] for i in kept]
         if self.item is None:
             forces: Any = self._forces
             jacobian: Any = self._jacobian
-            self.item = self._mbs.AddObject(
-                ObjectGenericODE2(
-                    nodeNumbers=nodes,
-                    massMatrix=np.zeros((size, size)),
-                    forceUserFunction=forces,
-                    jacobianUserFunction=jacobian,
-                    visualization=VObjectGenericODE2(show=False),
-                )
+            item = ObjectGenericODE2(
+                nodeNumbers=nodes,
+                forceUserFunction=forces,
+                jacobianUserFunction=jacobian,
+                visualization=VObjectGenericODE2(show=False),
             )
+            self.item = int(self._mbs.AddObject(item))
         else:
             self._mbs.SetObjectParameter(self.item, "nodeNumbers", nodes)
-            self._mbs.SetObjectParameter(self.item, "massMatrix", np.zeros((size, size)))
 
     def state(self, joint: ClearanceJoint) -> JointState:
         """Return what a joint did when forces were last asked for."""
@@ -120,7 +126,7 @@ class JointOverlay:
         by_q: float,
         by_q_t: float,
     ) -> Any:
-        """Return the Jacobian of the left-hand side, dense."""
+        """Return the Jacobian of the left-hand side: rows, columns and values; doubles add up."""
         # Forces asked for twice in one state leave a joint with nothing but its tangent: the right
         # thing for all but a step's first Jacobian, which may use where the last step ended.
         if time == self._jacobian_time or self._last != (q, q_t):
@@ -129,10 +135,9 @@ class JointOverlay:
         values: list[float] = []
         for joint, idle in zip(self.joints, self._idle, strict=True):
             values += joint.jacobian(by_q, by_q_t) or idle
-        size = len(q)
         weights = np.frombuffer(self._pack(*values))  # a third of the time of np.array(values)
-        flat = np.bincount(self._places, weights, size * size + 1)[:-1]
-        self._matrix.SetWithDenseMatrix(flat.reshape(size, size), useDenseMatrix=True)
+        self._triplets[:, 2] = weights if self._kept is None else weights[self._kept]
+        self._matrix.SetWithSparseMatrix(self._triplets, self.size, self.size)
         return self._matrix
 
     def _begin_step(self, time: float) -> None:
@@ -142,19 +147,6 @@ class JointOverlay:
         self._step_start = start
         for joint in self._stateful:
             joint.begin_step(time - start, accepted)
-
-
-def _places(joint: ClearanceJoint, size: int) -> list[int]:
-    """Return where the entries of a joint's Jacobian lie in a square matrix of a size.
-
-    What belongs to the ground, which has no coordinates, goes to one place behind the matrix.
-    """
-    indices = joint.places
-    return [
-        size * row + column if row >= 0 and column >= 0 else size * size
-        for row in indices
-        for column in indices
-    ]
 
 
 def overlay_of(mbs: exu.MainSystem) -> JointOverlay:

@@ -7,8 +7,6 @@ centre. a_J + a_B + |e| = 0, so that momentum and angular momentum are conserved
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
-from typing import Protocol
 
 from exu_press.laws.contact import NormalContact
 from exu_press.laws.film import FilmLaw
@@ -20,6 +18,7 @@ __all__ = [
     "DryPair",
     "FilmPair",
     "Load",
+    "Motion",
     "Pair",
     "PairedJoint",
     "PolarForce",
@@ -46,30 +45,41 @@ Arms = tuple[float, float, float, float]
 Answer = tuple[float, ...]
 """What a pair's laws answered: their values and derivatives."""
 
+Motion = tuple[float, float, float, float, float]
+"""|e|, d|e|/dt, v_t, omega_J, omega_B."""
+
 Load = tuple[float, float, float, float, Answer]
 """f_n, f_t, the moments f_t a_J and f_t a_B, and the laws' answer they come from."""
 
 
-class Pair(Protocol):
-    """What a joint needs of its pair of surfaces; `None` stands for no force at all."""
+class Pair:
+    """What a joint needs of its pair of surfaces; `None` stands for no force at all.
 
-    stateful: bool
-    """Whether the pair remembers something from step to step."""
-    clearance: float
-    """Distance of the centres at which the surfaces touch, m."""
-    outside: float | None
-    """Eccentricity ratio of the last state if the pair's law did not hold there."""
-    bends: bool
-    """Whether the force bends with the speeds, so that Newton's method is better off with a secant:
-    a film's does (of first degree in the speeds, but with a kink at rest), a contact's does not."""
+    Attributes:
+        clearance: distance of the centres at which the surfaces touch, m.
+        stateful: whether the pair remembers something from step to step.
+        bends: whether the force bends with the speeds, so that Newton's method is better off with a
+            secant: a film's does (of first degree in the speeds, but with a kink at rest), a
+            contact's does not.
+        outside: eccentricity ratio of the last state if the pair's law did not hold there.
+    """
+
+    def __init__(self, clearance: float, stateful: bool, bends: bool) -> None:
+        """Set what does not change."""
+        self.clearance = clearance
+        self.stateful = stateful
+        self.bends = bends
+        self.outside: float | None = None
 
     def load(
         self, e: float, e_dot: float, v_t: float, omega_j: float, omega_b: float
     ) -> Load | None:
         """Return force and moments, SI."""
+        raise NotImplementedError
 
     def slopes(self, answer: Answer, e: float, omega_j: float, omega_b: float) -> Slopes:
         """Return the derivatives of the force that goes with an answer of the laws, SI."""
+        raise NotImplementedError
 
     def force(
         self, e: float, e_dot: float, v_t: float, omega_j: float, omega_b: float
@@ -79,16 +89,20 @@ class Pair(Protocol):
         if load is None:
             return None
         f_n, f_t, _, _, answer = load
-        return ((f_n, f_t), *self.slopes(answer, e, omega_j, omega_b))
+        by_n, by_t = self.slopes(answer, e, omega_j, omega_b)
+        return (f_n, f_t), by_n, by_t
 
     def arms(self, e: float) -> Arms:
         """Return a_J, a_B (m) and their derivatives with respect to |e|."""
+        raise NotImplementedError
 
     def stored_energy(self, e: float) -> float:
-        """Return the elastic energy at an eccentricity, J."""
+        """Return the elastic energy at an eccentricity, J; none unless the pair says so."""
+        return 0.0
 
     def stored_force(self, e: float) -> float:
         """Return the derivative of the elastic energy with respect to |e|, N."""
+        return 0.0
 
     def begin_step(self, step: float, accepted: bool) -> None:
         """Start a step of size `step` (s), after the last one was accepted or is repeated."""
@@ -97,7 +111,6 @@ class Pair(Protocol):
         """Forget everything."""
 
 
-@dataclass
 class DryPair(Pair):
     """Contact with friction: journal (or ball) and bearing (or socket) touch where |e| > c.
 
@@ -105,27 +118,34 @@ class DryPair(Pair):
     of the two surfaces there: v_T = v_t + R omega_J - (R + |e|) omega_B.
 
     Attributes:
-        contact: normal force of a penetration.
-        friction: friction coefficient of a sliding velocity, with or without a bristle.
-        radius: R of the journal, m.
-        clearance: c, m.
+        bristle: deflection of the friction's bristle at the start of the step, m.
+        approach_speed: at the first touch of this contact, m/s.
     """
 
-    contact: NormalContact
-    friction: Friction | LuGre
-    radius: float
-    clearance: float
-    bristle: float = 0.0
-    approach_speed: float = 0.0
-    outside: float | None = field(default=None, init=False)
-    bends: bool = field(default=False, init=False)
-    stateful: bool = field(init=False)
-    _step: float = field(default=0.0, init=False)
-    _next: tuple[float, float] = field(default=(0.0, 0.0), init=False)
+    def __init__(
+        self,
+        contact: NormalContact,
+        friction: Friction | LuGre,
+        radius: float,
+        clearance: float,
+    ) -> None:
+        """Let two surfaces touch.
 
-    def __post_init__(self) -> None:
-        """Find out whether there is anything to remember."""
-        self.stateful = isinstance(self.friction, LuGre) or self.contact.needs_impact_speed
+        Args:
+            contact: normal force of a penetration.
+            friction: friction coefficient of a sliding velocity, with or without a bristle.
+            radius: R of the journal, m.
+            clearance: c, m.
+        """
+        stateful = isinstance(friction, LuGre) or contact.needs_impact_speed
+        super().__init__(clearance, stateful, bends=False)
+        self.contact = contact
+        self.friction = friction
+        self.radius = radius
+        self.bristle = 0.0
+        self.approach_speed = 0.0
+        self._step = 0.0
+        self._next = 0.0, 0.0
 
     def load(
         self, e: float, e_dot: float, v_t: float, omega_j: float, omega_b: float
@@ -136,17 +156,20 @@ class DryPair(Pair):
             return None
         reach = self.radius + e
         sliding = v_t + self.radius * omega_j - reach * omega_b
-        if isinstance(self.friction, LuGre):
-            mu, slope, bristle = self.friction.advance(sliding, self.bristle, self._step)
+        friction = self.friction
+        if isinstance(friction, LuGre):
+            mu, slope, bristle = friction.advance(sliding, self.bristle, self._step)
         else:
-            (mu, slope), bristle = self.friction(sliding), 0.0
+            mu, slope = friction(sliding)
+            bristle = 0.0
         if self.stateful:
             self._next = bristle, e_dot if penetration <= 0.0 else self.approach_speed
             if penetration <= 0.0:
                 return None
-        law = self.contact.force(penetration, e_dot, self.approach_speed)
-        drag = -mu * law[0]
-        return -law[0], drag, self.radius * drag, -reach * drag, (mu, slope, *law)
+        normal, stiffness, damping = self.contact.force(penetration, e_dot, self.approach_speed)
+        drag = -mu * normal
+        answer = mu, slope, normal, stiffness, damping
+        return -normal, drag, self.radius * drag, -reach * drag, answer
 
     def slopes(self, answer: Answer, e: float, omega_j: float, omega_b: float) -> Slopes:
         """Return the derivatives of the force."""
@@ -188,26 +211,24 @@ class DryPair(Pair):
         self._next = 0.0, 0.0
 
 
-@dataclass
 class FilmPair(Pair):
     """A lubricant film between journal and bearing.
 
     The resultant acts half-way between the two centres, as the shear of the pressure flow divides
     the couple e x F; then the film's power is P c (f_r eps_dot - f_t eps W / 2), never positive.
-
-    Attributes:
-        law: film law in eps, d eps/dt and eps W.
-        scale: P = mu L R^3 / c^2, N s.
-        clearance: c, m.
-        outside: the eccentricity ratio of the last state, where the law did not hold there.
     """
 
-    law: FilmLaw
-    scale: float
-    clearance: float
-    outside: float | None = field(default=None, init=False)
-    bends: bool = field(default=True, init=False)
-    stateful: bool = field(default=False, init=False)
+    def __init__(self, law: FilmLaw, scale: float, clearance: float) -> None:
+        """Fill the gap between two surfaces.
+
+        Args:
+            law: film law in eps, d eps/dt and eps W.
+            scale: P = mu L R^3 / c^2, N s.
+            clearance: c, m.
+        """
+        super().__init__(clearance, stateful=False, bends=True)
+        self.law = law
+        self.scale = scale
 
     def load(
         self, e: float, e_dot: float, v_t: float, omega_j: float, omega_b: float
@@ -215,11 +236,11 @@ class FilmPair(Pair):
         """Return force and moments; NaN where the law does not hold."""
         c, p = self.clearance, self.scale
         answer = self.law(e / c, e_dot / c, (e * (omega_j + omega_b) - 2.0 * v_t) / c)
-        f_r = answer[0]
+        f_r = p * answer[0]
         self.outside = None if f_r == f_r else e / c
         f_t = p * answer[1]
         moment = -0.5 * e * f_t
-        return p * f_r, f_t, moment, moment, answer
+        return f_r, f_t, moment, moment, answer
 
     def slopes(self, answer: Answer, e: float, omega_j: float, omega_b: float) -> Slopes:
         """Return the derivatives of the force."""
@@ -238,20 +259,6 @@ class FilmPair(Pair):
         """Return the moment arms of the point half-way between the centres."""
         return -0.5 * e, -0.5 * e, -0.5, -0.5
 
-    def stored_energy(self, e: float) -> float:
-        """Return zero: a film stores nothing."""
-        return 0.0
-
-    def stored_force(self, e: float) -> float:
-        """Return zero: a film stores nothing."""
-        return 0.0
-
-    def begin_step(self, step: float, accepted: bool) -> None:
-        """Do nothing: a film remembers nothing."""
-
-    def reset(self) -> None:
-        """Do nothing: a film remembers nothing."""
-
 
 class PairedJoint:
     """What revolute joints in the plane and in space have in common: pairs acting in parallel.
@@ -264,14 +271,21 @@ class PairedJoint:
 
     def __init__(self, pairs: Sequence[Pair]) -> None:
         """Let the pairs act in parallel."""
-        self.pairs = tuple(pairs)
+        self.pairs = list(pairs)
         self.clearance = self.pairs[0].clearance
         self.stateful = any(pair.stateful for pair in self.pairs)
+        self._motion: Motion = (0.0, 0.0, 0.0, 0.0, 0.0)
+        self._loads: list[Load | None] = [None for _ in self.pairs]
+        self._motion_before = self._motion
+        self._loads_before = self._loads
 
     @property
     def outside(self) -> float | None:
         """Eccentricity ratio of the last state if a film's law did not hold there."""
-        return next((pair.outside for pair in self.pairs if pair.outside is not None), None)
+        for pair in self.pairs:
+            if pair.outside is not None:
+                return pair.outside
+        return None
 
     def begin_step(self, step: float, accepted: bool) -> None:
         """Start a step of size `step` (s), after the last one was accepted or is repeated."""
@@ -282,3 +296,46 @@ class PairedJoint:
         """Forget everything."""
         for pair in self.pairs:
             pair.reset()
+
+    def _load(self, motion: Motion) -> list[Load | None]:
+        """Return what each pair does in a state; the one before is kept for the secant."""
+        e, e_dot, v_t, w_j, w_b = motion
+        self._motion_before, self._loads_before = self._motion, self._loads
+        self._motion = motion
+        loads: list[Load | None] = []
+        for pair in self.pairs:
+            loads.append(pair.load(e, e_dot, v_t, w_j, w_b))
+        self._loads = loads
+        return loads
+
+    def _slopes(self, i: int, load: Load) -> Slopes:
+        """Return a pair's slopes; a film's lead to the force of the state before, too.
+
+        A secant (Broyden 1965): Exudyn starts each step without accelerations, so that the speeds
+        across a film are off by as much as they are; the step then ends near where the last one
+        ended. Newton's method gets there in one iteration along the secant, in two along the
+        tangent.
+        """
+        e, e_dot, v_t, w_j, w_b = self._motion
+        pair = self.pairs[i]
+        slopes = pair.slopes(load[4], e, w_j, w_b)
+        before = self._loads_before[i]
+        if not pair.bends or before is None:
+            return slopes
+        e_0, e_dot_0, v_t_0, w_j0, w_b0 = self._motion_before
+        (n_e, n_r, n_v, n_wj, n_wb), (t_e, t_r, t_v, t_wj, t_wb) = slopes
+        r, v = e_dot_0 - e_dot, v_t_0 - v_t
+        d_e, d_j, d_b = e_0 - e, w_j0 - w_j, w_b0 - w_b
+        n_rest = before[0] - load[0] - n_e * d_e - n_r * r - n_v * v - n_wj * d_j - n_wb * d_b
+        t_rest = before[1] - load[1] - t_e * d_e - t_r * r - t_v * v - t_wj * d_j - t_wb * d_b
+        square = r * r + v * v
+        size = n_r * n_r + n_v * n_v + t_r * t_r + t_v * t_v
+        # a larger correction, or none that is a number, means that the two states lie apart
+        if not n_rest * n_rest + t_rest * t_rest < size * square:
+            return slopes
+        n_rest /= square
+        t_rest /= square
+        return (
+            (n_e, n_r + n_rest * r, n_v + n_rest * v, n_wj, n_wb),
+            (t_e, t_r + t_rest * r, t_v + t_rest * v, t_wj, t_wb),
+        )

@@ -6,9 +6,9 @@ from math import sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.joints.ends import BodyEnd, cross, cross_matrix
+from exu_press.joints.ends import BodyEnd, Vector, cross, cross_matrix, dot, turned
 from exu_press.joints.joint import JointState
-from exu_press.joints.pairs import Arms, Pair, PairedJoint, PolarForce
+from exu_press.joints.pairs import Pair, PairedJoint
 
 __all__ = ["SpatialRevolute"]
 
@@ -29,43 +29,61 @@ class SpatialRevolute(PairedJoint):
         super().__init__(pairs)
         self.journal = journal
         self.bearing = bearing
-        self._axis = np.asarray(axis, dtype=float) / np.linalg.norm(axis)
+        x, y, z = (float(component) for component in axis)
+        length = sqrt(x * x + y * y + z * z)
+        self._axis: Vector = (x / length, y / length, z / length)
         self.places = journal.places + bearing.places
-        self._acting: list[tuple[PolarForce, Arms]] = []
+        # after `add_force`: the turned axis, across it towards the journal and tangentially, and
+        # from the bearing's centre along the axis to the journal's
+        self._a: Vector = self._axis
+        self._n: Vector = (1.0, 0.0, 0.0)
+        self._t: Vector = (0.0, 1.0, 0.0)
+        self._along: Vector = (0.0, 0.0, 0.0)
 
-    def add_force(self, q: Sequence[float], q_t: Sequence[float], out: list[float]) -> None:
+    def add_force(self, q: list[float], q_t: list[float], out: list[float]) -> None:
         """Add the joint's generalised forces to `out`."""
-        self._move(q, q_t)
-        self._acting = []
-        f_n = f_t = m_j = m_b = 0.0
-        for pair in self.pairs:
-            polar = pair.force(self._e, self._e_dot, self._v_t, self._w_j, self._w_b)
-            if polar is not None:
-                arms = pair.arms(self._e)
-                self._acting.append((polar, arms))
-                p_n, p_t = polar[0]
-                f_n += p_n
-                f_t += p_t
-                m_j += arms[0] * p_t
-                m_b += arms[1] * p_t
-        self._wrench = f_n, f_t, m_j, m_b
-        if self._acting:
-            force, axis = f_n * self._n + f_t * self._t, self._turned_axis
-            forces = self.journal.forces(force, m_j * axis)
-            forces += self.bearing.forces(-force, m_b * axis - cross(self._along, force))
-            for place, value in zip(self.places, forces, strict=True):
-                out[place] += value
+        journal, bearing = self.journal, self.bearing
+        journal.move(q, q_t)
+        bearing.move(q, q_t)
+        self._a = axis = turned(bearing.rotation, self._axis)
+        p, b = journal.position, bearing.position
+        apart = p[0] - b[0], p[1] - b[1], p[2] - b[2]
+        height = dot(axis, apart)
+        # the bearing's force acts beside the journal
+        self._along = along = axis[0] * height, axis[1] * height, axis[2] * height
+        across = apart[0] - along[0], apart[1] - along[1], apart[2] - along[2]
+        e = sqrt(dot(across, across))
+        n = (across[0] / e, across[1] / e, across[2] / e) if e > 0.0 else _normal_to(axis)
+        t = cross(axis, n)
+        self._n, self._t = n, t
+        aside = cross(along, bearing.spin)
+        v, u = journal.velocity, bearing.velocity
+        relative = v[0] - u[0] + aside[0], v[1] - u[1] + aside[1], v[2] - u[2] + aside[2]
+        w_j, w_b = dot(axis, journal.spin), dot(axis, bearing.spin)
+        for load in self._load((e, dot(n, relative), dot(t, relative), w_j, w_b)):
+            if load is not None:
+                f_n, f_t, m_j, m_b, _ = load
+                force = _sum(f_n, n, f_t, t)
+                journal.add_forces(force, (m_j * axis[0], m_j * axis[1], m_j * axis[2]), out)
+                x, y, z = cross(along, force)
+                moment = m_b * axis[0] - x, m_b * axis[1] - y, m_b * axis[2] - z
+                bearing.add_forces((-force[0], -force[1], -force[2]), moment, out)
 
     def jacobian(self, by_q: float, by_q_t: float) -> list[float] | None:
         """Return -(by_q dQ/dq + by_q_t dQ/dq_t), but for what only turns arms and axes."""
-        if not self._acting:
-            return None
-        turn = 1.0 / self._e if self._e > 0.0 else 0.0
+        e, e_dot, v_t, _, _ = self._motion
+        turn = 1.0 / e if e > 0.0 else 0.0
         law = np.zeros((4, 6))  # (F_n, F_t, m_J, m_B) by (e_n, e_t, v_n, v_t, omega_J, omega_B)
-        for ((f_n, f_t), by_n, by_t), (arm_j, arm_b, slope_j, slope_b) in self._acting:
-            (n_e, n_r, n_v, n_wj, n_wb), (t_e, t_r, t_v, t_wj, t_wb) = by_n, by_t
-            n_side = turn * (n_r * self._v_t - n_v * self._e_dot)
-            t_side = turn * (t_r * self._v_t - t_v * self._e_dot)
+        acting = False
+        for i, load in enumerate(self._loads):
+            if load is None:
+                continue
+            acting = True
+            f_n, f_t, _, _, _ = load
+            (n_e, n_r, n_v, n_wj, n_wb), (t_e, t_r, t_v, t_wj, t_wb) = self._slopes(i, load)
+            arm_j, arm_b, slope_j, slope_b = self.pairs[i].arms(e)
+            n_side = turn * (n_r * v_t - n_v * e_dot)
+            t_side = turn * (t_r * v_t - t_v * e_dot)
             drag = np.array([t_e, t_side, t_r, t_v, t_wj, t_wb])
             law[0] += (n_e, n_side - turn * f_t, n_r, n_v, n_wj, n_wb)
             law[1] += drag
@@ -73,46 +91,42 @@ class SpatialRevolute(PairedJoint):
             law[2] += arm_j * drag
             law[3] += arm_b * drag
             law[2:, 0] += (slope_j * f_t, slope_b * f_t)
+        if not acting:
+            return None
         rates = self._rates()
         changes = np.concatenate([by_q * rates[:2], by_q_t * rates])
         matrix: list[float] = (-rates.T @ (law @ changes)).ravel().tolist()
         return matrix
 
     @property
+    def eccentricity(self) -> tuple[float, ...]:
+        """Journal centre - bearing centre at the last `add_force`, m."""
+        e, _, _, _, _ = self._motion
+        return _sum(e, self._n, 0.0, self._t)
+
+    @property
     def relative_velocity(self) -> tuple[float, ...]:
         """Rate of the eccentricity at the last `add_force`, m/s."""
-        return tuple((self._e_dot * self._n + self._v_t * self._t).tolist())
+        _, e_dot, v_t, _, _ = self._motion
+        return _sum(e_dot, self._n, v_t, self._t)
 
-    def state(self, q: Sequence[float], q_t: Sequence[float]) -> JointState:
+    def state(self, q: list[float], q_t: list[float]) -> JointState:
         """Return what the joint does in a state of its two bodies."""
         self.add_force(q, q_t, [0.0] * len(q))
-        f_n, f_t, m_j, m_b = self._wrench
+        e, e_dot, _, w_j, w_b = self._motion
+        loads = [load for load in self._loads if load is not None]
+        f_n, f_t = sum(load[0] for load in loads), sum(load[1] for load in loads)
+        m_j, m_b = sum(load[2] for load in loads), sum(load[3] for load in loads)
         return JointState(
-            eccentricity=tuple((self._e * self._n).tolist()),
-            force=tuple((f_n * self._n + f_t * self._t).tolist()),
+            eccentricity=self.eccentricity,
+            force=_sum(f_n, self._n, f_t, self._t),
             velocity=self.relative_velocity,
             moments=(m_j, m_b),
-            spins=(self._w_j, self._w_b),
-            gap=self.clearance - self._e,
-            stored_energy=sum(pair.stored_energy(self._e) for pair in self.pairs),
-            stored_power=sum(pair.stored_force(self._e) for pair in self.pairs) * self._e_dot,
+            spins=(w_j, w_b),
+            gap=self.clearance - e,
+            stored_energy=sum(pair.stored_energy(e) for pair in self.pairs),
+            stored_power=sum(pair.stored_force(e) for pair in self.pairs) * e_dot,
         )
-
-    def _move(self, q: Sequence[float], q_t: Sequence[float]) -> None:
-        """Find eccentricity, directions and velocities."""
-        journal, bearing = self.journal, self.bearing
-        journal.move(q, q_t)
-        bearing.move(q, q_t)
-        self._turned_axis = axis = bearing.rotation @ self._axis
-        apart = journal.position - bearing.position
-        self._along = along = axis * (axis @ apart)  # the bearing's force acts beside the journal
-        across = apart - along
-        self._e = e = sqrt(float(across @ across))
-        self._n = n = across / e if e > 0.0 else _normal_to(axis)
-        self._t = t = cross(axis, n)
-        relative = journal.velocity - bearing.velocity + cross(along, bearing.spin)
-        self._e_dot, self._v_t = float(n @ relative), float(t @ relative)
-        self._w_j, self._w_b = float(axis @ journal.spin), float(axis @ bearing.spin)
 
     def _rates(self) -> Array:
         """Return velocities along n and t and both spins about the axis by all rates, (4, n)."""
@@ -120,16 +134,23 @@ class SpatialRevolute(PairedJoint):
         bearing, bearing_spin = self.bearing.rates()
         bearing -= cross_matrix(self._along) @ bearing_spin
         none_j, none_b = np.zeros(journal.shape[1]), np.zeros(bearing.shape[1])
+        n, t, axis = np.array(self._n), np.array(self._t), np.array(self._a)
         rows = [
-            (self._n @ journal, -self._n @ bearing),
-            (self._t @ journal, -self._t @ bearing),
-            (self._turned_axis @ journal_spin, none_b),
-            (none_j, self._turned_axis @ bearing_spin),
+            (n @ journal, -n @ bearing),
+            (t @ journal, -t @ bearing),
+            (axis @ journal_spin, none_b),
+            (none_j, axis @ bearing_spin),
         ]
         return np.array([np.concatenate(row) for row in rows])
 
 
-def _normal_to(axis: Array) -> Array:
+def _sum(a: float, v: Vector, b: float, w: Vector) -> Vector:
+    """Return a v + b w."""
+    return a * v[0] + b * w[0], a * v[1] + b * w[1], a * v[2] + b * w[2]
+
+
+def _normal_to(axis: Vector) -> Vector:
     """Return some unit vector normal to an axis."""
-    normal = np.cross(axis, np.eye(3)[int(np.argmin(np.abs(axis)))])
-    return np.asarray(normal / np.linalg.norm(normal))
+    x, y, z = np.cross(axis, np.eye(3)[int(np.argmin(np.abs(axis)))]).tolist()
+    length = sqrt(x * x + y * y + z * z)
+    return x / length, y / length, z / length

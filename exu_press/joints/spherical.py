@@ -1,11 +1,9 @@
-"""A dry spherical clearance joint between bodies of any kind (spec 4, Eqs. 12-22)."""
-
-from collections.abc import Sequence
+"""A dry spherical clearance joint between bodies of any kind (Eqs. 12-22)."""
 
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.joints.ends import BodyEnd, cross, cross_matrix
+from exu_press.joints.ends import BodyEnd, Vector, cross, cross_matrix
 from exu_press.joints.joint import JointState
 from exu_press.laws.contact import NormalContact
 from exu_press.laws.friction import Friction, LuGre
@@ -55,15 +53,14 @@ class SpatialSpherical:
         self._next = self._bristle, 0.0
         self._touching = False
 
-    def add_force(self, q: Sequence[float], q_t: Sequence[float], out: list[float]) -> None:
+    def add_force(self, q: list[float], q_t: list[float], out: list[float]) -> None:
         """Add the joint's generalised forces to `out`."""
         self._move(q, q_t)
         if self._touching:
-            force, couple = self._normal_force + self._drag, cross(self._n, self._drag)
-            forces = self.ball.forces(force, self._radius * couple)
-            forces += self.socket.forces(-force, -(self._radius + self._e) * couple)
-            for place, value in zip(self.places, forces, strict=True):
-                out[place] += value
+            force, couple = self._normal_force + self._drag, _cross(self._n, self._drag)
+            reach = self._radius + self._e
+            self.ball.add_forces(_vector(force), _vector(self._radius * couple), out)
+            self.socket.add_forces(_vector(-force), _vector(-reach * couple), out)
 
     def jacobian(self, by_q: float, by_q_t: float) -> list[float] | None:
         """Return -(by_q dQ/dq + by_q_t dQ/dq_t), but for what only turns arms."""
@@ -88,11 +85,16 @@ class SpatialSpherical:
         return values
 
     @property
+    def eccentricity(self) -> tuple[float, ...]:
+        """Journal centre - bearing centre at the last `add_force`, m."""
+        return tuple((self._e * self._n).tolist())
+
+    @property
     def relative_velocity(self) -> tuple[float, ...]:
         """Rate of the eccentricity at the last `add_force`, m/s."""
         return tuple(self._relative.tolist())
 
-    def state(self, q: Sequence[float], q_t: Sequence[float]) -> JointState:
+    def state(self, q: list[float], q_t: list[float]) -> JointState:
         """Return what the joint does in a state of its two bodies."""
         self._move(q, q_t)
         force = self._normal_force + self._drag
@@ -100,12 +102,12 @@ class SpatialSpherical:
         elastic = self._contact.stiffness.force(depth)[0] if depth > 0.0 else 0.0
         moments = np.concatenate(
             [
-                self._radius * cross(self._n, self._drag),
-                -reach * cross(self._n, self._drag),
+                self._radius * _cross(self._n, self._drag),
+                -reach * _cross(self._n, self._drag),
             ]
         )
         return JointState(
-            eccentricity=tuple((self._e * self._n).tolist()),
+            eccentricity=self.eccentricity,
             force=tuple(force.tolist()),
             velocity=self.relative_velocity,
             moments=tuple(moments.tolist()),
@@ -115,15 +117,15 @@ class SpatialSpherical:
             stored_power=elastic * float(self._n @ self._relative),
         )
 
-    def _move(self, q: Sequence[float], q_t: Sequence[float]) -> None:
+    def _move(self, q: list[float], q_t: list[float]) -> None:
         """Find eccentricity, velocities and forces."""
         ball, socket = self.ball, self.socket
         ball.move(q, q_t)
         socket.move(q, q_t)
-        apart = ball.position - socket.position
+        apart = np.subtract(ball.position, socket.position)
         self._e = e = float(np.sqrt(apart @ apart))
         self._n = n = apart / e if e > 0.0 else np.array([1.0, 0.0, 0.0])
-        self._relative = ball.velocity - socket.velocity
+        self._relative = np.subtract(ball.velocity, socket.velocity)
         self._spins = np.concatenate([ball.spin, socket.spin])
         self._normal_force = self._drag = np.zeros(3)
         penetration = e - self.clearance
@@ -131,8 +133,8 @@ class SpatialSpherical:
         if not self._touching and not self.stateful:
             return
         reach = self._radius + e
-        self._swirl = self._radius * ball.spin - reach * socket.spin
-        self._surface = self._relative + cross(self._swirl, n)
+        self._swirl = self._radius * self._spins[:3] - reach * self._spins[3:]
+        self._surface = self._relative + _cross(self._swirl, n)
         sliding = self._surface - n * (n @ self._surface)
         rate = float(n @ self._relative)
         self._mu, by_sliding, bristle = self._coefficient(sliding)
@@ -176,3 +178,14 @@ class SpatialSpherical:
         rate = (aside - (bristle - deflection * along)) / step if step > 0.0 else np.zeros(3)
         vector = mu * along + friction.sigma_0 * aside + friction.sigma_1 * rate
         return vector, slope * np.eye(3), end * along + aside
+
+
+def _vector(values: Array) -> Vector:
+    """Return an array's three numbers."""
+    x, y, z = values.tolist()
+    return x, y, z
+
+
+def _cross(v: Array, w: Array) -> Array:
+    """Return v x w; a tenth of numpy's time for two vectors."""
+    return np.array(cross(_vector(v), _vector(w)))

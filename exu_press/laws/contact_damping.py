@@ -58,10 +58,12 @@ def step(x: float, x0: float, h0: float, x1: float, h1: float) -> tuple[float, f
 class NormalContact:
     """Normal force of one contact: F_N = elastic + damping.
 
-    damping: (penetration, rate, impact_speed, elastic force, its slope)
-        -> (damping force, d/dpenetration, d/drate);
-    needs_impact_speed: the law divides by the approach speed at first touch;
-    tension: False (A-10) lets the surfaces part where the sum would pull; True keeps the pull.
+    Attributes:
+        stiffness: the elastic part.
+        damping: (penetration [m], rate [m/s], impact_speed [m/s], elastic force [N], its slope
+            [N/m]) -> (damping force [N], d/dpenetration [N/m], d/drate [N s/m]).
+        needs_impact_speed: the law divides by the approach speed at first touch.
+        tension: False (A-10) lets the surfaces part where the sum would pull; True keeps the pull.
     """
 
     stiffness: Stiffness
@@ -105,7 +107,8 @@ def step_damping(
 ) -> NormalContact:
     """F = f(delta) + STEP(delta, 0, 0, d_max, c_max) rate (Eqs. 23-25), as ADAMS' IMPACT.
 
-    damping_max: c_max [N s/m] >= 0; damping_depth: d_max [m] > 0, where c_max is reached.
+    damping_max: c_max [N s/m] >= 0; damping_depth: d_max [m] > 0, where c_max is reached;
+    InputError outside.
 
     >>> from exu_press.laws.contact_stiffness import hertz
     >>> contact = step_damping(hertz(2.5545e10), damping_max=2.5545e8, damping_depth=1e-5)
@@ -134,7 +137,8 @@ def hunt_crossley(
 
     Impacts slower than `slowest_impact` [m/s] (all five laws): chi / v0 is taken at
     `slowest_impact`, so that a contact beginning at rest (v0 = 0) has a finite, light damping and
-    the restitution tends to one with the speed, as it does in reality.
+    the restitution tends to one with the speed, as it does in reality. InputError (all five laws)
+    unless 0 < restitution <= 1 and slowest_impact > 0.
     """
     return _hysteretic(stiffness, restitution, 1.5 * (1.0 - restitution), tension, slowest_impact)
 

@@ -33,7 +33,8 @@ def hertz_stiffness(radius: float, modulus: float) -> float:
     """Hertz's point contact (Eq. 26; [1]_): K = 4/3 E sqrt(R), in N/m^1.5.
 
     radius: equivalent [m], 1/R = 1/R_1 + 1/R_2, a hollow surface counted negative;
-    modulus: equivalent [Pa], 1/E = (1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2.
+    modulus: equivalent [Pa], 1/E = (1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2. InputError unless both are
+    positive.
 
     Steel sphere of 10 mm radius on steel plate:
 
@@ -47,7 +48,7 @@ def hertz_stiffness(radius: float, modulus: float) -> float:
 def hertz(stiffness: float, exponent: float = 1.5) -> Stiffness:
     """F = K delta^n (elastic part of Eq. 23; [1]_), with the energy K delta^(n+1) / (n+1).
 
-    stiffness: K [N/m^n] > 0; exponent: n >= 1 (1.5 point contact, 1 linear).
+    stiffness: K [N/m^n] > 0; exponent: n >= 1 (1.5 point contact, 1 linear). InputError outside.
 
     >>> force, slope = hertz(2.5545e10).force(10e-6)
     >>> round(force, 3), round(slope / 1e6, 3)
@@ -77,7 +78,7 @@ def cylindrical(modulus: float, length: float, clearance: float) -> Stiffness:
     modulus: E [Pa], equivalent as in `hertz_stiffness`; length: L [m]; clearance: c [m], bearing
     radius less journal radius. An elastic foundation held against finite elements in [2]_; its
     slope is the stiffness of [3]_. At delta >> c it is a closely fitting pin of constant stiffness,
-    at delta << c it goes with delta^1.5.
+    at delta << c it goes with delta^1.5. InputError unless all three are positive.
     Energy: with delta = c sinh^2 t
 
         pi L E c^2 / sqrt(2) (3 t/8 - sinh(2 t)/4 + sinh(4 t)/32),

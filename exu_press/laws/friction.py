@@ -31,6 +31,7 @@ def coulomb(mu_kinetic: float, regularisation_velocity: float) -> Friction:
     """Mu = mu_k tanh(v / v_r): Coulomb's law made smooth at rest, where it creeps.
 
     mu_kinetic >= 0; regularisation_velocity: v_r [m/s] > 0; at 3 v_r it is within 0.5 % of mu_k.
+    InputError outside.
 
     >>> mu, slope = coulomb(0.1, regularisation_velocity=1e-3)(1e-3)
     >>> round(mu, 6), round(slope, 6)
@@ -59,7 +60,7 @@ def stribeck(
 
     mu_static >= mu_kinetic > 0; stribeck_velocity: v_s [m/s] > 0; 0 < stribeck_exponent <= 10
     (0.5 to 2 in [2]_); regularisation_velocity: v_r [m/s] > 0, well below v_s or the static peak
-    is not reached; viscous [s/m] >= 0.
+    is not reached; viscous [s/m] >= 0. InputError outside.
 
     >>> friction = stribeck(0.15, 0.1, 0.01, 2.0, regularisation_velocity=1e-4, viscous=0.02)
     >>> [round(friction(v)[0], 6) for v in (1e-3, 0.01, 1.0)]
@@ -120,7 +121,8 @@ class LuGre:
         z_dot = v - sigma_0 |v| z / g(v),  g = mu_k + (mu_s - mu_k) exp(-|v/v_s|^gamma)
         mu = sigma_0 z + sigma_1 z_dot + sigma_2 v
 
-    sigma_0 [1/m] > 0; sigma_1, sigma_2 [s/m] >= 0; the others as in `stribeck`. In steady sliding
+    sigma_0 [1/m] > 0; sigma_1, sigma_2 [s/m] >= 0; the others as in `stribeck`; InputError
+    outside. In steady sliding
     mu is Eq. 33, for small displacements it is the spring sigma_0.
 
     >>> friction = LuGre(1.5, 1.0, 1e5, 316.2, 0.4, 1e-3, 2.0)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from exu_press.errors import InputError
-from exu_press.mechanism.description import GROUND, Body, Guide, Joint, Mechanism
+from exu_press.mechanism.description import GROUND, Body, Guide, Joint, Mechanism, Spring
 from exu_press.mechanism.kinematics import AssemblyError, Motion
 from exu_press.mechanism.press import press
 from exu_press.mechanism.slider_crank import slider_crank
@@ -16,6 +16,7 @@ __all__ = [
     "Joint",
     "Mechanism",
     "Motion",
+    "Spring",
     "check_assembly",
     "mechanism_of",
 ]
@@ -24,9 +25,9 @@ __all__ = [
 def mechanism_of(scene: Scene) -> Mechanism:
     """Return the mechanism of a scene."""
     if scene.press is not None:
-        return press(scene.press, scene.crank_pin, str(scene.balls))
+        return press(scene.press, scene.crank_pin, str(scene.balls), scene.guide)
     assert scene.slider_crank is not None
-    return slider_crank(scene.slider_crank, scene.crank_pin)
+    return slider_crank(scene.slider_crank, scene.crank_pin, scene.guide)
 
 
 def check_assembly(scene: Scene) -> None:

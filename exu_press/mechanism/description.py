@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from exu_press.mechanism.kinematics import Array, Motion
 
-__all__ = ["GROUND", "Body", "Guide", "Joint", "Mechanism", "Point"]
+__all__ = ["GROUND", "Body", "Guide", "Joint", "Mechanism", "Point", "Spring"]
 
 GROUND = "ground"
 
@@ -47,11 +47,28 @@ class Joint:
 
 
 @dataclass(frozen=True)
+class Spring:
+    """Linear stiffness and damping: N/m and N s/m, or N m/rad and N m s/rad."""
+
+    stiffness: float
+    damping: float
+
+
+@dataclass(frozen=True)
 class Guide:
-    """An ideal vertical guide: holds x and, unless other joints do, the angle."""
+    """A vertical guide: holds x and, unless other joints do, the angle.
+
+    Attributes:
+        body: what it guides.
+        holds_angle: whether the angle too.
+        lateral: what holds x, or None where the guide is ideal.
+        tilting: what holds the angle, or None.
+    """
 
     body: str
     holds_angle: bool = True
+    lateral: Spring | None = None
+    tilting: Spring | None = None
 
 
 @dataclass(frozen=True)
@@ -61,7 +78,7 @@ class Mechanism:
     Attributes:
         bodies: in the order of the result's body channels.
         joints: ideal ones and clearance ones.
-        guides: ideal guides.
+        guides: ideal or elastic.
         crank: name of the driven body.
         slider: name of the body whose motion is the result.
         slider_origin: y of the slider at slider position 0, m.

@@ -2,7 +2,8 @@
 
 import math
 
-from exu_press.mechanism.description import GROUND, Body, Guide, Joint, Mechanism
+from exu_press.mechanism.description import GROUND, Body, Joint, Mechanism
+from exu_press.mechanism.guides import free_to_tilt, guide_of
 from exu_press.mechanism.kinematics import (
     Array,
     AssemblyError,
@@ -16,17 +17,20 @@ from exu_press.mechanism.kinematics import (
     sliding,
     turning,
 )
-from exu_press.scene.tables import Press
+from exu_press.scene.tables import ElasticGuide, Press
 
 __all__ = ["press"]
 
 SIDES = {"right": 1, "left": -1}
 
 
-def press(size: Press, crank_pin: str, balls: str) -> Mechanism:
+def press(
+    size: Press, crank_pin: str, balls: str, elastic: ElasticGuide | None = None
+) -> Mechanism:
     """Return the press; the linkage carries the bearing of the crank pin, the slider the sockets.
 
-    With ideal balls the two of them hold the slider's angle; with clearance its guide does (A-9).
+    With ideal balls and ideal guides the two balls hold the slider's angle, otherwise its guide
+    does (A-9).
     """
     offset, half_plunger = size.crank_mass_offset, size.plunger_length / 2
     if size.link_5_length <= size.pivot_distance:
@@ -40,17 +44,18 @@ def press(size: Press, crank_pin: str, balls: str) -> Mechanism:
     def motion(angle: Array, speed: float) -> dict[str, Motion]:
         pin = rotating(angle, speed, size.crank_radius)
         slide = guided("press.linkage_length", pin, size.linkage_length, 0.0, -1)
-        counter_pin = rotating(angle, speed, -size.counter_eccentricity)
-        counterweight = guided(
-            "press.counter_linkage_length", counter_pin, size.counter_linkage_length, 0.0, +1
-        )
         bodies = {
             "crank": turning(angle, speed, offset),
             "linkage": along(rod(pin, slide), size.linkage_mass_offset),
             "slide": sliding(slide),
-            "counter_linkage": rod(counter_pin, counterweight),
-            "counterweight": sliding(counterweight),
         }
+        if size.counterweight:
+            counter_pin = rotating(angle, speed, -size.counter_eccentricity)
+            counterweight = guided(
+                "press.counter_linkage_length", counter_pin, size.counter_linkage_length, 0.0, +1
+            )
+            bodies["counter_linkage"] = rod(counter_pin, counterweight)
+            bodies["counterweight"] = sliding(counterweight)
         for side, sign in SIDES.items():
             pivot = fixed(sign * size.pivot_distance, pivot_y, len(angle))
             knuckle = dyad(
@@ -81,7 +86,7 @@ def press(size: Press, crank_pin: str, balls: str) -> Mechanism:
     bodies = [
         Body("crank", size.crank_mass, size.crank_mass * size.crank_radius**2 / 12),
         Body("linkage", size.linkage_mass, size.linkage_inertia or rod_inertia),
-        _held("slide", size.slide_mass),
+        free_to_tilt(_held("slide", size.slide_mass), elastic),
     ]
     crank_tip, linkage_end = (0.0, size.crank_radius - offset), size.linkage_length / 2
     joints = [
@@ -89,7 +94,7 @@ def press(size: Press, crank_pin: str, balls: str) -> Mechanism:
         Joint("crank_pin", "crank", crank_tip, "linkage", (-linkage_end - shift, 0.0), crank_pin),
         Joint("slide_pin", "linkage", (linkage_end - shift, 0.0), "slide", (0.0, 0.0)),
     ]
-    guides = [Guide("slide")]
+    guides = [guide_of(bodies[-1], elastic)]
     for side, sign in SIDES.items():
         x = sign * size.pivot_distance
         end_5, end_6, end_7 = size.link_5_length / 2, size.link_6_length / 2, size.link_7_length / 2
@@ -101,6 +106,7 @@ def press(size: Press, crank_pin: str, balls: str) -> Mechanism:
             _rod(link_7, size.link_7_mass, size.link_7_length),
             _rod(plunger, size.plunger_mass, size.plunger_length),
         ]
+        guides.append(guide_of(bodies[-1], elastic))
         joints += [
             Joint(f"slide_joint_{side}", link_5, (-end_5, 0.0), "slide", (0.0, 0.0)),
             Joint(f"pivot_{side}", link_6, (-end_6, 0.0), GROUND, (x, pivot_y)),
@@ -115,24 +121,30 @@ def press(size: Press, crank_pin: str, balls: str) -> Mechanism:
                 (x, 0.0),
                 balls,
                 spherical=True,
-                vertical_only=balls == "ideal",
+                vertical_only=balls == "ideal" and elastic is None,
             ),
         ]
-        guides.append(Guide(plunger))
-    bodies += [
-        _rod("slider", size.slider_mass, 2 * size.pivot_distance),
-        _rod("counter_linkage", size.counter_linkage_mass, size.counter_linkage_length),
-        _held("counterweight", size.counterweight_mass),
-    ]
-    counter_end = size.counter_linkage_length / 2
-    counter_tip = (0.0, -size.counter_eccentricity - offset)
-    joints += [
-        Joint("counter_pin", "crank", counter_tip, "counter_linkage", (-counter_end, 0.0)),
-        Joint(
-            "counterweight_pin", "counter_linkage", (counter_end, 0.0), "counterweight", (0.0, 0.0)
-        ),
-    ]
-    guides += [Guide("slider", holds_angle=balls != "ideal"), Guide("counterweight")]
+    slider = _rod("slider", size.slider_mass, 2 * size.pivot_distance)
+    bodies.append(free_to_tilt(slider, elastic))
+    guides.append(guide_of(bodies[-1], elastic, holds_angle=balls != "ideal"))
+    if size.counterweight:
+        counter_end = size.counter_linkage_length / 2
+        counter_tip = (0.0, -size.counter_eccentricity - offset)
+        bodies += [
+            _rod("counter_linkage", size.counter_linkage_mass, size.counter_linkage_length),
+            free_to_tilt(_held("counterweight", size.counterweight_mass), elastic),
+        ]
+        joints += [
+            Joint("counter_pin", "crank", counter_tip, "counter_linkage", (-counter_end, 0.0)),
+            Joint(
+                "counterweight_pin",
+                "counter_linkage",
+                (counter_end, 0.0),
+                "counterweight",
+                (0.0, 0.0),
+            ),
+        ]
+        guides.append(guide_of(bodies[-1], elastic))
     return Mechanism(
         bodies=tuple(bodies),
         joints=tuple(joints),
@@ -150,5 +162,5 @@ def _rod(name: str, mass: float, length: float) -> Body:
 
 
 def _held(name: str, mass: float) -> Body:
-    """Return a body whose angle its guide holds, so that its inertia does not matter."""
+    """Return a body whose angle an ideal guide holds, so that its inertia does not matter."""
     return Body(name, mass, mass)

@@ -2,6 +2,17 @@
 
 from exu_press.observe.acceleration import differentiated_peak, mean_peak, peak
 from exu_press.observe.clearance import joint_summary
+from exu_press.observe.dead_centre import DeadCentre, bottom_dead_centres
+from exu_press.observe.press import press_summary
 from exu_press.observe.summary import summary
 
-__all__ = ["differentiated_peak", "joint_summary", "mean_peak", "peak", "summary"]
+__all__ = [
+    "DeadCentre",
+    "bottom_dead_centres",
+    "differentiated_peak",
+    "joint_summary",
+    "mean_peak",
+    "peak",
+    "press_summary",
+    "summary",
+]

@@ -10,7 +10,7 @@ __all__ = ["TOUCH", "joint_summary"]
 Array = NDArray[np.float64]
 
 TOUCH = 1e-10
-"""Penetration from which surfaces count as touching, m (spec 2); the force begins at zero."""
+"""Penetration from which surfaces count as touching, m; the force begins at zero."""
 
 
 def joint_summary(

@@ -6,6 +6,7 @@ import numpy as np
 
 from exu_press.observe.acceleration import differentiated_peak, mean_peak, peak
 from exu_press.observe.clearance import joint_summary
+from exu_press.observe.press import press_summary
 from exu_press.result import Result
 from exu_press.scene.laws import asperity_onset
 
@@ -18,6 +19,8 @@ def summary(result: Result) -> dict[str, Any]:
     versions = info.pop("versions")
     time, position = result.time, result["slider_position"]
     velocity = result["slider_velocity"]
+    joints = {name: _joint(result, name) for name in result.clearance_joints}
+    press = {} if result.scene.press is None else {"press": press_summary(result, joints)}
     return {
         **info,
         "peak_acceleration": {
@@ -28,7 +31,8 @@ def summary(result: Result) -> dict[str, Any]:
         "peak_velocity": peak(velocity),
         "stroke": float(np.ptp(position)),
         "ldp": float(position.min()),
-        "joints": {name: _joint(result, name) for name in result.clearance_joints},
+        "joints": joints,
+        **press,
         "energy": _energy(result),
         "versions": versions,
         "scene": result.scene.to_dict(),

@@ -3,6 +3,7 @@
 from exu_press.plots.energy import energy_figure
 from exu_press.plots.force import force_figure
 from exu_press.plots.orbit import orbit_figure
+from exu_press.plots.press import press_figure
 from exu_press.plots.save import save_comparison, save_pictures
 from exu_press.plots.slider import slider_figure
 
@@ -10,6 +11,7 @@ __all__ = [
     "energy_figure",
     "force_figure",
     "orbit_figure",
+    "press_figure",
     "save_comparison",
     "save_pictures",
     "slider_figure",

@@ -56,8 +56,10 @@ def energy_figure(result: Result) -> Figure:
 
 
 def _losses(axes: Axes, result: Result) -> None:
-    """Draw what every joint has dissipated; two balls that do the same as one."""
+    """Draw what every joint has dissipated; two balls that do the same as one, guides as one."""
     names = sorted(name for name in result if name.endswith("_loss"))
+    guides = [name for name in names if name.endswith("guide_loss")]
+    names = [name for name in names if name not in guides]
     names.sort(key=lambda name: name.startswith("ball"))
     alike = sides_alike([result], "ball_left_loss")
     for index, name in enumerate(names):
@@ -67,6 +69,9 @@ def _losses(axes: Axes, result: Result) -> None:
                 continue
             words = "ball, each side"
         curve(axes, result, result[name], color=colour_of(index), linewidth=1.4, label=words)
+    if guides:
+        lost = np.sum([result[name] for name in guides], axis=0)
+        curve(axes, result, lost, color=GREY, linewidth=1.4, label="guides")
     axes.set_title("Dissipated in")
     legend_above(axes)
 

@@ -11,6 +11,7 @@ from exu_press.output import replacing
 from exu_press.plots.energy import energy_figure
 from exu_press.plots.force import force_figure
 from exu_press.plots.orbit import orbit_figure
+from exu_press.plots.press import press_figure
 from exu_press.plots.slider import slider_figure
 from exu_press.plots.style import DPI, look
 from exu_press.result import Result
@@ -19,9 +20,10 @@ __all__ = ["save_comparison", "save_figure", "save_pictures"]
 
 
 def save_pictures(result: Result, directory: str | Path) -> list[Path]:
-    """Draw everything about one run; return the files: slider, orbit, force, energy .png.
+    """Draw everything about one run; return the files: slider, orbit, force, press, energy .png.
 
-    There is no orbit.png of a scene without clearance joints. `directory` must exist.
+    There is no orbit.png of a scene without clearance joints, and press.png of a press alone.
+    `directory` must exist.
 
     Raises:
         InputError: a file cannot be written.
@@ -30,7 +32,10 @@ def save_pictures(result: Result, directory: str | Path) -> list[Path]:
     figures = {"slider": slider_figure(run)}
     if result.clearance_joints:
         figures["orbit"] = orbit_figure(result)
-    figures |= {"force": force_figure(run), "energy": energy_figure(result)}
+    figures["force"] = force_figure(run)
+    if result.scene.press is not None:
+        figures["press"] = press_figure(result)
+    figures["energy"] = energy_figure(result)
     return [
         save_figure(figure, Path(directory) / f"{name}.png") for name, figure in figures.items()
     ]

@@ -14,14 +14,14 @@ from exu_press.plots.scales import crank_angle_axis, impact_scale, note, widen
 from exu_press.plots.style import IDEAL, colour_of, styled
 from exu_press.result import Result
 
-__all__ = ["slider_figure"]
+__all__ = ["averaged", "slider_figure"]
 
 Array = NDArray[np.float64]
 Panels = NDArray[np.object_]
 Motion = tuple[Array, Array, Array]
 
 WINDOW = 1e-3
-"""Over which the acceleration is averaged, s: about what a measurement resolves (spec 7)."""
+"""Over which the acceleration is averaged, s: about what a measurement resolves."""
 
 MOST_OF_IDEAL = 8.0
 """The averaged acceleration's panel ends at this multiple of the ideal peak, and says so."""
@@ -75,7 +75,7 @@ def _draw_run(panels: Panels, result: Result, ideal: Motion, label: str, colour:
     curve(panels[0, 1], result, 1e6 * (position - ideal[0]), **thin)
     curve(panels[1, 0], result, velocity, **thick)
     curve(panels[1, 1], result, 1e3 * (velocity - ideal[1]), **thin)
-    curve(panels[2, 0], result, _averaged(result.time, velocity), **(thin | {"linewidth": 1.2}))
+    curve(panels[2, 0], result, averaged(result.time, velocity), **(thin | {"linewidth": 1.2}))
     curve(panels[2, 1], result, result["slider_acceleration"], **thin)
 
 
@@ -106,10 +106,10 @@ def _ideal(result: Result) -> Motion:
     return mechanism_of(scene).ideal_slider(result["crank_angle"], scene.angular_speed)
 
 
-def _averaged(time: Array, velocity: Array) -> Array:
+def averaged(time: Array, velocity: Array) -> Array:
     """Return the mean acceleration over WINDOW about each instant, (n,), m/s^2.
 
-    At the record's ends the window is cut off.
+    Or of anything from its integral. At the record's ends the window is cut off.
     """
     early = np.maximum(time - WINDOW / 2, time[0])
     late = np.minimum(time + WINDOW / 2, time[-1])
@@ -123,7 +123,7 @@ def _scale_averaged(
     """Keep the ideal readable: cut peaks off at a multiple of its own, and say so."""
     ordinary = max(float(np.abs(ideal[2]).max()) for ideal in ideals.values())
     peak = max(
-        float(np.abs(_averaged(result.time, result["slider_velocity"])).max())
+        float(np.abs(averaged(result.time, result["slider_velocity"])).max())
         for result in results.values()
     )
     limit = MOST_OF_IDEAL * ordinary

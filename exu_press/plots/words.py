@@ -68,6 +68,12 @@ def _parts(scene: Scene) -> dict[str, str]:
         parts["ball clearance"] = f"ball radial clearance {clearance.balls * 1e3:g} mm"
     if scene.blanking is not None and scene.blanking.force:
         parts["load"] = f"blanking force {scene.blanking.force / 1e3:g} kN"
+        if scene.blanking.eccentricity:
+            parts["load"] += f", {scene.blanking.eccentricity * 1e3:g} mm off centre"
+    if scene.guide is not None:
+        parts["guides"] = "guides elastic"
+    if scene.press is not None and not scene.press.counterweight:
+        parts["counterweight"] = "no counterweight"
     return parts
 
 

@@ -36,6 +36,9 @@ def record_parts(model: Model, time: Array) -> tuple[dict[str, Channel], Array, 
         damping = np.diag(part.damping_matrix(model.scene.flexible.damping_ratio))
         dissipated += work(time, q_t * damping, q_t)
         channels[f"{name}_strain_energy"] = Channel(strain, "J", f"{name}: elastic energy")
+        if part.mode_count:
+            words = f"{name}: modal coordinates"
+            channels[f"{name}_modes"] = Channel(q, "kg^0.5 m", words, f"{name}_mode")
         if name == "crank":
             moved = q @ part.interface("pin").translation.T
             channels["crank_pin_deflection"] = Channel(

@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 
 from exu_press.model import Model
 
-__all__ = ["body_motion", "sensor"]
+__all__ = ["body_motion", "point_acceleration", "sensor"]
 
 Array = NDArray[np.float64]
 
@@ -37,3 +37,22 @@ def body_motion(model: Model, name: str) -> tuple[Array, Array, Array]:
         np.column_stack([velocity[:, :2], (about_z * velocity[:, 3:]).sum(axis=1)]),
         np.column_stack([acceleration[:, :2], (about_z * acceleration[:, 3:]).sum(axis=1)]),
     )
+
+
+def point_acceleration(model: Model, name: str, point: Array) -> Array:
+    """Return the acceleration (n, 3) of a point (3,) fixed in the frame of a flexible body.
+
+    In space: the frame of a bending crank shaft tilts a little.
+    """
+    position, velocity, acceleration = (
+        sensor(model, name, level) for level in ("position", "velocity", "acceleration")
+    )
+    start = model.mbs.GetNodeParameter(model.nodes[name], "referenceCoordinates")
+    e_0, e = (position + start)[:, 3:4], (position + start)[:, 4:]  # Euler parameters
+    arm = point + 2.0 * np.cross(e, np.cross(e, point) + e_0 * point)
+    spin, turn = (
+        2.0 * (e_0 * rate[:, 4:] - rate[:, 3:4] * e + np.cross(e, rate[:, 4:]))
+        for rate in (velocity, acceleration)
+    )
+    swing = np.cross(turn, arm) + np.cross(spin, np.cross(spin, arm))
+    return np.asarray(acceleration[:, :3] + swing)

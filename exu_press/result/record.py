@@ -8,12 +8,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.integrate import Outcome
-from exu_press.joints import history, overlay_of
-from exu_press.model import Model
+from exu_press.model import DRIVE, Model
 from exu_press.result.energy import mechanical_energy, work
 from exu_press.result.flexible import record_parts, worst_stress
+from exu_press.result.forces import frame_force, held_forces
+from exu_press.result.guides import record_guides
+from exu_press.result.joints import record_joints
+from exu_press.result.momentum import shaking_forces
 from exu_press.result.motion import body_motion, sensor
 from exu_press.result.result import Channel, Result
+from exu_press.result.surface import surfaces_of
 
 __all__ = ["record"]
 
@@ -40,8 +44,12 @@ def record(model: Model, outcome: Outcome) -> Result:
         "slider_acceleration": Channel(
             acceleration[:, slider, 1], "m/s^2", "slider acceleration, upwards"
         ),
+        "slider_lateral": Channel(position[:, slider, 0], "m", "slider beside its guide, right"),
+        "slider_tilt": Channel(position[:, slider, 2], "rad", "slider tilt, counter-clockwise"),
     }
-    channels |= _constraint_forces(model)
+    channels |= held_forces(model)
+    channels["frame_force"] = frame_force(model, channels)
+    channels |= shaking_forces(model, acceleration)
     rigid = [index for index, name in enumerate(names) if name not in model.parts]
     stored = mechanical_energy(
         [mechanism.bodies[index] for index in rigid],
@@ -50,43 +58,22 @@ def record(model: Model, outcome: Outcome) -> Result:
         scene.gravity,
     )
     dissipated = np.zeros_like(time)
-    if model.parts:
-        flexible_channels, flexible_stored, dissipated = record_parts(model, time)
-        channels |= flexible_channels
-        stored += flexible_stored
-    overlay = overlay_of(model.mbs) if model.clearance_joints else None
-    for name, joint in model.clearance_joints.items():
-        assert overlay is not None
-        held = {number: name for name, number in model.nodes.items()}
-        q, q_t = (
-            np.hstack([sensor(model, held[node], level) for node in overlay.nodes])
-            for level in ("position", "velocity")
-        )
-        states = history(joint, time, q, q_t)
-        spherical = name.startswith("ball")
-        elastic = np.array([state.stored_energy for state in states])
-        loads = np.array([state.force + state.moments for state in states])
-        rates = np.array([state.velocity + state.spins for state in states])
-        lost = -work(time, loads, rates) - (elastic - elastic[0])
-        stored += elastic
+    for more, kept, lost in (
+        record_guides(model, time, position, velocity),
+        record_parts(model, time),
+        record_joints(model, time),
+    ):
+        channels |= more
+        stored += kept
         dissipated += lost
-        in_words = name.replace("_", " ")
-        channels |= {
-            f"{name}_eccentricity": _vector(
-                [state.eccentricity for state in states],
-                "m",
-                f"{in_words}: journal centre minus bearing centre",
-                spherical,
-            ),
-            f"{name}_force": _vector(
-                [state.force for state in states], "N", f"{in_words}: force on journal", spherical
-            ),
-            f"{name}_loss": Channel(lost, "J", f"{in_words}: energy dissipated since the start"),
-        }
-    driven = work(time, channels["drive_torque"].values, velocity[:, crank, 2])
-    if "blanking_force" in channels:
-        driven += work(time, channels["blanking_force"].values, velocity[:, slider, 1])
+    turned = body_motion(model, DRIVE if DRIVE in model.nodes else mechanism.crank)[1][:, 2]
+    torque = channels["drive_torque"].values
+    driven = work(time, torque, turned)
+    for load, column in (("blanking_force", 1), ("blanking_moment", 2)):
+        if load in channels:
+            driven += work(time, channels[load].values, velocity[:, slider, column])
     channels |= {
+        "drive_power": Channel(torque * turned, "W", "power of the drive"),
         "energy_input": Channel(driven, "J", "work of drive and load since the start"),
         "energy_stored": Channel(stored - stored[0], "J", "change of stored energy"),
         "energy_dissipated": Channel(dissipated, "J", "energy dissipated since the start"),
@@ -97,52 +84,8 @@ def record(model: Model, outcome: Outcome) -> Result:
         channels=channels,
         info=_info(model, outcome, time),
         bodies=tuple(names),
+        surfaces=surfaces_of(model.parts),
     )
-
-
-def _vector(rows: list[tuple[float, ...]], unit: str, words: str, spherical: bool) -> Channel:
-    """Return a channel of vectors in space for spherical joints, else of their x and y."""
-    values = np.zeros((len(rows), 3))
-    values[:, : len(rows[0])] = rows
-    return (
-        Channel(values, unit, words, "space")
-        if spherical
-        else Channel(values[:, :2], unit, words, "plane")
-    )
-
-
-def _constraint_forces(model: Model) -> dict[str, Channel]:
-    """Return the forces of drive, load, guides and ideal joints."""
-    slider = model.mechanism.slider
-    channels = {}
-    for name, quantity in model.sensors:
-        if quantity not in ("force", "moment"):
-            continue
-        values = sensor(model, name, quantity)
-        in_words = name.replace("_", " ")
-        if name == "drive":
-            channels["drive_torque"] = Channel(-values[:, 0], "N m", "torque that turns the crank")
-        elif name == "blanking":
-            channels["blanking_force"] = Channel(
-                values[:, 0], "N", "blanking force on the slider, upwards"
-            )
-        elif name.endswith("_guide"):
-            shown = "guide" if name == f"{slider}_guide" else name
-            unit = "N" if quantity == "force" else "N m"
-            along = "to the right" if quantity == "force" else "counter-clockwise"
-            channels[f"{shown}_{quantity}"] = Channel(
-                -values[:, 0], unit, f"{in_words}: {quantity} on the body, {along}"
-            )
-        elif values.shape[1] == 1:
-            rows: list[tuple[float, ...]] = [(0.0, value) for value in values[:, 0]]
-            channels[f"{name}_force"] = _vector(
-                rows, "N", f"{in_words}: force on journal", spherical=True
-            )
-        else:
-            channels[f"{name}_force"] = Channel(
-                values[:, :2], "N", f"{in_words}: force on journal", "plane"
-            )
-    return channels
 
 
 def _info(model: Model, outcome: Outcome, time: Array) -> dict[str, Any]:

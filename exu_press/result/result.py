@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.errors import InputError
+from exu_press.result.surface import Surface
 from exu_press.scene import Scene
 
 __all__ = ["Channel", "Result"]
@@ -27,7 +28,7 @@ class Channel:
         values: (n,), or (n, k) with one of AXES as columns, or (n, bodies, 3) for "pose".
         unit: SI.
         long_name: what it is, in words.
-        axis: name of the columns in AXES.
+        axis: name of the columns: in AXES, or BODY_mode for a flexible body's modes.
     """
 
     values: Array
@@ -45,12 +46,14 @@ class Result:
         channels: by name; `time` is one of them.
         info: status, reason and statistics, as they stand in the summary.
         bodies: names of the bodies in `body_position`.
+        surfaces: of the flexible bodies, by name, for pictures.
     """
 
     scene: Scene
     channels: Mapping[str, Channel]
     info: Mapping[str, Any]
     bodies: tuple[str, ...] = field(default=())
+    surfaces: Mapping[str, Surface] = field(default_factory=dict)
 
     def __getitem__(self, name: str) -> Array:
         """Return the values of a channel."""
@@ -73,8 +76,8 @@ class Result:
 
     @property
     def completed(self) -> bool:
-        """Whether the run reached its end."""
-        return bool(self.info["status"] == "completed")
+        """Whether the run reached its end; "under-resolved" says that its peaks are not right."""
+        return self.info["status"] in ("completed", "under-resolved")
 
     @property
     def clearance_joints(self) -> tuple[str, ...]:

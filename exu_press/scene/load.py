@@ -14,6 +14,10 @@ __all__ = ["load_scene", "parse_assignment"]
 def load_scene(path: str | Path, assignments: Iterable[str] = ()) -> Scene:
     """Return the scene of a TOML file, changed by "key=value" assignments.
 
+    Args:
+        path: of the file.
+        assignments: as behind `--set`, for `parse_assignment`.
+
     Raises:
         InputError: the file cannot be read or parsed, or the scene is not allowed.
     """
@@ -39,6 +43,9 @@ def parse_assignment(text: str) -> tuple[str, Any]:
     ('film.viscosity', 0.1)
     >>> parse_assignment("crank_pin=dry")
     ('crank_pin', 'dry')
+
+    Raises:
+        InputError: there is no key, no value or no equals sign.
     """
     name, equals, value = (part.strip() for part in text.partition("="))
     if not (name and equals and value):

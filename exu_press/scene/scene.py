@@ -3,6 +3,7 @@
 import dataclasses
 import math
 from collections.abc import Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from exu_press.errors import InputError
@@ -12,6 +13,7 @@ from exu_press.scene.tables import (
     Blanking,
     Clearance,
     Contact,
+    ElasticGuide,
     Film,
     Flexible,
     Friction,
@@ -35,17 +37,28 @@ PARTS_ARE_MADE_FOR = {
     "linkage_mass": 184.5,
 }
 
+OF_THE_COUNTERWEIGHT = (
+    "counter_eccentricity",
+    "counter_linkage_length",
+    "counter_linkage_mass",
+    "counterweight_mass",
+)
+
 TABLES = {
     "clearance": Clearance,
     "contact": Contact,
     "friction": Friction,
     "film": Film,
     "blanking": Blanking,
+    "guide": ElasticGuide,
     "flexible": Flexible,
     "solver": Solver,
     "press": Press,
     "slider_crank": SliderCrank,
 }
+
+ONLY_WHERE_GIVEN = ("blanking", "guide")
+"""Tables that a scene without them does not have: no load, ideal guides."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -73,6 +86,7 @@ class Scene(Table):
     friction: Friction | None = None
     film: Film | None = None
     blanking: Blanking | None = None
+    guide: ElasticGuide | None = None
     flexible: Flexible | None = None
     solver: Solver | None = None
     press: Press | None = None
@@ -83,16 +97,18 @@ class Scene(Table):
         super().__post_init__()
         if self.mechanism == "press" and self.balls is None:
             object.__setattr__(self, "balls", "dry")
-        unused = _unused(
-            self.mechanism, self.bodies, self.crank_pin, self.balls, _at_contact(self.film)
-        )
+        unused = _unused({field.name: getattr(self, field.name) for field in _fields(self)})
         self._refuse(unused, "balls", self.balls)
         for name, table in TABLES.items():
             given = getattr(self, name)
             if given is not None:
                 self._refuse(unused, name, given)
-                object.__setattr__(self, name, table_from(table, name, given))
-            elif name not in unused and name != "blanking":
+                checked: Table = table_from(table, name, given)
+                object.__setattr__(self, name, checked)
+                for field in _fields(checked):
+                    if (value := getattr(checked, field.name)) != field.default:
+                        self._refuse(unused, f"{name}.{field.name}", value)
+            elif name not in unused and name not in ONLY_WHERE_GIVEN:
                 object.__setattr__(self, name, table())
         if self.clearance is not None:
             object.__setattr__(self, "clearance", self._all_clearances(self.clearance, unused))
@@ -112,6 +128,21 @@ class Scene(Table):
 
         nested = given(dataclasses.asdict(self))
         return {k: given(v) if isinstance(v, dict) else v for k, v in nested.items()}
+
+    def save(self, path: str | Path, *, comments: bool = False, overwrite: bool = False) -> None:
+        """Write the complete scene as TOML, for `load_scene` and the command line.
+
+        Args:
+            path: of the file.
+            comments: write meaning and unit behind every key.
+            overwrite: replace an existing file, whose own comments would be lost.
+
+        Raises:
+            InputError: the file exists, or cannot be written.
+        """
+        from exu_press.scene.save import save_scene
+
+        save_scene(self, path, comments=comments, overwrite=overwrite)
 
     def replace(self, *change: Any, **changes: Any) -> "Scene":
         """Return the scene with other values: replace("film.viscosity", 0.1) or replace({...}).
@@ -135,21 +166,26 @@ class Scene(Table):
                 data["solver"].pop(dropped, None)
         if data["mechanism"] != "press" and "balls" not in changes:
             data.pop("balls", None)
-        at_contact = _at_contact(data.get("film"))
-        unused = _unused(
-            data["mechanism"], data["bodies"], data["crank_pin"], data.get("balls"), at_contact
-        )
+        unused = _unused(data)
         for name in unused.keys() - changes.keys():
             table, _, inner = name.rpartition(".")
-            if not any(changed.startswith(f"{name}.") for changed in changes):
-                (data.get(table, {}) if table else data).pop(inner, None)
+            place = data.get(table) if table else data
+            named = any(changed.startswith(f"{name}.") for changed in changes)
+            if isinstance(place, dict) and not named:
+                place.pop(inner, None)
         return Scene.from_dict(data)
 
     def build(self) -> "Model":
-        """Return the assembled Exudyn model; model.mbs and model.SC are the real objects."""
+        """Return the assembled Exudyn model; model.mbs and model.SC are the real objects.
+
+        Every body has graphics for Exudyn's own renderer and SolutionViewer.
+        """
+        from exu_press.graphics import add_graphics
         from exu_press.model import build
 
-        return build(self)
+        model = build(self)
+        add_graphics(model)
+        return model
 
     @property
     def angular_speed(self) -> float:
@@ -177,7 +213,6 @@ class Scene(Table):
         values = {}
         for field in dataclasses.fields(Clearance):
             name, value = f"clearance.{field.name}", getattr(given, field.name)
-            self._refuse(unused, name, value)
             if name not in unused:
                 values[field.name] = DEFAULT_CLEARANCE if value is None else value
                 assert self.contact is not None
@@ -222,22 +257,28 @@ class Scene(Table):
                 )
 
 
-def _at_contact(film: Any) -> str:
-    """Return what a film table asks for at contact, before the table itself is checked."""
-    if isinstance(film, Mapping):
-        return str(film.get("at_contact"))
-    return str(getattr(film, "at_contact", "stop"))
+def _fields(table: Any) -> tuple[dataclasses.Field[Any], ...]:
+    return dataclasses.fields(table)
 
 
-def _unused(
-    mechanism: str, bodies: str, crank_pin: str, balls: str | None, at_contact: str
-) -> dict[str, str]:
+def _peek(table: Any, name: str) -> Any:
+    """Return a key of a table before the table itself is checked, or None."""
+    return table.get(name) if isinstance(table, Mapping) else getattr(table, name, None)
+
+
+def _unused(scene: Mapping[str, Any]) -> dict[str, str]:
     """Return the names a scene does not use, each with its reason."""
+    mechanism, bodies = scene["mechanism"], scene["bodies"]
+    crank_pin, balls = scene["crank_pin"], scene.get("balls")
+    at_contact = _peek(scene.get("film"), "at_contact")
     touching = "dry" in (crank_pin, balls) or (crank_pin == "lubricated" and at_contact == "mixed")
     pin, ball = f"crank_pin is {crank_pin!r}", f"balls is {balls!r}"
+    press = mechanism == "press", f"mechanism is {mechanism!r}"
+    countered = _peek(scene.get("press"), "counterweight") is not False
+    counterweight = (countered, "press.counterweight is false") if press[0] else press
     wanted = {
-        "balls": (mechanism == "press", f"mechanism is {mechanism!r}"),
-        "press": (mechanism == "press", f"mechanism is {mechanism!r}"),
+        "balls": press,
+        "press": press,
         "slider_crank": (mechanism == "slider_crank", f"mechanism is {mechanism!r}"),
         "clearance": (crank_pin != "ideal" or balls == "dry", "every joint is 'ideal'"),
         "clearance.crank_pin": (crank_pin != "ideal", pin),
@@ -246,5 +287,8 @@ def _unused(
         "friction": (touching, "no joint is 'dry' or has a mixed film"),
         "film": (crank_pin == "lubricated", pin),
         "flexible": (bodies == "flexible", f"bodies is {bodies!r}"),
+        "guide.slide_inertia": press,
+        "guide.counterweight_inertia": counterweight,
+        **{f"press.{name}": counterweight for name in OF_THE_COUNTERWEIGHT},
     }
     return {name: reason for name, (used, reason) in wanted.items() if not used}

@@ -15,6 +15,7 @@ __all__ = [
     "Blanking",
     "Clearance",
     "Contact",
+    "ElasticGuide",
     "Film",
     "Flexible",
     "Friction",
@@ -112,6 +113,41 @@ class Blanking(Table):
     end_angle_deg: float = key(
         180.0, "crank angle from top dead centre at the pulse's end", "deg", above=0, at_most=360
     )
+    eccentricity: float = key(0.0, "of the force from the slider's centre line, to the right", "m")
+
+
+@dataclass(frozen=True)
+class ElasticGuide(Table):
+    """Elastic instead of ideal guides (A-9): springs that hold a body's x and angle, each alone.
+
+    The springs act in the body's centre of mass. A guide's tilting stiffness is that of an even
+    bedding along its length, k L^2 / 12, and each damping a share of the critical one of the guided
+    mass or inertia alone, 2 D sqrt(k m), unless they are given. With ideal guides no body turns;
+    inertias that the paper does not give are needed then: about the centre of mass, steel cubes'.
+    """
+
+    table: ClassVar[str] = "guide"
+    lateral_stiffness: float = key(1e9, "of every guide", "N/m", above=0)
+    length: float = key(0.5, "of every guide, for its tilting stiffness", "m", above=0)
+    tilting_stiffness: float | None = key(
+        None, "of every guide, instead of what its length makes", "N m/rad", above=0
+    )
+    damping_ratio: float = key(0.05, "of the guided body alone on its guide", at_least=0)
+    lateral_damping: float | None = key(
+        None, "of every guide, instead of the damping ratio's", "N s/m", at_least=0
+    )
+    tilting_damping: float | None = key(
+        None, "of every guide, instead of the damping ratio's", "N m s/rad", at_least=0
+    )
+    slider_inertia: float | None = key(
+        None, "slider (10); a steel cube's unless given", "kg m^2", above=0
+    )
+    slide_inertia: float | None = key(
+        None, "slide (4); a steel cube's unless given", "kg m^2", above=0
+    )
+    counterweight_inertia: float | None = key(
+        None, "counterweight (12); a steel cube's unless given", "kg m^2", above=0
+    )
 
 
 @dataclass(frozen=True)
@@ -146,6 +182,9 @@ class Solver(Table):
     spectral_radius: float = key(
         0.8, "spectral radius at infinity of generalized-alpha", at_least=0.5, at_most=0.95
     )
+    max_steps: int = key(  # a million of the press: two to four minutes, 2 GB of record
+        1_000_000, "a run that would need more steps, repeated ones too, stops", at_least=1
+    )
 
     def __post_init__(self) -> None:
         """Check the keys; exactly one of tolerance and step decides."""
@@ -171,6 +210,7 @@ class Press(Table):
     link_7_length: float = key(0.164, "knuckle to plunger", "m", above=0)
     plunger_length: float = key(0.55, "plunger (8), upper pin to ball centre", "m", above=0)
     pivot_distance: float = key(0.1655, "frame pivots and plungers from x = 0 (A-2)", "m", above=0)
+    counterweight: bool = key(True, "whether there are linkage (11) and counterweight (12)")
     counter_eccentricity: float = key(0.016, "eccentric opposite the pin (A-3)", "m", above=0)
     counter_linkage_length: float = key(0.275, "linkage (11)", "m", above=0)
     bottom_dead_centre: float = key(0.47, "slider position at ideal bottom dead centre (A-8)", "m")

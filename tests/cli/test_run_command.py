@@ -11,7 +11,8 @@ QUICK = ["--set", "revolutions=0.02", "--no-pictures"]
 KEYS = {
     "status", "reason", "end_time", "wall_time", "total_time", "steps", "rejected_steps",
     "newton_iterations", "law_evaluations", "coordinates", "bodies", "connectors",
-    "peak_acceleration", "peak_velocity", "stroke", "ldp", "joints", "energy", "versions", "scene",
+    "peak_acceleration", "peak_velocity", "stroke", "ldp", "joints", "press", "energy", "versions",
+    "scene",
 }  # fmt: skip
 
 

@@ -1,6 +1,6 @@
 """The slider-crank with clearance in its crank pin, reduced to two coordinates.
 
-Written from the equations of spec 2 and 3 with nothing but the standard library, NumPy and SciPy:
+Written from the equations of docs/theory with nothing but the standard library, NumPy and SciPy:
 no Exudyn, no exu_press. Coordinates are the rod's angle phi (direction from its crank end to its
 slider end) and the slider's height y; a bristle is a third one. The crank turns at constant speed.
 """
@@ -180,7 +180,7 @@ class ReducedSliderCrank:
 
 
 def pinkus(eps: float, eps_t: float, eps_w: float) -> tuple[float, float]:
-    """Return F_r / P and F_t / P of Eq. 35 with |eps_dot|, in the regular form of spec 3."""
+    """Return F_r / P and F_t / P of Eq. 35 with |eps_dot|, in its regular form."""
     s2 = 1 - eps * eps
     a, b = abs(eps_w) / 2, abs(eps_t)
     big_s = sqrt(s2) * sqrt(a * a + b * b)
@@ -194,7 +194,7 @@ def pinkus(eps: float, eps_t: float, eps_w: float) -> tuple[float, float]:
 
 
 def pi_film(eps: float, eps_t: float, eps_w: float) -> tuple[float, float]:
-    """Return F_r / P and F_t / P of the exact closed form of spec 3."""
+    """Return F_r / P and F_t / P of the exact closed form."""
     s2, two = 1 - eps * eps, 2 + eps * eps
     big_s = sqrt(s2) * sqrt((eps_w / two) ** 2 + eps_t**2)  # k_C |eps_dot| eps
     factor = 1 + 2 / pi * atan2(eps * eps_t, big_s) if big_s > 0.0 else 1.0

@@ -10,6 +10,13 @@ SCENES = {
     "ideal": {"crank_pin": "ideal", "balls": "ideal"},
     "dry": {"crank_pin": "dry"},
     "lubricated": {"crank_pin": "lubricated", "blanking": {"force": 1e4}},
+    "elastic": {
+        "crank_pin": "ideal",
+        "guide": {},
+        "start_angle_deg": 80.0,
+        "revolutions": 0.6,
+        "blanking": {"force": 1e4, "eccentricity": 0.1},
+    },
     "slider_crank": {"mechanism": "slider_crank", "crank_pin": "dry"},
 }
 
@@ -17,7 +24,7 @@ SCENES = {
 @pytest.fixture(scope="session")
 def results() -> dict[str, Result]:
     runs = {
-        label: simulate(Scene(**scene, revolutions=0.3, solver={"step": 1e-4}))
+        label: simulate(Scene(**{"revolutions": 0.3, "solver": {"step": 1e-4}} | scene))
         for label, scene in SCENES.items()
     }
     runs["stopped"] = cut(runs["lubricated"], 200)

@@ -6,7 +6,7 @@ from exu_press.errors import InputError
 from exu_press.plots import save_comparison, save_pictures
 from exu_press.plots.save import save_figure
 
-EVERY = ["slider.png", "orbit.png", "force.png", "energy.png"]
+EVERY = ["slider.png", "orbit.png", "force.png", "press.png", "energy.png"]
 
 
 def assert_pictures(paths):

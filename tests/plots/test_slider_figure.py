@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from exu_press.plots import slider_figure
-from exu_press.plots.slider import _averaged
+from exu_press.plots.slider import averaged
 
 LABELS = ["ideal", "dry", "lubricated", "slider_crank", "stopped"]
 
@@ -39,7 +39,7 @@ def test_ideal_joints_do_not_deviate(results):
 
 def test_averaging_keeps_the_change_of_velocity():
     time = np.linspace(0.0, 0.01, 1001)
-    averaged = _averaged(time, np.where(time > 0.005, 0.04, 0.0))
-    assert averaged.max() == pytest.approx(40.0, rel=1e-9)  # 0.04 m/s in 1 ms
-    assert np.count_nonzero(averaged > 1.0) == pytest.approx(101, abs=2)
-    assert np.all(np.isfinite(_averaged(np.zeros(1), np.zeros(1))))
+    mean = averaged(time, np.where(time > 0.005, 0.04, 0.0))
+    assert mean.max() == pytest.approx(40.0, rel=1e-9)  # 0.04 m/s in 1 ms
+    assert np.count_nonzero(mean > 1.0) == pytest.approx(101, abs=2)
+    assert np.all(np.isfinite(averaged(np.zeros(1), np.zeros(1))))

@@ -17,6 +17,17 @@ def test_a_scene_in_words():
         assert part in words
 
 
+def test_guides_counterweight_and_an_eccentric_load():
+    scene = Scene(
+        blanking={"force": 1e4, "eccentricity": -0.05}, guide={}, press={"counterweight": False}
+    )
+    words = describe([scene])
+    assert "blanking force 10 kN, -50 mm off centre" in words
+    assert "guides elastic" in words
+    assert "no counterweight" in words
+    assert "guides" not in describe([Scene()])
+
+
 def test_scenes_share_what_they_have_in_common():
     words = describe([Scene(crank_pin="ideal", balls="ideal"), Scene(crank_pin="dry")])
     assert "crank pin radial clearance 0.1 mm" in words

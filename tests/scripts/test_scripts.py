@@ -1,4 +1,4 @@
-"""Every script runs, reduced, and ends in numbers."""
+"""The scripts that print the tables of README and docs run, reduced, and end in numbers."""
 
 import subprocess
 import sys
@@ -12,7 +12,6 @@ SCRIPTS = Path(__file__).parents[2] / "scripts"
 @pytest.mark.parametrize(
     ("arguments", "expected"),
     [
-        (["joint_in_your_model.py"], "least film thickness"),
         (["contact_restitution.py"], "(default)"),
         (["benchmark_modes.py", "--quick"], "ratio"),
         (["flexible_parts.py", "--quick", "--out", "parts"], "flexible, second shapes"),

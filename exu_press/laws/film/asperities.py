@@ -36,6 +36,10 @@ def with_asperities(law: FilmLaw, onset_ratio: float) -> FilmLaw:
     onset_ratio : eta = h_on / c [-], the gap at which asperities touch over the radial clearance,
         0 < eta < 1; h_on is about three times the combined rms roughness of both surfaces
 
+    Raises
+    ------
+    InputError : onset_ratio is not between 0 and 1
+
     Examples
     --------
     >>> from exu_press.laws.film import pi_film

@@ -37,6 +37,10 @@ def film_scale(viscosity: float, length: float, radius: float, clearance: float)
     P [N s]; the force on the journal is P (f_r e_r + f_t e_t), e_r pointing from the bearing's
     centre to the journal's and e_t a quarter turn counter-clockwise from it.
 
+    Raises
+    ------
+    InputError : one of the four is not positive and finite
+
     Examples
     --------
     >>> round(film_scale(viscosity=0.4, length=0.1, radius=0.07, clearance=1e-4), 9)

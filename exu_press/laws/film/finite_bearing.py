@@ -34,6 +34,10 @@ def finite(length_to_diameter: float) -> FilmLaw:
     The law, f in 1/s, for 0 <= eps < 1; NaN outside. Beyond eps = 0.9997 by the power laws
     reached there.
 
+    Raises
+    ------
+    InputError : L/D is not in 0.1 to 4
+
     Notes
     -----
     Cavitation: Swift and Stieber (p >= 0, zero gradient where the film breaks), oil supplied at

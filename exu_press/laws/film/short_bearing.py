@@ -32,6 +32,10 @@ def short(length_to_diameter: float) -> FilmLaw:
     -------
     The law, f in 1/s, for 0 <= eps < 1; NaN outside.
 
+    Raises
+    ------
+    InputError : L/D is not positive
+
     Notes
     -----
     Cavitation: Gumbel's half film, which for a short bearing is Swift and Stieber's too. It

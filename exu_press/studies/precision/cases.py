@@ -9,6 +9,7 @@ from typing import Any, Literal
 
 from exu_press.errors import InputError
 from exu_press.scene import Scene
+from exu_press.scene.tables import Flexible
 from exu_press.studies.precision.reduced import is_reducible
 
 __all__ = ["FULL", "QUICK", "Amount", "Case", "case_of", "cases", "chosen"]
@@ -24,7 +25,8 @@ class Amount:
 
     Attributes:
         repeats: of every run; the median is reported.
-        revolutions: a scene is not run longer.
+        revolutions: a rigid scene is not run longer.
+        flexible_revolutions: a flexible scene is not run longer.
         finest_step: smaller fixed steps are left out, s.
         finest_tolerance: smaller tolerances are left out.
         finest_peer: smaller tolerances of the peers are left out.
@@ -34,6 +36,7 @@ class Amount:
 
     repeats: int
     revolutions: float
+    flexible_revolutions: float
     finest_step: float
     finest_tolerance: float
     finest_peer: float
@@ -41,8 +44,8 @@ class Amount:
     reference_step: float
 
 
-FULL = Amount(3, 2.0, 1e-6, 1e-6, 1e-10, 1.0, 1e-6)
-QUICK = Amount(1, 0.2, 1e-4, 1e-4, 1e-5, 30.0, 1e-5)
+FULL = Amount(3, 2.0, 0.2, 1e-6, 1e-6, 1e-10, 1.0, 1e-6)
+QUICK = Amount(1, 0.2, 0.02, 1e-4, 1e-4, 1e-5, 30.0, 1e-5)
 
 
 @dataclass(frozen=True)
@@ -62,6 +65,8 @@ class Case:
         reference_tolerance: "own": the tightest one, which is the reference.
         reference_step: "own": the smallest fixed step, with twice it beside, s.
         variations: whether spectral radius and Newton mode are varied.
+        modes: numbers of modes that are tried, at the default tolerance.
+        repeats: fewer than the amount's, for runs that take minutes.
     """
 
     name: str
@@ -74,6 +79,8 @@ class Case:
     reference_tolerance: float = 0.0
     reference_step: float = 0.0
     variations: bool = False
+    modes: tuple[int, ...] = ()
+    repeats: int | None = None
 
 
 def cases() -> tuple[Case, ...]:
@@ -127,6 +134,40 @@ def cases() -> tuple[Case, ...]:
             tolerances=TOLERANCES[:8],
             reference_tolerance=1e-5,
             reference_step=1e-6,
+        ),
+        Case(
+            "press_flexible_lubricated",
+            "Press, flexible (20 modes), lubricated pin and dry balls, 0.1 mm",
+            "own",
+            Scene(bodies="flexible", crank_pin="lubricated", balls="dry"),
+            steps=STEPS[3:8],
+            tolerances=TOLERANCES[:7],
+            reference_tolerance=1e-5,
+            reference_step=2e-6,
+            repeats=1,
+        ),
+        Case(
+            "press_flexible_dry",
+            "Press, flexible (20 modes), dry pin and dry balls, 0.1 mm",
+            "own",
+            Scene(bodies="flexible", crank_pin="dry", balls="dry"),
+            steps=STEPS[3:8],
+            tolerances=TOLERANCES[:7],
+            reference_tolerance=1e-5,
+            reference_step=2e-6,
+            repeats=1,
+        ),
+        Case(
+            "press_flexible_modes",
+            "Press, flexible, lubricated pin and dry balls, against 40 modes",
+            "own",
+            Scene(crank_pin="lubricated", balls="dry", bodies="flexible", flexible=Flexible(modes=40)),
+            steps=(),
+            tolerances=(),
+            reference_tolerance=1e-4,
+            reference_step=4e-6,
+            modes=(0, 2, 4, 10, 20, 30, 40),
+            repeats=1,
         ),
         Case(
             "squeezer",

@@ -80,6 +80,8 @@ def late_of(run: Trajectory, reference: Trajectory) -> Late | None:
     """Return the figures of a dry run, or None where no surfaces touch."""
     if run.force is None or reference.force is None or run.penetration is None:
         return None
+    if not reference.force.any():
+        return None
     touches, true_touches = _touches(run), _touches(reference)
     same = len(touches) == len(true_touches) > 0
     rms, true_rms = _rms(run), _rms(reference)

@@ -94,7 +94,7 @@ def measured_of(result: Result, cpu_time: float) -> Measured:
         trajectory=trajectory_of(result) if result.completed else None,
         wall_times=(float(info["wall_time"]),),
         cpu_times=(cpu_time,),
-        status=info["status"],
+        status="completed" if result.completed else info["status"],  # coarse steps are its subject
         reason=info["reason"],
         steps=info["steps"],
         rejected_steps=info["rejected_steps"],

@@ -17,6 +17,7 @@ __all__ = [
     "FIXED",
     "TOLERANCE",
     "fixed_steps",
+    "mode_numbers",
     "newton_modes",
     "run_scene",
     "spectral_radii",
@@ -25,6 +26,7 @@ __all__ = [
 
 FIXED = "fixed step"
 TOLERANCE = "tolerance"
+MODES = "modes, default tolerance"
 
 NEWTON_MODES = {"full Newton": (False, False), "modified Newton": (True, False)}
 """Name -> (modified, a Jacobian every step); the package's own is modified with one every step."""
@@ -32,7 +34,11 @@ NEWTON_MODES = {"full Newton": (False, False), "modified Newton": (True, False)}
 
 def run_scene(scene: Scene, setting: str, value: float) -> Measured:
     """Run a scene with `setting` ("step" or "tolerance") at a value."""
-    model = scene.replace(f"solver.{setting}", value).build()
+    return _run(scene.replace(f"solver.{setting}", value))
+
+
+def _run(scene: Scene) -> Measured:
+    model = scene.build()
     start = time.process_time()
     outcome = integrate(model)
     cpu_time = time.process_time() - start
@@ -47,6 +53,19 @@ def fixed_steps(scene: Scene, steps: Iterable[float]) -> list[Attempt]:
 def tolerances(scene: Scene, values: Iterable[float]) -> list[Attempt]:
     """Return the runs with tolerances."""
     return [_attempt(TOLERANCE, scene, "tolerance", value) for value in values]
+
+
+def mode_numbers(scene: Scene, numbers: Iterable[int]) -> list[Attempt]:
+    """Return the runs with other numbers of modes, at the scene's own tolerance."""
+    return [
+        Attempt(
+            MODES,
+            "modes",
+            float(n),
+            partial(_run, scene.replace("flexible.modes", n)),
+        )
+        for n in numbers
+    ]
 
 
 def spectral_radii(scene: Scene, radii: Iterable[float], values: Iterable[float]) -> list[Attempt]:

@@ -20,8 +20,8 @@ class Row:
     Attributes:
         case: name.
         solver: who.
-        setting: "step" or "tolerance".
-        value: of the setting, s or dimensionless.
+        setting: "step", "tolerance" or "modes".
+        value: of the setting, s, dimensionless or a number.
         error_position: largest up to the horizon, m; None if the run failed or there is no
             reference.
         error_velocity: the same, m/s.

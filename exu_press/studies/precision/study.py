@@ -50,7 +50,7 @@ def precision(chosen: tuple[Case, ...], *, quick: bool = False, quiet: bool = Tr
         model = compile_model(scene) if case.reference == "reduced" and scene else None
         reference = _reference(case, scene, model, horizon, amount)
         attempts = _attempts(case, scene, model, amount)
-        some = _run(case, attempts, reference, horizon, amount.repeats, quiet)
+        some = _run(case, attempts, reference, horizon, case.repeats or amount.repeats, quiet)
         rows += some
         described[case.name] = _describe(case, reference, horizon, durations[case.name], some)
     orders = [
@@ -76,9 +76,10 @@ def precision(chosen: tuple[Case, ...], *, quick: bool = False, quiet: bool = Tr
 
 def _shortened(scene: Scene | None, amount: Amount) -> Scene | None:
     """Return a scene no longer than the amount allows."""
-    if scene is None or scene.revolutions <= amount.revolutions:
-        return scene
-    return scene.replace(revolutions=amount.revolutions)
+    if scene is None:
+        return None
+    longest = amount.revolutions if scene.flexible is None else amount.flexible_revolutions
+    return scene if scene.revolutions <= longest else scene.replace(revolutions=longest)
 
 
 def _reference(
@@ -107,6 +108,7 @@ def _attempts(
     if scene is None:
         return squeezer_attempts(steps, tolerances)
     attempts = own.fixed_steps(scene, steps) + own.tolerances(scene, tolerances)
+    attempts += own.mode_numbers(scene, case.modes)
     if case.variations:
         varied = [tol for tol in VARIED_TOLERANCES if tol >= amount.finest_tolerance]
         attempts += own.spectral_radii(scene, RADII, varied)

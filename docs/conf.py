@@ -1,0 +1,55 @@
+"""The documentation as a site: sphinx-build -W docs out/docs."""
+
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+from sphinx_parts.scripts import NUMBERS, SavedPictures, gallery_sources
+
+project = "exu_press"
+author = "the authors of exu_press"
+project_copyright = author
+exclude_patterns = ["pictures/README.md"]
+html_theme = "furo"
+html_title = "exu_press"
+html_show_sphinx = False
+html_static_path = ["sphinx_parts/site.css"]
+html_css_files = ["site.css"]
+
+extensions = [
+    "myst_parser",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.napoleon",
+    "sphinx_gallery.gen_gallery",
+    "sphinx-mathjax-offline",
+    "sphinx_parts.docstrings",
+    "sphinx_parts.directives",
+]
+myst_enable_extensions = ["dollarmath", "amsmath", "deflist"]
+myst_heading_anchors = 3
+
+autodoc_member_order = "bysource"
+autodoc_typehints = "signature"
+autodoc_preserve_defaults = True
+default_role = "code"
+napoleon_use_ivar = True
+napoleon_use_rtype = False
+napoleon_custom_sections = ["Result"]
+
+sphinx_gallery_conf = {
+    "examples_dirs": [str(gallery_sources())],
+    "gallery_dirs": ["gallery"],
+    "filename_pattern": r"\.py$",  # all of them run
+    "within_subsection_order": "FileNameSortKey",
+    "default_thumb_file": str(NUMBERS),
+    "image_scrapers": (SavedPictures(),),
+    "reset_argv": "sphinx_parts.scripts.quick",
+    "reset_modules": (),
+    "write_computation_times": False,
+    "download_all_examples": False,
+    "show_signature": False,
+    "remove_config_comments": True,
+    "abort_on_example_error": True,
+    "run_stale_examples": True,  # what they print depends on the library too
+}

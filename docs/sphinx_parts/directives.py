@@ -1,0 +1,128 @@
+"""Tables that are made from the code, so that they cannot go out of date."""
+
+import dataclasses
+import os
+import subprocess
+import sys
+from typing import Any
+
+from docutils import nodes
+from docutils.parsers.rst import Directive
+
+from exu_press import Scene
+from exu_press.scene.scene import TABLES
+
+
+def setup(app: Any) -> dict[str, Any]:
+    """Add the directives."""
+    app.add_directive("scene-keys", SceneKeys)
+    app.add_directive("commands", Commands)
+    return {"parallel_read_safe": True}
+
+
+class SceneKeys(Directive):
+    """Every table of a scene with its keys."""
+
+    def run(self) -> list[nodes.Node]:
+        """Return a section a table."""
+        found: list[nodes.Node] = []
+        for name, kind in {"at the top": Scene, **TABLES}.items():
+            shown = name if kind is Scene else f"[{name}]"
+            section = nodes.section(ids=[f"keys-{name.replace(' ', '-')}"], names=[shown])
+            section += nodes.title(shown, shown)
+            told = (kind.__doc__ or "").splitlines()[0]
+            if kind is not Scene:
+                section += nodes.paragraph(told, told)
+            keys = [field for field in dataclasses.fields(kind) if "meaning" in field.metadata]
+            rows = [("key", "default", "meaning", "allowed")]
+            usual = _usual(name, kind)
+            rows += [
+                (key.name, _default(getattr(usual, key.name)), _meaning(key), _allowed(key))
+                for key in keys
+            ]
+            section += table_of(rows)
+            found.append(section)
+        return found
+
+
+class Commands(Directive):
+    """What exu-press and each of its commands print for --help."""
+
+    def run(self) -> list[nodes.Node]:
+        """Return a section a command."""
+        from exu_press.cli.main import COMMANDS
+
+        found: list[nodes.Node] = [help_of()]
+        for command in COMMANDS:
+            section = nodes.section(ids=[f"command-{command}"], names=[command])
+            section += nodes.title(command, command)
+            section += help_of(command)
+            found.append(section)
+        return found
+
+
+def help_of(*words: str) -> nodes.literal_block:
+    """Return what is printed for --help."""
+    code = "import sys; from exu_press.cli import main; main(sys.argv[1:])"
+    done = subprocess.run(
+        [sys.executable, "-c", code, *words, "--help"],
+        capture_output=True,
+        text=True,
+        check=True,
+        env={**os.environ, "COLUMNS": "88"},
+    )
+    text = done.stdout.replace("usage: -c", "usage: exu-press")
+    return nodes.literal_block(text, text, language="text")
+
+
+def table_of(rows: list[tuple[str, ...]]) -> nodes.table:
+    """Return a table with a head; first column as code."""
+    group = nodes.tgroup(cols=len(rows[0]))
+    for width in (22, 16, 44, 32):
+        group += nodes.colspec(colwidth=width)
+    head, body = nodes.thead(), nodes.tbody()
+    for number, row in enumerate(rows):
+        line = nodes.row()
+        for column, text in enumerate(row):
+            entry = nodes.entry()
+            paragraph = nodes.paragraph()
+            code = number > 0 and column < 2 and text
+            paragraph += nodes.literal(text, text) if code else nodes.Text(text)
+            entry += paragraph
+            line += entry
+        (body if number else head).append(line)
+    group += head
+    group += body
+    table = nodes.table()
+    table += group
+    return table
+
+
+def _usual(name: str, kind: Any) -> Any:
+    """Return a table as a scene has it that gives nothing but what makes it use the table."""
+    scenes = (Scene(), Scene(bodies="flexible"), Scene(mechanism="slider_crank"))
+    if kind is Scene:
+        return scenes[0]
+    found = (getattr(scene, name) for scene in scenes)
+    return next((table for table in found if table is not None), None) or kind()
+
+
+def _default(value: Any) -> str:
+    if value is None:
+        return ""
+    if isinstance(value, bool):
+        return str(value).lower()
+    return f"{value:g}" if isinstance(value, float) and float(f"{value:g}") == value else str(value)
+
+
+def _meaning(key: Any) -> str:
+    meta = key.metadata
+    return f"{meta['meaning']}, {meta['unit']}" if meta["unit"] else meta["meaning"]
+
+
+def _allowed(key: Any) -> str:
+    meta = key.metadata
+    if meta["choices"]:
+        return ", ".join(meta["choices"])
+    signs = (("above", ">"), ("at_least", ">="), ("at_most", "<="))
+    return ", ".join(f"{sign} {meta[k]:g}" for k, sign in signs if meta[k] is not None)

@@ -1,0 +1,6 @@
+"""Many independent runs of one function, in processes or on Dask; finished ones are never lost."""
+
+from exu_press.batch.lock import locked
+from exu_press.batch.run import run_batch
+
+__all__ = ["locked", "run_batch"]

@@ -1,0 +1,89 @@
+"""Finished rows in a file: one JSON line each, on the disk before the next one is begun."""
+
+import json
+import os
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+from exu_press.batch.task import FAILED, TIME_LIMIT, WORKER_DIED, Row
+from exu_press.errors import InputError
+
+__all__ = ["RowFile"]
+
+
+class RowFile:
+    """runs.jsonl: every line holds a task's key, the time limit it had (s or null) and its row.
+
+    A line without its end is what a kill in the middle of a write leaves; it is cut off. Used as a
+    context manager, under the directory's lock.
+    """
+
+    def __init__(self, path: Path) -> None:
+        """Read what is there.
+
+        Raises:
+            InputError: the file cannot be read, or holds something else.
+        """
+        self._path = path
+        self._found: dict[str, tuple[Row, float | None]] = {}
+        try:
+            text = path.read_bytes() if path.exists() else b""
+            *lines, torn = text.split(b"\n")
+            for number, line in enumerate(lines, start=1):
+                self._read(number, line)
+            if torn:
+                os.truncate(path, len(text) - len(torn))
+            self._file = path.open("ab")
+        except OSError as error:
+            raise InputError(f"{path}: cannot be opened ({error.strerror})") from None
+
+    def _read(self, number: int, line: bytes) -> None:
+        try:
+            record = json.loads(line)
+            self._found[record["key"]] = (dict(record["row"]), record["time_limit"])
+        except (ValueError, KeyError, TypeError):
+            raise InputError(
+                f"{self._path}, line {number}: not a row of a batch; allowed is a directory of "
+                "its own for every batch"
+            ) from None
+
+    def finished(self, key: str, time_limit: float | None) -> Row | None:
+        """Return a task's row, or None if the task is to be run (again).
+
+        A run that raised an error or took its worker along is tried again, since both may lie in
+        the machine; one over its time limit only if it may take longer now.
+        """
+        row, limit = self._found.get(key, (None, None))
+        if row is None or row["status"] in (FAILED, WORKER_DIED):
+            return None
+        longer = limit is not None and (time_limit is None or time_limit > limit)
+        return None if row["status"] == TIME_LIMIT and longer else row
+
+    def append(self, key: str, time_limit: float | None, row: Row) -> None:
+        """Write a row; on return it is on the disk.
+
+        Raises:
+            InputError: it cannot be written, as on a full disk.
+        """
+        record: dict[str, Any] = {"key": key, "time_limit": time_limit, "row": row}
+        line = json.dumps(record, separators=(",", ":"), allow_nan=False) + "\n"
+        try:
+            self._file.write(line.encode())
+            self._file.flush()
+            os.fsync(self._file.fileno())
+        except OSError as error:
+            raise InputError(f"{self._path}: cannot be written ({error.strerror})") from None
+
+    def __enter__(self) -> "RowFile":
+        """Return the file itself."""
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Close the file."""
+        self._file.close()

@@ -1,0 +1,125 @@
+"""Run a batch: what is finished already is read, the rest is run, each row kept as it comes."""
+
+import os
+import sys
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, wait
+from contextlib import AbstractContextManager
+from itertools import islice
+from pathlib import Path
+from typing import Any, Protocol
+
+from exu_press.batch.lock import locked
+from exu_press.batch.processes import Processes
+from exu_press.batch.rows import RowFile
+from exu_press.batch.task import Function, Row, Task, name_of, task_of
+from exu_press.errors import InputError
+from exu_press.output import output_directory
+from exu_press.progress import Progress
+
+__all__ = ["FILE", "run_batch"]
+
+FILE = "runs.jsonl"
+
+
+class Pool(Protocol):
+    """What performs tasks.
+
+    Attributes:
+        window: how many tasks are handed over at a time.
+    """
+
+    window: int
+
+    def submit(self, task: Task) -> Future[Row]:
+        """Return the future row of a task."""
+        ...
+
+    def row(self, future: Future[Row]) -> Row:
+        """Return the row of a future that is done."""
+        ...
+
+
+def run_batch(
+    function: Function,
+    arguments: Sequence[Mapping[str, Any]],
+    directory: str | Path,
+    *,
+    workers: int | None = None,
+    dask: str | None = None,
+    time_limit: float | None = None,
+    label: str = "sweep",
+    quiet: bool = False,
+) -> list[Row]:
+    """Return the function's row for each of the arguments, in their order.
+
+    Finished rows are appended to directory/runs.jsonl, on the disk before the next one; called
+    again, the batch goes on where it was stopped or killed. What a row says of a run that did not
+    get there: `status` is "failed" (an exception), "time limit" or "worker died" (killed or
+    crashed, also when tried once more), and `reason` says more in one line. Every row has both.
+
+    Args:
+        function: takes and returns a JSON-able dictionary; it stands at the top level of a module,
+            from where workers import it. NaN and infinity become None.
+        arguments: one dictionary a run; equal ones are run once.
+        directory: belongs to one batch at a time.
+        workers: number of processes, each with one BLAS thread; all cores unless told.
+        dask: address of a Dask scheduler, tcp://host:port, whose workers are used instead.
+        time_limit: of one run, s; a run over it is stopped.
+        label: of the progress bar.
+        quiet: no progress bar.
+
+    Raises:
+        InputError: `directory` cannot be used or another batch is at work in it, the number of
+            workers or the time limit is not positive, or no scheduler answers.
+        ValueError, TypeError: the function cannot be imported, or the arguments are no JSON.
+        KeyboardInterrupt: after Ctrl-C, when the workers have ended; finished rows are kept.
+    """
+    if workers is not None and workers < 1:
+        raise InputError(f"workers = {workers}: allowed is a whole number >= 1")
+    if time_limit is not None and not time_limit > 0.0:
+        raise InputError(f"time_limit = {time_limit:g}: allowed is a number > 0 (s)")
+    name = name_of(function)
+    tasks = [task_of(name, each) for each in arguments]
+    directory = output_directory(directory)
+    with locked(directory), RowFile(directory / FILE) as file:
+        rows = {task.key: file.finished(task.key, time_limit) for task in tasks}
+        todo = list({task.key: task for task in tasks if rows[task.key] is None}.values())
+        if len(todo) < len(rows) and not quiet:
+            print(f"{label}: {len(rows) - len(todo)} of {len(rows)} are there", file=sys.stderr)
+        if todo:
+            with (
+                _pool(workers or os.cpu_count() or 1, dask, time_limit) as pool,
+                Progress(label, len(todo), "runs", quiet=quiet) as progress,
+            ):
+                for done, (task, row) in enumerate(_performed(pool, todo), start=1):
+                    file.append(task.key, time_limit, row)
+                    rows[task.key] = row
+                    progress.update(done)
+    return [dict(rows[task.key] or {}) for task in tasks]
+
+
+def _pool(
+    workers: int, dask: str | None, time_limit: float | None
+) -> AbstractContextManager[Pool, None]:
+    """Return where tasks are performed."""
+    if dask is None:
+        return Processes(workers, time_limit)
+    from exu_press.batch.cluster import Cluster
+
+    return Cluster(dask, time_limit)
+
+
+def _performed(pool: Pool, tasks: Iterable[Task]) -> Iterator[tuple[Task, Row]]:
+    """Yield tasks and rows as they finish.
+
+    Only pool.window tasks are under way at a time, and another one begins when the caller is done
+    with a row: so many at most are lost with the caller.
+    """
+    remaining = iter(tasks)
+    running = {pool.submit(task): task for task in islice(remaining, pool.window)}
+    while running:
+        finished, _ = wait(running, return_when=FIRST_COMPLETED)
+        for future in finished:
+            yield running.pop(future), pool.row(future)
+            running |= {pool.submit(task): task for task in islice(remaining, 1)}

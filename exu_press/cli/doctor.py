@@ -1,0 +1,41 @@
+"""Check the installation: versions, extras, and two small runs whose answers are known."""
+
+import argparse
+
+from exu_press import doctor
+
+__all__ = ["EXAMPLE", "add_arguments", "execute"]
+
+EXAMPLE = "exu-press doctor"
+
+JOINTS = {True: "compiled", False: "in Python", None: "cannot be loaded"}
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add nothing: there is nothing to choose."""
+
+
+def execute(options: argparse.Namespace) -> int:
+    """Print what is there; return 0, or 1 if something is missing or a run goes wrong."""
+    print(doctor.machine())
+    versions = doctor.versions()
+    for name, version in versions.items():
+        print(f"  {name:16} {version or 'MISSING'}")
+    print("extras")
+    for extra, packages in doctor.extras().items():
+        missing = ", ".join(name for name, version in packages.items() if version is None)
+        print(f"  {extra:16} {f'not installed: {missing}' if missing else 'installed'}")
+    print(f"joints: {JOINTS[doctor.joints_compiled()]}")
+    runs = doctor.runs()
+    for run in runs:
+        print(f"{'ok' if run.ok else 'WRONG'}: {run.name}: {_words(run)}")
+    sound = all(versions.values()) and all(run.ok for run in runs)
+    print("this installation works" if sound else "this installation does not work")
+    return 0 if sound else 1
+
+
+def _words(run: doctor.Run) -> str:
+    """Return what came out and what should have."""
+    if run.reason:
+        return run.reason
+    return f"{run.what} off by {run.error:.2g} {run.unit}, allowed {run.allowed:g} {run.unit}"

@@ -1,0 +1,72 @@
+"""Run many scenes, as a study file says: table.csv, table.nc and a picture; may be interrupted."""
+
+import argparse
+import sys
+from pathlib import Path
+
+from exu_press.errors import InputError
+
+__all__ = ["EXAMPLE", "add_arguments", "execute"]
+
+EXAMPLE = "exu-press sweep study.toml --workers 2 --out out/study"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the command's arguments."""
+    parser.add_argument("study", metavar="STUDY.toml", help="a study file")
+    where = parser.add_mutually_exclusive_group()
+    where.add_argument(
+        "--workers", type=int, metavar="N", help="number of processes (default: the cores)"
+    )
+    where.add_argument("--dask", metavar="ADDRESS", help="a Dask scheduler, as in tcp://host:8786")
+    parser.add_argument("--out", metavar="DIR", help="where to write (default: out/STUDY)")
+    parser.add_argument(
+        "--over",
+        action="append",
+        default=[],
+        metavar="KEY",
+        help="draw over this key; at most twice (default: the first two that vary)",
+    )
+    parser.add_argument(
+        "--show",
+        action="append",
+        default=[],
+        metavar="COLUMN",
+        help="print and draw this column of the table; may be repeated",
+    )
+    parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
+    parser.add_argument("--no-pictures", action="store_true", help="draw nothing")
+
+
+def execute(options: argparse.Namespace) -> int:
+    """Run the study; return 0, or 3 after Ctrl-C. Runs that fail are rows of the table."""
+    directory = Path(options.out or Path("out") / Path(options.study).stem)
+    try:
+        _execute(options, directory)
+    except KeyboardInterrupt:
+        print(
+            f"exu-press: interrupted: finished runs are kept in {directory}; the same command "
+            "goes on with them",
+            file=sys.stderr,
+        )
+        return 3
+    return 0
+
+
+def _execute(options: argparse.Namespace, directory: Path) -> None:
+    from exu_press.studies.sweep import load_study, sweep, table_lines
+
+    study = load_study(options.study)
+    unknown = [key for key in options.over if key not in study.keys]
+    if unknown:
+        raise InputError(f"--over {unknown[0]}: allowed are {', '.join(study.keys)}")
+    table = sweep(study, directory, workers=options.workers, dask=options.dask, quiet=options.quiet)
+    written = ["table.csv", "table.nc"]
+    if not options.no_pictures:
+        from exu_press.plots.sweep import save_sweep
+
+        pictures = save_sweep(table, directory, options.over, options.show)
+        written += [path.name for path in pictures]
+    if not options.quiet:
+        print("\n".join(table_lines(table, options.show)))
+        print("written:", ", ".join(written), f"in {directory}")

@@ -1,0 +1,104 @@
+"""See a run move: in a window, or as a film or picture with --save."""
+
+import argparse
+from pathlib import Path
+
+from exu_press.errors import InputError
+from exu_press.progress import Progress
+from exu_press.result import Result
+
+__all__ = ["EXAMPLE", "add_arguments", "execute"]
+
+EXAMPLE = "exu-press view out/press/run.nc --from 0.03 --to 0.05 --save film.gif"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the command's arguments."""
+    parser.add_argument("run", metavar="DIR/run.nc", help="a result file; nothing else is needed")
+    parser.add_argument(
+        "--save",
+        metavar="FILE",
+        help="write .mp4 (needs ffmpeg), .gif, frames as frame_%%04d.png, or one picture as .png; "
+        "an existing file is replaced when the new one is complete",
+    )
+    parser.add_argument("--from", dest="start", type=float, metavar="S", help="begin (s)")
+    parser.add_argument("--to", dest="stop", type=float, metavar="S", help="end (s)")
+    parser.add_argument(
+        "--at", type=float, metavar="S", help="one picture: when (s; default: the end)"
+    )
+    parser.add_argument(
+        "--slow",
+        type=float,
+        metavar="N",
+        help="seconds of film for a second of the machine (default: a revolution takes 5 s)",
+    )
+    parser.add_argument("--frames", type=int, metavar="N", help="number of frames, instead")
+    parser.add_argument("--fps", type=float, metavar="N", help="frames a second (default: 25)")
+    parser.add_argument(
+        "--colour",
+        choices=("displacement", "stress"),
+        help="what colours flexible bodies (default: displacement)",
+    )
+    parser.add_argument(
+        "--exaggerate",
+        type=float,
+        metavar="N",
+        help="factor of their deformation (default: one that is seen well)",
+    )
+    parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
+
+
+def execute(options: argparse.Namespace) -> int:
+    """Show or write the film; return 0."""
+    result = Result.load(options.run)
+    target = None if options.save is None else Path(options.save)
+    if target is not None:
+        from exu_press.view.save import check_target, is_film
+
+        check_target(target)
+        one = not is_film(target)
+    else:
+        one = False
+    if options.at is not None and not one:
+        raise InputError(f"--at {options.at:g}: allowed with --save FILE.png alone")
+    for option in ("slow", "frames", "fps"):
+        if one and (value := getattr(options, option)) is not None:
+            raise InputError(f"--{option} {value:g}: allowed for films alone, not for a picture")
+    for option, value in (("--colour", options.colour), ("--exaggerate", options.exaggerate)):
+        if value is not None and not result.surfaces:
+            raise InputError(f"{option} {value}: allowed for runs with flexible bodies alone")
+    _write_or_show(result, target, one, options)
+    return 0
+
+
+def _write_or_show(
+    result: Result, target: Path | None, one: bool, options: argparse.Namespace
+) -> None:
+    """Make the film and hand it over."""
+    from exu_press.view import Film, Look, instants, moment, save_film, save_picture
+
+    flexible = Look(options.colour or "displacement", options.exaggerate)
+    start, stop = options.start, options.stop
+    speed = {"slow": options.slow, "frames": options.frames, "fps": options.fps}
+    if one:
+        frames = moment(result, options.at, start, stop)
+    else:
+        frames = instants(result, start, stop, **{k: v for k, v in speed.items() if v is not None})
+    if target is None:
+        from exu_press.view.window import show
+
+        show(result, frames, flexible)
+        return
+    from matplotlib.figure import Figure
+
+    from exu_press.view.film import SIZE
+
+    film = Film(result, frames, Figure(figsize=SIZE), flexible)
+    if one:
+        written = [save_picture(film, 1, target)]
+    else:
+        with Progress("film", len(frames), "frames", quiet=options.quiet) as progress:
+            written = save_film(film, target, progress.update)
+    if not options.quiet:
+        more = f" to {written[-1].name}" if len(written) > 1 else ""
+        print(f"written: {written[0]}{more}")

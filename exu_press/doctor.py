@@ -1,0 +1,172 @@
+"""Whether an installation works: versions, extras, and two small runs whose answers are known."""
+
+import importlib.metadata
+import os
+import platform
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+
+__all__ = ["Run", "extras", "joints_compiled", "machine", "runs", "versions"]
+
+PACKAGE = "exu-press"
+
+FLEXIBLE = "flexible bodies"
+"""What needs NGSolve, which is not there for every system."""
+
+IDEAL_PEAK_ERROR = 1e-6
+"""Allowed error of the ideal press's slider, m; it is below 1e-11 in practice."""
+
+LUBRICATED_SLIDER = -0.40686790396783573
+"""Slider position of the lubricated slider-crank after 0.4 revolutions, m: by a model of its own
+with two coordinates, integrated by SciPy's Radau to 1e-10 (tests/independent)."""
+
+LUBRICATED_ERROR = 1e-7
+"""Allowed error of it at steps of 1e-4 s, m; the film alone moves the slider by 3.5e-6 m."""
+
+
+@dataclass(frozen=True)
+class Run:
+    """A small run and the number it should give.
+
+    Attributes:
+        name: what is run.
+        what: the quantity.
+        unit: of it.
+        found: what came out.
+        wanted: what should.
+        allowed: largest difference.
+        reason: why the run ended early or failed; empty where it did not.
+    """
+
+    name: str
+    what: str
+    unit: str
+    found: float
+    wanted: float
+    allowed: float
+    reason: str = ""
+
+    @property
+    def error(self) -> float:
+        """Distance from the number wanted."""
+        return abs(self.found - self.wanted)
+
+    @property
+    def ok(self) -> bool:
+        """Whether the number is right."""
+        return not self.reason and self.error <= self.allowed
+
+
+def machine() -> str:
+    """Return Python, system, processor and the number of cores, in words."""
+    return (
+        f"Python {platform.python_version()}, {platform.system()} {platform.machine()}, "
+        f"{os.cpu_count()} cores"
+    )
+
+
+def versions() -> dict[str, str | None]:
+    """Return the version of every package that is always needed; None where it is missing."""
+    return {name: _version(name) for name in [PACKAGE, *_requirements()[""]]}
+
+
+def extras() -> dict[str, dict[str, str | None]]:
+    """Return the versions of what each extra adds, by extra; None where it is missing."""
+    return {
+        extra: {name: _version(name) for name in names}
+        for extra, names in _requirements().items()
+        if extra
+    }
+
+
+def joints_compiled() -> bool:
+    """Return whether the joints' forces come from compiled code."""
+    from exu_press.joints import COMPILED
+
+    return COMPILED
+
+
+def runs() -> list[Run]:
+    """Run the press with ideal joints and a lubricated slider-crank, half a second together."""
+    return [_attempt("ideal press", _ideal_press), _attempt("lubricated film", _lubricated)]
+
+
+def _attempt(name: str, run: Callable[[], Run]) -> Run:
+    """Return a run; whatever keeps it from running is its reason."""
+    try:
+        return run()
+    except Exception as error:  # a broken installation can fail in any way
+        text = f"{type(error).__name__}: {error}"
+        return Run(name, "", "", float("nan"), float("nan"), 0.0, text)
+
+
+def _ideal_press() -> Run:
+    """Return the slider's largest distance from the closed form over one revolution."""
+    import numpy as np
+
+    from exu_press import Scene, simulate
+    from exu_press.mechanism import mechanism_of
+
+    scene = Scene(crank_pin="ideal", balls="ideal", revolutions=1.0)
+    result = simulate(scene)
+    angle = scene.start_angle + scene.angular_speed * result.time
+    ideal, _, _ = mechanism_of(scene).ideal_slider(angle, scene.angular_speed)
+    error = float(np.abs(result["slider_position"] - ideal).max())
+    return Run(
+        "press, ideal joints, one revolution",
+        "slider's distance from the closed form",
+        "m",
+        error,
+        0.0,
+        IDEAL_PEAK_ERROR,
+        str(result.info["reason"]),
+    )
+
+
+def _lubricated() -> Run:
+    """Return where the lubricated slider-crank is after 0.4 revolutions."""
+    from exu_press import Scene, simulate
+
+    scene = Scene.from_dict(
+        {
+            "mechanism": "slider_crank",
+            "crank_pin": "lubricated",
+            "revolutions": 0.4,
+            "solver": {"step": 1e-4},
+        }
+    )
+    result = simulate(scene)
+    return Run(
+        "slider-crank, lubricated pin, 0.4 revolutions",
+        "slider position at the end",
+        "m",
+        float(result["slider_position"][-1]),
+        LUBRICATED_SLIDER,
+        LUBRICATED_ERROR,
+        str(result.info["reason"]),
+    )
+
+
+def _requirements() -> dict[str, list[str]]:
+    """Return the names of the packages needed, by extra.
+
+    "" is what is always needed, FLEXIBLE what is left out where it has no wheels.
+    """
+    found: dict[str, list[str]] = {"": []}
+    for line in importlib.metadata.requires(PACKAGE) or []:
+        requirement, _, marker = line.partition(";")
+        name = re.split(r"[^A-Za-z0-9._-]", requirement, maxsplit=1)[0]
+        extra = re.search(r"""extra\s*==\s*["']([^"']+)["']""", marker)
+        group = extra[1] if extra else FLEXIBLE if marker else ""
+        if name != PACKAGE:
+            found.setdefault(group, []).append(name)
+    return found
+
+
+def _version(name: str) -> str | None:
+    """Return the version of an installed package."""
+    try:
+        return importlib.metadata.version(name)
+    except importlib.metadata.PackageNotFoundError:
+        return None

@@ -1,0 +1,105 @@
+"""What Exudyn's own viewer shows of a model: solids for the rigid bodies, guides and pivots.
+
+Made when a user asks for the model, not for a run, which has no use for it. Flexible bodies bring
+their surfaces with them.
+"""
+
+from typing import Any
+
+import numpy as np
+from exudyn import graphics
+
+from exu_press.mechanism import GROUND, Mechanism
+from exu_press.mechanism.shapes import Shape, shapes_of, swept
+from exu_press.model import DRIVE, Model
+
+__all__ = ["add_graphics"]
+
+THICKNESS = 0.03
+"""Of a body along z, relative to the mechanism's height; neighbours lie side by side."""
+
+FRAME = [0.55, 0.55, 0.55, 1.0]
+DISC = [0.90, 0.72, 0.25, 1.0]
+
+
+def add_graphics(model: Model) -> None:
+    """Give every rigid body and the ground something to be seen by, and the viewer its sizes."""
+    mechanism = model.mechanism
+    height = float(np.ptp(swept(mechanism)[:, 1]))
+    thickness = THICKNESS * height
+    shapes, layers = shapes_of(mechanism), _layers(mechanism)
+    for name, shape in shapes.items():
+        if name not in model.parts:
+            _show(model, name, [_solid(shape, layers[name] * thickness, thickness)])
+    if DRIVE in model.bodies:
+        flange = float(model.parts[mechanism.crank].interface("flange").centre[2])
+        disc = graphics.Cylinder([0.0, 0.0, flange], [0.0, 0.0, thickness], 0.05 * height, DISC)
+        _show(model, DRIVE, [disc])
+    _show(model, GROUND, _frame(mechanism, shapes, layers, thickness))
+    settings = model.SC.visualizationSettings
+    hidden = (settings.nodes, settings.markers, settings.sensors, settings.loads)
+    for items in (*hidden, settings.connectors):  # symbols larger than the parts they hold
+        items.show = False
+    settings.view0.scene.showMeshEdges = False
+    settings.openGL.multiSampling = 4
+
+
+def _show(model: Model, body: str, solids: list[Any]) -> None:
+    model.mbs.SetObjectParameter(model.bodies[body], "VgraphicsData", solids)
+
+
+def _solid(shape: Shape, z: float, thickness: float) -> Any:
+    """Return a body's outline as a plate about the height z, m."""
+    count = len(shape.outline)
+    return graphics.SolidExtrusion(
+        vertices=shape.outline.tolist(),
+        segments=[[i, (i + 1) % count] for i in range(count)],
+        height=0.9 * thickness,
+        pOff=[0.0, 0.0, z - 0.45 * thickness],
+        color=_rgba(shape.colour),
+        addEdges=True,
+    )
+
+
+def _layers(mechanism: Mechanism) -> dict[str, int]:
+    """Return a layer for every body, such that bodies with a common joint never share one."""
+    layers: dict[str, int] = {}
+    for body in mechanism.bodies:
+        taken = {
+            layers.get(other)
+            for joint in mechanism.joints
+            for one, other in (
+                (joint.journal, joint.bearing),
+                (joint.bearing, joint.journal),
+            )
+            if one == body.name
+        }
+        layers[body.name] = next(n for n in range(len(mechanism.bodies)) if n not in taken)
+    return layers
+
+
+def _frame(
+    mechanism: Mechanism, shapes: dict[str, Shape], layers: dict[str, int], thickness: float
+) -> list[Any]:
+    """Return the guides' rails beside their bodies, and the pivots' pins."""
+    motion = mechanism.motion(np.linspace(0.0, 2.0 * np.pi, 73), 1.0)
+    solids = []
+    for guide in mechanism.guides:
+        places = np.vstack([shapes[guide.body].moved(p) for p in motion[guide.body].position])
+        (left, low), (right, high) = places.min(axis=0), places.max(axis=0)
+        width = 0.25 * thickness
+        for x in (left - width, right + width):
+            centre = [x, 0.5 * (low + high), layers[guide.body] * thickness]
+            size = [width, high - low, thickness]
+            solids.append(graphics.Brick(centre, size, FRAME))
+    for joint in mechanism.joints:
+        if joint.bearing == GROUND:
+            start = [*joint.bearing_point, -thickness]
+            pin = graphics.Cylinder(start, [0.0, 0.0, 3.0 * thickness], 0.2 * thickness, FRAME)
+            solids.append(pin)
+    return solids
+
+
+def _rgba(colour: str) -> list[float]:
+    """Return red, green, blue and opacity of #RRGGBB."""
+    return [int(colour[i : i + 2], 16) / 255.0 for i in (1, 3, 5)] + [1.0]

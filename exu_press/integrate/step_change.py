@@ -1,0 +1,105 @@
+"""Carry generalized-alpha over a change of step without ringing.
+
+With steps of one size h generalized-alpha settles on offsets that belong to h: its algorithmic
+acceleration a is the true one at another instant, a - a_true = h (alpha_m - alpha_f) da_true/dt,
+and where positions are constrained the velocities miss the constraints by an amount of order h^2.
+A much shorter step takes both for errors and answers with accelerations that alternate for a dozen
+steps, larger than the motion's own changes. Scaled down to the new step, by its ratio to the old
+one and by that ratio's square, both fit at once. A longer step has little to make of them and is
+left alone: scaling up would blow up whatever still rings.
+
+Exudyn's algorithmic acceleration can be read but not written, and when a step is repeated it keeps
+the value of the failed try. But positions, velocities and accelerations at the step's beginning can
+be shifted so that the step comes out as if it had been changed.
+
+Source: M. Arnold and O. Bruels, Convergence of the generalized-alpha scheme for constrained
+mechanical systems, Multibody System Dynamics 18 (2007), Eqs. 2 and 3, and its remarks on the
+hidden constraints.
+"""
+
+from typing import Any
+
+import exudyn as exu
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["StepChange"]
+
+Array = NDArray[np.float64]
+
+CURRENT = exu.ConfigurationType.Current
+START = exu.ConfigurationType.StartOfStep
+
+SAME = 1e-6
+"""Steps that differ by less, relative, are one size."""
+
+
+class StepChange:
+    """Fits the state at a step's beginning to the step, if that is shorter or repeated."""
+
+    def __init__(self, mbs: exu.MainSystem) -> None:
+        """Watch the steps of a system."""
+        self._mbs = mbs
+        self._start: float | None = None  # of the step under way, s
+        self._last: float | None = None  # size of the last accepted step, s
+        self._offset: Array | None = None
+
+    def before_try(self, time: float) -> None:
+        """Shift the state from which Exudyn is about to try a step to `time`, s."""
+        data = self._mbs.systemData
+        start = data.GetTime(START)
+        repeated = start == self._start
+        if not repeated:
+            self._last = None if self._start is None else start - self._start
+            self._start, self._offset = start, None
+        step = time - start
+        ratio = 1.0 if self._last is None else min(1.0, step / self._last)
+        if repeated or ratio < 1.0 - SAME:
+            self._shift(step, ratio)
+
+    def _shift(self, step: float, ratio: float) -> None:
+        """Shift positions, velocities and accelerations for a step `ratio` times the last one."""
+        data, solver = self._mbs.systemData, self._mbs.sys["dynamicSolver"]
+        # views of the state itself
+        q: Any = data.GetODE2Coordinates(CURRENT, False)
+        v: Any = data.GetODE2Coordinates_t(CURRENT, False)
+        a: Any = data.GetODE2Coordinates_tt(CURRENT, False)
+        if ratio < 1.0 - SAME:
+            if self._offset is None:
+                self._offset = self._velocity_offset()
+            v -= (1.0 - ratio * ratio) * self._offset
+        wanted = a + ratio * (solver.GetStartOfStepStateAAlgorithmic() - a)
+        missing = wanted - solver.GetAAlgorithmic()
+        # q1 = q + h v + h^2 (1/2 - beta) a + h^2 beta a1 and v1 = v + h (1 - gamma) a + h gamma a1
+        # with (1 - alpha_m) a1 + alpha_m a = (1 - alpha_f) a_true1 + alpha_f a_true
+        beta, gamma = solver.newmarkBeta, solver.newmarkGamma
+        a -= (solver.alphaM / solver.alphaF) * missing
+        v += step * (1.0 - gamma) * missing
+        q += step * step * (gamma - 0.5 - beta) * missing
+
+    def _velocity_offset(self) -> Array:
+        """Return the part of the velocities that the constraints forbid, in the kinetic norm."""
+        solver = self._mbs.sys["dynamicSolver"]
+        mass = np.asarray(solver.GetSystemMassMatrix())
+        size = len(mass)
+        # the rate at which constraints are violated must be of this very state; the directions in
+        # which they act may be those of the last Jacobian
+        solver.ComputeAlgebraicEquations(self._mbs, velocityLevel=True)
+        rate = np.asarray(solver.GetSystemResidual())[size:]
+        jacobian = np.asarray(solver.GetSystemJacobian())[size:, :size]
+        acting = np.abs(jacobian).max(axis=1, initial=0.0) > 0.0
+        jacobian, rate = jacobian[acting], rate[acting]
+        # Euler parameters have no mass along themselves, where a constraint holds them: the masses
+        # alone cannot be inverted, with the constraints they can
+        weight = 1.0 / np.sqrt(np.diag(mass))
+        jacobian = jacobian * weight
+        length = np.linalg.norm(jacobian, axis=1, keepdims=True)
+        jacobian /= length
+        system = np.block(
+            [
+                [weight[:, None] * mass * weight, jacobian.T],
+                [jacobian, np.zeros((len(rate), len(rate)))],
+            ]
+        )
+        right = np.concatenate([np.zeros(size), rate / length[:, 0]])
+        return np.asarray(weight * np.linalg.solve(system, right)[:size])

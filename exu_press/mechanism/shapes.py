@@ -1,0 +1,135 @@
+"""What the bodies look like from the front: rods through their joints, blocks on guides.
+
+Drawn, not measured: rods have one width, blocks grow with the cube root of their mass. Only the
+joints' places are the mechanism's.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exu_press.mechanism.description import GROUND, Mechanism, Point
+
+__all__ = ["COLOURS", "Shape", "moved", "shapes_of", "swept"]
+
+Array = NDArray[np.float64]
+
+COLOURS = {"crank": "#F2C14E", "bearing": "#8FC1E3", "link": "#C3D0DA", "block": "#DADFE3"}
+"""By role; "bearing" is the body that the crank pin turns in."""
+
+ROD = 0.011
+"""Half the width of a rod, relative to the mechanism's height."""
+
+BLOCK = 0.07
+"""What the heaviest block has around its joints, relative to the mechanism's height."""
+
+ARC = 9
+"""Corners of a rod's round end."""
+
+
+@dataclass(frozen=True)
+class Shape:
+    """A body's outline in its own frame, m.
+
+    Attributes:
+        body: name.
+        points: (k, 2) its joints' centres.
+        outline: (n, 2) corners of a polygon, counter-clockwise.
+        role: "crank", "bearing", "link" or "block", which a guide holds.
+    """
+
+    body: str
+    points: Array
+    outline: Array
+    role: str
+
+    @property
+    def colour(self) -> str:
+        """What it is filled with."""
+        return COLOURS[self.role]
+
+    def moved(self, pose: Array) -> Array:
+        """Return the outline (n, 2) for a pose (x, y, angle)."""
+        return moved(self.outline, pose)
+
+
+def shapes_of(mechanism: Mechanism) -> dict[str, Shape]:
+    """Return every body's shape by name."""
+    height = float(np.ptp(swept(mechanism)[:, 1]))
+    guided = {guide.body for guide in mechanism.guides}
+    heaviest = max(body.mass for body in mechanism.bodies)
+    shapes = {}
+    for body in mechanism.bodies:
+        points = np.array(_points(mechanism, body.name))
+        if body.name in guided:
+            margin = BLOCK * height * float(np.cbrt(body.mass / heaviest))
+            outline = _block(points, margin)
+        else:
+            margin = ROD * height * (1.6 if body.name == mechanism.crank else 1.0)
+            outline = _rod(points, margin)
+        shapes[body.name] = Shape(body.name, points, outline, _role(mechanism, body.name))
+    return shapes
+
+
+def swept(mechanism: Mechanism, steps: int = 73) -> Array:
+    """Return every place that a joint passes through in a revolution of the ideal mechanism."""
+    motion = mechanism.motion(np.linspace(0.0, 2.0 * np.pi, steps), 1.0)
+    places = [
+        moved(np.array(_points(mechanism, body.name)), pose)
+        for body in mechanism.bodies
+        for pose in motion[body.name].position
+    ]
+    return np.vstack(places)
+
+
+def moved(points: Array, pose: Array) -> Array:
+    """Return points (n, 2) of a body at a pose (x, y, angle)."""
+    c, s = np.cos(pose[2]), np.sin(pose[2])
+    return np.asarray(points @ np.array([[c, s], [-s, c]]) + pose[:2])
+
+
+def _role(mechanism: Mechanism, body: str) -> str:
+    """Return what a body is."""
+    if body == mechanism.crank:
+        return "crank"
+    if any(guide.body == body for guide in mechanism.guides):
+        return "block"
+    pins = (joint for joint in mechanism.joints if joint.name == "crank_pin")
+    return "bearing" if any(joint.bearing == body for joint in pins) else "link"
+
+
+def _points(mechanism: Mechanism, body: str) -> list[Point]:
+    """Return the places of a body's joints in its frame."""
+    assert body != GROUND
+    found = []
+    for joint in mechanism.joints:
+        if joint.journal == body:
+            found.append(joint.journal_point)
+        if joint.bearing == body:
+            found.append(joint.bearing_point)
+    return found
+
+
+def _block(points: Array, margin: float) -> Array:
+    """Return a rectangle around joints."""
+    (left, low), (right, high) = points.min(axis=0) - margin, points.max(axis=0) + margin
+    return np.array([[left, low], [right, low], [right, high], [left, high]])
+
+
+def _rod(points: Array, half_width: float) -> Array:
+    """Return a rod with round ends through the two joints that lie farthest apart."""
+    if len(points) == 1:
+        turn = np.linspace(0.0, 2.0 * np.pi, 4 * ARC)
+        return np.asarray(
+            points[0] + 2.0 * half_width * np.column_stack([np.cos(turn), np.sin(turn)])
+        )
+    distance = np.linalg.norm(points[:, None] - points[None, :], axis=2)
+    first, last = np.unravel_index(np.argmax(distance), distance.shape)
+    way = points[last] - points[first]
+    along = float(np.arctan2(way[1], way[0]))
+    ends = []
+    for centre, start in ((points[last], along - np.pi / 2), (points[first], along + np.pi / 2)):
+        turn = start + np.linspace(0.0, np.pi, ARC)
+        ends.append(centre + half_width * np.column_stack([np.cos(turn), np.sin(turn)]))
+    return np.vstack(ends)

@@ -1,0 +1,178 @@
+"""What press builders look at: shaking force, drive, guides, bottom dead centres, tilt."""
+
+from collections.abc import Mapping
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+from scipy.integrate import cumulative_trapezoid
+from scipy.interpolate import CubicHermiteSpline
+
+from exu_press.mechanism import mechanism_of
+from exu_press.observe import DeadCentre, bottom_dead_centres
+from exu_press.plots.canvas import angle_range, crank_degrees, curve, legend_above, new_figure
+from exu_press.plots.scales import crank_angle_axis, note, widen
+from exu_press.plots.slider import averaged
+from exu_press.plots.style import GREY, IDEAL, colour_of, styled
+from exu_press.result import Result
+
+__all__ = ["press_figure"]
+
+Array = NDArray[np.float64]
+
+ABOUT = 12.0
+"""How far about bottom dead centre the strokes are shown, deg."""
+
+CROWD = 8
+"""More strokes than this are not named one by one."""
+
+
+@styled
+def press_figure(result: Result) -> Figure:
+    """Return the picture for press builders of one run.
+
+    Shaking force (kN) with and without the counterweight, power of the drive (kW) and forces of the
+    guides (kN), all as means over 1 ms; the slider about every bottom dead centre (um); where the
+    guides are elastic the slider's tilt (urad) and sideways motion (um).
+    """
+    elastic = result.scene.guide is not None
+    rows = 3 if elastic else 2
+    heading = "Press: frame, drive, guides, dead centres"
+    figure = new_figure(heading, {"": result}, (13.0, 3.6 * rows))
+    panels = list(figure.subplots(rows, 2).flat)
+    _shaking(panels[0], result)
+    _drive(panels[1], result)
+    _guides(panels[2], result)
+    over_angle = [panel for index, panel in enumerate(panels) if index != 3]
+    centres = bottom_dead_centres(
+        result.time, result["crank_angle"], result["slider_position"], result["slider_velocity"]
+    )
+    if centres:
+        _strokes(panels[3], result, centres)
+    else:
+        panels[3].remove()
+    if elastic:
+        _at_dead_centres(panels[4], result, "slider_tilt", centres, "µrad")
+        panels[4].set_title("Slider tilt")
+        panels[4].set_ylabel("counter-clockwise, µrad")
+        _at_dead_centres(panels[5], result, "slider_lateral", centres, "µm")
+        panels[5].set_title("Slider sideways")
+        panels[5].set_ylabel("to the right, µm")
+    crank_angle_axis(over_angle, *angle_range({"": result}))
+    for axes in over_angle:
+        axes.set_xlabel("crank angle from top dead centre, deg")
+    return figure
+
+
+def _shaking(axes: Axes, result: Result) -> None:
+    """Draw the vertical and the horizontal shaking force, and the former without counterweight."""
+    _draw(
+        axes,
+        result,
+        {
+            "vertical": result["shaking_force"][:, 1],
+            "vertical, without counterweight": _without_counterweight(result),
+            "horizontal": result["shaking_force"][:, 0],
+        },
+    )
+    axes.set_title("Shaking force")
+    axes.set_ylabel("mean over 1 ms, kN")
+
+
+def _without_counterweight(result: Result) -> Array | None:
+    name = "shaking_force_without_counterweight"
+    return result[name][:, 1] if name in result else None
+
+
+def _drive(axes: Axes, result: Result) -> None:
+    """Draw the drive's power."""
+    _draw(axes, result, {"": result["drive_power"]})
+    axes.set_title("Power of the drive")
+    axes.set_ylabel("mean over 1 ms, kW")
+    worst = float(np.abs(result["drive_torque"]).max())
+    note(axes, f"torque, as resolved: at most {worst:.4g} N m")
+
+
+def _guides(axes: Axes, result: Result) -> None:
+    """Draw the guides' lateral forces."""
+    names = {
+        "slide": "slide_guide_force",
+        "left plunger": "plunger_left_guide_force",
+        "right": "plunger_right_guide_force",
+        "slider": "guide_force",
+        "counterweight": "counterweight_guide_force",
+    }
+    _draw(axes, result, {label: result[name] for label, name in names.items() if name in result})
+    axes.set_title("Guides")
+    axes.set_ylabel("force, mean over 1 ms, kN")
+
+
+def _draw(axes: Axes, result: Result, curves: Mapping[str, Array | None]) -> None:
+    """Draw means over 1 ms in thousands."""
+    for index, (label, values) in enumerate(curves.items()):
+        if values is not None:
+            integral = cumulative_trapezoid(values, result.time, initial=0.0)
+            mean = 1e-3 * averaged(result.time, np.asarray(integral))
+            curve(axes, result, mean, color=colour_of(index), linewidth=1.1, label=label)
+    if len(curves) > 1:
+        legend_above(axes, columns=len(curves))
+
+
+def _strokes(axes: Axes, result: Result, centres: list[DeadCentre]) -> None:
+    """Draw every stroke about its bottom dead centre, and the ideal one."""
+    mean = float(np.mean([centre.position for centre in centres]))
+    from_centre = np.linspace(-ABOUT, ABOUT, 200)
+    ideal = mechanism_of(result.scene).ideal_slider(np.radians(180.0 + from_centre), 1.0)[0]
+    axes.plot(
+        from_centre,
+        1e6 * (ideal - ideal.min()),
+        color=IDEAL,
+        linewidth=1.1,
+        linestyle=(0, (4, 2)),
+        zorder=3,
+        label="ideal",
+    )
+    angle = crank_degrees(result)
+    path = CubicHermiteSpline(result.time, result["slider_position"], result["slider_velocity"])
+    for index, centre in enumerate(centres):
+        turn = 360.0 * np.floor(np.degrees(centre.crank_angle) / 360.0) + 180.0
+        near = turn + from_centre
+        near = near[(near >= angle[0]) & (near <= angle[-1])]
+        few = len(centres) <= CROWD
+        colour = colour_of(index) if few else GREY
+        height = 1e6 * (path(np.interp(near, angle, result.time)) - mean)
+        label = f"stroke {index + 1}" if few else ""
+        axes.plot(near - turn, height, color=colour, linewidth=1.1, label=label)
+        place = np.degrees(centre.crank_angle) - turn, 1e6 * (centre.position - mean)
+        axes.plot(*place, "o", color=colour, markersize=4)
+    axes.set_xlim(-ABOUT, ABOUT)
+    axes.set_title("Bottom dead centre")
+    axes.set_xlabel("crank angle from bottom dead centre, deg")
+    axes.set_ylabel("slider above its lowest, µm")
+    axes.legend(loc="upper center", ncols=3)
+    note(axes, f"lowest at {1e3 * mean:.6g} mm{_scatter(centres)}")
+
+
+def _scatter(centres: list[DeadCentre]) -> str:
+    """Return in words how far the strokes' lowest positions differ."""
+    if len(centres) < 2:
+        return ""
+    spread = 1e9 * float(np.ptp([centre.position for centre in centres]))
+    return f", strokes differ by {spread:.2g} nm" if spread >= 0.01 else ", all strokes alike"
+
+
+def _at_dead_centres(
+    axes: Axes, result: Result, name: str, centres: list[DeadCentre], unit: str
+) -> None:
+    """Draw a channel (n,) in millionths, with a dot at every bottom dead centre."""
+    values = 1e6 * result[name]
+    curve(axes, result, values, color=colour_of(0), linewidth=1.0)
+    instants = np.array([centre.time for centre in centres])
+    at = np.interp(instants, result.time, values)
+    angles = np.degrees([centre.crank_angle for centre in centres])
+    axes.plot(angles, at, "o", color=colour_of(1), markersize=5, zorder=4)
+    widen(axes, 1e-3)
+    if centres:
+        most = float(np.abs(at).max())
+        note(axes, f"dots: bottom dead centres, at most {most:.2g} {unit}")

@@ -1,0 +1,143 @@
+"""A map of the stability study: every axis a line, from end to end; pairs as a matrix."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import LogNorm
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.text import Annotation
+
+from exu_press.plots.save import save_figure
+from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, styled
+from exu_press.studies.stability import Report
+from exu_press.studies.stability.cases import PAIRS
+from exu_press.studies.stability.checks import RESIDUAL_LIMIT
+
+__all__ = ["save_stability", "stability_figure"]
+
+RESIDUALS = (1e-7, RESIDUAL_LIMIT)
+"""Energy residuals at the ends of the colours."""
+
+MARKERS: Mapping[str, Mapping[str, Any]] = {
+    "right": {"marker": "o", "s": 42, "linewidths": 0.0},
+    "stopped": {"marker": "s", "s": 48, "color": "white", "edgecolors": "black", "linewidths": 1.4},
+    "wrong": {"marker": "X", "s": 95, "color": COLOURS["vermilion"], "linewidths": 0.0},
+}
+"""A verdict has a shape of its own, so that it can be told without colours."""
+
+IN_WORDS = {
+    "right": "right, coloured by its energy residual",
+    "stopped": "stopped, with a reason",
+    "wrong": "wrong",
+}
+
+
+@styled
+def stability_figure(report: Report) -> Figure:
+    """Return the map of a report."""
+    single = [row for row in report.rows if row["axis"] != PAIRS]
+    pairs = [row for row in report.rows if row["axis"] == PAIRS]
+    lines = list(dict.fromkeys(map(_line, single)))
+    height = 2.2 + 0.23 * max(len(lines), 20)
+    figure = Figure(figsize=(15.0 if pairs else 9.5, height), layout="constrained")
+    below = figure.suptitle(f"\n{_words(report)}", x=0.012, ha="left", fontsize=9.5)
+    figure.add_artist(
+        Annotation(
+            "Stiff and extreme cases", (0, 1), xycoords=below, va="top", fontsize=13,
+            fontweight="bold",
+        )
+    ).set_in_layout(False)  # fmt: skip
+    left, *right = figure.subplots(1, 2 if pairs else 1, squeeze=False).flat
+    colours = ScalarMappable(LogNorm(*RESIDUALS, clip=True), PATH_COLOURS)
+    if single:
+        _draw_axes(left, single, lines, colours)
+    if pairs:
+        _draw_pairs(right[0], pairs, colours)
+    bar = figure.colorbar(colours, ax=[left, *right], location="bottom", shrink=0.35, aspect=40)
+    bar.set_label("energy residual, relative to the drive's work")
+    handles: list[Artist] = [
+        Line2D(
+            [], [], linestyle="", label=IN_WORDS[verdict], marker=style["marker"], markersize=7.5,
+            color=style.get("color", "0.5"),
+            markeredgecolor=style.get("edgecolors", "none"),
+        )
+        for verdict, style in MARKERS.items()
+    ]  # fmt: skip
+    figure.legend(handles=handles, loc="outside upper right", ncols=3)
+    return figure
+
+
+def save_stability(report: Report, directory: str | Path) -> Path:
+    """Draw the map as stability.png and return the file.
+
+    Raises:
+        InputError: the file cannot be written.
+    """
+    return save_figure(stability_figure(report), Path(directory) / "stability.png")
+
+
+def _line(row: Mapping[str, Any]) -> tuple[str, str]:
+    """Return axis and base of a case, which stand on one line of the map."""
+    return row["axis"], row["name"].rpartition(", ")[2]
+
+
+def _draw_axes(
+    axes: Axes,
+    rows: Sequence[Mapping[str, Any]],
+    lines: Sequence[tuple[str, str]],
+    colours: ScalarMappable,
+) -> None:
+    """Draw a line for every axis and base, its cases side by side in the table's order."""
+    most = 0
+    for height, line in enumerate(lines):
+        along = [row for row in rows if _line(row) == line]
+        most = max(most, len(along))
+        for place, row in enumerate(along):
+            _mark(axes, place, height, row, colours)
+        ends = dict.fromkeys([along[0]["value"], along[-1]["value"]])
+        axes.annotate(
+            " to ".join(filter(None, ends)), (len(along) - 0.4, height), fontsize=7, va="center",
+            color=GREY,
+        )  # fmt: skip
+    axes.set_yticks(range(len(lines)), [f"{axis}: {base}" for axis, base in lines], fontsize=8)
+    axes.set_ylim(len(lines) - 0.4, -0.6)
+    axes.set_xlim(-0.7, most + 4.0)
+    axes.set_xticks([])
+    axes.grid(False)
+    axes.set_title("Along each axis")
+
+
+def _draw_pairs(axes: Axes, rows: Sequence[Mapping[str, Any]], colours: ScalarMappable) -> None:
+    """Draw the pairs of extremes as a matrix."""
+    names = list(dict.fromkeys(name for row in rows for name in row["value"].split(" + ")))
+    for row in rows:
+        across, down = (names.index(name) for name in row["value"].split(" + "))
+        _mark(axes, min(across, down), max(across, down), row, colours)
+    axes.set_xticks(range(len(names)), names, rotation=60, ha="right", fontsize=8)
+    axes.set_yticks(range(len(names)), names, fontsize=8)
+    axes.set_ylim(len(names) - 0.4, -0.6)
+    axes.set_xlim(-0.6, len(names) - 0.4)
+    axes.set_title("Two extremes at once: press with mixed film and dry balls")
+
+
+def _mark(axes: Axes, x: float, y: float, row: Mapping[str, Any], colours: ScalarMappable) -> None:
+    """Draw one case."""
+    style = dict(MARKERS[row["verdict"]])
+    if "color" not in style:
+        style["color"] = colours.to_rgba(np.array([row["residual"]]))
+    axes.scatter([x], [y], zorder=3, **style)
+
+
+def _words(report: Report) -> str:
+    counts = report.counts()
+    sample = "a fixed sample of " if report.quick else ""
+    return (
+        f"{sample}{len(report.rows)} cases: {counts['right']} right, {counts['stopped']} stopped, "
+        f"{counts['wrong']} wrong"
+    )

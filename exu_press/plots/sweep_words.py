@@ -1,0 +1,62 @@
+"""Columns of a sweep in words, and their numbers in units that read well."""
+
+import math
+import re
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exu_press.studies.sweep.units import meaning_of, unit_of
+
+__all__ = ["in_unit", "setting", "words"]
+
+Array = NDArray[np.float64]
+
+PREFIXES = {-9: "n", -6: "\N{MICRO SIGN}", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
+PREFIXED = ("m", "s", "N", "N m", "J", "W", "Pa")
+NAMES = {
+    "ldp": "lowest position",
+    "min_film": "least film thickness",
+    "mean_1ms": "mean over 1 ms",
+    "differentiated_1khz": "differentiated, 1 kHz",
+}
+
+
+def in_unit(name: str, values: Array) -> tuple[Array, str]:
+    """Return a column's numbers in a multiple of its SI unit that reads well, and that unit.
+
+    >>> numbers, unit = in_unit("joints.crank_pin.peak_force", np.array([2e3, 4e3]))
+    >>> numbers.tolist(), unit
+    ([2.0, 4.0], 'kN')
+    """
+    unit = unit_of(name)
+    largest = float(np.max(np.abs(values[np.isfinite(values)]), initial=0.0))
+    if unit not in PREFIXED or largest == 0.0:
+        return values, unit
+    power = 3 * math.floor(math.log10(largest) / 3.0 + 1e-9)
+    power = min(max(power, min(PREFIXES)), max(PREFIXES))
+    return values / 10.0**power, f"{PREFIXES[power]}{unit}"
+
+
+def words(name: str) -> str:
+    """Return what a column is.
+
+    >>> words("clearance.balls"), words("joints.crank_pin.peak_force")
+    ('radial clearance of joints 9-10', 'crank pin, peak force')
+    """
+    parts = name.removeprefix("joints.").split(".")
+    meaning = re.sub(r" \(A-\d+\)", "", meaning_of(name))  # the assumption behind it
+    return meaning or ", ".join(NAMES.get(p, p.replace("_", " ")) for p in parts)
+
+
+def setting(name: str, value: Any) -> str:
+    """Return a key's value as a legend has it.
+
+    >>> setting("speed_rpm", 300.0), setting("clearance.balls", 1e-4), setting("crank_pin", "dry")
+    ('300 rpm', '100 µm', 'dry')
+    """
+    if isinstance(value, (str, bool)):
+        return str(value) if isinstance(value, str) else f"{words(name)}: {value}"
+    number, unit = in_unit(name, np.array(float(value)))
+    return f"{number:g} {unit}" if unit else f"{words(name)} {number:g}"

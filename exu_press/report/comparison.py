@@ -1,0 +1,58 @@
+"""The report of a comparison: its variants side by side."""
+
+import json
+import tempfile
+from pathlib import Path
+
+from exu_press.cli.table import comparison_cells
+from exu_press.errors import InputError
+from exu_press.plots import save_comparison
+from exu_press.plots.words import describe
+from exu_press.report.html import items, page, picture, table
+from exu_press.report.run import scene_parts
+from exu_press.report.warnings import warnings_of
+from exu_press.result import Result
+
+__all__ = ["comparison_report"]
+
+CAPTIONS = {
+    "compare_slider": "Slider motion of the variants against the ideal mechanism.",
+    "compare_force": "Joint forces and drive torque of the variants.",
+}
+
+
+def comparison_report(file: Path) -> str:
+    """Return the page of a comparison, from comparison.json and the variants' run.nc beside it."""
+    try:
+        labels = list(json.loads(file.read_text(encoding="utf-8")))
+    except OSError as error:
+        raise InputError(f"{file}: cannot be read ({error.strerror})") from None
+    except ValueError:
+        raise InputError(f"{file}: not a comparison of exu_press") from None
+    places = {label: file.parent / label.replace(" ", "_") / "run.nc" for label in labels}
+    results = {label: Result.load(path) for label, path in places.items()}
+    if not results:
+        raise InputError(f"{file}: not a comparison of exu_press")
+    summaries = {label: result.summary() for label, result in results.items()}
+    head, *rows = comparison_cells(summaries)
+    with tempfile.TemporaryDirectory() as folder:
+        shown = [
+            picture(path, CAPTIONS.get(path.stem, path.stem))
+            for path in save_comparison(results, folder)
+        ]
+    warnings = [
+        f"{label}: {warning}"
+        for label, result in results.items()
+        for warning in warnings_of(summaries[label], result.scene)
+    ]
+    richest = max(results.values(), key=lambda result: len(str(result.scene.to_dict())))
+    return page(
+        f"Comparison: {describe([result.scene for result in results.values()], 200)}",
+        f"{', '.join(results)}; {file.parent.name}/{file.name}",
+        [
+            ("Warnings", items(warnings, "warnings") if warnings else items(["none"], "good")),
+            ("Results", table(head, rows)),
+            ("Pictures", "\n".join(shown)),
+            *scene_parts(richest.scene),
+        ],
+    )

@@ -1,0 +1,55 @@
+"""Which command a file or a directory comes from, and its report."""
+
+from enum import Enum
+from pathlib import Path
+
+from exu_press.errors import InputError
+from exu_press.result import Result
+
+__all__ = ["Kind", "find_output", "report_of"]
+
+
+class Kind(Enum):
+    """What there are reports of, by the file that tells."""
+
+    RUN = "run.nc"
+    COMPARISON = "comparison.json"
+    SWEEP = "table.csv"
+
+
+def find_output(path: Path) -> tuple[Kind, Path]:
+    """Return what a path is and the file to read: a result file, or a directory with one of them.
+
+    Raises:
+        InputError: nothing is there, or results of several commands are.
+    """
+    named = ", ".join(kind.value for kind in Kind)
+    if path.is_dir():
+        found = [kind for kind in Kind if (path / kind.value).is_file()]
+        if not found:
+            raise InputError(f"{path}: has none of {named}, so there is nothing to report")
+        if len(found) > 1:
+            several = " and ".join(kind.value for kind in found)
+            raise InputError(f"{path}: has {several}; name the file that is meant")
+        return found[0], path / found[0].value
+    for kind in (Kind.COMPARISON, Kind.SWEEP):
+        if path.name == kind.value:
+            return kind, path
+    if path.suffix in (".json", ".csv"):
+        raise InputError(f"{path}: allowed is a result file (.nc), or a directory with {named}")
+    return Kind.RUN, path
+
+
+def report_of(kind: Kind, file: Path) -> str:
+    """Return the page (HTML) of what `find_output` found."""
+    if kind is Kind.COMPARISON:
+        from exu_press.report.comparison import comparison_report
+
+        return comparison_report(file)
+    if kind is Kind.SWEEP:
+        from exu_press.report.sweep import sweep_report
+
+        return sweep_report(file)
+    from exu_press.report.run import run_report
+
+    return run_report(Result.load(file), f"{file.resolve().parent.name}/{file.name}")

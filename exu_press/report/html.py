@@ -1,0 +1,119 @@
+"""The parts of a page: text, tables, pictures inside it. Nothing is loaded from anywhere."""
+
+import base64
+import html
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from string import Template
+
+__all__ = ["details", "items", "page", "paragraph", "picture", "section", "table"]
+
+PAGE = Template("""<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<link rel="icon" href="data:,">
+<title>$title</title>
+<style>
+:root { color-scheme: light; }
+body { font: 16px/1.5 system-ui, "DejaVu Sans", sans-serif; color: #1c1c1c; background: #fff;
+  max-width: 1180px; margin: 0 auto; padding: 1rem 1.5rem 3rem; }
+h1 { font-size: 1.6rem; line-height: 1.25; margin: 0.6rem 0 0.2rem; }
+h2 { font-size: 1.2rem; margin: 2rem 0 0.6rem; border-bottom: 1px solid #d5d9dd; }
+p { margin: 0.4rem 0; max-width: 75ch; }
+.under { color: #555; }
+.warnings { border-left: 5px solid #d55e00; background: #fdf3ec; padding: 0.4rem 1rem; }
+.good { border-left: 5px solid #0072b2; background: #eef5fa; padding: 0.4rem 1rem; }
+.wide { overflow-x: auto; }
+table { border-collapse: collapse; font-size: 0.9rem; font-variant-numeric: tabular-nums; }
+caption { text-align: left; font-weight: 600; padding: 0.3rem 0; }
+th, td { text-align: left; vertical-align: top; padding: 0.2rem 0.9rem 0.2rem 0; }
+thead th { border-bottom: 1px solid #888; }
+tbody tr:nth-child(even) { background: #f5f7f9; }
+tbody th { font-weight: 400; white-space: pre; }
+figure { margin: 1rem 0; }
+figure img { max-width: 100%; height: auto; }
+figcaption { color: #555; font-size: 0.9rem; }
+summary { cursor: pointer; }
+code { font-family: ui-monospace, "DejaVu Sans Mono", monospace; font-size: 0.92em; }
+nav a { margin-right: 1.2rem; }
+@media print { section { break-inside: avoid; } }
+</style>
+</head>
+<body>
+<h1>$title</h1>
+<p class="under">$under</p>
+<nav aria-label="contents">$links</nav>
+$body
+</body>
+</html>
+""")
+
+
+def page(title: str, under: str, sections: Sequence[tuple[str, str]]) -> str:
+    """Return a page.
+
+    Args:
+        title: of it.
+        under: what stands below the title.
+        sections: heading and HTML of each.
+    """
+    named = [(heading, f"part-{number}") for number, (heading, _) in enumerate(sections)]
+    links = "\n".join(f'<a href="#{name}">{_text(heading)}</a>' for heading, name in named)
+    body = "\n".join(
+        section(heading, inner, f"part-{number}")
+        for number, (heading, inner) in enumerate(sections)
+    )
+    return PAGE.substitute(title=_text(title), under=_text(under), links=links, body=body)
+
+
+def section(heading: str, inner: str, name: str) -> str:
+    """Return a section with its heading."""
+    return f'<section id="{name}">\n<h2>{_text(heading)}</h2>\n{inner}\n</section>'
+
+
+def paragraph(text: str) -> str:
+    """Return a paragraph of plain text."""
+    return f"<p>{_text(text)}</p>"
+
+
+def items(texts: Iterable[str], kind: str = "") -> str:
+    """Return a list of plain texts; `kind` is "warnings", "good" or nothing."""
+    inner = "\n".join(f"<li>{_text(text)}</li>" for text in texts)
+    attribute = f' class="{kind}"' if kind else ""
+    return f"<div{attribute}><ul>\n{inner}\n</ul></div>"
+
+
+def table(head: Sequence[str], rows: Iterable[Sequence[str]], caption: str = "") -> str:
+    """Return a table; the first cell of a row is its head. A wide one scrolls by itself."""
+    above = f"<caption>{_text(caption)}</caption>" if caption else ""
+    top = "".join(f'<th scope="col">{_text(cell)}</th>' for cell in head)
+    lines = "\n".join(
+        f'<tr><th scope="row">{_text(first)}</th>'
+        + "".join(f"<td>{_text(cell)}</td>" for cell in rest)
+        + "</tr>"
+        for first, *rest in rows
+    )
+    return (
+        f'<div class="wide" tabindex="0"><table>{above}<thead><tr>{top}</tr></thead>\n'
+        f"<tbody>\n{lines}\n</tbody></table></div>"
+    )
+
+
+def details(words: str, inner: str) -> str:
+    """Return what is shown on demand."""
+    return f"<details><summary>{_text(words)}</summary>\n{inner}\n</details>"
+
+
+def picture(path: Path, words: str) -> str:
+    """Return a PNG file's content as a figure, with what it shows in words."""
+    data = base64.b64encode(path.read_bytes()).decode("ascii")
+    return (
+        f'<figure><img src="data:image/png;base64,{data}" alt="{_text(words)}">'
+        f"<figcaption>{_text(words)}</figcaption></figure>"
+    )
+
+
+def _text(text: str) -> str:
+    return html.escape(text)

@@ -1,0 +1,142 @@
+"""The report of one run."""
+
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from exu_press.cli.table import comparison_cells
+from exu_press.plots import save_pictures
+from exu_press.plots.words import describe
+from exu_press.report.html import details, items, page, paragraph, picture, table
+from exu_press.report.warnings import assumption_rows, warnings_of
+from exu_press.result import Result
+from exu_press.scene import Scene
+from exu_press.scene.assumptions import keys_of
+from exu_press.view import Film, moment, save_picture
+from exu_press.view.film import SIZE
+
+__all__ = ["run_report", "scene_parts"]
+
+CAPTIONS = {
+    "slider": "Slider motion against the ideal mechanism: position, velocity, acceleration.",
+    "orbit": "Journal and ball centres in their clearance circles.",
+    "force": "Joint forces and drive torque.",
+    "press": "What the press does to its frame and drive.",
+    "energy": "Energy balance since the start; the residual is the error of the integration.",
+}
+"""By the picture's file name; pictures that are not listed are shown under their names."""
+
+STATISTICS = (
+    "end_time",
+    "wall_time",
+    "total_time",
+    "steps",
+    "rejected_steps",
+    "newton_iterations",
+    "law_evaluations",
+    "coordinates",
+    "bodies",
+    "connectors",
+)
+
+
+def run_report(result: Result, source: str) -> str:
+    """Return the page of a run.
+
+    Args:
+        result: of the run.
+        source: name of its file, to be shown.
+    """
+    summary = result.summary()
+    numbers = comparison_cells({"": summary})[1:]
+    return page(
+        describe([result.scene], 200),
+        f"{source}: {summary['status']} at t = {summary['end_time']:.6g} s, "
+        f"crank angle {np.degrees(result['crank_angle'][-1]):.1f}° from top dead centre",
+        [
+            ("Warnings", _warnings(warnings_of(summary, result.scene))),
+            ("Results", table(("quantity", "value"), numbers)),
+            ("Pictures", _pictures(result)),
+            ("Energy and solver", _energy(summary) + _statistics(summary)),
+            *scene_parts(result.scene),
+        ],
+    )
+
+
+def scene_parts(scene: Scene) -> list[tuple[str, str]]:
+    """Return the sections about what was asked: changed keys, assumptions, every key."""
+    keys = keys_of(scene).values()
+    changed = [_row(key.name, key.value, key.unit, key.meaning) for key in keys if not key.assumed]
+    everything = [
+        _row(key.name, key.value, key.unit, key.meaning, "assumed" if key.assumed else "given")
+        for key in keys
+    ]
+    head = ("key", "value", "unit", "meaning")
+    given = (
+        table(head, changed, "Keys that differ from their defaults")
+        if changed
+        else paragraph("Every key is at its default.")
+    )
+    return [
+        ("Scene", given + details("every key", table((*head, "default?"), everything))),
+        (
+            "Assumptions",
+            paragraph(
+                "What the paper leaves out or misprints and this scene rests on. "
+                "Each key can be set in the scene."
+            )
+            + table(("", "assumption", "default assumed"), assumption_rows(scene)),
+        ),
+    ]
+
+
+def _warnings(found: list[str]) -> str:
+    return items(found, "warnings") if found else items(["none"], "good")
+
+
+def _pictures(result: Result) -> str:
+    """Return every picture of a run, the mechanism at the slider's largest acceleration first."""
+    peak = float(result.time[int(np.argmax(np.abs(result["slider_acceleration"])))])
+    with tempfile.TemporaryDirectory() as folder:
+        film = Film(result, moment(result, peak), Figure(figsize=SIZE))
+        still = save_picture(film, 1, Path(folder) / "mechanism.png")
+        words = f"The press at the slider's largest acceleration, t = {peak * 1e3:.2f} ms."
+        if result.scene.press is None:
+            words = words.replace("press", "mechanism", 1)
+        shown = [picture(still, words)]
+        for path in save_pictures(result, folder):
+            shown.append(picture(path, CAPTIONS.get(path.stem, path.stem)))
+    return "\n".join(shown)
+
+
+def _energy(summary: Mapping[str, Any]) -> str:
+    """Return the balance at the end."""
+    energy = summary["energy"]
+    rows = [
+        ["put in by drive and load", f"{energy['input']:.6g} J"],
+        ["stored (change)", f"{energy['stored']:.6g} J"],
+        ["dissipated", f"{energy['dissipated']:.6g} J"],
+        ["largest residual, of the largest work", f"{energy['residual']:.2g}"],
+    ]
+    return table(("", "value"), rows, "Energy since the start")
+
+
+def _statistics(summary: Mapping[str, Any]) -> str:
+    """Return what the integration took, and with what."""
+    units = {"end_time": " s", "wall_time": " s", "total_time": " s"}
+    rows = [
+        [name.replace("_", " "), f"{summary[name]:.6g}{units.get(name, '')}"]
+        for name in STATISTICS
+        if name in summary
+    ]
+    rows += [[f"version of {name}", text] for name, text in summary["versions"].items()]
+    return table(("", "value"), rows, "Solver")
+
+
+def _row(name: str, value: Any, *rest: str) -> list[str]:
+    shown = str(value).lower() if isinstance(value, bool) else str(value)
+    return [name, f"{value:.10g}" if isinstance(value, float) else shown, *rest]

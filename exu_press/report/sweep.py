@@ -1,0 +1,87 @@
+"""The report of a sweep: its runs as a table and a picture."""
+
+import csv
+import json
+import tempfile
+from collections import Counter
+from pathlib import Path
+
+from exu_press.errors import InputError
+from exu_press.plots.sweep import save_sweep
+from exu_press.plots.words import describe
+from exu_press.report.html import items, page, paragraph, picture, table
+from exu_press.report.run import scene_parts
+from exu_press.studies.sweep import Study, Table
+from exu_press.studies.sweep.shown import shown
+from exu_press.studies.sweep.units import unit_of
+
+__all__ = ["sweep_report"]
+
+MOST_ROWS = 500
+
+
+def sweep_report(file: Path) -> str:
+    """Return the page of a sweep, from table.csv and study.json beside it."""
+    runs = _table(file)
+    counts = Counter(str(status) for status in runs["status"])
+    ends = ", ".join(f"{number} {status}" for status, number in counts.items())
+    ended = ("status", "reason") if any(runs["reason"]) else ("status",)
+    names = (*runs.study.keys, *shown(runs), *ended)
+    head = ("run", *(f"{name}, {unit_of(name)}" if unit_of(name) else name for name in names))
+    count = min(len(runs), MOST_ROWS)
+    rows = [[str(run), *(_cell(runs[name][run]) for name in names)] for run in range(count)]
+    more = "" if count == len(runs) else paragraph(f"{len(runs) - count} more in {file.name}.")
+    with tempfile.TemporaryDirectory() as folder:
+        pictures = [
+            picture(path, f"Over {' and '.join(runs.study.keys)}.")
+            for path in save_sweep(runs, folder)
+        ]
+    reasons = Counter(str(reason) for reason in runs["reason"] if reason)
+    told = [f"{number} x {reason}" for reason, number in reasons.most_common(10)]
+    return page(
+        f"Sweep: {describe(runs.study.scenes, 200)}",
+        f"{len(runs)} runs over {', '.join(runs.study.keys)}: {ends}; "
+        f"{file.parent.name}/{file.name}",
+        [
+            ("Warnings", items(told, "warnings") if told else items(["none"], "good")),
+            ("Pictures", "\n".join(pictures) or paragraph("No number varies, or none came out.")),
+            ("Runs", table(head, rows) + more),
+            *scene_parts(runs.study.scene),
+        ],
+    )
+
+
+def _table(file: Path) -> Table:
+    """Return the table that a sweep wrote; columns that its runs lack stay empty."""
+    try:
+        study = Study(**json.loads((file.parent / "study.json").read_text(encoding="utf-8")))
+        with file.open(encoding="utf-8", newline="") as stream:
+            head, *lines = csv.reader(stream)
+    except OSError as error:
+        raise InputError(f"{error.filename}: cannot be read ({error.strerror})") from None
+    except (ValueError, TypeError) as error:
+        if isinstance(error, InputError):
+            raise
+        raise InputError(f"{file}: not a sweep of exu_press") from None
+    if len(lines) != len(study.points) or not {"status", "reason", *study.keys} <= set(head):
+        raise InputError(f"{file}: does not belong to the study.json beside it")
+    columns = zip(*lines, strict=True)
+    return Table(
+        study, {name: tuple(map(_value, c)) for name, c in zip(head, columns, strict=True)}
+    )
+
+
+def _value(text: str) -> str | float | bool | None:
+    """Return what a cell holds."""
+    if text in ("true", "false"):
+        return text == "true"
+    try:
+        return float(text)
+    except ValueError:
+        return text or None
+
+
+def _cell(value: str | float | bool | None) -> str:
+    if value is None:
+        return ""
+    return f"{value:.6g}" if isinstance(value, float) else str(value)

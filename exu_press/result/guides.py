@@ -1,0 +1,44 @@
+"""What elastic guides store and turn into heat."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exu_press.model import Model
+from exu_press.result.energy import work
+from exu_press.result.forces import guide_channel
+from exu_press.result.result import Channel
+
+__all__ = ["record_guides"]
+
+Array = NDArray[np.float64]
+
+
+def record_guides(
+    model: Model, time: Array, position: Array, velocity: Array
+) -> tuple[dict[str, Channel], Array, Array]:
+    """Return the losses of elastic guides as channels, their stored and their lost energy, J.
+
+    Args:
+        model: integrated.
+        time: (n,), s.
+        position: (n, bodies, 3) of every body.
+        velocity: same shape.
+    """
+    channels: dict[str, Channel] = {}
+    stored, dissipated = np.zeros_like(time), np.zeros_like(time)
+    names = [body.name for body in model.mechanism.bodies]
+    for guide in model.mechanism.guides:
+        springs = {0: guide.lateral, 2: guide.tilting}
+        if not any(springs.values()):
+            continue
+        index, lost = names.index(guide.body), np.zeros_like(time)
+        for column, spring in springs.items():
+            if spring is not None:
+                moved = position[:, index, column] - position[0, index, column]  # starts relaxed
+                rate = velocity[:, index, column]
+                stored += 0.5 * spring.stiffness * moved**2
+                lost += work(time, spring.damping * rate, rate)
+        words = f"{guide.body.replace('_', ' ')} guide: energy dissipated since the start"
+        channels[f"{guide_channel(model, guide.body)}_loss"] = Channel(lost, "J", words)
+        dissipated += lost
+    return channels, stored, dissipated

@@ -1,0 +1,54 @@
+"""What clearance joints do: eccentricity, force, losses."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exu_press.joints import history, overlay_of
+from exu_press.model import Model
+from exu_press.result.energy import work
+from exu_press.result.forces import vectors
+from exu_press.result.motion import sensor
+from exu_press.result.result import Channel
+
+__all__ = ["record_joints"]
+
+Array = NDArray[np.float64]
+
+
+def record_joints(model: Model, time: Array) -> tuple[dict[str, Channel], Array, Array]:
+    """Return the channels of the clearance joints, their stored and their dissipated energy, J."""
+    channels: dict[str, Channel] = {}
+    stored, dissipated = np.zeros_like(time), np.zeros_like(time)
+    if not model.clearance_joints:
+        return channels, stored, dissipated
+    names = {number: name for name, number in model.nodes.items()}
+    q, q_t = (
+        np.hstack([sensor(model, names[node], level) for node in overlay_of(model.mbs).nodes])
+        for level in ("position", "velocity")
+    )
+    for name, joint in model.clearance_joints.items():
+        states = history(joint, time, q, q_t)
+        spherical = name.startswith("ball")
+        elastic = np.array([state.stored_energy for state in states])
+        loads = np.array([state.force + state.moments for state in states])
+        rates = np.array([state.velocity + state.spins for state in states])
+        lost = -work(time, loads, rates) - (elastic - elastic[0])
+        stored += elastic
+        dissipated += lost
+        in_words = name.replace("_", " ")
+        channels |= {
+            f"{name}_eccentricity": vectors(
+                np.array([state.eccentricity for state in states]),
+                "m",
+                f"{in_words}: journal centre minus bearing centre",
+                spherical,
+            ),
+            f"{name}_force": vectors(
+                np.array([state.force for state in states]),
+                "N",
+                f"{in_words}: force on journal",
+                spherical,
+            ),
+            f"{name}_loss": Channel(lost, "J", f"{in_words}: energy dissipated since the start"),
+        }
+    return channels, stored, dissipated

@@ -1,0 +1,55 @@
+"""The moving masses' inertia forces: what shakes the press."""
+
+from collections.abc import Collection
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exu_press.model import Model
+from exu_press.result.motion import point_acceleration
+from exu_press.result.result import Channel
+
+__all__ = ["shaking_forces"]
+
+Array = NDArray[np.float64]
+
+COUNTERWEIGHT = ("counter_linkage", "counterweight")
+
+
+def shaking_forces(model: Model, acceleration: Array) -> dict[str, Channel]:
+    """Return the shaking force, minus the rate of the mechanism's momentum, (n, 2), N.
+
+    That is what shaft, pivots and guides press the frame with, less weight and blanking force; the
+    latter closes within the press, from the slider through tool and bed.
+
+    The counterweight hangs on the shaft, not on the slider's branch, so that the shaking force
+    without it is that of the same press with bodies 11 and 12 left out.
+
+    Args:
+        model: integrated.
+        acceleration: (n, bodies, 3) of every body's frame.
+    """
+    forces = {}
+    for index, body in enumerate(model.mechanism.bodies):
+        mass, centre = body.mass, acceleration[:, index]
+        if body.name in model.parts:
+            # modes are orthogonal to rigid motions: they have no momentum of their own
+            part = model.parts[body.name]
+            mass, centre = part.mass, point_acceleration(model, body.name, part.centre_of_mass)
+        forces[body.name] = -mass * centre[:, :2]
+    channels = {
+        "shaking_force": Channel(
+            _sum(forces, forces), "N", "shaking force: minus the rate of momentum", "plane"
+        )
+    }
+    if all(name in forces for name in COUNTERWEIGHT):
+        others = [name for name in forces if name not in COUNTERWEIGHT]
+        words = "shaking force without linkage 11 and counterweight 12"
+        channels["shaking_force_without_counterweight"] = Channel(
+            _sum(forces, others), "N", words, "plane"
+        )
+    return channels
+
+
+def _sum(forces: dict[str, Array], names: Collection[str]) -> Array:
+    return np.asarray(np.sum([forces[name] for name in names], axis=0))

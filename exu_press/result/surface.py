@@ -1,0 +1,66 @@
+"""The surface of a flexible body with its modes: what it takes to draw it from the file alone."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from fe_models import ReducedPart
+
+__all__ = ["ARRAYS", "Surface", "surfaces_of"]
+
+Array = NDArray[np.float32]
+
+ARRAYS: dict[str, tuple[tuple[str, ...], str, str]] = {
+    "nodes": (("node", "space"), "m", "surface nodes in the body's frame, undeformed"),
+    "triangles": (("triangle", "corner"), "1", "surface triangles, by node"),
+    "modes": (("node", "space", "mode"), "kg^-0.5", "displacement of the nodes, by mode"),
+    "stress": (("node", "stress", "mode"), "Pa kg^-0.5 m^-1", "xx yy zz yz xz xy, by mode"),
+}
+"""Array -> dimensions, unit and meaning; the file's variable is called BODY_surface_ARRAY."""
+
+
+@dataclass(frozen=True)
+class Surface:
+    """Nodes, triangles and modes of a body's surface, in single precision.
+
+    The modal coordinates over time are the result's channel BODY_modes, (n, modes).
+
+    Attributes:
+        nodes: (s, 3), m, in the frame whose pose is in `body_position`.
+        triangles: (t, 3), corners by node, outwards counter-clockwise.
+        modes: (s, 3, modes).
+        stress: (s, 6, modes), Pa per unit of the modal coordinate; (0, 6, modes) if unknown.
+    """
+
+    nodes: Array
+    triangles: NDArray[np.int32]
+    modes: Array
+    stress: Array
+
+    def displacement(self, coordinates: NDArray[Any]) -> Array:
+        """Return the displacement (s, 3) of the nodes for modal coordinates (modes,), m."""
+        return np.asarray(self.modes @ coordinates.astype(np.float32))
+
+    def von_mises(self, coordinates: NDArray[Any]) -> Array:
+        """Return the von Mises stress (s,) for modal coordinates (modes,), Pa."""
+        xx, yy, zz, yz, xz, xy = (self.stress @ coordinates.astype(np.float32)).T
+        normal = (xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2
+        return np.asarray(np.sqrt(0.5 * normal + 3.0 * (yz**2 + xz**2 + xy**2)))
+
+
+def surfaces_of(parts: Mapping[str, "ReducedPart"]) -> dict[str, Surface]:
+    """Return the surfaces of the flexible bodies that have modes, by body."""
+    return {
+        name: Surface(
+            nodes=part.nodes.astype(np.float32),
+            triangles=part.triangles.astype(np.int32),
+            modes=part.modes.reshape(len(part.nodes), 3, -1).astype(np.float32),
+            stress=part.stress.reshape(-1, 6, part.mode_count).astype(np.float32),
+        )
+        for name, part in parts.items()
+        if part.mode_count
+    }

@@ -1,0 +1,173 @@
+"""What a scene leaves to its defaults, and which of these stand for what the paper does not say.
+
+The assumptions A-1 to A-14 are listed here once; meanings and defaults of keys are in tables.py.
+"""
+
+import dataclasses
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from exu_press.scene.scene import OF_THE_COUNTERWEIGHT, TABLES, Scene
+
+__all__ = ["ASSUMPTIONS", "Assumption", "Key", "assumed_line", "keys_of", "used_assumptions"]
+
+
+@dataclass(frozen=True)
+class Assumption:
+    """Something the paper leaves out or misprints.
+
+    Attributes:
+        number: n of A-n.
+        text: what is assumed.
+        keys: of the scene, where to change it; a table's name where its absence is the assumption.
+    """
+
+    number: int
+    text: str
+    keys: tuple[str, ...]
+
+
+ASSUMPTIONS = (
+    Assumption(1, "topology: two-point knuckle press, from the lengths in Table 2", ("press",)),
+    Assumption(
+        2,
+        "distance of frame pivots and plungers from the middle, from the measured acceleration",
+        ("press.pivot_distance",),
+    ),
+    Assumption(
+        3,
+        "counter-eccentric opposite the pin, cancels the first harmonic",
+        ("press.counter_eccentricity",),
+    ),
+    Assumption(4, "mass of slide 4", ("press.slide_mass",)),
+    Assumption(5, "ball 9 is part of plunger 8", ("press.plunger_mass",)),
+    Assumption(
+        6,
+        "links are uniform rods; the crank's centre of mass half-way to its pin",
+        ("press.crank_mass_offset", "press.linkage_mass_offset", "press.linkage_inertia"),
+    ),
+    Assumption(
+        7,
+        "lengths and masses of 5 to 8 are per side",
+        ("press.link_5_mass", "press.link_6_mass", "press.link_7_mass", "press.plunger_mass"),
+    ),
+    Assumption(8, "slider position at the ideal bottom dead centre", ("press.bottom_dead_centre",)),
+    Assumption(9, "guides are ideal", ("guide",)),
+    Assumption(10, "contact does not pull", ("contact.tension",)),
+    Assumption(11, "viscosity", ("film.viscosity",)),
+    Assumption(12, "bearing length", ("film.length",)),
+    Assumption(13, "what a film does at eccentricity ratio 1", ("film.at_contact",)),
+    Assumption(
+        14,
+        "length and end of the blanking pulse",
+        ("blanking.rise", "blanking.fall", "blanking.end_angle_deg"),
+    ),
+)
+
+FIRST_OF_A_RUN = 10
+"""From this assumption on they belong to a run; those before describe the machine."""
+
+
+@dataclass(frozen=True)
+class Key:
+    """One key of a complete scene.
+
+    Attributes:
+        name: dotted.
+        value: what it is.
+        default: what it would be, had it not been given.
+        unit: SI, as the scene's table says it.
+        meaning: in words.
+    """
+
+    name: str
+    value: Any
+    default: Any
+    unit: str
+    meaning: str
+
+    @property
+    def assumed(self) -> bool:
+        """Whether it is at its default."""
+        return bool(self.value == self.default)
+
+    def __str__(self) -> str:
+        """Return name, value and unit."""
+        return f"{self.name} = {_text(self.value)} {self.unit}".rstrip()
+
+
+def keys_of(scene: Scene) -> dict[str, Key]:
+    """Return every key that a scene uses, by name, with the default it would have."""
+    defaults = dict(_flat(_at_defaults(scene)))
+    kinds = {field.name: field.default for field in dataclasses.fields(Scene)}
+    kinds |= {"balls": "dry", "film.at_contact": "stop", "press.counterweight": True}
+    found = {}
+    for name, (value, field) in _flat(scene):
+        default = kinds[name] if name in kinds else defaults.get(name, (None,))[0]
+        meta = field.metadata
+        found[name] = Key(name, value, default, meta["unit"], meta["meaning"])
+    return found
+
+
+def used_assumptions(scene: Scene) -> dict[Assumption, tuple[Key, ...]]:
+    """Return the assumptions that a scene rests on, with those of their keys that it leaves alone.
+
+    An assumption is left out where the scene does not use its keys, or has changed all of them.
+    """
+    keys = keys_of(scene)
+    used = {}
+    for assumption in ASSUMPTIONS:
+        left = tuple(keys[name] for name in assumption.keys if name in keys)
+        left = tuple(key for key in left if key.assumed)
+        by_absence = assumption.keys == ("guide",) and scene.guide is None
+        by_kind = assumption.keys == ("press",) and scene.press is not None
+        if left or by_absence or by_kind:
+            used[assumption] = left
+    return used
+
+
+def assumed_line(scene: Scene) -> str:
+    """Return the defaults of laws and loads that were assumed, in one line; empty if none were."""
+    named = [
+        f"{key} (A-{assumption.number})"
+        for assumption, keys in used_assumptions(scene).items()
+        if assumption.number >= FIRST_OF_A_RUN
+        for key in keys
+    ]
+    return f"assumed: {', '.join(named)}" if named else ""
+
+
+def _at_defaults(scene: Scene) -> Scene:
+    """Return a scene of the same kind in which nothing else is given."""
+    kind: dict[str, Any] = {
+        name: getattr(scene, name) for name in ("mechanism", "bodies", "crank_pin", "balls")
+    }
+    for name, key in (("film", "at_contact"), ("press", "counterweight")):
+        table = getattr(scene, name)
+        if table is not None:
+            kind[name] = {key: getattr(table, key)}
+    kind |= {name: {} for name in ("blanking", "guide") if getattr(scene, name) is not None}
+    return Scene.from_dict(kind)
+
+
+def _flat(scene: Scene) -> Iterator[tuple[str, tuple[Any, dataclasses.Field[Any]]]]:
+    """Yield the name of every key in use with its value and declaration."""
+    used = scene.to_dict()
+    for field in dataclasses.fields(scene):
+        if field.name not in TABLES:
+            if field.name in used:
+                yield field.name, (getattr(scene, field.name), field)
+            continue
+        table = getattr(scene, field.name)
+        for inner in dataclasses.fields(table) if table is not None else ():
+            gone = field.name == "press" and not table.counterweight
+            if inner.name in used[field.name] and not (gone and inner.name in OF_THE_COUNTERWEIGHT):
+                yield f"{field.name}.{inner.name}", (getattr(table, inner.name), inner)
+
+
+def _text(value: Any) -> str:
+    """Return a value as a scene file has it, numbers short."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    return f"{value:g}" if isinstance(value, float) else str(value)

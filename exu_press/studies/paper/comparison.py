@@ -1,0 +1,48 @@
+"""One measure of one run, and the published number it is held against."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from exu_press.studies.paper.published import Number
+
+__all__ = ["DATUM", "observed", "published_value", "shown"]
+
+DATUM = 0.47
+"""The paper's ideal low dead point, m. Positions are judged by how far they lie below it: beside
+an arbitrary datum of half a metre anything would agree."""
+
+
+def observed(row: Mapping[str, Any], measure: str, model: str) -> float | None:
+    """Return a measure of a run as it is judged: of a low dead point, m below the datum.
+
+    Args:
+        row: of the run, from `tasks.observe`.
+        measure: a key of its readings, or permanent_contact_ball or _pin.
+        model: of observation, where the measure has them.
+
+    Returns:
+        None where the run did not get to its end, or has no such measure.
+    """
+    value = shown(row, measure, model)
+    return DATUM - value if measure == "low_dead_point" and value is not None else value
+
+
+def shown(row: Mapping[str, Any], measure: str, model: str) -> float | None:
+    """Return a measure of a run as it is shown beside the paper's: a low dead point in m."""
+    readings = row.get("readings")
+    if not readings:
+        return None
+    if measure.startswith("permanent_contact_"):
+        joint = "crank_pin" if measure.endswith("pin") else "ball_left"
+        found = readings["joints"].get(joint)
+        return None if found is None else float(found["permanent"])
+    value = readings[measure]
+    value = value[model] if isinstance(value, dict) else value
+    return None if value is None else float(value)
+
+
+def published_value(number: Number) -> float:
+    """Return the published number as it is judged."""
+    if number.measure == "low_dead_point":
+        return round(DATUM - number.published, 6)
+    return number.published

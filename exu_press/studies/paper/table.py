@@ -1,0 +1,100 @@
+"""The table as a person reads it in a terminal."""
+
+import textwrap
+from collections.abc import Iterable, Sequence
+
+from exu_press.studies.paper.comparison import DATUM
+from exu_press.studies.paper.readings import MODELS, OBSERVED
+from exu_press.studies.paper.report import Report
+from exu_press.studies.paper.rows import AGREES_WITHIN, Row
+
+__all__ = ["report_lines"]
+
+WIDTH = 100
+NUMBERS = ("figure", "paper", "resolved", "over 1 ms", "1 kHz", "ratio", "verdict")
+TRENDS = ("figure", "paper", "ours", "", "verdict")
+SECTIONS = {
+    "numbers": (("number", "reference", "choice"), NUMBERS),
+    "natural frequencies, Hz": (("frequency",), NUMBERS),
+    "trends": (("trend",), TRENDS),
+}
+UNITS = {
+    "low_dead_point": ("mm", 1e3, ".3f"),
+    "peak_acceleration": ("m/s²", 1.0, ".4g"),
+    "peak_velocity": ("m/s", 1.0, ".3f"),
+    "clearance": ("mm", 1e3, ".2g"),
+}
+TREND_UNITS = {
+    "low_dead_point": ("µm", 1e6, ".1f"),
+    "peak_velocity": ("m/s", 1.0, ".4f"),
+    "oscillation_frequency": ("Hz", 1.0, ".3g"),
+    "permanent_contact_ball": ("%", 1e2, ".0f"),
+    "permanent_contact_pin": ("%", 1e2, ".0f"),
+}
+
+
+def report_lines(report: Report) -> list[str]:
+    """Return the table by sections, the counts, and why rows differ."""
+    lines = [
+        "Judged for all rows alike: mean over 1 ms, last revolution; "
+        f"agrees: within {100 * AGREES_WITHIN:.0f} %.",
+        "Ratios of low dead points: of how far they lie below the ideal one.",
+    ]
+    if report.quick:
+        lines.append(
+            "REDUCED FORM, rigid bodies and a tenth of a revolution: says nothing of the paper."
+        )
+    for title, (kinds, headings) in SECTIONS.items():
+        some = [row for row in report.rows if row.kind in kinds]
+        cells = [_trend(row) if headings is TRENDS else _number(row) for row in some]
+        if some:
+            lines += ["", *_aligned([(title, *headings), *cells])]
+    return [*lines, "", _counts(report.rows), "", *_differences(report.rows)]
+
+
+def _number(row: Row) -> tuple[str, ...]:
+    unit, scale, digits = UNITS.get(row.measure, ("", 1.0, ".5g"))
+    values = [_text(getattr(row, model), scale, digits) for model in MODELS]
+    ratio = "-" if row.ratio is None else f"{row.ratio:.2g}"
+    quantity = f"{row.quantity}, {unit}" if unit else row.quantity
+    published = _text(row.published, scale, digits)
+    return (quantity, row.figure, published, *values, ratio, row.verdict)
+
+
+def _trend(row: Row) -> tuple[str, ...]:
+    unit, scale, digits = TREND_UNITS.get(row.measure, UNITS.get(row.measure, ("", 1.0, ".4g")))
+    series = getattr(row, OBSERVED)
+    assert isinstance(series, tuple)
+    if row.measure == "low_dead_point":
+        series = tuple(None if value is None else DATUM - value for value in series)
+    values = ", ".join(_text(value, scale, digits) for value in series)
+    return (row.quantity, row.figure, str(row.published), values, unit, row.verdict)
+
+
+def _text(value: object, scale: float, digits: str) -> str:
+    return f"{scale * value:{digits}}" if isinstance(value, float) else "-"
+
+
+def _aligned(lines: Sequence[Sequence[str]]) -> list[str]:
+    widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
+    return [
+        "  ".join(cell.ljust(width) for cell, width in zip(line, widths, strict=True)).rstrip()
+        for line in lines
+    ]
+
+
+def _counts(rows: Iterable[Row]) -> str:
+    counts: dict[str, int] = {}
+    for row in rows:
+        counts[row.verdict] = counts.get(row.verdict, 0) + 1
+    return ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
+
+
+def _differences(rows: Iterable[Row]) -> list[str]:
+    """Return what is known of every row that differs or has no run."""
+    lines = []
+    for row in rows:
+        if row.verdict in ("differs", "no run"):
+            lines.append(f"{row.quantity} ({row.figure}) {row.verdict}:")
+            lines += textwrap.wrap(row.reason, WIDTH, initial_indent="  ", subsequent_indent="  ")
+    return lines

@@ -1,0 +1,216 @@
+"""What makes a run right: checks on one run, and its agreement with a more accurate one."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exu_press.mechanism import GROUND, mechanism_of
+from exu_press.result import Result
+from exu_press.scene import Scene
+from exu_press.scene.laws import asperity_onset, contact_law
+
+__all__ = ["RESIDUAL_LIMIT", "Check", "agreement", "checks_of"]
+
+Array = NDArray[np.float64]
+
+RESIDUAL_LIMIT = 1e-3
+"""Of the energy balance, relative to the largest work of the drive."""
+
+DRIFT_LIMIT = 1e-9  # m
+
+ENERGY_LIMIT = 1e-3
+"""Of what joints may seem to create or to store beyond what was there, relative to the same work:
+what the energy balance itself leaves open."""
+
+STEP_ERROR = 0.03
+"""What a fixed step that resolves its impacts leaves of error, as measured at 2e-5 s."""
+
+
+@dataclass(frozen=True)
+class Check:
+    """One figure that must not be above its limit.
+
+    Attributes:
+        name: what is checked.
+        value: None where it is not finite.
+        limit: in the same unit.
+        note: what is worst, where there are several.
+    """
+
+    name: str
+    value: float | None
+    limit: float
+    note: str = ""
+
+    @property
+    def passed(self) -> bool:
+        """Whether the figure is finite and not above its limit."""
+        return self.value is not None and self.value <= self.limit
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the check as it stands in stability.json."""
+        return {**asdict(self), "passed": self.passed}
+
+
+def checks_of(result: Result) -> list[Check]:
+    """Return the checks of one run that reached its end."""
+    unsound = sum(int(np.count_nonzero(~np.isfinite(result[name]))) for name in result)
+    if unsound:
+        return [_check("numbers that are not finite", unsound, 0.0)]
+    given, lost = result["energy_input"], result["energy_dissipated"]
+    scale = float(np.abs(given).max())
+    fallen = float((np.maximum.accumulate(lost) - lost).max())
+    drift, where = max(_drifts(result), default=(0.0, ""))
+    checks = [
+        _check("numbers that are not finite", 0.0, 0.0),
+        _check("energy residual", result.summary()["energy"]["residual"], RESIDUAL_LIMIT),
+        _check("constraint drift, m", drift, DRIFT_LIMIT, where),
+        _check("energy created in joints", _ratio(fallen, scale), ENERGY_LIMIT),
+    ]
+    elastic = _elastic_energy(result)
+    if elastic is not None:
+        surplus = float((elastic - _energy_there(result)).max())
+        checks.append(_check("contact energy out of nothing", _ratio(surplus, scale), ENERGY_LIMIT))
+    film = result.scene.film
+    if film is not None and film.at_contact == "stop":
+        ratio = result.summary()["joints"]["crank_pin"]["max_eccentricity_ratio"]
+        checks.append(_check("eccentricity ratio of the film", ratio, 1.0))
+    return checks
+
+
+def agreement(result: Result, finer: Result) -> Check:
+    """Return how far a run is from a more accurate one: 1 is as far as it may be.
+
+    Compared is what stays when the instants of impacts shift a little, each with a tolerance of its
+    own: extremes of the motion, peaks over the first impacts, root mean squares, means, energy. A
+    run may be off by twice the tolerance it was given on top, or by the error of a fixed step.
+    """
+    solver = result.scene.solver
+    assert solver is not None
+    asked = STEP_ERROR if solver.tolerance is None else 2.0 * solver.tolerance
+    worst, which = 0.0, ""
+    there = {name: value for name, value, _ in _quantities(finer, asked)}
+    for name, value, tolerance in _quantities(result, asked):
+        difference = abs(value - there.get(name, math.nan)) / tolerance(there[name])
+        if not difference <= worst:
+            worst, which = difference, f"{name}: {value:.5g} for {there[name]:.5g}"
+    return _check("difference from a finer run, of what is allowed", worst, 1.0, which)
+
+
+def _quantities(result: Result, asked: float) -> Iterator[tuple[str, float, Any]]:
+    """Yield name, value and allowed difference (a function of the finer value)."""
+    summary = result.summary()
+    clearance = _largest_clearance(result.scene)
+    length = 0.1 * clearance + 1e-4 * summary["stroke"]
+
+    def relative(share: float, least: float = 1e-12) -> Any:
+        return lambda finer: (share + asked) * abs(finer) + least
+
+    yield "stroke", summary["stroke"], lambda _: length
+    yield "lowest position", summary["ldp"], lambda _: length
+    yield "peak velocity", summary["peak_velocity"], relative(0.01)
+    for name, share in (("mean_1ms", 0.05), ("resolved", 0.1)):
+        value = summary["peak_acceleration"][name]
+        if value is not None:
+            yield f"peak acceleration, {name}", value, relative(share)
+    for name in result.clearance_joints:
+        distance = np.linalg.norm(result[f"{name}_eccentricity"], axis=1)
+        force = np.linalg.norm(result[f"{name}_force"], axis=1)
+        yield f"{name} peak force", float(force.max()), relative(0.1)
+        yield f"{name} rms force", math.sqrt(_mean(result.time, force**2)), relative(0.05)
+        yield (
+            f"{name} mean eccentricity",
+            _mean(result.time, distance),
+            lambda _: (0.02 + asked) * clearance,
+        )
+    work = float(np.abs(result["energy_input"]).max())
+    yield "energy dissipated", summary["energy"]["dissipated"], relative(0.05, 1e-3 * work)
+
+
+def _drifts(result: Result) -> Iterator[tuple[float, str]]:
+    """Yield the largest opening of every ideal joint and guide between rigid bodies, m."""
+    mechanism = mechanism_of(result.scene)
+    flexible = {"crank", "linkage"} if result.scene.flexible is not None else set()
+    position = {name: result["body_position"][:, index] for index, name in enumerate(result.bodies)}
+
+    def world(body: str, point: tuple[float, float]) -> Array:
+        if body == GROUND:
+            return np.array([point])
+        x, y, angle = position[body].T
+        return np.column_stack(
+            [
+                x + np.cos(angle) * point[0] - np.sin(angle) * point[1],
+                y + np.sin(angle) * point[0] + np.cos(angle) * point[1],
+            ]
+        )
+
+    for joint in mechanism.joints:
+        if joint.kind == "ideal" and not flexible & {joint.journal, joint.bearing}:
+            gap = world(joint.journal, joint.journal_point) - world(
+                joint.bearing, joint.bearing_point
+            )
+            yield float(np.linalg.norm(gap, axis=1).max()), joint.name
+
+
+def _elastic_energy(result: Result) -> Array | None:
+    """Return what the contacts of all joints store, (n,), J; None where nothing may touch."""
+    scene = result.scene
+    if scene.contact is None or scene.clearance is None:
+        return None
+    total, found = np.zeros_like(result.time), False
+    for name in result.clearance_joints:
+        radial = scene.clearance.crank_pin if name == "crank_pin" else scene.clearance.balls
+        assert radial is not None
+        onset = 0.0
+        if name == "crank_pin" and scene.film is not None:
+            asperities = asperity_onset(scene.film)
+            if asperities is None:
+                continue
+            onset = asperities
+        found = True
+        law = contact_law(scene.contact, radial, revolute=name == "crank_pin")
+        depth = np.linalg.norm(result[f"{name}_eccentricity"], axis=1) - radial + onset
+        total += [law.elastic_energy(d) for d in depth.tolist()]
+    return total if found else None
+
+
+def _energy_there(result: Result) -> Array:
+    """Return what contacts can have stored at most, (n,), J.
+
+    The kinetic energy of the start and the drive's work, less what has gone into height.
+    """
+    scene = result.scene
+    mechanism = mechanism_of(scene)
+    motion = mechanism.motion(np.array([scene.start_angle]), scene.angular_speed)
+    kinetic = sum(
+        0.5 * body.mass * float((motion[body.name].velocity[0, :2] ** 2).sum())
+        + 0.5 * body.inertia * float(motion[body.name].velocity[0, 2]) ** 2
+        for body in mechanism.bodies
+    )
+    mass = np.array([body.mass for body in mechanism.bodies])
+    height = scene.gravity * (result["body_position"][:, :, 1] @ mass)
+    return np.asarray(kinetic + result["energy_input"] - (height - height[0]))
+
+
+def _largest_clearance(scene: Scene) -> float:
+    clearance = scene.clearance
+    if clearance is None:
+        return 0.0
+    return max(clearance.crank_pin or 0.0, clearance.balls or 0.0)
+
+
+def _mean(time: Array, values: Array) -> float:
+    """Return the mean over time."""
+    return float(np.trapezoid(values, time) / (time[-1] - time[0]))
+
+
+def _ratio(value: float, scale: float) -> float:
+    return max(0.0, value) / scale if scale > 0.0 else 0.0
+
+
+def _check(name: str, value: float, limit: float, note: str = "") -> Check:
+    return Check(name, value if math.isfinite(value) else None, limit, note)

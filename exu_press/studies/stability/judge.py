@@ -1,0 +1,73 @@
+"""One case, run and judged: right, stopped or wrong."""
+
+import time
+from typing import Any
+
+from exu_press.scene import Scene
+from exu_press.simulation import simulate
+from exu_press.studies.stability.checks import agreement, checks_of
+
+__all__ = ["RIGHT", "STOPPED", "WRONG", "finer", "judge"]
+
+RIGHT, STOPPED, WRONG = "right", "stopped", "wrong"
+
+FINEST = 1e-8
+"""Smallest tolerance that a scene may ask for."""
+
+FINER_THAN_A_STEP = 1e-5
+"""Tolerance of the run that one with a fixed step is compared with."""
+
+
+def judge(case: dict[str, Any]) -> dict[str, Any]:
+    """Run a case and return its row.
+
+    Args:
+        case: name and scene.
+    """
+    start = time.perf_counter()
+    scene = Scene.from_dict(case["scene"])
+    result = simulate(scene)
+    info = result.info
+    row: dict[str, Any] = {
+        "name": case["name"],
+        "status": info["status"],
+        "reason": info["reason"],
+        "steps": info["steps"],
+        "wall_time": info["wall_time"],
+    }
+    if info["reason"]:
+        row |= {"verdict": STOPPED, "checks": [], "residual": None}
+        return row | {"judged_in": time.perf_counter() - start}
+    checks = checks_of(result)
+    residual = next((c.value for c in checks if c.name == "energy residual"), None)
+    if all(check.passed for check in checks):
+        reference = simulate(finer(scene))
+        if reference.info["reason"]:
+            row["reason"] = f"the finer run: {reference.info['reason']}"
+        else:
+            checks.append(agreement(result, reference))
+    failed = [check for check in checks if not check.passed]
+    right = not failed and not row["reason"]
+    if failed:
+        row["reason"] = "; ".join(
+            f"{check.name} = {check.value if check.value is None else format(check.value, '.2g')}, "
+            f"allowed {check.limit:g}" + f" ({check.note})" * bool(check.note)
+            for check in failed
+        )
+    row |= {
+        "verdict": RIGHT if right else WRONG,
+        "checks": [check.to_dict() for check in checks],
+        "residual": residual,
+    }
+    return row | {"judged_in": time.perf_counter() - start}
+
+
+def finer(scene: Scene) -> Scene:
+    """Return a scene with a tenth of the tolerance; a fixed step gives way to a tolerance."""
+    solver = scene.solver
+    assert solver is not None
+    if solver.tolerance is None:
+        tolerance = FINER_THAN_A_STEP
+    else:
+        tolerance = max(0.1 * solver.tolerance, FINEST)
+    return scene.replace({"solver.tolerance": tolerance, "solver.max_steps": 5 * solver.max_steps})

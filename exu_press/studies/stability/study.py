@@ -1,0 +1,63 @@
+"""The study: every case judged, several at a time; it goes on where it was stopped."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from exu_press.batch import run_batch
+from exu_press.studies.stability.cases import Case
+from exu_press.studies.stability.judge import WRONG, judge
+from exu_press.studies.stability.report import Report
+
+__all__ = ["TIME_LIMIT", "stability"]
+
+TIME_LIMIT = 300.0
+"""s for one case; its budget of steps ends it long before, so that a case that gets here hangs."""
+
+
+def stability(
+    table: Sequence[Case],
+    directory: str | Path,
+    *,
+    quick: bool = False,
+    workers: int | None = None,
+    quiet: bool = True,
+) -> Report:
+    """Judge cases and return the report.
+
+    Args:
+        table: from `exu_press.studies.stability.cases`.
+        directory: rows are kept in it as they come; called again, finished ones are not run again.
+        quick: whether the table is the fixed sample.
+        workers: number of processes; all cores unless told.
+        quiet: False shows the progress on standard error.
+
+    Raises:
+        InputError: the directory cannot be used.
+    """
+    arguments = [{"name": case.name, "scene": case.scene.to_dict()} for case in table]
+    rows = run_batch(
+        judge,
+        arguments,
+        directory,
+        workers=workers,
+        time_limit=TIME_LIMIT,
+        label="stability",
+        quiet=quiet,
+    )
+    return Report(quick, tuple(_row(case, row) for case, row in zip(table, rows, strict=True)))
+
+
+def _row(case: Case, row: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a case's row; a worker that failed, hung or died gives a wrong one."""
+    row = dict(row)
+    if "verdict" not in row:
+        row |= {"verdict": WRONG, "reason": f"{row['status']}: {row['reason']}"}
+        row |= {"checks": [], "residual": None, "steps": None, "wall_time": None}
+    return {
+        **row,
+        "name": case.name,
+        "axis": case.axis,
+        "value": case.value,
+        "parameters": case.scene.to_dict(),
+    }

@@ -1,0 +1,111 @@
+"""Run a study: its batch, and the table of what came out."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+from exu_press.batch import locked, run_batch
+from exu_press.errors import InputError
+from exu_press.output import output_directory, write_json
+from exu_press.scene import Scene
+from exu_press.studies.sweep.study import Study
+from exu_press.studies.sweep.table import Table, table_of
+
+__all__ = ["run_scene", "sweep"]
+
+OURS = ("study.json", "runs.jsonl", "table.csv", "table.nc")
+
+
+def sweep(
+    study: Study,
+    directory: str | Path,
+    *,
+    workers: int | None = None,
+    dask: str | None = None,
+    quiet: bool = True,
+) -> Table:
+    """Run what is not run yet, write table.csv and table.nc, and return the table.
+
+    Called again after a kill or Ctrl-C, it goes on; see `exu_press.batch.run_batch`.
+
+    Args:
+        study: what to run.
+        directory: of this study alone.
+        workers: number of processes; all cores unless told.
+        dask: address of a Dask scheduler instead.
+        quiet: False shows the progress on standard error.
+
+    Raises:
+        InputError: the directory cannot be used or belongs to another study, or no scheduler
+            answers.
+    """
+    directory = output_directory(directory)
+    with locked(directory):
+        _claim(directory, study)
+        digits = len(str(len(study.points)))
+        numbers = range(1, len(study.points) + 1)
+        files = [f"runs/{n:0{digits}}.nc" for n in numbers] if study.save_runs else []
+        if files:
+            output_directory(directory / "runs")
+        rows = run_batch(
+            run_scene,
+            [
+                {"scene": scene.to_dict()}
+                | ({"save": str((directory / files[index]).resolve())} if files else {})
+                for index, scene in enumerate(study.scenes)
+            ],
+            directory,
+            workers=workers,
+            dask=dask,
+            time_limit=study.time_limit,
+            quiet=quiet,
+        )
+        table = table_of(study, rows, files)
+        table.save_csv(directory / "table.csv")
+        table.save_netcdf(directory / "table.nc")
+    return table
+
+
+def run_scene(arguments: dict[str, Any]) -> dict[str, Any]:
+    """Run {"scene": ..., "save": file, if wanted} and return its summary less the scene."""
+    from exu_press.simulation import simulate
+
+    result = simulate(Scene.from_dict(arguments["scene"]))
+    if "save" in arguments:
+        result.save(arguments["save"])
+    summary = result.summary()
+    del summary["scene"]
+    return summary
+
+
+def _claim(directory: Path, study: Study) -> None:
+    """Write down whose directory this is, or raise InputError if it is another's."""
+    path = directory / "study.json"
+    wanted = json.loads(json.dumps(study.to_dict()))
+    if not path.exists():
+        taken = [name for name in OURS if (directory / name).exists()]
+        if taken:
+            raise InputError(
+                f"{directory}: holds {taken[0]} of something else; allowed is a directory of the "
+                "study's own"
+            )
+        write_json(path, wanted)
+        return
+    try:
+        found = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        found = None
+    if found != wanted:
+        raise InputError(
+            f"{directory}: belongs to another study ({path.name} differs{_where(found, wanted)}); "
+            "allowed is another directory, or to remove this one"
+        )
+
+
+def _where(found: Any, wanted: dict[str, Any]) -> str:
+    """Return the first key in which two studies differ, in words."""
+    if isinstance(found, dict):
+        for name in {**wanted, **found}:
+            if found.get(name) != wanted.get(name):
+                return f" in {name}"
+    return ""

@@ -1,0 +1,111 @@
+"""The table of a sweep: one row a run, whatever became of it."""
+
+import csv
+import io
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exu_press.output import replacing
+from exu_press.studies.sweep.points import flat
+from exu_press.studies.sweep.study import Study
+
+__all__ = ["TIMES", "Table", "table_of"]
+
+Value = str | float | bool | None
+
+TIMES = ("wall_time", "total_time")
+"""Columns that differ from run to run of the same scene; they stand last."""
+
+
+@dataclass(frozen=True)
+class Table:
+    """What a sweep gave.
+
+    Attributes:
+        study: what was asked.
+        columns: name -> values, one a run in the study's order, None where a run has none. First
+            the keys that vary, then status and reason, then the scalars of the summaries.
+    """
+
+    study: Study
+    columns: Mapping[str, tuple[Value, ...]]
+
+    def __getitem__(self, name: str) -> tuple[Value, ...]:
+        """Return a column."""
+        return self.columns[name]
+
+    def __len__(self) -> int:
+        """Return the number of runs."""
+        return len(self.study.points)
+
+    def numbers(self, name: str) -> NDArray[np.float64]:
+        """Return a column of numbers, (runs,); NaN where a run has none."""
+        return np.array([np.nan if v is None else v for v in self.columns[name]], dtype=float)
+
+    def is_numeric(self, name: str) -> bool:
+        """Return whether a column has numbers alone, at least one."""
+        values = [value for value in self.columns[name] if value is not None]
+        return bool(values) and not any(isinstance(value, (str, bool)) for value in values)
+
+    def save_csv(self, path: Path) -> None:
+        """Write the table; numbers with all their digits, nothing where a run has none."""
+        text = io.StringIO()
+        writer = csv.writer(text, lineterminator="\n")
+        writer.writerow(self.columns)
+        writer.writerows(
+            [_text(value) for value in row] for row in zip(*self.columns.values(), strict=True)
+        )
+        with replacing(path) as partial:
+            partial.write_text(text.getvalue(), encoding="utf-8")
+
+    def save_netcdf(self, path: Path) -> None:
+        """Write the table as NetCDF."""
+        from exu_press.studies.sweep.netcdf import write
+
+        write(self, path)
+
+
+def table_of(study: Study, rows: Sequence[Mapping[str, Any]], files: Sequence[str]) -> Table:
+    """Return the table of a study's rows.
+
+    Args:
+        study: what was asked.
+        rows: as the runs gave them, nested, in the study's order.
+        files: where the runs are, or nothing.
+    """
+    each = []
+    for number, (point, scene, row) in enumerate(
+        zip(study.points, study.scenes, rows, strict=True)
+    ):
+        scalars = _scalars({**row, "scene": scene.to_dict()})
+        head = {**point, "status": scalars.pop("status"), "reason": scalars.pop("reason")}
+        if files:
+            head["file"] = files[number]
+        times = {name: scalars.pop(name) for name in TIMES if name in scalars}
+        each.append((head, scalars, times))
+    names = _names(part for parts in zip(*each, strict=True) for part in parts)
+    lines: list[dict[str, Value]] = [{**times, **scalars, **head} for head, scalars, times in each]
+    return Table(study, {name: tuple(line.get(name) for line in lines) for name in names})
+
+
+def _scalars(row: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what is one value, nested names joined by a dot; lists are left to run.nc."""
+    return {name: value for name, value in flat(row).items() if not isinstance(value, list)}
+
+
+def _names(rows: Iterable[Mapping[str, Any]]) -> list[str]:
+    """Return the names of all rows, in the order in which they come first."""
+    return list(dict.fromkeys(name for row in rows for name in row))
+
+
+def _text(value: Value) -> str:
+    if value is None:
+        return ""
+    if isinstance(value, bool):
+        return str(value).lower()
+    return value if isinstance(value, str) else repr(value)

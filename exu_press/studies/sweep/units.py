@@ -1,0 +1,60 @@
+"""Units and meanings of a table's columns."""
+
+import dataclasses
+from collections.abc import Mapping
+from typing import Any
+
+from exu_press.scene import Scene
+from exu_press.scene.scene import TABLES
+
+__all__ = ["meaning_of", "unit_of"]
+
+UNITS = {
+    "peak_acceleration": "m/s^2",
+    "peak_velocity": "m/s",
+    "stroke": "m",
+    "ldp": "m",
+    "peak_force": "N",
+    "peak_penetration": "m",
+    "min_film": "m",
+    "end_time": "s",
+    "wall_time": "s",
+    "total_time": "s",
+    "energy.input": "J",
+    "energy.dissipated": "J",
+    "energy.stored": "J",
+}
+"""Of the summary's entries; a name stands for whatever begins or ends with it."""
+
+
+def unit_of(name: str) -> str:
+    """Return the SI unit of a scene's key or of a summary's entry, or nothing.
+
+    >>> unit_of("clearance.crank_pin"), unit_of("joints.ball_left.peak_force"), unit_of("steps")
+    ('m', 'N', '')
+    """
+    metadata = _metadata(name)
+    if metadata is not None:
+        return str(metadata["unit"])
+    found = (u for n, u in UNITS.items() if name.startswith(n) or name.endswith(f".{n}"))
+    return next(found, "")
+
+
+def meaning_of(name: str) -> str:
+    """Return what a scene's key is, or nothing.
+
+    >>> meaning_of("speed_rpm")
+    'crank speed'
+    """
+    metadata = _metadata(name)
+    return "" if metadata is None else str(metadata["meaning"])
+
+
+def _metadata(name: str) -> Mapping[str, Any] | None:
+    """Return what a key of a scene states of itself."""
+    table, _, inner = name.removeprefix("scene.").rpartition(".")
+    if table and table not in TABLES:
+        return None
+    fields = {field.name: field for field in dataclasses.fields(TABLES.get(table, Scene))}
+    found = fields.get(inner)
+    return found.metadata if found is not None and "meaning" in found.metadata else None

@@ -1,0 +1,172 @@
+"""The whole picture: mechanism, joints magnified, curves; brought from frame to frame."""
+
+from dataclasses import dataclass
+from typing import Any, cast
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.gridspec import SubplotSpec
+from matplotlib.transforms import Bbox
+from numpy.typing import NDArray
+
+from exu_press.plots.scales import crank_angle_axis, impact_scale, note
+from exu_press.plots.sides import mirror, sides_alike
+from exu_press.plots.style import GREY, look
+from exu_press.plots.words import describe, early_stops, joint_in_words
+from exu_press.result import Result
+from exu_press.view.curve_panel import CurvePanel
+from exu_press.view.flexible_panel import FlexiblePanel, Look
+from exu_press.view.instants import Instants
+from exu_press.view.joint_panel import JointPanel
+from exu_press.view.mechanism_panel import MechanismPanel
+from exu_press.view.panel import Panel, animated
+
+__all__ = ["SIZE", "Film", "Look"]
+
+SIZE = (12.8, 7.2)
+"""Inch."""
+
+CURVES = (
+    ("slider_position", "Slider position", "mm", 1e3),
+    ("slider_velocity", "Slider velocity", "m/s", 1.0),
+    ("slider_acceleration", "Slider acceleration", "m/s²", 1.0),
+)
+
+
+class Film:
+    """A figure that shows one frame after the other."""
+
+    def __init__(
+        self, result: Result, instants: Instants, figure: Figure, flexible: Look | None = None
+    ) -> None:
+        """Draw what does not change.
+
+        Args:
+            result: of the run.
+            instants: the frames.
+            figure: an empty one of SIZE.
+            flexible: how flexible bodies are shown; None: as their defaults are.
+        """
+        self.figure, self.instants, self.result = figure, instants, result
+        self.panels: list[Panel] = []
+        with look():
+            self._draw(flexible or Look())
+        self.artists = [artist for panel in self.panels for artist in panel.artists]
+        self.artists += animated(self._clock)
+
+    def show(self, frame: int) -> None:
+        """Bring everything to a frame."""
+        for panel in self.panels:
+            panel.show(frame)
+        step = int(self.instants.step[frame])
+        degrees = np.degrees(self.result["crank_angle"][step])
+        self._clock.set_text(
+            f"t = {self.instants.time[frame] * 1e3:7.2f} ms    crank {degrees:6.1f}°"
+        )
+
+    def draw_artists(self) -> None:
+        """Draw what changes, on what has been drawn."""
+        for artist in self.artists:
+            self.figure.draw_artist(artist)
+
+    def _draw(self, flexible: Look) -> None:
+        """Lay out and draw all panels."""
+        figure, result = self.figure, self.result
+        width = 150
+        lines = [describe([result.scene], width), early_stops({"": result}, width)]
+        figure.text(0.012, 0.975, "\n".join(filter(None, lines)), fontsize=9.0, va="top")
+        self._clock = figure.text(
+            0.988, 0.972, "", fontsize=11, fontweight="bold", va="top", ha="right"
+        )
+        speed = f"{self.instants.slow:.3g} times slower than the machine at {self.instants.fps:g}"
+        if not self.instants.still:
+            figure.text(0.012, 0.015, f"{speed} frames a second", fontsize=7.5, color=GREY)
+        joints = _joints(result)
+        columns = figure.add_gridspec(
+            1,
+            3,
+            width_ratios=(1.0, 0.95 if joints else 0.01, 1.2),
+            left=0.01,
+            right=0.985,
+            top=0.90,
+            bottom=0.095,
+            wspace=0.14,
+        )
+        self.panels.append(MechanismPanel(figure.add_subplot(columns[0]), result, self.instants))
+        if joints:
+            rows = columns[1].subgridspec(len(joints), 1, hspace=0.16)
+            for index, (name, title) in enumerate(joints.items()):
+                axes = figure.add_subplot(rows[index])
+                self.panels.append(JointPanel(axes, result, name, title, self.instants))
+        if result.surfaces:
+            right = columns[2].subgridspec(2, 1, height_ratios=(1.0, 1.0), hspace=0.22)
+            self.panels.append(FlexiblePanel(figure, right[0], result, self.instants, flexible))
+            self._draw_curves(right[1], (CURVES[0], CURVES[2]))
+        else:
+            self._draw_curves(columns[2], CURVES)
+
+    def _draw_curves(
+        self, place: SubplotSpec, curves: tuple[tuple[str, str, str, float], ...]
+    ) -> None:
+        """Draw the slider's curves, one below the other."""
+        result, step = self.result, self.instants.step
+        heights = (1.0, 1.0, 1.0) if len(curves) == 3 else (0.6, 1.0)
+        rows = place.subgridspec(len(curves), 1, hspace=0.33, height_ratios=heights)
+        degrees = np.degrees(result["crank_angle"])
+        shown = slice(int(step[0]), int(step[-1]) + 1)
+        panels = []
+        for index, (channel, title, unit, scale) in enumerate(curves):
+            axes = self.figure.add_subplot(rows[index])
+            values = scale * result[channel]
+            self.panels.append(CurvePanel(axes, result, values, self.instants))
+            axes.set_title(title)
+            axes.set_ylabel(unit)
+            if channel == "slider_acceleration":
+                note(axes, impact_scale(axes, [(degrees[shown], values[shown])], signed=True))
+            else:
+                axes.margins(y=0.08)
+            axes.tick_params(labelbottom=index == len(curves) - 1)
+            panels.append(axes)
+        panels[-1].set_xlabel("crank angle from top dead centre, deg")
+        crank_angle_axis(panels, degrees[shown][0], degrees[shown][-1])
+
+
+def _joints(result: Result) -> dict[str, str]:
+    """Return the joints to magnify with their titles; one of two balls that do the same."""
+    shown: dict[str, str] = {}
+    for name in sorted(result.clearance_joints, key=lambda name: (name.startswith("ball"), name)):
+        channel, title = f"{name}_eccentricity", joint_in_words(name)
+        if mirror(channel) != channel and sides_alike([result], channel):
+            if any(mirror(channel) == f"{other}_eccentricity" for other in shown):
+                continue
+            title = f"{title.partition(',')[0]}, each side"
+        shown[name] = title
+    return shown
+
+
+@dataclass
+class Painter:
+    """Draws the frames of a film into memory, each on the same background."""
+
+    film: Film
+    dpi: float
+
+    def __post_init__(self) -> None:
+        """Draw the background."""
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+        self.film.figure.set_dpi(self.dpi)
+        self._canvas = cast(Any, FigureCanvasAgg(self.film.figure))
+        with look():
+            self._canvas.draw()
+        self._background = self._canvas.copy_from_bbox(
+            Bbox.from_bounds(0, 0, *self._canvas.get_width_height())
+        )
+
+    def paint(self, frame: int) -> NDArray[np.uint8]:
+        """Return a frame's pixels (height, width, 4)."""
+        self.film.show(frame)
+        self._canvas.restore_region(self._background)
+        with look():
+            self.film.draw_artists()
+        return np.array(self._canvas.buffer_rgba())

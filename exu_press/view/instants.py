@@ -1,0 +1,124 @@
+"""When the film shows the run: equally spaced instants, and the steps between them."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exu_press.errors import InputError
+from exu_press.result import Result
+
+__all__ = ["SECONDS_PER_REVOLUTION", "Instants", "instants", "moment"]
+
+Array = NDArray[np.float64]
+
+SECONDS_PER_REVOLUTION = 5.0
+"""Of the film, unless told otherwise, s."""
+
+MOST_FRAMES = 20_000
+
+
+@dataclass(frozen=True)
+class Instants:
+    """The frames of a film.
+
+    Attributes:
+        time: (m,) of every frame, s.
+        step: (m,) the last step of the integrator that is not later.
+        slow: seconds of the film for a second of the machine.
+        fps: frames a second.
+        still: only one of the frames is shown: it holds the instant, not what happened before.
+    """
+
+    time: Array
+    step: NDArray[np.intp]
+    slow: float
+    fps: float
+    still: bool = False
+
+    def __len__(self) -> int:
+        """Return the number of frames."""
+        return len(self.time)
+
+    def steps_since_last(self, frame: int) -> slice:
+        """Return the steps after the frame before, at least one: what happened in between."""
+        last = int(self.step[frame])
+        first = last if self.still or not frame else int(self.step[frame - 1]) + 1
+        return slice(min(first, last), last + 1)
+
+
+def instants(
+    result: Result,
+    start: float | None = None,
+    stop: float | None = None,
+    *,
+    fps: float = 25.0,
+    slow: float | None = None,
+    frames: int | None = None,
+) -> Instants:
+    """Return the frames of a film of a run, from start to stop (s; default: all of it).
+
+    Args:
+        result: of the run.
+        start: s.
+        stop: s.
+        fps: frames a second.
+        slow: seconds of film for a second of the machine; default: a revolution takes 5 s.
+        frames: their number, instead of `slow`.
+
+    Raises:
+        InputError: a number is outside its range, or lies outside the record.
+    """
+    begin, end = _interval(result, start, stop)
+    if not 1.0 <= fps <= 120.0:
+        raise InputError(f"--fps {fps:g}: allowed is 1 to 120 frames a second")
+    if frames is not None:
+        if slow is not None:
+            raise InputError(f"--frames {frames} --slow {slow:g}: allowed is one of the two")
+        count = frames
+    else:
+        if slow is None:
+            slow = SECONDS_PER_REVOLUTION * result.scene.speed_rpm / 60.0
+        if not slow > 0.0:
+            raise InputError(f"--slow {slow:g}: allowed is a number > 0")
+        count = max(2, 1 + round(min((end - begin) * slow * fps, 1e9)))
+    if not 2 <= count <= MOST_FRAMES:
+        raise InputError(f"{count} frames: allowed is 2 to {MOST_FRAMES}; see --frames and --slow")
+    shown = np.linspace(begin, end, count)
+    seconds = (count - 1) / fps
+    slower = seconds / (end - begin) if end > begin else 1.0
+    return Instants(shown, _steps(result.time, shown), slower, fps)
+
+
+def moment(
+    result: Result, at: float | None = None, start: float | None = None, stop: float | None = None
+) -> Instants:
+    """Return three frames, of which the middle one is the instant (s; default: the last one).
+
+    Raises:
+        InputError: a time lies outside the record, or the instant outside the interval.
+    """
+    begin, end = _interval(result, start, stop)
+    now = end if at is None else at
+    if not begin <= now <= end:
+        raise InputError(f"--at {now:g}: allowed is {begin:g} to {end:g} s")
+    shown = np.array([begin, now, end])
+    return Instants(shown, _steps(result.time, shown), 1.0, 1.0, still=True)
+
+
+def _interval(result: Result, start: float | None, stop: float | None) -> tuple[float, float]:
+    """Return begin and end, s."""
+    first, last = float(result.time[0]), float(result.time[-1])
+    for option, value in (("--from", start), ("--to", stop)):
+        if value is not None and not first <= value <= last:
+            raise InputError(f"{option} {value:g}: the record goes from {first:g} to {last:g} s")
+    begin, end = first if start is None else start, last if stop is None else stop
+    if not begin < end and first < last:
+        raise InputError(f"--from {begin:g} --to {end:g}: allowed is --from before --to")
+    return begin, end
+
+
+def _steps(time: Array, shown: Array) -> NDArray[np.intp]:
+    """Return the last of the integrator's steps not later than each instant."""
+    late = np.searchsorted(time, shown * (1.0 + 1e-12), side="right") - 1
+    return np.clip(late, 0, len(time) - 1)

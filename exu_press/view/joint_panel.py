@@ -1,0 +1,170 @@
+"""A joint with clearance, magnified: the journal in its bearing, its path, and the force on it."""
+
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from matplotlib.patches import Circle, FancyArrowPatch
+from numpy.typing import NDArray
+
+from exu_press.plots.style import COLOURS, GREY, RUN
+from exu_press.result import Result
+from exu_press.view.instants import Instants
+from exu_press.view.mechanism_panel import MARKED
+from exu_press.view.panel import animated
+
+__all__ = ["JointPanel"]
+
+Array = NDArray[np.float64]
+
+BORE, JOURNAL = 1.0, 0.55
+CLEARANCE = BORE - JOURNAL
+"""The drawn clearance; the journal touches the bore where the eccentricity ratio is 1."""
+
+SMALL = 0.2
+"""Paths within this eccentricity ratio are shown once more, magnified."""
+
+ARROW = 0.9
+"""Length of the largest force's arrow."""
+
+OIL, STEEL, METAL, EDGE = "#D9ECF8", "#D5D9DD", "#EFD9A7", "#333333"
+FORCE = COLOURS["purple"]
+
+
+class JointPanel:
+    """The clearance is drawn as large as the bearing, so that contact looks like contact."""
+
+    def __init__(
+        self, axes: Axes, result: Result, name: str, title: str, instants: Instants
+    ) -> None:
+        """Draw bearing and clearance circle."""
+        clearance = result.scene.clearance
+        assert clearance is not None
+        ball = name.startswith("ball")
+        radial = clearance.balls if ball else clearance.crank_pin
+        assert radial is not None
+        self._clearance, self._ball, self._instants = radial, ball, instants
+        self._ratio = result[f"{name}_eccentricity"][:, :2] / radial
+        self._distance = np.linalg.norm(result[f"{name}_eccentricity"], axis=1) / radial
+        self._force = result[f"{name}_force"][:, :2]
+        self._size = np.linalg.norm(result[f"{name}_force"], axis=1)
+        self._turn = result["crank_angle"]
+        self._film = result.scene.film is not None and not ball
+        shown = slice(int(instants.step[0]), int(instants.step[-1]) + 1)
+        self._first = shown.start
+        self._largest = float(self._size[shown].max()) or 1.0
+        self._revolution = 60.0 / result.scene.speed_rpm
+        self._time = result.time
+
+        axes.set_aspect("equal", adjustable="box")
+        axes.set_axis_off()
+        axes.set(xlim=(-1.25, 2.15), ylim=(-1.6, 1.5))
+        kind = "lubricated" if self._film else "dry"
+        axes.set_title(f"{title}, {kind}, clearance {radial * 1e6:.4g} µm", fontsize=9.5)
+        axes.add_patch(Circle((0, 0), 1.18, facecolor=STEEL, edgecolor=EDGE, linewidth=0.8))
+        inside = OIL if self._film else "white"
+        axes.add_patch(Circle((0, 0), BORE, facecolor=inside, edgecolor=EDGE, linewidth=0.8))
+        axes.text(
+            -1.22,
+            -1.26,
+            _legend("ball" if ball else "journal", self._largest, instants.still),
+            fontsize=7.0,
+            color=GREY,
+            va="top",
+        )
+        self._journal = Circle((0, 0), JOURNAL, facecolor=METAL, edgecolor=EDGE, linewidth=0.9)
+        axes.add_patch(self._journal)
+        (self._spoke,) = axes.plot([], [], color="#8C6D1F", linewidth=1.6)
+        circle = axes.add_patch(
+            Circle((0, 0), CLEARANCE, fill=False, edgecolor=MARKED, linewidth=1.1, linestyle="--")
+        )
+        (self._path,) = axes.plot([], [], color=RUN, linewidth=0.8)
+        (self._centre,) = axes.plot([], [], "o", markersize=4.5, color=RUN, markeredgecolor="white")
+        self._arrow = FancyArrowPatch(
+            (0, 0), (0, 0), mutation_scale=11, linewidth=2.0, color=FORCE, shrinkA=0, shrinkB=0
+        )
+        axes.add_patch(self._arrow)
+        self._words = axes.text(-1.22, 1.44, "", fontsize=8.5, va="center", ha="left")
+        extra: list[Any] = []
+        self._zoom: tuple[Line2D, Line2D] | None = None
+        reach = float(self._distance[shown].max())
+        if reach < SMALL:
+            extra = self._draw_zoom(axes, 1.25 * max(reach, 1e-6))
+        self.artists = animated(
+            self._journal,
+            self._spoke,
+            circle,
+            self._path,
+            self._centre,
+            self._arrow,
+            self._words,
+            *extra,
+        )
+
+    def _draw_zoom(self, axes: Axes, half: float) -> list[Any]:
+        """Add the path's surroundings, magnified, in a corner; the half width is in clearances."""
+        zoom = axes.inset_axes((1.3, -1.18, 0.8, 0.8), transform=axes.transData)
+        zoom.set(xlim=(-half, half), ylim=(-half, half), xticks=[], yticks=[])
+        zoom.set_aspect("equal")
+        zoom.grid(False)
+        zoom.spines[:].set_visible(True)
+        zoom.axhline(0.0, color="#D0D0D0", linewidth=0.6)
+        zoom.axvline(0.0, color="#D0D0D0", linewidth=0.6)
+        width = 2e6 * half * self._clearance
+        zoom.set_title(f"path,\n{width:.2g} µm wide", fontsize=7, fontweight="normal", pad=2.5)
+        (path,) = zoom.plot([], [], color=RUN, linewidth=0.8)
+        (centre,) = zoom.plot([], [], "o", markersize=3.5, color=RUN)
+        self._zoom = path, centre
+        return [path, centre]
+
+    def show(self, frame: int) -> None:
+        """Bring the journal to its place; the path shows the last revolution."""
+        step = int(self._instants.step[frame])
+        since = self._instants.steps_since_last(frame)
+        begin = np.searchsorted(self._time, self._time[step] - self._revolution)
+        path = self._ratio[max(int(begin), self._first) : step + 1]
+        x, y = self._ratio[step]
+        place = CLEARANCE * np.array([x, y])
+        self._path.set_data(*(CLEARANCE * path.T))
+        self._centre.set_data([place[0]], [place[1]])
+        self._journal.set_center((float(place[0]), float(place[1])))
+        if not self._ball:
+            turn = self._turn[step]
+            tip = JOURNAL * np.array([-np.sin(turn), np.cos(turn)])
+            self._spoke.set_data(
+                [place[0] + 0.72 * tip[0], place[0] + tip[0]],
+                [place[1] + 0.72 * tip[1], place[1] + tip[1]],
+            )
+        largest = since.start + int(np.argmax(self._size[since]))
+        size = float(self._size[largest])
+        self._arrow.set_visible(size > 1e-4 * self._largest)
+        if self._arrow.get_visible():
+            along = self._force[largest] / max(float(np.linalg.norm(self._force[largest])), 1e-300)
+            tip = place + ARROW * np.sqrt(size / self._largest) * along
+            self._arrow.set_positions(tuple(place), tuple(tip))
+        self._words.set_text(self._in_words(step, size))
+        if self._zoom is not None:
+            line, dot = self._zoom
+            line.set_data(*path.T)
+            dot.set_data([x], [y])
+
+    def _in_words(self, step: int, force: float) -> str:
+        """Return eccentricity, gap and force."""
+        distance = float(self._distance[step])
+        gap = (1.0 - distance) * self._clearance * 1e6
+        named = f"gap {gap:.1f} µm" if gap >= 0.0 else f"penetration {-gap:.2f} µm"
+        return f"e/c = {distance:.3f},  {named},  F = {_kilo(force)}"
+
+
+def _legend(body: str, largest: float, still: bool) -> str:
+    """Return what the arrow is."""
+    what = (
+        f"force on the {body}" if still else f"largest force on the {body} since the frame before"
+    )
+    return f"F, arrow: {what},\nlength as its square root, full at {_kilo(largest)}"
+
+
+def _kilo(force: float) -> str:
+    """Return a force in kN."""
+    return f"{force / 1e3:.3g} kN"

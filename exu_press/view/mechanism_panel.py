@@ -1,0 +1,218 @@
+"""The mechanism from the front, to scale, with its guides, pivots and dead centres."""
+
+from collections.abc import Iterable
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from matplotlib.patches import Circle, Polygon
+from numpy.typing import NDArray
+
+from exu_press.mechanism import GROUND, Mechanism, mechanism_of
+from exu_press.mechanism.shapes import Shape, moved, shapes_of
+from exu_press.plots.style import COLOURS, GREY
+from exu_press.plots.words import joint_in_words
+from exu_press.result import Result
+from exu_press.view.instants import Instants
+from exu_press.view.panel import animated
+
+__all__ = ["MARKED", "MechanismPanel", "poses"]
+
+Array = NDArray[np.float64]
+
+MARKED = COLOURS["vermilion"]
+"""Joints with clearance, here and magnified."""
+
+EDGE = "#333333"
+STEEL = "#8A8A8A"
+
+
+class MechanismPanel:
+    """Draws every body at its pose; the ideal mechanism's dead centres stand beside the slider."""
+
+    def __init__(self, axes: Axes, result: Result, instants: Instants) -> None:
+        """Draw what stands still, and every body once."""
+        self._mechanism = mechanism = mechanism_of(result.scene)
+        self._poses = poses(result, mechanism, instants)
+        self._shapes = shapes_of(mechanism)
+        order = sorted(mechanism.bodies, key=lambda body: self._layer(body.name))
+        everywhere = _swept_outlines(mechanism, self._shapes)
+        low = np.vstack(list(everywhere.values())).min(axis=0)
+        high = np.vstack(list(everywhere.values())).max(axis=0)
+        self._unit = unit = float(high[1] - low[1])
+        _draw_frame(axes, mechanism, everywhere, unit)
+        _draw_labels(axes, mechanism, self._poses, float(high[0]), (low[1], high[1]))
+        _draw_dead_centres(axes, mechanism, everywhere[mechanism.slider], unit)
+        axes.set_aspect("equal", adjustable="box", anchor="W")
+        axes.set_axis_off()
+        axes.set(
+            xlim=(low[0] - 0.03 * unit, high[0] + 0.33 * unit),
+            ylim=(low[1] - 0.03 * unit, high[1] + 0.03 * unit),
+        )
+        self._bodies: dict[str, Polygon] = {}
+        for body in order:
+            self._bodies[body.name] = patch = Polygon(
+                self._shapes[body.name].outline,
+                closed=True,
+                facecolor=self._shapes[body.name].colour,
+                edgecolor=EDGE,
+                linewidth=0.9,
+                joinstyle="round",
+            )
+            axes.add_patch(patch)
+        ideal = [joint for joint in mechanism.joints if joint.kind == "ideal"]
+        loose = [joint for joint in mechanism.joints if joint.kind != "ideal"]
+        self._joints = [(joint.journal, joint.journal_point) for joint in (*ideal, *loose)]
+        size = 4.5
+        (pins,) = axes.plot([], [], "o", markersize=size, color="white", markeredgecolor=EDGE)
+        (marked,) = axes.plot(
+            [], [], "o", markersize=size + 2.5, color="white", markeredgecolor=MARKED
+        )
+        marked.set_markeredgewidth(2.2)
+        self._pins, self._marked, self._split = pins, marked, len(ideal)
+        self.artists = animated(*self._bodies.values(), pins, marked)
+
+    def _layer(self, body: str) -> int:
+        """Return what lies behind what: the slider, other blocks, links, and the crank in front."""
+        if body == self._mechanism.slider:
+            return -1
+        return {"block": 0, "crank": 2}.get(self._shapes[body].role, 1)
+
+    def show(self, frame: int) -> None:
+        """Bring every body to its pose."""
+        for name, patch in self._bodies.items():
+            patch.set_xy(self._shapes[name].moved(self._poses[name][frame]))
+        places = np.array(
+            [moved(np.array([point]), self._poses[body][frame])[0] for body, point in self._joints]
+        )
+        _put(self._pins, places[: self._split])
+        _put(self._marked, places[self._split :])
+
+
+def poses(result: Result, mechanism: Mechanism, instants: Instants) -> dict[str, Array]:
+    """Return the poses (m, 3) of every body's centre of mass at the frames' instants.
+
+    Between the integrator's steps they are interpolated linearly: 3 um off at most, with the
+    largest steps of 1.5 degrees. A flexible body's pose in the file is that of its solid's frame;
+    its joints are drawn where its mean frame has them.
+    """
+    stored = result["body_position"]
+    found = {}
+    for index, name in enumerate(result.bodies):
+        pose = np.column_stack(
+            [np.interp(instants.time, result.time, stored[:, index, k]) for k in range(3)]
+        )
+        offset = _frame_offset(result, mechanism, name)
+        if any(offset):
+            c, s = np.cos(pose[:, 2]), np.sin(pose[:, 2])
+            pose[:, 0] += c * offset[0] - s * offset[1]
+            pose[:, 1] += s * offset[0] + c * offset[1]
+        found[name] = pose
+    return found
+
+
+def _frame_offset(result: Result, mechanism: Mechanism, name: str) -> tuple[float, float]:
+    """Return where the centre of mass lies in the frame whose pose the file holds."""
+    size = result.scene.press
+    if result.scene.flexible is None or size is None:
+        return 0.0, 0.0
+    if name == mechanism.crank:
+        return 0.0, size.crank_mass_offset
+    return (size.linkage_mass_offset, 0.0) if name == "linkage" else (0.0, 0.0)
+
+
+def _put(line: Line2D, places: Array) -> None:
+    line.set_data(places[:, 0], places[:, 1])
+
+
+def _swept_outlines(mechanism: Mechanism, shapes: dict[str, Shape]) -> dict[str, Array]:
+    """Return all places (n, 2) of every body's outline over a revolution of the ideal mechanism."""
+    motion = mechanism.motion(np.linspace(0.0, 2.0 * np.pi, 73), 1.0)
+    return {
+        name: np.vstack([shape.moved(pose) for pose in motion[name].position])
+        for name, shape in shapes.items()
+    }
+
+
+def _draw_frame(
+    axes: Axes, mechanism: Mechanism, everywhere: dict[str, Array], unit: float
+) -> None:
+    """Draw the guides beside their bodies, and the pivots in the frame."""
+    gap, width = 0.004 * unit, 0.008 * unit
+    for guide in mechanism.guides:
+        (left, low), (right, high) = everywhere[guide.body].min(0), everywhere[guide.body].max(0)
+        for edge in (left - gap - width, right + gap):
+            rail = [[edge, low], [edge + width, low], [edge + width, high], [edge, high]]
+            axes.add_patch(
+                Polygon(rail, facecolor="white", edgecolor=STEEL, hatch="/////", linewidth=0.6)
+            )
+    for joint in mechanism.joints:
+        if joint.bearing == GROUND:
+            x, y = joint.bearing_point
+            axes.add_patch(
+                Circle(
+                    (x, y),
+                    0.026 * unit,
+                    facecolor="white",
+                    edgecolor=STEEL,
+                    hatch="/////",
+                    linewidth=0.6,
+                )
+            )
+
+
+def _draw_dead_centres(axes: Axes, mechanism: Mechanism, outline: Array, unit: float) -> None:
+    """Mark the top and the bottom of the slider's upper edge with ideal joints."""
+    motion = mechanism.motion(np.linspace(0.0, 2.0 * np.pi, 721), 1.0)[mechanism.slider]
+    heights = motion.position[:, 1]
+    edge = float(outline[:, 1].max() - heights.max())
+    right = float(outline[:, 0].max())
+    for y, words, side in ((heights.max(), "TDC", "bottom"), (heights.min(), "BDC", "top")):
+        line = [right + 0.01 * unit, right + 0.035 * unit]
+        axes.plot(line, [y + edge, y + edge], color=GREY, linewidth=0.9)
+        axes.text(line[1] + 0.006 * unit, y + edge, words, fontsize=7.5, color=GREY, va=side)
+
+
+def _draw_labels(
+    axes: Axes,
+    mechanism: Mechanism,
+    places: dict[str, Array],
+    right: float,
+    span: tuple[float, float],
+) -> None:
+    """Name the bodies at the right, each once, with a line to it."""
+    height = span[1] - span[0]
+    named = {
+        joint_in_words(name.removesuffix("_right")).lower(): places[name].mean(axis=0)[:2]
+        for name in (body.name for body in mechanism.bodies)
+        if not name.endswith("_left")
+    }
+    heights = _spread([place[1] for place in named.values()], 0.042 * height)
+    for (words, place), y in zip(named.items(), heights, strict=True):
+        axes.annotate(
+            words,
+            place,
+            (right + 0.12 * height, y),
+            fontsize=8.5,
+            va="center",
+            arrowprops={"arrowstyle": "-", "color": "#9A9A9A", "linewidth": 0.6},
+        )
+
+
+def _spread(heights: Iterable[float], least: float) -> list[float]:
+    """Return heights moved apart so that neighbours keep a distance, in the given order."""
+    wanted = np.array(list(heights))
+    order = np.argsort(wanted)
+    placed = wanted[order].copy()
+    for _ in range(200):
+        gaps = np.diff(placed)
+        short = np.flatnonzero(gaps < least * (1 - 1e-6))
+        if not len(short):
+            break
+        for index in short:
+            push = 0.5 * (least - (placed[index + 1] - placed[index]))
+            placed[index] -= push
+            placed[index + 1] += push
+    found = np.empty_like(placed)
+    found[order] = placed
+    return [float(value) for value in found]

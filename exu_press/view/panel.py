@@ -1,0 +1,30 @@
+"""What every part of the film's picture is: axes, and artists that change from frame to frame."""
+
+from collections.abc import Sequence
+from typing import Protocol
+
+import numpy as np
+from matplotlib.artist import Artist
+from numpy.typing import NDArray
+
+__all__ = ["Panel", "animated"]
+
+Array = NDArray[np.float64]
+
+
+class Panel(Protocol):
+    """A part of the picture."""
+
+    @property
+    def artists(self) -> Sequence[Artist]:
+        """What changes, in the order of drawing; everything else is drawn once."""
+
+    def show(self, frame: int) -> None:
+        """Bring the artists to a frame."""
+
+
+def animated(*artists: Artist) -> list[Artist]:
+    """Return artists, marked as drawn frame by frame."""
+    for artist in artists:
+        artist.set_animated(True)
+    return list(artists)

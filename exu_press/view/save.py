@@ -1,0 +1,172 @@
+"""A film as .mp4, .gif or numbered .png files, and a single picture; without a display."""
+
+import itertools
+import re
+import shutil
+import subprocess
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import IO
+
+import numpy as np
+from matplotlib.colors import to_rgb
+from numpy.typing import NDArray
+from PIL import Image
+
+from exu_press.errors import InputError
+from exu_press.mechanism.shapes import COLOURS as BODIES
+from exu_press.output import replacing
+from exu_press.plots.style import COLOURS
+from exu_press.view.film import Film, Painter
+from exu_press.view.flexible_panel import COLOURS as SURFACES
+
+__all__ = ["check_target", "is_film", "save_film", "save_picture"]
+
+Pixels = NDArray[np.uint8]
+
+DPI = {".mp4": 150.0, ".gif": 75.0, ".png": 150.0}
+KEPT = [
+    *COLOURS.values(),
+    *BODIES.values(),
+    *(SURFACES(level) for level in np.linspace(0.0, 1.0, 64)),
+    *(tuple(0.8 * part for part in SURFACES(level)[:3]) for level in np.linspace(0.0, 1.0, 48)),
+]
+"""Colours that a GIF has exactly, whether the first frame shows them or not."""
+
+NUMBER = re.compile(r"%0?\d*d")
+"""In a file name: the frame's number, as in frame_%04d.png."""
+
+ALLOWED = ".mp4, .gif, .png, or .png with the frame's number, as in frame_%04d.png"
+
+
+def is_film(path: Path) -> bool:
+    """Return whether a name asks for all frames, not for one picture."""
+    return path.suffix.lower() != ".png" or NUMBER.search(path.name) is not None
+
+
+def check_target(path: Path) -> None:
+    """Raise InputError if nothing can be written under this name, before anything is drawn."""
+    if path.suffix.lower() not in DPI:
+        raise InputError(f"--save {path}: allowed is a name ending in {ALLOWED}")
+    if path.suffix.lower() == ".mp4":
+        _ffmpeg(path)
+    if not path.parent.is_dir():
+        raise InputError(f"--save {path}: there is no directory {path.parent}")
+
+
+def save_picture(film: Film, frame: int, path: Path) -> Path:
+    """Write one frame as .png; 256 colours halve the file, where no surfaces are shaded."""
+    check_target(path)
+    image = Image.fromarray(Painter(film, DPI[".png"]).paint(frame)).convert("RGB")
+    if not film.result.surfaces:
+        image = image.quantize(256)
+    with replacing(path) as partial:
+        image.save(partial, format="png", optimize=True)
+    return path
+
+
+def save_film(film: Film, path: Path, report: Callable[[int], None] | None = None) -> list[Path]:
+    """Write all frames; return the files. An existing one is replaced only when complete.
+
+    Args:
+        film: what to draw.
+        path: .mp4 (needs ffmpeg), .gif, or .png with the frame's number, as in frame_%04d.png.
+        report: called with the number of frames done.
+
+    Raises:
+        InputError: the name is of another kind, ffmpeg is missing, or a file cannot be written.
+    """
+    check_target(path)
+    kind = path.suffix.lower()
+    painter = Painter(film, DPI[kind])
+
+    def frames() -> Iterator[Pixels]:
+        for frame in range(len(film.instants)):
+            yield painter.paint(frame)
+            if report is not None:
+                report(frame + 1)
+
+    if kind == ".png":
+        return [_write_png(path, number, pixels) for number, pixels in enumerate(frames())]
+    with replacing(path) as partial:
+        if kind == ".gif":
+            _write_gif(partial, frames(), film.instants.fps)
+        else:
+            _write_mp4(path, partial, frames(), film.instants.fps)
+    return [path]
+
+
+def _write_png(path: Path, number: int, pixels: Pixels) -> Path:
+    """Write one of many."""
+    numbered = path.with_name(NUMBER.sub(lambda found: found[0] % number, path.name))
+    with replacing(numbered) as partial:
+        Image.fromarray(pixels).convert("RGB").save(partial, format="png")
+    return numbered
+
+
+def _write_gif(path: Path, frames: Iterator[Pixels], fps: float) -> None:
+    """Write a GIF with one palette throughout: nothing flickers, and it is small."""
+    images = (Image.fromarray(pixels).convert("RGB") for pixels in frames)
+    first = next(images)
+    palette = _palette(first)
+    shown = (
+        image.quantize(palette=palette, dither=Image.Dither.NONE)
+        for image in itertools.chain([first], images)
+    )
+    start = next(shown)
+    start.save(
+        path, format="gif", save_all=True, append_images=shown, duration=1000.0 / fps, loop=0
+    )
+
+
+def _palette(image: Image.Image) -> Image.Image:
+    """Return the colours that a film is made of, and those of its first frame's blends."""
+    fixed = [255, 255, 255]
+    for colour in KEPT:
+        fixed += [round(255 * part) for part in to_rgb(colour)]
+    rest = image.quantize(256 - len(fixed) // 3, method=Image.Quantize.MEDIANCUT).getpalette()
+    assert rest is not None
+    palette = Image.new("P", (1, 1))
+    palette.putpalette([*fixed, *rest][:768])
+    return palette
+
+
+def _ffmpeg(path: Path) -> str:
+    found = shutil.which("ffmpeg")
+    if found is None:
+        raise InputError(
+            f"--save {path}: .mp4 needs the program ffmpeg, which is not installed; "
+            "allowed without it is .gif or .png"
+        )
+    return found
+
+
+def _write_mp4(path: Path, partial: Path, frames: Iterator[Pixels], fps: float) -> None:
+    """Hand the frames to ffmpeg."""
+    first = next(frames)
+    height, width = first.shape[:2]
+    command = [_ffmpeg(path), "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgba"]
+    command += ["-s", f"{width}x{height}", "-r", f"{fps:g}", "-i", "-", "-an"]
+    command += ["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p"]
+    command += ["-movflags", "+faststart", "-f", "mp4", str(partial)]
+    process = subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE)
+    _, said = _feed(process, itertools.chain([first], frames))
+    if process.returncode:
+        last = (said.decode(errors="replace").strip().splitlines() or ["no message"])[-1]
+        raise InputError(f"--save {path}: ffmpeg failed ({last})")
+
+
+def _feed(process: "subprocess.Popen[bytes]", frames: Iterator[Pixels]) -> tuple[bytes, bytes]:
+    """Write frames to a program's input; return what it said."""
+    pipe: IO[bytes] | None = process.stdin
+    assert pipe is not None
+    try:
+        for pixels in frames:
+            pipe.write(pixels.tobytes())
+    except BrokenPipeError:
+        pass  # it ended early, and says why
+    except BaseException:
+        process.kill()
+        process.communicate()
+        raise
+    return process.communicate()

@@ -1,0 +1,17 @@
+"""Ideal, dry and lubricated joints side by side: a table, and their curves in one picture.
+
+Run with: python scripts/compare_variants.py [--quick]
+"""
+
+import sys
+
+from exu_press import Scene, simulate
+from exu_press.cli.table import comparison_lines
+from exu_press.output import output_directory
+from exu_press.plots import save_comparison
+from exu_press.studies.compare import variants
+
+scene = Scene(revolutions=0.1 if "--quick" in sys.argv else 2.0)
+results = {label: simulate(variant) for label, variant in variants(scene).items()}
+save_comparison(results, output_directory("out/compare_variants"))
+print("\n".join(comparison_lines({label: run.summary() for label, run in results.items()})))

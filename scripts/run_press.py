@@ -1,0 +1,27 @@
+"""The press once: its summary in the terminal, its result file and pictures in out/run_press.
+
+Run with: python scripts/run_press.py [--quick]
+"""
+
+import sys
+
+from exu_press import Scene, simulate
+from exu_press.cli.table import run_lines
+from exu_press.output import output_directory
+from exu_press.plots import save_pictures
+
+scene = Scene(
+    crank_pin="lubricated",
+    balls="dry",
+    speed_rpm=240.0,
+    revolutions=0.1 if "--quick" in sys.argv else 2.0,
+    clearance={"crank_pin": 1e-4, "balls": 1e-4},  # radial, m
+    film={"law": "finite", "viscosity": 0.1},  # Pa s
+)
+result = simulate(scene)
+out = output_directory("out/run_press")
+result.save(out / "run.nc")
+save_pictures(result, out)
+print("\n".join(run_lines(result.summary())))
+if not result.completed:
+    sys.exit(result.info["reason"])

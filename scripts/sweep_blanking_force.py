@@ -1,0 +1,25 @@
+"""Blanking force: what it changes in the motion of the slider, and what the joints carry.
+
+Run with: python scripts/sweep_blanking_force.py [--quick] [--out DIR]
+"""
+
+import sys
+from pathlib import Path
+
+from exu_press import Scene
+from exu_press.plots.sweep import save_sweep
+from exu_press.studies.sweep import Study, sweep, table_lines
+
+quick = "--quick" in sys.argv
+out = Path(
+    sys.argv[sys.argv.index("--out") + 1] if "--out" in sys.argv else "out/sweep_blanking_force"
+)
+
+start, turns = (170.0, 0.04) if quick else (0.0, 2.0)
+scene = Scene(revolutions=turns, start_angle_deg=start)
+forces = [1e4, 4e4] if quick else [0.0, 1e4, 2e4, 3e4, 4e4]
+study = Study(scene=scene, grid={"blanking.force": forces})
+shown = ("ldp", "peak_acceleration.mean_1ms", "joints.crank_pin.peak_force")
+table = sweep(study, out, quiet=quick)
+print("\n".join(table_lines(table, shown)))
+print(*save_sweep(table, out, quantities=shown))

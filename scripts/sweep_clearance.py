@@ -1,0 +1,24 @@
+"""Clearance of the crank pin: what a dry and a lubricated pin make of it, at one speed.
+
+Run with: python scripts/sweep_clearance.py [--quick] [--out DIR]
+"""
+
+import sys
+from pathlib import Path
+
+from exu_press import Scene
+from exu_press.plots.sweep import save_sweep
+from exu_press.studies.sweep import Study, sweep, table_lines
+
+quick = "--quick" in sys.argv
+out = Path(sys.argv[sys.argv.index("--out") + 1] if "--out" in sys.argv else "out/sweep_clearance")
+
+scene = Scene(balls="ideal", revolutions=0.02 if quick else 2.0, blanking={"force": 1e4})
+clearances = [5e-5, 2e-4] if quick else [5e-5, 7.5e-5, 1e-4, 1.25e-4, 1.5e-4, 1.75e-4, 2e-4]
+study = Study(
+    scene=scene, grid={"crank_pin": ["dry", "lubricated"], "clearance.crank_pin": clearances}
+)
+shown = ("peak_acceleration.resolved", "peak_acceleration.mean_1ms", "joints.crank_pin.peak_force")
+table = sweep(study, out, quiet=quick)
+print("\n".join(table_lines(table, shown)))
+print(*save_sweep(table, out, quantities=shown))

@@ -1,0 +1,81 @@
+"""exu-press paper in its reduced form."""
+
+import json
+
+import pytest
+
+from exu_press.cli import main
+
+KEYS = {
+    "quantity",
+    "figure",
+    "published",
+    "resolved",
+    "mean_1ms",
+    "differentiated_1khz",
+    "ratio",
+    "verdict",
+    "reason",
+}
+
+
+@pytest.fixture(scope="module")
+def directory(tmp_path_factory):
+    directory = tmp_path_factory.mktemp("paper")
+    arguments = ["paper", "--quick", "--quiet", "--no-pictures", "--out", str(directory)]
+    assert main(arguments) == 0
+    return directory
+
+
+def test_every_published_number_has_a_row(directory):
+    report = json.loads((directory / "paper.json").read_text())
+    assert report["quick"] and report["observation_model"] == "mean_1ms"
+    rows = report["rows"]
+    assert all(row.keys() >= KEYS for row in rows)
+    assert {row["verdict"] for row in rows} <= {"agrees", "trend", "differs"}
+    assert all(row["reason"] for row in rows if row["verdict"] == "differs")
+    numbers = [row["published"] for row in rows if not isinstance(row["published"], str)]
+    for published in (0.47, 0.466, 0.4688, 0.467, 17.8, 29.4, 57.44, 40.4, 70.2, 105.0, 1e-4,
+                      0.438, 0.904, 34.0, 445.0, 23.5, 69.1, 538.192, 12973.3):  # fmt: skip
+        assert published in numbers
+    assert all(run["status"] == "completed" for run in report["runs"].values())
+
+
+def test_sensitivity_and_clearance(directory):
+    report = json.loads((directory / "sensitivity.json").read_text())
+    by_name = {number["name"]: number for number in report["numbers"]}
+    factors = {f["factor"]: f for f in by_name["acceleration_200um"]["factors"]}
+    wider = next(s for s in factors["clearance of the balls"]["settings"] if s["label"] == "twice")
+    assert wider["change"] > 0.1  # the balls' fall is longer
+    choice = json.loads((directory / "clearance.json").read_text())
+    assert len(choice["alike"]) == 2 and len(choice["separate"]) == 4
+    shear = {point["pin"]: point["losses"]["shear"] for point in choice["alike"]}
+    assert shear[5e-5] == pytest.approx(4.0 * shear[2e-4], rel=0.05)
+
+
+def test_it_goes_on_where_it_was_stopped(directory, capsys):
+    rows = (directory / "runs.jsonl").read_text().splitlines()
+    report = (directory / "paper.json").read_text()
+    (directory / "runs.jsonl").write_text("\n".join(rows[:-5]) + "\n")
+    next((directory / "runs").glob("*.nc")).unlink()
+    assert main(["paper", "--quick", "--no-pictures", "--out", str(directory)]) == 0
+    assert len((directory / "runs.jsonl").read_text().splitlines()) == len(rows)
+    captured = capsys.readouterr()
+    assert "are there" in captured.err
+    assert "REDUCED FORM" in captured.out and "largest" not in captured.err
+    before, after = (json.loads(text)["rows"] for text in (report, read(directory)))
+    assert before == after
+
+
+def read(directory):
+    return (directory / "paper.json").read_text()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "named"),
+    [(["--workers", "0"], "workers = 0"), (["--out", "/dev/null/paper"], "/dev/null/paper")],
+)
+def test_wrong_input_is_refused_in_one_line(arguments, named, capsys, tmp_path):
+    assert main(["paper", "--quick", "--out", str(tmp_path), *arguments]) == 2
+    message = capsys.readouterr().err
+    assert named in message and message.count("\n") == 1

@@ -1,0 +1,44 @@
+"""exu-press stability: exit status, files and what it prints."""
+
+import json
+
+import pytest
+
+from exu_press.cli import main
+
+
+def test_one_axis_of_the_sample(tmp_path, capsys):
+    arguments = ["stability", "--quick", "--axis", "bearing length", "--workers", "1"]
+    assert main([*arguments, "--out", str(tmp_path)]) == 0
+    report = json.loads((tmp_path / "stability.json").read_text())
+    assert report["counts"] == {"right": 2, "stopped": 0, "wrong": 0}
+    case = report["cases"][0]
+    assert case.keys() >= {
+        "name", "axis", "value", "parameters", "verdict", "reason", "checks", "wall_time",
+        "residual", "status", "steps",
+    }  # fmt: skip
+    assert case["parameters"]["film"]["length"] == 0.0141
+    assert (tmp_path / "stability.png").stat().st_size > 10_000
+    printed = capsys.readouterr().out
+    assert "2 cases: 2 right, 0 stopped with a reason (0.0%), 0 wrong" in printed
+
+
+def test_a_wrong_case_makes_the_command_fail(tmp_path, monkeypatch, capsys):
+    from exu_press.studies import stability as study
+
+    row = {"verdict": "wrong", "axis": "a", "name": "b", "value": "c", "reason": "d",
+           "residual": None, "wall_time": None}  # fmt: skip
+    monkeypatch.setattr(study, "stability", lambda *a, **k: study.Report(True, (row,)))
+    arguments = ["stability", "--quick", "--no-pictures", "--out", str(tmp_path)]
+    assert main(arguments) == 1
+    assert "wrong: b" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "named"),
+    [(["--axis", "nothing"], "--axis nothing"), (["--workers", "0"], "workers = 0")],
+)
+def test_wrong_input_is_refused_in_one_line(arguments, named, tmp_path, capsys):
+    assert main(["stability", "--quick", *arguments, "--out", str(tmp_path / "out")]) == 2
+    message = capsys.readouterr().err
+    assert named in message and message.count("\n") == 1

@@ -1,0 +1,46 @@
+import pytest
+
+from exu_press import Scene, simulate
+from exu_press.cli import main
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory):
+    path = tmp_path_factory.mktemp("run") / "run.nc"
+    simulate(Scene(mechanism="slider_crank", revolutions=0.05)).save(path)
+    return path
+
+
+def test_a_film_and_a_picture_from_the_file_alone(run, tmp_path, capsys):
+    film, picture = tmp_path / "film.gif", tmp_path / "picture.png"
+    assert main(["view", str(run), "--save", str(film), "--frames", "3"]) == 0
+    assert main(["view", str(run), "--save", str(picture), "--at", "0.005", "--quiet"]) == 0
+    assert film.stat().st_size > 10_000 and picture.stat().st_size > 10_000
+    assert capsys.readouterr().out == f"written: {film}\n"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--save", "x.avi"], "--save x.avi: allowed is a name ending in .mp4"),
+        (["--save", "x.gif", "--from", "7"], "--from 7: the record goes from 0"),
+        (["--save", "x.gif", "--at", "0.01"], "--at 0.01: allowed with --save FILE.png alone"),
+        (["--save", "x.png", "--slow", "3"], "--slow 3: allowed for films alone"),
+        (["--save", "x.gif", "--colour", "stress"], "--colour stress: allowed for runs with flex"),
+        (["--save", "x.gif", "--exaggerate", "9"], "--exaggerate 9.0: allowed for runs with flex"),
+    ],
+)
+def test_wrong_options_are_status_2_in_one_line(
+    run, tmp_path, monkeypatch, capsys, arguments, message
+):
+    monkeypatch.chdir(tmp_path)
+    assert main(["view", str(run), *arguments]) == 2
+    told = capsys.readouterr().err
+    assert message in told and told.count("\n") == 1
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_file_that_is_no_result(tmp_path, capsys):
+    (tmp_path / "run.nc").write_text("nothing")
+    assert main(["view", str(tmp_path / "run.nc"), "--save", str(tmp_path / "x.gif")]) == 2
+    assert "not a result of exu_press" in capsys.readouterr().err

@@ -1,0 +1,133 @@
+"""What a reader does with a page: its code blocks, in order, in one directory."""
+
+import re
+import shlex
+import subprocess
+import sys
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+BIN = Path(sys.executable).parent
+PAGES = [
+    ROOT / "README.md",
+    *sorted(p for p in (ROOT / "docs").rglob("*.md") if "gallery" not in p.parts),
+]
+
+FENCE = re.compile(
+    r"(?P<notes>(?:^<!--.*?-->\n)*)^```(?P<language>\w+)\n(?P<text>.*?)^```$",
+    re.MULTILINE | re.DOTALL,
+)
+
+NOT_RUN = ("python3 -m venv", "pip install", ".venv/bin/", "pytest", "ruff", "sphinx-build", "mypy")
+"""Beginnings of shell commands that set up or check: other tests run them, or CI does."""
+
+
+@dataclass(frozen=True)
+class Block:
+    """One fenced block; notes are the HTML comments above it, as in <!-- long -->."""
+
+    language: str
+    text: str
+    notes: str
+
+    @property
+    def long(self) -> bool:
+        """Whether it takes minutes."""
+        return "<!-- long -->" in self.notes
+
+    @property
+    def file(self) -> str | None:
+        """The file that a reader saves it as."""
+        named = re.search(r"<!-- file: (\S+) -->", self.notes)
+        return named[1] if named else None
+
+    @property
+    def printed_by(self) -> str | None:
+        """The command that printed it."""
+        named = re.search(r"<!-- printed by: (.+) -->", self.notes)
+        return named[1] if named else None
+
+    @property
+    def commands(self) -> list[str]:
+        """The shell commands to run."""
+        lines = [line.partition("  #")[0].strip() for line in self.text.splitlines()]
+        parts = [part.strip() for line in lines if line for part in line.split("&&")]
+        return [part for part in parts if not part.startswith(NOT_RUN) or "exu-press " in part]
+
+
+def blocks_of(page: Path) -> list[Block]:
+    """Return the fenced blocks of a page that name a language."""
+    text = page.read_text(encoding="utf-8")
+    return [
+        Block(m["language"], m["text"], m["notes"])
+        for m in FENCE.finditer(text)
+    ]  # fmt: skip
+
+
+def run_block(block: Block, place: Path) -> None:
+    """Do what the block says, in a directory; what goes wrong is an AssertionError."""
+    if block.file:
+        (place / block.file).write_text(block.text, encoding="utf-8")
+    if block.language == "python":
+        run([sys.executable, "-c", block.text], place)
+    elif block.language == "toml":
+        read(block, place)
+    elif block.language == "sh":
+        for command in block.commands:
+            written = run_command(command, place)
+            assert all(path.exists() for path in written), (command, written)
+
+
+def run_command(command: str, place: Path) -> list[Path]:
+    """Run a shell command of ours; return the files and directories that it was to write."""
+    words = shlex.split(command)
+    name = Path(words[0]).name
+    if name == "python":
+        words = [sys.executable, str(ROOT / words[1]), *words[2:]]
+    else:
+        assert name == "exu-press", f"nothing runs this command: {command}"
+        words[0] = str(BIN / name)
+    run(words, place)
+    return [place / value for option, value in pairwise(words) if option in ("--out", "--save")]
+
+
+def run(words: list[str], place: Path) -> str:
+    """Run a process; return what it printed."""
+    done = subprocess.run(
+        words, cwd=place, capture_output=True, text=True, timeout=900, check=False
+    )
+    assert done.returncode == 0, f"{words}\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}"
+    return done.stdout
+
+
+def read(block: Block, place: Path) -> None:
+    """Read a scene or a study as the commands do."""
+    import tomllib
+
+    from exu_press import load_scene
+    from exu_press.studies.sweep import load_study
+
+    path = place / (block.file or "block.toml")
+    path.write_text(block.text, encoding="utf-8")
+    if "scene" in tomllib.loads(block.text):
+        load_study(path)
+    else:
+        load_scene(path)
+
+
+def printed_blocks() -> list[tuple[Path, Block]]:
+    """Return the blocks of docs/ that say what printed them; README shows parts of what is."""
+    return [(page, block) for page in PAGES[1:] for block in blocks_of(page) if block.printed_by]
+
+
+def printed_again(page: Path, block: Block, place: Path) -> str:
+    """Run what printed a block, with the files that the page saves before it."""
+    for before in blocks_of(page):
+        if before.file:
+            (place / before.file).write_text(before.text, encoding="utf-8")
+    words = shlex.split(block.printed_by or "")
+    if words[0] == "exu-press":
+        return run([str(BIN / words[0]), *words[1:]], place)
+    return run([sys.executable, str(ROOT / words[1]), *words[2:]], place)

@@ -1,0 +1,25 @@
+"""Every example in a docstring gives what it shows; they stand in the reference too."""
+
+import doctest
+import importlib
+import pkgutil
+
+import pytest
+
+import exu_press
+import fe_models
+
+MODULES = [
+    module.name
+    for package in (exu_press, fe_models)
+    for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}.")
+]
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_examples(name):
+    try:
+        module = importlib.import_module(name)
+    except ModuleNotFoundError as error:  # an extra that is not installed
+        pytest.skip(str(error))
+    assert doctest.testmod(module).failed == 0

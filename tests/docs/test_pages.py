@@ -1,0 +1,81 @@
+"""Every command and every code block of the README and of docs/ runs, as a reader runs them."""
+
+import re
+import subprocess
+
+import pages
+import pytest
+
+ONE_BY_ONE = pages.blocks_of(pages.ROOT / "README.md")
+README_BLOCKS = [b for b in ONE_BY_ONE if b.language in ("sh", "python", "toml")]
+
+
+NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)? *")
+
+
+def name(value):
+    return value.stem if hasattr(value, "stem") else None
+
+
+def test_both_setup_commands_stand_in_the_readme():
+    lines = [line for b in README_BLOCKS if b.language == "sh" for line in b.text.splitlines()]
+    starts = [line for line in lines if line.startswith("python3 -m venv .venv && ")]
+    assert any("exu-press compare press" in line for line in starts)
+    assert any(line.endswith("pytest") for line in starts)
+
+
+@pytest.mark.parametrize("page", pages.PAGES, ids=name)
+def test_page(page, tmp_path):
+    for block in pages.blocks_of(page):
+        if not block.long:
+            pages.run_block(block, tmp_path)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    "page", [p for p in pages.PAGES if any(b.long for b in pages.blocks_of(p))], ids=name
+)
+def test_page_with_its_long_blocks(page, tmp_path):
+    for block in pages.blocks_of(page):
+        pages.run_block(block, tmp_path)
+
+
+def test_a_command_that_nothing_runs_is_noticed(tmp_path):
+    with pytest.raises(AssertionError, match="nothing runs this"):
+        pages.run_block(pages.Block("sh", "rm -r somewhere\n", ""), tmp_path)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("page", "block"), pages.printed_blocks(), ids=name)
+def test_what_is_shown_is_what_is_printed(page, block, tmp_path):
+    """But for times, steps and what is nearly zero: other processors round otherwise."""
+    printed = pages.printed_again(page, block, tmp_path)
+    for shown, now in zip(block.text.splitlines(), printed.splitlines(), strict=True):
+        assert NUMBER.split(shown) == NUMBER.split(now)
+        if not re.search("time|steps|residual|differ", shown):
+            old, new = (list(map(float, NUMBER.findall(line))) for line in (shown, now))
+            assert new == pytest.approx(old, rel=0.05), (shown, now)
+
+
+def test_every_test_that_a_page_names_exists():
+    named = {
+        (match[1], match[2])
+        for page in pages.PAGES
+        for match in re.finditer(r"`(tests/[\w/]+\.py)(?:::(\w+))?`", page.read_text("utf-8"))
+    }
+    assert len(named) > 30
+    for file, function in named:
+        path = pages.ROOT / file
+        assert path.exists(), file
+        assert not function or f"def {function}(" in path.read_text("utf-8"), (file, function)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    "line", [b.text for b in README_BLOCKS if b.text.startswith("python3 -m venv")]
+)
+def test_setup_command_on_a_bare_machine(line, tmp_path):
+    clone = tmp_path / "clone"
+    subprocess.run(["git", "clone", "--quiet", str(pages.ROOT), str(clone)], check=True)
+    done = subprocess.run(line, shell=True, cwd=clone, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr

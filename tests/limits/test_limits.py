@@ -1,0 +1,120 @@
+"""Limits that must come out, whatever the way there costs."""
+
+import itertools
+
+import numpy as np
+import pytest
+
+from exu_press import Scene, simulate
+
+QUARTER = {"mechanism": "slider_crank", "revolutions": 0.25}
+
+
+def run(**changes):
+    result = simulate(Scene.from_dict({**QUARTER, **changes}))
+    assert result.completed, result.info["reason"]
+    return result
+
+
+def from_ideal(result):
+    """Return how far the slider is from the ideal mechanism's at most, m."""
+    ideal = simulate(Scene.from_dict({**QUARTER, "crank_pin": "ideal", "solver": {"step": 2e-5}}))
+    there = np.interp(result["crank_angle"], ideal["crank_angle"], ideal["slider_position"])
+    return np.abs(result["slider_position"] - there).max()
+
+
+def falling(values):
+    return all(a > b for a, b in itertools.pairwise(values))
+
+
+@pytest.mark.parametrize("pin", ["dry", "lubricated"])
+def test_no_clearance_is_the_ideal_joint(pin):
+    """A dry joint gives way by (F / K)^(2/3) besides, here less than 1e-6 m."""
+    stiff = {"contact": {"stiffness": 2.5545e14}} if pin == "dry" else {}
+    clearances = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
+    apart = [
+        from_ideal(run(crank_pin=pin, clearance={"crank_pin": c}, **stiff)) for c in clearances
+    ]
+    assert falling(apart)
+    assert all(a < 1.02 * c + 1e-6 for a, c in zip(apart, clearances, strict=True))
+
+
+def test_infinite_viscosity_is_the_ideal_joint():
+    apart = [from_ideal(run(film={"viscosity": mu})) for mu in (0.01, 0.1, 1.0, 10.0)]
+    assert falling(apart)
+    assert apart[-1] < 2e-6
+
+
+def test_no_viscosity_under_asperities_is_the_dry_joint():
+    """The dry joint whose clearance is smaller by the asperities' height, where contact begins.
+
+    The last of a film goes slowly: squeezed to the asperities it is 1e5 times as stiff as in the
+    middle, so that 1e-5 Pa s still cushion an impact.
+    """
+    dry = run(crank_pin="dry", clearance={"crank_pin": 1e-4 - 6e-7})
+    apart = []
+    for viscosity in (1e-3, 1e-4, 1e-5, 1e-6, 1e-8):
+        thin = run(film={"viscosity": viscosity, "at_contact": "mixed"})
+        there = np.interp(thin["crank_angle"], dry["crank_angle"], dry["slider_position"])
+        apart.append(np.abs(thin["slider_position"] - there).max())
+    assert falling(apart)
+    assert apart[-1] < 2e-6
+
+
+@pytest.mark.parametrize(
+    "damping", [{}, {"damping": "flores", "restitution": 0.9}], ids=["default", "lightly damped"]
+)
+def test_infinite_stiffness_does_not_blow_up(damping):
+    depths = []
+    for factor in (1e-2, 1.0, 1e2, 1e4, 1e6):
+        result = run(crank_pin="dry", contact={"stiffness": 2.5545e10 * factor, **damping})
+        summary = result.summary()
+        depths.append(summary["joints"]["crank_pin"]["peak_penetration"])
+        assert summary["energy"]["residual"] < 1e-3
+        assert from_ideal(result) < 1.5e-4 + 2.0 * depths[-1]
+    assert falling(depths)
+
+
+def test_no_speed_is_the_static_solution():
+    """The rod hangs on the pin: the slider lies lower by clearance and (F / K)^(2/3)."""
+    result = simulate(
+        Scene.from_dict(
+            {
+                "mechanism": "slider_crank",
+                "crank_pin": "dry",
+                "speed_rpm": 0.01,
+                "revolutions": 5e-5,  # 0.3 s
+                "contact": {"damping_max": 1e6},  # comes to rest within that
+                "solver": {"step": 1e-4},
+            }
+        )
+    )
+    depth = ((184.5 + 1347.0) * 9.81 / 2.5545e10) ** (2.0 / 3.0)
+    lower = result["slider_position"][0] - result["slider_position"][-1]
+    assert lower == pytest.approx(1e-4 + depth, rel=2e-3)
+    assert abs(result["slider_velocity"][-1]) < 1e-6
+    force = result["crank_pin_force"][-1]
+    assert force == pytest.approx([0.0, -(184.5 + 1347.0) * 9.81], rel=2e-3, abs=20.0)
+
+
+@pytest.mark.parametrize("viscosity", [1e-4, 1e-2, 1.0])
+@pytest.mark.parametrize("law", ["pinkus", "pi_film", "short", "finite"])
+def test_the_journal_stays_in_its_film_which_only_takes_energy(viscosity, law):
+    """A film that does not carry stops the run with the journal still inside."""
+    scene = {**QUARTER, "film": {"law": law, "viscosity": viscosity}}
+    result = simulate(Scene.from_dict(scene))
+    assert result.info["status"] in ("completed", "film broke down")
+    ratio = np.linalg.norm(result["crank_pin_eccentricity"], axis=1) / 1e-4
+    assert ratio.max() < 1.0
+    lost = result["crank_pin_loss"]
+    assert np.diff(lost).min() >= -1e-9 * lost[-1]
+    assert lost[-1] > 0.0
+
+
+@pytest.mark.parametrize("pin", ["dry", "lubricated"])
+def test_two_runs_are_the_same_bit_by_bit(pin):
+    scene = Scene.from_dict({"crank_pin": pin, "revolutions": 0.05})
+    one, other = simulate(scene), simulate(scene)
+    assert set(one) == set(other)
+    for name in one:
+        assert np.array_equal(one[name], other[name]), name

@@ -1,0 +1,101 @@
+"""Guides, ideal and elastic, and a press without its counterweight."""
+
+import math
+
+import numpy as np
+import pytest
+
+from exu_press import Scene
+from exu_press.mechanism import GROUND, mechanism_of
+
+IDEAL = {"crank_pin": "ideal", "balls": "ideal"}
+SLIDING = {"slide", "plunger_left", "plunger_right", "slider", "counterweight"}
+
+
+def press(**scene):
+    return mechanism_of(Scene.from_dict({"mechanism": "press", **scene}))
+
+
+def test_without_the_table_every_guide_is_ideal():
+    for guide in press().guides:
+        assert guide.lateral is None
+        assert guide.tilting is None
+
+
+def test_the_table_makes_every_guide_elastic():
+    guides = press(guide={}).guides
+    assert {guide.body for guide in guides} == SLIDING
+    assert all(guide.lateral and guide.tilting and guide.holds_angle for guide in guides)
+
+
+def test_stiffness_and_damping_as_documented():
+    """Lateral k; tilting k L^2 / 12; damping 2 D sqrt(k m) of the guided body alone."""
+    table = {"lateral_stiffness": 3e8, "length": 0.6, "damping_ratio": 0.1}
+    mechanism = press(guide=table)
+    bodies = {body.name: body for body in mechanism.bodies}
+    for guide in mechanism.guides:
+        body = bodies[guide.body]
+        assert guide.lateral.stiffness == 3e8
+        assert guide.tilting.stiffness == pytest.approx(3e8 * 0.6**2 / 12)
+        assert guide.lateral.damping == pytest.approx(0.2 * math.sqrt(3e8 * body.mass))
+        assert guide.tilting.damping == pytest.approx(
+            0.2 * math.sqrt(guide.tilting.stiffness * body.inertia)
+        )
+
+
+def test_what_is_given_counts():
+    given = {"tilting_stiffness": 1e6, "lateral_damping": 0.0, "tilting_damping": 7.0}
+    for guide in press(guide=given).guides:
+        assert guide.tilting.stiffness == 1e6
+        assert guide.lateral.damping == 0.0
+        assert guide.tilting.damping == 7.0
+
+
+def test_inertia_of_a_steel_cube_unless_given():
+    """m a^2 / 6 with a^3 = m / 7850; a plunger keeps its rod's inertia."""
+    bodies = {body.name: body for body in press(guide={"slide_inertia": 0.5}).bodies}
+    assert bodies["slide"].inertia == 0.5
+    side = (1347.0 / 7850.0) ** (1 / 3)
+    assert bodies["slider"].inertia == pytest.approx(1347.0 * side**2 / 6)
+    assert bodies["plunger_left"].inertia == pytest.approx(155.3 * 0.55**2 / 12)
+
+
+def test_bodies_of_ideal_guides_are_what_they_were():
+    inertia = {body.name: body.inertia for body in press().bodies}
+    assert inertia["slider"] == pytest.approx(1347.0 * 0.331**2 / 12)
+    assert inertia["slide"] == 60.0
+
+
+def test_ideal_balls_hold_sideways_where_guides_give_way():
+    held = [joint.vertical_only for joint in press(**IDEAL).joints if joint.spherical]
+    elastic = press(**IDEAL, guide={})
+    assert held == [True, True]
+    assert not any(joint.vertical_only for joint in elastic.joints)
+
+
+def test_slider_crank_too():
+    (guide,) = mechanism_of(Scene(mechanism="slider_crank", guide={})).guides
+    assert guide.lateral.stiffness == 1e9
+
+
+@pytest.fixture(scope="module")
+def bare():
+    return press(**IDEAL, press={"counterweight": False})
+
+
+def test_without_counterweight_its_bodies_joints_and_guide_are_gone(bare):
+    full = press(**IDEAL)
+    names = {body.name for body in full.bodies} - {body.name for body in bare.bodies}
+    joints = {joint.name for joint in full.joints} - {joint.name for joint in bare.joints}
+    assert names == {"counter_linkage", "counterweight"}
+    assert joints == {"counter_pin", "counterweight_pin"}
+    assert len(full.guides) - len(bare.guides) == 1
+    used = {body for joint in bare.joints for body in (joint.journal, joint.bearing)} - {GROUND}
+    assert used == {body.name for body in bare.bodies} == set(bare.motion(np.zeros(1), 1.0))
+
+
+def test_without_counterweight_the_rest_moves_as_before(bare):
+    angle = np.linspace(0.0, 6.0, 50)
+    full = press(**IDEAL).motion(angle, 25.0)
+    for name, motion in bare.motion(angle, 25.0).items():
+        assert np.array_equal(motion.acceleration, full[name].acceleration), name

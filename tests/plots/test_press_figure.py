@@ -1,0 +1,51 @@
+import numpy as np
+import pytest
+
+from exu_press.plots import energy_figure, press_figure
+
+ALWAYS = ["Shaking force", "Power of the drive", "Guides"]
+
+
+def panels(result):
+    return {axes.get_title("left"): axes for axes in press_figure(result).axes}
+
+
+@pytest.mark.parametrize("label", ["ideal", "dry", "lubricated", "stopped", "stopped at once"])
+def test_less_than_a_stroke_on_ideal_guides(results, label):
+    shown = panels(results[label])
+    assert list(shown) == ALWAYS
+    assert all(axes.get_ylabel().endswith(("kN", "kW")) for axes in shown.values())
+
+
+def test_with_and_without_counterweight(results):
+    legend = panels(results["ideal"])["Shaking force"].get_legend()
+    names = [text.get_text() for text in legend.get_texts()]
+    assert names == ["vertical", "vertical, without counterweight", "horizontal"]
+
+
+def test_shaking_force_is_drawn_as_its_mean_over_a_millisecond(results):
+    """Without impacts that is the force itself, in kN."""
+    line = panels(results["ideal"])["Shaking force"].lines[0]
+    result = results["ideal"]
+    force = np.interp(
+        line.get_xdata(), np.degrees(result["crank_angle"]), result["shaking_force"][:, 1]
+    )
+    middle = slice(20, -20)
+    assert line.get_ydata()[middle] == pytest.approx(1e-3 * force[middle], abs=0.1)
+
+
+def test_elastic_guides_show_tilt_and_the_stroke(results):
+    result = results["elastic"]
+    shown = panels(result)
+    assert list(shown) == [*ALWAYS, "Bottom dead centre", "Slider tilt", "Slider sideways"]
+    assert "µrad" in shown["Slider tilt"].get_ylabel()
+    centre = result.summary()["press"]["bottom_dead_centre"]
+    (dot,) = (line for line in shown["Slider tilt"].lines if line.get_marker() == "o")
+    assert dot.get_ydata() == pytest.approx(1e6 * np.array(centre["tilts"]))
+    assert f"{1e3 * centre['mean']:.6g} mm" in shown["Bottom dead centre"].get_title("right")
+
+
+def test_guides_are_one_curve_of_the_energy_picture(results):
+    shown = {axes.get_title("left"): axes for axes in energy_figure(results["elastic"]).axes}
+    names = [text.get_text() for text in shown["Dissipated in"].get_legend().get_texts()]
+    assert names == ["ball, left", "ball, right", "guides"]

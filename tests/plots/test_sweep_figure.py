@@ -1,0 +1,113 @@
+"""The picture of a sweep: curves, maps, points, crosses."""
+
+import numpy as np
+import pytest
+
+from exu_press import InputError, Scene
+from exu_press.plots.sweep import axes_of, save_sweep, sweep_figure
+from exu_press.plots.sweep_words import in_unit
+from exu_press.studies.sweep import Study
+from exu_press.studies.sweep.table import table_of
+
+SPEEDS = [200.0, 300.0, 400.0]
+CLEARANCES = [5e-5 + 1e-5 * n for n in range(8)]
+
+
+def table(missing=(), **way):
+    """A table with made-up numbers: force = speed, film = clearance / 2."""
+    study = Study(scene=Scene(balls="ideal"), **way)
+    rows = [
+        {"status": "failed", "reason": "x"}
+        if run in missing
+        else {
+            "status": "completed",
+            "reason": "",
+            "joints": {
+                "crank_pin": {
+                    "peak_force": scene.speed_rpm * 1e3,
+                    "min_film": scene.clearance.crank_pin / 2,
+                }
+            },
+        }
+        for run, scene in enumerate(study.scenes)
+    ]
+    return table_of(study, rows, [])
+
+
+SHOWN = ("joints.crank_pin.peak_force", "joints.crank_pin.min_film")
+TWO = ("clearance.crank_pin", "speed_rpm")
+
+
+def panels(figure):
+    return [axes for axes in figure.axes if axes.get_title(loc="left")]
+
+
+def test_a_grid_of_few_is_curves():
+    some = table(grid={"clearance.crank_pin": CLEARANCES, "speed_rpm": SPEEDS})
+    force, film = panels(sweep_figure(some, TWO, SHOWN))
+    assert force.get_title(loc="left") == "Crank pin, peak force, kN"
+    assert film.get_title(loc="left") == "Crank pin, least film thickness, \N{MICRO SIGN}m"
+    assert force.get_xlabel() == "radial clearance of joint 2-3, \N{MICRO SIGN}m"
+    assert [line.get_label() for line in force.lines] == ["200 rpm", "300 rpm", "400 rpm"]
+    for line, speed in zip(force.lines, SPEEDS, strict=True):
+        np.testing.assert_allclose(line.get_xdata(), np.array(CLEARANCES) * 1e6)
+        np.testing.assert_allclose(line.get_ydata(), speed)
+    assert force.get_legend() is not None and film.get_legend() is None
+
+
+def test_a_grid_of_many_is_a_map():
+    some = table(grid={"speed_rpm": SPEEDS, "clearance.crank_pin": CLEARANCES})
+    figure = sweep_figure(some, TWO[::-1], SHOWN)
+    (mesh,) = panels(figure)[0].collections
+    np.testing.assert_allclose(
+        mesh.get_array().reshape(8, 3), np.tile([200.0, 300.0, 400.0], (8, 1))
+    )
+    (mesh,) = panels(figure)[1].collections
+    np.testing.assert_allclose(mesh.get_array().reshape(8, 3)[:, 0], np.array(CLEARANCES) / 2 * 1e6)
+
+
+def test_a_sample_is_points():
+    some = table(sample={"n": 9, "seed": 1, "speed_rpm": [200.0, 400.0]})
+    (panel, *_) = panels(sweep_figure(some, ["speed_rpm"], SHOWN))
+    (line,) = panel.lines
+    assert line.get_linestyle() == "None" and len(line.get_xdata()) == 9
+
+
+def test_runs_without_numbers_are_crosses():
+    some = table(missing=[1], grid={"speed_rpm": SPEEDS})
+    (panel, *_) = panels(sweep_figure(some, ["speed_rpm"], SHOWN))
+    assert panel.lines[-1].get_marker() == "x"
+    assert panel.lines[-1].get_xdata().tolist() == [300.0]
+    assert panel.get_title(loc="right") == "x: 1 without"
+
+
+def test_what_is_drawn_over_what():
+    some = table(grid={"bodies": ["rigid"], "speed_rpm": SPEEDS, "clearance.crank_pin": CLEARANCES})
+    assert axes_of(some) == ("speed_rpm", "clearance.crank_pin")
+    assert axes_of(some, ["clearance.crank_pin"]) == ("clearance.crank_pin",)
+    with pytest.raises(InputError, match="--over bodies: allowed are the numbers that vary"):
+        axes_of(some, ["bodies"])
+    with pytest.raises(InputError, match="allowed are one or two keys"):
+        axes_of(some, ["speed_rpm"] * 3)
+
+
+def test_nothing_to_draw_is_no_picture(tmp_path):
+    assert save_sweep(table(grid={"bodies": ["rigid"]}), tmp_path) == []
+    assert save_sweep(table(missing=[0, 1, 2], grid={"speed_rpm": SPEEDS}), tmp_path) == []
+
+
+@pytest.mark.parametrize(
+    ("values", "unit"),
+    [
+        ([0.5, 0.47], "mm"),
+        ([1.0], "m"),
+        ([3e-7], "nm"),
+        ([0.0], "m"),
+        ([999.0], "m"),
+        ([1e3], "km"),
+    ],
+)
+def test_units_that_read_well(values, unit):
+    numbers, found = in_unit("ldp", np.array(values))
+    assert found == unit
+    assert np.max(np.abs(numbers)) < 1000.0

@@ -1,0 +1,129 @@
+"""Contact and friction laws in any state: finite, dissipative, continuous; tried by Hypothesis."""
+
+import math
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from exu_press.laws.contact import DAMPING_LAWS, cylindrical, hertz, step_damping
+from exu_press.laws.friction import LuGre, coulomb, lugre_steady, no_friction, stribeck
+
+
+def logarithmic(low, high):
+    return st.floats(math.log(low), math.log(high)).map(math.exp)
+
+
+stiffnesses = st.one_of(
+    st.builds(hertz, logarithmic(1e6, 1e14), st.floats(1.0, 3.0)),
+    st.builds(cylindrical, logarithmic(1e8, 1e14), logarithmic(1e-3, 1.0), logarithmic(1e-7, 1e-2)),
+)
+tension = st.booleans()
+hysteretic = st.sampled_from([name for name in DAMPING_LAWS if name != "step"])
+contacts = st.one_of(
+    st.builds(
+        step_damping,
+        stiffnesses,
+        st.one_of(st.just(0.0), logarithmic(1.0, 1e12)),
+        logarithmic(1e-8, 1e-2),
+        tension,
+    ),
+    st.builds(
+        lambda name, stiffness, restitution, pulls: DAMPING_LAWS[name](
+            stiffness, restitution, pulls
+        ),
+        hysteretic,
+        stiffnesses,
+        st.floats(1e-3, 1.0),
+        tension,
+    ),
+)
+depths = logarithmic(1e-12, 1e-2)
+speeds = st.floats(-20.0, 20.0)
+impacts = st.floats(0.0, 20.0)
+
+
+@settings(max_examples=200, deadline=None)
+@given(contact=contacts, depth=depths, rate=speeds, impact=impacts)
+def test_contact_is_finite_and_dissipative(contact, depth, rate, impact):
+    answer = contact.force(depth, rate, impact)
+    assert all(map(math.isfinite, answer))
+    assert contact.tension or answer[0] >= 0.0
+    elastic = contact.stiffness.force(depth)[0]
+    assert contact.elastic_energy(depth) > 0.0
+    # rounding of force - elastic force
+    assert contact.dissipated_power(depth, rate, impact) >= -1e-12 * elastic * abs(rate)
+
+
+@settings(max_examples=200, deadline=None)
+@given(contact=contacts, depth=depths, rate=speeds, impact=impacts)
+def test_contact_is_continuous(contact, depth, rate, impact):
+    here = contact.force(depth, rate, impact)[0]
+    size = abs(here) + contact.stiffness.force(depth)[0]
+    size += abs(contact.force(depth, 40.0, impact)[0])  # the damping's share
+    for near in ((depth * (1.0 + 1e-9), rate), (depth, rate + 1e-9)):
+        assert abs(contact.force(*near, impact)[0] - here) <= 1e-7 * size
+
+
+@settings(max_examples=100, deadline=None)
+@given(contact=contacts, rate=speeds, impact=impacts)
+def test_contact_begins_with_no_force(contact, rate, impact):
+    assert contact.force(0.0, rate, impact) == (0.0, 0.0, 0.0)
+    deep = abs(contact.force(1e-9, rate, impact)[0])
+    assert abs(contact.force(1e-15, rate, impact)[0]) <= 1e-3 * deep
+
+
+coefficients = st.tuples(logarithmic(1e-4, 10.0), logarithmic(1.0, 10.0)).map(
+    lambda pair: (pair[0] * pair[1], pair[0])
+)
+curves = st.tuples(logarithmic(1e-6, 10.0), st.floats(0.1, 10.0))
+soft = logarithmic(1e-6, 1e-1)
+viscous = st.floats(0.0, 10.0)
+frictions = st.one_of(
+    st.builds(no_friction),
+    st.builds(coulomb, st.floats(0.0, 10.0), soft),
+    st.builds(lambda mu, curve, v_r, v: stribeck(*mu, *curve, v_r, v),
+              coefficients, curves, soft, viscous),
+    st.builds(lambda mu, s, curve, v_r: lugre_steady(*mu, s, *curve, v_r),
+              coefficients, viscous, curves, soft),
+)  # fmt: skip
+slidings = st.one_of(speeds, logarithmic(1e-12, 1.0), logarithmic(1e-12, 1.0).map(lambda v: -v))
+
+
+@settings(max_examples=200, deadline=None)
+@given(friction=frictions, v=slidings)
+def test_friction_is_finite_dissipative_and_odd(friction, v):
+    mu, slope = friction(v)
+    assert math.isfinite(mu)
+    assert math.isfinite(slope)
+    assert mu * v >= 0.0
+    assert friction(-v)[0] == -mu
+
+
+@settings(max_examples=200, deadline=None)
+@given(friction=frictions, v=slidings)
+def test_friction_is_continuous(friction, v):
+    here, largest = friction(v)[0], abs(friction(30.0)[0]) + 100.0
+    assert abs(friction(v + 1e-12)[0] - here) <= 1e-4 * largest
+    assert abs(friction(0.0)[0]) == 0.0
+
+
+bristles = st.builds(
+    lambda mu, s0, s1, s2, curve: LuGre(*mu, s0, s1, s2, *curve),
+    coefficients,
+    logarithmic(1e2, 1e8),
+    st.floats(0.0, 1e4),
+    viscous,
+    curves,
+)
+
+
+@settings(max_examples=200, deadline=None)
+@given(bristle=bristles, v=slidings, bent=st.floats(-1.0, 1.0), h=st.floats(0.0, 1e-2))
+def test_bristle_stays_within_its_largest_deflection(bristle, v, bent, h):
+    """|z| <= mu_s / sigma_0 once is so for ever, at any step; everything is finite."""
+    largest = bristle.mu_static / bristle.sigma_0
+    mu, slope, z = bristle.advance(v, bent * largest, h)
+    assert math.isfinite(mu)
+    assert math.isfinite(slope)
+    assert abs(z) <= largest * (1.0 + 1e-9)
+    assert bristle.bristle_energy(z) >= 0.0

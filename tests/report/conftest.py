@@ -1,0 +1,50 @@
+"""What the commands leave behind, in short."""
+
+from pathlib import Path
+
+import pytest
+
+from exu_press.cli import main
+
+STUDY = """
+[scene]
+mechanism = "slider_crank"
+revolutions = 0.02
+[grid]
+"clearance.crank_pin" = [5e-5, 1e-4, 2e-4]
+crank_pin = ["dry", "lubricated"]
+"""
+
+
+@pytest.fixture(scope="session")
+def outputs(tmp_path_factory) -> dict[str, Path]:
+    """Directories of `run`, `compare` and `sweep`, and an early stop."""
+    folder = tmp_path_factory.mktemp("outputs")
+    quiet = ["--no-pictures", "--quiet"]
+    short = ["--set", "revolutions=0.1"]
+    (folder / "study.toml").write_text(STUDY)
+    (folder / "study").mkdir()
+    assert main(["run", "press", *short, *quiet, "--out", str(folder / "run")]) == 0
+    assert main(["compare", "slider_crank", *short, *quiet, "--out", str(folder / "compare")]) == 0
+    stop = [
+        "--set",
+        "crank_pin=lubricated",
+        "--set",
+        "film.viscosity=1e-7",
+        "--set",
+        "solver.step=1e-4",
+    ]
+    assert (
+        main(["run", "slider_crank", *short, *stop, *quiet, "--out", str(folder / "stopped")]) == 3
+    )
+    sweep = ["sweep", str(folder / "study.toml"), "--workers", "1", *quiet]
+    assert main([*sweep, "--out", str(folder / "sweep")]) == 0
+    return {name: folder / name for name in ("run", "compare", "stopped", "sweep")}
+
+
+@pytest.fixture(scope="session")
+def pages(outputs) -> dict[str, Path]:
+    """Reports of them, written by the command."""
+    for directory in outputs.values():
+        assert main(["report", str(directory), "--quiet"]) == 0
+    return {name: directory / "report.html" for name, directory in outputs.items()}

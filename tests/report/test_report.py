@@ -1,0 +1,159 @@
+import base64
+import io
+import re
+from html.parser import HTMLParser
+
+import pytest
+from PIL import Image
+
+from exu_press.cli import main
+from exu_press.errors import InputError
+from exu_press.report import Kind, find_output
+from exu_press.report.warnings import warnings_of
+from exu_press.result import Result
+from exu_press.scene import Scene
+
+VOID = {"meta", "link", "img", "br"}
+
+
+class Page(HTMLParser):
+    """What a page holds, and whether its tags match."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.images, self.headings, self.text, self.links = [], [], [], [], []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attrs):
+        attrs = dict(attrs)
+        if tag not in VOID:
+            self.open.append(tag)
+        if tag == "img":
+            self.images.append(attrs)
+        self.links += [attrs[name] for name in ("src", "href") if name in attrs]
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        self.text.append(data)
+        if self.open and self.open[-1] == "h2":
+            self.headings.append(data)
+
+
+@pytest.fixture(scope="module")
+def parsed(pages):
+    return {name: Page(path.read_text(encoding="utf-8")) for name, path in pages.items()}
+
+
+@pytest.mark.parametrize("name", ["run", "compare", "stopped", "sweep"])
+def test_pages_are_whole_and_load_nothing(parsed, name):
+    page = parsed[name]
+    assert page.open == []
+    assert all(link.startswith(("data:", "#part-")) for link in page.links)
+    for image in page.images:
+        data = base64.b64decode(image["src"].removeprefix("data:image/png;base64,"))
+        with Image.open(io.BytesIO(data)) as picture:
+            assert picture.width > 600
+        assert len(image["alt"]) > 10
+
+
+@pytest.mark.parametrize(
+    ("name", "headings", "pictures"),
+    [
+        (
+            "run",
+            ["Warnings", "Results", "Pictures", "Energy and solver", "Scene", "Assumptions"],
+            6,
+        ),
+        ("compare", ["Warnings", "Results", "Pictures", "Scene", "Assumptions"], 2),
+        ("sweep", ["Warnings", "Pictures", "Runs", "Scene", "Assumptions"], 1),
+    ],
+)
+def test_what_a_report_has(parsed, name, headings, pictures):
+    assert parsed[name].headings == headings
+    assert len(parsed[name].images) == pictures
+
+
+def test_a_run_shows_its_numbers_scene_and_assumptions(parsed, outputs):
+    text = " ".join(parsed["run"].text)
+    peak = Result.load(outputs["run"] / "run.nc").summary()["peak_acceleration"]["resolved"]
+    assert f"{peak:.4g}" in text
+    assert "revolutions" in text
+    assert "film.viscosity = 0.4 Pa s (A-11)" in text
+    assert "counter-eccentric opposite the pin" in text
+    assert "newton iterations" in text
+
+
+def test_an_early_stop_is_the_first_warning(parsed):
+    text = " ".join(parsed["stopped"].text)
+    assert re.search(r"Warnings\s+film broke down: film broke down at t = ", text)
+    assert "film.viscosity = 0.4" not in text  # it was given
+
+
+def test_a_comparison_names_its_variants(parsed):
+    text = " ".join(parsed["compare"].text)
+    assert "ideal" in text and "dry" in text and "lubricated" in text
+
+
+def test_a_sweep_shows_every_run(parsed):
+    text = " ".join(parsed["sweep"].text)
+    assert "6 runs over clearance.crank_pin, crank_pin: 6 completed" in text
+    assert "clearance.crank_pin, m" in text
+
+
+def test_warnings_of_doubtful_runs(outputs):
+    result = Result.load(outputs["run"] / "run.nc")
+    summary = result.summary()
+    given = Scene(
+        film={"viscosity": 0.1, "length": 0.08, "at_contact": "mixed"}, contact={"tension": True}
+    )
+    assert warnings_of(summary, given) == []
+    summary["energy"]["residual"] = 0.2
+    summary["joints"]["crank_pin"]["max_eccentricity_ratio"] = 0.99
+    energy, film = warnings_of(summary, given)
+    assert "the energy balance misses 0.2 of the largest work" in energy
+    assert film.startswith("crank pin: eccentricity ratio up to 0.990")
+
+
+def test_the_file_names_the_kind(outputs, tmp_path):
+    assert find_output(outputs["compare"])[0] is Kind.COMPARISON
+    assert find_output(outputs["sweep"] / "table.csv")[0] is Kind.SWEEP
+    (tmp_path / "run.nc").touch()
+    assert find_output(tmp_path) == (Kind.RUN, tmp_path / "run.nc")
+    (tmp_path / "table.csv").touch()
+    with pytest.raises(InputError, match=r"has run\.nc and table\.csv; name the file"):
+        find_output(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("content", "path", "message"),
+    [
+        ({}, ".", "has none of run.nc, comparison.json, table.csv"),
+        ({}, "no.nc", "cannot be read"),
+        ({"run.nc": "x"}, "run.nc", "not a result of exu_press"),
+        ({"comparison.json": "{"}, ".", "not a comparison of exu_press"),
+        ({"comparison.json": '["a"]'}, ".", "run.nc: cannot be read"),
+        ({"table.csv": "a\n1\n"}, ".", "study.json: cannot be read"),
+        ({"table.csv": "a\n1\n", "study.json": "{}"}, ".", "not a sweep of exu_press"),
+        ({"summary.json": "{}"}, "summary.json", "allowed is a result file"),
+    ],
+)
+def test_wrong_input_is_status_2_in_one_line(tmp_path, capsys, content, path, message):
+    for name, text in content.items():
+        (tmp_path / name).write_text(text)
+    assert main(["report", str(tmp_path / path)]) == 2
+    told = capsys.readouterr().err
+    assert message in told and told.count("\n") == 1
+    assert not (tmp_path / "report.html").exists()
+
+
+def test_where_it_is_written(outputs, tmp_path, capsys):
+    target = tmp_path / "page.html"
+    target.write_text("old")
+    command = ["report", str(outputs["sweep"]), "--out", str(target)]
+    assert main(command) == 0
+    assert target.read_text().startswith("<!DOCTYPE html>")
+    assert capsys.readouterr().out.startswith(f"written: {target} (")
+    assert main([*command[:-1], str(tmp_path / "page.pdf")]) == 2
+    assert main([*command[:-1], str(tmp_path / "no" / "page.html")]) == 2

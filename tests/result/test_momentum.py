@@ -1,0 +1,106 @@
+"""Shaking force and what the frame carries: three ways to the same forces."""
+
+import functools
+
+import numpy as np
+import pytest
+
+from exu_press import Scene, simulate
+from exu_press.mechanism import mechanism_of
+
+GRAVITY = 9.81
+VARIANTS = [
+    {"crank_pin": "ideal", "balls": "ideal"},
+    {"crank_pin": "dry", "balls": "dry"},
+    {"crank_pin": "lubricated", "balls": "dry"},
+    {"crank_pin": "lubricated", "balls": "dry", "guide": {}},
+    {"crank_pin": "lubricated", "balls": "dry", "press": {"counterweight": False}},
+    {"mechanism": "slider_crank", "crank_pin": "lubricated"},
+]
+BLANKING = {"force": 1e4, "end_angle_deg": 30.0, "eccentricity": 0.05}
+
+
+def run(**scene):
+    result = simulate(Scene.from_dict({"revolutions": 0.1, **scene}))
+    assert result.completed, result.info["reason"]
+    return result
+
+
+def weight(result):
+    return GRAVITY * sum(body.mass for body in mechanism_of(result.scene).bodies)
+
+
+@functools.cache
+def ideal(**press):
+    return run(
+        crank_pin="ideal", balls="ideal", revolutions=1.0, solver={"step": 1e-4}, press=press
+    )
+
+
+@pytest.mark.parametrize("variant", VARIANTS, ids=str)
+def test_frame_carries_inertia_weight_and_load(variant):
+    """Constraint and spring forces on the frame against the bodies' accelerations."""
+    result = run(**variant, blanking=BLANKING)
+    expected = result["shaking_force"].copy()
+    expected[:, 1] += result["blanking_force"] - weight(result)
+    error = np.abs(result["frame_force"] - expected).max()
+    assert error < 1e-9 * np.abs(expected).max()
+
+
+@pytest.mark.parametrize("modes", [0, 20])
+def test_frame_of_the_flexible_press(modes):
+    """Modes have no momentum; the crank's centre of mass moves as its frame tilts (150 N)."""
+    result = run(bodies="flexible", revolutions=0.005, flexible={"modes": modes})
+    expected = result["shaking_force"].copy()
+    expected[:, 1] -= weight(result)
+    assert np.abs(result["frame_force"] - expected).max() < 1e-4 * weight(result)
+
+
+def test_shaking_force_is_minus_the_rate_of_momentum():
+    """From nothing but recorded positions: second differences of sum m x, fourth order."""
+    result = ideal()
+    mass = np.array([body.mass for body in mechanism_of(result.scene).bodies])
+    moment = np.einsum("i,nij->nj", mass, result["body_position"][:, :, :2])
+    step = float(result.time[1] - result.time[0])
+    a, b, c, d, e = (moment[i : len(moment) - 4 + i] for i in range(5))
+    rate = (-a + 16 * b - 30 * c + 16 * d - e) / (12 * step**2)
+    error = np.abs(result["shaking_force"][2:-2] + rate)
+    assert error[40:].max() < 1e-3 * np.abs(rate).max()
+
+
+@pytest.mark.parametrize("press", [{}, {"counterweight": False}], ids=str)
+def test_shaking_force_of_the_ideal_press_in_closed_form(press):
+    """Minus sum m a of the ideal kinematics, and with it the force on the frame."""
+    result = ideal(**press)
+    mechanism = mechanism_of(result.scene)
+    motion = mechanism.motion(result["crank_angle"], result.scene.angular_speed)
+    expected = -sum(body.mass * motion[body.name].acceleration[:, :2] for body in mechanism.bodies)
+    scale = np.abs(expected).max()
+    assert scale > 1e4
+    assert np.abs(result["shaking_force"] - expected)[40:].max() < 1e-4 * scale
+    on_frame = expected - [0.0, weight(result)]
+    assert np.abs(result["frame_force"] - on_frame)[40:].max() < 1e-4 * scale
+
+
+def test_without_counterweight_is_what_the_press_without_it_does():
+    """The counterweight hangs on the evenly turning shaft; the rest does not feel it."""
+    full, bare = ideal(), ideal(counterweight=False)
+    assert "shaking_force_without_counterweight" not in bare
+    apart = full["shaking_force_without_counterweight"] - bare["shaking_force"]
+    assert np.abs(apart).max() < 1e-6 * np.abs(bare["shaking_force"]).max()
+    assert np.abs(full["slider_position"] - bare["slider_position"]).max() < 1e-12
+
+
+def test_counterweight_takes_off_the_first_harmonic():
+    """A-3: the counter-eccentric is there to cancel most of it."""
+    result = ideal()
+    angle = result["crank_angle"][:-1]
+    first, bare = (
+        abs(np.mean(result[name][:-1, 1] * np.exp(-1j * angle)))
+        for name in ("shaking_force", "shaking_force_without_counterweight")
+    )
+    assert first < 0.2 * bare
+
+
+def test_slider_crank_has_no_counterweight():
+    assert "shaking_force_without_counterweight" not in run(**VARIANTS[-1])

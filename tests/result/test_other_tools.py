@@ -1,0 +1,48 @@
+"""Results open in the tools that people have: xarray and pandas."""
+
+import numpy as np
+import pytest
+
+from exu_press import Scene, simulate
+
+xarray = pytest.importorskip("xarray")
+
+
+@pytest.fixture(scope="module")
+def result():
+    return simulate(Scene(revolutions=0.05))
+
+
+@pytest.fixture(scope="module")
+def data(result, tmp_path_factory):
+    path = tmp_path_factory.mktemp("run") / "run.nc"
+    result.save(path)
+    with xarray.open_dataset(path, engine="scipy") as opened:
+        yield opened.load()
+
+
+def test_every_channel_with_its_values_unit_and_name(result, data):
+    for name, channel in result.channels.items():
+        assert np.array_equal(data[name].values, channel.values), name
+        assert data[name].attrs == {"units": channel.unit, "long_name": channel.long_name}
+
+
+def test_time_is_a_coordinate(result, data):
+    assert data["slider_position"].dims == ("time",)
+    middle = float(result.time[len(result.time) // 2])
+    there = data["crank_pin_force"].sel(time=middle, method="nearest")
+    assert there.dims == ("plane",)
+    assert np.array_equal(there.values, result["crank_pin_force"][len(result.time) // 2])
+
+
+def test_scalars_as_a_frame(result, data):
+    scalars = [name for name, values in data.items() if values.dims == ("time",)]
+    frame = data[scalars].to_dataframe()
+    assert frame.index.name == "time" and len(frame) == len(result.time)
+    assert frame["slider_position"].min() == result["slider_position"].min()
+
+
+def test_summary_as_a_frame(result):
+    pandas = pytest.importorskip("pandas")
+    row = pandas.json_normalize(result.summary()).iloc[0]
+    assert row["peak_acceleration.mean_1ms"] == result.summary()["peak_acceleration"]["mean_1ms"]

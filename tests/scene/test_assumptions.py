@@ -1,0 +1,80 @@
+import dataclasses
+import re
+
+import pytest
+
+from exu_press import Scene
+from exu_press.scene.assumptions import ASSUMPTIONS, assumed_line, keys_of, used_assumptions
+from exu_press.scene.scene import TABLES
+
+
+def numbers(scene):
+    return {assumption.number for assumption in used_assumptions(scene)}
+
+
+def test_every_key_that_names_an_assumption_is_listed_under_it():
+    listed = {a.number: a.keys for a in ASSUMPTIONS}
+    for name, table in TABLES.items():
+        for field in dataclasses.fields(table):
+            for number in re.findall(r"\(A-(\d+)\)", field.metadata["meaning"]):
+                assert f"{name}.{field.name}" in listed[int(number)]
+
+
+def test_every_listed_key_exists():
+    assert [a.number for a in ASSUMPTIONS] == list(range(1, 15))
+    for assumption in ASSUMPTIONS:
+        for key in assumption.keys:
+            table, _, name = key.partition(".")
+            assert not name or name in {f.name for f in dataclasses.fields(TABLES[table])}
+
+
+def test_what_is_given_is_not_assumed():
+    assert "film.viscosity = 0.4 Pa s (A-11)" in assumed_line(Scene())
+    given = Scene(film={"viscosity": 0.1})
+    assert numbers(Scene()) - numbers(given) == {11}
+    assert "A-11" not in assumed_line(given)
+
+
+@pytest.mark.parametrize(
+    ("scene", "unused"),
+    [
+        ({"mechanism": "slider_crank"}, {1, 2, 3, 4, 5, 6, 7, 8}),
+        ({"crank_pin": "dry"}, {11, 12, 13}),
+        ({"crank_pin": "ideal", "balls": "ideal"}, {10, 11, 12, 13}),
+        ({"guide": {}}, {9}),
+        ({"press": {"counterweight": False}}, {3}),
+        ({"film": {"at_contact": "mixed"}}, {13}),
+    ],
+)
+def test_a_scene_rests_on_what_it_uses_alone(scene, unused):
+    everything = set(range(1, 14))
+    assert everything - numbers(Scene(**scene)) == unused
+    assert 14 in numbers(Scene(**scene, blanking={"force": 1e4}))
+
+
+def test_keys_with_defaults_units_and_meanings():
+    keys = keys_of(Scene())
+    assert all(key.assumed for key in keys.values())
+    assert str(keys["film.viscosity"]) == "film.viscosity = 0.4 Pa s"
+    assert keys["solver.tolerance"].value == 1e-3
+    assert "solver.step" not in keys
+
+
+@pytest.mark.parametrize(
+    ("scene", "changed"),
+    [
+        ({"crank_pin": "dry"}, {"crank_pin"}),
+        ({"clearance": {"balls": 5e-5}}, {"clearance.balls"}),
+        ({"solver": {"step": 1e-5}}, {"solver.step"}),
+        ({"mechanism": "slider_crank", "crank_pin": "ideal"}, {"mechanism", "crank_pin"}),
+        ({"blanking": {"force": 1e4}}, {"blanking.force"}),
+        ({"film": {"at_contact": "mixed"}}, {"film.at_contact"}),
+    ],
+)
+def test_only_what_differs_counts_as_given(scene, changed):
+    keys = keys_of(Scene(**scene))
+    assert {name for name, key in keys.items() if not key.assumed} == changed
+
+
+def test_nothing_to_assume_is_no_line():
+    assert assumed_line(Scene(crank_pin="ideal", balls="ideal")) == ""

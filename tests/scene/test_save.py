@@ -1,0 +1,63 @@
+"""A scene written from Python is read back equal, and never in place of somebody's file."""
+
+import tomllib
+
+import pytest
+
+from exu_press import InputError, Scene, load_scene
+
+SCENES = {
+    "press": {},
+    "ideal": {"crank_pin": "ideal", "balls": "ideal"},
+    "dry": {"crank_pin": "dry", "contact": {"tension": True, "shape": "cylindrical"}},
+    "mixed": {"film": {"law": "finite", "at_contact": "mixed"}, "blanking": {"force": 1e4}},
+    "flexible": {"bodies": "flexible"},
+    "fixed step": {"solver": {"step": 1e-5}},
+    "slider_crank": {"mechanism": "slider_crank", "crank_pin": "dry", "start_angle_deg": -70.0},
+}
+
+
+@pytest.mark.parametrize("comments", [False, True])
+@pytest.mark.parametrize("keys", SCENES.values(), ids=SCENES)
+def test_round_trip(keys, comments, tmp_path):
+    scene = Scene.from_dict(keys)
+    scene.save(tmp_path / "scene.toml", comments=comments)
+    assert load_scene(tmp_path / "scene.toml") == scene
+
+
+def test_every_key_is_there_and_nothing_else(tmp_path):
+    scene = Scene(crank_pin="dry")
+    scene.save(tmp_path / "scene.toml")
+    text = (tmp_path / "scene.toml").read_text(encoding="utf-8")
+    assert tomllib.loads(text) == scene.to_dict()
+    assert "#" not in text
+
+
+def test_comments_say_meaning_unit_and_choices(tmp_path):
+    Scene().save(tmp_path / "scene.toml", comments=True)
+    lines = (tmp_path / "scene.toml").read_text(encoding="utf-8").splitlines()
+    viscosity = next(line for line in lines if line.startswith("viscosity"))
+    assert viscosity.startswith("viscosity = 0.4 ") and viscosity.endswith("Pa s")
+    pin = next(line for line in lines if line.startswith("crank_pin = "))
+    assert "# joint 2-3: ideal | dry | lubricated" in pin
+
+
+def test_a_file_that_is_there_is_kept(tmp_path):
+    path = tmp_path / "scene.toml"
+    path.write_text("# mine\n")
+    with pytest.raises(InputError, match=r"scene\.toml: exists.*overwrite=True"):
+        Scene().save(path)
+    assert path.read_text() == "# mine\n"
+    Scene().save(path, overwrite=True)
+    assert load_scene(path) == Scene()
+
+
+def test_a_directory_that_is_not_there(tmp_path):
+    with pytest.raises(InputError, match="cannot be written"):
+        Scene().save(tmp_path / "nowhere" / "scene.toml")
+
+
+def test_comments_of_a_file_are_no_part_of_the_scene(tmp_path):
+    path = tmp_path / "scene.toml"
+    path.write_text('# why\ncrank_pin = "dry"  # because\n\n[clearance]  # radial\n')
+    assert load_scene(path) == Scene(crank_pin="dry")

@@ -1,0 +1,65 @@
+"""The scripts that show the library: each runs, reduced, and ends in the numbers it should."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from exu_press import Result
+
+SCRIPTS = Path(__file__).parents[2] / "scripts"
+
+
+def run(name, place):
+    done = subprocess.run(
+        [sys.executable, str(SCRIPTS / name), "--quick"],
+        cwd=place,
+        capture_output=True,
+        text=True,
+        timeout=200,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def test_run_press(tmp_path):
+    printed = run("run_press.py", tmp_path)
+    out = tmp_path / "out" / "run_press"
+    result = Result.load(out / "run.nc")
+    assert result.completed
+    assert f"{1e3 * result.summary()['stroke']:.5g}" in printed
+    assert {"slider.png", "orbit.png", "force.png"} <= {path.name for path in out.glob("*.png")}
+
+
+def test_compare_variants(tmp_path):
+    head, status, *_ = run("compare_variants.py", tmp_path).splitlines()
+    assert head.split() == ["ideal", "dry", "lubricated"]
+    assert status.split() == ["status", *["completed"] * 3]
+    assert (tmp_path / "out" / "compare_variants" / "compare_slider.png").exists()
+
+
+def test_error_vs_runtime(tmp_path):
+    printed = run("error_vs_runtime.py", tmp_path)
+    (orders,) = re.findall(r"my_slider_crank  fixed step +step +(\S+)", printed)
+    assert float(orders) == pytest.approx(2.0, abs=0.3)
+    assert list((tmp_path / "out" / "error_vs_runtime").glob("*.png"))
+
+
+def test_my_own_part(tmp_path):
+    printed = run("my_own_part.py", tmp_path)
+    tip, beam = map(float, re.findall(r"([\d.]+) um", printed))
+    assert tip == pytest.approx(beam, rel=0.005)
+    assert "mass 1.8840 kg" in printed
+    assert (tmp_path / "out" / "my_own_part" / "modes.png").exists()
+
+
+def test_joint_in_your_model(tmp_path):
+    """A rod that falls from the horizontal swings through with 5/2 of its weight."""
+    printed = run("joint_in_your_model.py", tmp_path)
+    film, force = map(float, re.findall(r"([\d.]+) (?:um|N)", printed))
+    assert 0.0 < film < 50.0
+    assert force == pytest.approx(2.5 * 10.0 * 9.81, rel=0.01)
+    assert len((SCRIPTS / "joint_in_your_model.py").read_text("utf-8").splitlines()) <= 30

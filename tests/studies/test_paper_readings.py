@@ -1,0 +1,92 @@
+"""What is read off a run, on motions that are known."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from exu_press import Scene, simulate
+from exu_press.mechanism import mechanism_of
+from exu_press.studies.paper.losses import losses
+from exu_press.studies.paper.readings import observed_span, readings
+
+
+@pytest.fixture(scope="module")
+def ideal():
+    scene = Scene(crank_pin="ideal", balls="ideal", revolutions=2.0)
+    return simulate(scene.replace("solver.step", 5e-4))
+
+
+def with_motion(result, time, position, velocity, acceleration):
+    """Return a result with another slider motion."""
+    values = {
+        "time": time,
+        "crank_angle": result.scene.angular_speed * time,
+        "slider_position": position,
+        "slider_velocity": velocity,
+        "slider_acceleration": acceleration,
+    }
+    channels = {n: replace(result.channels[n], values=v) for n, v in values.items()}
+    return replace(result, channels=channels)
+
+
+def test_the_ideal_press_is_the_closed_form_under_every_model(ideal):
+    read = readings(ideal)
+    angle = np.linspace(0.0, 2.0 * np.pi, 4001)
+    _, velocity, acceleration = mechanism_of(ideal.scene).ideal_slider(
+        angle, ideal.scene.angular_speed
+    )
+    for model in ("resolved", "mean_1ms", "differentiated_1khz"):
+        assert read["peak_velocity"][model] == pytest.approx(abs(velocity).max(), rel=2e-3)
+        assert read["peak_acceleration"][model] == pytest.approx(abs(acceleration).max(), rel=3e-3)
+        assert read["low_dead_point"][model] == pytest.approx(0.47, abs=5e-6)
+    assert len(read["low_dead_points"]) == 2
+    assert read["joints"] == {}
+
+
+def test_the_last_revolution_is_observed(ideal):
+    assert observed_span(ideal) == pytest.approx((0.25, 0.5))
+    time = np.linspace(0.0, 0.5, 20001)
+    spike = np.where(time < 0.1, 1000.0, 1.0)
+    run = with_motion(ideal, time, 0.5 * time**2, time, spike)
+    assert readings(run)["peak_acceleration"]["resolved"] == 1.0
+    assert readings(run, (0.0, 0.5))["peak_acceleration"]["resolved"] == 1000.0
+
+
+def test_an_impact_is_spread_over_the_millisecond(ideal):
+    """A velocity change of 0.05 m/s within 75 us is 667 m/s^2 resolved, 50 over 1 ms."""
+    time = np.linspace(0.0, 0.5, 200001)
+    velocity = 0.05 * np.clip((time - 0.4) / 75e-6, 0.0, 1.0)
+    position = np.concatenate([[0.0], np.cumsum(0.5 * (velocity[1:] + velocity[:-1]) * 2.5e-6)])
+    acceleration = np.gradient(velocity, time)
+    read = readings(with_motion(ideal, time, position, velocity, acceleration))
+    peaks = read["peak_acceleration"]
+    assert peaks["resolved"] == pytest.approx(0.05 / 75e-6, rel=1e-3)
+    assert peaks["mean_1ms"] == pytest.approx(50.0, rel=1e-3)
+    assert peaks["differentiated_1khz"] <= 50.01
+
+
+def test_the_frequency_of_an_oscillation_on_top_of_the_ideal_motion(ideal):
+    time = np.linspace(0.0, 0.5, 20001)
+    speed = ideal.scene.angular_speed
+    position, velocity, acceleration = mechanism_of(ideal.scene).ideal_slider(speed * time, speed)
+    rate = 2.0 * math.pi * 40.0
+    run = with_motion(
+        ideal,
+        time,
+        position - 1e-3 / rate * np.cos(rate * time),
+        velocity + 1e-3 * np.sin(rate * time),
+        acceleration + 1e-3 * rate * np.cos(rate * time),
+    )
+    assert readings(run)["oscillation_frequency"] == pytest.approx(40.0, rel=0.02)
+
+
+def test_a_centred_journal_costs_petroffs_power():
+    scene = Scene(balls="ideal", revolutions=0.05).replace("film.viscosity", 0.1)
+    run = simulate(scene)
+    lost = losses(run, run.time >= 0.0)
+    petroff = 2.0 * math.pi * 0.1 * 0.1 * 0.07**3 * scene.angular_speed**2 / 1e-4
+    # near top dead centre the linkage turns the crank's way, at 0.03 / 0.383 of its speed
+    assert lost["shear"] == pytest.approx(petroff * (1.0 - 0.03 / 0.383) ** 2, rel=0.02)
+    assert lost["balls"] == 0.0

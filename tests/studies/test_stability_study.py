@@ -1,0 +1,203 @@
+"""The table of stiff and extreme cases, the verdicts, the report and the map."""
+
+import dataclasses
+import json
+
+import numpy as np
+import pytest
+
+from exu_press import Scene, simulate
+from exu_press.studies.stability import Report, cases, quick_cases, stability
+from exu_press.studies.stability import judge as judging
+from exu_press.studies.stability.cases import PAIRS
+from exu_press.studies.stability.checks import agreement, checks_of
+from exu_press.studies.stability.judge import finer, judge
+
+SHORT = {"mechanism": "slider_crank", "revolutions": 0.04}
+
+
+@pytest.fixture(scope="module")
+def table():
+    return cases()
+
+
+def judged(**changes):
+    scene = Scene.from_dict(SHORT).replace(changes)
+    return judge({"name": "a case", "scene": scene.to_dict()})
+
+
+def test_at_least_200_cases_with_names_of_their_own(table):
+    assert len(table) >= 200
+    assert len({case.name for case in table}) == len(table)
+    assert len({json.dumps(case.scene.to_dict()) for case in table}) > 0.9 * len(table)
+
+
+def reached(table, key):
+    """Return the smallest and the largest value of a key in the table."""
+    name, _, inner = key.rpartition(".")
+    tables = [case.scene.to_dict() for case in table]
+    if name:
+        tables = [data[name] for data in tables if name in data]
+    values = [data[inner] for data in tables if inner in data]
+    return min(values), max(values)
+
+
+@pytest.mark.parametrize(
+    ("key", "low", "high"),
+    [
+        ("contact.stiffness", 2.5545e7, 2.5545e13),
+        ("contact.damping_max", 0.0, 2.55e10),
+        ("clearance.crank_pin", 1e-7, 1e-3),
+        ("speed_rpm", 1.0, 3000.0),
+        ("film.viscosity", 1e-5, 10.0),
+        ("film.length", 0.0141, 0.56),
+        ("friction.mu_static", 0.01, 1.0),
+        ("blanking.force", 0.0, 2e6),
+        ("blanking.rise", 1e-5, 1e-3),
+        ("press.slider_mass", 13.47, 134700.0),
+        ("flexible.modes", 0, 60),
+        ("solver.tolerance", 1e-7, 0.1),
+        ("solver.step", 1e-6, 1e-3),
+        ("gravity", 0.0, 9.81),
+        ("revolutions", 0.0, 20.0),
+    ],
+)
+def test_the_table_reaches_from_end_to_end(table, key, low, high):
+    lowest, highest = reached(table, key)
+    assert lowest <= low * 1.001 + 1e-3 * (key == "revolutions")
+    assert highest >= high * 0.999
+
+
+def test_the_quick_sample_holds_every_axis(table):
+    sample = quick_cases()
+    assert {case.axis for case in sample} == {case.axis for case in table}
+    assert set(sample) <= set(table)
+    assert sum(case.axis == PAIRS for case in sample) >= 10
+
+
+def test_every_pair_changes_two_things(table):
+    for case in table:
+        if case.axis == PAIRS:
+            assert case.value.count(" + ") == 1
+
+
+def test_a_harmless_case_is_right_with_figures():
+    row = judged(crank_pin="dry")
+    assert row["verdict"] == "right", row["reason"]
+    names = [check["name"] for check in row["checks"]]
+    assert len(names) == 6
+    assert all(check["passed"] and check["value"] <= check["limit"] for check in row["checks"])
+    assert 0.0 < row["residual"] < 1e-3
+    json.dumps(row, allow_nan=False)
+
+
+def test_a_run_that_says_it_was_not_resolved_has_stopped():
+    row = judged(crank_pin="dry", **{"solver.step": 1e-3})
+    assert row["verdict"] == "stopped"
+    assert row["status"] == "under-resolved"
+    assert "solver.step" in row["reason"]
+
+
+def test_the_same_run_without_a_word_would_be_wrong(monkeypatch):
+    """The checks, not the status, find it: the verdict does not rest on the run's own word."""
+    import exu_press.integrate.run as run
+
+    monkeypatch.setattr(run, "unresolved", lambda model: None)
+    row = judged(crank_pin="dry", **{"solver.step": 1e-3})
+    assert row["status"] == "completed"
+    assert row["verdict"] == "wrong"
+    assert "difference from a finer run" in row["reason"] or "energy" in row["reason"]
+
+
+def test_a_finer_run_that_stops_leaves_a_case_unchecked_which_is_wrong(monkeypatch):
+    monkeypatch.setattr(judging, "finer", lambda scene: finer(scene).replace("solver.max_steps", 5))
+    row = judged()
+    assert row["verdict"] == "wrong"
+    assert row["reason"].startswith("the finer run: 5 steps were used up")
+
+
+@pytest.fixture(scope="module")
+def run():
+    return simulate(Scene.from_dict({**SHORT, "crank_pin": "dry"}))
+
+
+def changed(result, **channels):
+    given = {
+        name: dataclasses.replace(result.channels[name], values=values)
+        for name, values in channels.items()
+    }
+    return dataclasses.replace(result, channels={**result.channels, **given})
+
+
+def failed(result):
+    return [check.name for check in checks_of(result) if not check.passed]
+
+
+def test_each_check_can_fail(run):
+    assert failed(run) == []
+    given, lost = run["energy_input"], run["energy_dissipated"]
+    scale = np.abs(given).max()
+    rising = np.linspace(0.0, 1.0, len(given))
+    nan = given.copy()
+    nan[3] = np.nan
+    assert failed(changed(run, energy_input=nan)) == ["numbers that are not finite"]
+    off = changed(run, energy_stored=run["energy_stored"] + 2e-3 * scale * rising)
+    assert failed(off) == ["energy residual"]
+    made = changed(
+        run,
+        energy_dissipated=lost - 0.1 * scale * rising,
+        energy_stored=run["energy_stored"] + 0.1 * scale * rising,
+    )
+    assert failed(made) == ["energy created in joints"]
+    open_joint = run["body_position"].copy()
+    open_joint[-1, run.bodies.index("slider"), 0] += 2e-9
+    assert failed(changed(run, body_position=open_joint)) == ["constraint drift, m"]
+    deep = run["crank_pin_eccentricity"].copy()
+    deep[-1] = [0.0, -2e-3]
+    assert failed(changed(run, crank_pin_eccentricity=deep)) == ["contact energy out of nothing"]
+
+
+@pytest.mark.parametrize(
+    ("channel", "factor", "named"),
+    [
+        ("slider_acceleration", 1.2, "peak acceleration, resolved"),
+        ("slider_velocity", 1.05, "peak velocity"),
+        ("crank_pin_force", 1.2, "crank_pin"),
+        ("energy_dissipated", 1.2, "energy dissipated"),
+    ],
+)
+def test_agreement_sees_a_difference_in_every_quantity(run, channel, factor, named):
+    assert agreement(run, run).value == 0.0
+    check = agreement(changed(run, **{channel: factor * run[channel]}), run)
+    assert not check.passed
+    assert check.note.startswith(named)
+
+
+def test_rows_are_kept_and_not_run_again(tmp_path, table):
+    chosen = [case for case in table if case.axis == "spectral radius"][-2:]
+    first = stability(chosen, tmp_path, workers=1)
+    assert first.counts()["right"] == 2
+    assert [row["name"] for row in first.rows] == [case.name for case in chosen]
+    lines = (tmp_path / "runs.jsonl").read_text()
+    again = stability(chosen, tmp_path, workers=1)
+    assert (tmp_path / "runs.jsonl").read_text() == lines
+    assert again == first
+
+
+def test_a_worker_that_fails_gives_a_wrong_case_and_the_map_shows_all(tmp_path, table):
+    from exu_press.plots.stability import save_stability
+
+    verdicts = ["right", "stopped", "wrong"]
+    rows = tuple(
+        {
+            "name": case.name, "axis": case.axis, "value": case.value, "verdict": verdicts[i],
+            "residual": None if i else 1e-5, "reason": "why" * bool(i), "wall_time": 1.0,
+        }
+        for case, i in zip(table[::20], [0, 1, 2, *[0] * 99], strict=False)
+    )  # fmt: skip
+    report = Report(True, rows)
+    assert report.counts() == {"right": len(rows) - 2, "stopped": 1, "wrong": 1}
+    text = "\n".join(report.lines())
+    assert f"wrong: {rows[2]['name']}" in text
+    assert report.lines()[-1].endswith("1 stopped with a reason (4.8%), 1 wrong")
+    assert save_stability(report, tmp_path).stat().st_size > 10_000

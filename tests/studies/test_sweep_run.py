@@ -1,0 +1,180 @@
+"""Sweeps of real scenes: left alone, killed, in another's directory."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from exu_press import InputError, Result, Scene, simulate
+from exu_press.batch import run_batch
+from exu_press.studies.sweep import Study, sweep
+from exu_press.studies.sweep.run import run_scene
+from exu_press.studies.sweep.table import TIMES
+
+IDEAL = Scene(crank_pin="ideal", balls="ideal", revolutions=0.01)
+LUBRICATED = Scene(balls="ideal", revolutions=0.05)
+
+
+def without_times(table):
+    return {name: values for name, values in table.columns.items() if name not in TIMES}
+
+
+def test_the_table_holds_the_summaries(tmp_path):
+    study = Study(scene=IDEAL, save_runs=True, list={"speed_rpm": [200.0, 300.0]})
+    table = sweep(study, tmp_path, workers=1)
+    assert table["file"] == ("runs/1.nc", "runs/2.nc")
+    for run, scene in enumerate(study.scenes):
+        summary = simulate(scene).summary()
+        assert table["status"][run] == "completed"
+        assert table["ldp"][run] == summary["ldp"]
+        assert table["energy.input"][run] == summary["energy"]["input"]
+        assert table["peak_acceleration.resolved"][run] == summary["peak_acceleration"]["resolved"]
+        assert table["versions.exudyn"][run] == summary["versions"]["exudyn"]
+        assert Result.load(tmp_path / table["file"][run]).scene == scene
+    assert {path.name for path in tmp_path.iterdir()} >= {"table.csv", "table.nc", "study.json"}
+
+
+def test_runs_that_stop_early_or_fail_are_rows(tmp_path):
+    scene = {"mechanism": "slider_crank", "crank_pin": "lubricated", "solver": {"step": 1e-4}}
+    thin = {"film.viscosity": [0.4, 1e-7], "revolutions": [0.01, 1.0]}
+    table = sweep(Study(scene=Scene.from_dict(scene), list=thin), tmp_path, workers=2)
+    assert table["status"] == ("completed", "film broke down")
+    assert table["reason"][1].startswith("film broke down at t = ")
+    assert table["ldp"][1] is not None
+
+
+STUDY = """
+[scene]
+balls = "ideal"
+revolutions = 0.05
+[grid]
+clearance.crank_pin = [5e-5, 1e-4, 2e-4, 3e-4]
+speed_rpm = [200.0, 300.0, 400.0]
+"""
+
+
+def start(directory):
+    (directory / "study.toml").write_text(STUDY)
+    command = [str(Path(sys.executable).with_name("exu-press")), "sweep", "study.toml"]
+    return subprocess.Popen(
+        [*command, "--workers", "2", "--out", "out", "--no-pictures"],
+        cwd=directory,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+
+
+def until_rows(process, directory, enough):
+    path = directory / "out" / "runs.jsonl"
+    end = time.monotonic() + 60.0
+    while not path.exists() or path.read_bytes().count(b"\n") < enough:
+        assert process.poll() is None and time.monotonic() < end, "too late"
+        time.sleep(0.005)
+
+
+def workers_of(process):
+    files = Path(f"/proc/{process.pid}/task").glob("*/children")
+    return [int(word) for file in files for word in file.read_text().split()]
+
+
+def test_a_sweep_killed_twice_equals_an_undisturbed_one(tmp_path):
+    """A worker and then the parent by kill -9, a torn line, the same command: bit by bit."""
+    calm, killed = tmp_path / "calm", tmp_path / "killed"
+    for directory in (calm, killed):
+        directory.mkdir()
+    process = start(calm)
+    out, errors = process.communicate(timeout=120)
+    assert process.returncode == 0, errors
+    assert "12 runs: 12 completed" in out
+
+    process = start(killed)
+    until_rows(process, killed, 2)
+    os.kill(workers_of(process)[0], signal.SIGKILL)
+    until_rows(process, killed, 5)
+    process.kill()
+    process.communicate()
+    rows = killed / "out" / "runs.jsonl"
+    done = rows.read_bytes().count(b"\n")
+    assert 5 <= done < 12
+    with rows.open("ab") as file:
+        file.write(b'{"key": "half a li')
+    process = start(killed)
+    out, errors = process.communicate(timeout=120)
+    assert process.returncode == 0, errors
+    assert f"{done} of 12 are there" in errors
+
+    tables = [(d / "out" / "table.csv").read_text().splitlines() for d in (calm, killed)]
+    kept = len(tables[0][0].split(",")) - len(TIMES)  # the times of computing stand last
+    texts = [[line.rsplit(",", len(TIMES))[0] for line in table] for table in tables]
+    assert texts[0] == texts[1]
+    assert len(texts[0]) == 13 and len(texts[0][0].split(",")) == kept
+
+
+def test_a_worker_does_not_share_memory_of_runs(tmp_path):
+    """One worker after many runs gives what a fresh one gives."""
+    scenes = [LUBRICATED.replace("speed_rpm", speed) for speed in (200.0, 300.0, 400.0)]
+    arguments = [{"scene": scene.to_dict()} for scene in scenes]
+    rows = run_batch(run_scene, arguments, tmp_path / "one", workers=1, quiet=True)
+    (fresh,) = run_batch(run_scene, arguments[-1:], tmp_path / "two", workers=1, quiet=True)
+    for name in TIMES:
+        rows[-1].pop(name), fresh.pop(name)
+    assert rows[-1] == fresh
+
+
+def test_a_directory_of_another_study_is_refused(tmp_path):
+    study = Study(scene=IDEAL, list={"speed_rpm": [200.0]})
+    sweep(study, tmp_path, workers=1)
+    before = {path: path.read_bytes() for path in tmp_path.iterdir() if path.is_file()}
+    other = Study(scene=IDEAL, list={"speed_rpm": [300.0]})
+    with pytest.raises(InputError, match=r"another study \(study.json differs in list\)"):
+        sweep(other, tmp_path, workers=1)
+    assert before == {path: path.read_bytes() for path in tmp_path.iterdir() if path.is_file()}
+    longer = Study(scene=IDEAL, list={"speed_rpm": [200.0]}, time_limit=100.0)
+    sweep(longer, tmp_path, workers=1)  # the same study
+
+
+@pytest.mark.parametrize("name", ["runs.jsonl", "table.csv", "table.nc"])
+def test_a_directory_with_files_of_something_else_is_refused(name, tmp_path):
+    (tmp_path / name).write_text("mine")
+    with pytest.raises(InputError, match=f"holds {name} of something else"):
+        sweep(Study(scene=IDEAL, list={"speed_rpm": [200.0]}), tmp_path, workers=1)
+    assert (tmp_path / name).read_text() == "mine"
+
+
+@pytest.mark.parametrize("runs", [80, pytest.param(1000, marks=pytest.mark.long)])
+def test_real_runs_hold_a_workers_memory_flat(runs):
+    """What Exudyn kept of every model would be half a megabyte a run."""
+    code = MEMORY.format(scene=IDEAL.to_dict(), runs=runs)
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=600)
+    assert done.returncode == 0, done.stderr
+    early, late = map(float, done.stdout.split())
+    assert late - early < 5.0  # MB
+
+
+MEMORY = """
+from pathlib import Path
+from exu_press.studies.sweep.run import run_scene
+def megabytes():
+    return int(Path("/proc/self/statm").read_text().split()[1]) * 4096e-6
+for run in range({runs}):
+    run_scene({{"scene": {scene!r}}})
+    if run == 30:
+        early = megabytes()
+print(early, megabytes())
+"""
+
+
+def test_a_cluster_gives_the_same_bits(tmp_path):
+    distributed = pytest.importorskip("distributed")
+    study = Study(scene=LUBRICATED, list={"speed_rpm": [200.0, 300.0, 400.0]})
+    with distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, host="127.0.0.1", dashboard_address=None
+    ) as cluster:
+        there = sweep(study, tmp_path / "there", dask=cluster.scheduler_address)
+    here = sweep(study, tmp_path / "here", workers=1)
+    assert without_times(there) == without_times(here)

@@ -1,0 +1,86 @@
+"""The table: columns, gaps, files that read back to the last bit."""
+
+import csv
+import math
+
+import numpy as np
+import pytest
+from scipy.io import netcdf_file
+
+from exu_press import InputError, Scene
+from exu_press.studies.sweep import Study
+from exu_press.studies.sweep.lines import table_lines
+from exu_press.studies.sweep.shown import shown
+from exu_press.studies.sweep.table import table_of
+
+ROWS = [
+    {
+        "status": "completed",
+        "reason": "",
+        "wall_time": 1.25,
+        "steps": 10,
+        "ldp": 0.1 + 0.2,
+        "joints": {"crank_pin": {"min_film": None, "peak_force": 1e3}},
+        "list": [1.0, 2.0],
+        "flag": True,
+    },
+    {"status": "failed", "reason": 'ValueError: "a", b'},
+    {"status": "film broke down", "reason": "at 0.1 s \N{GREEK SMALL LETTER MU}", "ldp": math.pi},
+]
+
+
+@pytest.fixture
+def table():
+    study = Study(
+        scene=Scene(balls="ideal", crank_pin="ideal"), grid={"speed_rpm": [200.0, 300.0, 400.0]}
+    )
+    return table_of(study, ROWS, ["1.nc", "2.nc", "3.nc"])
+
+
+def test_what_varies_comes_first_and_times_last(table):
+    names = list(table.columns)
+    assert names[:5] == ["speed_rpm", "status", "reason", "file", "steps"]
+    assert names[-1] == "wall_time"
+    assert table["joints.crank_pin.peak_force"] == (1e3, None, None)
+    assert table["scene.speed_rpm"] == (200.0, 300.0, 400.0)
+    assert "list" not in names
+    assert len(table) == 3
+
+
+def test_csv_reads_back_bit_by_bit(table, tmp_path):
+    table.save_csv(tmp_path / "table.csv")
+    with (tmp_path / "table.csv").open(newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert [row["status"] for row in rows] == ["completed", "failed", "film broke down"]
+    assert rows[1]["reason"] == ROWS[1]["reason"]
+    assert [float(row["ldp"]) for row in (rows[0], rows[2])] == [0.1 + 0.2, math.pi]
+    assert rows[1]["ldp"] == rows[0]["joints.crank_pin.min_film"] == ""
+    assert rows[0]["flag"] == "true" and rows[0]["steps"] == "10"
+
+
+def test_netcdf_reads_back(table, tmp_path):
+    table.save_netcdf(tmp_path / "table.nc")
+    with netcdf_file(tmp_path / "table.nc", mmap=False) as file:
+        assert file.dimensions["run"] == 3
+        assert file.variables["ldp"][:].tolist()[::2] == [0.1 + 0.2, math.pi]
+        assert np.isnan(file.variables["ldp"][1])
+        assert file.variables["speed_rpm"].units == b"rpm"
+        texts = [b"".join(row).rstrip(b"\0").decode() for row in file.variables["reason"][:]]
+        assert texts == [row["reason"] for row in ROWS]
+
+
+def test_what_is_shown(table):
+    assert shown(table) == ("joints.crank_pin.peak_force", "ldp")
+    assert shown(table, ["steps"]) == ("steps",)
+    with pytest.raises(InputError, match=r"--show status: allowed are .*ldp"):
+        shown(table, ["status"])
+
+
+def test_the_table_in_a_terminal(table):
+    head, first, second, third, *rest = table_lines(table)
+    assert head.split() == ["speed_rpm", "crank_pin.peak_force,", "N", "ldp,", "m", "status"]
+    assert first.split() == ["200", "1000", "0.3", "completed"]
+    assert second.split() == ["300", "-", "-", "failed"]
+    assert third.endswith("film broke down")
+    assert rest[0] == "3 runs: 1 completed, 1 failed, 1 film broke down"
+    assert rest[1] == '  1 x failed: ValueError: "a", b'

@@ -1,0 +1,36 @@
+"""Short runs, made once."""
+
+import pytest
+from matplotlib.figure import Figure
+
+from exu_press import Result, Scene, simulate
+from exu_press.view import Film
+from exu_press.view.film import SIZE
+
+SCENES = {
+    "press": {"mechanism": "press", "revolutions": 0.3},
+    "slider_crank": {"mechanism": "slider_crank", "crank_pin": "dry", "revolutions": 0.3},
+    "ideal": {"crank_pin": "ideal", "balls": "ideal", "revolutions": 0.1},
+    "flexible": {"bodies": "flexible", "revolutions": 0.03},
+}
+
+
+@pytest.fixture(scope="session")
+def runs(tmp_path_factory) -> dict[str, Result]:
+    """Results as a file gives them back: nothing else is there to draw from."""
+    folder = tmp_path_factory.mktemp("runs")
+    for name, scene in SCENES.items():
+        simulate(Scene(**scene)).save(folder / f"{name}.nc")
+    return {name: Result.load(folder / f"{name}.nc") for name in SCENES}
+
+
+@pytest.fixture
+def film():
+    """Return a film of a run, its first frame shown."""
+
+    def made(result, instants, flexible=None) -> Film:
+        film = Film(result, instants, Figure(figsize=SIZE), flexible)
+        film.show(0)
+        return film
+
+    return made

@@ -1,0 +1,82 @@
+import dataclasses
+import itertools
+
+import numpy as np
+import pytest
+from matplotlib.text import Text
+
+from exu_press.view import instants, moment
+from exu_press.view.film import Painter
+
+CASES = ["press", "slider_crank", "ideal", "flexible"]
+
+
+def visible_texts(figure):
+    return [t for t in figure.findobj(Text) if t.get_visible() and t.get_text().strip()]
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_no_label_is_clipped(runs, film, name):
+    picture = film(runs[name], instants(runs[name], frames=5))
+    painter = Painter(picture, 100.0)
+    painter.paint(3)
+    renderer = picture.figure.canvas.get_renderer()
+    width, height = picture.figure.bbox.size
+    for text in visible_texts(picture.figure):
+        box = text.get_window_extent(renderer)
+        assert box.x0 >= -1 and box.y0 >= -1, text.get_text()
+        assert box.x1 <= width + 1 and box.y1 <= height + 1, text.get_text()
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_names_of_bodies_do_not_overlap(runs, film, name):
+    picture = film(runs[name], instants(runs[name], frames=3))
+    Painter(picture, 100.0)
+    renderer = picture.figure.canvas.get_renderer()
+    boxes = [text.get_window_extent(renderer) for text in picture.figure.axes[0].texts]
+    for one, two in itertools.combinations(boxes, 2):
+        assert not one.overlaps(two)
+
+
+def test_frames_differ_where_something_moves_alone(runs, film):
+    picture = film(runs["press"], instants(runs["press"], frames=5))
+    painter = Painter(picture, 50.0)
+    first, later = painter.paint(0), painter.paint(4)
+    changed = (first != later).any(axis=2)
+    assert 0.005 < changed.mean() < 0.3
+    assert np.array_equal(painter.paint(0), first)
+
+
+def test_a_film_says_how_slow_it_is_and_a_picture_does_not(runs, film):
+    def words(result, shown):
+        return " ".join(text.get_text() for text in visible_texts(film(result, shown).figure))
+
+    shown = instants(runs["press"], 0.0, 0.05, slow=16.0)
+    assert "16 times slower than the machine at 25 frames a second" in words(runs["press"], shown)
+    assert "slower" not in words(runs["press"], moment(runs["press"], 0.02))
+
+
+def test_the_clock(runs, film):
+    picture = film(runs["press"], moment(runs["press"], 0.05))
+    picture.show(1)
+    assert picture._clock.get_text().startswith("t =   50.00 ms    crank   7")
+
+
+def test_a_run_that_stopped_early_says_so(runs, film):
+    cut = {
+        name: dataclasses.replace(channel, values=channel.values[:40])
+        for name, channel in runs["press"].channels.items()
+    }
+    info = {**runs["press"].info, "status": "interrupted", "reason": "interrupted at t = 1 ms"}
+    stopped = dataclasses.replace(runs["press"], channels=cut, info=info)
+    texts = [text.get_text() for text in visible_texts(film(stopped, instants(stopped)).figure)]
+    assert any("stopped early" in text for text in texts)
+
+
+def test_a_record_of_one_instant_can_be_shown(runs, film):
+    cut = {
+        name: dataclasses.replace(channel, values=channel.values[:1])
+        for name, channel in runs["press"].channels.items()
+    }
+    one = dataclasses.replace(runs["press"], channels=cut)
+    Painter(film(one, moment(one)), 50.0).paint(1)

@@ -1,0 +1,64 @@
+import numpy as np
+import pytest
+
+from exu_press.errors import InputError
+from exu_press.view import instants, moment
+
+
+def test_a_revolution_takes_five_seconds(runs):
+    shown = instants(runs["press"])
+    assert len(shown) == 1 + round(0.3 * 5 * 25)
+    assert shown.slow == pytest.approx(20.0, rel=1.0 / len(shown))  # a whole number of frames
+    assert np.ptp(np.diff(shown.time)) < 1e-12
+
+
+def test_every_step_is_seen_exactly_once(runs):
+    """An impact between two frames is not lost."""
+    time = runs["press"].time
+    shown = instants(runs["press"], frames=7)
+    steps = [s for f in range(len(shown)) for s in range(len(time))[shown.steps_since_last(f)]]
+    assert steps == list(range(len(time)))
+
+
+def test_more_frames_than_steps(runs):
+    time = runs["ideal"].time
+    shown = instants(runs["ideal"], frames=4 * len(time))
+    for frame, at in enumerate(shown.time):
+        assert time[shown.step[frame]] <= at * (1 + 1e-9)
+        since = shown.steps_since_last(frame)
+        assert since.stop - since.start >= 1
+
+
+def test_part_of_a_run(runs):
+    shown = instants(runs["press"], 0.01, 0.02, slow=100.0, fps=10.0)
+    assert (shown.time[0], shown.time[-1], len(shown)) == (0.01, 0.02, 11)
+
+
+def test_a_picture_holds_its_instant_alone(runs):
+    shown = moment(runs["press"], 0.03)
+    since = shown.steps_since_last(1)
+    assert since.stop - since.start == 1
+    assert runs["press"].time[since.start] <= 0.03 < runs["press"].time[since.stop]
+    assert moment(runs["press"]).time[1] == runs["press"].time[-1]
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"start": -1.0}, "--from -1: the record goes from 0 to 0.075 s"),
+        ({"stop": 1.0}, "--to 1: the record"),
+        ({"start": 0.02, "stop": 0.01}, "--from 0.02 --to 0.01"),
+        ({"fps": 0.0}, "--fps 0: allowed is 1 to 120"),
+        ({"slow": -2.0}, "--slow -2: allowed is a number > 0"),
+        ({"slow": 2.0, "frames": 3}, "allowed is one of the two"),
+        ({"frames": 1}, "1 frames: allowed is 2 to"),
+        ({"slow": 1e30}, "frames: allowed is 2 to"),
+        ({"slow": float("nan")}, "--slow nan"),
+        ({"start": float("nan")}, "--from nan"),
+    ],
+)
+def test_wrong_options(runs, options, message):
+    with pytest.raises(InputError, match=message):
+        instants(runs["press"], **options)
+    with pytest.raises(InputError, match=r"--at 3: allowed is 0 to 0\.075 s"):
+        moment(runs["press"], 3.0)

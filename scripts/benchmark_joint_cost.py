@@ -23,7 +23,7 @@ from exudyn.itemInterface import (
 )
 
 from exu_press import Scene, add_lubricated_revolute
-from exu_press.integrate import integrate
+from exu_press.integrate import Status, integrate
 from exu_press.integrate.settings import settings_for
 from exu_press.joints import COMPILED
 from exu_press.laws.film import film_scale, pinkus
@@ -44,7 +44,8 @@ def run_press(joints, steps):
     revolutions = steps * STEP * 240.0 / 60.0
     scene = {"crank_pin": pin, "balls": balls, "revolutions": revolutions, "solver": {"step": STEP}}
     outcome = integrate(Scene.from_dict(scene).build())
-    assert outcome.steps == steps, outcome
+    assert outcome.status is Status.COMPLETED, outcome
+    steps = outcome.steps  # a film begins with a few shorter ones
     return outcome.wall_time / steps * 1e6, outcome.newton_iterations / steps
 
 

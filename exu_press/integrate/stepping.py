@@ -129,12 +129,16 @@ class FixedSteps:
 
     def _after_step(self, mbs: exu.MainSystem, time: float) -> bool:
         """Set the next step."""
-        h, done = self._step, time - self._time
+        h, done, before = self._step, time - self._time, self._next
         if done > 0.0:
-            halved = done < 0.99 * self._next
+            halved = done < 0.99 * before
             self._size = done if halved else min(h, 2.0 * self._size)
             to_grid = (math.floor(time / h * (1.0 + 1e-9)) + 1) * h - time
-            self._next = min(to_grid, self._size)
+            on_grid = to_grid > (1.0 - 1e-9) * h
+            self._next = self._size if on_grid else min(to_grid, self._size)
+            if not halved and self._next == before:
+                self._time = time
+                return True
         self._time = time
         mbs.sys["dynamicSolver"].it.currentStepSize = self._next
         return True

@@ -31,7 +31,9 @@ def mean_peak(time: Array, velocity: Array, window: float = 1e-3) -> float | Non
     """
     if time[-1] - time[0] < window:
         return None
-    late = time[time >= time[0] + window]
+    # the mean is linear in time but where one end of the window passes a step
+    ends = np.concatenate([time, time + window])
+    late = ends[(ends >= time[0] + window) & (ends <= time[-1])]
     change = np.interp(late, time, velocity) - np.interp(late - window, time, velocity)
     return peak(change / window)
 

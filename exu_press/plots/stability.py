@@ -60,7 +60,7 @@ def stability_figure(report: Report) -> Figure:
     if pairs:
         _draw_pairs(right[0], pairs, colours)
     bar = figure.colorbar(colours, ax=[left, *right], location="bottom", shrink=0.35, aspect=40)
-    bar.set_label("energy residual, relative to the drive's work")
+    bar.set_label("energy residual, relative to the largest energy put in, stored or dissipated")
     handles: list[Artist] = [
         Line2D(
             [], [], linestyle="", label=IN_WORDS[verdict], marker=style["marker"], markersize=7.5,

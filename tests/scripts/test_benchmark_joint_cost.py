@@ -21,7 +21,8 @@ def test_quick_table():
     )
     assert done.returncode == 0, done.stderr
     head, *lines = done.stdout.splitlines()
-    assert head.split() == ["us/step", "Newton/step", "ratio"]
+    assert head[:34].strip() in ("joints compiled", "joints in Python")
+    assert head[34:].split() == ["us/step", "Newton/step", "ratio"]
     table = {line[:34].strip(): [float(word) for word in line[34:].split()] for line in lines}
     assert list(table) == ROWS
     for name, (per_step, iterations, ratio) in table.items():

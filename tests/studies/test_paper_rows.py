@@ -3,7 +3,7 @@
 import pytest
 
 from exu_press.studies.paper.published import published
-from exu_press.studies.paper.rows import frequency_rows, number_rows, trend_rows
+from exu_press.studies.paper.rows import AS_THEY_ARE, frequency_rows, number_rows, trend_rows
 from exu_press.studies.paper.sensitivity import tornado_of
 from exu_press.studies.paper.settings import Setting
 
@@ -100,6 +100,9 @@ def test_trends():
     (row,) = trend_rows([one], flat, settings)
     assert row.verdict == "differs"
     assert "appears under 1 of 2 changes" in row.reason and "b = 2" in row.reason
+    settings[one.name][AS_THEY_ARE] = [1.0, 2.0, 3.0, 4.0]
+    (row,) = trend_rows([one], flat, settings)
+    assert row.reason.endswith("with rigid bodies it appears")
 
 
 def test_trends_of_low_dead_points_are_of_how_far_they_lie_below():

@@ -48,9 +48,8 @@ def tradeoff_figure(choice: Choice) -> Figure:
         axes.set_yscale("log")
         axes.set_xlabel("radial clearance, µm")
         axes.margins(x=0.05)
-        ticks = [MICRO * point.balls for point in choice.alike]
-        axes.set_xticks(ticks, [f"{tick:.3g}" for tick in ticks])
-        axes.minorticks_off()
+        low, high = axes.get_xlim()
+        plain_logarithm(axes.xaxis, math.log10(high / low))
         _plain(axes)
     return figure
 

@@ -11,10 +11,21 @@ from exu_press.studies.paper.readings import MODELS, OBSERVED
 from exu_press.studies.paper.sensitivity import Effect, Tornado
 from exu_press.studies.paper.trends import follows
 
-__all__ = ["AGREES_WITHIN", "Row", "choice_row", "frequency_rows", "number_rows", "trend_rows"]
+__all__ = [
+    "AGREES_WITHIN",
+    "AS_THEY_ARE",
+    "Row",
+    "choice_row",
+    "frequency_rows",
+    "number_rows",
+    "trend_rows",
+]
 
 AGREES_WITHIN = 0.25
 """Largest deviation of a ratio from 1 that is called agreement."""
+
+AS_THEY_ARE = "as they are"
+"""Stands for no change among the changes that a trend appears under."""
 
 LEAST = 0.01
 """Of our value: what moves it by less is not named."""
@@ -209,6 +220,8 @@ def _why_trend(
     if not settings:
         return ours
     with_it = [label for label, values in settings.items() if follows(trend.stated, values)]
+    if AS_THEY_ARE in with_it:
+        return f"{ours}; with rigid bodies it appears"
     if not with_it:
         return f"{ours}; under none of {len(settings)} changes (rigid bodies) does it appear"
     shown_few = "; ".join(with_it[:3]) + (" ..." if len(with_it) > 3 else "")

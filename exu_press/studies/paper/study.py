@@ -15,7 +15,13 @@ from exu_press.studies.paper.plan import Plan
 from exu_press.studies.paper.published import Published, published
 from exu_press.studies.paper.readings import OBSERVED
 from exu_press.studies.paper.report import Report
-from exu_press.studies.paper.rows import choice_row, frequency_rows, number_rows, trend_rows
+from exu_press.studies.paper.rows import (
+    AS_THEY_ARE,
+    choice_row,
+    frequency_rows,
+    number_rows,
+    trend_rows,
+)
 from exu_press.studies.paper.runs import REVOLUTIONS, paper_runs, rigid_twin
 from exu_press.studies.paper.sensitivity import Tornado, sensitivity_task, tornado_of
 from exu_press.studies.paper.settings import FLEXIBLE, QUICK, SETTINGS, Setting
@@ -234,7 +240,7 @@ def _series(
         runs = [varied[name] for name in trend.runs]
         if len({one.baseline for one in runs}) < len(runs):
             continue
-        numbers = [{"as they are": (OBSERVED, one.baseline)} for one in runs]
+        numbers = [{AS_THEY_ARE: (OBSERVED, one.baseline)} for one in runs]
         for known, one in zip(numbers, runs, strict=True):
             for setting, index in one.settings:
                 label = f"{setting.factor} = {setting.label}"

@@ -55,7 +55,7 @@ def report_lines(report: Report) -> list[str]:
 def _number(row: Row) -> tuple[str, ...]:
     unit, scale, digits = UNITS.get(row.measure, ("", 1.0, ".5g"))
     values = [_text(getattr(row, model), scale, digits) for model in MODELS]
-    ratio = "-" if row.ratio is None else f"{row.ratio:.2g}"
+    ratio = "-" if row.ratio is None else f"{row.ratio:.3g}"
     quantity = f"{row.quantity}, {unit}" if unit else row.quantity
     published = _text(row.published, scale, digits)
     return (quantity, row.figure, published, *values, ratio, row.verdict)

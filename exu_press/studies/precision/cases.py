@@ -161,7 +161,9 @@ def cases() -> tuple[Case, ...]:
             "press_flexible_modes",
             "Press, flexible, lubricated pin and dry balls, against 40 modes",
             "own",
-            Scene(crank_pin="lubricated", balls="dry", bodies="flexible", flexible=Flexible(modes=40)),
+            Scene(
+                crank_pin="lubricated", balls="dry", bodies="flexible", flexible=Flexible(modes=40)
+            ),
             steps=(),
             tolerances=(),
             reference_tolerance=1e-4,

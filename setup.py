@@ -1,0 +1,88 @@
+"""Compile joints and laws with mypyc: the same sources, two to four times as fast.
+
+EXU_PRESS_COMPILE=1 demands it, 0 forbids it. By default an ordinary install does it where there is
+a C compiler and stays in Python where that fails; an editable one stays in Python, whose sources
+could be edited beside what was compiled from them.
+"""
+
+import os
+import shlex
+import shutil
+import sys
+import sysconfig
+from pathlib import Path
+
+from setuptools import setup
+from setuptools.command.build_ext import build_ext
+
+MODULES = [
+    "joints/ends",
+    "joints/overlay",
+    "joints/pairs",
+    "joints/planar",
+    "joints/spatial",
+    "laws/contact_damping",
+    "laws/contact_stiffness",
+    "laws/film/asperities",
+    "laws/film/contract",
+    "laws/film/finite_bearing",
+    "laws/film/long_bearing",
+    "laws/film/short_bearing",
+    "laws/friction",
+]
+"""What is called in every Newton iteration."""
+
+ASKED = os.environ.get("EXU_PRESS_COMPILE", "")
+COMPILER = shlex.split(sysconfig.get_config_var("CC") or "cc")[0]
+
+
+def wanted() -> bool:
+    """Return whether to compile."""
+    if ASKED not in ("", "0", "1"):
+        sys.exit(f"EXU_PRESS_COMPILE = {ASKED!r}: allowed are 0 and 1")
+    if ASKED:
+        return ASKED == "1"
+    return "editable_wheel" not in sys.argv and shutil.which(COMPILER) is not None
+
+
+class BuildCompiled(build_ext):
+    """Where compiling was not demanded, its failure leaves the package in Python."""
+
+    def run(self) -> None:
+        """Compile all modules or none."""
+        try:
+            super().run()
+        except Exception as error:
+            if ASKED:
+                raise
+            print(f"joints and laws stay in Python, compiling them failed: {error}")
+            for output in self.get_outputs():
+                Path(output).unlink(missing_ok=True)
+            self.extensions = []
+
+
+def extensions() -> list:
+    """Return the modules to be compiled; none while the build only asks what it needs."""
+    if not {"bdist_wheel", "editable_wheel", "build_ext"} & set(sys.argv):
+        return []
+    from mypyc.build import mypycify
+
+    found = mypycify(
+        ["--config-file=", "--ignore-missing-imports", "--follow-imports=silent"]
+        + [f"exu_press/{module}.py" for module in MODULES],
+        opt_level="3",
+        group_name="exu_press",
+    )
+    for extension in found:
+        # a newer compiler's warnings are no errors; a fused a * b + c would round differently
+        extension.extra_compile_args = [
+            flag for flag in extension.extra_compile_args if flag != "-Werror"
+        ] + ["-ffp-contract=off"] * (os.name == "posix")
+    return found
+
+
+setup(
+    setup_requires=["mypy>=1.15,<3"] if wanted() else [],
+    ext_modules=extensions() if wanted() else [],
+    cmdclass={"build_ext": BuildCompiled},
+)

@@ -67,12 +67,15 @@ def extensions() -> list:
         return []
     from mypyc.build import mypycify
 
-    found = mypycify(
-        ["--config-file=", "--ignore-missing-imports", "--follow-imports=silent"]
-        + [f"exu_press/{module}.py" for module in MODULES],
-        opt_level="3",
-        group_name="exu_press",
-    )
+    options = ["--config-file=", "--ignore-missing-imports", "--follow-imports=silent"]
+    sources = [f"exu_press/{module}.py" for module in MODULES]
+    try:
+        found = mypycify(options + sources, opt_level="3", group_name="exu_press")
+    except SystemExit:  # its type check failed
+        if ASKED:
+            raise
+        print("joints and laws stay in Python, their types could not be checked")
+        return []
     for extension in found:
         # a newer compiler's warnings are no errors; a fused a * b + c would round differently
         extension.extra_compile_args = [
@@ -82,7 +85,7 @@ def extensions() -> list:
 
 
 setup(
-    setup_requires=["mypy>=1.15,<3"] if wanted() else [],
+    setup_requires=["mypy>=1.15,<3", "numpy>=2.0,<3"] if wanted() else [],  # numpy for its types
     ext_modules=extensions() if wanted() else [],
     cmdclass={"build_ext": BuildCompiled},
 )

@@ -11,7 +11,7 @@ def test_one_axis_of_the_sample(tmp_path, capsys):
     arguments = ["stability", "--quick", "--axis", "bearing length", "--workers", "1"]
     assert main([*arguments, "--out", str(tmp_path)]) == 0
     report = json.loads((tmp_path / "stability.json").read_text())
-    assert report["counts"] == {"right": 2, "stopped": 0, "wrong": 0}
+    assert report["counts"] == {"right": 4, "stopped": 0, "wrong": 0}
     case = report["cases"][0]
     assert case.keys() >= {
         "name", "axis", "value", "parameters", "verdict", "reason", "checks", "wall_time",
@@ -20,7 +20,7 @@ def test_one_axis_of_the_sample(tmp_path, capsys):
     assert case["parameters"]["film"]["length"] == 0.0141
     assert (tmp_path / "stability.png").stat().st_size > 10_000
     printed = capsys.readouterr().out
-    assert "2 cases: 2 right, 0 stopped with a reason" in printed
+    assert "4 cases: 4 right, 0 stopped with a reason" in printed
 
 
 def test_a_wrong_case_makes_the_command_fail(tmp_path, monkeypatch, capsys):

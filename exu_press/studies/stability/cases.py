@@ -195,8 +195,8 @@ def _films() -> list[Case]:
 def _frictions() -> list[Case]:
     """Friction coefficient and law, with and without a drop from static to kinetic.
 
-    A thinner pin from 0.3 on: the press's own, 70 mm in radius on a crank of 30 mm, then seizes near
-    dead centre, which is tried too.
+    A thinner pin from 0.3 on: the press's own, 70 mm in radius on a crank of 30 mm, then seizes
+    near dead centre, which is tried too.
     """
 
     thin = {"contact.radius": 0.02}

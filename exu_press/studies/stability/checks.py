@@ -23,7 +23,7 @@ summary's is relative to the first alone, which is next to nothing where a slow 
 turn while journals fall through their clearance."""
 
 COARSE_RESIDUAL = 0.1
-"""Times the tolerance, where more than a hundredth was asked for: what may be left of the energy."""
+"""Times the tolerance: what may be left of the energy where more than a hundredth was asked for."""
 
 DRIFT_LIMIT = 1e-9  # m
 

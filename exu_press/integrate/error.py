@@ -1,7 +1,6 @@
 """The local error of a step, relative to the tolerance and to the mechanism's own scales."""
 
 import math
-from typing import Any
 
 import exudyn as exu
 import numpy as np
@@ -62,6 +61,8 @@ class StepError:
         self._velocity_limit = share * max(pin_speed, fall_speed)
         self._bodies = _Bodies(model)
         self._mass: Array | None = None
+        self._now = np.zeros(0)  # accelerations at the end of the last try
+        self._before: Array | None = None  # at its beginning
         self._rate: Array | None = None  # of change of the accelerations, in the last step
         self._rate_before: Array | None = None  # in the step before
         self._joints = [
@@ -74,9 +75,11 @@ class StepError:
         data = self._mbs.systemData
         if self._mass is None:
             self._mass = np.diag(self._mbs.sys["dynamicSolver"].GetSystemMassMatrix())
-        now: Any = data.GetODE2Coordinates_tt(exu.ConfigurationType.Current, False)
-        before: Any = data.GetODE2Coordinates_tt(exu.ConfigurationType.StartOfStep, False)
-        self._rate = rate = np.asarray((now - before) / step)
+        now = self._now = np.array(data.GetODE2Coordinates_tt(exu.ConfigurationType.Current, False))
+        if self._before is None:
+            start = data.GetODE2Coordinates_tt(exu.ConfigurationType.StartOfStep, False)
+            self._before = np.array(start)
+        self._rate = rate = (now - self._before) / step
         change = rate if self._rate_before is None else rate - self._rate_before
         error = self._velocity_error(step, change, self._mass)
         if error > 1.0:
@@ -85,7 +88,7 @@ class StepError:
 
     def accept(self) -> None:
         """Remember the accepted step's end as the next one's beginning."""
-        self._rate_before = self._rate
+        self._rate_before, self._before = self._rate, self._now
         for joint in self._joints:
             joint.accept()
 

@@ -7,7 +7,7 @@ run comes or goes within one step, its height is the step's.
 
 So the figure is the largest change of an inertia force m |a| within one step, of any body, against
 the largest inertia force of the run. Measured against a tolerance of 1e-5 on dry, lubricated and
-mixed presses and slider-cranks of all clearances, speeds and dampings, with steps of 1e-3 to 1e-5 s:
+mixed presses and slider-cranks of many clearances, speeds and dampings, steps of 1e-3 to 1e-5 s:
 above 0.8 the joints' peak forces were off by 9 to 90 %, seldom less; between 0.65 and 0.8 by 2 to
 17 %; below by 7 % at most.
 """

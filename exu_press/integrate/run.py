@@ -74,15 +74,17 @@ def integrate(model: Model, *, quiet: bool = True) -> Outcome:
     settings = settings_for(scene)
     failure = ""
     with Progress("run", scene.duration, quiet=quiet) as progress:
-        watch = _Watch(progress, StepChange(mbs), _max_steps(model))
+        step_change = StepChange(mbs)
+        watch = _Watch(progress, step_change, _max_steps(model))
         mbs.SetPreStepUserFunction(watch.before_step)
-        control = _step_control(model)
+        film_start = None if scene.film is None else step_change
+        control = _step_control(model, film_start)
         if control is not None:
             control.attach(mbs)
         else:
             FixedSteps(
                 scene.duration / settings.timeIntegration.numberOfSteps,
-                slow_start=scene.film is not None,
+                film_start=film_start,
             ).attach(mbs)
         start = time.perf_counter()
         # matrices of a hundred rows: further threads only wait for each other
@@ -111,7 +113,7 @@ def integrate(model: Model, *, quiet: bool = True) -> Outcome:
     )
 
 
-def _step_control(model: Model) -> StepControl | None:
+def _step_control(model: Model, film_start: StepChange | None) -> StepControl | None:
     """Return what makes the steps follow the scene's tolerance, if it has one."""
     scene, solver = model.scene, model.scene.solver
     assert solver is not None
@@ -122,7 +124,7 @@ def _step_control(model: Model) -> StepControl | None:
         duration=scene.duration,
         smallest=smallest_step(scene),
         largest=largest_step(scene),
-        slow_start=scene.film is not None,
+        film_start=film_start,
         next_corner=model.next_corner,
     )
 
@@ -150,7 +152,7 @@ def _how_it_ended(
                 f"film broke down {where}, eccentricity ratio {joint.outside:.4f} ({name}); "
                 "try film.at_contact = 'mixed', or a larger film.viscosity or film.length"
             )
-    if control is not None and control.error > 1.0:
+    if control is not None and not control.error <= 1.0:
         return Status.STEP_TOO_SMALL, (
             f"the tolerance needs a step below {smallest_step(scene):.2g} s {where}"
             f"{_busiest_joint(model)}; "

@@ -4,6 +4,7 @@ import math
 
 import exudyn as exu
 
+from exu_press.mechanism import mechanism_of
 from exu_press.scene import Scene
 
 __all__ = ["largest_step", "settings_for", "smallest_step"]
@@ -48,11 +49,11 @@ def settings_for(scene: Scene) -> exu.SimulationSettings:
     newton.useModifiedNewton = True
     newton.modifiedNewtonJacUpdatePerStep = scene.flexible is None
     newton.modifiedNewtonContractivity = 0.5 if scene.flexible is None else 0.1
-    # Each step starts from zero multipliers, so that this is relative to the joint forces; what it
-    # leaves is 1e-10 m in a revolution, and tighter ones only cost iterations.
+    # Of the forces that weight and inertia make, not of the first residual: that one holds what a
+    # film would answer to speeds that are not yet balanced, in a stiff film a million times more.
     tolerance = 1e-4 if solver.tolerance is None else solver.tolerance
-    newton.relativeTolerance = min(1e-4, 1e-1 * tolerance)
-    newton.absoluteTolerance = 1e-2 * newton.relativeTolerance
+    newton.absoluteTolerance = min(1e-4, 1e-1 * tolerance) * _usual_force(scene)
+    newton.relativeTolerance = 1e-10  # what rounding leaves
     newton.maxIterations = 25
     # A contact opens and closes within Newton's iterations, so nothing is left to iterate on.
     # The step control's word counts: above 1 the step is repeated.
@@ -71,3 +72,11 @@ def settings_for(scene: Scene) -> exu.SimulationSettings:
     settings.solution.file.write = False
     settings.solution.sensors.writePeriod = 0.0  # every step
     return settings
+
+
+def _usual_force(scene: Scene) -> float:
+    """Return weight and centrifugal force of the whole mechanism, N."""
+    size = scene.press or scene.slider_crank
+    assert size is not None
+    mass = sum(body.mass for body in mechanism_of(scene).bodies)
+    return mass * (scene.gravity + scene.angular_speed**2 * size.crank_radius)

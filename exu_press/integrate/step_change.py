@@ -12,6 +12,10 @@ Exudyn's algorithmic acceleration can be read but not written, and when a step i
 the value of the failed try. But positions, velocities and accelerations at the step's beginning can
 be shifted so that the step comes out as if it had been changed.
 
+At rest a film carries nothing, and within a microsecond or less it takes up its load: the
+accelerations with which Exudyn starts are then wrong at once, and ring. What the first step changes
+the velocities by is right, as a film answers to velocities; so the step is repeated from that.
+
 Source: M. Arnold and O. Bruels, Convergence of the generalized-alpha scheme for constrained
 mechanical systems, Multibody System Dynamics 18 (2007), Eqs. 2 and 3, and its remarks on the
 hidden constraints.
@@ -42,7 +46,20 @@ class StepChange:
         self._mbs = mbs
         self._start: float | None = None  # of the step under way, s
         self._last: float | None = None  # size of the last accepted step, s
+        self._state: list[Array] | None = None  # at the step's beginning, before any shift
         self._offset: Array | None = None
+        self._mean: Array | None = None  # acceleration of the first step
+
+    def start_over(self, time: float) -> bool:
+        """Return whether the first step is to be repeated, from its own mean acceleration.
+
+        To be asked after the try of a step to `time`, s, where a film takes up its load.
+        """
+        if self._last is not None or self._mean is not None or self._start is None:
+            return False
+        (_, now, _), (_, before, _) = self._views(CURRENT), self._views(START)
+        self._mean = np.asarray((now - before) / (time - self._start))
+        return True
 
     def before_try(self, time: float) -> None:
         """Shift the state from which Exudyn is about to try a step to `time`, s."""
@@ -51,31 +68,51 @@ class StepChange:
         repeated = start == self._start
         if not repeated:
             self._last = None if self._start is None else start - self._start
-            self._start, self._offset = start, None
+            self._start, self._state, self._offset = start, None, None
         step = time - start
         ratio = 1.0 if self._last is None else min(1.0, step / self._last)
         if repeated or ratio < 1.0 - SAME:
             self._shift(step, ratio)
 
     def _shift(self, step: float, ratio: float) -> None:
-        """Shift positions, velocities and accelerations for a step `ratio` times the last one."""
-        data, solver = self._mbs.systemData, self._mbs.sys["dynamicSolver"]
-        # views of the state itself
-        q: Any = data.GetODE2Coordinates(CURRENT, False)
-        v: Any = data.GetODE2Coordinates_t(CURRENT, False)
-        a: Any = data.GetODE2Coordinates_tt(CURRENT, False)
+        """Shift positions, velocities and accelerations for a step `ratio` times the last one.
+
+        Newton's method may start anew, from what Exudyn keeps of the step's beginning; so that is
+        shifted as well, by what is missing there.
+        """
+        solver = self._mbs.sys["dynamicSolver"]
+        if self._state is None:
+            self._state = [np.array(view) for view in self._views(START)]
+        q, v, a = self._state
         if ratio < 1.0 - SAME:
             if self._offset is None:
                 self._offset = self._velocity_offset()
-            v -= (1.0 - ratio * ratio) * self._offset
-        wanted = a + ratio * (solver.GetStartOfStepStateAAlgorithmic() - a)
-        missing = wanted - solver.GetAAlgorithmic()
+            v = v - (1.0 - ratio * ratio) * self._offset
+        at_start = solver.GetStartOfStepStateAAlgorithmic()
+        wanted = a + ratio * (at_start - a)
+        if self._last is None and self._mean is not None:
+            a = wanted = self._mean
         # q1 = q + h v + h^2 (1/2 - beta) a + h^2 beta a1 and v1 = v + h (1 - gamma) a + h gamma a1
         # with (1 - alpha_m) a1 + alpha_m a = (1 - alpha_f) a_true1 + alpha_f a_true
         beta, gamma = solver.newmarkBeta, solver.newmarkGamma
-        a -= (solver.alphaM / solver.alphaF) * missing
-        v += step * (1.0 - gamma) * missing
-        q += step * step * (gamma - 0.5 - beta) * missing
+        for where, there in ((CURRENT, solver.GetAAlgorithmic()), (START, at_start)):
+            missing = wanted - there
+            shifted = (
+                q + step * step * (gamma - 0.5 - beta) * missing,
+                v + step * (1.0 - gamma) * missing,
+                a - (solver.alphaM / solver.alphaF) * missing,
+            )
+            for view, value in zip(self._views(where), shifted, strict=True):
+                view[:] = value
+
+    def _views(self, where: exu.ConfigurationType) -> tuple[Any, Any, Any]:
+        """Return positions, velocities and accelerations as Exudyn holds them."""
+        data = self._mbs.systemData
+        return (
+            data.GetODE2Coordinates(where, False),
+            data.GetODE2Coordinates_t(where, False),
+            data.GetODE2Coordinates_tt(where, False),
+        )
 
     def _velocity_offset(self) -> Array:
         """Return the part of the velocities that the constraints forbid, in the kinetic norm."""

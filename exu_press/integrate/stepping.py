@@ -10,6 +10,7 @@ from collections.abc import Callable
 import exudyn as exu
 
 from exu_press.integrate.error import StepError
+from exu_press.integrate.step_change import StepChange
 
 __all__ = ["FixedSteps", "StepControl"]
 
@@ -50,7 +51,7 @@ class StepControl:
         duration: float,
         smallest: float,
         largest: float,
-        slow_start: bool,
+        film_start: StepChange | None,
         next_corner: Callable[[float], float],
     ) -> None:
         """Control the steps of a run from 0 to `duration`, s.
@@ -60,7 +61,7 @@ class StepControl:
             duration: end of the run, s.
             smallest: below it the run is given up, s.
             largest: s; also the mean step of Exudyn's own settings.
-            slow_start: whether a film takes up its load.
+            film_start: starts the first step over where a film takes up its load.
             next_corner: time -> the next instant at which a load has a corner, s, or infinity.
         """
         self.rejected = 0
@@ -68,7 +69,9 @@ class StepControl:
         self._estimate = error
         self._duration, self._smallest, self._largest = duration, smallest, largest
         self._next_corner = next_corner
-        self._step = max(_first(largest, FIRST * largest, slow_start), smallest)
+        self._film_start = film_start
+        usual = FIRST * largest
+        self._step = max(usual if film_start is None else min(largest, FIRST_OF_FILM), smallest)
 
     def attach(self, mbs: exu.MainSystem) -> None:
         """Let Exudyn ask this control after every Newton solve and every step."""
@@ -81,11 +84,13 @@ class StepControl:
         step = time - start
         if step <= 0.0:
             return [0.0, -1.0]
+        if self._film_start is not None and self._film_start.start_over(time):
+            return [2.0, step]
         self.error = error = self._estimate(step)
         factor = (AIM / error) ** (1.0 / ORDER) if error > 0.0 else math.inf
-        if error > 1.0:
+        if not error <= 1.0:
             self.rejected += 1
-            self._step = step * max(CHANGE[0], factor)
+            self._step = step * (max(CHANGE[0], factor) if factor == factor else CHANGE[0])
             return [2.0, self._step]
         self._estimate.accept()
         if step >= 0.5 * self._step:  # else it was cut short by a corner or by the end
@@ -116,16 +121,25 @@ class FixedSteps:
     step that Exudyn had to halve, steps double back to the grid.
     """
 
-    def __init__(self, step: float, *, slow_start: bool) -> None:
-        """Take steps of a size, s."""
+    def __init__(self, step: float, *, film_start: StepChange | None) -> None:
+        """Take steps of a size, s; `film_start` starts the first one over."""
         self._step = step
-        self._size = _first(step, step, slow_start)
+        self._film_start = film_start
+        self._size = step if film_start is None else min(step, FIRST_OF_FILM)
         self._next = self._size
         self._time = 0.0
 
     def attach(self, mbs: exu.MainSystem) -> None:
         """Let Exudyn ask after every step."""
         mbs.SetPostStepUserFunction(self._after_step)
+        if self._film_start is not None:
+            mbs.SetPostNewtonUserFunction(self._after_newton)
+
+    def _after_newton(self, mbs: exu.MainSystem, time: float) -> list[float]:
+        """Return [0, -1] to accept the step, [2, step] to have the first one repeated."""
+        assert self._film_start is not None
+        again = time > 0.0 and self._film_start.start_over(time)
+        return [2.0, time] if again else [0.0, -1.0]
 
     def _after_step(self, mbs: exu.MainSystem, time: float) -> bool:
         """Set the next step."""
@@ -142,8 +156,3 @@ class FixedSteps:
         self._time = time
         mbs.sys["dynamicSolver"].it.currentStepSize = self._next
         return True
-
-
-def _first(largest: float, usual: float, slow: bool) -> float:
-    """Return the first step, s."""
-    return min(largest, FIRST_OF_FILM) if slow else usual

@@ -174,7 +174,7 @@ class Solver(Table):
     )
     step: float | None = key(None, "fixed step size, instead of a tolerance", "s", above=0)
     min_step: float = key(
-        1e-9, "tolerance: a run that would need a smaller step stops", "s", above=0
+        1e-8, "tolerance: a run that would need a smaller step stops", "s", above=0
     )
     max_step_deg: float = key(
         1.5, "tolerance: largest step, in degrees of the crank", "deg", above=0, at_most=15

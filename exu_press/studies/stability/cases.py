@@ -22,7 +22,7 @@ PAIRS = "pairs of extremes"
 REVOLUTIONS = 0.1
 """Of a case, unless something takes longer or happens sooner."""
 
-BUDGET = 60_000
+BUDGET = 20_000
 """Steps of a case, five times as many for the finer run beside it."""
 
 BASES: Mapping[str, Changes] = {

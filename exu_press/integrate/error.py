@@ -59,6 +59,7 @@ class StepError:
         widest = max((joint.clearance for joint in model.clearance_joints.values()), default=0.0)
         fall_speed = math.sqrt(4.0 * scene.gravity * widest)
         self._velocity_limit = share * max(pin_speed, fall_speed)
+        self._jump_limit = tolerance * max(pin_speed, fall_speed)
         self._bodies = _Bodies(model)
         self._mass: Array | None = None
         self._now = np.zeros(0)  # accelerations at the end of the last try
@@ -85,6 +86,17 @@ class StepError:
         if error > 1.0:
             error = self._velocity_error(step, self._filtered(change), self._mass)
         return max([error, *(joint.error(step) for joint in self._joints)])
+
+    def of_jump(self, step: float) -> float:
+        """Return the error if a jump of the accelerations lies in the step just tried.
+
+        However short the step, it is then of first order; at most half of the jump times the step,
+        which is held against the tolerance itself as jumps are few.
+        """
+        assert self._before is not None and self._mass is not None
+        jump = self._now - self._before
+        largest = math.sqrt(self._bodies.largest(jump * jump * self._mass))
+        return 0.5 * step * largest / self._jump_limit
 
     def accept(self) -> None:
         """Remember the accepted step's end as the next one's beginning."""

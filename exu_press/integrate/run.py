@@ -26,6 +26,9 @@ __all__ = ["integrate"]
 
 SECONDS_BETWEEN_UPDATES = 0.1
 
+SPENT = 1e-3
+"""Film thickness over clearance at which a run that gets no further has lost its film."""
+
 WIDE_CIRCLE = 0.3
 """Of the friction circle's radius, in crank radii."""
 
@@ -146,12 +149,11 @@ def _how_it_ended(
             f"{'solver.step' if control is None else 'solver.tolerance'} or solver.max_steps"
             f"{_seizing(model)}"
         )
-    for name, joint in model.clearance_joints.items():
-        if joint.outside is not None:
-            return Status.FILM_BROKE_DOWN, (
-                f"film broke down {where}, eccentricity ratio {joint.outside:.4f} ({name}); "
-                "try film.at_contact = 'mixed', or a larger film.viscosity or film.length"
-            )
+    for name, ratio in _spent_films(model):
+        return Status.FILM_BROKE_DOWN, (
+            f"film broke down {where}, eccentricity ratio {ratio:.4f} ({name}); "
+            "try film.at_contact = 'mixed', or a larger film.viscosity or film.length"
+        )
     if control is not None and not control.error <= 1.0:
         return Status.STEP_TOO_SMALL, (
             f"the tolerance needs a step below {smallest_step(scene):.2g} s {where}"
@@ -164,6 +166,20 @@ def _how_it_ended(
         f"{smallest_step(scene):.2g} s; try a smaller {key}{_seizing(model)}"
         + (f" [{failure.strip().splitlines()[0]}]" if failure.strip() else "")
     )
+
+
+def _spent_films(model: Model) -> Iterator[tuple[str, float]]:
+    """Yield the films that end the run, with their eccentricity ratios at its end."""
+    film = model.scene.film
+    if film is None or film.at_contact != "stop":
+        return
+    for name, joint in model.clearance_joints.items():
+        if joint.outside is not None:
+            yield name, joint.outside
+        elif name == "crank_pin":
+            gap = overlay_of(model.mbs).state(joint).gap
+            if gap < SPENT * joint.clearance:
+                yield name, 1.0 - gap / joint.clearance
 
 
 def _resolution(model: Model) -> tuple[Status, str]:

@@ -10,6 +10,7 @@ from collections.abc import Callable
 import exudyn as exu
 
 from exu_press.integrate.error import StepError
+from exu_press.integrate.settings import FIRST_OF_FILM
 from exu_press.integrate.step_change import StepChange
 
 __all__ = ["FixedSteps", "StepControl"]
@@ -26,11 +27,6 @@ step."""
 
 FIRST = 1.0 / 64.0
 """First step over the largest one."""
-
-FIRST_OF_FILM = 1e-7
-"""First step with a film, s: the journals start centred and without load, and a film takes up its
-load within about a microsecond. A longer first step would make it ring, a shorter one is lost in
-rounding."""
 
 CHANGE = (0.05, 2.0)
 """How far a step may be shortened and lengthened at once."""
@@ -86,7 +82,10 @@ class StepControl:
             return [0.0, -1.0]
         if self._film_start is not None and self._film_start.start_over(time):
             return [2.0, step]
-        self.error = error = self._estimate(step)
+        error = self._estimate(step)
+        if error > 1.0 and step <= self._smallest * (1.0 + 1e-9):
+            error = min(error, self._estimate.of_jump(step))
+        self.error = error
         factor = (AIM / error) ** (1.0 / ORDER) if error > 0.0 else math.inf
         if not error <= 1.0:
             self.rejected += 1

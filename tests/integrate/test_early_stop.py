@@ -125,7 +125,7 @@ def test_interrupt_keeps_what_was_computed(tmp_path):
     assert 10 < result.info["steps"] == len(result.time) - 1 < 2_500_000
     assert result.time[-1] == pytest.approx(result.info["end_time"], rel=1e-9)
     assert np.all(np.isfinite(result["slider_position"]))
-    assert result.info["rejected_steps"] == 0
+    assert result.info["rejected_steps"] <= 1  # a film's first step is taken twice
 
 
 @POSIX

@@ -59,9 +59,11 @@ def settings_for(scene: Scene) -> exu.SimulationSettings:
     newton.modifiedNewtonContractivity = 0.5 if scene.flexible is None else 0.1
     # So that accelerations are right to this part of the crank pin's; not of the first residual:
     # that one holds what a film would answer to speeds that are not yet balanced, in a stiff film a
-    # million times more.
-    tolerance = 1e-4 if solver.tolerance is None else solver.tolerance
-    newton.absoluteTolerance = min(1e-4, 1e-1 * tolerance) * _inertia_force(scene)
+    # million times more. A Jacobian that is kept leaves errors in the constraints, too, which count
+    # by the same measure.
+    tolerance = solver.tolerance or 1e-4
+    part = min(1e-4, 1e-1 * tolerance) if scene.flexible is None else min(1e-6, 1e-2 * tolerance)
+    newton.absoluteTolerance = part * _inertia_force(scene)
     newton.relativeTolerance = 1e-10  # what rounding leaves
     newton.maxIterations = 25
     # A contact opens and closes within Newton's iterations, so nothing is left to iterate on.

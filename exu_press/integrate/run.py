@@ -77,7 +77,7 @@ def integrate(model: Model, *, quiet: bool = True) -> Outcome:
     settings = settings_for(scene)
     failure = ""
     with Progress("run", scene.duration, quiet=quiet) as progress:
-        step_change = StepChange(mbs)
+        step_change = StepChange(mbs, film_at=None if scene.film is None else scene.angular_speed)
         watch = _Watch(progress, step_change, _max_steps(model))
         mbs.SetPreStepUserFunction(watch.before_step)
         film_start = None if scene.film is None else step_change

@@ -7,10 +7,13 @@ import exudyn as exu
 from exu_press.mechanism import mechanism_of
 from exu_press.scene import Scene
 
-__all__ = ["FIRST_OF_FILM", "largest_step", "settings_for", "smallest_step"]
+__all__ = ["FIRST_OF_FILM", "ROUNDING", "largest_step", "settings_for", "smallest_step"]
 
 SMALLEST_PART = 2.0**-10
 """How far a step may be halved where Newton's method fails or a film's law does not hold."""
+
+ROUNDING = 1e-10
+"""Of the first residual: where Newton's method ends if it cannot get further."""
 
 FIRST_OF_FILM = 1e-7
 """First step with a film, s: the journals start centred and without load, and a film takes up its
@@ -64,7 +67,7 @@ def settings_for(scene: Scene) -> exu.SimulationSettings:
     tolerance = solver.tolerance or 1e-4
     part = min(1e-4, 1e-1 * tolerance) if scene.flexible is None else min(1e-6, 1e-2 * tolerance)
     newton.absoluteTolerance = part * _inertia_force(scene)
-    newton.relativeTolerance = 1e-10  # what rounding leaves
+    newton.relativeTolerance = ROUNDING
     newton.maxIterations = 25
     # A contact opens and closes within Newton's iterations, so nothing is left to iterate on.
     # The step control's word counts: above 1 the step is repeated.

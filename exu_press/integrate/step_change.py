@@ -5,7 +5,9 @@ acceleration a is the true one at another instant, a - a_true = h (alpha_m - alp
 and where positions are constrained the velocities miss the constraints by an amount of order h^2.
 A much shorter step takes both for errors and answers with accelerations that alternate for a dozen
 steps, larger than the motion's own changes. Scaled down to the new step, by its ratio to the old
-one and by that ratio's square, both fit at once. A longer step has little to make of them and is
+one and by that ratio's square, both fit at once. Likewise what Newton's method left of the
+positions' constraints, 1e-10 m, is nothing beside a long step but a jolt beside a short one: it is
+taken away. A longer step has little to make of them and is
 left alone: scaling up would blow up whatever still rings.
 
 Exudyn's algorithmic acceleration can be read but not written, and when a step is repeated it keeps
@@ -26,6 +28,9 @@ from typing import Any
 import exudyn as exu
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import lu_factor, lu_solve
+
+from exu_press.integrate.settings import ROUNDING
 
 __all__ = ["StepChange"]
 
@@ -34,6 +39,13 @@ Array = NDArray[np.float64]
 CURRENT = exu.ConfigurationType.Current
 START = exu.ConfigurationType.StartOfStep
 
+FILM_ROUNDING = 7.5e-16
+"""Over the crank's angle in a step, what rounding leaves of the force that a film first answers
+with: a few times the last digit of the crank pin's speed, over what a step adds to that."""
+
+TURNS = 3
+"""Of the way to velocities and positions that fit the constraints; each leaves some hundredths."""
+
 SAME = 1e-6
 """Steps that differ by less, relative, are one size."""
 
@@ -41,13 +53,15 @@ SAME = 1e-6
 class StepChange:
     """Fits the state at a step's beginning to the step, if that is shorter or repeated."""
 
-    def __init__(self, mbs: exu.MainSystem) -> None:
-        """Watch the steps of a system."""
+    def __init__(self, mbs: exu.MainSystem, *, film_at: float | None) -> None:
+        """Watch the steps of a system; `film_at` is the crank's speed if there is a film, rad/s."""
         self._mbs = mbs
+        self._film_rounding = None if film_at is None else FILM_ROUNDING / film_at  # s
+        self._step = 0.0  # that Newton's tolerance is for, s
         self._start: float | None = None  # of the step under way, s
         self._last: float | None = None  # size of the last accepted step, s
         self._state: list[Array] | None = None  # at the step's beginning, before any shift
-        self._offset: Array | None = None
+        self._offsets: tuple[Array, Array] | None = None
         self._mean: Array | None = None  # acceleration of the first step
 
     def start_over(self, time: float) -> bool:
@@ -68,8 +82,12 @@ class StepChange:
         repeated = start == self._start
         if not repeated:
             self._last = None if self._start is None else start - self._start
-            self._start, self._state, self._offset = start, None, None
+            self._start, self._state, self._offsets = start, None, None
         step = time - start
+        if self._film_rounding is not None and abs(step - self._step) > SAME * step:
+            self._step = step
+            newton, part = self._mbs.sys["dynamicSolver"].newton, self._film_rounding / step
+            newton.relativeTolerance = min(ROUNDING, max(1e-3 * ROUNDING, part))
         ratio = 1.0 if self._last is None else min(1.0, step / self._last)
         if repeated or ratio < 1.0 - SAME:
             self._shift(step, ratio)
@@ -85,9 +103,10 @@ class StepChange:
             self._state = [np.array(view) for view in self._views(START)]
         q, v, a = self._state
         if ratio < 1.0 - SAME:
-            if self._offset is None:
-                self._offset = self._velocity_offset()
-            v = v - (1.0 - ratio * ratio) * self._offset
+            if self._offsets is None:
+                self._offsets = self._forbidden()
+            q = q - self._offsets[0]
+            v = v - (1.0 - ratio * ratio) * self._offsets[1]
         at_start = solver.GetStartOfStepStateAAlgorithmic()
         wanted = a + ratio * (at_start - a)
         if self._last is None and self._mean is not None:
@@ -114,29 +133,50 @@ class StepChange:
             data.GetODE2Coordinates_tt(where, False),
         )
 
-    def _velocity_offset(self) -> Array:
-        """Return the part of the velocities that the constraints forbid, in the kinetic norm."""
+    def _forbidden(self) -> tuple[Array, Array]:
+        """Return what of positions and velocities the constraints forbid, in the kinetic norm.
+
+        The directions in which constraints act are those of the last Jacobian, perhaps a degree of
+        the crank away; how far they are violated is of this very state, so a few turns lead to it.
+        """
+        assert self._state is not None
         solver = self._mbs.sys["dynamicSolver"]
         mass = np.asarray(solver.GetSystemMassMatrix())
         size = len(mass)
-        # the rate at which constraints are violated must be of this very state; the directions in
-        # which they act may be those of the last Jacobian
-        solver.ComputeAlgebraicEquations(self._mbs, velocityLevel=True)
-        rate = np.asarray(solver.GetSystemResidual())[size:]
         jacobian = np.asarray(solver.GetSystemJacobian())[size:, :size]
         acting = np.abs(jacobian).max(axis=1, initial=0.0) > 0.0
-        jacobian, rate = jacobian[acting], rate[acting]
         # Euler parameters have no mass along themselves, where a constraint holds them: the masses
         # alone cannot be inverted, with the constraints they can
         weight = 1.0 / np.sqrt(np.diag(mass))
-        jacobian = jacobian * weight
+        jacobian = jacobian[acting] * weight
         length = np.linalg.norm(jacobian, axis=1, keepdims=True)
         jacobian /= length
-        system = np.block(
-            [
-                [weight[:, None] * mass * weight, jacobian.T],
-                [jacobian, np.zeros((len(rate), len(rate)))],
-            ]
+        count = len(jacobian)
+        factors = lu_factor(
+            np.block(
+                [
+                    [weight[:, None] * mass * weight, jacobian.T],
+                    [jacobian, np.zeros((count, count))],
+                ]
+            ),
+            check_finite=False,
         )
-        right = np.concatenate([np.zeros(size), rate / length[:, 0]])
-        return np.asarray(weight * np.linalg.solve(system, right)[:size])
+        position, velocity, _ = self._views(CURRENT)
+        found, right = np.zeros((size, 2)), np.zeros((size + count, 2))
+        for _ in range(TURNS):
+            position[:] = self._state[0] - found[:, 0]
+            velocity[:] = self._state[1] - found[:, 1]
+            right[size:] = self._violations(size)[acting] / length
+            turn = lu_solve(factors, right, check_finite=False)[:size]
+            found += weight[:, None] * turn
+        return found[:, 0], found[:, 1]
+
+    def _violations(self, size: int) -> Array:
+        """Return how far constraints are violated, (n, 2): positions, velocities."""
+        solver, found = self._mbs.sys["dynamicSolver"], []
+        for velocity_level in (False, True):
+            solver.ComputeAlgebraicEquations(self._mbs, velocityLevel=velocity_level)
+            found.append(np.asarray(solver.GetSystemResidual())[size:])
+        position, velocity = found
+        position = np.where(position == velocity, 0.0, position)  # prescribed speeds are no places
+        return np.column_stack([position, velocity])

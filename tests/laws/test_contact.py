@@ -21,7 +21,7 @@ from exu_press.laws.contact import (
     step_damping,
 )
 
-# Delivered restitution for a wanted 0.1, 0.5, 0.9: issue 3, the roots of
+# Delivered restitution for a wanted 0.1, 0.5, 0.9: the roots of
 # ln[(1 + chi) / (1 - chi e)] = chi (1 + e) for each paper's chi.
 WANTED = (0.1, 0.5, 0.9)
 DELIVERED = {
@@ -94,7 +94,7 @@ def test_restitution_of_meets_its_equation_and_its_limits() -> None:
 
 
 @pytest.mark.parametrize(("speed", "delivered"), [(0.1, 0.51842), (1.0, 0.41655)])
-def test_step_bounce_of_issue_3(speed: float, delivered: float) -> None:
+def test_bounce_with_step_damping(speed: float, delivered: float) -> None:
     contact = step_damping(hertz(1e8), damping_max=1e3, damping_depth=1e-4)
     assert delivered_restitution(contact, mass=1.0, speed=speed) == pytest.approx(
         delivered, abs=1e-5
@@ -121,7 +121,7 @@ def test_default_press_contact_is_a_dashpot(mass: float, speed: float, delivered
 def test_undamped_hertz_depth_and_duration() -> None:
     """delta_max = (5 m v^2 / 4 K)^0.4, T = 3.218 (m^2 / (K^2 v))^0.2 (Johnson 1985, section 11.4).
 
-    The exact factor, 2 sqrt(pi) Gamma(1.4) / Gamma(0.9) 1.25^0.4, is 3.21806 (issue 3: 3.21799).
+    The exact factor, 2 sqrt(pi) Gamma(1.4) / Gamma(0.9) 1.25^0.4, is 3.21806.
     """
     mass, stiffness, speed = 3.0, 1e8, 0.2
     contact = step_damping(hertz(stiffness), damping_max=0.0, damping_depth=1e-4)

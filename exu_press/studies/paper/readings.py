@@ -18,7 +18,7 @@ __all__ = ["MODELS", "OBSERVED", "WHY_OBSERVED", "observed_span", "readings"]
 Array = NDArray[np.float64]
 
 MODELS = ("resolved", "mean_1ms", "differentiated_1khz")
-"""Of observation (spec 7): the integrator's own steps, means over 1 ms, 1 kHz samples."""
+"""Of observation: the integrator's own steps, means over 1 ms, 1 kHz samples."""
 
 OBSERVED = "mean_1ms"
 """The one that verdicts are made under, for every number alike."""

@@ -21,10 +21,14 @@ from exu_press.integrate.stepping import FixedSteps, StepControl
 from exu_press.joints import overlay_of
 from exu_press.model import Model
 from exu_press.progress import Progress
+from exu_press.scene import Scene
 
 __all__ = ["integrate"]
 
 SECONDS_BETWEEN_UPDATES = 0.1
+
+THIN = 1e-6
+"""m; the damping of a film of 1e-7 m, 1e17 N s/m, makes 10 N of a speed's last digit."""
 
 SPENT = 1e-3
 """Film thickness over clearance at which a run that gets no further has lost its film."""
@@ -163,7 +167,7 @@ def _how_it_ended(
     key = "solver.step" if control is None else "solver.tolerance"
     return Status.NOT_CONVERGED, (
         f"Newton's method did not converge {where}{_busiest_joint(model)}, down to a step of "
-        f"{smallest_step(scene):.2g} s; try a smaller {key}{_seizing(model)}"
+        f"{smallest_step(scene):.2g} s; try a smaller {key}{_seizing(model)}{_thin_film(scene)}"
         + (f" [{failure.strip().splitlines()[0]}]" if failure.strip() else "")
     )
 
@@ -233,6 +237,13 @@ def _seizing(model: Model) -> str:
         f"; the crank pin seizes near dead centre (friction circle {circle:.2g} m, crank radius "
         f"{size.crank_radius:.2g} m): try a smaller friction.mu_static or contact.radius"
     )
+
+
+def _thin_film(scene: Scene) -> str:
+    """Return in words that a film is so thin that rounding moves its forces, or nothing."""
+    if scene.film is None or scene.clearance is None or scene.clearance.crank_pin >= THIN:
+        return ""
+    return "; a film this thin is too stiff for rounded speeds: try a larger clearance.crank_pin"
 
 
 def _max_steps(model: Model) -> int:

@@ -39,9 +39,9 @@ Array = NDArray[np.float64]
 CURRENT = exu.ConfigurationType.Current
 START = exu.ConfigurationType.StartOfStep
 
-FILM_ROUNDING = 7.5e-16
+FILM_ROUNDING = 4e-15
 """Over the crank's angle in a step, what rounding leaves of the force that a film first answers
-with: a few times the last digit of the crank pin's speed, over what a step adds to that."""
+with: some twenty times the last digit of the crank pin's speed, over what a step adds to that."""
 
 TURNS = 3
 """Of the way to velocities and positions that fit the constraints; each leaves some hundredths."""

@@ -112,15 +112,17 @@ def _leapt_over_pulse(model: Model) -> Unresolved | None:
 def _inertia_forces(model: Model) -> tuple[Array, dict[str, Array]]:
     """Return the recorded instants, (n,), and what accelerates the rigid bodies, (n, 3), N.
 
+    Of bodies whose accelerations were recorded.
+
     The angle's counts over the radius of gyration, so that the norm is the kinetic one. The crank
     is driven at constant speed.
     """
     found = {}
     time = np.zeros(0)
     for body in model.mechanism.bodies:
-        if body.name in model.parts or body.name == model.mechanism.crank:
+        number = model.sensors.get((body.name, "acceleration"))
+        if number is None or body.name in model.parts or body.name == model.mechanism.crank:
             continue
-        number = model.sensors[body.name, "acceleration"]
         data = np.asarray(model.mbs.GetSensorStoredData(number))
         time = data[:, 0]
         root = math.sqrt(body.inertia * body.mass)

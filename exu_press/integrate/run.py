@@ -241,7 +241,8 @@ def _seizing(model: Model) -> str:
 
 def _thin_film(scene: Scene) -> str:
     """Return in words that a film is so thin that rounding moves its forces, or nothing."""
-    if scene.film is None or scene.clearance is None or scene.clearance.crank_pin >= THIN:
+    clearance = None if scene.clearance is None else scene.clearance.crank_pin
+    if scene.film is None or clearance is None or clearance >= THIN:
         return ""
     return "; a film this thin is too stiff for rounded speeds: try a larger clearance.crank_pin"
 

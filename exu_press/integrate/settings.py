@@ -62,10 +62,11 @@ def settings_for(scene: Scene) -> exu.SimulationSettings:
     newton.modifiedNewtonContractivity = 0.5 if scene.flexible is None else 0.1
     # So that accelerations are right to this part of the crank pin's; not of the first residual:
     # that one holds what a film would answer to speeds that are not yet balanced, in a stiff film a
-    # million times more. A Jacobian that is kept leaves errors in the constraints, too, which count
-    # by the same measure.
+    # million times more. A Jacobian that is kept while the step changes leaves errors in the
+    # constraints, too, which count by the same measure.
+    kept = scene.flexible is not None and solver.tolerance is not None
     tolerance = solver.tolerance or 1e-4
-    part = min(1e-4, 1e-1 * tolerance) if scene.flexible is None else min(1e-6, 1e-2 * tolerance)
+    part = min(1e-6, 1e-2 * tolerance) if kept else min(1e-4, 1e-1 * tolerance)
     newton.absoluteTolerance = part * _inertia_force(scene)
     newton.relativeTolerance = ROUNDING
     newton.maxIterations = 25

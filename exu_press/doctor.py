@@ -67,8 +67,13 @@ def machine() -> str:
 
 
 def versions() -> dict[str, str | None]:
-    """Return the version of every package that is always needed; None where it is missing."""
-    return {name: _version(name) for name in [PACKAGE, *_requirements()[""]]}
+    """Return the version of every package that is needed; None where it is missing.
+
+    Behind them what only some systems have, FLEXIBLE, if it is there.
+    """
+    needed = _requirements()
+    there = [name for name in needed.get(FLEXIBLE, []) if _version(name)]
+    return {name: _version(name) for name in [PACKAGE, *needed[""], *there]}
 
 
 def extras() -> dict[str, dict[str, str | None]]:

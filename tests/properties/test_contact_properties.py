@@ -68,9 +68,9 @@ def test_contact_is_continuous(contact, depth, rate, impact):
 @given(contact=contacts, rate=speeds, impact=impacts)
 def test_contact_begins_with_no_force(contact, rate, impact):
     assert contact.force(0.0, rate, impact) == (0.0, 0.0, 0.0)
-    deep = abs(contact.force(1e-9, rate, impact)[0])
-    # opening, the damping may outweigh the stiffness at 1e-9 m: then there is no force at all
-    assert abs(contact.force(1e-15, rate, impact)[0]) <= 1e-3 * deep + 1e-12
+    # opening, the damping may take away all of the force at 1e-9 m
+    deep = max(abs(contact.force(1e-9, rate, impact)[0]), contact.stiffness.force(1e-9)[0])
+    assert abs(contact.force(1e-15, rate, impact)[0]) <= 1e-3 * deep
 
 
 coefficients = st.tuples(logarithmic(1e-4, 10.0), logarithmic(1.0, 10.0)).map(

@@ -98,12 +98,19 @@ def children(process):
     return [int(word) for file in files for word in file.read_text().split()]
 
 
+def last_call(directory):
+    return batch_functions.marks(directory / "marks")[-1]
+
+
 def test_killed_workers_are_replaced(arguments, undisturbed, tmp_path):
     process = parent("slow_digits", arguments, tmp_path)
+    tried = set()
     for enough in (3, 8):
         until(lambda enough=enough: lines(tmp_path) >= enough)
-        _, worker = batch_functions.marks(tmp_path / "marks")[-1]
+        until(lambda: last_call(tmp_path)[0] not in tried)  # a task killed twice has failed
+        argument, worker = last_call(tmp_path)
         os.kill(worker, signal.SIGKILL)
+        tried.add(argument)
     _, errors = process.communicate(timeout=30)
     assert process.returncode == 0, errors
     assert len({worker for _, worker in batch_functions.marks(tmp_path / "marks")}) == 4

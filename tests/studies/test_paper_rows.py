@@ -114,7 +114,13 @@ def test_trends_of_low_dead_points_are_of_how_far_they_lie_below():
 
 def test_frequencies():
     hz = [100.0 * mode for mode in range(1, 21)]
-    rows = frequency_rows({"crank": hz})
+    rows = frequency_rows({"crank": {"hz": hz, "reason": ""}})
     assert len(rows) == 5
     assert rows[0].resolved == 200.0 and rows[0].ratio == pytest.approx(200.0 / 538.192)
     assert rows[0].verdict == "differs"
+
+
+def test_frequencies_of_a_part_that_could_not_be_computed():
+    rows = frequency_rows({"crank": {"status": "worker died", "reason": "killed by SIGKILL"}})
+    assert [row.verdict for row in rows] == ["no run"] * 5
+    assert rows[0].resolved is None and rows[0].reason == "killed by SIGKILL"

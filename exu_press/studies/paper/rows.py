@@ -98,8 +98,12 @@ def trend_rows(
     return [_trend_row(trend, runs, settings.get(trend.name, {})) for trend in trends]
 
 
-def frequency_rows(parts: Mapping[str, Sequence[float]]) -> list[Row]:
-    """Return a row for every published natural frequency of the parts (clamped, Hz, by name)."""
+def frequency_rows(parts: Runs) -> list[Row]:
+    """Return a row for every published natural frequency of the parts.
+
+    Args:
+        parts: by name of the part, what `tasks.part_frequencies` returned, or why it did not.
+    """
     return [
         _frequency_row(entry, index, parts[entry.part])
         for entry in published().frequencies
@@ -228,9 +232,10 @@ def _why_trend(
     return f"{ours}; appears under {len(with_it)} of {len(settings)} changes: {shown_few}"
 
 
-def _frequency_row(entry: Frequencies, index: int, hz: Sequence[float]) -> Row:
+def _frequency_row(entry: Frequencies, index: int, part: Mapping[str, Any]) -> Row:
     number, aim = entry.mode_numbers[index], entry.hz[index]
-    value = float(hz[number - 1])
+    value = float(part["hz"][number - 1]) if "hz" in part else None
+    ratio = None if value is None else value / aim
     return Row(
         name=f"{entry.part}_mode_{number}",
         kind="frequency",
@@ -241,9 +246,9 @@ def _frequency_row(entry: Frequencies, index: int, hz: Sequence[float]) -> Row:
         resolved=value,
         mean_1ms=None,
         differentiated_1khz=None,
-        ratio=value / aim,
-        verdict=_verdict(value / aim),
-        reason="a computed number: no observation model applies",
+        ratio=ratio,
+        verdict=_verdict(ratio),
+        reason=str(part["reason"] or "a computed number: no observation model applies"),
         run=f"{entry.part}, bearing surfaces clamped",
     )
 

@@ -126,9 +126,8 @@ def paper(
         for entry in beside.frequencies
     ]
     parts = {
-        str(task["part"]): row["hz"]
+        str(task["part"]): row
         for task, row in zip(tasks, run_all(part_frequencies, tasks, label="parts"), strict=True)
-        if "hz" in row
     }
     rigid = _tornados(plan, beside, varied, "rigid")
     flexible = _tornados(plan, beside, varied_flexible, "flexible")

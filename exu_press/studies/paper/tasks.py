@@ -45,7 +45,7 @@ def part_frequencies(arguments: dict[str, Any]) -> dict[str, Any]:
 
     part = shipped_part(arguments["part"], arguments["mesh_size"])
     hz = clamped_frequencies(part, arguments["modes"])
-    return {"status": "completed", "reason": None, "hz": [float(value) for value in hz]}
+    return {"status": "completed", "reason": "", "hz": [float(value) for value in hz]}
 
 
 def run_file(directory: Path, name: str) -> Path:

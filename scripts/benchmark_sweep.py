@@ -16,7 +16,7 @@ from exu_press.studies.sweep import Study, sweep
 from exu_press.studies.sweep.run import run_scene
 
 quick = "--quick" in sys.argv
-clearances = [(5 + n) * 1e-5 for n in range(2 if quick else 16)]
+clearances = [(50 + n) * 1e-6 for n in range(2 if quick else 48)]
 scene = Scene(balls="ideal", revolutions=0.05 if quick else 8.0)
 study = Study(scene=scene, grid={"clearance.crank_pin": clearances})
 

@@ -16,6 +16,7 @@ from setuptools import setup
 from setuptools.command.build_ext import build_ext
 
 MODULES = [
+    "integrate/joint_error",
     "joints/ends",
     "joints/overlay",
     "joints/pairs",
@@ -30,7 +31,7 @@ MODULES = [
     "laws/film/short_bearing",
     "laws/friction",
 ]
-"""What is called in every Newton iteration."""
+"""What is called in every Newton iteration, and for every joint in every step."""
 
 ASKED = os.environ.get("EXU_PRESS_COMPILE", "")
 COMPILER = shlex.split(sysconfig.get_config_var("CC") or "cc")[0]

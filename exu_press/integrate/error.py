@@ -6,13 +6,12 @@ import exudyn as exu
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.joints import ClearanceJoint
+from exu_press.integrate.joint_error import JointError
 from exu_press.model import Model
 
 __all__ = ["StepError"]
 
 Array = NDArray[np.float64]
-Vector = tuple[float, ...]
 
 VELOCITY_CONSTANT = 2.0 / 12.0
 """Of generalized-alpha's local error h^3 times the acceleration's second derivative (0.083 to 0.077
@@ -67,7 +66,7 @@ class StepError:
         self._rate: Array | None = None  # of change of the accelerations, in the last step
         self._rate_before: Array | None = None  # in the step before
         self._joints = [
-            _JointError(joint, max(share * joint.clearance, ROUNDING))
+            JointError(joint, max(share * joint.clearance, ROUNDING))
             for joint in model.clearance_joints.values()
         ]
 
@@ -133,37 +132,3 @@ class _Bodies:
     def largest(self, twice_energy: Array) -> float:
         """Return the largest sum per body, over the body's mass."""
         return float((np.add.reduceat(twice_energy, self._starts) / self._masses).max())
-
-
-class _JointError:
-    """The eccentricity's error of one clearance joint: its way less that of its velocities.
-
-    A journal's position is the integral of its bodies' velocities, and nothing in a film or in free
-    flight mends it. The corrected trapezoidal rule gives that integral,
-    h (v0 + v1) / 2 - h^2 (change of the mean acceleration) / 12.
-    """
-
-    def __init__(self, joint: ClearanceJoint, limit: float) -> None:
-        self._joint = joint
-        self._limit = limit
-        self._before: tuple[Vector, Vector] | None = None  # eccentricity and its rate
-        self._acceleration: Vector | None = None  # mean of the last step
-        self._tried: tuple[tuple[Vector, Vector], Vector | None] = ((), ()), None
-
-    def error(self, step: float) -> float:
-        now, velocity = self._joint.eccentricity, self._joint.relative_velocity
-        if self._before is None:
-            self._tried = (now, velocity), None
-            return 0.0
-        before, velocity_before = self._before
-        mean = tuple([(v - v_0) / step for v, v_0 in zip(velocity, velocity_before, strict=True)])
-        self._tried = (now, velocity), mean
-        half, twelfth, square = 0.5 * step, step * step / 12.0, 0.0
-        for e, e_0, v, v_0, a, a_0 in zip(
-            now, before, velocity, velocity_before, mean, self._acceleration or mean, strict=True
-        ):
-            square += (e - e_0 - half * (v + v_0) + twelfth * (a - a_0)) ** 2
-        return math.sqrt(square) / self._limit
-
-    def accept(self) -> None:
-        self._before, self._acceleration = self._tried

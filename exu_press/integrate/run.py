@@ -4,7 +4,7 @@ import math
 import signal
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from types import FrameType
 
@@ -13,6 +13,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from exu_press.integrate.error import StepError
+from exu_press.integrate.newton import Newton
 from exu_press.integrate.outcome import Outcome, Status
 from exu_press.integrate.resolution import unresolved
 from exu_press.integrate.settings import largest_step, settings_for, smallest_step
@@ -40,12 +41,14 @@ WIDE_CIRCLE = 0.3
 class _Watch:
     """Called by Exudyn before every step: counts, shows progress, stops when asked to."""
 
-    def __init__(self, progress: Progress, step_change: StepChange, max_steps: int) -> None:
+    def __init__(
+        self, progress: Progress, before_try: Sequence[Callable[[float], None]], max_steps: int
+    ) -> None:
         self.calls = 0
         self.interrupted = self.over_budget = False
         self._max_steps = max_steps
         self._progress = progress
-        self._step_change = step_change
+        self._before_try = before_try
         self._next_update = time.monotonic() + SECONDS_BETWEEN_UPDATES
 
     def before_step(self, mbs: exu.MainSystem, now: float) -> bool:
@@ -54,7 +57,8 @@ class _Watch:
         if not self.calls % 16 and time.monotonic() > self._next_update:
             self._next_update = time.monotonic() + SECONDS_BETWEEN_UPDATES
             self._progress.update(now)
-        self._step_change.before_try(now)
+        for each in self._before_try:
+            each(now)
         self.over_budget = self.calls >= self._max_steps
         return not (self.interrupted or self.over_budget)
 
@@ -81,8 +85,9 @@ def integrate(model: Model, *, quiet: bool = True) -> Outcome:
     settings = settings_for(scene)
     failure = ""
     with Progress("run", scene.duration, quiet=quiet) as progress:
-        step_change = StepChange(mbs, film_at=None if scene.film is None else scene.angular_speed)
-        watch = _Watch(progress, step_change, _max_steps(model))
+        newton, step_change = _newton(model), StepChange(mbs)
+        before_try = (newton.before_try, step_change.before_try)
+        watch = _Watch(progress, before_try, _max_steps(model))
         mbs.SetPreStepUserFunction(watch.before_step)
         film_start = None if scene.film is None else step_change
         control = _step_control(model, film_start)
@@ -118,6 +123,15 @@ def integrate(model: Model, *, quiet: bool = True) -> Outcome:
         newton_iterations=solver.it.newtonStepsCount,
         law_evaluations=overlay_of(mbs).evaluations if model.clearance_joints else 0,
     )
+
+
+def _newton(model: Model) -> Newton:
+    """Return what guides Newton's method through the steps of a model."""
+    size = model.scene.press or model.scene.slider_crank
+    assert size is not None
+    pin_speed = model.scene.angular_speed * size.crank_radius
+    joints = overlay_of(model.mbs) if model.clearance_joints else None
+    return Newton(model.mbs, joints, pin_speed)
 
 
 def _step_control(model: Model, film_start: StepChange | None) -> StepControl | None:

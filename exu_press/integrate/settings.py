@@ -7,7 +7,7 @@ import exudyn as exu
 from exu_press.mechanism import mechanism_of
 from exu_press.scene import Scene
 
-__all__ = ["FIRST_OF_FILM", "ROUNDING", "largest_step", "settings_for", "smallest_step"]
+__all__ = ["FIRST_OF_FILM", "largest_step", "settings_for", "smallest_step"]
 
 SMALLEST_PART = 2.0**-10
 """How far a step may be halved where Newton's method fails or a film's law does not hold."""
@@ -55,11 +55,12 @@ def settings_for(scene: Scene) -> exu.SimulationSettings:
 
     # One Jacobian a step: with Exudyn's default (one as long as it seems to converge) dry contact
     # drifts by 4 % at 1e-4 s; a Jacobian an iteration costs more than the iterations it saves.
-    # Flexible bodies' Jacobians cost as much as ten iterations: there it is kept while it serves.
+    # Flexible bodies' Jacobians cost as much as ten iterations: there it is kept while it serves,
+    # that is while three iterations do.
     newton = integration.newton
     newton.useModifiedNewton = True
     newton.modifiedNewtonJacUpdatePerStep = scene.flexible is None
-    newton.modifiedNewtonContractivity = 0.5 if scene.flexible is None else 0.1
+    newton.modifiedNewtonContractivity = 0.5 if scene.flexible is None else 0.03
     # So that accelerations are right to this part of the crank pin's; not of the first residual:
     # that one holds what a film would answer to speeds that are not yet balanced, in a stiff film a
     # million times more. A Jacobian that is kept while the step changes leaves errors in the

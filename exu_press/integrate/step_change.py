@@ -28,9 +28,7 @@ from typing import Any
 import exudyn as exu
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import lu_factor, lu_solve
-
-from exu_press.integrate.settings import ROUNDING
+from scipy.linalg import get_lapack_funcs
 
 __all__ = ["StepChange"]
 
@@ -39,25 +37,22 @@ Array = NDArray[np.float64]
 CURRENT = exu.ConfigurationType.Current
 START = exu.ConfigurationType.StartOfStep
 
-FILM_ROUNDING = 4e-15
-"""Over the crank's angle in a step, what rounding leaves of the force that a film first answers
-with: some twenty times the last digit of the crank pin's speed, over what a step adds to that."""
-
 TURNS = 3
 """Of the way to velocities and positions that fit the constraints; each leaves some hundredths."""
 
 SAME = 1e-6
 """Steps that differ by less, relative, are one size."""
 
+# a tenth of the time of `scipy.linalg.solve`'s checks
+_factorise, _solve = get_lapack_funcs(("getrf", "getrs"), dtype=np.float64)
+
 
 class StepChange:
     """Fits the state at a step's beginning to the step, if that is shorter or repeated."""
 
-    def __init__(self, mbs: exu.MainSystem, *, film_at: float | None) -> None:
-        """Watch the steps of a system; `film_at` is the crank's speed if there is a film, rad/s."""
+    def __init__(self, mbs: exu.MainSystem) -> None:
+        """Watch the steps of a system."""
         self._mbs = mbs
-        self._film_rounding = None if film_at is None else FILM_ROUNDING / film_at  # s
-        self._step = 0.0  # that Newton's tolerance is for, s
         self._start: float | None = None  # of the step under way, s
         self._last: float | None = None  # size of the last accepted step, s
         self._state: list[Array] | None = None  # at the step's beginning, before any shift
@@ -84,10 +79,6 @@ class StepChange:
             self._last = None if self._start is None else start - self._start
             self._start, self._state, self._offsets = start, None, None
         step = time - start
-        if self._film_rounding is not None and abs(step - self._step) > SAME * step:
-            self._step = step
-            newton, part = self._mbs.sys["dynamicSolver"].newton, self._film_rounding / step
-            newton.relativeTolerance = min(ROUNDING, max(1e-3 * ROUNDING, part))
         ratio = 1.0 if self._last is None else min(1.0, step / self._last)
         if repeated or ratio < 1.0 - SAME:
             self._shift(step, ratio)
@@ -143,40 +134,30 @@ class StepChange:
         solver = self._mbs.sys["dynamicSolver"]
         mass = np.asarray(solver.GetSystemMassMatrix())
         size = len(mass)
-        jacobian = np.asarray(solver.GetSystemJacobian())[size:, :size]
-        acting = np.abs(jacobian).max(axis=1, initial=0.0) > 0.0
+        constraints = np.asarray(solver.GetSystemJacobian())[size:, :size]
+        count = len(constraints)
         # Euler parameters have no mass along themselves, where a constraint holds them: the masses
         # alone cannot be inverted, with the constraints they can
-        weight = 1.0 / np.sqrt(np.diag(mass))
-        jacobian = jacobian[acting] * weight
-        length = np.linalg.norm(jacobian, axis=1, keepdims=True)
-        jacobian /= length
-        count = len(jacobian)
-        factors = lu_factor(
-            np.block(
-                [
-                    [weight[:, None] * mass * weight, jacobian.T],
-                    [jacobian, np.zeros((count, count))],
-                ]
-            ),
-            check_finite=False,
-        )
+        matrix = np.zeros((size + count, size + count))
+        matrix[:size, :size] = mass
+        matrix[size:, :size] = constraints
+        matrix[:size, size:] = constraints.T
+        idle = size + np.flatnonzero(~constraints.any(axis=1))
+        matrix[idle, idle] = 1.0
+        factors, pivots, _ = _factorise(matrix, overwrite_a=True)
         position, velocity, _ = self._views(CURRENT)
-        found, right = np.zeros((size, 2)), np.zeros((size + count, 2))
+        found, violated = np.zeros((size, 2)), np.zeros((size + count, 2))
         for _ in range(TURNS):
             position[:] = self._state[0] - found[:, 0]
             velocity[:] = self._state[1] - found[:, 1]
-            right[size:] = self._violations(size)[acting] / length
-            turn = lu_solve(factors, right, check_finite=False)[:size]
-            found += weight[:, None] * turn
+            self._violations(violated[size:])
+            found += _solve(factors, pivots, violated)[0][:size]
         return found[:, 0], found[:, 1]
 
-    def _violations(self, size: int) -> Array:
-        """Return how far constraints are violated, (n, 2): positions, velocities."""
-        solver, found = self._mbs.sys["dynamicSolver"], []
-        for velocity_level in (False, True):
+    def _violations(self, found: Array) -> None:
+        """Write how far constraints are violated into (n, 2): positions, velocities."""
+        solver, size = self._mbs.sys["dynamicSolver"], len(found)
+        for column, velocity_level in enumerate((False, True)):
             solver.ComputeAlgebraicEquations(self._mbs, velocityLevel=velocity_level)
-            found.append(np.asarray(solver.GetSystemResidual())[size:])
-        position, velocity = found
-        position = np.where(position == velocity, 0.0, position)  # prescribed speeds are no places
-        return np.column_stack([position, velocity])
+            found[:, column] = np.asarray(solver.GetSystemResidual())[-size:]
+        found[found[:, 0] == found[:, 1], 0] = 0.0  # prescribed speeds are no places

@@ -103,6 +103,12 @@ class JointOverlay:
             q = q_t = [0.0] * self.size
         return joint.state([*q, *GROUND], [*q_t, *GROUND])
 
+    @property
+    def damping(self) -> float:
+        """The most that any force changes with a speed, N s/m, where it was last asked for."""
+        slopes = [joint.jacobian(0.0, 1.0) or [0.0] for joint in self.joints]
+        return max(max(map(abs, each)) for each in slopes)
+
     def _forces(self, mbs: exu.MainSystem, time: float, item: int, q: Any, q_t: Any) -> Any:
         """Return the generalised forces of all joints, a list as Exudyn passes and takes it."""
         self.evaluations += 1

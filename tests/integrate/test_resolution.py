@@ -101,7 +101,8 @@ def test_a_budget_of_steps_ends_the_run_and_keeps_it(setting):
         result.info["reason"],
     ), result.info["reason"]
     assert not result.completed
-    assert result.info["steps"] + result.info["rejected_steps"] == 100
+    tries = result.info["steps"] + result.info["rejected_steps"]
+    assert 100 <= tries < 110  # the step under way is finished, however often it is repeated
     assert len(result.time) == result.info["steps"] + 1
     json.dumps(result.summary(), allow_nan=False)
 

@@ -1,0 +1,90 @@
+"""What Newton's method is told: where to start, and what is too much to ask.
+
+Exudyn starts every step from accelerations of zero, which costs an iteration a step in lubricated
+motion and several where contact lasts. Here they go on as they did in the last step.
+
+A thin film answers the last digit of a speed with newtons: no iteration balances forces better.
+"""
+
+import exudyn as exu
+import numpy as np
+from numpy.typing import NDArray
+
+from exu_press.joints.overlay import JointOverlay
+
+__all__ = ["Newton"]
+
+CURRENT = exu.ConfigurationType.Current
+START = exu.ConfigurationType.StartOfStep
+
+PATIENCE = 4
+"""Iterations after which rounding is thought of; most steps take one or two."""
+
+REACH = 2.0
+"""Over the last step, how far ahead its rate of change is believed."""
+
+DIGITS = 4e-15
+"""Of a speed, what rounding makes of it on its way through an iteration: twenty last digits."""
+
+
+class Newton:
+    """Extrapolates accelerations to the end of a step, and asks for no more than can be."""
+
+    def __init__(self, mbs: exu.MainSystem, joints: JointOverlay | None, speed: float) -> None:
+        """Let Exudyn ask before every residual.
+
+        Args:
+            mbs: the system.
+            joints: its clearance joints, if it has any.
+            speed: of its bodies, m/s.
+        """
+        self._mbs, self._joints, self._speed = mbs, joints, speed
+        self._start: float | None = None  # of the step under way, s
+        self._now = np.zeros(0)  # accelerations there
+        self._rate: NDArray[np.float64] | None = None  # of change, in the last step
+        self._last = 0.0  # size of the last step, s
+        self._tolerance: float | None = None  # that the settings ask for, N
+        mbs.SetPreNewtonResidualUserFunction(self._before_residual)
+
+    def before_try(self, time: float) -> None:
+        """Look at a step's beginning; to be called before anything shifts its state."""
+        data = self._mbs.systemData
+        start = data.GetTime(START)
+        if start == self._start:
+            return
+        now = np.array(data.GetODE2Coordinates_tt(START, False))
+        if self._start is not None:
+            self._last = start - self._start
+            self._rate = (now - self._now) / self._last
+        self._start, self._now = start, now
+
+    def _before_residual(self, mbs: exu.MainSystem, time: float, iteration: int, _: int) -> None:
+        if not iteration:
+            if self._start is not None and time > self._start:
+                self._advance(time - self._start)
+            self._ask_for(0.0)
+        elif iteration == PATIENCE and self._joints is not None:
+            self._ask_for(DIGITS * self._joints.damping * self._speed)
+
+    def _advance(self, step: float) -> None:
+        """Add the expected accelerations to a state that was advanced without any."""
+        data, solver = self._mbs.systemData, self._mbs.sys["dynamicSolver"]
+        expected = self._now
+        if self._rate is not None:
+            expected = expected + min(step, REACH * self._last) * self._rate
+        velocities = data.GetODE2Coordinates_t(CURRENT, False)
+        positions = data.GetODE2Coordinates(CURRENT, False)
+        # as Newton's method adds an increment of them
+        part = step * (1.0 - solver.alphaF) / (1.0 - solver.alphaM) * expected
+        positions += step * solver.newmarkBeta * part
+        velocities += solver.newmarkGamma * part
+        data.GetODE2Coordinates_tt(CURRENT, False)[:] = expected
+
+    def _ask_for(self, least: float) -> None:
+        """Set Newton's absolute tolerance, N: that of the settings, but not less than `least`."""
+        if self._tolerance is None and least == 0.0:
+            return
+        newton = self._mbs.sys["dynamicSolver"].newton
+        if self._tolerance is None:
+            self._tolerance = newton.absoluteTolerance
+        newton.absoluteTolerance = max(self._tolerance, least)

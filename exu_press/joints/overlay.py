@@ -6,6 +6,7 @@ and an analytic Jacobian instead. All clearance joints of a system share one suc
 item costs a call of its own.
 """
 
+import math
 from struct import Struct
 from typing import Any
 
@@ -110,7 +111,10 @@ class JointOverlay:
         return max(max(map(abs, each)) for each in slopes)
 
     def _forces(self, mbs: exu.MainSystem, time: float, item: int, q: Any, q_t: Any) -> Any:
-        """Return the generalised forces of all joints, a list as Exudyn passes and takes it."""
+        """Return the generalised forces of all joints, a list as Exudyn passes and takes it.
+
+        Not a number where a state is so far out that a law overflows.
+        """
         self.evaluations += 1
         if self._stateful:
             self._begin_step(time)
@@ -118,8 +122,11 @@ class JointOverlay:
         size = len(q)
         q, q_t = [*q, *GROUND], [*q_t, *GROUND]
         out = [0.0] * (size + 3)
-        for joint in self.joints:
-            joint.add_force(q, q_t, out)
+        try:
+            for joint in self.joints:
+                joint.add_force(q, q_t, out)
+        except ArithmeticError:  # Newton's method went astray, and is told so
+            return [math.nan] * size
         return out[:size]
 
     def _jacobian(
@@ -139,8 +146,11 @@ class JointOverlay:
             self._forces(mbs, time, item, q, q_t)
         self._jacobian_time = time
         values: list[float] = []
-        for joint, idle in zip(self.joints, self._idle, strict=True):
-            values += joint.jacobian(by_q, by_q_t) or idle
+        try:
+            for joint, idle in zip(self.joints, self._idle, strict=True):
+                values += joint.jacobian(by_q, by_q_t) or idle
+        except ArithmeticError:
+            values = [0.0 for idle in self._idle for _ in idle]
         weights = np.frombuffer(self._pack(*values))  # a third of the time of np.array(values)
         self._triplets[:, 2] = weights if self._kept is None else weights[self._kept]
         self._matrix.SetWithSparseMatrix(self._triplets, self.size, self.size)

@@ -7,7 +7,7 @@ import pytest
 from exu_press.studies.precision.errors import Errors
 from exu_press.studies.precision.goals import goals_of
 from exu_press.studies.precision.measured import Attempt, Measured, timed
-from exu_press.studies.precision.rows import cheapest, order_of, row_of, series_of
+from exu_press.studies.precision.rows import cheapest, order_of, orders_of, row_of, series_of
 
 NO_FLOOR = Errors(0.0, 0.0, 0.0)
 
@@ -33,6 +33,14 @@ def test_order_leaves_out_what_cannot_be_told():
     series = [row(h, 3.0 * h**2, floor=floor) for h in (1e-1, 1e-2, 1e-3, 1e-4)]
     assert order_of(series) == pytest.approx(2.0)
     assert order_of(series[-1:]) is None
+
+
+def test_numbers_of_modes_have_no_order():
+    steps = [row(h, 3.0 * h**2) for h in (1e-2, 1e-3)]
+    modes = [replace(row(float(n), 1.0 / (1 + n), solver="modes"), setting="modes") for n in (0, 4)]
+    (found,) = orders_of(steps + modes)
+    assert found["solver"] == "fixed step"
+    assert found["error_position"] == pytest.approx(2.0)
 
 
 def test_the_cheapest_setting_is_not_a_lucky_one():

@@ -8,7 +8,7 @@ from typing import Any
 from exu_press.studies.precision.errors import Errors, Late
 from exu_press.studies.precision.measured import Attempt, Measured
 
-__all__ = ["ERRORS", "Row", "cheapest", "order_of", "row_of", "series_of"]
+__all__ = ["ERRORS", "Row", "cheapest", "order_of", "orders_of", "row_of", "series_of"]
 
 ERRORS = ("error_position", "error_velocity", "error_peak_acceleration")
 
@@ -107,6 +107,20 @@ def series_of(rows: Iterable[Row]) -> dict[tuple[str, str], list[Row]]:
     for row in rows:
         series.setdefault((row.case, row.solver), []).append(row)
     return {key: sorted(some, key=lambda row: -row.value) for key, some in series.items()}
+
+
+def orders_of(rows: Iterable[Row]) -> list[dict[str, Any]]:
+    """Return the observed orders of every series over steps or tolerances."""
+    return [
+        {
+            "case": case,
+            "solver": solver,
+            "setting": series[0].setting,
+            **{error: order_of(series, error) for error in ERRORS},
+        }
+        for (case, solver), series in series_of(rows).items()
+        if len(series) > 1 and series[0].setting != "modes"
+    ]
 
 
 def order_of(series: Sequence[Row], error: str = "error_position") -> float | None:

@@ -17,7 +17,7 @@ from exu_press.studies.precision.measured import Attempt, Measured, timed
 from exu_press.studies.precision.peers import PEERS, installed, peer_attempts
 from exu_press.studies.precision.references import Reference
 from exu_press.studies.precision.report import Report
-from exu_press.studies.precision.rows import ERRORS, Row, order_of, row_of, series_of
+from exu_press.studies.precision.rows import ERRORS, Row, orders_of, row_of
 from exu_press.studies.precision.squeezer import DURATION, squeezer_attempts, squeezer_errors
 
 __all__ = ["precision"]
@@ -53,21 +53,11 @@ def precision(chosen: tuple[Case, ...], *, quick: bool = False, quiet: bool = Tr
         some = _run(case, attempts, reference, horizon, case.repeats or amount.repeats, quiet)
         rows += some
         described[case.name] = _describe(case, reference, horizon, durations[case.name], some)
-    orders = [
-        {
-            "case": case,
-            "solver": solver,
-            "setting": series[0].setting,
-            **{error: order_of(series, error) for error in ERRORS},
-        }
-        for (case, solver), series in series_of(rows).items()
-        if len(series) > 1
-    ]
     return Report(
         quick=quick,
         cases=described,
         rows=tuple(rows),
-        orders=tuple(orders),
+        orders=tuple(orders_of(rows)),
         goals=() if quick else tuple(goals_of(rows, durations)),
         left_out=tuple(left_out),
         machine=machine(),

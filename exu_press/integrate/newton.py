@@ -23,6 +23,10 @@ PATIENCE = 4
 REACH = 2.0
 """Over the last step, how far ahead its rate of change is believed."""
 
+SHORT = 8e-6
+"""Steps, s, that start from zero accelerations after all: there one iteration would leave newtons
+of rounding in the constraints, positions' last digits over the step's square."""
+
 DIGITS = 4e-15
 """Of a speed, what rounding makes of it on its way through an iteration: twenty last digits."""
 
@@ -60,7 +64,7 @@ class Newton:
 
     def _before_residual(self, mbs: exu.MainSystem, time: float, iteration: int, _: int) -> None:
         if not iteration:
-            if self._start is not None and time > self._start:
+            if self._start is not None and time - self._start > SHORT:
                 self._advance(time - self._start)
             self._ask_for(0.0)
         elif iteration == PATIENCE and self._joints is not None:

@@ -125,7 +125,7 @@ class JointOverlay:
         try:
             for joint in self.joints:
                 joint.add_force(q, q_t, out)
-        except ArithmeticError:  # Newton's method went astray, and is told so
+        except OverflowError:  # Newton's method went astray, and is told so
             return [math.nan] * size
         return out[:size]
 
@@ -149,7 +149,7 @@ class JointOverlay:
         try:
             for joint, idle in zip(self.joints, self._idle, strict=True):
                 values += joint.jacobian(by_q, by_q_t) or idle
-        except ArithmeticError:
+        except OverflowError:
             values = [0.0 for idle in self._idle for _ in idle]
         weights = np.frombuffer(self._pack(*values))  # a third of the time of np.array(values)
         self._triplets[:, 2] = weights if self._kept is None else weights[self._kept]

@@ -16,6 +16,7 @@ from setuptools import setup
 from setuptools.command.build_ext import build_ext
 
 MODULES = [
+    "integrate/body_error",
     "integrate/joint_error",
     "joints/ends",
     "joints/overlay",

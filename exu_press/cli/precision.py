@@ -44,7 +44,7 @@ def execute(options: argparse.Namespace) -> int:
         raise InputError(f"--case {options.case[0]}: allowed is a scene or --case, not both")
     if options.set and not options.scene:
         raise InputError(f"--set {options.set[0]}: allowed with a scene only")
-    from exu_press.studies.precision import Case, case_of, chosen, precision
+    from exu_press.studies.precision import Case, Report, case_of, chosen, precision
     from exu_press.studies.precision.table import report_lines
 
     selection: tuple[Case, ...]
@@ -53,8 +53,11 @@ def execute(options: argparse.Namespace) -> int:
     else:
         selection = chosen(options.case)
     directory = output_directory(options.out or Path("out") / "precision")
-    report = precision(selection, quick=options.quick, quiet=options.quiet)
-    write_json(directory / "precision.json", report.to_dict())
+
+    def keep(so_far: Report) -> None:
+        write_json(directory / "precision.json", so_far.to_dict())
+
+    report = precision(selection, quick=options.quick, quiet=options.quiet, after_case=keep)
     written = ["precision.json"]
     if not options.no_pictures:
         from exu_press.plots.precision import save_precision

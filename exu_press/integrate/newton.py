@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from exu_press.joints.overlay import JointOverlay
 
-__all__ = ["Newton"]
+__all__ = ["SHORT", "Newton"]
 
 CURRENT = exu.ConfigurationType.Current
 START = exu.ConfigurationType.StartOfStep

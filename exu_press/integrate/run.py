@@ -85,7 +85,8 @@ def integrate(model: Model, *, quiet: bool = True) -> Outcome:
     settings = settings_for(scene)
     failure = ""
     with Progress("run", scene.duration, quiet=quiet) as progress:
-        newton, step_change = _newton(model), StepChange(mbs)
+        joints = overlay_of(mbs) if model.clearance_joints else None
+        newton, step_change = Newton(mbs, joints, scene.pin_speed), StepChange(mbs)
         before_try = (newton.before_try, step_change.before_try)
         watch = _Watch(progress, before_try, _max_steps(model))
         mbs.SetPreStepUserFunction(watch.before_step)
@@ -121,17 +122,8 @@ def integrate(model: Model, *, quiet: bool = True) -> Outcome:
         steps=steps,
         rejected_steps=watch.calls - steps,
         newton_iterations=solver.it.newtonStepsCount,
-        law_evaluations=overlay_of(mbs).evaluations if model.clearance_joints else 0,
+        law_evaluations=joints.evaluations if joints else 0,
     )
-
-
-def _newton(model: Model) -> Newton:
-    """Return what guides Newton's method through the steps of a model."""
-    size = model.scene.press or model.scene.slider_crank
-    assert size is not None
-    pin_speed = model.scene.angular_speed * size.crank_radius
-    joints = overlay_of(model.mbs) if model.clearance_joints else None
-    return Newton(model.mbs, joints, pin_speed)
 
 
 def _step_control(model: Model, film_start: StepChange | None) -> StepControl | None:

@@ -92,7 +92,5 @@ def settings_for(scene: Scene) -> exu.SimulationSettings:
 
 def _inertia_force(scene: Scene) -> float:
     """Return the whole mechanism's mass times the crank pin's acceleration, N."""
-    size = scene.press or scene.slider_crank
-    assert size is not None
     mass = sum(body.mass for body in mechanism_of(scene).bodies)
-    return mass * scene.angular_speed**2 * size.crank_radius
+    return mass * scene.angular_speed * scene.pin_speed

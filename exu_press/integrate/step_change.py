@@ -5,10 +5,10 @@ acceleration a is the true one at another instant, a - a_true = h (alpha_m - alp
 and where positions are constrained the velocities miss the constraints by an amount of order h^2.
 A much shorter step takes both for errors and answers with accelerations that alternate for a dozen
 steps, larger than the motion's own changes. Scaled down to the new step, by its ratio to the old
-one and by that ratio's square, both fit at once. Likewise what Newton's method left of the
-positions' constraints, 1e-10 m, is nothing beside a long step but a jolt beside a short one: it is
-taken away. A longer step has little to make of them and is
-left alone: scaling up would blow up whatever still rings.
+one and by that ratio's square, both fit at once; the latter costs as much as a step and is put off
+until steps have shrunk by half. Likewise what Newton's method left of the positions' constraints,
+1e-10 m, is nothing beside a long step but a jolt beside a short one: it is taken away. A longer
+step has little to make of them and is left alone: scaling up would blow up whatever still rings.
 
 Exudyn's algorithmic acceleration can be read but not written, and when a step is repeated it keeps
 the value of the failed try. But positions, velocities and accelerations at the step's beginning can
@@ -43,6 +43,9 @@ TURNS = 3
 SAME = 1e-6
 """Steps that differ by less, relative, are one size."""
 
+MUCH = 0.5
+"""A step shorter than this, over the one that constrained velocities fit, makes them fit anew."""
+
 # a tenth of the time of `scipy.linalg.solve`'s checks
 _factorise, _solve = get_lapack_funcs(("getrf", "getrs"), dtype=np.float64)
 
@@ -55,6 +58,7 @@ class StepChange:
         self._mbs = mbs
         self._start: float | None = None  # of the step under way, s
         self._last: float | None = None  # size of the last accepted step, s
+        self._fits = self._leaves = 0.0  # the step that constrained velocities fit, now and next
         self._state: list[Array] | None = None  # at the step's beginning, before any shift
         self._offsets: tuple[Array, Array] | None = None
         self._mean: Array | None = None  # acceleration of the first step
@@ -77,7 +81,9 @@ class StepChange:
         repeated = start == self._start
         if not repeated:
             self._last = None if self._start is None else start - self._start
+            self._fits = max(self._leaves, self._last or 0.0)
             self._start, self._state, self._offsets = start, None, None
+        self._leaves = self._fits
         step = time - start
         ratio = 1.0 if self._last is None else min(1.0, step / self._last)
         if repeated or ratio < 1.0 - SAME:
@@ -94,10 +100,13 @@ class StepChange:
             self._state = [np.array(view) for view in self._views(START)]
         q, v, a = self._state
         if ratio < 1.0 - SAME:
-            if self._offsets is None:
-                self._offsets = self._forbidden()
-            q = q - self._offsets[0]
-            v = v - (1.0 - ratio * ratio) * self._offsets[1]
+            part = step / self._fits
+            if part < MUCH:
+                if self._offsets is None:
+                    self._offsets = self._forbidden()
+                q = q - self._offsets[0]
+                v = v - (1.0 - part * part) * self._offsets[1]
+                self._leaves = step
         at_start = solver.GetStartOfStepStateAAlgorithmic()
         wanted = a + ratio * (at_start - a)
         if self._last is None and self._mean is not None:

@@ -10,6 +10,7 @@ from collections.abc import Callable
 import exudyn as exu
 
 from exu_press.integrate.error import StepError
+from exu_press.integrate.newton import SHORT
 from exu_press.integrate.settings import FIRST_OF_FILM
 from exu_press.integrate.step_change import StepChange
 
@@ -18,17 +19,18 @@ __all__ = ["FixedSteps", "StepControl"]
 ORDER = 3
 """Power of the step with which its error goes."""
 
-AIM = 0.5
-"""Error at which steps are aimed; the reserve saves repeated steps."""
+AIM = 0.4
+"""Error at which steps are aimed; the reserve saves repeated steps, as a swinging part's error
+rises and falls several times in each of its periods."""
 
 KEEP = (0.8, 1.3)
-"""A step is kept when it would change by a factor between these: a change costs about as much as a
-step."""
+"""A step is kept when it would change by a factor between these; one of less than 8 us in any case
+unless it could grow, as its error may be what the last change left behind."""
 
 FIRST = 1.0 / 64.0
 """First step over the largest one."""
 
-CHANGE = (0.05, 2.0)
+CHANGE = (0.05, 1.5)
 """How far a step may be shortened and lengthened at once."""
 
 
@@ -94,7 +96,7 @@ class StepControl:
         self._estimate.accept()
         if step >= 0.5 * self._step:  # else it was cut short by a corner or by the end
             self._step = step
-        if not KEEP[0] < factor < KEEP[1]:
+        if factor > KEEP[1] or (factor < KEEP[0] and step > SHORT):
             self._step *= min(CHANGE[1], factor)
         return [0.0, -1.0]
 

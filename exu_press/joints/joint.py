@@ -55,8 +55,6 @@ class JointState:
 class ClearanceJoint(Protocol):
     """A joint over some of the coordinates of the overlay's item."""
 
-    stateful: bool
-    """Whether it remembers something from step to step."""
     clearance: float
     """Radial clearance, m."""
     places: list[int]
@@ -84,7 +82,10 @@ class ClearanceJoint(Protocol):
         """Return what the joint does in a state of its two bodies."""
 
     def begin_step(self, step: float, accepted: bool) -> None:
-        """Start a step of size `step` (s), after the last one was accepted or is repeated."""
+        """Start a step of size `step` (s), after the last one was accepted or is repeated.
+
+        The next `add_force` is for Newton's first guess of where the step ends.
+        """
 
     def reset(self) -> None:
         """Forget everything."""

@@ -44,8 +44,7 @@ class JointOverlay:
         self._mbs = mbs
         self.nodes: dict[int, int] = {}
         self.size = 0
-        self._stateful: list[ClearanceJoint] = []
-        self._step_start: float | None = None
+        self._step: tuple[float, float] | None = None  # start and end of the last try, s
         self._jacobian_time: float | None = None
         self._last: tuple[Any, Any] = None, None
         self._idle: list[list[float]] = []
@@ -69,8 +68,6 @@ class JointOverlay:
     def add(self, joint: ClearanceJoint) -> None:
         """Take in a joint whose ends' indices come from `index_of`."""
         self.joints.append(joint)
-        if joint.stateful:
-            self._stateful.append(joint)
         nodes = list(self.nodes)
         places = [
             (row, column)
@@ -116,8 +113,7 @@ class JointOverlay:
         Not a number where a state is so far out that a law overflows.
         """
         self.evaluations += 1
-        if self._stateful:
-            self._begin_step(time)
+        self._begin_step(time)
         self._last = q, q_t
         size = len(q)
         q, q_t = [*q, *GROUND], [*q_t, *GROUND]
@@ -157,11 +153,13 @@ class JointOverlay:
         return self._matrix
 
     def _begin_step(self, time: float) -> None:
-        """Tell the joints that remember something about the step that is being tried."""
+        """Tell the joints about the step that is being tried."""
         start = self._mbs.systemData.GetTime(exu.ConfigurationType.StartOfStep)
-        accepted = start != self._step_start
-        self._step_start = start
-        for joint in self._stateful:
+        if self._step == (start, time):
+            return
+        accepted = self._step is None or start != self._step[0]
+        self._step = start, time
+        for joint in self.joints:
             joint.begin_step(time - start, accepted)
 
 

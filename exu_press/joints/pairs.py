@@ -52,6 +52,10 @@ Load = tuple[float, float, float, float, Answer]
 """f_n, f_t, the moments f_t a_J and f_t a_B, and the laws' answer they come from."""
 
 
+RESUME = 0.5
+"""A first guess with this part of the last step's contact force, or its inverse, is good enough."""
+
+
 class Pair:
     """What a joint needs of its pair of surfaces; `None` stands for no force at all.
 
@@ -95,6 +99,24 @@ class Pair:
     def arms(self, e: float) -> Arms:
         """Return a_J, a_B (m) and their derivatives with respect to |e|."""
         raise NotImplementedError
+
+    def resumed(
+        self, before: Load, now: Load | None, e: float, d_e: float, d_rate: float
+    ) -> tuple[Load, Load] | None:
+        """Return where Newton's method had better start than at the load of its first guess.
+
+        Args:
+            before: load at the end of the last step.
+            now: load at the first guess of where this step ends.
+            e: eccentricity there, m.
+            d_e: its change since the last step's end, m.
+            d_rate: its rate's change, m/s.
+
+        Returns:
+            The load whose slopes to take, and the load that belongs to the first guess; None where
+            `now` will do.
+        """
+        return None
 
     def stored_energy(self, e: float) -> float:
         """Return the elastic energy at an eccentricity, J; none unless the pair says so."""
@@ -154,8 +176,7 @@ class DryPair(Pair):
         penetration = e - self.clearance
         if penetration <= 0.0 and not self.stateful:
             return None
-        reach = self.radius + e
-        sliding = v_t + self.radius * omega_j - reach * omega_b
+        sliding = v_t + self.radius * omega_j - (self.radius + e) * omega_b
         friction = self.friction
         if isinstance(friction, LuGre):
             mu, slope, bristle = friction.advance(sliding, self.bristle, self._step)
@@ -167,9 +188,12 @@ class DryPair(Pair):
             if penetration <= 0.0:
                 return None
         normal, stiffness, damping = self.contact.force(penetration, e_dot, self.approach_speed)
-        drag = -mu * normal
-        answer = mu, slope, normal, stiffness, damping
-        return -normal, drag, self.radius * drag, -reach * drag, answer
+        return self._loaded(e, normal, (mu, slope, normal, stiffness, damping))
+
+    def _loaded(self, e: float, normal: float, answer: Answer) -> Load:
+        """Return force and moments of a normal force."""
+        drag = -answer[0] * normal
+        return -normal, drag, self.radius * drag, -(self.radius + e) * drag, answer
 
     def slopes(self, answer: Answer, e: float, omega_j: float, omega_b: float) -> Slopes:
         """Return the derivatives of the force."""
@@ -189,6 +213,23 @@ class DryPair(Pair):
     def arms(self, e: float) -> Arms:
         """Return the moment arms of the contact point about the two centres."""
         return self.radius, -(self.radius + e), 0.0, -1.0
+
+    def resumed(
+        self, before: Load, now: Load | None, e: float, d_e: float, d_rate: float
+    ) -> tuple[Load, Load] | None:
+        """Go on from the force that held the contact, along its slopes.
+
+        A contact is so stiff that the first guess, some tenths of a micrometre and a millimetre a
+        second off, would be answered with a hundred times that force or with none.
+        """
+        mu, slope, normal, stiffness, damping = before[4]
+        if normal <= 0.0 or (now is not None and RESUME < -now[0] / normal < 1.0 / RESUME):
+            return None
+        if now is not None:
+            mu, slope = now[4][0], now[4][1]
+        answer = mu, slope, normal, stiffness, damping
+        first = normal + stiffness * d_e + damping * d_rate
+        return self._loaded(e, normal, answer), self._loaded(e, first, answer)
 
     def stored_energy(self, e: float) -> float:
         """Return the elastic energy of the penetration."""
@@ -266,18 +307,19 @@ class PairedJoint:
     Attributes:
         pairs: the first one has the joint's clearance.
         clearance: radial clearance, m.
-        stateful: whether a pair remembers something from step to step.
     """
 
     def __init__(self, pairs: Sequence[Pair]) -> None:
         """Let the pairs act in parallel."""
         self.pairs = list(pairs)
         self.clearance = self.pairs[0].clearance
-        self.stateful = any(pair.stateful for pair in self.pairs)
         self._motion: Motion = (0.0, 0.0, 0.0, 0.0, 0.0)
         self._loads: list[Load | None] = [None for _ in self.pairs]
         self._motion_before = self._motion
         self._loads_before = self._loads
+        self._motion_settled = self._motion  # at the end of the last step
+        self._loads_settled = self._loads
+        self._resuming = False
 
     @property
     def outside(self) -> float | None:
@@ -289,16 +331,23 @@ class PairedJoint:
 
     def begin_step(self, step: float, accepted: bool) -> None:
         """Start a step of size `step` (s), after the last one was accepted or is repeated."""
+        if accepted:
+            self._motion_settled, self._loads_settled = self._motion, self._loads
+        self._resuming = True
         for pair in self.pairs:
             pair.begin_step(step, accepted)
 
     def reset(self) -> None:
         """Forget everything."""
+        self._loads = [None for _ in self.pairs]
         for pair in self.pairs:
             pair.reset()
 
     def _load(self, motion: Motion) -> list[Load | None]:
-        """Return what each pair does in a state; the one before is kept for the secant."""
+        """Return what each pair does in a state; the one before is kept for the secant.
+
+        The first state of a step is Newton's first guess, which contacts may answer otherwise.
+        """
         e, e_dot, v_t, w_j, w_b = motion
         self._motion_before, self._loads_before = self._motion, self._loads
         self._motion = motion
@@ -306,7 +355,22 @@ class PairedJoint:
         for pair in self.pairs:
             loads.append(pair.load(e, e_dot, v_t, w_j, w_b))
         self._loads = loads
+        if self._resuming:
+            self._resuming = False
+            return self._resume(motion, loads)
         return loads
+
+    def _resume(self, motion: Motion, loads: list[Load | None]) -> list[Load | None]:
+        """Return what each pair does at a step's first guess; `_loads` become those for slopes."""
+        d_e, d_rate = motion[0] - self._motion_settled[0], motion[1] - self._motion_settled[1]
+        first = list(loads)
+        for i, pair in enumerate(self.pairs):
+            before = self._loads_settled[i]
+            if before is not None:
+                resumed = pair.resumed(before, loads[i], motion[0], d_e, d_rate)
+                if resumed is not None:
+                    loads[i], first[i] = resumed
+        return first
 
     def _slopes(self, i: int, load: Load) -> Slopes:
         """Return a pair's slopes; a film's lead to the force of the state before, too.

@@ -35,7 +35,7 @@ class SpatialSpherical:
         self.ball = ball
         self.socket = socket
         self.places = ball.places + socket.places
-        self.stateful = isinstance(friction, LuGre) or contact.needs_impact_speed
+        self._stateful = isinstance(friction, LuGre) or contact.needs_impact_speed
         self._contact, self._friction = contact, friction
         self._radius, self.clearance = radius, clearance
         self._next: tuple[Array, float] = np.zeros(3), 0.0
@@ -130,7 +130,7 @@ class SpatialSpherical:
         self._normal_force = self._drag = np.zeros(3)
         penetration = e - self.clearance
         self._touching = penetration > 0.0
-        if not self._touching and not self.stateful:
+        if not self._touching and not self._stateful:
             return
         reach = self._radius + e
         self._swirl = self._radius * self._spins[:3] - reach * self._spins[3:]

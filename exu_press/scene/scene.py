@@ -193,6 +193,13 @@ class Scene(Table):
         return self.speed_rpm * RPM
 
     @property
+    def pin_speed(self) -> float:
+        """Speed of the crank pin, m/s."""
+        size = self.press or self.slider_crank
+        assert size is not None
+        return self.angular_speed * size.crank_radius
+
+    @property
     def duration(self) -> float:
         """Length of the run, s."""
         return self.revolutions * 60 / self.speed_rpm

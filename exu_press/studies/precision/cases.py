@@ -140,7 +140,7 @@ def cases() -> tuple[Case, ...]:
             "Press, flexible (20 modes), lubricated pin and dry balls, 0.1 mm",
             "own",
             Scene(bodies="flexible", crank_pin="lubricated", balls="dry"),
-            steps=STEPS[3:8],
+            steps=STEPS[3:9],
             tolerances=TOLERANCES[:7],
             reference_tolerance=1e-5,
             reference_step=2e-6,

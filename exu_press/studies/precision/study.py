@@ -1,6 +1,7 @@
 """The study: every chosen case against its reference, every solver against its time."""
 
 import dataclasses
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -29,13 +30,21 @@ VARIED_TOLERANCES = (1e-2, 1e-3, 1e-4)
 VARIED_STEPS = (1e-4, 2e-5, 1e-5)  # s
 
 
-def precision(chosen: tuple[Case, ...], *, quick: bool = False, quiet: bool = True) -> Report:
+def precision(
+    chosen: tuple[Case, ...],
+    *,
+    quick: bool = False,
+    quiet: bool = True,
+    after_case: Callable[[Report], object] = lambda report: None,
+) -> Report:
     """Run cases and return what was measured.
 
     Args:
         chosen: from `exu_press.studies.precision.cases`.
         quick: a reduced form, whose times mean nothing.
         quiet: False shows the progress on standard error.
+        after_case: called after every case with what was measured so far: all of them take half
+            an hour.
     """
     amount = QUICK if quick else FULL
     left_out = [why for peer in PEERS if (why := installed(peer))]
@@ -43,6 +52,7 @@ def precision(chosen: tuple[Case, ...], *, quick: bool = False, quiet: bool = Tr
         left_out.append("numba is not installed: the peers' right-hand side is not compiled")
     rows: list[Row] = []
     described, durations = {}, {}
+    assert chosen
     for case in chosen:
         scene = _shortened(case.scene, amount)
         durations[case.name] = scene.duration if scene is not None else DURATION
@@ -53,15 +63,17 @@ def precision(chosen: tuple[Case, ...], *, quick: bool = False, quiet: bool = Tr
         some = _run(case, attempts, reference, horizon, case.repeats or amount.repeats, quiet)
         rows += some
         described[case.name] = _describe(case, reference, horizon, durations[case.name], some)
-    return Report(
-        quick=quick,
-        cases=described,
-        rows=tuple(rows),
-        orders=tuple(orders_of(rows)),
-        goals=() if quick else tuple(goals_of(rows, durations)),
-        left_out=tuple(left_out),
-        machine=machine(),
-    )
+        report = Report(
+            quick=quick,
+            cases=dict(described),
+            rows=tuple(rows),
+            orders=tuple(orders_of(rows)),
+            goals=() if quick else tuple(goals_of(rows, durations)),
+            left_out=tuple(left_out),
+            machine=machine(),
+        )
+        after_case(report)
+    return report
 
 
 def _shortened(scene: Scene | None, amount: Amount) -> Scene | None:

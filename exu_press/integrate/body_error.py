@@ -1,0 +1,108 @@
+"""The error of the bodies' velocities and accelerations in one step; compiled like the joints."""
+
+import math
+
+__all__ = ["ROUNDING", "BodyError"]
+
+VELOCITY_CONSTANT = 2.0 / 12.0
+"""Of generalized-alpha's local error h^3 times the acceleration's second derivative (0.083 to 0.077
+for spectral radii at infinity of 1 to 0.8), doubled for good measure."""
+
+ROUNDING = 1e-14
+"""Of positions, m: coordinates of about a metre, known to 1e-16 of it, through an iteration. No
+step is told apart from it; velocities at a step's end are no better than this over the step, and
+accelerations than this over its square."""
+
+
+FINER = 3.0
+"""How much shorter than velocities need it a step may become for the peaks of accelerations."""
+
+
+class BodyError:
+    """Tells from the accelerations at three instants what a step missed; 1 is what it may.
+
+    Velocities: h^3 |second derivative of the acceleration| / 6 against their limit. Accelerations:
+    what they do between two instants, h^2 |second derivative| / 8, against the tolerance times the
+    body's own largest acceleration so far, so that the peaks of impacts are met. Of each the
+    largest of all bodies, in the kinetic norm sqrt(|dx|^2 + (J/m) dphi^2).
+
+    Attributes:
+        change: of the accelerations' rate, by the step last tried, in SI over seconds.
+    """
+
+    def __init__(
+        self,
+        starts: list[int],
+        masses: list[float],
+        inertias: list[float],
+        accelerations: list[float],
+        velocity_limit: float,
+        tolerance: float,
+        usual: float,
+    ) -> None:
+        """Take the bodies and the scales.
+
+        Args:
+            starts: where each body's coordinates begin among all; those of the first one at 0.
+            masses: of the bodies, kg; infinite for what has no say.
+            inertias: the mass matrix's diagonal, kg and kg m^2.
+            accelerations: of all coordinates, at the beginning of the first step.
+            velocity_limit: what a velocity may be off by in one step, m/s.
+            tolerance: what a peak may be off by, over itself.
+            usual: an acceleration below which no peak is looked for, m/s^2.
+        """
+        self._ends = [*starts[1:], len(inertias)]
+        self._masses, self._inertias = masses, inertias
+        self._velocity_limit, self._tolerance = velocity_limit, tolerance
+        self._before = self._now = accelerations
+        self._rate_before: list[float] = []  # none before the first step
+        self._rate: list[float] = []
+        self._peaks_before = [usual * usual for _ in masses]  # squares of the largest so far
+        self._peaks = self._peaks_before
+        self.change: list[float] = []
+
+    def tried(self, now: list[float], step: float) -> float:
+        """Return the error of a step (s) that ends with these accelerations."""
+        self._now = now
+        self._rate = rate = [(a - b) / step for a, b in zip(now, self._before, strict=True)]
+        self.change = rate
+        if self._rate_before:
+            self.change = [r - s for r, s in zip(rate, self._rate_before, strict=True)]
+        peaks = self._peaks_before
+        self._peaks = [max(a, b) for a, b in zip(self._squares(now), peaks, strict=True)]
+        return self.error(self.change, step)
+
+    def error(self, change: list[float], step: float) -> float:
+        """Return the error that goes with a change of the accelerations' rate."""
+        largest = relative = 0.0
+        rounding = (ROUNDING / (step * step)) ** 2
+        allowed = self._tolerance * self._tolerance
+        for square, peak in zip(self._squares(change), self._peaks, strict=True):
+            largest = max(largest, square)
+            relative = max(relative, square / max(allowed * peak, rounding))
+        limit = max(self._velocity_limit, ROUNDING / step)
+        velocity = VELOCITY_CONSTANT * step * step * math.sqrt(largest) / limit
+        acceleration = 0.125 * step * math.sqrt(relative)
+        # both go with the step's cube
+        return max(velocity, min(math.pow(acceleration, 1.5), FINER**3 * velocity))
+
+    def of_jump(self) -> float:
+        """Return the largest change of an acceleration in the step last tried, m/s^2."""
+        jump = [a - b for a, b in zip(self._now, self._before, strict=True)]
+        return math.sqrt(max(self._squares(jump)))
+
+    def accept(self) -> None:
+        """Remember the accepted step's end as the next one's beginning."""
+        self._before, self._rate_before, self._peaks_before = self._now, self._rate, self._peaks
+
+    def _squares(self, vector: list[float]) -> list[float]:
+        """Return the squares of each body's kinetic norm."""
+        found: list[float] = []
+        i = 0
+        for end, mass in zip(self._ends, self._masses, strict=True):
+            twice_energy = 0.0
+            while i < end:
+                twice_energy += self._inertias[i] * vector[i] * vector[i]
+                i += 1
+            found.append(twice_energy / mass)
+        return found

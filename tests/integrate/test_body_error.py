@@ -1,0 +1,77 @@
+"""What a step misses, told from the accelerations at three instants."""
+
+import math
+
+import pytest
+
+from exu_press.integrate.body_error import FINER, ROUNDING, BodyError
+
+
+def errors(velocity_limit=1e-3, tolerance=1e-2, masses=(2.0,)):
+    """Errors of bodies that rest at first; each of one mass and a moment of inertia of 0.5."""
+    return BodyError(
+        starts=[3 * i for i in range(len(masses))],
+        masses=list(masses),
+        inertias=[value for mass in masses for value in (mass, mass, 0.5)],
+        accelerations=[0.0] * 3 * len(masses),
+        velocity_limit=velocity_limit,
+        tolerance=tolerance,
+        usual=1.0,
+    )
+
+
+def test_accelerations_that_change_at_one_rate_are_followed_exactly():
+    error = errors()
+    error.tried([1.0, 2.0, 3.0], 0.1)
+    error.accept()
+    assert error.tried([2.0, 4.0, 6.0], 0.1) == 0.0
+
+
+def test_velocities_are_off_by_the_cube_of_the_step():
+    """a = b t^2: its second derivative is 2 b; a body much faster before has no peak to miss."""
+    b, h = 3.0, 0.01
+    error = errors()
+    error.tried([1e6, 0.0, 0.0], h)
+    error.accept()
+    error.tried([0.0, 0.0, 0.0], h)
+    error.accept()
+    error.tried([0.0, b * h * h, 0.0], h)
+    error.accept()
+    value = error.tried([0.0, 4.0 * b * h * h, 0.0], h)
+    assert value == pytest.approx(h**3 * 2.0 * b / 6.0 / 1e-3)
+
+
+def test_rotations_count_by_their_energy():
+    """An angular acceleration counts sqrt(J/m) of it."""
+    turning, moving = errors(), errors()
+    value = turning.tried([0.0, 0.0, 4.0], 0.01)
+    assert value == pytest.approx(moving.tried([4.0 * math.sqrt(0.5 / 2.0), 0.0, 0.0], 0.01))
+
+
+def test_a_peak_of_its_own_makes_steps_finer_up_to_a_limit():
+    """Half a sine of 100 m/s^2: a step may miss a hundredth of it where velocities allow more."""
+    loose, strict = errors(velocity_limit=1e3), errors(velocity_limit=1e3, tolerance=1e-9)
+    h, duration = 1e-5, 1e-4
+    for i in range(1, 6):
+        now = [100.0 * math.sin(math.pi * i * h / duration), 0.0, 0.0]
+        value, limited = loose.tried(now, h), strict.tried(now, h)
+        loose.accept()
+        strict.accept()
+    curvature = 100.0 * (math.pi / duration) ** 2
+    velocity = h**3 * curvature / 6.0 / 1e3
+    assert limited == pytest.approx(FINER**3 * velocity, rel=0.1)
+    expected = min((h**2 * curvature / 8.0 / (1e-2 * 100.0)) ** 1.5, FINER**3 * velocity)
+    assert value == pytest.approx(expected, rel=0.1)
+
+
+def test_what_has_no_say_and_what_rounding_makes():
+    assert errors(masses=(math.inf,)).tried([1e3, 1e3, 0.0], 0.01) == 0.0
+    step = 1e-8
+    rounding = ROUNDING / step**2
+    assert errors(velocity_limit=1e-30, tolerance=1e-30).tried([rounding, 0.0, 0.0], step) < 1.0
+
+
+def test_jumps_are_told_by_body():
+    error = errors(masses=(2.0, 8.0))
+    error.tried([3.0, 4.0, 0.0, 0.0, 0.0, 4.0], 0.01)
+    assert error.of_jump() == pytest.approx(5.0)

@@ -17,7 +17,10 @@ from setuptools.command.build_ext import build_ext
 
 MODULES = [
     "integrate/body_error",
+    "integrate/error",
     "integrate/joint_error",
+    "integrate/newton",
+    "integrate/stepping",
     "joints/ends",
     "joints/overlay",
     "joints/pairs",

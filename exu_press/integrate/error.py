@@ -1,6 +1,7 @@
 """The local error of a step, relative to the tolerance and to the mechanism's own scales."""
 
 import math
+from typing import Any
 
 import exudyn as exu
 import numpy as np
@@ -10,6 +11,11 @@ from exu_press.integrate.joint_error import JointError
 from exu_press.model import Model
 
 __all__ = ["StepError"]
+
+
+PLACES = 2.0
+"""How many times a step's share places may be off by: contacts and films mend some of it, and half
+as much buys no accuracy."""
 
 
 def share_of(tolerance: float) -> float:
@@ -45,16 +51,16 @@ class StepError:
         self._speed = max(scene.pin_speed, math.sqrt(4.0 * scene.gravity * widest))
         self._bodies: BodyError | None = None
         self._joints = [
-            JointError(joint, max(share * joint.clearance, ROUNDING))
+            JointError(joint, max(PLACES * share * joint.clearance, ROUNDING))
             for joint in model.clearance_joints.values()
         ]
 
     def __call__(self, step: float) -> float:
         """Return the error of the step that ends in the current state."""
-        data = self._model.mbs.systemData
+        data: Any = self._model.mbs.systemData
         if self._bodies is None:
             self._bodies = self._first_look()
-        now = np.asarray(data.GetODE2Coordinates_tt(exu.ConfigurationType.Current, False)).tolist()
+        now = data.GetODE2Coordinates_tt(exu.ConfigurationType.Current, False).tolist()
         error = self._bodies.tried(now, step)
         if error > 1.0:
             error = self._bodies.error(self._filtered(self._bodies.change), step)
@@ -82,12 +88,13 @@ class StepError:
         scene = model.scene
         masses = {body.name: body.mass for body in model.mechanism.bodies}
         nodes = sorted(model.nodes.items(), key=lambda item: item[1])
-        start = mbs.systemData.GetODE2Coordinates_tt(exu.ConfigurationType.StartOfStep, False)
+        data: Any = mbs.systemData
+        start = data.GetODE2Coordinates_tt(exu.ConfigurationType.StartOfStep, False)
         return BodyError(
             starts=[mbs.GetNodeODE2Index(node) for _, node in nodes],
             masses=[masses.get(name, math.inf) for name, _ in nodes],  # modes and drive: no say
             inertias=np.diag(mbs.sys["dynamicSolver"].GetSystemMassMatrix()).tolist(),
-            accelerations=np.asarray(start).tolist(),
+            accelerations=start.tolist(),
             velocity_limit=share_of(self._tolerance) * self._speed,
             tolerance=self._tolerance,
             usual=scene.angular_speed * scene.pin_speed,

@@ -1,10 +1,13 @@
 """What Newton's method is told: where to start, and what is too much to ask.
 
 Exudyn starts every step from accelerations of zero, which costs an iteration a step in lubricated
-motion and several where contact lasts. Here they go on as they did in the last step.
+motion and several where contact lasts. Here they go on as they did in the last step, and lasting
+contacts start from the force that held them.
 
 A thin film answers the last digit of a speed with newtons: no iteration balances forces better.
 """
+
+from typing import Any
 
 import exudyn as exu
 import numpy as np
@@ -12,7 +15,7 @@ from numpy.typing import NDArray
 
 from exu_press.joints.overlay import JointOverlay
 
-__all__ = ["SHORT", "Newton"]
+__all__ = ["DIGITS", "SHORT", "Newton"]
 
 CURRENT = exu.ConfigurationType.Current
 START = exu.ConfigurationType.StartOfStep
@@ -48,11 +51,12 @@ class Newton:
         self._rate: NDArray[np.float64] | None = None  # of change, in the last step
         self._last = 0.0  # size of the last step, s
         self._tolerance: float | None = None  # that the settings ask for, N
+        self._least = 0.0  # that is asked for now, N
         mbs.SetPreNewtonResidualUserFunction(self._before_residual)
 
     def before_try(self, time: float) -> None:
         """Look at a step's beginning; to be called before anything shifts its state."""
-        data = self._mbs.systemData
+        data: Any = self._mbs.systemData
         start = data.GetTime(START)
         if start == self._start:
             return
@@ -66,13 +70,16 @@ class Newton:
         if not iteration:
             if self._start is not None and time - self._start > SHORT:
                 self._advance(time - self._start)
+                if self._joints is not None:
+                    self._joints.resume()
             self._ask_for(0.0)
         elif iteration == PATIENCE and self._joints is not None:
             self._ask_for(DIGITS * self._joints.damping * self._speed)
 
     def _advance(self, step: float) -> None:
         """Add the expected accelerations to a state that was advanced without any."""
-        data, solver = self._mbs.systemData, self._mbs.sys["dynamicSolver"]
+        data: Any = self._mbs.systemData
+        solver = self._mbs.sys["dynamicSolver"]
         expected = self._now
         if self._rate is not None:
             expected = expected + min(step, REACH * self._last) * self._rate
@@ -86,8 +93,9 @@ class Newton:
 
     def _ask_for(self, least: float) -> None:
         """Set Newton's absolute tolerance, N: that of the settings, but not less than `least`."""
-        if self._tolerance is None and least == 0.0:
+        if least == self._least:
             return
+        self._least = least
         newton = self._mbs.sys["dynamicSolver"].newton
         if self._tolerance is None:
             self._tolerance = newton.absoluteTolerance

@@ -82,10 +82,10 @@ class ClearanceJoint(Protocol):
         """Return what the joint does in a state of its two bodies."""
 
     def begin_step(self, step: float, accepted: bool) -> None:
-        """Start a step of size `step` (s), after the last one was accepted or is repeated.
+        """Start a step of size `step` (s), after the last one was accepted or is repeated."""
 
-        The next `add_force` is for Newton's first guess of where the step ends.
-        """
+    def resume(self) -> None:
+        """Be told that the next `add_force` is at Newton's first guess of a step's end."""
 
     def reset(self) -> None:
         """Forget everything."""

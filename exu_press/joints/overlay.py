@@ -101,6 +101,11 @@ class JointOverlay:
             q = q_t = [0.0] * self.size
         return joint.state([*q, *GROUND], [*q_t, *GROUND])
 
+    def resume(self) -> None:
+        """Tell all joints that the next state is Newton's first guess of a step's end."""
+        for joint in self.joints:
+            joint.resume()
+
     @property
     def damping(self) -> float:
         """The most that any force changes with a speed, N s/m, where it was last asked for."""

@@ -333,9 +333,12 @@ class PairedJoint:
         """Start a step of size `step` (s), after the last one was accepted or is repeated."""
         if accepted:
             self._motion_settled, self._loads_settled = self._motion, self._loads
-        self._resuming = True
         for pair in self.pairs:
             pair.begin_step(step, accepted)
+
+    def resume(self) -> None:
+        """Let contacts that last answer the next state by their force at the last step's end."""
+        self._resuming = True
 
     def reset(self) -> None:
         """Forget everything."""
@@ -344,10 +347,7 @@ class PairedJoint:
             pair.reset()
 
     def _load(self, motion: Motion) -> list[Load | None]:
-        """Return what each pair does in a state; the one before is kept for the secant.
-
-        The first state of a step is Newton's first guess, which contacts may answer otherwise.
-        """
+        """Return what each pair does in a state; the one before is kept for the secant."""
         e, e_dot, v_t, w_j, w_b = motion
         self._motion_before, self._loads_before = self._motion, self._loads
         self._motion = motion

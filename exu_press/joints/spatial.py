@@ -112,7 +112,6 @@ class SpatialRevolute(PairedJoint):
 
     def state(self, q: list[float], q_t: list[float]) -> JointState:
         """Return what the joint does in a state of its two bodies."""
-        self._resuming = False  # exactly
         self.add_force(q, q_t, [0.0] * len(q))
         e, e_dot, _, w_j, w_b = self._motion
         loads = [load for load in self._loads if load is not None]

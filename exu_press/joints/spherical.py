@@ -47,6 +47,9 @@ class SpatialSpherical:
             self._bristle, self._approach_speed = self._next
         self._step = step
 
+    def resume(self) -> None:
+        """Take the first guess for what it is."""
+
     def reset(self) -> None:
         """Relax the bristle."""
         self._bristle, self._approach_speed, self._step = np.zeros(3), 0.0, 0.0

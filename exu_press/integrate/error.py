@@ -13,11 +13,6 @@ from exu_press.model import Model
 __all__ = ["StepError"]
 
 
-PLACES = 2.0
-"""How many times a step's share places may be off by: contacts and films mend some of it, and half
-as much buys no accuracy."""
-
-
 def share_of(tolerance: float) -> float:
     """Return what one step may have of a run's tolerance.
 
@@ -51,7 +46,7 @@ class StepError:
         self._speed = max(scene.pin_speed, math.sqrt(4.0 * scene.gravity * widest))
         self._bodies: BodyError | None = None
         self._joints = [
-            JointError(joint, max(PLACES * share * joint.clearance, ROUNDING))
+            JointError(joint, max(share * joint.clearance, ROUNDING))
             for joint in model.clearance_joints.values()
         ]
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from exu_press.joints.overlay import JointOverlay
 
-__all__ = ["DIGITS", "SHORT", "Newton"]
+__all__ = ["DIGITS", "Newton"]
 
 CURRENT = exu.ConfigurationType.Current
 START = exu.ConfigurationType.StartOfStep

@@ -10,7 +10,6 @@ from collections.abc import Callable
 import exudyn as exu
 
 from exu_press.integrate.error import StepError
-from exu_press.integrate.newton import SHORT
 from exu_press.integrate.settings import FIRST_OF_FILM
 from exu_press.integrate.step_change import StepChange
 
@@ -23,9 +22,9 @@ AIM = 0.4
 """Error at which steps are aimed; the reserve saves repeated steps, as a swinging part's error
 rises and falls several times in each of its periods."""
 
-KEEP = (0.8, 1.3)
-"""A step is kept when it would change by a factor between these; one of less than 8 us in any case
-unless it could grow, as its error may be what the last change left behind."""
+GROW = 1.3
+"""A step is lengthened when it may be by this factor. It is shortened only when it is repeated: a
+change of step leaves an error behind, which shortening would chase."""
 
 FIRST = 1.0 / 64.0
 """First step over the largest one."""
@@ -96,7 +95,7 @@ class StepControl:
         self._estimate.accept()
         if step >= 0.5 * self._step:  # else it was cut short by a corner or by the end
             self._step = step
-        if factor > KEEP[1] or (factor < KEEP[0] and step > SHORT):
+        if factor > GROW:
             self._step *= min(CHANGE[1], factor)
         return [0.0, -1.0]
 

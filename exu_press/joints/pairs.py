@@ -8,7 +8,7 @@ centre. a_J + a_B + |e| = 0, so that momentum and angular momentum are conserved
 
 from collections.abc import Sequence
 
-from exu_press.laws.contact import NormalContact
+from exu_press.laws.contact import Approach, NormalContact
 from exu_press.laws.film import FilmLaw
 from exu_press.laws.friction import Friction, LuGre
 
@@ -141,7 +141,7 @@ class DryPair(Pair):
 
     Attributes:
         bristle: deflection of the friction's bristle at the start of the step, m.
-        approach_speed: at the first touch of this contact, m/s.
+        approach: the rate at the first touch of this contact.
     """
 
     def __init__(
@@ -165,9 +165,9 @@ class DryPair(Pair):
         self.friction = friction
         self.radius = radius
         self.bristle = 0.0
-        self.approach_speed = 0.0
+        self.approach = Approach()
         self._step = 0.0
-        self._next = 0.0, 0.0
+        self._next_bristle = 0.0
 
     def load(
         self, e: float, e_dot: float, v_t: float, omega_j: float, omega_b: float
@@ -183,11 +183,13 @@ class DryPair(Pair):
         else:
             mu, slope = friction(sliding)
             bristle = 0.0
+        speed = 0.0
         if self.stateful:
-            self._next = bristle, e_dot if penetration <= 0.0 else self.approach_speed
+            self._next_bristle = bristle
+            speed = self.approach.speed(penetration, e_dot)
             if penetration <= 0.0:
                 return None
-        normal, stiffness, damping = self.contact.force(penetration, e_dot, self.approach_speed)
+        normal, stiffness, damping = self.contact.force(penetration, e_dot, speed)
         return self._loaded(e, normal, (mu, slope, normal, stiffness, damping))
 
     def _loaded(self, e: float, normal: float, answer: Answer) -> Load:
@@ -243,13 +245,14 @@ class DryPair(Pair):
     def begin_step(self, step: float, accepted: bool) -> None:
         """Keep bristle deflection and approach speed of the last step if it was accepted."""
         if accepted:
-            self.bristle, self.approach_speed = self._next
+            self.bristle = self._next_bristle
+            self.approach.accept()
         self._step = step
 
     def reset(self) -> None:
         """Relax the bristle."""
-        self.bristle = self.approach_speed = 0.0
-        self._next = 0.0, 0.0
+        self.bristle = self._next_bristle = 0.0
+        self.approach.reset()
 
 
 class FilmPair(Pair):

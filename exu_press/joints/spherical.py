@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 
 from exu_press.joints.ends import BodyEnd, Vector, cross, cross_matrix
 from exu_press.joints.joint import JointState
-from exu_press.laws.contact import NormalContact
+from exu_press.laws.contact import Approach, NormalContact
 from exu_press.laws.friction import Friction, LuGre
 
 __all__ = ["SpatialSpherical"]
@@ -38,13 +38,15 @@ class SpatialSpherical:
         self._stateful = isinstance(friction, LuGre) or contact.needs_impact_speed
         self._contact, self._friction = contact, friction
         self._radius, self.clearance = radius, clearance
-        self._next: tuple[Array, float] = np.zeros(3), 0.0
+        self._approach = Approach()
+        self._next_bristle: Array = np.zeros(3)
         self.reset()
 
     def begin_step(self, step: float, accepted: bool) -> None:
         """Keep bristle deflection and approach speed of the last step if it was accepted."""
         if accepted:
-            self._bristle, self._approach_speed = self._next
+            self._bristle = self._next_bristle
+            self._approach.accept()
         self._step = step
 
     def resume(self) -> None:
@@ -52,8 +54,9 @@ class SpatialSpherical:
 
     def reset(self) -> None:
         """Relax the bristle."""
-        self._bristle, self._approach_speed, self._step = np.zeros(3), 0.0, 0.0
-        self._next = self._bristle, 0.0
+        self._bristle, self._step = np.zeros(3), 0.0
+        self._next_bristle = self._bristle
+        self._approach.reset()
         self._touching = False
 
     def add_force(self, q: list[float], q_t: list[float], out: list[float]) -> None:
@@ -141,9 +144,10 @@ class SpatialSpherical:
         sliding = self._surface - n * (n @ self._surface)
         rate = float(n @ self._relative)
         self._mu, by_sliding, bristle = self._coefficient(sliding)
-        self._next = bristle, self._approach_speed if self._touching else rate
+        self._next_bristle = bristle
+        speed = self._approach.speed(penetration, rate)
         if self._touching:
-            self._law = self._contact.force(penetration, rate, self._approach_speed)
+            self._law = self._contact.force(penetration, rate, speed)
             self._normal_force = -self._law[0] * n
             self._drag = -self._law[0] * self._mu
             self._drag_by_sliding = -self._law[0] * by_sliding

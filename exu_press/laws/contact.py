@@ -11,6 +11,7 @@ Stiffness in `contact_stiffness`, damping in `contact_damping`, what a law deliv
 
 from exu_press.laws.contact_damping import (
     DAMPING_LAWS,
+    Approach,
     NormalContact,
     flores,
     gonthier,
@@ -25,6 +26,7 @@ from exu_press.laws.contact_stiffness import Stiffness, cylindrical, hertz, hert
 
 __all__ = [
     "DAMPING_LAWS",
+    "Approach",
     "NormalContact",
     "Stiffness",
     "cylindrical",

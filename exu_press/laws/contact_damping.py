@@ -19,6 +19,7 @@ References
    Multibody System Dynamics 35 (2015) 131-151.
 """
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -27,6 +28,7 @@ from exu_press.laws.contact_stiffness import Stiffness
 
 __all__ = [
     "DAMPING_LAWS",
+    "Approach",
     "NormalContact",
     "flores",
     "gonthier",
@@ -100,6 +102,40 @@ class NormalContact:
             return 0.0
         force, _, _ = self.force(penetration, rate, impact_speed)
         return rate * (force - self.stiffness.force(penetration)[0])
+
+
+class Approach:
+    """The rate at which two surfaces first touched, kept until they part.
+
+    Between two instants the rate's square changes evenly with the way, as under an even force: a
+    rate taken at the last instant apart would be off by what a whole step adds to it.
+    """
+
+    def __init__(self) -> None:
+        """Start apart and at rest."""
+        self.reset()
+
+    def reset(self) -> None:
+        """Forget everything."""
+        self._speed, self._gap = 0.0, 0.0  # at the last accepted instant; no gap in contact
+        self._next = 0.0, 0.0
+
+    def speed(self, penetration: float, rate: float) -> float:
+        """Return the rate at first touch, m/s, for a state (m, m/s) that is tried now."""
+        speed, gap = self._speed, self._gap
+        if penetration <= 0.0:
+            speed, gap = rate, -penetration
+        elif gap > 0.0:
+            if rate > 0.0:  # else it has turned already
+                share = gap / (gap + penetration)
+                speed = math.sqrt(speed * speed + share * (rate * rate - speed * speed))
+            gap = 0.0
+        self._next = speed, gap
+        return speed
+
+    def accept(self) -> None:
+        """Keep what was tried last."""
+        self._speed, self._gap = self._next
 
 
 def step_damping(

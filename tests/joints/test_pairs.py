@@ -8,7 +8,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from exu_press.joints.pairs import DryPair, FilmPair
-from exu_press.laws.contact import hertz, hunt_crossley, step_damping
+from exu_press.laws.contact import Approach, hertz, hunt_crossley, step_damping
 from exu_press.laws.film import film_scale, finite, pi_film, pinkus, short, with_asperities
 from exu_press.laws.friction import LuGre, lugre_steady, no_friction
 
@@ -239,13 +239,25 @@ def test_bristle_is_not_reset_by_separation():
     assert pair.bristle == bent
 
 
-def test_approach_speed_is_the_last_one_before_touching():
+def test_approach_speed_is_that_of_the_touch():
+    """Half-way between two instants the rate's square is the mean of theirs; then it is kept."""
     pair = dry(STEADY, hunt_crossley(hertz(2.5545e10), 0.7))
-    for e, e_dot in ((0.9, 0.1), (0.99, 0.2), (1.01, 0.19), (1.02, 0.15)):
+    for e, e_dot in ((0.9, 0.1), (0.99, 0.2), (1.01, 0.3)):
         pair.begin_step(1e-6, accepted=True)
-        pair.force(e * CLEARANCE, e_dot, 0.0, 0.0, 0.0)
+        force = pair.force(e * CLEARANCE, e_dot, 0.0, 0.0, 0.0)
+    touch = math.sqrt((0.2**2 + 0.3**2) / 2.0)
+    contact = pair.contact.force(0.01 * CLEARANCE, 0.3, touch)
+    assert force is not None and -force[0][0] == pytest.approx(contact[0])
     pair.begin_step(1e-6, accepted=True)
-    assert pair.approach_speed == 0.2
+    assert pair.approach.speed(0.02 * CLEARANCE, 0.15) == pytest.approx(touch)
+    assert pair.approach.speed(-0.02 * CLEARANCE, -0.1) == -0.1
+
+
+def test_a_rebound_within_one_step_keeps_the_speed_before_it():
+    approach = Approach()
+    approach.speed(-1e-6, 0.2)
+    approach.accept()
+    assert approach.speed(1e-6, -0.1) == 0.2
 
 
 def test_reset_forgets():

@@ -55,6 +55,8 @@ class JointState:
 class ClearanceJoint(Protocol):
     """A joint over some of the coordinates of the overlay's item."""
 
+    contacts: bool
+    """Whether surfaces may touch in it, which remember the last step; films remember nothing."""
     clearance: float
     """Radial clearance, m."""
     places: list[int]

@@ -44,6 +44,7 @@ class JointOverlay:
         self._mbs = mbs
         self.nodes: dict[int, int] = {}
         self.size = 0
+        self._contacts: list[ClearanceJoint] = []
         self._step: tuple[float, float] | None = None  # start and end of the last try, s
         self._jacobian_time: float | None = None
         self._last: tuple[Any, Any] = None, None
@@ -68,6 +69,8 @@ class JointOverlay:
     def add(self, joint: ClearanceJoint) -> None:
         """Take in a joint whose ends' indices come from `index_of`."""
         self.joints.append(joint)
+        if joint.contacts:
+            self._contacts.append(joint)
         nodes = list(self.nodes)
         places = [
             (row, column)
@@ -102,8 +105,8 @@ class JointOverlay:
         return joint.state([*q, *GROUND], [*q_t, *GROUND])
 
     def resume(self) -> None:
-        """Tell all joints that the next state is Newton's first guess of a step's end."""
-        for joint in self.joints:
+        """Tell the joints that the next state is Newton's first guess of a step's end."""
+        for joint in self._contacts:
             joint.resume()
 
     @property
@@ -118,7 +121,8 @@ class JointOverlay:
         Not a number where a state is so far out that a law overflows.
         """
         self.evaluations += 1
-        self._begin_step(time)
+        if self._contacts:
+            self._begin_step(time)
         self._last = q, q_t
         size = len(q)
         q, q_t = [*q, *GROUND], [*q_t, *GROUND]
@@ -164,7 +168,7 @@ class JointOverlay:
             return
         accepted = self._step is None or start != self._step[0]
         self._step = start, time
-        for joint in self.joints:
+        for joint in self._contacts:
             joint.begin_step(time - start, accepted)
 
 

@@ -310,12 +310,14 @@ class PairedJoint:
     Attributes:
         pairs: the first one has the joint's clearance.
         clearance: radial clearance, m.
+        contacts: whether surfaces may touch in one of them.
     """
 
     def __init__(self, pairs: Sequence[Pair]) -> None:
         """Let the pairs act in parallel."""
         self.pairs = list(pairs)
         self.clearance = self.pairs[0].clearance
+        self.contacts = any(isinstance(pair, DryPair) for pair in self.pairs)
         self._motion: Motion = (0.0, 0.0, 0.0, 0.0, 0.0)
         self._loads: list[Load | None] = [None for _ in self.pairs]
         self._motion_before = self._motion

@@ -21,6 +21,7 @@ class SpatialSpherical:
     """
 
     outside = None
+    contacts = True
 
     def __init__(
         self,

@@ -13,7 +13,6 @@ ROUNDING = 1e-14
 step is told apart from it; velocities at a step's end are no better than this over the step, and
 accelerations than this over its square."""
 
-
 FINER = 3.0
 """How much shorter than velocities need it a step may become for the peaks of accelerations."""
 

@@ -8,13 +8,14 @@ from exu_press.integrate.newton import Newton
 from exu_press.joints.pairs import DryPair
 
 
-@pytest.mark.parametrize(("pin", "part"), [("lubricated", 0.7), ("dry", 0.8)])
-def test_expected_accelerations_save_iterations(pin, part, monkeypatch):
+@pytest.mark.parametrize("pin", ["lubricated", "dry"])
+def test_expected_accelerations_save_iterations(pin, monkeypatch):
+    monkeypatch.setattr(DryPair, "resumed", lambda *_: None)  # it saves its own
     scene = Scene(crank_pin=pin, balls="dry", revolutions=0.1, solver={"step": 5e-5})
     guided = simulate(scene)
     monkeypatch.setattr(Newton, "_advance", lambda newton, step: None)
     plain = simulate(scene)
-    assert guided.info["newton_iterations"] < part * plain.info["newton_iterations"]
+    assert guided.info["newton_iterations"] < 0.7 * plain.info["newton_iterations"]
     apart = guided["slider_acceleration"] - plain["slider_acceleration"]
     assert np.abs(apart).max() < 1e-3 * np.abs(plain["slider_acceleration"]).max()
 

@@ -51,8 +51,20 @@ def precision(
     if not has_numba():
         left_out.append("numba is not installed: the peers' right-hand side is not compiled")
     rows: list[Row] = []
-    described, durations = {}, {}
-    assert chosen
+    described: dict[str, dict[str, Any]] = {}
+    durations: dict[str, float] = {}
+
+    def report() -> Report:
+        return Report(
+            quick=quick,
+            cases=dict(described),
+            rows=tuple(rows),
+            orders=tuple(orders_of(rows)),
+            goals=() if quick else tuple(goals_of(rows, durations)),
+            left_out=tuple(left_out),
+            machine=machine(),
+        )
+
     for case in chosen:
         scene = _shortened(case.scene, amount)
         durations[case.name] = scene.duration if scene is not None else DURATION
@@ -63,17 +75,8 @@ def precision(
         some = _run(case, attempts, reference, horizon, case.repeats or amount.repeats, quiet)
         rows += some
         described[case.name] = _describe(case, reference, horizon, durations[case.name], some)
-        report = Report(
-            quick=quick,
-            cases=dict(described),
-            rows=tuple(rows),
-            orders=tuple(orders_of(rows)),
-            goals=() if quick else tuple(goals_of(rows, durations)),
-            left_out=tuple(left_out),
-            machine=machine(),
-        )
-        after_case(report)
-    return report
+        after_case(report())
+    return report()
 
 
 def _shortened(scene: Scene | None, amount: Amount) -> Scene | None:

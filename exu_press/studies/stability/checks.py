@@ -98,9 +98,9 @@ def agreement(result: Result, finer: Result) -> Check:
 
     Compared is what stays when the instants of impacts shift a little, each with a tolerance of its
     own: extremes of the motion, peaks over the first impacts, root mean squares, means, energy;
-    forces of a film no closer than rounded speeds allow. A
-    run may be off by three times the tolerance it was given on top, which is how far journals drift
-    in films of 0.1 um, or by the error of a fixed step.
+    forces of a film no closer than rounded speeds allow. A run may be off by three times the
+    tolerance it was given on top, which is how far journals drift in films of 0.1 um, or by the
+    error of a fixed step.
     """
     solver = result.scene.solver
     assert solver is not None

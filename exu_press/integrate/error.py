@@ -36,10 +36,17 @@ class StepError:
     joint's clearance: `JointError`.
     """
 
-    def __init__(self, model: Model, tolerance: float) -> None:
-        """Take the scales from the scene."""
+    def __init__(self, model: Model, solver: Any, tolerance: float) -> None:
+        """Take the scales from the scene.
+
+        Args:
+            model: what is solved.
+            solver: an exu.MainSolverImplicitSecondOrder, which is about to solve it.
+            tolerance: of the run.
+        """
         scene = model.scene
-        self._model = model
+        self._model, self._solver = model, solver
+        self._data: Any = model.mbs.systemData
         self._tolerance = tolerance
         share = share_of(tolerance)
         widest = max((joint.clearance for joint in model.clearance_joints.values()), default=0.0)
@@ -52,10 +59,9 @@ class StepError:
 
     def __call__(self, step: float) -> float:
         """Return the error of the step that ends in the current state."""
-        data: Any = self._model.mbs.systemData
         if self._bodies is None:
             self._bodies = self._first_look()
-        now = data.GetODE2Coordinates_tt(exu.ConfigurationType.Current, False).tolist()
+        now = self._data.GetODE2Coordinates_tt(exu.ConfigurationType.Current, False).tolist()
         error = self._bodies.tried(now, step)
         if error > 1.0:
             error = self._bodies.error(self._filtered(self._bodies.change), step)
@@ -83,12 +89,11 @@ class StepError:
         scene = model.scene
         masses = {body.name: body.mass for body in model.mechanism.bodies}
         nodes = sorted(model.nodes.items(), key=lambda item: item[1])
-        data: Any = mbs.systemData
-        start = data.GetODE2Coordinates_tt(exu.ConfigurationType.StartOfStep, False)
+        start = self._data.GetODE2Coordinates_tt(exu.ConfigurationType.StartOfStep, False)
         return BodyError(
             starts=[mbs.GetNodeODE2Index(node) for _, node in nodes],
             masses=[masses.get(name, math.inf) for name, _ in nodes],  # modes and drive: no say
-            inertias=np.diag(mbs.sys["dynamicSolver"].GetSystemMassMatrix()).tolist(),
+            inertias=np.diag(self._solver.GetSystemMassMatrix()).tolist(),
             accelerations=start.tolist(),
             velocity_limit=share_of(self._tolerance) * self._speed,
             tolerance=self._tolerance,
@@ -97,7 +102,7 @@ class StepError:
 
     def _filtered(self, change: list[float]) -> list[float]:
         """Return what Newton's matrix, M (1 - alpha_m)/(1 - alpha_f) + ..., leaves of a change."""
-        solver = self._model.mbs.sys["dynamicSolver"]
+        solver = self._solver
         jacobian = np.asarray(solver.GetSystemJacobian())
         right = np.zeros(len(jacobian))
         right[: len(change)] = np.asarray(solver.GetSystemMassMatrix()) @ change

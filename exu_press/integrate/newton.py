@@ -26,7 +26,7 @@ PATIENCE = 4
 REACH = 2.0
 """Over the last step, how far ahead its rate of change is believed."""
 
-SHORT = 8e-6
+SHORT = 2e-6
 """Steps, s, that start from zero accelerations after all: there one iteration would leave newtons
 of rounding in the constraints, positions' last digits over the step's square."""
 
@@ -37,15 +37,20 @@ DIGITS = 4e-15
 class Newton:
     """Extrapolates accelerations to the end of a step, and asks for no more than can be."""
 
-    def __init__(self, mbs: exu.MainSystem, joints: JointOverlay | None, speed: float) -> None:
+    def __init__(
+        self, mbs: exu.MainSystem, solver: Any, joints: JointOverlay | None, speed: float
+    ) -> None:
         """Let Exudyn ask before every residual.
 
         Args:
             mbs: the system.
+            solver: an exu.MainSolverImplicitSecondOrder, which is about to solve it.
             joints: its clearance joints, if it has any.
             speed: of its bodies, m/s.
         """
-        self._mbs, self._joints, self._speed = mbs, joints, speed
+        self._data: Any = mbs.systemData
+        self._solver, self._joints, self._speed = solver, joints, speed
+        self._weights: tuple[float, float, float] | None = None
         self._start: float | None = None  # of the step under way, s
         self._now = np.zeros(0)  # accelerations there
         self._rate: NDArray[np.float64] | None = None  # of change, in the last step
@@ -56,7 +61,7 @@ class Newton:
 
     def before_try(self, time: float) -> None:
         """Look at a step's beginning; to be called before anything shifts its state."""
-        data: Any = self._mbs.systemData
+        data = self._data
         start = data.GetTime(START)
         if start == self._start:
             return
@@ -78,17 +83,20 @@ class Newton:
 
     def _advance(self, step: float) -> None:
         """Add the expected accelerations to a state that was advanced without any."""
-        data: Any = self._mbs.systemData
-        solver = self._mbs.sys["dynamicSolver"]
+        data = self._data
+        if self._weights is None:
+            solver = self._solver
+            ratio = (1.0 - solver.alphaF) / (1.0 - solver.alphaM)
+            self._weights = ratio, solver.newmarkBeta, solver.newmarkGamma
+        ratio, beta, gamma = self._weights
         expected = self._now
         if self._rate is not None:
             expected = expected + min(step, REACH * self._last) * self._rate
         velocities = data.GetODE2Coordinates_t(CURRENT, False)
         positions = data.GetODE2Coordinates(CURRENT, False)
         # as Newton's method adds an increment of them
-        part = step * (1.0 - solver.alphaF) / (1.0 - solver.alphaM) * expected
-        positions += step * solver.newmarkBeta * part
-        velocities += solver.newmarkGamma * part
+        positions += (step * step * ratio * beta) * expected
+        velocities += (step * ratio * gamma) * expected
         data.GetODE2Coordinates_tt(CURRENT, False)[:] = expected
 
     def _ask_for(self, least: float) -> None:
@@ -96,7 +104,7 @@ class Newton:
         if least == self._least:
             return
         self._least = least
-        newton = self._mbs.sys["dynamicSolver"].newton
+        newton = self._solver.newton
         if self._tolerance is None:
             self._tolerance = newton.absoluteTolerance
         newton.absoluteTolerance = max(self._tolerance, least)

@@ -7,12 +7,14 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from types import FrameType
+from typing import Any
 
 import exudyn as exu
 import numpy as np
 from threadpoolctl import threadpool_limits
 
 from exu_press.integrate.error import StepError
+from exu_press.integrate.flexible_jacobian import FlexibleJacobian
 from exu_press.integrate.newton import Newton
 from exu_press.integrate.outcome import Outcome, Status
 from exu_press.integrate.resolution import unresolved
@@ -86,30 +88,35 @@ def integrate(model: Model, *, quiet: bool = True) -> Outcome:
     failure = ""
     with Progress("run", scene.duration, quiet=quiet) as progress:
         joints = overlay_of(mbs) if model.clearance_joints else None
-        newton, step_change = Newton(mbs, joints, scene.pin_speed), StepChange(mbs)
+        solver: Any = exu.MainSolverImplicitSecondOrder()  # whose type stub forgets `self`
+        mbs.sys["dynamicSolver"] = solver
+        newton = Newton(mbs, solver, joints, scene.pin_speed)
+        step_change = StepChange(mbs, solver)
+        if scene.flexible is not None:
+            FlexibleJacobian(mbs, solver, joints)
         before_try = (newton.before_try, step_change.before_try)
         watch = _Watch(progress, before_try, _max_steps(model))
         mbs.SetPreStepUserFunction(watch.before_step)
         film_start = None if scene.film is None else step_change
-        control = _step_control(model, film_start)
+        control = _step_control(model, solver, film_start)
         if control is not None:
-            control.attach(mbs)
+            control.attach(mbs, solver)
         else:
             FixedSteps(
                 scene.duration / settings.timeIntegration.numberOfSteps,
                 film_start=film_start,
-            ).attach(mbs)
+            ).attach(mbs, solver)
         start = time.perf_counter()
         # matrices of a hundred rows: further threads only wait for each other
         with watch.catching_interrupts(), _silent_console(), threadpool_limits(1):
             try:
-                mbs.SolveDynamic(settings, showHints=False)
+                if not solver.SolveSystem(mbs, settings):
+                    failure = solver.GetErrorString()
             except exu.ExudynError as error:
                 failure = str(error)
                 if "USER FUNCTION" in failure:  # an error in our own code is no failure of Newton's
                     raise
         wall_time = time.perf_counter() - start
-        solver = mbs.sys["dynamicSolver"]
         progress.update(solver.it.currentTime)
     end_time = mbs.systemData.GetTime()
     status, reason = _how_it_ended(model, watch, end_time, control, failure)
@@ -126,14 +133,14 @@ def integrate(model: Model, *, quiet: bool = True) -> Outcome:
     )
 
 
-def _step_control(model: Model, film_start: StepChange | None) -> StepControl | None:
+def _step_control(model: Model, solver: Any, film_start: StepChange | None) -> StepControl | None:
     """Return what makes the steps follow the scene's tolerance, if it has one."""
-    scene, solver = model.scene, model.scene.solver
-    assert solver is not None
-    if solver.tolerance is None:
+    scene, settings = model.scene, model.scene.solver
+    assert settings is not None
+    if settings.tolerance is None:
         return None
     return StepControl(
-        StepError(model, solver.tolerance),
+        StepError(model, solver, settings.tolerance),
         duration=scene.duration,
         smallest=smallest_step(scene),
         largest=largest_step(scene),

@@ -53,9 +53,15 @@ _factorise, _solve = get_lapack_funcs(("getrf", "getrs"), dtype=np.float64)
 class StepChange:
     """Fits the state at a step's beginning to the step, if that is shorter or repeated."""
 
-    def __init__(self, mbs: exu.MainSystem) -> None:
-        """Watch the steps of a system."""
-        self._mbs = mbs
+    def __init__(self, mbs: exu.MainSystem, solver: Any) -> None:
+        """Watch the steps of a system.
+
+        Args:
+            mbs: the system.
+            solver: an exu.MainSolverImplicitSecondOrder, which is about to solve it.
+        """
+        self._mbs, self._solver = mbs, solver
+        self._data: Any = mbs.systemData
         self._start: float | None = None  # of the step under way, s
         self._last: float | None = None  # size of the last accepted step, s
         self._fits = self._leaves = 0.0  # the step that constrained velocities fit, now and next
@@ -76,8 +82,7 @@ class StepChange:
 
     def before_try(self, time: float) -> None:
         """Shift the state from which Exudyn is about to try a step to `time`, s."""
-        data = self._mbs.systemData
-        start = data.GetTime(START)
+        start = self._data.GetTime(START)
         repeated = start == self._start
         if not repeated:
             self._last = None if self._start is None else start - self._start
@@ -95,7 +100,7 @@ class StepChange:
         Newton's method may start anew, from what Exudyn keeps of the step's beginning; so that is
         shifted as well, by what is missing there.
         """
-        solver = self._mbs.sys["dynamicSolver"]
+        solver = self._solver
         if self._state is None:
             self._state = [np.array(view) for view in self._views(START)]
         q, v, a = self._state
@@ -126,7 +131,7 @@ class StepChange:
 
     def _views(self, where: exu.ConfigurationType) -> tuple[Any, Any, Any]:
         """Return positions, velocities and accelerations as Exudyn holds them."""
-        data = self._mbs.systemData
+        data = self._data
         return (
             data.GetODE2Coordinates(where, False),
             data.GetODE2Coordinates_t(where, False),
@@ -140,7 +145,7 @@ class StepChange:
         the crank away; how far they are violated is of this very state, so a few turns lead to it.
         """
         assert self._state is not None
-        solver = self._mbs.sys["dynamicSolver"]
+        solver = self._solver
         mass = np.asarray(solver.GetSystemMassMatrix())
         size = len(mass)
         constraints = np.asarray(solver.GetSystemJacobian())[size:, :size]
@@ -165,7 +170,7 @@ class StepChange:
 
     def _violations(self, found: Array) -> None:
         """Write how far constraints are violated into (n, 2): positions, velocities."""
-        solver, size = self._mbs.sys["dynamicSolver"], len(found)
+        solver, size = self._solver, len(found)
         for column, velocity_level in enumerate((False, True)):
             solver.ComputeAlgebraicEquations(self._mbs, velocityLevel=velocity_level)
             found[:, column] = np.asarray(solver.GetSystemResidual())[-size:]

@@ -6,6 +6,7 @@ function for an error and a step to repeat with, and before each step it lets it
 
 import math
 from collections.abc import Callable
+from typing import Any
 
 import exudyn as exu
 
@@ -67,11 +68,13 @@ class StepControl:
         self._duration, self._smallest, self._largest = duration, smallest, largest
         self._next_corner = next_corner
         self._film_start = film_start
+        self._iteration: Any = None  # of the solver, which holds its step
         usual = FIRST * largest
         self._step = max(usual if film_start is None else min(largest, FIRST_OF_FILM), smallest)
 
-    def attach(self, mbs: exu.MainSystem) -> None:
-        """Let Exudyn ask this control after every Newton solve and every step."""
+    def attach(self, mbs: exu.MainSystem, solver: Any) -> None:
+        """Let Exudyn ask this control after every Newton solve and every step of a solver."""
+        self._iteration = solver.it
         mbs.SetPostNewtonUserFunction(self._after_newton)
         mbs.SetPostStepUserFunction(self._after_step)
 
@@ -110,7 +113,7 @@ class StepControl:
                 step = left
             elif step > 0.5 * left:
                 step = 0.5 * left
-        mbs.sys["dynamicSolver"].it.currentStepSize = step
+        self._iteration.currentStepSize = step
         return True
 
 
@@ -125,12 +128,14 @@ class FixedSteps:
         """Take steps of a size, s; `film_start` starts the first one over."""
         self._step = step
         self._film_start = film_start
+        self._iteration: Any = None  # of the solver, which holds its step
         self._size = step if film_start is None else min(step, FIRST_OF_FILM)
         self._next = self._size
         self._time = 0.0
 
-    def attach(self, mbs: exu.MainSystem) -> None:
-        """Let Exudyn ask after every step."""
+    def attach(self, mbs: exu.MainSystem, solver: Any) -> None:
+        """Let Exudyn ask after every step of a solver."""
+        self._iteration = solver.it
         mbs.SetPostStepUserFunction(self._after_step)
         if self._film_start is not None:
             mbs.SetPostNewtonUserFunction(self._after_newton)
@@ -154,5 +159,5 @@ class FixedSteps:
                 self._time = time
                 return True
         self._time = time
-        mbs.sys["dynamicSolver"].it.currentStepSize = self._next
+        self._iteration.currentStepSize = self._next
         return True

@@ -7,6 +7,8 @@ item costs a call of its own.
 """
 
 import math
+from collections.abc import Iterator
+from contextlib import contextmanager
 from struct import Struct
 from typing import Any
 
@@ -48,11 +50,15 @@ class JointOverlay:
         self._step: tuple[float, float] | None = None  # start and end of the last try, s
         self._jacobian_time: float | None = None
         self._last: tuple[Any, Any] = None, None
+        self._time = 0.0  # of it, s
         self._idle: list[list[float]] = []
         self._kept: NDArray[np.intp] | None = None
         self._triplets: NDArray[np.float64] = np.zeros((0, 3))
         self._pack = Struct("").pack
         self._matrix = exu.MatrixContainer()
+        self._places: tuple[NDArray[np.intp], NDArray[np.intp]] | None = None
+        self._silent = False
+        self._slopes_last, self._by_q_t = np.zeros(0), 1.0
 
     def index_of(self, node: int | None) -> int:
         """Return where a node's coordinates start; a node that is new is taken in.
@@ -111,9 +117,34 @@ class JointOverlay:
 
     @property
     def damping(self) -> float:
-        """The most that any force changes with a speed, N s/m, where it was last asked for."""
-        slopes = [joint.jacobian(0.0, 1.0) or [0.0] for joint in self.joints]
-        return max(max(map(abs, each)) for each in slopes)
+        """The most that any force changed with a speed, N s/m, in the last Jacobian.
+
+        With what the force's place adds: a speed moves it within the step.
+        """
+        return float(np.abs(self._slopes_last).max(initial=0.0)) / self._by_q_t
+
+    @contextmanager
+    def left_out(self) -> Iterator[None]:
+        """Keep the joints out of the Jacobians that Exudyn computes meanwhile."""
+        self._silent = True
+        try:
+            yield
+        finally:
+            self._silent = False
+
+    def add_slopes(self, matrix: NDArray[np.float64], by_q: float, by_q_t: float) -> None:
+        """Add -(by_q dQ/dq + by_q_t dQ/dq_t) to a matrix over all coordinates of the system.
+
+        Q are the forces that the joints were last asked for.
+        """
+        if self._places is None:
+            size = {
+                n: len(self._mbs.GetNodeParameter(n, "referenceCoordinates")) for n in self.nodes
+            }
+            at = [self._mbs.GetNodeODE2Index(n) + c for n in self.nodes for c in range(size[n])]
+            rows, columns = self._triplets[:, :2].T.astype(int)
+            self._places = np.array(at)[rows], np.array(at)[columns]
+        np.add.at(matrix, self._places, self._slopes(self._time, *self._last, by_q, by_q_t))
 
     def _forces(self, mbs: exu.MainSystem, time: float, item: int, q: Any, q_t: Any) -> Any:
         """Return the generalised forces of all joints, a list as Exudyn passes and takes it.
@@ -123,7 +154,7 @@ class JointOverlay:
         self.evaluations += 1
         if self._contacts:
             self._begin_step(time)
-        self._last = q, q_t
+        self._last, self._time = (q, q_t), time
         size = len(q)
         q, q_t = [*q, *GROUND], [*q_t, *GROUND]
         out = [0.0] * (size + 3)
@@ -145,10 +176,21 @@ class JointOverlay:
         by_q_t: float,
     ) -> Any:
         """Return the Jacobian of the left-hand side: rows, columns and values; doubles add up."""
+        if self._silent:
+            self._matrix.SetWithSparseMatrix(np.zeros((0, 3)), self.size, self.size)
+            return self._matrix
+        self._triplets[:, 2] = self._slopes(time, q, q_t, by_q, by_q_t)
+        self._matrix.SetWithSparseMatrix(self._triplets, self.size, self.size)
+        return self._matrix
+
+    def _slopes(
+        self, time: float, q: Any, q_t: Any, by_q: float, by_q_t: float
+    ) -> NDArray[np.float64]:
+        """Return the Jacobian's values, in the order of the places."""
         # Forces asked for twice in one state leave a joint with nothing but its tangent: the right
         # thing for all but a step's first Jacobian, which may use where the last step ended.
         if time == self._jacobian_time or self._last != (q, q_t):
-            self._forces(mbs, time, item, q, q_t)
+            self._forces(self._mbs, time, 0, q, q_t)
         self._jacobian_time = time
         values: list[float] = []
         try:
@@ -157,15 +199,14 @@ class JointOverlay:
         except OverflowError:
             values = [0.0 for idle in self._idle for _ in idle]
         weights = np.frombuffer(self._pack(*values))  # a third of the time of np.array(values)
-        self._triplets[:, 2] = weights if self._kept is None else weights[self._kept]
-        self._matrix.SetWithSparseMatrix(self._triplets, self.size, self.size)
-        return self._matrix
+        self._slopes_last, self._by_q_t = weights, by_q_t
+        return weights if self._kept is None else weights[self._kept]
 
     def _begin_step(self, time: float) -> None:
         """Tell the joints about the step that is being tried."""
-        start = self._mbs.systemData.GetTime(exu.ConfigurationType.StartOfStep)
-        if self._step == (start, time):
+        if self._step is not None and self._step[1] == time:
             return
+        start = self._mbs.systemData.GetTime(exu.ConfigurationType.StartOfStep)
         accepted = self._step is None or start != self._step[0]
         self._step = start, time
         for joint in self._contacts:

@@ -65,7 +65,7 @@ class Pair:
         bends: whether the force bends with the speeds, so that Newton's method is better off with a
             secant: a film's does (of first degree in the speeds, but with a kink at rest), a
             contact's does not.
-        outside: eccentricity ratio of the last state if the pair's law did not hold there.
+        outside: eccentricity ratio where the pair's law did not hold, if the last state was so.
     """
 
     def __init__(self, clearance: float, stateful: bool, bends: bool) -> None:
@@ -281,7 +281,10 @@ class FilmPair(Pair):
         c, p = self.clearance, self.scale
         answer = self.law(e / c, e_dot / c, (e * (omega_j + omega_b) - 2.0 * v_t) / c)
         f_r = p * answer[0]
-        self.outside = None if f_r == f_r else e / c
+        if f_r == f_r:
+            self.outside = None
+        elif e == e:  # what follows on such a force may be no place at all
+            self.outside = e / c
         f_t = p * answer[1]
         moment = -0.5 * e * f_t
         return f_r, f_t, moment, moment, answer

@@ -55,9 +55,9 @@ def test_a_repeated_step_starts_as_its_first_try_did(monkeypatch):
 
     attach = FixedSteps.attach
 
-    def attach_failing(control, mbs):
+    def attach_failing(control, mbs, solver):
         mbs.SetPostNewtonUserFunction(fail_every_other)
-        attach(control, mbs)
+        attach(control, mbs, solver)
 
     monkeypatch.setattr(FixedSteps, "attach", attach_failing)
 
@@ -86,9 +86,9 @@ def test_fixed_steps_return_to_their_grid_after_a_halved_one(monkeypatch):
 
     attach = FixedSteps.attach
 
-    def attach_failing(control, mbs):
+    def attach_failing(control, mbs, solver):
         mbs.SetPostNewtonUserFunction(fail_one)
-        attach(control, mbs)
+        attach(control, mbs, solver)
 
     monkeypatch.setattr(FixedSteps, "attach", attach_failing)
     time = simulate(scene).time

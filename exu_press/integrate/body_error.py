@@ -90,6 +90,13 @@ class BodyError:
         jump = [a - b for a, b in zip(self._now, self._before, strict=True)]
         return math.sqrt(max(self._squares(jump)))
 
+    def offset(self, step: float) -> float:
+        """Return what velocities that constraints prescribe are off by at each instant, m/s.
+
+        They follow from two positions: h^2 |rate of the acceleration| / 12.
+        """
+        return step * step * math.sqrt(max(self._squares(self._rate))) / 12.0
+
     def accept(self) -> None:
         """Remember the accepted step's end as the next one's beginning."""
         self._before, self._rate_before, self._peaks_before = self._now, self._rate, self._peaks

@@ -12,6 +12,9 @@ from exu_press.model import Model
 
 __all__ = ["StepError"]
 
+CURRENT = exu.ConfigurationType.Current
+START = exu.ConfigurationType.StartOfStep
+
 
 def share_of(tolerance: float) -> float:
     """Return what one step may have of a run's tolerance.
@@ -30,10 +33,14 @@ class StepError:
     has fallen through its clearance), and accelerations, against their peaks: `BodyError`. Where
     that is too much, what counts is the part that Newton's matrix lets through: constraints, films
     and contacts undo the rest within the step (L. F. Shampine's filter for stiff systems, see
-    Hairer and Wanner, Solving Ordinary Differential Equations II, IV.8).
+    Hairer and Wanner, Solving Ordinary Differential Equations II, IV.8). Without films and contacts
+    also velocities that follow from constraints, at each instant against the tolerance itself.
 
     Clearance joints: what the eccentricity changes by, less the integral of its rate, against the
     joint's clearance: `JointError`.
+
+    Attributes:
+        accelerations: of all coordinates at the end of the step last tried.
     """
 
     def __init__(self, model: Model, solver: Any, tolerance: float) -> None:
@@ -51,6 +58,7 @@ class StepError:
         share = share_of(tolerance)
         widest = max((joint.clearance for joint in model.clearance_joints.values()), default=0.0)
         self._speed = max(scene.pin_speed, math.sqrt(4.0 * scene.gravity * widest))
+        self.accelerations: list[float] = []
         self._bodies: BodyError | None = None
         self._joints = [
             JointError(joint, max(share * joint.clearance, ROUNDING))
@@ -61,10 +69,13 @@ class StepError:
         """Return the error of the step that ends in the current state."""
         if self._bodies is None:
             self._bodies = self._first_look()
-        now = self._data.GetODE2Coordinates_tt(exu.ConfigurationType.Current, False).tolist()
-        error = self._bodies.tried(now, step)
+        self.accelerations = self._data.GetODE2Coordinates_tt(CURRENT, False).tolist()
+        error = self._bodies.tried(self.accelerations, step)
         if error > 1.0:
             error = self._bodies.error(self._filtered(self._bodies.change), step)
+        if not self._joints:  # else impacts and films need finer steps, by far
+            offset = self._bodies.offset(step) / (self._tolerance * self._speed)
+            error = max(error, math.pow(offset, 1.5))  # as the step's cube
         return max([error, *(joint.error(step) for joint in self._joints)])
 
     def of_jump(self, step: float) -> float:
@@ -89,7 +100,7 @@ class StepError:
         scene = model.scene
         masses = {body.name: body.mass for body in model.mechanism.bodies}
         nodes = sorted(model.nodes.items(), key=lambda item: item[1])
-        start = self._data.GetODE2Coordinates_tt(exu.ConfigurationType.StartOfStep, False)
+        start = self._data.GetODE2Coordinates_tt(START, False)
         return BodyError(
             starts=[mbs.GetNodeODE2Index(node) for _, node in nodes],
             masses=[masses.get(name, math.inf) for name, _ in nodes],  # modes and drive: no say

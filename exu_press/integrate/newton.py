@@ -11,7 +11,6 @@ from typing import Any
 
 import exudyn as exu
 import numpy as np
-from numpy.typing import NDArray
 
 from exu_press.joints.overlay import JointOverlay
 
@@ -52,28 +51,27 @@ class Newton:
         self._solver, self._joints, self._speed = solver, joints, speed
         self._weights: tuple[float, float, float] | None = None
         self._start: float | None = None  # of the step under way, s
-        self._now = np.zeros(0)  # accelerations there
-        self._rate: NDArray[np.float64] | None = None  # of change, in the last step
+        self._now: list[float] = []  # accelerations there
+        self._rate: list[float] = []  # of change, in the last step
         self._last = 0.0  # size of the last step, s
         self._tolerance: float | None = None  # that the settings ask for, N
         self._least = 0.0  # that is asked for now, N
         mbs.SetPreNewtonResidualUserFunction(self._before_residual)
 
-    def before_try(self, time: float) -> None:
-        """Look at a step's beginning; to be called before anything shifts its state."""
-        data = self._data
-        start = data.GetTime(START)
-        if start == self._start:
-            return
-        now = np.array(data.GetODE2Coordinates_tt(START, False))
+    def stepped(self, time: float, accelerations: list[float]) -> None:
+        """Be told where an accepted step ends: the time, s, and all coordinates' accelerations."""
         if self._start is not None:
-            self._last = start - self._start
-            self._rate = (now - self._now) / self._last
-        self._start, self._now = start, now
+            self._last = last = time - self._start
+            self._rate = [(a - b) / last for a, b in zip(accelerations, self._now, strict=True)]
+        self._start, self._now = time, accelerations
 
     def _before_residual(self, mbs: exu.MainSystem, time: float, iteration: int, _: int) -> None:
         if not iteration:
-            if self._start is not None and time - self._start > SHORT:
+            if self._start is None:
+                before = self._data.GetODE2Coordinates_tt(START, False).tolist()
+                self.stepped(self._data.GetTime(START), before)
+            assert self._start is not None
+            if time - self._start > SHORT:
                 self._advance(time - self._start)
                 if self._joints is not None:
                     self._joints.resume()
@@ -83,19 +81,20 @@ class Newton:
 
     def _advance(self, step: float) -> None:
         """Add the expected accelerations to a state that was advanced without any."""
-        data = self._data
         if self._weights is None:
             solver = self._solver
             ratio = (1.0 - solver.alphaF) / (1.0 - solver.alphaM)
             self._weights = ratio, solver.newmarkBeta, solver.newmarkGamma
         ratio, beta, gamma = self._weights
-        expected = self._now
-        if self._rate is not None:
-            expected = expected + min(step, REACH * self._last) * self._rate
-        velocities = data.GetODE2Coordinates_t(CURRENT, False)
-        positions = data.GetODE2Coordinates(CURRENT, False)
+        ahead, values = min(step, REACH * self._last), self._now
+        if self._rate:
+            values = [a + ahead * rate for a, rate in zip(values, self._rate, strict=True)]
+        expected = np.array(values)
         # as Newton's method adds an increment of them
+        data = self._data
+        positions = data.GetODE2Coordinates(CURRENT, False)
         positions += (step * step * ratio * beta) * expected
+        velocities = data.GetODE2Coordinates_t(CURRENT, False)
         velocities += (step * ratio * gamma) * expected
         data.GetODE2Coordinates_tt(CURRENT, False)[:] = expected
 

@@ -4,7 +4,7 @@ import math
 import signal
 import threading
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
 from typing import Any
@@ -44,7 +44,7 @@ class _Watch:
     """Called by Exudyn before every step: counts, shows progress, stops when asked to."""
 
     def __init__(
-        self, progress: Progress, before_try: Sequence[Callable[[float], None]], max_steps: int
+        self, progress: Progress, before_try: Callable[[float], None], max_steps: int
     ) -> None:
         self.calls = 0
         self.interrupted = self.over_budget = False
@@ -59,8 +59,7 @@ class _Watch:
         if not self.calls % 16 and time.monotonic() > self._next_update:
             self._next_update = time.monotonic() + SECONDS_BETWEEN_UPDATES
             self._progress.update(now)
-        for each in self._before_try:
-            each(now)
+        self._before_try(now)
         self.over_budget = self.calls >= self._max_steps
         return not (self.interrupted or self.over_budget)
 
@@ -91,21 +90,20 @@ def integrate(model: Model, *, quiet: bool = True) -> Outcome:
         solver: Any = exu.MainSolverImplicitSecondOrder()  # whose type stub forgets `self`
         mbs.sys["dynamicSolver"] = solver
         newton = Newton(mbs, solver, joints, scene.pin_speed)
-        step_change = StepChange(mbs, solver)
+        step_change = StepChange(mbs, solver, smooth=joints is None)
         if scene.flexible is not None:
             FlexibleJacobian(mbs, solver, joints)
-        before_try = (newton.before_try, step_change.before_try)
-        watch = _Watch(progress, before_try, _max_steps(model))
+        watch = _Watch(progress, step_change.before_try, _max_steps(model))
         mbs.SetPreStepUserFunction(watch.before_step)
         film_start = None if scene.film is None else step_change
         control = _step_control(model, solver, film_start)
         if control is not None:
-            control.attach(mbs, solver)
+            control.attach(mbs, solver, newton)
         else:
             FixedSteps(
                 scene.duration / settings.timeIntegration.numberOfSteps,
                 film_start=film_start,
-            ).attach(mbs, solver)
+            ).attach(mbs, solver, newton)
         start = time.perf_counter()
         # matrices of a hundred rows: further threads only wait for each other
         with watch.catching_interrupts(), _silent_console(), threadpool_limits(1):

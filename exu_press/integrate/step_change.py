@@ -4,11 +4,15 @@ With steps of one size h generalized-alpha settles on offsets that belong to h: 
 acceleration a is the true one at another instant, a - a_true = h (alpha_m - alpha_f) da_true/dt,
 and where positions are constrained the velocities miss the constraints by an amount of order h^2.
 A much shorter step takes both for errors and answers with accelerations that alternate for a dozen
-steps, larger than the motion's own changes. Scaled down to the new step, by its ratio to the old
-one and by that ratio's square, both fit at once; the latter costs as much as a step and is put off
-until steps have shrunk by half. Likewise what Newton's method left of the positions' constraints,
-1e-10 m, is nothing beside a long step but a jolt beside a short one: it is taken away. A longer
-step has little to make of them and is left alone: scaling up would blow up whatever still rings.
+steps, larger than the motion's own changes. Scaled to the new step, by its ratio to the old one and
+by that ratio's square, both fit at once; the latter costs as much as a step. Likewise what Newton's
+method left of the positions' constraints, 1e-10 m, is nothing beside a long step but a jolt beside
+a short one: it is taken away.
+
+Without films and contacts motion is smooth, steps change seldom, and each change is worth this.
+With them steps change all the time: velocities are fitted once steps have shrunk by half, and a
+longer step, which has little to make of either, is left alone: scaling up would blow up whatever an
+impact or a film's start left ringing.
 
 Exudyn's algorithmic acceleration can be read but not written, and when a step is repeated it keeps
 the value of the failed try. But positions, velocities and accelerations at the step's beginning can
@@ -51,15 +55,17 @@ _factorise, _solve = get_lapack_funcs(("getrf", "getrs"), dtype=np.float64)
 
 
 class StepChange:
-    """Fits the state at a step's beginning to the step, if that is shorter or repeated."""
+    """Fits the state at a step's beginning to the step, if that is another or repeated."""
 
-    def __init__(self, mbs: exu.MainSystem, solver: Any) -> None:
+    def __init__(self, mbs: exu.MainSystem, solver: Any, smooth: bool) -> None:
         """Watch the steps of a system.
 
         Args:
             mbs: the system.
             solver: an exu.MainSolverImplicitSecondOrder, which is about to solve it.
+            smooth: whether there is neither a film nor a contact.
         """
+        self._smooth = smooth
         self._mbs, self._solver = mbs, solver
         self._data: Any = mbs.systemData
         self._start: float | None = None  # of the step under way, s
@@ -90,8 +96,10 @@ class StepChange:
             self._start, self._state, self._offsets = start, None, None
         self._leaves = self._fits
         step = time - start
-        ratio = 1.0 if self._last is None else min(1.0, step / self._last)
-        if repeated or ratio < 1.0 - SAME:
+        ratio = 1.0 if self._last is None else step / self._last
+        if not self._smooth:
+            ratio = min(1.0, ratio)
+        if repeated or abs(ratio - 1.0) > SAME:
             self._shift(step, ratio)
 
     def _shift(self, step: float, ratio: float) -> None:
@@ -104,9 +112,9 @@ class StepChange:
         if self._state is None:
             self._state = [np.array(view) for view in self._views(START)]
         q, v, a = self._state
-        if ratio < 1.0 - SAME:
+        if abs(ratio - 1.0) > SAME:
             part = step / self._fits
-            if part < MUCH:
+            if part < MUCH or self._smooth:
                 if self._offsets is None:
                     self._offsets = self._forbidden()
                 q = q - self._offsets[0]

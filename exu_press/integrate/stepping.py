@@ -11,10 +11,13 @@ from typing import Any
 import exudyn as exu
 
 from exu_press.integrate.error import StepError
+from exu_press.integrate.newton import Newton
 from exu_press.integrate.settings import FIRST_OF_FILM
 from exu_press.integrate.step_change import StepChange
 
 __all__ = ["FixedSteps", "StepControl"]
+
+START = exu.ConfigurationType.StartOfStep
 
 ORDER = 3
 """Power of the step with which its error goes."""
@@ -68,20 +71,21 @@ class StepControl:
         self._duration, self._smallest, self._largest = duration, smallest, largest
         self._next_corner = next_corner
         self._film_start = film_start
+        self._data: Any = None  # of the system
         self._iteration: Any = None  # of the solver, which holds its step
+        self._newton: Newton | None = None  # is told of every step's end
         usual = FIRST * largest
         self._step = max(usual if film_start is None else min(largest, FIRST_OF_FILM), smallest)
 
-    def attach(self, mbs: exu.MainSystem, solver: Any) -> None:
+    def attach(self, mbs: exu.MainSystem, solver: Any, newton: Newton) -> None:
         """Let Exudyn ask this control after every Newton solve and every step of a solver."""
-        self._iteration = solver.it
+        self._data, self._iteration, self._newton = mbs.systemData, solver.it, newton
         mbs.SetPostNewtonUserFunction(self._after_newton)
         mbs.SetPostStepUserFunction(self._after_step)
 
     def _after_newton(self, mbs: exu.MainSystem, time: float) -> list[float]:
         """Return [0, -1] to accept the step, or [2, shorter step] to have it repeated."""
-        start = mbs.systemData.GetTime(exu.ConfigurationType.StartOfStep)
-        step = time - start
+        step = time - self._data.GetTime(START)
         if step <= 0.0:
             return [0.0, -1.0]
         if self._film_start is not None and self._film_start.start_over(time):
@@ -96,6 +100,8 @@ class StepControl:
             self._step = step * (max(CHANGE[0], factor) if factor == factor else CHANGE[0])
             return [2.0, self._step]
         self._estimate.accept()
+        assert self._newton is not None
+        self._newton.stepped(time, self._estimate.accelerations)
         if step >= 0.5 * self._step:  # else it was cut short by a corner or by the end
             self._step = step
         if factor > GROW:
@@ -128,14 +134,16 @@ class FixedSteps:
         """Take steps of a size, s; `film_start` starts the first one over."""
         self._step = step
         self._film_start = film_start
+        self._data: Any = None  # of the system
         self._iteration: Any = None  # of the solver, which holds its step
+        self._newton: Newton | None = None  # is told of every step's end
         self._size = step if film_start is None else min(step, FIRST_OF_FILM)
         self._next = self._size
         self._time = 0.0
 
-    def attach(self, mbs: exu.MainSystem, solver: Any) -> None:
+    def attach(self, mbs: exu.MainSystem, solver: Any, newton: Newton) -> None:
         """Let Exudyn ask after every step of a solver."""
-        self._iteration = solver.it
+        self._data, self._iteration, self._newton = mbs.systemData, solver.it, newton
         mbs.SetPostStepUserFunction(self._after_step)
         if self._film_start is not None:
             mbs.SetPostNewtonUserFunction(self._after_newton)
@@ -150,6 +158,9 @@ class FixedSteps:
         """Set the next step."""
         h, done, before = self._step, time - self._time, self._next
         if done > 0.0:
+            assert self._newton is not None
+            now = self._data.GetODE2Coordinates_tt(exu.ConfigurationType.Current, False)
+            self._newton.stepped(time, now.tolist())
             halved = done < 0.99 * before
             self._size = done if halved else min(h, 2.0 * self._size)
             to_grid = (math.floor(time / h * (1.0 + 1e-9)) + 1) * h - time

@@ -22,10 +22,16 @@ def alternate(control, mbs, time):
     return True
 
 
+def accept(control, mbs, time):
+    """Accept every step."""
+    control._newton.stepped(time, mbs.systemData.GetODE2Coordinates_tt().tolist())
+    return [0.0, -1.0]
+
+
 @pytest.fixture
 def alternating_steps(monkeypatch):
     monkeypatch.setattr(StepControl, "_after_step", alternate)
-    monkeypatch.setattr(StepControl, "_after_newton", lambda control, mbs, time: [0.0, -1.0])
+    monkeypatch.setattr(StepControl, "_after_newton", accept)
 
 
 def ringing(scene):
@@ -55,9 +61,9 @@ def test_a_repeated_step_starts_as_its_first_try_did(monkeypatch):
 
     attach = FixedSteps.attach
 
-    def attach_failing(control, mbs, solver):
+    def attach_failing(control, mbs, solver, newton):
         mbs.SetPostNewtonUserFunction(fail_every_other)
-        attach(control, mbs, solver)
+        attach(control, mbs, solver, newton)
 
     monkeypatch.setattr(FixedSteps, "attach", attach_failing)
 
@@ -86,9 +92,9 @@ def test_fixed_steps_return_to_their_grid_after_a_halved_one(monkeypatch):
 
     attach = FixedSteps.attach
 
-    def attach_failing(control, mbs, solver):
+    def attach_failing(control, mbs, solver, newton):
         mbs.SetPostNewtonUserFunction(fail_one)
-        attach(control, mbs, solver)
+        attach(control, mbs, solver, newton)
 
     monkeypatch.setattr(FixedSteps, "attach", attach_failing)
     time = simulate(scene).time

@@ -34,7 +34,7 @@ def integrate(model: Model, *, quiet: bool = True) -> Outcome:
     with Progress("run", scene.duration, quiet=quiet) as progress:
         joints = overlay_of(mbs) if model.clearance_joints else None
         solver: Any = exu.MainSolverImplicitSecondOrder()  # whose type stub forgets `self`
-        mbs.sys["dynamicSolver"] = solver
+        mbs.sys["dynamicSolver"], mbs.sys["simulationSettings"] = solver, settings
         newton = Newton(mbs, solver, joints, scene.pin_speed)
         step_change = StepChange(mbs, solver, smooth=joints is None)
         if scene.flexible is not None:

@@ -38,6 +38,7 @@ def test_the_error_follows_the_tolerance():
     attempts = squeezer_attempts((), (1e-2, 1e-4, 1e-5, 1e-6))
     errors = [angle_error(attempt) for attempt in attempts]
     assert errors == sorted(errors, reverse=True)
+    assert errors[-1] < 0.1 * errors[0]
     for attempt, error in zip(attempts[1:], errors[1:], strict=True):
         assert error < 30.0 * attempt.value, "rad, of 15.8"
 

@@ -34,7 +34,11 @@ DIGITS = 4e-15
 
 
 class Newton:
-    """Extrapolates accelerations to the end of a step, and asks for no more than can be."""
+    """Extrapolates accelerations to the end of a step, and asks for no more than can be.
+
+    Attributes:
+        data: of the system, `mbs.systemData`; to ask for it costs as much as what it is asked.
+    """
 
     def __init__(
         self, mbs: exu.MainSystem, solver: Any, joints: JointOverlay | None, speed: float
@@ -47,7 +51,7 @@ class Newton:
             joints: its clearance joints, if it has any.
             speed: of its bodies, m/s.
         """
-        self._data: Any = mbs.systemData
+        self.data: Any = mbs.systemData
         self._solver, self._joints, self._speed = solver, joints, speed
         self._weights: tuple[float, float, float] | None = None
         self._start: float | None = None  # of the step under way, s
@@ -68,8 +72,8 @@ class Newton:
     def _before_residual(self, mbs: exu.MainSystem, time: float, iteration: int, _: int) -> None:
         if not iteration:
             if self._start is None:
-                before = self._data.GetODE2Coordinates_tt(START, False).tolist()
-                self.stepped(self._data.GetTime(START), before)
+                before = self.data.GetODE2Coordinates_tt(START, False).tolist()
+                self.stepped(self.data.GetTime(START), before)
             assert self._start is not None
             if time - self._start > SHORT:
                 self._advance(time - self._start)
@@ -91,7 +95,7 @@ class Newton:
             values = [a + ahead * rate for a, rate in zip(values, self._rate, strict=True)]
         expected = np.array(values)
         # as Newton's method adds an increment of them
-        data = self._data
+        data = self.data
         positions = data.GetODE2Coordinates(CURRENT, False)
         positions += (step * step * ratio * beta) * expected
         velocities = data.GetODE2Coordinates_t(CURRENT, False)

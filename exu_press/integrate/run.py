@@ -42,14 +42,12 @@ def integrate(model: Model, *, quiet: bool = True) -> Outcome:
         watch = Watch(progress, step_change.before_try, scene.solver.max_steps)
         mbs.SetPreStepUserFunction(watch.before_step)
         film_start = None if scene.film is None else step_change
-        control = _step_control(model, solver, film_start)
+        control = _step_control(model, solver, newton, film_start)
         if control is not None:
-            control.attach(mbs, solver, newton)
+            control.attach(mbs)
         else:
-            FixedSteps(
-                scene.duration / settings.timeIntegration.numberOfSteps,
-                film_start=film_start,
-            ).attach(mbs, solver, newton)
+            step = scene.duration / settings.timeIntegration.numberOfSteps
+            FixedSteps(step, solver, newton, film_start=film_start).attach(mbs)
         start = time.perf_counter()
         # matrices of a hundred rows: further threads only wait for each other
         with watch.catching_interrupts(), _silent_console(), threadpool_limits(1):
@@ -77,7 +75,9 @@ def integrate(model: Model, *, quiet: bool = True) -> Outcome:
     )
 
 
-def _step_control(model: Model, solver: Any, film_start: StepChange | None) -> StepControl | None:
+def _step_control(
+    model: Model, solver: Any, newton: Newton, film_start: StepChange | None
+) -> StepControl | None:
     """Return what makes the steps follow the scene's tolerance, if it has one."""
     scene, settings = model.scene, model.scene.solver
     assert settings is not None
@@ -85,6 +85,8 @@ def _step_control(model: Model, solver: Any, film_start: StepChange | None) -> S
         return None
     return StepControl(
         StepError(model, solver, settings.tolerance),
+        solver,
+        newton,
         duration=scene.duration,
         smallest=smallest_step(scene),
         largest=largest_step(scene),

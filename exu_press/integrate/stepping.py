@@ -48,6 +48,8 @@ class StepControl:
     def __init__(
         self,
         error: StepError,
+        solver: Any,
+        newton: Newton,
         *,
         duration: float,
         smallest: float,
@@ -59,6 +61,8 @@ class StepControl:
 
         Args:
             error: estimates the error of a step.
+            solver: an exu.MainSolverImplicitSecondOrder, whose steps these are.
+            newton: is told of every step's end.
             duration: end of the run, s.
             smallest: below it the run is given up, s.
             largest: s; also the mean step of Exudyn's own settings.
@@ -71,15 +75,13 @@ class StepControl:
         self._duration, self._smallest, self._largest = duration, smallest, largest
         self._next_corner = next_corner
         self._film_start = film_start
-        self._data: Any = None  # of the system
-        self._iteration: Any = None  # of the solver, which holds its step
-        self._newton: Newton | None = None  # is told of every step's end
+        self._iteration: Any = solver.it  # holds the step
+        self._newton, self._data = newton, newton.data
         usual = FIRST * largest
         self._step = max(usual if film_start is None else min(largest, FIRST_OF_FILM), smallest)
 
-    def attach(self, mbs: exu.MainSystem, solver: Any, newton: Newton) -> None:
-        """Let Exudyn ask this control after every Newton solve and every step of a solver."""
-        self._data, self._iteration, self._newton = mbs.systemData, solver.it, newton
+    def attach(self, mbs: exu.MainSystem) -> None:
+        """Let Exudyn ask this control after every Newton solve and every step."""
         mbs.SetPostNewtonUserFunction(self._after_newton)
         mbs.SetPostStepUserFunction(self._after_step)
 
@@ -100,7 +102,6 @@ class StepControl:
             self._step = step * (max(CHANGE[0], factor) if factor == factor else CHANGE[0])
             return [2.0, self._step]
         self._estimate.accept()
-        assert self._newton is not None
         self._newton.stepped(time, self._estimate.accelerations)
         if step >= 0.5 * self._step:  # else it was cut short by a corner or by the end
             self._step = step
@@ -130,20 +131,27 @@ class FixedSteps:
     step that Exudyn had to halve, steps double back to the grid.
     """
 
-    def __init__(self, step: float, *, film_start: StepChange | None) -> None:
-        """Take steps of a size, s; `film_start` starts the first one over."""
+    def __init__(
+        self, step: float, solver: Any, newton: Newton, *, film_start: StepChange | None
+    ) -> None:
+        """Take steps of a size, s.
+
+        Args:
+            step: s.
+            solver: an exu.MainSolverImplicitSecondOrder, whose steps these are.
+            newton: is told of every step's end.
+            film_start: starts the first one over.
+        """
         self._step = step
         self._film_start = film_start
-        self._data: Any = None  # of the system
-        self._iteration: Any = None  # of the solver, which holds its step
-        self._newton: Newton | None = None  # is told of every step's end
+        self._iteration: Any = solver.it  # holds the step
+        self._newton, self._data = newton, newton.data
         self._size = step if film_start is None else min(step, FIRST_OF_FILM)
         self._next = self._size
         self._time = 0.0
 
-    def attach(self, mbs: exu.MainSystem, solver: Any, newton: Newton) -> None:
-        """Let Exudyn ask after every step of a solver."""
-        self._data, self._iteration, self._newton = mbs.systemData, solver.it, newton
+    def attach(self, mbs: exu.MainSystem) -> None:
+        """Let Exudyn ask after every step."""
         mbs.SetPostStepUserFunction(self._after_step)
         if self._film_start is not None:
             mbs.SetPostNewtonUserFunction(self._after_newton)
@@ -158,7 +166,6 @@ class FixedSteps:
         """Set the next step."""
         h, done, before = self._step, time - self._time, self._next
         if done > 0.0:
-            assert self._newton is not None
             now = self._data.GetODE2Coordinates_tt(exu.ConfigurationType.Current, False)
             self._newton.stepped(time, now.tolist())
             halved = done < 0.99 * before

@@ -61,9 +61,9 @@ def test_a_repeated_step_starts_as_its_first_try_did(monkeypatch):
 
     attach = FixedSteps.attach
 
-    def attach_failing(control, mbs, solver, newton):
+    def attach_failing(control, mbs):
         mbs.SetPostNewtonUserFunction(fail_every_other)
-        attach(control, mbs, solver, newton)
+        attach(control, mbs)
 
     monkeypatch.setattr(FixedSteps, "attach", attach_failing)
 
@@ -92,9 +92,9 @@ def test_fixed_steps_return_to_their_grid_after_a_halved_one(monkeypatch):
 
     attach = FixedSteps.attach
 
-    def attach_failing(control, mbs, solver, newton):
+    def attach_failing(control, mbs):
         mbs.SetPostNewtonUserFunction(fail_one)
-        attach(control, mbs, solver, newton)
+        attach(control, mbs)
 
     monkeypatch.setattr(FixedSteps, "attach", attach_failing)
     time = simulate(scene).time

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from exudyn import graphics
 
-from exu_press.mechanism import GROUND, Mechanism
+from exu_press.mechanism import GROUND, Mechanism, Point
 from exu_press.mechanism.shapes import Shape, shapes_of, swept
 from exu_press.model import DRIVE, Model
 
@@ -30,7 +30,8 @@ def add_graphics(model: Model) -> None:
     shapes, layers = shapes_of(mechanism), _layers(mechanism)
     for name, shape in shapes.items():
         if name not in model.parts:
-            _show(model, name, [_solid(shape, layers[name] * thickness, thickness)])
+            outline = [model.rigid[name].local((x, y)) for x, y in shape.outline.tolist()]
+            _show(model, name, [_solid(outline, shape.colour, layers[name] * thickness, thickness)])
     if DRIVE in model.bodies:
         flange = float(model.parts[mechanism.crank].interface("flange").centre[2])
         disc = graphics.Cylinder([0.0, 0.0, flange], [0.0, 0.0, thickness], 0.05 * height, DISC)
@@ -48,15 +49,15 @@ def _show(model: Model, body: str, solids: list[Any]) -> None:
     model.mbs.SetObjectParameter(model.bodies[body], "VgraphicsData", solids)
 
 
-def _solid(shape: Shape, z: float, thickness: float) -> Any:
-    """Return a body's outline as a plate about the height z, m."""
-    count = len(shape.outline)
+def _solid(outline: list[Point], colour: str, z: float, thickness: float) -> Any:
+    """Return an outline as a plate about the height z, m."""
+    count = len(outline)
     return graphics.SolidExtrusion(
-        vertices=shape.outline.tolist(),
+        vertices=outline,
         segments=[[i, (i + 1) % count] for i in range(count)],
         height=0.9 * thickness,
         pOff=[0.0, 0.0, z - 0.45 * thickness],
-        color=_rgba(shape.colour),
+        color=_rgba(colour),
         addEdges=True,
     )
 

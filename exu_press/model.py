@@ -1,7 +1,7 @@
 """From a scene to an assembled Exudyn system: only what the scene uses is built."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -9,19 +9,16 @@ import exudyn as exu
 import numpy as np
 from exudyn.itemInterface import (
     LoadCoordinate,
-    LoadMassProportional,
-    MarkerBodyMass,
+    LoadForceVector,
     MarkerBodyRigid,
     MarkerNodeCoordinate,
     MarkerNodeCoordinates,
     NodePointGround,
-    NodeRigidBody2D,
     ObjectConnectorCoordinate,
     ObjectConnectorCoordinateSpringDamper,
     ObjectConnectorCoordinateVector,
     ObjectGround,
     ObjectJointRevolute2D,
-    ObjectRigidBody2D,
     SensorLoad,
     SensorNode,
     SensorObject,
@@ -35,8 +32,19 @@ from exu_press.joints import (
 )
 from exu_press.laws.blanking import blanking_force
 from exu_press.laws.friction import no_friction
-from exu_press.mechanism import GROUND, Guide, Joint, Mechanism, Motion, Spring, mechanism_of
+from exu_press.mechanism import (
+    GROUND,
+    Body,
+    Guide,
+    Joint,
+    Mechanism,
+    Motion,
+    Point,
+    Spring,
+    mechanism_of,
+)
 from exu_press.mechanism.kinematics import along, turning
+from exu_press.rigid import PivotedBody, RigidBody, SlidingBody
 from exu_press.scene import Scene
 from exu_press.scene.laws import asperity_onset, contact_law, film_law, friction_law
 
@@ -60,9 +68,9 @@ class Model:
         mbs: Exudyn's main system, assembled.
         bodies: name -> object number.
         nodes: name -> node number.
+        rigid: name -> rigid body.
         clearance_joints: name -> joint.
-        ideal_joints: name -> object number.
-        guides: name of the body -> object numbers of what holds x and, if held, the angle.
+        ideal_joints: name -> object number; those that hold a coordinate.
         drive: object number of the constraint that turns the crank.
         parts: name -> flexible body's part; empty for rigid bodies.
         sensors: (name, quantity) -> sensor number.
@@ -76,7 +84,7 @@ class Model:
     nodes: dict[str, int]
     clearance_joints: dict[str, ClearanceJoint]
     ideal_joints: dict[str, int]
-    guides: dict[str, tuple[int, ...]]
+    rigid: Mapping[str, RigidBody]
     drive: int
     sensors: dict[tuple[str, str], int]
     parts: Mapping[str, "ReducedPart"]
@@ -112,6 +120,7 @@ class _Builder:
         self.ground = int(self.mbs.AddObject(ObjectGround()))
         self.bodies = {GROUND: self.ground}
         self.nodes: dict[str, int] = {}
+        self.rigid: dict[str, RigidBody] = {}
         self.sensors: dict[tuple[str, str], int] = {}
         ground_node = self.mbs.AddNode(NodePointGround())
         self.still = self.mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=ground_node, coordinate=0))
@@ -125,26 +134,24 @@ class _Builder:
             if body.name in self.parts:
                 self._add_flexible_body(body.name, start)
                 continue
-            node = self.mbs.AddNode(
-                NodeRigidBody2D(
-                    name=body.name,
-                    referenceCoordinates=start.position[0],
-                    initialVelocities=start.velocity[0],
-                )
-            )
-            number = self.mbs.AddObject(
-                ObjectRigidBody2D(
-                    name=body.name, nodeNumber=node, mass=body.mass, inertia=body.inertia
-                )
-            )
-            self.nodes[body.name], self.bodies[body.name] = int(node), int(number)
+            self._add_rigid_body(body, start)
             if self.scene.gravity > 0.0:
-                self.mbs.AddLoad(
-                    LoadMassProportional(
-                        markerNumber=self.mbs.AddMarker(MarkerBodyMass(bodyNumber=number)),
-                        loadVector=[0.0, -self.scene.gravity, 0.0],
-                    )
-                )
+                weight = [0.0, -body.mass * self.scene.gravity, 0.0]
+                centre = self._marker(body.name, (0.0, 0.0))
+                self.mbs.AddLoad(LoadForceVector(markerNumber=centre, loadVector=weight))
+
+    def _add_rigid_body(self, body: Body, start: Motion) -> None:
+        """Add a rigid body with the coordinates that its ideal joints leave it."""
+        pivot = self.mechanism.pivoted.get(body.name)
+        if pivot is not None:
+            places = pivot.bearing_point, pivot.journal_point
+            added: RigidBody = PivotedBody(self.mbs, body, start, *places)
+        elif body.name in self.mechanism.sliding:
+            added = SlidingBody(self.mbs, body, start)
+        else:
+            added = RigidBody(self.mbs, body, start)
+        self.rigid[body.name] = added
+        self.bodies[body.name], self.nodes[body.name] = added.number, added.node
 
     def _add_flexible_body(self, name: str, start: Motion) -> None:
         """Add a flexible body; its frame lies where the solid's does, not in the centre of mass."""
@@ -176,19 +183,10 @@ class _Builder:
         """Hold crank and linkage in space; the crank is driven at its flange by a disc."""
         from exu_press.flexible import hold_crank, hold_linkage
 
-        disc = NodeRigidBody2D(
-            name=DRIVE,
-            referenceCoordinates=[0.0, 0.0, self.scene.start_angle],
-            initialVelocities=[0.0, 0.0, self.scene.angular_speed],
-        )
-        self.nodes[DRIVE] = int(self.mbs.AddNode(disc))
-        self.bodies[DRIVE] = int(
-            self.mbs.AddObject(
-                ObjectRigidBody2D(nodeNumber=self.nodes[DRIVE], mass=1.0, inertia=1.0)
-            )
-        )
-        for coordinate in (0, 1):
-            self._hold(DRIVE, coordinate)
+        start = turning(np.array([self.scene.start_angle]), self.scene.angular_speed, 0.0)
+        disc = PivotedBody(self.mbs, Body(DRIVE, 1.0, 1.0), start, (0.0, 0.0), (0.0, 0.0))
+        self.rigid[DRIVE] = disc
+        self.bodies[DRIVE], self.nodes[DRIVE] = disc.number, disc.node
         slide = self._marker("slide", (0.0, 0.0))
         hold_linkage(self.mbs, slide, self.flexible["linkage"])
         disc_marker = self._marker(DRIVE, (0.0, 0.0))
@@ -247,7 +245,9 @@ class _Builder:
 
     def add_guide(self, guide: Guide) -> tuple[int, ...]:
         """Hold a body's x and, if the guide does so, its angle, by constraints or springs."""
-        held = {0: guide.lateral, 2: guide.tilting} if guide.holds_angle else {0: guide.lateral}
+        held = {"x": guide.lateral}
+        if guide.holds_angle:
+            held["angle"] = guide.tilting
         return tuple(
             self._hold(guide.body, coordinate)
             if spring is None
@@ -258,7 +258,7 @@ class _Builder:
     def add_drive(self) -> int:
         """Turn the crank at constant speed, by a constraint on its angular velocity."""
         turned = DRIVE if self.flexible else self.mechanism.crank
-        return self._hold(turned, 2, velocityLevel=True, offset=self.scene.angular_speed)
+        return self._hold(turned, "angle", velocityLevel=True, offset=self.scene.angular_speed)
 
     def add_blanking(self) -> None:
         """Press the slider upwards once a revolution, at a place of the frame."""
@@ -273,17 +273,22 @@ class _Builder:
         def moment(mbs: exu.MainSystem, t: float, load: float) -> float:
             return pulse.eccentricity * force(mbs, t, load)
 
-        loads = {"force": (1, force)}
-        if pulse.eccentricity != 0.0:
-            loads["moment"] = (2, moment)
-        for quantity, (coordinate, load) in loads.items():
-            marker = self._coordinate(self.mechanism.slider, coordinate)
-            number = self.mbs.AddLoad(
-                LoadCoordinate(markerNumber=marker, load=0.0, loadUserFunction=load)
+        loads = {"y": force}
+        if pulse.eccentricity != 0.0 and "angle" in self.rigid[self.mechanism.slider].coordinates:
+            loads["angle"] = moment
+        numbers = [
+            self.mbs.AddLoad(
+                LoadCoordinate(
+                    markerNumber=self._coordinate(self.mechanism.slider, coordinate),
+                    load=0.0,
+                    loadUserFunction=load,
+                )
             )
-            self.sensors["blanking", quantity] = self.mbs.AddSensor(
-                SensorLoad(loadNumber=number, storeInternal=True)
-            )
+            for coordinate, load in loads.items()
+        ]
+        self.sensors["blanking", "force"] = self.mbs.AddSensor(
+            SensorLoad(loadNumber=numbers[0], storeInternal=True)
+        )
 
     def add_sensors(self, joints: dict[str, int], guides: dict[str, tuple[int, ...]]) -> None:
         """Record bodies' coordinates and the constraints' forces in memory, every step."""
@@ -320,14 +325,19 @@ class _Builder:
             for joint in self.mechanism.joints
             if joint.kind != "ideal"
         }
+        pivots = self.mechanism.pivoted.values()
         ideal = {
             joint.name: self.add_ideal_joint(joint)
             for joint in self.mechanism.joints
-            if joint.kind == "ideal" and not (joint.name == "shaft" and self.flexible)
+            if joint.kind == "ideal" and joint not in pivots
         }
         if self.flexible:
             ideal |= self.hold_flexible_bodies()
-        guides = {guide.body: self.add_guide(guide) for guide in self.mechanism.guides}
+        guides = {
+            guide.body: self.add_guide(guide)
+            for guide in self.mechanism.guides
+            if guide.body not in self.mechanism.sliding
+        }
         drive = self.add_drive()
         self.add_blanking()
         self.add_sensors(ideal | {"drive": drive}, guides)
@@ -339,28 +349,27 @@ class _Builder:
             mbs=self.mbs,
             bodies=self.bodies,
             nodes=self.nodes,
+            rigid=self.rigid,
             clearance_joints=clearance,
             ideal_joints=ideal,
-            guides=guides,
             drive=drive,
             sensors=self.sensors,
             parts=self.parts,
         )
 
-    def _marker(self, body: str, point: Sequence[float]) -> int:
+    def _marker(self, body: str, point: Point) -> int:
         """Add a marker on a rigid body."""
-        marker = MarkerBodyRigid(
-            bodyNumber=self.bodies[body], localPosition=[point[0], point[1], 0.0]
-        )
+        local = point if body == GROUND else self.rigid[body].local(point)
+        marker = MarkerBodyRigid(bodyNumber=self.bodies[body], localPosition=[*local, 0.0])
         return int(self.mbs.AddMarker(marker))
 
-    def _point(self, joint: Joint, body: str, point: Sequence[float]) -> int:
+    def _point(self, joint: Joint, body: str, point: Point) -> int:
         """Add a marker for a joint; on a flexible body it follows the interface's mean motion."""
         if body not in self.flexible:
             return self._marker(body, point)
         return self.flexible[body].add_point_marker(self.mbs, joint.name)
 
-    def _in_frame(self, body: str, point: Sequence[float]) -> tuple[float, float]:
+    def _in_frame(self, body: str, point: Point) -> Point:
         """Return a point given from the centre of mass in the frame of a flexible body's solid."""
         size = self.scene.press
         assert size is not None
@@ -368,10 +377,10 @@ class _Builder:
             return point[0], point[1] + size.crank_mass_offset
         return point[0] + size.linkage_mass_offset, point[1]
 
-    def _end(self, joint: Joint, body: str, point: Sequence[float]) -> Any:
+    def _end(self, joint: Joint, body: str, point: Point) -> Any:
         """Return what a clearance joint holds on to."""
         if body not in self.flexible:
-            return self.bodies[body], point
+            return self.bodies[body], self.rigid[body].local(point)
         from exu_press.flexible import FACES, joint_end
 
         face = FACES[body, joint.name]
@@ -387,9 +396,10 @@ class _Builder:
             (joint.journal, joint.journal_point),
             (joint.bearing, joint.bearing_point),
         ):
-            node = self.nodes[body]
-            markers.append(self.mbs.AddMarker(MarkerNodeCoordinates(nodeNumber=node)))
-            rows.append([[0.0, 1.0, x]])
+            rigid = self.rigid[body]
+            markers.append(self.mbs.AddMarker(MarkerNodeCoordinates(nodeNumber=rigid.node)))
+            moved = {"x": 0.0, "y": 1.0, "angle": x}
+            rows.append([[moved[coordinate] for coordinate in rigid.coordinates]])
         return int(
             self.mbs.AddObject(
                 ObjectConnectorCoordinateVector(
@@ -402,14 +412,13 @@ class _Builder:
             )
         )
 
-    def _coordinate(self, body: str, coordinate: int) -> int:
-        return int(
-            self.mbs.AddMarker(
-                MarkerNodeCoordinate(nodeNumber=self.nodes[body], coordinate=coordinate)
-            )
-        )
+    def _coordinate(self, body: str, coordinate: str) -> int:
+        rigid = self.rigid[body]
+        number = rigid.coordinates.index(coordinate)
+        marker = MarkerNodeCoordinate(nodeNumber=rigid.node, coordinate=number)
+        return int(self.mbs.AddMarker(marker))
 
-    def _hold(self, body: str, coordinate: int, **options: Any) -> int:
+    def _hold(self, body: str, coordinate: str, **options: Any) -> int:
         return int(
             self.mbs.AddObject(
                 ObjectConnectorCoordinate(
@@ -418,7 +427,7 @@ class _Builder:
             )
         )
 
-    def _spring(self, body: str, coordinate: int, spring: Spring) -> int:
+    def _spring(self, body: str, coordinate: str, spring: Spring) -> int:
         return int(
             self.mbs.AddObject(
                 ObjectConnectorCoordinateSpringDamper(

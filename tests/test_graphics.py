@@ -23,13 +23,22 @@ def test_every_body_is_seen(scene):
             assert len(item["VgraphicsData"]) >= 1, name
 
 
-def test_a_body_has_its_outline_in_its_own_frame():
+@pytest.mark.parametrize(
+    ("body", "axis", "low", "high"),
+    [
+        ("link_7_left", 0, -0.082, 0.082),  # both ends from the middle
+        ("link_6_left", 0, 0.0, 0.24),  # from the pivot that it turns about
+        ("plunger_left", 0, -0.275, 0.275),  # x upwards
+    ],
+)
+def test_a_body_has_its_outline_in_the_frame_of_exudyns_item(body, axis, low, high):
     model = build(Scene())
     add_graphics(model)
-    item = model.mbs.GetObject(model.bodies["link_6_left"], addGraphicsData=True)
+    item = model.mbs.GetObject(model.bodies[body], addGraphicsData=True)
     points = next(g["points"] for g in item["VgraphicsData"] if g["type"] == "TriangleList")
-    reach = max(abs(float(value)) for value in points.reshape(-1, 3)[:, 0])
-    assert 0.12 < reach < 0.15  # half of 0.24 m and a round end
+    along = points.reshape(-1, 3)[:, axis]
+    assert low - 0.05 < along.min() <= low
+    assert high <= along.max() < high + 0.05
 
 
 def test_a_run_makes_no_graphics():

@@ -149,7 +149,13 @@ def test_blanking_is_one_load_and_none_without_force():
     assert ("blanking", "force") in pressed.sensors
 
 
-def test_bodies_and_coordinates():
+def test_bodies_have_the_coordinates_that_their_ideal_joints_leave():
+    """Five bodies of the press slide, crank and two links turn about pivots, six are free."""
     press, slider_crank = build(), build(mechanism="slider_crank")
-    assert press.mbs.systemData.ODE2Size() == 3 * 14
-    assert slider_crank.mbs.systemData.ODE2Size() == 3 * 3
+    assert press.mbs.systemData.ODE2Size() == 5 + 3 + 6 * 3
+    assert slider_crank.mbs.systemData.ODE2Size() == 1 + 1 + 3
+    with_balls = build(crank_pin="ideal", balls="ideal")  # they hold the slider's angle
+    assert with_balls.mbs.systemData.ODE2Size() == 4 + 3 + 7 * 3
+    elastic = build(guide={})
+    assert elastic.mbs.systemData.ODE2Size() == 3 + 11 * 3
+    assert elastic.rigid["slider"].coordinates == ("x", "y", "angle")

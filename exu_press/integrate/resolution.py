@@ -120,13 +120,17 @@ def _inertia_forces(model: Model) -> tuple[Array, dict[str, Array]]:
     found = {}
     time = np.zeros(0)
     for body in model.mechanism.bodies:
-        number = model.sensors.get((body.name, "acceleration"))
-        if number is None or body.name in model.parts or body.name == model.mechanism.crank:
+        recorded = (body.name, "acceleration") in model.sensors
+        if not recorded or body.name in model.parts or body.name == model.mechanism.crank:
             continue
-        data = np.asarray(model.mbs.GetSensorStoredData(number))
-        time = data[:, 0]
+        q, q_t, q_tt = (
+            np.asarray(model.mbs.GetSensorStoredData(model.sensors[body.name, level]))
+            for level in ("position", "velocity", "acceleration")
+        )
+        time = q[:, 0]
+        motion = model.rigid[body.name].motion(q[:, 1:], q_t[:, 1:], q_tt[:, 1:])
         root = math.sqrt(body.inertia * body.mass)
-        found[body.name] = data[:, 1:] * (body.mass, body.mass, root)
+        found[body.name] = motion.acceleration * (body.mass, body.mass, root)
     return time, found
 
 

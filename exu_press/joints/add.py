@@ -1,5 +1,6 @@
 """The joints for anybody's Exudyn system: two bodies, two points, and the laws between them."""
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -195,21 +196,45 @@ def _in_plane(mbs: exu.MainSystem, point: BodyPoint) -> bool:
     if isinstance(point, FlexiblePoint):
         return False
     kind = mbs.GetObject(point[0])["objectType"]
-    return kind == "RigidBody2D" or (kind == "Ground" and (len(point[1]) < 3 or point[1][2] == 0))
+    planar = kind in ("RigidBody2D", "Mass1D", "RotationalMass1D")
+    return planar or (kind == "Ground" and (len(point[1]) < 3 or point[1][2] == 0))
 
 
 def _planar_end(mbs: exu.MainSystem, point: BodyPoint) -> PlanarEnd:
-    """Return the end on a planar body or the ground."""
+    """Return the end on a planar body or the ground.
+
+    Raises:
+        InputError: a body of one coordinate is tilted, or moves neither along x nor along y.
+    """
     assert not isinstance(point, FlexiblePoint)
     body, place = point
     item = mbs.GetObject(body)
     local = (float(place[0]), float(place[1]))
+    overlay = overlay_of(mbs)
+    still = overlay.index_of(None)
+    places = still, still + 1, still + 2
     if item["objectType"] == "Ground":
         x, y, _ = (float(value) for value in item["referencePosition"])
-        return PlanarEnd(overlay_of(mbs).index_of(None), (x, y, 0.0), local)
+        return PlanarEnd(places, (x, y, 0.0), local)
     node = int(item["nodeNumber"])
-    x, y, angle = (float(v) for v in mbs.GetNodeParameter(node, "referenceCoordinates"))
-    return PlanarEnd(overlay_of(mbs).index_of(node), (x, y, angle), local)
+    first = overlay.index_of(node)
+    start = [float(v) for v in mbs.GetNodeParameter(node, "referenceCoordinates")]
+    if item["objectType"] == "RigidBody2D":
+        x, y, angle = start
+        return PlanarEnd((first, first + 1, first + 2), (x, y, angle), local)
+    turn = np.array(item["referenceRotation"])
+    if turn[2, 2] != 1.0:
+        raise InputError(f"body {body} is tilted: allowed in the plane is its z along the global z")
+    x, y, _ = (float(value) for value in item["referencePosition"])
+    angle = math.atan2(turn[1, 0], turn[0, 0])
+    if item["objectType"] == "RotationalMass1D":
+        return PlanarEnd((places[0], places[1], first), (x, y, angle + start[0]), local)
+    reference = x + start[0] * float(turn[0, 0]), y + start[0] * float(turn[1, 0]), angle
+    if tuple(turn[:2, 0]) == (1.0, 0.0):
+        return PlanarEnd((first, places[1], places[2]), reference, local)
+    if tuple(turn[:2, 0]) == (0.0, 1.0):
+        return PlanarEnd((places[0], first, places[2]), reference, local)
+    raise InputError(f"body {body} moves at {math.degrees(angle):g} deg: allowed are 0 (x), 90 (y)")
 
 
 def _end(mbs: exu.MainSystem, point: BodyPoint) -> BodyEnd:
@@ -231,8 +256,9 @@ def _end(mbs: exu.MainSystem, point: BodyPoint) -> BodyEnd:
         rigid, modal = int(item["nodeNumber"]), None
     else:
         raise InputError(
-            f"body {body} is a {kind}: allowed are RigidBody, RigidBody2D and Ground with a point "
-            "of theirs, and FFRFreducedOrder with a FlexiblePoint"
+            f"body {body} is a {kind}: allowed are RigidBody, RigidBody2D, Ground and, between "
+            "bodies in the plane, Mass1D and RotationalMass1D with a point of theirs, and "
+            "FFRFreducedOrder with a FlexiblePoint"
         )
     node_kind = mbs.GetNode(rigid)["nodeType"]
     if node_kind not in NODES:

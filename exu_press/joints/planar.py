@@ -15,12 +15,13 @@ class PlanarEnd:
     """A point of a planar body.
 
     Attributes:
-        index: where the body's coordinates (x, y, angle) start among those of the joint's item.
+        places: where the body's x, y and angle lie among the coordinates of the joint's item; what
+            is held still lies where the ground's do.
         reference: their reference values, m and rad.
         point: the point in the body's frame, m.
     """
 
-    index: int
+    places: tuple[int, int, int]
     reference: tuple[float, float, float]
     point: tuple[float, float]
 
@@ -39,7 +40,8 @@ class PlanarJoint(PairedJoint):
         super().__init__(pairs)
         self.journal = journal
         self.bearing = bearing
-        self.places = [end.index + c for end in (journal, bearing) for c in range(3)]
+        self.places = [*journal.places, *bearing.places]
+        self._places = (*journal.places, *bearing.places)
         self._length_j, self._angle_j = journal.polar
         self._length_b, self._angle_b = bearing.polar
         self._far = journal.reference[0] - bearing.reference[0]
@@ -49,15 +51,15 @@ class PlanarJoint(PairedJoint):
 
     def add_force(self, q: list[float], q_t: list[float], out: list[float]) -> None:
         """Add the joint's generalised forces to `out`."""
-        j, b = self.journal.index, self.bearing.index
-        turned_j, turned_b = self._angle_j + q[j + 2], self._angle_b + q[b + 2]
+        x_j, y_j, turn_j, x_b, y_b, turn_b = self._places
+        turned_j, turned_b = self._angle_j + q[turn_j], self._angle_b + q[turn_b]
         j_x, j_y = self._length_j * cos(turned_j), self._length_j * sin(turned_j)
         b_x, b_y = self._length_b * cos(turned_b), self._length_b * sin(turned_b)
-        w_j, w_b = q_t[j + 2], q_t[b + 2]
-        x = q[j] - q[b] + self._far + j_x - b_x
-        y = q[j + 1] - q[b + 1] + self._high + j_y - b_y
-        u = q_t[j] - q_t[b] - w_j * j_y + w_b * b_y
-        v = q_t[j + 1] - q_t[b + 1] + w_j * j_x - w_b * b_x
+        w_j, w_b = q_t[turn_j], q_t[turn_b]
+        x = q[x_j] - q[x_b] + self._far + j_x - b_x
+        y = q[y_j] - q[y_b] + self._high + j_y - b_y
+        u = q_t[x_j] - q_t[x_b] - w_j * j_y + w_b * b_y
+        v = q_t[y_j] - q_t[y_b] + w_j * j_x - w_b * b_x
         e = sqrt(x * x + y * y)
         n_x, n_y = (x / e, y / e) if e > 0.0 else (1.0, 0.0)
         self._directions = n_x, n_y, j_x, j_y, b_x, b_y
@@ -65,12 +67,12 @@ class PlanarJoint(PairedJoint):
             if load is not None:
                 f_n, f_t, m_j, m_b, _ = load
                 f_x, f_y = f_n * n_x - f_t * n_y, f_n * n_y + f_t * n_x
-                out[j] += f_x
-                out[j + 1] += f_y
-                out[j + 2] += m_j + j_x * f_y - j_y * f_x
-                out[b] -= f_x
-                out[b + 1] -= f_y
-                out[b + 2] += m_b - b_x * f_y + b_y * f_x
+                out[x_j] += f_x
+                out[y_j] += f_y
+                out[turn_j] += m_j + j_x * f_y - j_y * f_x
+                out[x_b] -= f_x
+                out[y_b] -= f_y
+                out[turn_b] += m_b - b_x * f_y + b_y * f_x
 
     def jacobian(self, by_q: float, by_q_t: float) -> list[float] | None:
         """Return -(by_q dQ/dq + by_q_t dQ/dq_t) at the state of the last `add_force`.

@@ -3,7 +3,7 @@
 import numpy as np
 
 from exu_press.errors import InputError
-from exu_press.mechanism.description import GROUND, Body, Guide, Joint, Mechanism, Spring
+from exu_press.mechanism.description import GROUND, Body, Guide, Joint, Mechanism, Point, Spring
 from exu_press.mechanism.kinematics import AssemblyError, Motion
 from exu_press.mechanism.press import press
 from exu_press.mechanism.slider_crank import slider_crank
@@ -16,6 +16,7 @@ __all__ = [
     "Joint",
     "Mechanism",
     "Motion",
+    "Point",
     "Spring",
     "check_assembly",
     "mechanism_of",

@@ -93,6 +93,22 @@ class Mechanism:
     slider_origin: float
     motion: Callable[[Array, float], Mapping[str, Motion]]
 
+    @property
+    def sliding(self) -> frozenset[str]:
+        """Names of the bodies that an ideal guide leaves nothing but their height."""
+        return frozenset(
+            guide.body for guide in self.guides if guide.holds_angle and guide.lateral is None
+        )
+
+    @property
+    def pivoted(self) -> dict[str, Joint]:
+        """Bodies on an ideal pivot of the frame -> that joint, whose journal is theirs."""
+        return {
+            joint.journal: joint
+            for joint in self.joints
+            if joint.bearing == GROUND and joint.kind == "ideal"
+        }
+
     def ideal_slider(self, angle: Array, speed: float) -> tuple[Array, Array, Array]:
         """Return position (m), velocity and acceleration of the slider with ideal joints."""
         slider = self.motion(angle, speed)[self.slider]

@@ -27,7 +27,8 @@ def record_parts(model: Model, time: Array) -> tuple[dict[str, Channel], Array, 
     channels: dict[str, Channel] = {}
     stored, dissipated = np.zeros_like(time), np.zeros_like(time)
     for name, part in model.parts.items():
-        position, velocity, _ = body_motion(model, name)
+        motion = body_motion(model, name)
+        position, velocity = motion.position, motion.velocity
         q, q_t = modal(model, name, part, len(time))
         strain = 0.5 * (q**2) @ np.diag(part.stiffness_matrix)
         stored += _rigid_energy(part, position, velocity, model.scene.gravity)

@@ -10,18 +10,13 @@ from exu_press.model import Model
 from exu_press.result.motion import sensor
 from exu_press.result.result import Channel
 
-__all__ = ["frame_force", "guide_channel", "held_forces", "vectors"]
+__all__ = ["frame_force", "guide_channel", "guide_channels", "held_forces", "vectors"]
 
 Array = NDArray[np.float64]
 
-LOADS = {
-    "force": ("N", "blanking force on the slider, upwards"),
-    "moment": ("N m", "blanking moment on the slider, counter-clockwise"),
-}
-
 
 def held_forces(model: Model) -> dict[str, Channel]:
-    """Return the forces of drive, load, guides and ideal joints."""
+    """Return the forces of drive, load, ideal joints and guides that hold a coordinate."""
     spherical = {joint.name for joint in model.mechanism.joints if joint.spherical}
     channels = {}
     for name, quantity in model.sensors:
@@ -32,14 +27,10 @@ def held_forces(model: Model) -> dict[str, Channel]:
         if name == "drive":
             channels["drive_torque"] = Channel(-values[:, 0], "N m", "torque that turns the crank")
         elif name == "blanking":
-            channels[f"blanking_{quantity}"] = Channel(values[:, 0], *LOADS[quantity])
+            channels |= _load(model, values[:, 0])
         elif name.endswith("_guide"):
-            shown = guide_channel(model, name.removesuffix("_guide"))
-            unit = "N" if quantity == "force" else "N m"
-            along = "to the right" if quantity == "force" else "counter-clockwise"
-            channels[f"{shown}_{quantity}"] = Channel(
-                -values[:, 0], unit, f"{in_words}: {quantity} on the body, {along}"
-            )
+            body = name.removesuffix("_guide")
+            channels |= guide_channels(model, body, {quantity: -values[:, 0]})
         else:
             if values.shape[1] == 1:  # held vertically alone
                 values = np.column_stack([np.zeros(len(values)), values])
@@ -65,6 +56,30 @@ def frame_force(model: Model, channels: Mapping[str, Channel]) -> Channel:
 def guide_channel(model: Model, body: str) -> str:
     """Return what the channels of a body's guide begin with; the slider's is the guide."""
     return "guide" if body == model.mechanism.slider else f"{body}_guide"
+
+
+def guide_channels(model: Model, body: str, loads: Mapping[str, Array]) -> dict[str, Channel]:
+    """Return the channels of what a guide does to its body: "force" (N) and "moment" (N m)."""
+    units = {"force": ("N", "to the right"), "moment": ("N m", "counter-clockwise")}
+    shown, in_words = guide_channel(model, body), f"{body.replace('_', ' ')} guide"
+    found = {}
+    for quantity, values in loads.items():
+        unit, along = units[quantity]
+        words = f"{in_words}: {quantity} on the body, {along}"
+        found[f"{shown}_{quantity}"] = Channel(values, unit, words)
+    return found
+
+
+def _load(model: Model, force: Array) -> dict[str, Channel]:
+    """Return the channels of the blanking force and, if it acts beside the middle, its moment."""
+    pulse = model.scene.blanking
+    assert pulse is not None
+    found = {"blanking_force": Channel(force, "N", "blanking force on the slider, upwards")}
+    if pulse.eccentricity != 0.0:
+        found["blanking_moment"] = Channel(
+            pulse.eccentricity * force, "N m", "blanking moment on the slider, counter-clockwise"
+        )
+    return found
 
 
 def vectors(values: Array, unit: str, words: str, spherical: bool) -> Channel:

@@ -1,33 +1,41 @@
 """What clearance joints do: eccentricity, force, losses."""
 
+from collections.abc import Mapping, Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.joints import history, overlay_of
+from exu_press.joints import JointState, history, overlay_of
 from exu_press.model import Model
 from exu_press.result.energy import work
 from exu_press.result.forces import vectors
 from exu_press.result.motion import sensor
 from exu_press.result.result import Channel
 
-__all__ = ["record_joints"]
+__all__ = ["joint_states", "record_joints"]
 
 Array = NDArray[np.float64]
 
 
-def record_joints(model: Model, time: Array) -> tuple[dict[str, Channel], Array, Array]:
-    """Return the channels of the clearance joints, their stored and their dissipated energy, J."""
-    channels: dict[str, Channel] = {}
-    stored, dissipated = np.zeros_like(time), np.zeros_like(time)
+def joint_states(model: Model, time: Array) -> dict[str, list[JointState]]:
+    """Return what every clearance joint did at the recorded instants."""
     if not model.clearance_joints:
-        return channels, stored, dissipated
+        return {}
     names = {number: name for name, number in model.nodes.items()}
     q, q_t = (
         np.hstack([sensor(model, names[node], level) for node in overlay_of(model.mbs).nodes])
         for level in ("position", "velocity")
     )
-    for name, joint in model.clearance_joints.items():
-        states = history(joint, time, q, q_t)
+    return {name: history(joint, time, q, q_t) for name, joint in model.clearance_joints.items()}
+
+
+def record_joints(
+    histories: Mapping[str, Sequence[JointState]], time: Array
+) -> tuple[dict[str, Channel], Array, Array]:
+    """Return the channels of the clearance joints, their stored and their dissipated energy, J."""
+    channels: dict[str, Channel] = {}
+    stored, dissipated = np.zeros_like(time), np.zeros_like(time)
+    for name, states in histories.items():
         spherical = name.startswith("ball")
         elastic = np.array([state.stored_energy for state in states])
         loads = np.array([state.force + state.moments for state in states])

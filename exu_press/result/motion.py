@@ -3,6 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from exu_press.mechanism import Motion
 from exu_press.model import Model
 
 __all__ = ["body_motion", "point_acceleration", "sensor"]
@@ -16,7 +17,7 @@ def sensor(model: Model, name: str, quantity: str, *, with_time: bool = False) -
     return data if with_time else data[:, 1:]
 
 
-def body_motion(model: Model, name: str) -> tuple[Array, Array, Array]:
+def body_motion(model: Model, name: str) -> Motion:
     """Return position, velocity and acceleration (x, y, angle) of a body's frame, each (n, 3).
 
     The frame sits in the centre of mass, but for flexible bodies, where it is the solid's.
@@ -24,15 +25,15 @@ def body_motion(model: Model, name: str) -> tuple[Array, Array, Array]:
     position, velocity, acceleration = (
         sensor(model, name, level) for level in ("position", "velocity", "acceleration")
     )
+    if name in model.rigid:
+        return model.rigid[name].motion(position, velocity, acceleration)
     position = position + model.mbs.GetNodeParameter(model.nodes[name], "referenceCoordinates")
-    if position.shape[1] == 3:
-        return position, velocity, acceleration
     turn = position[:, 3:]  # Euler parameters
     angle = np.unwrap(2.0 * np.arctan2(turn[:, 3], turn[:, 0]))
     about_z = 2.0 * np.column_stack([-turn[:, 3], -turn[:, 2], turn[:, 1], turn[:, 0]])
     start = model.scene.start_angle if name == model.mechanism.crank else angle[0]
     angle += 2.0 * np.pi * np.round((start - angle[0]) / (2.0 * np.pi))
-    return (
+    return Motion(
         np.column_stack([position[:, :2], angle]),
         np.column_stack([velocity[:, :2], (about_z * velocity[:, 3:]).sum(axis=1)]),
         np.column_stack([acceleration[:, :2], (about_z * acceleration[:, 3:]).sum(axis=1)]),

@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 from exu_press.integrate import Outcome
 from exu_press.model import DRIVE, Model
 from exu_press.result.energy import mechanical_energy, work
+from exu_press.result.equilibrium import equilibrium
 from exu_press.result.flexible import record_parts, worst_stress
 from exu_press.result.forces import frame_force, held_forces
 from exu_press.result.guides import record_guides
-from exu_press.result.joints import record_joints
+from exu_press.result.joints import joint_states, record_joints
 from exu_press.result.momentum import shaking_forces
 from exu_press.result.motion import body_motion, sensor
 from exu_press.result.result import Channel, Result
@@ -28,11 +29,12 @@ def record(model: Model, outcome: Outcome) -> Result:
     """Return the result of an integrated model."""
     scene, mechanism = model.scene, model.mechanism
     time = sensor(model, mechanism.slider, "position", with_time=True)[:, 0]
-    poses = [body_motion(model, body.name) for body in mechanism.bodies]
+    motions = {body.name: body_motion(model, body.name) for body in mechanism.bodies}
+    names = list(motions)
     position, velocity, acceleration = (
-        np.stack(level, axis=1) for level in zip(*poses, strict=True)
+        np.stack([getattr(motion, level) for motion in motions.values()], axis=1)
+        for level in ("position", "velocity", "acceleration")
     )
-    names = [body.name for body in mechanism.bodies]
     slider, crank = names.index(mechanism.slider), names.index(mechanism.crank)
     channels = {
         "time": Channel(time, "s", "time"),
@@ -47,7 +49,10 @@ def record(model: Model, outcome: Outcome) -> Result:
         "slider_lateral": Channel(position[:, slider, 0], "m", "slider beside its guide, right"),
         "slider_tilt": Channel(position[:, slider, 2], "rad", "slider tilt, counter-clockwise"),
     }
+    states = joint_states(model, time)
+    in_joints, stored_in_joints, lost_in_joints = record_joints(states, time)
     channels |= held_forces(model)
+    channels |= equilibrium(model, motions, channels | in_joints, states)
     channels["frame_force"] = frame_force(model, channels)
     channels |= shaking_forces(model, acceleration)
     rigid = [index for index, name in enumerate(names) if name not in model.parts]
@@ -61,12 +66,12 @@ def record(model: Model, outcome: Outcome) -> Result:
     for more, kept, lost in (
         record_guides(model, time, position, velocity),
         record_parts(model, time),
-        record_joints(model, time),
+        (in_joints, stored_in_joints, lost_in_joints),
     ):
         channels |= more
         stored += kept
         dissipated += lost
-    turned = body_motion(model, DRIVE if DRIVE in model.nodes else mechanism.crank)[1][:, 2]
+    turned = body_motion(model, DRIVE if DRIVE in model.nodes else mechanism.crank).velocity[:, 2]
     torque = channels["drive_torque"].values
     driven = work(time, torque, turned)
     for load, column in (("blanking_force", 1), ("blanking_moment", 2)):

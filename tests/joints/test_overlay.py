@@ -289,7 +289,7 @@ def test_other_bodies_are_refused():
     node = bodies.mbs.AddNode(exu.itemInterface.NodePoint2D(referenceCoordinates=[0.0, 0.0]))
     point = bodies.mbs.AddObject(ObjectMassPoint2D(mass=1.0, nodeNumber=node))
     with pytest.raises(
-        InputError, match="MassPoint2D: allowed are RigidBody, RigidBody2D and Ground"
+        InputError, match="MassPoint2D: allowed are RigidBody, RigidBody2D, Ground and"
     ):
         add_joint("dry", bodies.mbs, (body, (0.0, 0.0)), (point, (0.0, 0.0)))
 

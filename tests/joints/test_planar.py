@@ -72,7 +72,7 @@ def random_joint(pairs, rng):
     for index in (0, 3):
         reference = tuple(rng.uniform(-0.2, 0.2) for _ in range(3))
         point = (rng.uniform(-0.2, 0.2), rng.uniform(-0.2, 0.2))
-        ends.append(PlanarEnd(index, reference, point))
+        ends.append(PlanarEnd((index, index + 1, index + 2), reference, point))
         points.append(point)
     joint = PlanarJoint(*ends, pairs)
     q = [rng.uniform(-0.1, 0.1) for _ in range(6)]
@@ -100,7 +100,7 @@ def turned(vector):
 def places(joint, q):
     """Positions of the two bodies' frames."""
     return [
-        np.array(end.reference[:2]) + q[end.index : end.index + 2]
+        np.array(end.reference[:2]) + np.take(q, end.places[:2])
         for end in (joint.journal, joint.bearing)
     ]
 
@@ -109,7 +109,7 @@ def centres(joint, q):
     """Positions of journal and bearing, written anew."""
     found = []
     for end, place in zip((joint.journal, joint.bearing), places(joint, q), strict=True):
-        angle = end.reference[2] + q[end.index + 2]
+        angle = end.reference[2] + q[end.places[2]]
         along, across = end.point
         found.append(place + along * unit(angle) + across * turned(unit(angle)))
     return found
@@ -221,8 +221,8 @@ def test_jacobian_against_differences(pairs, factors):
 
 
 def test_no_jacobian_where_nothing_acts():
-    end = PlanarEnd(0, (0.0, 0.0, 0.0), (0.0, 0.0))
-    joint = PlanarJoint(end, PlanarEnd(3, (0.0, 0.0, 0.0), (0.0, 0.0)), [dry(STEADY)])
+    end = PlanarEnd((0, 1, 2), (0.0, 0.0, 0.0), (0.0, 0.0))
+    joint = PlanarJoint(end, PlanarEnd((3, 4, 5), (0.0, 0.0, 0.0), (0.0, 0.0)), [dry(STEADY)])
     assert not forces(joint, [0.0] * 6, [0.0] * 6).any()
     assert joint.jacobian(1.0, 1.0) is None
 
@@ -230,8 +230,8 @@ def test_no_jacobian_where_nothing_acts():
 @pytest.mark.parametrize("pairs", FILMS.values(), ids=FILMS)
 def test_centred_journal_has_finite_forces(pairs):
     """Every run starts there."""
-    end = PlanarEnd(0, (0.0, 0.0, 0.0), (0.0, 0.0))
-    joint = PlanarJoint(end, PlanarEnd(3, (0.0, 0.0, 0.0), (0.0, 0.0)), pairs())
+    end = PlanarEnd((0, 1, 2), (0.0, 0.0, 0.0), (0.0, 0.0))
+    joint = PlanarJoint(end, PlanarEnd((3, 4, 5), (0.0, 0.0, 0.0), (0.0, 0.0)), pairs())
     for q_t in ([0.0] * 6, [0.01, 0.02, 25.0, 0.0, 0.0, 3.0]):
         assert np.all(np.isfinite(forces(joint, [0.0] * 6, q_t)))
         assert np.all(np.isfinite(joint.jacobian(1.0, 1e4)))

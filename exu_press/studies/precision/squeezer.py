@@ -22,11 +22,9 @@ from exudyn.itemInterface import (
     LoadTorqueVector,
     MarkerBodyPosition,
     MarkerBodyRigid,
-    NodeRigidBody2D,
     ObjectConnectorSpringDamper,
     ObjectGround,
     ObjectJointRevolute2D,
-    ObjectRigidBody2D,
     SensorNode,
 )
 
@@ -34,6 +32,7 @@ from exu_press.integrate import Status, integrate
 from exu_press.mechanism import Body, Mechanism
 from exu_press.mechanism.kinematics import Motion
 from exu_press.model import Model
+from exu_press.rigid import RigidBody
 from exu_press.scene import Scene
 from exu_press.scene.tables import SliderCrank, Solver
 from exu_press.studies.precision.errors import Errors
@@ -168,16 +167,14 @@ def _build(solver: Solver) -> Model:
     container = exu.SystemContainer()
     mbs = container.AddSystem()
     ground = mbs.AddObject(ObjectGround())
-    objects, nodes = {"frame": ground}, {}
-    bodies = []
+    objects, nodes, rigid = {"frame": ground}, {}, {}
+    bodies, still = [], np.zeros((1, 3))
     places = _start_places()
     for number, (place, mass, inertia) in enumerate(zip(places, MASS, INERTIA, strict=True), 1):
         name = str(number)
-        nodes[name] = int(mbs.AddNode(NodeRigidBody2D(referenceCoordinates=place)))
-        objects[name] = mbs.AddObject(
-            ObjectRigidBody2D(nodeNumber=nodes[name], mass=mass, inertia=inertia)
-        )
         bodies.append(Body(name, mass, inertia))
+        rigid[name] = RigidBody(mbs, bodies[-1], Motion(np.array([place]), still, still))
+        nodes[name], objects[name] = rigid[name].node, rigid[name].number
 
     bodies_by_number = list(objects.values())
 
@@ -228,9 +225,9 @@ def _build(solver: Solver) -> Model:
         mbs=mbs,
         bodies=objects,
         nodes=nodes,
+        rigid=rigid,
         clearance_joints={},
         ideal_joints={},
-        guides={},
         drive=-1,
         sensors=recorded,
         parts={},

@@ -1,0 +1,77 @@
+"""What ideal guides and pivots hold their bodies with: the equilibrium of all that acts on these.
+
+Such a body has one coordinate (see `exu_press/rigid.py`), so that no constraint tells the force.
+"""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exu_press.joints import JointState
+from exu_press.mechanism import Motion
+from exu_press.model import Model
+from exu_press.result.forces import guide_channels, vectors
+from exu_press.result.result import Channel
+
+__all__ = ["equilibrium"]
+
+Array = NDArray[np.float64]
+
+
+def equilibrium(
+    model: Model,
+    motions: Mapping[str, Motion],
+    channels: Mapping[str, Channel],
+    states: Mapping[str, Sequence[JointState]],
+) -> dict[str, Channel]:
+    """Return force and moment of the guides, and the pivots' forces on the journals.
+
+    Args:
+        model: integrated.
+        motions: of every body.
+        channels: with the load and the forces of all joints that hold a coordinate or have
+            clearance.
+        states: what each clearance joint did; ideal ones have no moment.
+    """
+    found: dict[str, Channel] = {}
+    for name in sorted(model.mechanism.sliding):
+        force, moment = _applied(model, name, motions[name], channels, states)
+        found |= guide_channels(model, name, {"force": -force[:, 0], "moment": -moment})
+    masses = {body.name: body.mass for body in model.mechanism.bodies}
+    for name, joint in model.mechanism.pivoted.items():
+        if name in model.rigid:
+            applied, _ = _applied(model, name, motions[name], channels, states)
+            weight = np.array([0.0, -masses[name] * model.scene.gravity])
+            force = masses[name] * motions[name].acceleration[:, :2] - applied - weight
+            words = f"{joint.name.replace('_', ' ')}: force on journal"
+            found[f"{joint.name}_force"] = vectors(force, "N", words, spherical=False)
+    return found
+
+
+def _applied(
+    model: Model,
+    name: str,
+    motion: Motion,
+    channels: Mapping[str, Channel],
+    states: Mapping[str, Sequence[JointState]],
+) -> tuple[Array, Array]:
+    """Return force, (n, 2), and moment about its centre, (n,), of joints and load on a body."""
+    angle = motion.position[:, 2]
+    force, moment = np.zeros((len(angle), 2)), np.zeros(len(angle))
+    for joint in model.mechanism.joints:
+        key = f"{joint.name}_force"
+        ends = (joint.journal, joint.journal_point, 1.0), (joint.bearing, joint.bearing_point, -1.0)
+        for end, (body, (x, y), sign) in enumerate(ends):
+            if body == name and key in channels:
+                on_body = sign * channels[key].values[:, :2]
+                arm_x = x * np.cos(angle) - y * np.sin(angle)
+                arm_y = x * np.sin(angle) + y * np.cos(angle)
+                force += on_body
+                moment += arm_x * on_body[:, 1] - arm_y * on_body[:, 0]
+                moment += [state.moments[end] for state in states.get(joint.name, ())] or 0.0
+    if name == model.mechanism.slider:
+        for load, values in (("blanking_force", force[:, 1]), ("blanking_moment", moment)):
+            if load in channels:
+                values += channels[load].values
+    return force, moment

@@ -1,0 +1,153 @@
+"""Joints hold on to bodies of one coordinate as to bodies that constraints hold."""
+
+import math
+
+import exudyn as exu
+import numpy as np
+import pytest
+from exudyn.itemInterface import (
+    MarkerNodeCoordinate,
+    Node1D,
+    NodePointGround,
+    NodeRigidBody2D,
+    ObjectConnectorCoordinate,
+    ObjectMass1D,
+    ObjectRigidBody2D,
+    ObjectRotationalMass1D,
+    SensorNode,
+)
+
+from exu_press import InputError, add_dry_revolute
+from exu_press.joints import overlay_of
+from exu_press.laws.contact import hertz, step_damping
+from exu_press.laws.friction import lugre_steady
+
+MASS, INERTIA = 4.0, 0.02
+POINT = (0.1, 0.05)
+SPEED = 0.3
+UPWARDS = [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
+ALONG = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+OBLIQUE = [[0.6, -0.8, 0.0], [0.8, 0.6, 0.0], [0.0, 0.0, 1.0]]
+TILTED = [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]
+
+
+class OneJoint:
+    """A body that may only slide or turn, and a free one whose bearing its journal sits in."""
+
+    def __init__(self):
+        self.SC = exu.SystemContainer()
+        self.mbs = self.SC.AddSystem()
+
+    def slide(self, rotation, start=0.02):
+        """A body of one coordinate; returns body, journal point in its frame, and node."""
+        node = self.mbs.AddNode(Node1D(referenceCoordinates=[start], initialVelocities=[SPEED]))
+        item = ObjectMass1D(
+            nodeNumber=node,
+            mass=MASS,
+            referencePosition=[0.3, 0.2, 0.0],
+            referenceRotation=rotation,
+        )
+        local = np.array(rotation).T @ [*POINT, 0.0]
+        return self.mbs.AddObject(item), (float(local[0]), float(local[1])), node
+
+    def turn(self, angle=0.4):
+        node = self.mbs.AddNode(Node1D(referenceCoordinates=[angle], initialVelocities=[3.0]))
+        item = ObjectRotationalMass1D(
+            nodeNumber=node, inertia=INERTIA, referencePosition=[0.3, 0.2, 0.0]
+        )
+        return self.mbs.AddObject(item), POINT, node
+
+    def planar(self, place, velocity):
+        node = self.mbs.AddNode(
+            NodeRigidBody2D(referenceCoordinates=place, initialVelocities=velocity)
+        )
+        body = self.mbs.AddObject(ObjectRigidBody2D(nodeNumber=node, mass=MASS, inertia=INERTIA))
+        return body, node
+
+    def held(self, place, velocity, coordinates):
+        body, node = self.planar(place, velocity)
+        ground = self.mbs.AddMarker(
+            MarkerNodeCoordinate(nodeNumber=self.mbs.AddNode(NodePointGround()), coordinate=0)
+        )
+        for coordinate in coordinates:
+            marker = self.mbs.AddMarker(
+                MarkerNodeCoordinate(nodeNumber=node, coordinate=coordinate)
+            )
+            self.mbs.AddObject(ObjectConnectorCoordinate(markerNumbers=[ground, marker]))
+        return body, POINT, node
+
+    def run(self, body, point, node, bearing_at):
+        """Let the journal hit the bearing of a free body; return the coordinates of both."""
+        free, free_node = self.planar([*bearing_at, 0.0], [0.0, 0.0, 0.0])
+        add_dry_revolute(
+            self.mbs,
+            (body, point),
+            (free, (0.0, 0.0)),
+            radius=0.05,
+            clearance=1e-4,
+            contact=step_damping(hertz(2.5545e10), 2.5545e6, 1e-5),
+            friction=lugre_steady(0.15, 0.1, 0.0, 0.1, 2.0, 1e-4),
+        )
+        sensors = [
+            self.mbs.AddSensor(
+                SensorNode(
+                    nodeNumber=n,
+                    storeInternal=True,
+                    outputVariableType=exu.OutputVariableType.Coordinates,
+                )
+            )
+            for n in (node, free_node)
+        ]
+        self.mbs.Assemble()
+        settings = exu.SimulationSettings()
+        settings.timeIntegration.numberOfSteps = 4000
+        settings.timeIntegration.endTime = 4e-3
+        settings.timeIntegration.verboseMode = 0
+        settings.timeIntegration.generalizedAlpha.spectralRadius = 0.8
+        settings.timeIntegration.newton.relativeTolerance = 1e-10
+        settings.solution.file.write = False
+        settings.solution.sensors.writePeriod = 0.0
+        exu.config.printToConsole = False
+        try:
+            self.mbs.SolveDynamic(settings)
+        finally:
+            exu.config.printToConsole = True
+        return [np.asarray(self.mbs.GetSensorStoredData(s))[:, 1:] for s in sensors]
+
+
+@pytest.mark.parametrize(
+    ("rotation", "column", "free"), [(UPWARDS, 1, (0, 2)), (ALONG, 0, (1, 2))], ids=["y", "x"]
+)
+def test_a_sliding_body_is_hit_as_a_held_one(rotation, column, free):
+    place, velocity = [0.3, 0.2, 0.0], [0.0, 0.0, 0.0]
+    place[column] += 0.02
+    velocity[column] = SPEED
+    centre = (place[0] + POINT[0], place[1] + POINT[1])
+    one = OneJoint()
+    slid, hit = one.run(*one.slide(rotation), centre)
+    other = OneJoint()
+    constrained, expected = other.run(*other.held(place, velocity, free), centre)
+    assert np.abs(expected).max() > 1e-4  # it was hit
+    assert slid[:, 0] == pytest.approx(constrained[:, column], abs=1e-11)
+    assert hit == pytest.approx(expected, abs=1e-9)
+
+
+def test_a_turning_body_is_hit_as_a_held_one():
+    c, s = math.cos(0.4), math.sin(0.4)
+    centre = (0.3 + c * POINT[0] - s * POINT[1], 0.2 + s * POINT[0] + c * POINT[1])
+    one = OneJoint()
+    turned, hit = one.run(*one.turn(), centre)
+    other = OneJoint()
+    constrained, expected = other.run(*other.held([0.3, 0.2, 0.4], [0.0, 0.0, 3.0], (0, 1)), centre)
+    assert np.abs(expected).max() > 1e-4
+    assert turned[:, 0] == pytest.approx(constrained[:, 2], abs=1e-9)
+    assert hit == pytest.approx(expected, abs=1e-9)
+
+
+@pytest.mark.parametrize(("rotation", "says"), [(OBLIQUE, "moves at 53"), (TILTED, "tilted")])
+def test_other_directions_are_refused(rotation, says):
+    one = OneJoint()
+    body, point, node = one.slide(rotation)
+    with pytest.raises(InputError, match=f"body 0.*{says}.*allowed"):
+        one.run(body, point, node, (0.0, 0.0))
+    assert not overlay_of(one.mbs).joints

@@ -63,12 +63,11 @@ class BodyError:
     def tried(self, now: list[float], step: float) -> float:
         """Return the error of a step (s) that ends with these accelerations."""
         self._now = now
-        self._rate = rate = [(a - b) / step for a, b in zip(now, self._before, strict=True)]
-        self.change = rate
-        if self._rate_before:
-            self.change = [r - s for r, s in zip(rate, self._rate_before, strict=True)]
-        peaks = self._peaks_before
-        self._peaks = [max(a, b) for a, b in zip(self._squares(now), peaks, strict=True)]
+        before, last = self._before, self._rate_before
+        self._rate = rate = [(now[i] - before[i]) / step for i in range(len(now))]
+        self.change = [rate[i] - last[i] for i in range(len(rate))] if last else rate
+        squares, peaks = self._squares(now), self._peaks_before
+        self._peaks = [max(squares[i], peaks[i]) for i in range(len(peaks))]
         return self.error(self.change, step)
 
     def error(self, change: list[float], step: float) -> float:
@@ -76,9 +75,11 @@ class BodyError:
         largest = relative = 0.0
         rounding = (ROUNDING / (step * step)) ** 2
         allowed = self._tolerance * self._tolerance
-        for square, peak in zip(self._squares(change), self._peaks, strict=True):
+        squares, peaks = self._squares(change), self._peaks
+        for i in range(len(squares)):
+            square = squares[i]
             largest = max(largest, square)
-            relative = max(relative, square / max(allowed * peak, rounding))
+            relative = max(relative, square / max(allowed * peaks[i], rounding))
         limit = max(self._velocity_limit, ROUNDING / step)
         velocity = VELOCITY_CONSTANT * step * step * math.sqrt(largest) / limit
         acceleration = 0.125 * step * math.sqrt(relative)
@@ -105,10 +106,11 @@ class BodyError:
         """Return the squares of each body's kinetic norm."""
         found: list[float] = []
         i = 0
-        for end, mass in zip(self._ends, self._masses, strict=True):
+        inertias, ends, masses = self._inertias, self._ends, self._masses
+        for body in range(len(ends)):
             twice_energy = 0.0
-            while i < end:
-                twice_energy += self._inertias[i] * vector[i] * vector[i]
+            while i < ends[body]:
+                twice_energy += inertias[i] * vector[i] * vector[i]
                 i += 1
-            found.append(twice_energy / mass)
+            found.append(twice_energy / masses[body])
         return found

@@ -8,6 +8,7 @@ import numpy as np
 
 from exu_press.integrate.body_error import ROUNDING, BodyError
 from exu_press.integrate.joint_error import JointError
+from exu_press.integrate.linear import factorise, solve
 from exu_press.model import Model
 
 __all__ = ["StepError"]
@@ -118,5 +119,6 @@ class StepError:
         right = np.zeros(len(jacobian))
         right[: len(change)] = np.asarray(solver.GetSystemMassMatrix()) @ change
         right *= (1.0 - solver.alphaM) / (1.0 - solver.alphaF)
-        filtered: list[float] = np.linalg.solve(jacobian, right)[: len(change)].tolist()
+        factors, pivots, _ = factorise(jacobian.T, overwrite_a=True)  # by columns as LAPACK has it
+        filtered: list[float] = solve(factors, pivots, right, trans=1)[0][: len(change)].tolist()
         return filtered

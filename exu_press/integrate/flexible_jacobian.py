@@ -43,13 +43,13 @@ class FlexibleJacobian:
         step, size = solver.it.currentStepSize, len(stiffness)
         by_q, by_q_t = solver.newmarkBeta * step * step, solver.newmarkGamma * step
         solver.ComputeMassMatrix(mbs)
-        jacobian = np.zeros((size + solver.GetAEsize(),) * 2)
-        block = jacobian[:size, :size]
-        block += (1.0 - solver.alphaM) / (1.0 - solver.alphaF) * solver.GetSystemMassMatrix()
-        block += by_q * stiffness
-        block += by_q_t * damping
+        bodies = (1.0 - solver.alphaM) / (1.0 - solver.alphaF) * solver.GetSystemMassMatrix()
+        bodies += by_q * stiffness
+        bodies += by_q_t * damping
         if self._joints is not None:
-            self._joints.add_slopes(block, by_q, by_q_t)
+            self._joints.add_slopes(bodies, by_q, by_q_t)
+        jacobian = np.zeros((size + solver.GetAEsize(),) * 2)
+        jacobian[:size, :size] = bodies
         solver.SetSystemJacobian(jacobian)
         solver.ComputeJacobianAE(mbs, 1.0, by_q_t / by_q)  # adds the constraints
         return True

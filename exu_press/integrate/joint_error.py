@@ -32,13 +32,16 @@ class JointError:
         if not self._place:
             self._tried = now, velocity, ()
             return 0.0
-        mean = [(v - v_0) / step for v, v_0 in zip(velocity, self._velocity, strict=True)]
+        place, last, before = self._place, self._velocity, self._acceleration
+        mean = [(velocity[i] - last[i]) / step for i in range(len(now))]
         self._tried = now, velocity, tuple(mean)
-        before = self._acceleration or mean
         half, twelfth, square = 0.5 * step, step * step / 12.0, 0.0
         for i in range(len(now)):
-            way = half * (velocity[i] + self._velocity[i]) - twelfth * (mean[i] - before[i])
-            square += (now[i] - self._place[i] - way) ** 2
+            way = half * (velocity[i] + last[i])
+            if before:
+                way -= twelfth * (mean[i] - before[i])
+            missed = now[i] - place[i] - way
+            square += missed * missed
         return math.sqrt(square) / self._limit
 
     def accept(self) -> None:

@@ -65,8 +65,9 @@ class Newton:
     def stepped(self, time: float, accelerations: list[float]) -> None:
         """Be told where an accepted step ends: the time, s, and all coordinates' accelerations."""
         if self._start is not None:
-            self._last = last = time - self._start
-            self._rate = [(a - b) / last for a, b in zip(accelerations, self._now, strict=True)]
+            self._last, before = time - self._start, self._now
+            last = self._last
+            self._rate = [(accelerations[i] - before[i]) / last for i in range(len(before))]
         self._start, self._now = time, accelerations
 
     def _before_residual(self, mbs: exu.MainSystem, time: float, iteration: int, _: int) -> None:
@@ -92,7 +93,8 @@ class Newton:
         ratio, beta, gamma = self._weights
         ahead, values = min(step, REACH * self._last), self._now
         if self._rate:
-            values = [a + ahead * rate for a, rate in zip(values, self._rate, strict=True)]
+            now, rate = self._now, self._rate
+            values = [now[i] + ahead * rate[i] for i in range(len(rate))]
         expected = np.array(values)
         # as Newton's method adds an increment of them
         data = self.data

@@ -32,7 +32,8 @@ from typing import Any
 import exudyn as exu
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import get_lapack_funcs
+
+from exu_press.integrate.linear import factorise, solve
 
 __all__ = ["StepChange"]
 
@@ -49,9 +50,6 @@ SAME = 1e-6
 
 MUCH = 0.5
 """A step shorter than this, over the one that constrained velocities fit, makes them fit anew."""
-
-# a tenth of the time of `scipy.linalg.solve`'s checks
-_factorise, _solve = get_lapack_funcs(("getrf", "getrs"), dtype=np.float64)
 
 
 class StepChange:
@@ -166,14 +164,14 @@ class StepChange:
         matrix[:size, size:] = constraints.T
         idle = size + np.flatnonzero(~constraints.any(axis=1))
         matrix[idle, idle] = 1.0
-        factors, pivots, _ = _factorise(matrix, overwrite_a=True)
+        factors, pivots, _ = factorise(matrix, overwrite_a=True)
         position, velocity, _ = self._views(CURRENT)
         found, violated = np.zeros((size, 2)), np.zeros((size + count, 2))
         for _ in range(TURNS):
             position[:] = self._state[0] - found[:, 0]
             velocity[:] = self._state[1] - found[:, 1]
             self._violations(violated[size:])
-            found += _solve(factors, pivots, violated)[0][:size]
+            found += solve(factors, pivots, violated)[0][:size]
         return found[:, 0], found[:, 1]
 
     def _violations(self, found: Array) -> None:

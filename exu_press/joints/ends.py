@@ -82,6 +82,8 @@ class BodyEnd:
             self._both = np.vstack([translation, turn])
             self.places += range(self._modal, self._modal + translation.shape[1])
         self._modes: list[float] = self._both.T.ravel().tolist()  # six numbers for each mode
+        self._moving = np.eye(6, len(self.places))
+        self._moving[:, self._moved :] = 0.0
         self.position: Vector = (0.0, 0.0, 0.0)
         self.velocity: Vector = (0.0, 0.0, 0.0)
         self.spin: Vector = (0.0, 0.0, 0.0)
@@ -179,14 +181,14 @@ class BodyEnd:
     def rates(self) -> tuple[Array, Array]:
         """Return velocity and angular velocity by the coordinates' rates, (3, n) each."""
         size, moved = len(self._reference), self._moved
-        velocity, spin = np.zeros((3, len(self.places))), np.zeros((3, len(self.places)))
-        velocity[:moved, :moved] = np.eye(moved)
-        spins = np.array(self._spins).reshape(3, -1)
-        rotation = np.array(self.rotation).reshape(3, 3)
-        spin[:, moved:size] = spins
-        velocity[:, moved:size] -= cross_matrix(self.arm) @ spins
-        velocity[:, size:] = rotation @ self._both[:3]
-        spin[:, size:] = rotation @ self._both[3:]
+        both = self._moving.copy()
+        velocity, spin = both[:3], both[3:]
+        spin[:, moved:size] = spins = np.array(self._spins).reshape(3, -1)
+        velocity[:, moved:size] = -cross_matrix(self.arm) @ spins
+        if self._modes:
+            rotation = np.array(self.rotation).reshape(3, 3)
+            velocity[:, size:] = rotation @ self._both[:3]
+            spin[:, size:] = rotation @ self._both[3:]
         return velocity, spin
 
 

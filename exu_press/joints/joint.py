@@ -77,8 +77,11 @@ class ClearanceJoint(Protocol):
     def add_force(self, q: list[float], q_t: list[float], out: list[float]) -> None:
         """Add the joint's generalised forces to `out`."""
 
-    def jacobian(self, by_q: float, by_q_t: float) -> list[float] | None:
-        """Return -(by_q dQ/dq + by_q_t dQ/dq_t) at the state of the last `add_force`, by rows."""
+    def jacobian(self, by_q: float, by_q_t: float) -> list[float] | Array | None:
+        """Return -(by_q dQ/dq + by_q_t dQ/dq_t) at the state of the last `add_force`, by rows.
+
+        Over the joint's own places; None where nothing acts.
+        """
 
     def state(self, q: list[float], q_t: list[float]) -> JointState:
         """Return what the joint does in a state of its two bodies."""

@@ -26,6 +26,9 @@ __all__ = ["JointOverlay", "overlay_of"]
 
 REGISTRY = "exu_press_joints"
 
+Block = list[float] | NDArray[np.float64] | None
+"""A joint's Jacobian over its own places, by rows; None where nothing acts."""
+
 
 class JointOverlay:
     """The clearance joints of one Exudyn system, as one massless item.
@@ -56,9 +59,10 @@ class JointOverlay:
         self._triplets: NDArray[np.float64] = np.zeros((0, 3))
         self._pack = Struct("").pack
         self._matrix = exu.MatrixContainer()
-        self._places: tuple[NDArray[np.intp], NDArray[np.intp]] | None = None
+        self._within: list[tuple[NDArray[np.intp], NDArray[np.intp]]] = []
         self._silent = False
-        self._slopes_last, self._by_q_t = np.zeros(0), 1.0
+        self._blocks: list[Block] = []
+        self._by_q_t = 1.0
 
     def index_of(self, node: int | None) -> int:
         """Return where a node's coordinates start; a node that is new is taken in.
@@ -121,7 +125,8 @@ class JointOverlay:
 
         With what the force's place adds: a speed moves it within the step.
         """
-        return float(np.abs(self._slopes_last).max(initial=0.0)) / self._by_q_t
+        largest = (float(np.abs(block).max()) for block in self._blocks if block is not None)
+        return max(largest, default=0.0) / self._by_q_t
 
     @contextmanager
     def left_out(self) -> Iterator[None]:
@@ -136,15 +141,32 @@ class JointOverlay:
         """Add -(by_q dQ/dq + by_q_t dQ/dq_t) to a matrix over all coordinates of the system.
 
         Q are the forces that the joints were last asked for.
+
+        Args:
+            matrix: (n, n), in one piece.
+            by_q: factor.
+            by_q_t: factor, s.
         """
-        if self._places is None:
-            size = {
-                n: len(self._mbs.GetNodeParameter(n, "referenceCoordinates")) for n in self.nodes
-            }
-            at = [self._mbs.GetNodeODE2Index(n) + c for n in self.nodes for c in range(size[n])]
-            rows, columns = self._triplets[:, :2].T.astype(int)
-            self._places = np.array(at)[rows], np.array(at)[columns]
-        np.add.at(matrix, self._places, self._slopes(self._time, *self._last, by_q, by_q_t))
+        if not self._within:
+            self._within = [self._places_within(joint, len(matrix)) for joint in self.joints]
+        entries = matrix.reshape(-1)
+        q, q_t = self._last
+        blocks = self._slopes(self._time, q, q_t, by_q, by_q_t)
+        for block, (kept, places) in zip(blocks, self._within, strict=True):
+            if block is not None:
+                entries[places] += np.asarray(block)[kept]  # no place is there twice
+
+    def _places_within(
+        self, joint: ClearanceJoint, size: int
+    ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Return which entries of a joint's block count, and where in a matrix of the system."""
+        at = np.zeros(self.size, dtype=np.intp)
+        for node, start in self.nodes.items():  # a later one overwrites what is behind this one
+            at[start:] = self._mbs.GetNodeODE2Index(node) + np.arange(self.size - start)
+        places = np.array(joint.places)
+        rows, columns = (axis.ravel() for axis in np.meshgrid(places, places, indexing="ij"))
+        kept = np.flatnonzero((rows >= 0) & (columns >= 0))  # all but the ground's
+        return kept, at[rows[kept]] * size + at[columns[kept]]
 
     def _forces(self, mbs: exu.MainSystem, time: float, item: int, q: Any, q_t: Any) -> Any:
         """Return the generalised forces of all joints, a list as Exudyn passes and takes it.
@@ -179,28 +201,33 @@ class JointOverlay:
         if self._silent:
             self._matrix.SetWithSparseMatrix(np.zeros((0, 3)), self.size, self.size)
             return self._matrix
-        self._triplets[:, 2] = self._slopes(time, q, q_t, by_q, by_q_t)
+        values: list[float] = []
+        blocks = self._slopes(time, q, q_t, by_q, by_q_t)
+        for block, idle in zip(blocks, self._idle, strict=True):
+            if block is None:
+                values += idle
+            elif isinstance(block, list):
+                values += block
+            else:
+                values += block.tolist()
+        weights = np.frombuffer(self._pack(*values))  # a third of the time of np.array(values)
+        self._triplets[:, 2] = weights if self._kept is None else weights[self._kept]
         self._matrix.SetWithSparseMatrix(self._triplets, self.size, self.size)
         return self._matrix
 
-    def _slopes(
-        self, time: float, q: Any, q_t: Any, by_q: float, by_q_t: float
-    ) -> NDArray[np.float64]:
-        """Return the Jacobian's values, in the order of the places."""
+    def _slopes(self, time: float, q: Any, q_t: Any, by_q: float, by_q_t: float) -> list[Block]:
+        """Return each joint's part of the Jacobian of the left-hand side in a state."""
         # Forces asked for twice in one state leave a joint with nothing but its tangent: the right
         # thing for all but a step's first Jacobian, which may use where the last step ended.
         if time == self._jacobian_time or self._last != (q, q_t):
             self._forces(self._mbs, time, 0, q, q_t)
         self._jacobian_time = time
-        values: list[float] = []
         try:
-            for joint, idle in zip(self.joints, self._idle, strict=True):
-                values += joint.jacobian(by_q, by_q_t) or idle
+            self._blocks = [joint.jacobian(by_q, by_q_t) for joint in self.joints]
         except OverflowError:
-            values = [0.0 for idle in self._idle for _ in idle]
-        weights = np.frombuffer(self._pack(*values))  # a third of the time of np.array(values)
-        self._slopes_last, self._by_q_t = weights, by_q_t
-        return weights if self._kept is None else weights[self._kept]
+            self._blocks = [None] * len(self.joints)
+        self._by_q_t = by_q_t
+        return self._blocks
 
     def _begin_step(self, time: float) -> None:
         """Tell the joints about the step that is being tried."""

@@ -69,7 +69,7 @@ class SpatialRevolute(PairedJoint):
                 moment = m_b * axis[0] - x, m_b * axis[1] - y, m_b * axis[2] - z
                 bearing.add_forces((-force[0], -force[1], -force[2]), moment, out)
 
-    def jacobian(self, by_q: float, by_q_t: float) -> list[float] | None:
+    def jacobian(self, by_q: float, by_q_t: float) -> Array | None:
         """Return -(by_q dQ/dq + by_q_t dQ/dq_t), but for what only turns arms and axes."""
         e, e_dot, v_t, _, _ = self._motion
         turn = 1.0 / e if e > 0.0 else 0.0
@@ -95,8 +95,7 @@ class SpatialRevolute(PairedJoint):
             return None
         rates = self._rates()
         changes = np.concatenate([by_q * rates[:2], by_q_t * rates])
-        matrix: list[float] = (-rates.T @ (law @ changes)).ravel().tolist()
-        return matrix
+        return np.asarray(rates.T @ -(law @ changes)).ravel()
 
     @property
     def eccentricity(self) -> tuple[float, ...]:
@@ -133,15 +132,13 @@ class SpatialRevolute(PairedJoint):
         journal, journal_spin = self.journal.rates()
         bearing, bearing_spin = self.bearing.rates()
         bearing -= cross_matrix(self._along) @ bearing_spin
-        none_j, none_b = np.zeros(journal.shape[1]), np.zeros(bearing.shape[1])
-        n, t, axis = np.array(self._n), np.array(self._t), np.array(self._a)
-        rows = [
-            (n @ journal, -n @ bearing),
-            (t @ journal, -t @ bearing),
-            (axis @ journal_spin, none_b),
-            (none_j, axis @ bearing_spin),
-        ]
-        return np.array([np.concatenate(row) for row in rows])
+        across, axis, size = np.array([self._n, self._t]), np.array(self._a), journal.shape[1]
+        rates = np.zeros((4, size + bearing.shape[1]))
+        rates[:2, :size] = across @ journal
+        rates[:2, size:] = -across @ bearing
+        rates[2, :size] = axis @ journal_spin
+        rates[3, size:] = axis @ bearing_spin
+        return rates
 
 
 def _sum(a: float, v: Vector, b: float, w: Vector) -> Vector:

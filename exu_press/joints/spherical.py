@@ -69,7 +69,7 @@ class SpatialSpherical:
             self.ball.add_forces(_vector(force), _vector(self._radius * couple), out)
             self.socket.add_forces(_vector(-force), _vector(-reach * couple), out)
 
-    def jacobian(self, by_q: float, by_q_t: float) -> list[float] | None:
+    def jacobian(self, by_q: float, by_q_t: float) -> Array | None:
         """Return -(by_q dQ/dq + by_q_t dQ/dq_t), but for what only turns arms."""
         if not self._touching:
             return None
@@ -88,8 +88,7 @@ class SpatialSpherical:
         matrix = centre.T @ ((by_q * by_e + by_q_t * by_v) @ centre)
         matrix += surface.T @ ((by_q * drag_by_e + by_q_t * drag_by_v) @ centre)
         matrix += surface.T @ (by_q_t * (self._drag_by_sliding @ across) @ surface)
-        values: list[float] = (-matrix).ravel().tolist()
-        return values
+        return np.asarray(-matrix).ravel()
 
     @property
     def eccentricity(self) -> tuple[float, ...]:

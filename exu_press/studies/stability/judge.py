@@ -17,7 +17,7 @@ FINEST = 1e-8
 
 TOO_FINE = (Status.STEP_TOO_SMALL, Status.NOT_CONVERGED)
 
-LESS_FINE = 1.0 / 3.0
+LESS_FINE = 0.5
 """Part of the tolerance for the finer run where a tenth cannot be had, as says its status."""
 
 FINER_THAN_A_STEP = 1e-5

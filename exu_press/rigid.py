@@ -41,9 +41,9 @@ class RigidBody:
 
     def __init__(self, mbs: exu.MainSystem, body: Body, start: Motion) -> None:
         """Add the body to a system, with the first pose and velocity of a motion."""
-        self.start: Array = start.position[0]
+        self._start: Array = start.position[0]
         node = NodeRigidBody2D(
-            name=body.name, referenceCoordinates=self.start, initialVelocities=start.velocity[0]
+            name=body.name, referenceCoordinates=self._start, initialVelocities=start.velocity[0]
         )
         self.node = int(mbs.AddNode(node))
         item = ObjectRigidBody2D(
@@ -63,7 +63,7 @@ class RigidBody:
             q_t: same shape.
             q_tt: same shape.
         """
-        return Motion(self.start + q, q_t, q_tt)
+        return Motion(self._start + q, q_t, q_tt)
 
 
 class SlidingBody(RigidBody):
@@ -73,8 +73,8 @@ class SlidingBody(RigidBody):
 
     def __init__(self, mbs: exu.MainSystem, body: Body, start: Motion) -> None:
         """Add the body to a system, with the first height and velocity of a motion."""
-        self.start = start.position[0]
-        x, y, _ = self.start
+        self._start = start.position[0]
+        x, y, _ = self._start
         node = Node1D(
             name=body.name, referenceCoordinates=[y], initialVelocities=[start.velocity[0, 1]]
         )
@@ -96,7 +96,7 @@ class SlidingBody(RigidBody):
     def motion(self, q: Array, q_t: Array, q_tt: Array) -> Motion:
         """As `RigidBody.motion`."""
         upwards = np.array([0.0, 1.0, 0.0])
-        return Motion(self.start + q * upwards, q_t * upwards, q_tt * upwards)
+        return Motion(self._start + q * upwards, q_t * upwards, q_tt * upwards)
 
 
 class PivotedBody(RigidBody):

@@ -6,7 +6,7 @@ Run with: python scripts/run_press.py [--quick]
 import sys
 
 from exu_press import Scene, simulate
-from exu_press.cli.table import run_lines
+from exu_press.observe.table import run_lines
 from exu_press.output import output_directory
 from exu_press.plots import save_pictures
 

@@ -4,7 +4,7 @@ import argparse
 import sys
 
 from exu_press.cli.options import add_scene_arguments, directory_of, scene_of
-from exu_press.cli.table import comparison_lines
+from exu_press.observe.table import comparison_lines
 from exu_press.output import output_directory, write_json
 from exu_press.simulation import simulate
 from exu_press.studies.compare import variants

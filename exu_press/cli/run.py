@@ -5,7 +5,7 @@ import sys
 import textwrap
 
 from exu_press.cli.options import add_scene_arguments, directory_of, scene_of
-from exu_press.cli.table import run_lines
+from exu_press.observe.table import run_lines
 from exu_press.output import output_directory, write_json
 from exu_press.scene.assumptions import assumed_line
 from exu_press.simulation import simulate

@@ -4,8 +4,8 @@ import json
 import tempfile
 from pathlib import Path
 
-from exu_press.cli.table import comparison_cells
 from exu_press.errors import InputError
+from exu_press.observe.table import comparison_cells
 from exu_press.plots import save_comparison
 from exu_press.plots.words import describe
 from exu_press.report.html import items, page, picture, table

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from exu_press.cli.table import comparison_cells
+from exu_press.observe.table import comparison_cells
 from exu_press.plots import save_pictures
 from exu_press.plots.words import describe
 from exu_press.report.html import details, items, page, paragraph, picture, table

@@ -1,4 +1,4 @@
-"""Summaries as a person reads them in a terminal."""
+"""Summaries as a table: what a person reads in a terminal or a report."""
 
 from collections.abc import Callable, Mapping
 from typing import Any

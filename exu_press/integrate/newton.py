@@ -2,7 +2,8 @@
 
 Exudyn starts every step from accelerations of zero, which costs an iteration a step in lubricated
 motion and several where contact lasts. Here they go on as they did in the last step, and lasting
-contacts start from the force that held them.
+contacts start from the force that held them. So do constraints: from zero, a Jacobian that is kept
+would leave of their forces what the mechanism has turned since.
 
 A thin film answers the last digit of a speed with newtons: no iteration balances forces better.
 """
@@ -21,6 +22,9 @@ START = exu.ConfigurationType.StartOfStep
 
 PATIENCE = 4
 """Iterations after which rounding is thought of; most steps take one or two."""
+
+ENOUGH = 2
+"""Iterations after which a Jacobian that is kept while steps have one size is renewed after all."""
 
 REACH = 2.0
 """Over the last step, how far ahead its rate of change is believed."""
@@ -41,7 +45,13 @@ class Newton:
     """
 
     def __init__(
-        self, mbs: exu.MainSystem, solver: Any, joints: JointOverlay | None, speed: float
+        self,
+        mbs: exu.MainSystem,
+        solver: Any,
+        joints: JointOverlay | None,
+        speed: float,
+        *,
+        keeps: bool = False,
     ) -> None:
         """Let Exudyn ask before every residual.
 
@@ -50,9 +60,11 @@ class Newton:
             solver: an exu.MainSolverImplicitSecondOrder, which is about to solve it.
             joints: its clearance joints, if it has any.
             speed: of its bodies, m/s.
+            keeps: whether a Jacobian is kept while it serves, over steps of one size.
         """
         self.data: Any = mbs.systemData
         self._solver, self._joints, self._speed = solver, joints, speed
+        self._keeps, self._asked = keeps, False  # for another Jacobian
         self._weights: tuple[float, float, float] | None = None
         self._start: float | None = None  # of the step under way, s
         self._now: list[float] = []  # accelerations there
@@ -71,6 +83,9 @@ class Newton:
         self._start, self._now = time, accelerations
 
     def _before_residual(self, mbs: exu.MainSystem, time: float, iteration: int, _: int) -> None:
+        if self._keeps and (iteration == ENOUGH or self._asked):
+            self._asked = iteration == ENOUGH
+            self._solver.conv.jacobianUpdateRequested = self._asked
         if not iteration:
             if self._start is None:
                 before = self.data.GetODE2Coordinates_tt(START, False).tolist()
@@ -103,6 +118,7 @@ class Newton:
         velocities = data.GetODE2Coordinates_t(CURRENT, False)
         velocities += (step * ratio * gamma) * expected
         data.GetODE2Coordinates_tt(CURRENT, False)[:] = expected
+        data.GetAECoordinates(CURRENT, False)[:] = data.GetAECoordinates(START, False)
 
     def _ask_for(self, least: float) -> None:
         """Set Newton's absolute tolerance, N: that of the settings, but not less than `least`."""

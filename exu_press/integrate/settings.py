@@ -63,10 +63,10 @@ def settings_for(scene: Scene) -> exu.SimulationSettings:
     newton.modifiedNewtonContractivity = 0.5 if scene.flexible is None else 0.03
     # So that accelerations are right to this part of the crank pin's; not of the first residual:
     # that one holds what a film would answer to speeds that are not yet balanced, in a stiff film a
-    # million times more. What a Jacobian that is kept while the step changes leaves in the
-    # constraints comes back in the next step, with the other sign: there ten times finer.
-    kept = scene.flexible is not None and solver.tolerance is not None
-    part = (0.01 if kept else 0.1) * (solver.tolerance or 1e-4)
+    # million times more. What a Jacobian that is kept leaves in the constraints comes back in the
+    # next step, with the other sign and over the step's square: ten times finer where steps are
+    # fixed, and may be far shorter than any tolerance asks for.
+    part = 0.1 * (solver.tolerance or (1e-4 if scene.flexible is None else 1e-5))
     newton.absoluteTolerance = part * _inertia_force(scene)
     newton.relativeTolerance = ROUNDING
     newton.maxIterations = 25

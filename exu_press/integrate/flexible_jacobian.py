@@ -42,7 +42,6 @@ class FlexibleJacobian:
         stiffness, damping = self._bodies
         step, size = solver.it.currentStepSize, len(stiffness)
         by_q, by_q_t = solver.newmarkBeta * step * step, solver.newmarkGamma * step
-        solver.ComputeMassMatrix(mbs)
         bodies = (1.0 - solver.alphaM) / (1.0 - solver.alphaF) * solver.GetSystemMassMatrix()
         bodies += by_q * stiffness
         bodies += by_q_t * damping

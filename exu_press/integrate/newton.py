@@ -23,9 +23,6 @@ START = exu.ConfigurationType.StartOfStep
 PATIENCE = 4
 """Iterations after which rounding is thought of; most steps take one or two."""
 
-ENOUGH = 2
-"""Iterations after which a Jacobian that is kept while steps have one size is renewed after all."""
-
 REACH = 2.0
 """Over the last step, how far ahead its rate of change is believed."""
 
@@ -45,13 +42,7 @@ class Newton:
     """
 
     def __init__(
-        self,
-        mbs: exu.MainSystem,
-        solver: Any,
-        joints: JointOverlay | None,
-        speed: float,
-        *,
-        keeps: bool = False,
+        self, mbs: exu.MainSystem, solver: Any, joints: JointOverlay | None, speed: float
     ) -> None:
         """Let Exudyn ask before every residual.
 
@@ -60,11 +51,9 @@ class Newton:
             solver: an exu.MainSolverImplicitSecondOrder, which is about to solve it.
             joints: its clearance joints, if it has any.
             speed: of its bodies, m/s.
-            keeps: whether a Jacobian is kept while it serves, over steps of one size.
         """
         self.data: Any = mbs.systemData
         self._solver, self._joints, self._speed = solver, joints, speed
-        self._keeps, self._asked = keeps, False  # for another Jacobian
         self._weights: tuple[float, float, float] | None = None
         self._start: float | None = None  # of the step under way, s
         self._now: list[float] = []  # accelerations there
@@ -83,9 +72,6 @@ class Newton:
         self._start, self._now = time, accelerations
 
     def _before_residual(self, mbs: exu.MainSystem, time: float, iteration: int, _: int) -> None:
-        if self._keeps and (iteration == ENOUGH or self._asked):
-            self._asked = iteration == ENOUGH
-            self._solver.conv.jacobianUpdateRequested = self._asked
         if not iteration:
             if self._start is None:
                 before = self.data.GetODE2Coordinates_tt(START, False).tolist()

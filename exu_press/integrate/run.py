@@ -35,8 +35,7 @@ def integrate(model: Model, *, quiet: bool = True) -> Outcome:
         joints = overlay_of(mbs) if model.clearance_joints else None
         solver: Any = exu.MainSolverImplicitSecondOrder()  # whose type stub forgets `self`
         mbs.sys["dynamicSolver"], mbs.sys["simulationSettings"] = solver, settings
-        keeps = scene.flexible is not None and scene.solver.step is not None
-        newton = Newton(mbs, solver, joints, scene.pin_speed, keeps=keeps)
+        newton = Newton(mbs, solver, joints, scene.pin_speed)
         step_change = StepChange(mbs, solver, smooth=joints is None)
         if scene.flexible is not None:
             FlexibleJacobian(mbs, solver, joints)

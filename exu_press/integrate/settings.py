@@ -64,10 +64,9 @@ def settings_for(scene: Scene) -> exu.SimulationSettings:
     # So that accelerations are right to this part of the crank pin's; not of the first residual:
     # that one holds what a film would answer to speeds that are not yet balanced, in a stiff film a
     # million times more. What a Jacobian that is kept leaves in the constraints comes back in the
-    # next step, with the other sign and over the step's square: ten times finer where steps are
-    # fixed, and may be far shorter than any tolerance asks for.
-    part = 0.1 * (solver.tolerance or (1e-4 if scene.flexible is None else 1e-5))
-    newton.absoluteTolerance = part * _inertia_force(scene)
+    # next step, with the other sign and over the step's square: there ten times finer.
+    part = 0.1 if scene.flexible is None else 0.01
+    newton.absoluteTolerance = part * (solver.tolerance or 1e-4) * _inertia_force(scene)
     newton.relativeTolerance = ROUNDING
     newton.maxIterations = 25
     # A contact opens and closes within Newton's iterations, so nothing is left to iterate on.

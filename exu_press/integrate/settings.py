@@ -64,8 +64,10 @@ def settings_for(scene: Scene) -> exu.SimulationSettings:
     # So that accelerations are right to this part of the crank pin's; not of the first residual:
     # that one holds what a film would answer to speeds that are not yet balanced, in a stiff film a
     # million times more. What a Jacobian that is kept leaves in the constraints comes back in the
-    # next step, with the other sign and over the step's square: there ten times finer.
-    part = 0.1 if scene.flexible is None else 0.01
+    # next step, with the other sign and over the step's square: there ten times finer, and a
+    # hundred times where steps are fixed, and may be far shorter than a tolerance makes them.
+    kept = 0.01 if solver.step is None else 0.001
+    part = 0.1 if scene.flexible is None else kept
     newton.absoluteTolerance = part * (solver.tolerance or 1e-4) * _inertia_force(scene)
     newton.relativeTolerance = ROUNDING
     newton.maxIterations = 25

@@ -55,3 +55,30 @@ def test_it_changes_the_cost_and_not_the_result(scene, monkeypatch):
     peaks = [np.abs(run["slider_acceleration"]).max() for run in (kept, stock)]
     assert peaks[0] == pytest.approx(peaks[1], rel=0.02)
     assert kept.info["newton_iterations"] < 1.1 * stock.info["newton_iterations"]
+
+
+def test_a_kept_jacobian_leaves_no_ring_in_the_constraints(monkeypatch):
+    """The counter-pin carries 36 kN; iterations with an old Jacobian left per cents of it."""
+    from exu_press.integrate import run
+
+    scene = Scene(
+        bodies="flexible",
+        crank_pin="ideal",
+        balls="ideal",
+        flexible={"modes": 4, "mesh_size": 0.05},
+        revolutions=0.02,
+        solver={"step": 1e-5},
+    )
+    result = simulate(scene)
+    usual = run.settings_for
+
+    def finer(scene):
+        settings = usual(scene)
+        settings.timeIntegration.newton.absoluteTolerance *= 1e-3
+        return settings
+
+    monkeypatch.setattr(run, "settings_for", finer)
+    expected = simulate(scene)["counter_pin_force"]
+    assert result.info["newton_iterations"] < 2.0 * result.info["steps"]
+    error = np.abs(result["counter_pin_force"] - expected)[50:]
+    assert error.max() < 1e-4 * np.abs(expected).max()

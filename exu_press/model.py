@@ -150,8 +150,12 @@ class _Builder:
             added = SlidingBody(self.mbs, body, start)
         else:
             added = RigidBody(self.mbs, body, start)
-        self.rigid[body.name] = added
-        self.bodies[body.name], self.nodes[body.name] = added.number, added.node
+        self._take_in(body.name, added)
+
+    def _take_in(self, name: str, added: RigidBody) -> None:
+        """Remember a rigid body by its name."""
+        self.rigid[name] = added
+        self.bodies[name], self.nodes[name] = added.number, added.node
 
     def _add_flexible_body(self, name: str, start: Motion) -> None:
         """Add a flexible body; its frame lies where the solid's does, not in the centre of mass."""
@@ -185,8 +189,7 @@ class _Builder:
 
         start = turning(np.array([self.scene.start_angle]), self.scene.angular_speed, 0.0)
         disc = PivotedBody(self.mbs, Body(DRIVE, 1.0, 1.0), start, (0.0, 0.0), (0.0, 0.0))
-        self.rigid[DRIVE] = disc
-        self.bodies[DRIVE], self.nodes[DRIVE] = disc.number, disc.node
+        self._take_in(DRIVE, disc)
         slide = self._marker("slide", (0.0, 0.0))
         hold_linkage(self.mbs, slide, self.flexible["linkage"])
         disc_marker = self._marker(DRIVE, (0.0, 0.0))

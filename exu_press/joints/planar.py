@@ -41,7 +41,6 @@ class PlanarJoint(PairedJoint):
         self.journal = journal
         self.bearing = bearing
         self.places = [*journal.places, *bearing.places]
-        self._places = (*journal.places, *bearing.places)
         self._length_j, self._angle_j = journal.polar
         self._length_b, self._angle_b = bearing.polar
         self._far = journal.reference[0] - bearing.reference[0]
@@ -51,7 +50,7 @@ class PlanarJoint(PairedJoint):
 
     def add_force(self, q: list[float], q_t: list[float], out: list[float]) -> None:
         """Add the joint's generalised forces to `out`."""
-        x_j, y_j, turn_j, x_b, y_b, turn_b = self._places
+        x_j, y_j, turn_j, x_b, y_b, turn_b = self.places
         turned_j, turned_b = self._angle_j + q[turn_j], self._angle_b + q[turn_b]
         j_x, j_y = self._length_j * cos(turned_j), self._length_j * sin(turned_j)
         b_x, b_y = self._length_b * cos(turned_b), self._length_b * sin(turned_b)

@@ -16,6 +16,7 @@ from exudyn.itemInterface import (
     ObjectRotationalMass1D,
     SensorNode,
 )
+from solving import solve
 
 from exu_press import InputError, add_dry_revolute
 from exu_press.joints import overlay_of
@@ -102,16 +103,9 @@ class OneJoint:
         settings = exu.SimulationSettings()
         settings.timeIntegration.numberOfSteps = 4000
         settings.timeIntegration.endTime = 4e-3
-        settings.timeIntegration.verboseMode = 0
         settings.timeIntegration.generalizedAlpha.spectralRadius = 0.8
         settings.timeIntegration.newton.relativeTolerance = 1e-10
-        settings.solution.file.write = False
-        settings.solution.sensors.writePeriod = 0.0
-        exu.config.printToConsole = False
-        try:
-            self.mbs.SolveDynamic(settings)
-        finally:
-            exu.config.printToConsole = True
+        solve(self.mbs, settings)
         return [np.asarray(self.mbs.GetSensorStoredData(s))[:, 1:] for s in sensors]
 
 

@@ -14,6 +14,7 @@ from exudyn.itemInterface import (
     ObjectRigidBody2D,
     SensorNode,
 )
+from solving import solve
 
 from exu_press import InputError, add_dry_revolute, add_dry_spherical, add_lubricated_revolute
 from exu_press.joints import history, overlay_of
@@ -67,7 +68,6 @@ class Bodies:
         settings = exu.SimulationSettings()
         integration = settings.timeIntegration
         integration.numberOfSteps, integration.endTime = round(end_time / step), end_time
-        integration.verboseMode = 0
         integration.generalizedAlpha.spectralRadius = 0.8
         integration.newton.useModifiedNewton = True
         integration.newton.modifiedNewtonJacUpdatePerStep = True
@@ -76,13 +76,7 @@ class Bodies:
         integration.adaptiveStep = True
         integration.adaptiveStepDecrease = 0.5
         integration.minimumStepSize = step / 64
-        settings.solution.file.write = False
-        settings.solution.sensors.writePeriod = 0.0
-        exu.config.printToConsole = False
-        try:
-            self.mbs.SolveDynamic(settings)
-        finally:
-            exu.config.printToConsole = True
+        solve(self.mbs, settings)
 
     def recorded(self, level):
         """Return (n, bodies, 3); positions are displacements from the reference."""

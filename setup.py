@@ -22,6 +22,7 @@ MODULES = [
     "integrate/newton",
     "integrate/step_change",
     "integrate/stepping",
+    "integrate/touch",
     "integrate/watch",
     "joints/ends",
     "joints/overlay",

@@ -9,6 +9,7 @@ import numpy as np
 from exu_press.integrate.body_error import ROUNDING, BodyError
 from exu_press.integrate.joint_error import JointError
 from exu_press.integrate.linear import factorise, solve
+from exu_press.integrate.touch import Touch
 from exu_press.model import Model
 
 __all__ = ["StepError"]
@@ -42,6 +43,8 @@ class StepError:
 
     Attributes:
         accelerations: of all coordinates at the end of the step last tried.
+        of_joints: the part of the clearance joints in the error of that step.
+        touches: of those clearance joints whose surfaces may touch.
     """
 
     def __init__(self, model: Model, solver: Any, tolerance: float) -> None:
@@ -60,11 +63,12 @@ class StepError:
         widest = max((joint.clearance for joint in model.clearance_joints.values()), default=0.0)
         self._speed = max(scene.pin_speed, math.sqrt(4.0 * scene.gravity * widest))
         self.accelerations: list[float] = []
+        self.of_joints = 0.0
         self._bodies: BodyError | None = None
-        self._joints = [
-            JointError(joint, max(share * joint.clearance, ROUNDING))
-            for joint in model.clearance_joints.values()
-        ]
+        joints = list(model.clearance_joints.values())
+        self._joints = [JointError(j, max(share * j.clearance, ROUNDING)) for j in joints]
+        pairs = zip(joints, self._joints, strict=True)
+        self.touches = [Touch(joint, motion) for joint, motion in pairs if joint.contacts]
 
     def __call__(self, step: float) -> float:
         """Return the error of the step that ends in the current state."""
@@ -77,7 +81,8 @@ class StepError:
         if not self._joints:  # else impacts and films need finer steps, by far
             offset = self._bodies.offset(step) / (self._tolerance * self._speed)
             error = max(error, math.pow(offset, 1.5))  # as the step's cube
-        return max([error, *(joint.error(step) for joint in self._joints)])
+        self.of_joints = max([0.0, *(joint.error(step) for joint in self._joints)])
+        return max(error, self.of_joints)
 
     def of_jump(self, step: float) -> float:
         """Return the error if a jump of the accelerations lies in the step just tried.

@@ -15,24 +15,29 @@ class JointError:
     A journal's position is the integral of its bodies' velocities, and nothing in a film or in free
     flight mends it. The corrected trapezoidal rule gives that integral,
     h (v0 + v1) / 2 - h^2 (change of the mean acceleration) / 12.
+
+    Attributes:
+        place: eccentricity where the last accepted step ended, m; empty at first.
+        velocity: its rate there, m/s.
+        acceleration: mean rate of that in the last step, m/s^2; empty at first.
     """
 
     def __init__(self, joint: ClearanceJoint, limit: float) -> None:
         """Take a joint and the error that counts as 1, m."""
         self._joint = joint
         self._limit = limit
-        self._place: Vector = ()  # eccentricity at the beginning of the step, m; empty at first
-        self._velocity: Vector = ()
-        self._acceleration: Vector = ()  # mean of the last step, m/s^2
+        self.place: Vector = ()
+        self.velocity: Vector = ()
+        self.acceleration: Vector = ()
         self._tried: tuple[Vector, Vector, Vector] = (), (), ()  # the same, of the step tried
 
     def error(self, step: float) -> float:
         """Return the error of a step (s) that ends where the joint was last asked for its force."""
         now, velocity = self._joint.eccentricity, self._joint.relative_velocity
-        if not self._place:
+        if not self.place:
             self._tried = now, velocity, ()
             return 0.0
-        place, last, before = self._place, self._velocity, self._acceleration
+        place, last, before = self.place, self.velocity, self.acceleration
         mean = [(velocity[i] - last[i]) / step for i in range(len(now))]
         self._tried = now, velocity, tuple(mean)
         half, twelfth, square = 0.5 * step, step * step / 12.0, 0.0
@@ -46,4 +51,4 @@ class JointError:
 
     def accept(self) -> None:
         """Remember the accepted step's end as the next one's beginning."""
-        self._place, self._velocity, self._acceleration = self._tried
+        self.place, self.velocity, self.acceleration = self._tried

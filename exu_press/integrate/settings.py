@@ -12,6 +12,11 @@ __all__ = ["FIRST_OF_FILM", "largest_step", "settings_for", "smallest_step"]
 SMALLEST_PART = 2.0**-10
 """How far a step may be halved where Newton's method fails or a film's law does not hold."""
 
+FALL = 0.03
+"""Of free fall's acceleration, what counts as usual at least where there is clearance: parts fall
+through it, however slowly the crank turns. Asked for less (below 30 rpm), Newton's method iterates
+on what rounding leaves: at 0.01 rpm a hundred times for each step of 1e-4 s."""
+
 ROUNDING = 1e-10
 """Of the first residual: where Newton's method ends if it cannot get further."""
 
@@ -61,14 +66,14 @@ def settings_for(scene: Scene) -> exu.SimulationSettings:
     newton.useModifiedNewton = True
     newton.modifiedNewtonJacUpdatePerStep = scene.flexible is None
     newton.modifiedNewtonContractivity = 0.5 if scene.flexible is None else 0.03
-    # So that accelerations are right to this part of the crank pin's; not of the first residual:
+    # So that accelerations are right to this part of the usual ones; not of the first residual:
     # that one holds what a film would answer to speeds that are not yet balanced, in a stiff film a
     # million times more. What a Jacobian that is kept leaves in the constraints comes back in the
-    # next step, with the other sign and over the step's square: there ten times finer, and a
-    # hundred times where steps are fixed, and may be far shorter than a tolerance makes them.
-    kept = 0.01 if solver.step is None else 0.001
-    part = 0.1 if scene.flexible is None else kept
-    newton.absoluteTolerance = part * (solver.tolerance or 1e-4) * _inertia_force(scene)
+    # next step, with the other sign and over the step's square: there it is far less, and ten times
+    # less still where steps are fixed, and may be far shorter than a tolerance makes them.
+    rigid, kept = (0.2, 0.01) if solver.step is None else (0.1, 0.001)
+    part = rigid if scene.flexible is None else kept
+    newton.absoluteTolerance = part * (solver.tolerance or 1e-4) * _usual_force(scene)
     newton.relativeTolerance = ROUNDING
     newton.maxIterations = 25
     # A contact opens and closes within Newton's iterations, so nothing is left to iterate on.
@@ -90,7 +95,10 @@ def settings_for(scene: Scene) -> exu.SimulationSettings:
     return settings
 
 
-def _inertia_force(scene: Scene) -> float:
-    """Return the whole mechanism's mass times the crank pin's acceleration, N."""
-    mass = sum(body.mass for body in mechanism_of(scene).bodies)
-    return mass * scene.angular_speed * scene.pin_speed
+def _usual_force(scene: Scene) -> float:
+    """Return what the whole mechanism's usual acceleration takes, N."""
+    mechanism = mechanism_of(scene)
+    mass = sum(body.mass for body in mechanism.bodies)
+    falls = any(joint.kind != "ideal" for joint in mechanism.joints)
+    least = FALL * scene.gravity if falls else 0.0
+    return mass * max(scene.angular_speed * scene.pin_speed, least)

@@ -10,7 +10,7 @@ method left of the positions' constraints, 1e-10 m, is nothing beside a long ste
 a short one: it is taken away.
 
 Without films and contacts motion is smooth, steps change seldom, and each change is worth this.
-With them steps change all the time: velocities are fitted once steps have shrunk by half, and a
+With them steps change all the time: velocities are fitted once steps have shrunk to a third, and a
 longer step, which has little to make of either, is left alone: scaling up would blow up whatever an
 impact or a film's start left ringing.
 
@@ -48,7 +48,7 @@ TURNS = 3
 SAME = 1e-6
 """Steps that differ by less, relative, are one size."""
 
-MUCH = 0.5
+MUCH = 0.35
 """A step shorter than this, over the one that constrained velocities fit, makes them fit anew."""
 
 

@@ -27,8 +27,15 @@ AIM = 0.4
 rises and falls several times in each of its periods."""
 
 GROW = 1.3
-"""A step is lengthened when it may be by this factor. It is shortened only when it is repeated: a
-change of step leaves an error behind, which shortening would chase."""
+"""A step is lengthened when it may be by this factor."""
+
+SHORTEN = 0.7
+"""How far a step may be shortened at once before it fails: where the joints' error rises so that
+the next one would. Bodies' errors rise and fall too fast to be foreseen, and a change of step
+leaves an error behind, which shortening would chase."""
+
+RISE = 3.0
+"""So much, at most, a joint's error is expected to rise from one step to the next."""
 
 FIRST = 1.0 / 64.0
 """First step over the largest one."""
@@ -76,6 +83,7 @@ class StepControl:
         """
         self.rejected = 0
         self.error = 0.0
+        self._before = 0.0  # joints' error in the step before, over its cube
         self._estimate = error
         self._duration, self._smallest, self._largest = duration, smallest, largest
         self._next_corner = next_corner
@@ -101,22 +109,34 @@ class StepControl:
         if error > 1.0 and step <= self._smallest * (1.0 + 1e-9):
             error = min(error, self._estimate.of_jump(step))
         self.error = error
-        factor = (AIM / error) ** (1.0 / ORDER) if error > 0.0 else math.inf
         if not error <= 1.0:
             self.rejected += 1
-            self._step = step * (max(CHANGE[0], factor) if factor == factor else CHANGE[0])
+            self._step = step * max(CHANGE[0], _factor(error))
             return [2.0, self._step]
         self._estimate.accept()
         self._newton.stepped(time, self._estimate.accelerations)
         if step >= 0.5 * self._step:  # else it was cut short by a corner or by the end
             self._step = step
+        expected = self._expected(step)
+        factor = _factor(max(error, expected))
         if factor > GROW:
             self._step *= min(CHANGE[1], factor)
+        elif expected > 1.0:
+            self._step *= max(SHORTEN, factor)
         return [0.0, -1.0]
+
+    def _expected(self, step: float) -> float:
+        """Return the joints' error in a further step of this size (s), risen as in this one."""
+        now = self._estimate.of_joints
+        before, self._before = self._before, now / step**ORDER
+        scaled = before * step**ORDER
+        return now * min(now / scaled, RISE) if scaled > 0.0 else 0.0
 
     def _after_step(self, mbs: exu.MainSystem, time: float) -> bool:
         """Set the next step; corners and the end are stepped on exactly."""
-        self._step = step = min(self._step, self._largest)
+        touches = self._estimate.touches
+        self._step = min([self._step, self._largest, *(touch.first_step() for touch in touches)])
+        step = min([self._step, *(touch.until(self._step) for touch in touches)])
         for stop in (self._next_corner(time), self._duration):
             left = stop - time
             if left <= self._smallest:
@@ -127,6 +147,13 @@ class StepControl:
                 step = 0.5 * left
         self._iteration.currentStepSize = step
         return True
+
+
+def _factor(error: float) -> float:
+    """Return by how much a step may be changed for its error; to nothing where that is nan."""
+    if error != error:
+        return 0.0
+    return math.pow(AIM / error, 1.0 / ORDER) if error > 0.0 else math.inf
 
 
 class FixedSteps:

@@ -95,6 +95,7 @@ def test_no_speed_is_the_static_solution():
     assert abs(result["slider_velocity"][-1]) < 1e-6
     force = result["crank_pin_force"][-1]
     assert force == pytest.approx([0.0, -(184.5 + 1347.0) * 9.81], rel=2e-3, abs=20.0)
+    assert result.info["newton_iterations"] < 1.1 * 3000  # which rest does not need
 
 
 @pytest.mark.parametrize("viscosity", [1e-4, 1e-2, 1.0])

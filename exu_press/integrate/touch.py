@@ -1,0 +1,87 @@
+"""When a joint's surfaces touch next, so that a step may end there; compiled like the joints.
+
+A step that leaps into a contact is repeated, and so are shorter ones, until one of them ends about
+where the surfaces touch: five tries of ten iterations each. Until then the journal flies freely,
+and where it arrives can be told.
+"""
+
+import math
+
+from exu_press.integrate.joint_error import JointError
+from exu_press.joints.joint import ClearanceJoint
+
+__all__ = ["Touch"]
+
+DEPTH = 5e-3
+"""Penetration over clearance, where a contact's first step ends; 1e-3 to 1e-2 do as well."""
+
+AIMED_AT = 0.1
+"""Of this penetration, where the step before ends: no prediction misses the touch by as much."""
+
+TURNS = 5
+"""Of the way to the instant of the touch."""
+
+
+class Touch:
+    """Foresees when a joint's surfaces touch, from its motion at the end of an accepted step."""
+
+    def __init__(self, joint: ClearanceJoint, motion: JointError) -> None:
+        """Take a joint whose surfaces may touch.
+
+        Args:
+            joint: has the clearance.
+            motion: remembers eccentricity, its rate and its rate's rate.
+        """
+        self._motion = motion
+        self._clearance = joint.clearance
+        self._depth = DEPTH * joint.clearance
+
+    def first_step(self) -> float:
+        """Return the longest step (s) for a contact that has just begun; infinite elsewhere."""
+        distance, closing = self._after(0.0)
+        if not self._clearance <= distance < self._clearance + self._depth or closing <= 0.0:
+            return math.inf
+        return self._depth / closing
+
+    def until(self, step: float) -> float:
+        """Return when within a step (s) the surfaces touch; the step if they do not, or hardly."""
+        reach = self._clearance + AIMED_AT * self._depth
+        if not self._motion.acceleration or self._after(0.0)[0] >= self._clearance:
+            return step
+        when = step
+        for _ in range(TURNS):
+            when = self._arrival(reach, when)
+            if when >= step:
+                return step
+        return when if self._after(when)[1] * (step - when) > self._depth else step
+
+    def _arrival(self, reach: float, guess: float) -> float:
+        """Return when the eccentricity is so long (m), at its mean rate until a guess (s)."""
+        place, acceleration = self._motion.place, self._motion.acceleration
+        along = square = excess = 0.0
+        for i, rate in enumerate(self._motion.velocity):
+            mean = rate + 0.5 * guess * acceleration[i]
+            along += place[i] * mean
+            square += mean * mean
+            excess += place[i] * place[i]
+        excess -= reach * reach  # below zero: the journal is inside
+        if square == 0.0:
+            return math.inf
+        root = math.sqrt(along * along - square * excess)
+        return (root - along) / square
+
+    def _after(self, time: float) -> tuple[float, float]:
+        """Return the eccentricity's length (m) and its rate (m/s) after a time (s)."""
+        place, velocity, acceleration = (
+            self._motion.place,
+            self._motion.velocity,
+            self._motion.acceleration,
+        )
+        square = along = 0.0
+        for i in range(len(place)):
+            change = time * acceleration[i] if acceleration else 0.0
+            there = place[i] + time * velocity[i] + 0.5 * time * change
+            square += there * there
+            along += there * (velocity[i] + change)
+        distance = math.sqrt(square)
+        return distance, along / distance if distance > 0.0 else 0.0

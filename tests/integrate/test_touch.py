@@ -1,0 +1,92 @@
+"""Steps end where surfaces touch, and shorten before their errors are too large."""
+
+import math
+from types import SimpleNamespace
+
+import pytest
+
+from exu_press import Scene, simulate
+from exu_press.integrate import stepping
+from exu_press.integrate.joint_error import JointError
+from exu_press.integrate.touch import AIMED_AT, DEPTH, Touch
+
+CLEARANCE = 1e-4
+REACH = CLEARANCE * (1.0 + AIMED_AT * DEPTH)
+
+
+def touch_after(place, velocity, acceleration=(0.0, 0.0), step=1e-4):
+    """A joint that comes to a place with a velocity and a constant acceleration."""
+    joint = SimpleNamespace(clearance=CLEARANCE, eccentricity=(), relative_velocity=())
+    motion = JointError(joint, 1e-7)
+    for ago in (step, 0.0):
+        rates = zip(place, velocity, acceleration, strict=True)
+        joint.eccentricity = tuple(p - ago * v + 0.5 * ago * ago * a for p, v, a in rates)
+        pairs = zip(velocity, acceleration, strict=True)
+        joint.relative_velocity = tuple(v - ago * a for v, a in pairs)
+        motion.error(step)
+        motion.accept()
+    return Touch(joint, motion)
+
+
+def test_a_free_journal_arrives_when_its_parabola_says():
+    """0.2 m/s against 100 m/s^2 from the centre: 0.1 mm lie on the way, and a little more."""
+    touch = touch_after((0.0, 0.0), (0.2, 0.0), (-100.0, 0.0))
+    arrival = touch.until(1e-3)
+    there = 0.2 * arrival - 50.0 * arrival**2
+    assert there == pytest.approx(REACH, abs=0.5 * AIMED_AT * DEPTH * CLEARANCE)
+
+
+def test_a_free_journal_in_space_may_come_from_aside():
+    touch = touch_after((6e-5, 0.0, 0.0), (0.0, 0.16, 0.12), (0.0, 0.0, 0.0))
+    assert touch.until(1e-2) == pytest.approx(math.sqrt(REACH**2 - 6e-5**2) / 0.2)
+
+
+@pytest.mark.parametrize(
+    ("place", "velocity"),
+    [
+        ((0.0, 0.0), (0.0, 0.0)),  # at rest
+        ((9e-5, 0.0), (-1e-3, 0.0)),  # leaving
+        ((0.0, 0.0), (0.09, 0.0)),  # arrives later
+        ((1.001e-4, 0.0), (0.1, 0.0)),  # touches already
+        ((9.99e-5, 0.0), (5e-4, 0.0)),  # would go hardly any deeper
+    ],
+)
+def test_other_steps_are_left_alone(place, velocity):
+    assert touch_after(place, velocity).until(1e-3) == 1e-3
+
+
+def test_nothing_is_foreseen_before_there_was_a_step():
+    joint = SimpleNamespace(clearance=CLEARANCE, eccentricity=(0.0,), relative_velocity=(1.0,))
+    motion = JointError(joint, 1e-7)
+    assert Touch(joint, motion).until(1e-3) == 1e-3
+    assert Touch(joint, motion).first_step() == math.inf
+
+
+def test_a_contact_that_begins_goes_a_little_deeper():
+    just_there = CLEARANCE * (1.0 + 0.1 * DEPTH)
+    assert touch_after((0.0, just_there), (3.0, 0.2)).first_step() == pytest.approx(
+        DEPTH * CLEARANCE / 0.2
+    )
+    assert touch_after((0.0, just_there), (3.0, -0.2)).first_step() == math.inf
+    assert touch_after((0.0, 0.99 * CLEARANCE), (0.0, 0.2)).first_step() == math.inf
+    assert touch_after((0.0, 1.01 * CLEARANCE), (0.0, 0.2)).first_step() == math.inf
+
+
+@pytest.fixture
+def dry_press():
+    return Scene(crank_pin="dry", revolutions=0.5, solver={"tolerance": 0.02})
+
+
+def test_impacts_cost_fewer_iterations(dry_press, monkeypatch):
+    foreseen = simulate(dry_press).info
+    monkeypatch.setattr(Touch, "until", lambda touch, step: step)
+    monkeypatch.setattr(Touch, "first_step", lambda touch: math.inf)
+    leapt_into = simulate(dry_press).info
+    assert foreseen["rejected_steps"] < 0.7 * leapt_into["rejected_steps"]
+    assert foreseen["newton_iterations"] < 0.9 * leapt_into["newton_iterations"]
+
+
+def test_errors_that_rise_are_foreseen(dry_press, monkeypatch):
+    foreseen = simulate(dry_press).info
+    monkeypatch.setattr(stepping, "RISE", 0.0)
+    assert foreseen["rejected_steps"] < 0.7 * simulate(dry_press).info["rejected_steps"]

@@ -15,8 +15,16 @@ __all__ = ["Touch"]
 DEPTH = 5e-3
 """Penetration over clearance, where a contact's first step ends; 1e-3 to 1e-2 do as well."""
 
-AIMED_AT = 0.1
-"""Of this penetration, where the step before ends: no prediction misses the touch by as much."""
+SHORT = 0.05
+"""Of this penetration, how far before the touch the step before ends: a force at the end of a long
+step, however small, acts on all of it."""
+
+NEAR = 0.1
+"""Of this penetration, what is a touch already; no prediction misses it by half of that."""
+
+FAR = 30.0
+"""Of a contact's first step, how far off a touch is approached in two steps: what the last one
+leaves of velocities is what the impact begins with."""
 
 TURNS = 5
 """Of the way to the instant of the touch."""
@@ -35,25 +43,32 @@ class Touch:
         self._motion = motion
         self._clearance = joint.clearance
         self._depth = DEPTH * joint.clearance
+        self._begins = joint.clearance - NEAR * self._depth
 
     def first_step(self) -> float:
-        """Return the longest step (s) for a contact that has just begun; infinite elsewhere."""
+        """Return the longest step (s) for a contact that is just beginning; infinite elsewhere."""
         distance, closing = self._after(0.0)
-        if not self._clearance <= distance < self._clearance + self._depth or closing <= 0.0:
-            return math.inf
-        return self._depth / closing
+        if closing > 0.0 and self._begins <= distance < self._clearance + self._depth:
+            return self._depth / closing
+        return math.inf
 
     def until(self, step: float) -> float:
-        """Return when within a step (s) the surfaces touch; the step if they do not, or hardly."""
-        reach = self._clearance + AIMED_AT * self._depth
-        if not self._motion.acceleration or self._after(0.0)[0] >= self._clearance:
+        """Return when within a step (s) the surfaces touch; the step if they do not, or hardly.
+
+        Half of that if it is far off.
+        """
+        reach = self._clearance - SHORT * self._depth
+        if not self._motion.acceleration or self._after(0.0)[0] >= self._begins:
             return step
         when = step
         for _ in range(TURNS):
             when = self._arrival(reach, when)
             if when >= step:
                 return step
-        return when if self._after(when)[1] * (step - when) > self._depth else step
+        closing = self._after(when)[1]
+        if closing * (step - when) <= self._depth:
+            return step
+        return 0.5 * when if closing * when > FAR * self._depth else when
 
     def _arrival(self, reach: float, guess: float) -> float:
         """Return when the eccentricity is so long (m), at its mean rate until a guess (s)."""

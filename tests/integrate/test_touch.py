@@ -8,10 +8,10 @@ import pytest
 from exu_press import Scene, simulate
 from exu_press.integrate import stepping
 from exu_press.integrate.joint_error import JointError
-from exu_press.integrate.touch import AIMED_AT, DEPTH, Touch
+from exu_press.integrate.touch import DEPTH, SHORT, Touch
 
 CLEARANCE = 1e-4
-REACH = CLEARANCE * (1.0 + AIMED_AT * DEPTH)
+REACH = CLEARANCE * (1.0 - SHORT * DEPTH)
 
 
 def touch_after(place, velocity, acceleration=(0.0, 0.0), step=1e-4):
@@ -29,16 +29,19 @@ def touch_after(place, velocity, acceleration=(0.0, 0.0), step=1e-4):
 
 
 def test_a_free_journal_arrives_when_its_parabola_says():
-    """0.2 m/s against 100 m/s^2 from the centre: 0.1 mm lie on the way, and a little more."""
-    touch = touch_after((0.0, 0.0), (0.2, 0.0), (-100.0, 0.0))
+    touch = touch_after((9e-5, 0.0), (0.05, 0.0), (-50.0, 0.0))
     arrival = touch.until(1e-3)
-    there = 0.2 * arrival - 50.0 * arrival**2
-    assert there == pytest.approx(REACH, abs=0.5 * AIMED_AT * DEPTH * CLEARANCE)
+    there = 9e-5 + 0.05 * arrival - 25.0 * arrival**2
+    assert there == pytest.approx(REACH, abs=SHORT * DEPTH * CLEARANCE)
 
 
 def test_a_free_journal_in_space_may_come_from_aside():
-    touch = touch_after((6e-5, 0.0, 0.0), (0.0, 0.16, 0.12), (0.0, 0.0, 0.0))
-    assert touch.until(1e-2) == pytest.approx(math.sqrt(REACH**2 - 6e-5**2) / 0.2)
+    touch = touch_after((9.8e-5, 0.0, 0.0), (0.0, 0.016, 0.012), (0.0, 0.0, 0.0))
+    assert touch.until(1e-2) == pytest.approx(math.sqrt(REACH**2 - 9.8e-5**2) / 0.02)
+
+
+def test_from_afar_a_step_ends_half_way():
+    assert touch_after((0.0, 0.0), (0.2, 0.0)).until(1e-3) == pytest.approx(0.5 * REACH / 0.2)
 
 
 @pytest.mark.parametrize(

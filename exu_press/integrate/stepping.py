@@ -53,7 +53,6 @@ class StepControl:
     """Sets the step so that its error stays below 1.
 
     Attributes:
-        rejected: number of steps repeated for their error.
         error: of the last try.
     """
 
@@ -81,7 +80,6 @@ class StepControl:
             film_start: starts the first step over where a film takes up its load.
             next_corner: time -> the next instant at which a load has a corner, s, or infinity.
         """
-        self.rejected = 0
         self.error = 0.0
         self._before = 0.0  # joints' error in the step before, over its cube
         self._estimate = error
@@ -110,12 +108,11 @@ class StepControl:
             error = min(error, self._estimate.of_jump(step))
         self.error = error
         if not error <= 1.0:
-            self.rejected += 1
             self._step = step * max(CHANGE[0], _factor(error))
             return [2.0, self._step]
         self._estimate.accept()
         self._newton.stepped(time, self._estimate.accelerations)
-        if step >= 0.5 * self._step:  # else it was cut short by a corner or by the end
+        if step >= 0.5 * self._step:  # else it was cut short, by what it ends on
             self._step = step
         expected = self._expected(step)
         factor = _factor(max(error, expected))
@@ -133,7 +130,7 @@ class StepControl:
         return now * min(now / scaled, RISE) if scaled > 0.0 else 0.0
 
     def _after_step(self, mbs: exu.MainSystem, time: float) -> bool:
-        """Set the next step; corners and the end are stepped on exactly."""
+        """Set the next step; it ends on touches, and exactly on corners and the end."""
         touches = self._estimate.touches
         self._step = min([self._step, self._largest, *(touch.first_step() for touch in touches)])
         step = min([self._step, *(touch.until(self._step) for touch in touches)])

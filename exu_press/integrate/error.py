@@ -68,7 +68,7 @@ class StepError:
         joints = list(model.clearance_joints.values())
         self._joints = [JointError(j, max(share * j.clearance, ROUNDING)) for j in joints]
         pairs = zip(joints, self._joints, strict=True)
-        self.touches = [Touch(joint, motion) for joint, motion in pairs if joint.contacts]
+        self.touches = [Touch(joint, motion) for joint, motion in pairs if joint.reach < math.inf]
 
     def __call__(self, step: float) -> float:
         """Return the error of the step that ends in the current state."""

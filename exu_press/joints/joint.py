@@ -55,10 +55,11 @@ class JointState:
 class ClearanceJoint(Protocol):
     """A joint over some of the coordinates of the overlay's item."""
 
-    contacts: bool
-    """Whether surfaces may touch in it, which remember the last step; films remember nothing."""
     clearance: float
     """Radial clearance, m."""
+    reach: float
+    """Eccentricity at which its surfaces begin to touch, m, less than the clearance where they are
+    rough; infinite where a film alone lies between them."""
     places: list[int]
     """Where the joint's coordinates lie among those of the item."""
 

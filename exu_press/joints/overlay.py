@@ -79,7 +79,7 @@ class JointOverlay:
     def add(self, joint: ClearanceJoint) -> None:
         """Take in a joint whose ends' indices come from `index_of`."""
         self.joints.append(joint)
-        if joint.contacts:
+        if joint.reach < math.inf:  # films remember nothing of the last step
             self._contacts.append(joint)
         nodes = list(self.nodes)
         places = [

@@ -6,6 +6,7 @@ pair turns (|e|, d|e|/dt, v_t, omega_J, omega_B) into the force on the journal F
 centre. a_J + a_B + |e| = 0, so that momentum and angular momentum are conserved exactly.
 """
 
+import math
 from collections.abc import Sequence
 
 from exu_press.laws.contact import Approach, NormalContact
@@ -313,14 +314,15 @@ class PairedJoint:
     Attributes:
         pairs: the first one has the joint's clearance.
         clearance: radial clearance, m.
-        contacts: whether surfaces may touch in one of them.
+        reach: eccentricity at which surfaces touch in one of them, m, or infinity.
     """
 
     def __init__(self, pairs: Sequence[Pair]) -> None:
         """Let the pairs act in parallel."""
         self.pairs = list(pairs)
         self.clearance = self.pairs[0].clearance
-        self.contacts = any(isinstance(pair, DryPair) for pair in self.pairs)
+        dry = [pair.clearance for pair in self.pairs if isinstance(pair, DryPair)]
+        self.reach = min(dry, default=math.inf)
         self._motion: Motion = (0.0, 0.0, 0.0, 0.0, 0.0)
         self._loads: list[Load | None] = [None for _ in self.pairs]
         self._motion_before = self._motion

@@ -21,7 +21,6 @@ class SpatialSpherical:
     """
 
     outside = None
-    contacts = True
 
     def __init__(
         self,
@@ -38,7 +37,8 @@ class SpatialSpherical:
         self.places = ball.places + socket.places
         self._stateful = isinstance(friction, LuGre) or contact.needs_impact_speed
         self._contact, self._friction = contact, friction
-        self._radius, self.clearance = radius, clearance
+        self._radius = radius
+        self.clearance = self.reach = clearance
         self._approach = Approach()
         self._next_bristle: Array = np.zeros(3)
         self.reset()

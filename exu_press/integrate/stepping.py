@@ -42,8 +42,8 @@ FIRST = 1.0 / 64.0
 
 CHANGE = (0.05, 1.2)
 """How far a step may be shortened and lengthened at once. After an impact the linkage comes to rest
-on its pin within a millisecond; steps that grow by half leap over that, and twice the error is left
-in the speed at which the next impact begins."""
+on its pin within a millisecond; steps that grow by half leap over that, and more than twice the
+error is left in the next impact's peak."""
 
 
 RENEWED = 8

@@ -14,7 +14,7 @@ __all__ = ["Touch"]
 
 DEPTH = 2.5e-3
 """Penetration over clearance, where a contact's first step ends: the impact's own steps grow from
-that one, and 5e-3 leaves twice the error in its peak."""
+that one, and 5e-3 leaves up to twice the error in its peak."""
 
 SHORT = 0.05
 """Of this penetration, how far before the touch the step before ends: a force at the end of a long

@@ -13,17 +13,25 @@ ROUNDING = 1e-14
 step is told apart from it; velocities at a step's end are no better than this over the step, and
 accelerations than this over its square."""
 
-FINER = 3.0
+FINER = 5.0
 """How much shorter than velocities need it a step may become for the peaks of accelerations."""
+
+LOOSEST = 1e-2
+"""What a peak may be off by, over itself, where the tolerance is looser: instants are many only
+where a peak is, so that meeting it costs a few per cent of a run."""
+
+NEAR = 0.5
+"""Of a body's largest acceleration so far, from where its peak may lie between two instants."""
 
 
 class BodyError:
     """Tells from the accelerations at three instants what a step missed; 1 is what it may.
 
-    Velocities: h^3 |second derivative of the acceleration| / 6 against their limit. Accelerations:
-    what they do between two instants, h^2 |second derivative| / 8, against the tolerance times the
-    body's own largest acceleration so far, so that the peaks of impacts are met. Of each the
-    largest of all bodies, in the kinetic norm sqrt(|dx|^2 + (J/m) dphi^2).
+    Velocities: h^3 |second derivative of the acceleration| / 6 against their limit. Accelerations,
+    where they are near the body's own largest so far: what they do between two instants,
+    h^2 |second derivative| / 8, against the tolerance times that largest, so that the peaks of
+    impacts are met. Of each the largest of all bodies, in the kinetic norm
+    sqrt(|dx|^2 + (J/m) dphi^2).
 
     Attributes:
         change: of the accelerations' rate, by the step last tried, in SI over seconds.
@@ -47,17 +55,20 @@ class BodyError:
             inertias: the mass matrix's diagonal, kg and kg m^2.
             accelerations: of all coordinates, at the beginning of the first step.
             velocity_limit: what a velocity may be off by in one step, m/s.
-            tolerance: what a peak may be off by, over itself.
+            tolerance: what a peak may be off by, over itself, if that is at most `LOOSEST`.
             usual: an acceleration below which no peak is looked for, m/s^2.
         """
         self._ends = [*starts[1:], len(inertias)]
         self._masses, self._inertias = masses, inertias
-        self._velocity_limit, self._tolerance = velocity_limit, tolerance
+        self._velocity_limit = velocity_limit
+        self._of_peak = min(tolerance, LOOSEST)
         self._before = self._now = accelerations
         self._rate_before: list[float] = []  # none before the first step
         self._rate: list[float] = []
         self._peaks_before = [usual * usual for _ in masses]  # squares of the largest so far
         self._peaks = self._peaks_before
+        self._sizes = self._sizes_before = self._squares(accelerations)
+        self._allowed: list[float] = []  # squares of what peaks may be off by, in the step tried
         self.change: list[float] = []
 
     def tried(self, now: list[float], step: float) -> float:
@@ -66,20 +77,23 @@ class BodyError:
         before, last = self._before, self._rate_before
         self._rate = rate = [(now[i] - before[i]) / step for i in range(len(now))]
         self.change = [rate[i] - last[i] for i in range(len(rate))] if last else rate
-        squares, peaks = self._squares(now), self._peaks_before
-        self._peaks = [max(squares[i], peaks[i]) for i in range(len(peaks))]
+        self._sizes, self._peaks, self._allowed = self._squares(now), [], []
+        for i, size in enumerate(self._sizes):
+            peak = max(size, self._peaks_before[i])
+            near = max(size, self._sizes_before[i]) >= NEAR * NEAR * peak
+            self._peaks.append(peak)
+            self._allowed.append(self._of_peak * self._of_peak * peak if near else math.inf)
         return self.error(self.change, step)
 
     def error(self, change: list[float], step: float) -> float:
         """Return the error that goes with a change of the accelerations' rate."""
         largest = relative = 0.0
         rounding = (ROUNDING / (step * step)) ** 2
-        allowed = self._tolerance * self._tolerance
-        squares, peaks = self._squares(change), self._peaks
+        squares, allowed = self._squares(change), self._allowed
         for i in range(len(squares)):
             square = squares[i]
             largest = max(largest, square)
-            relative = max(relative, square / max(allowed * peaks[i], rounding))
+            relative = max(relative, square / max(allowed[i], rounding))
         limit = max(self._velocity_limit, ROUNDING / step)
         velocity = VELOCITY_CONSTANT * step * step * math.sqrt(largest) / limit
         acceleration = 0.125 * step * math.sqrt(relative)
@@ -100,7 +114,8 @@ class BodyError:
 
     def accept(self) -> None:
         """Remember the accepted step's end as the next one's beginning."""
-        self._before, self._rate_before, self._peaks_before = self._now, self._rate, self._peaks
+        self._before, self._rate_before = self._now, self._rate
+        self._peaks_before, self._sizes_before = self._peaks, self._sizes
 
     def _squares(self, vector: list[float]) -> list[float]:
         """Return the squares of each body's kinetic norm."""

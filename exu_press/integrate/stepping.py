@@ -26,8 +26,13 @@ AIM = 0.4
 """Error at which steps are aimed; the reserve saves repeated steps, as a swinging part's error
 rises and falls several times in each of its periods."""
 
-GROW = 1.3
-"""A step is lengthened when it may be by this factor."""
+GROW = 1.2
+"""By what a step is lengthened, once it may be. After an impact the linkage comes to rest on its
+pin within a millisecond; steps that grow by half leap over that, and more than twice the error is
+left in the next impact's peak."""
+
+SHRINK = 0.05
+"""How far a step that failed may be shortened at once."""
 
 SHORTEN = 0.7
 """How far a step may be shortened at once before it fails: where the joints' error rises so that
@@ -39,12 +44,6 @@ RISE = 3.0
 
 FIRST = 1.0 / 64.0
 """First step over the largest one."""
-
-CHANGE = (0.05, 1.2)
-"""How far a step may be shortened and lengthened at once. After an impact the linkage comes to rest
-on its pin within a millisecond; steps that grow by half leap over that, and more than twice the
-error is left in the next impact's peak."""
-
 
 RENEWED = 8
 """Fixed steps after which a Jacobian that is kept, as flexible bodies' is, is renewed: with its age
@@ -110,7 +109,7 @@ class StepControl:
             error = min(error, self._estimate.of_jump(step))
         self.error = error
         if not error <= 1.0:
-            self._step = step * max(CHANGE[0], _factor(error))
+            self._step = step * max(SHRINK, _factor(error))
             return [2.0, self._step]
         self._estimate.accept()
         self._newton.stepped(time, self._estimate.accelerations)
@@ -119,7 +118,7 @@ class StepControl:
         expected = self._expected(step)
         factor = _factor(max(error, expected))
         if factor > GROW:
-            self._step *= min(CHANGE[1], factor)
+            self._step *= GROW
         elif expected > 1.0:
             self._step *= max(SHORTEN, factor)
         return [0.0, -1.0]

@@ -13,8 +13,7 @@ from exu_press.joints.joint import ClearanceJoint
 __all__ = ["Touch"]
 
 DEPTH = 2.5e-3
-"""Penetration over clearance, where a contact's first step ends: the impact's own steps grow from
-that one, and 5e-3 leaves up to twice the error in its peak."""
+"""Penetration over clearance, where a contact's first step ends; 1e-3 to 5e-3 do as well."""
 
 SHORT = 0.05
 """Of this penetration, how far before the touch the step before ends: a force at the end of a long
@@ -54,7 +53,7 @@ class Touch:
         return math.inf
 
     def until(self, step: float) -> float:
-        """Return when within a step (s) the surfaces touch; the step if they do not, or hardly.
+        """Return when within a step (s) the surfaces touch; the step itself if they do not.
 
         Half of that if it is far off.
         """
@@ -66,10 +65,8 @@ class Touch:
             when = self._arrival(before, when)
             if when >= step:
                 return step
-        closing = self._after(when)[1]
-        if closing * (step - when) <= self._depth:
-            return step
-        return 0.5 * when if closing * when > FAR * self._depth else when
+        far_off = self._after(when)[1] * when > FAR * self._depth
+        return 0.5 * when if far_off else when
 
     def _arrival(self, reach: float, guess: float) -> float:
         """Return when the eccentricity is so long (m), at its mean rate until a guess (s)."""

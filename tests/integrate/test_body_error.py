@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from exu_press.integrate.body_error import FINER, ROUNDING, BodyError
+from exu_press.integrate.body_error import FINER, LOOSEST, NEAR, ROUNDING, BodyError
 
 
 def errors(velocity_limit=1e-3, tolerance=1e-2, masses=(2.0,)):
@@ -62,6 +62,23 @@ def test_a_peak_of_its_own_makes_steps_finer_up_to_a_limit():
     assert limited == pytest.approx(FINER**3 * velocity, rel=0.1)
     expected = min((h**2 * curvature / 8.0 / (1e-2 * 100.0)) ** 1.5, FINER**3 * velocity)
     assert value == pytest.approx(expected, rel=0.1)
+
+
+def test_a_peak_is_met_however_loose_the_tolerance():
+    loose, strict = (errors(velocity_limit=1e-9, tolerance=t) for t in (0.1, LOOSEST))
+    assert loose.tried([1e3, 0.0, 0.0], 0.01) == strict.tried([1e3, 0.0, 0.0], 0.01)
+
+
+@pytest.mark.parametrize(("share", "counts"), [(1.1 * NEAR, True), (0.9 * NEAR, False)])
+def test_only_near_a_peak_is_it_looked_for(share, counts):
+    """The error is what the peak may be off by, or that of the velocity alone."""
+    error = errors(velocity_limit=1e-3)
+    for acceleration in (1.0, 0.0):
+        error.tried([acceleration, 0.0, 0.0], 1e-3)
+        error.accept()
+    value = error.tried([share, 0.0, 0.0], 1e-3)
+    of_velocity = 1e-3 * (share + 1.0) / 6.0 / 1e-3  # the rate changed by (share + 1) / h
+    assert (value > 2.0 * of_velocity) == counts
 
 
 def test_what_has_no_say_and_what_rounding_makes():

@@ -41,6 +41,12 @@ def test_a_free_journal_in_space_may_come_from_aside():
     assert touch.until(1e-2) == pytest.approx(math.sqrt(REACH**2 - 9.8e-5**2) / 0.02)
 
 
+def test_however_little_deeper_it_would_go():
+    """A force at the end of a long step acts on all of it: 0.5 um deep cost 4 % of an impact."""
+    touch = touch_after((9.99e-5, 0.0), (3e-4, 0.0))
+    assert touch.until(1e-3) == pytest.approx((REACH - 9.99e-5) / 3e-4)
+
+
 def test_from_afar_a_step_ends_half_way():
     assert touch_after((0.0, 0.0), (0.2, 0.0)).until(1e-3) == pytest.approx(0.5 * REACH / 0.2)
 
@@ -57,7 +63,6 @@ def test_rough_surfaces_touch_earlier():
         ((9e-5, 0.0), (-1e-3, 0.0)),  # leaving
         ((0.0, 0.0), (0.09, 0.0)),  # arrives later
         ((1.001e-4, 0.0), (0.1, 0.0)),  # touches already
-        ((9.99e-5, 0.0), (3e-4, 0.0)),  # would go hardly any deeper
     ],
 )
 def test_other_steps_are_left_alone(place, velocity):
@@ -126,7 +131,7 @@ def test_growing_slowly_halves_the_error_of_the_next_impact(monkeypatch):
         return np.array([run.summary()["peak_acceleration"]["resolved"] for run in runs])
 
     exact, slowly = peaks(1e-4), peaks(0.02)
-    monkeypatch.setattr(stepping, "CHANGE", (0.05, 1.5))
+    monkeypatch.setattr(stepping, "GROW", 1.5)
     by_half = peaks(0.02)
     assert np.abs(slowly / exact - 1.0).max() < 6e-3
     assert np.abs(slowly / exact - 1.0).mean() < 0.6 * np.abs(by_half / exact - 1.0).mean()

@@ -98,13 +98,13 @@ def agreement(result: Result, finer: Result) -> Check:
 
     Compared is what stays when the instants of impacts shift a little, each with a tolerance of its
     own: extremes of the motion, peaks over the first impacts, root mean squares, means, energy;
-    forces of a film no closer than rounded speeds allow. A run may be off by three times the
+    forces of a film no closer than rounded speeds allow. A run may be off by four times the
     tolerance it was given on top, which is how far journals drift in films of 0.1 um, or by the
     error of a fixed step.
     """
     solver = result.scene.solver
     assert solver is not None
-    asked = STEP_ERROR if solver.tolerance is None else 3.0 * solver.tolerance
+    asked = STEP_ERROR if solver.tolerance is None else 4.0 * solver.tolerance
     worst, which = 0.0, ""
     there = {name: value for name, value, _ in _quantities(finer, asked)}
     for name, value, tolerance in _quantities(result, asked):

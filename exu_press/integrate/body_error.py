@@ -17,8 +17,8 @@ FINER = 5.0
 """How much shorter than velocities need it a step may become for the peaks of accelerations."""
 
 LOOSEST = 1e-2
-"""What a peak may be off by, over itself, where the tolerance is looser: instants are many only
-where a peak is, so that meeting it costs a few per cent of a run."""
+"""What a peak may be off by, over itself, where the tolerance is looser: few instants are near one,
+so that this costs a rigid press a few per cent of its steps."""
 
 NEAR = 0.5
 """Of a body's largest acceleration so far, from where its peak may lie between two instants."""

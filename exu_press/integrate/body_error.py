@@ -13,14 +13,14 @@ ROUNDING = 1e-14
 step is told apart from it; velocities at a step's end are no better than this over the step, and
 accelerations than this over its square."""
 
-FINER = 5.0
+FINER = 4.5
 """How much shorter than velocities need it a step may become for the peaks of accelerations."""
 
 LOOSEST = 1e-2
 """What a peak may be off by, over itself, where the tolerance is looser: few instants are near one,
 so that this costs a rigid press a few per cent of its steps."""
 
-NEAR = 0.5
+NEAR = 0.65
 """Of a body's largest acceleration so far, from where its peak may lie between two instants."""
 
 

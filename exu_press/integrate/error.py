@@ -81,7 +81,9 @@ class StepError:
         if not self._joints:  # else impacts and films need finer steps, by far
             offset = self._bodies.offset(step) / (self._tolerance * self._speed)
             error = max(error, math.pow(offset, 1.5))  # as the step's cube
-        self.of_joints = max([0.0, *(joint.error(step) for joint in self._joints)])
+        self.of_joints = 0.0
+        for joint in self._joints:
+            self.of_joints = max(self.of_joints, joint.error(step))
         return max(error, self.of_joints)
 
     def of_jump(self, step: float) -> float:

@@ -133,8 +133,12 @@ class StepControl:
     def _after_step(self, mbs: exu.MainSystem, time: float) -> bool:
         """Set the next step; it ends on touches, and exactly on corners and the end."""
         touches = self._estimate.touches
-        self._step = min([self._step, self._largest, *(touch.first_step() for touch in touches)])
-        step = min([self._step, *(touch.until(self._step) for touch in touches)])
+        step = min(self._step, self._largest)
+        for touch in touches:
+            step = min(step, touch.first_step())
+        self._step = step
+        for touch in touches:
+            step = min(step, touch.until(self._step))
         for stop in (self._next_corner(time), self._duration):
             left = stop - time
             if left <= self._smallest:

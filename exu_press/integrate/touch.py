@@ -22,6 +22,10 @@ step, however small, acts on all of it."""
 NEAR = 0.1
 """Of this penetration, what is a touch already; no prediction misses it by half of that."""
 
+SHORTEST = 1e-7
+"""No step, s, is made shorter for a touch: positions' last digits, 1e-14 m, are accelerations of a
+metre a second squared there. Of clearances of 0.1 um a step is then longer than any depth asks."""
+
 FAR = 60.0
 """Of a contact's first step, how far off a touch is approached in two steps: what the last one
 leaves of velocities is what the impact begins with."""
@@ -49,7 +53,7 @@ class Touch:
         """Return the longest step (s) for a contact that is just beginning; infinite elsewhere."""
         distance, closing = self._after(0.0)
         if closing > 0.0 and self._begins <= distance < self._reach + self._depth:
-            return self._depth / closing
+            return max(self._depth / closing, SHORTEST)
         return math.inf
 
     def until(self, step: float) -> float:
@@ -66,7 +70,7 @@ class Touch:
             if when >= step:
                 return step
         far_off = self._after(when)[1] * when > FAR * self._depth
-        return 0.5 * when if far_off else when
+        return min(step, max(0.5 * when if far_off else when, SHORTEST))
 
     def _arrival(self, reach: float, guess: float) -> float:
         """Return when the eccentricity is so long (m), at its mean rate until a guess (s)."""

@@ -9,7 +9,7 @@ import pytest
 from exu_press import Scene, simulate
 from exu_press.integrate import stepping
 from exu_press.integrate.joint_error import JointError
-from exu_press.integrate.touch import DEPTH, SHORT, Touch
+from exu_press.integrate.touch import DEPTH, SHORT, SHORTEST, Touch
 
 CLEARANCE = 1e-4
 REACH = CLEARANCE * (1.0 - SHORT * DEPTH)
@@ -85,6 +85,13 @@ def test_a_contact_that_begins_goes_a_little_deeper():
     assert touch_after((0.0, just_there), (3.0, -0.2)).first_step() == math.inf
     assert touch_after((0.0, 0.99 * CLEARANCE), (0.0, 0.2)).first_step() == math.inf
     assert touch_after((0.0, 1.01 * CLEARANCE), (0.0, 0.2)).first_step() == math.inf
+
+
+def test_no_step_is_so_short_that_rounding_shows():
+    """Of clearances of 0.1 um a depth asks for steps of 1e-8 s."""
+    assert touch_after((0.0, CLEARANCE), (0.0, 1e2)).first_step() == SHORTEST
+    assert touch_after((0.999 * CLEARANCE, 0.0), (1e2, 0.0)).until(1e-3) == SHORTEST
+    assert touch_after((0.999 * CLEARANCE, 0.0), (1e2, 0.0)).until(5e-8) == 5e-8
 
 
 @pytest.fixture

@@ -13,6 +13,9 @@ ROUNDING = 1e-14
 step is told apart from it; velocities at a step's end are no better than this over the step, and
 accelerations than this over its square."""
 
+ALTERNATING = 4.0
+"""What rounding makes of accelerations' second differences: it changes sign from step to step."""
+
 FINER = 4.5
 """How much shorter than velocities need it a step may become for the peaks of accelerations."""
 
@@ -88,7 +91,7 @@ class BodyError:
     def error(self, change: list[float], step: float) -> float:
         """Return the error that goes with a change of the accelerations' rate."""
         largest = relative = 0.0
-        rounding = (ROUNDING / (step * step)) ** 2
+        rounding = (ALTERNATING * ROUNDING / (step * step)) ** 2
         squares, allowed = self._squares(change), self._allowed
         for i in range(len(squares)):
             square = squares[i]

@@ -21,7 +21,7 @@ FINER = 4.5
 
 LOOSEST = 1e-2
 """What a peak may be off by, over itself, where the tolerance is looser: few instants are near one,
-so that this costs a rigid press a few per cent of its steps."""
+so that this costs little."""
 
 NEAR = 0.65
 """Of a body's largest acceleration so far, from where its peak may lie between two instants."""

@@ -48,6 +48,7 @@ class Touch:
         self._reach = joint.reach
         self._depth = DEPTH * joint.clearance
         self._begins = joint.reach - NEAR * self._depth
+        self._stop = joint.reach - SHORT * self._depth
 
     def first_step(self) -> float:
         """Return the longest step (s) for a contact that is just beginning; infinite elsewhere."""
@@ -59,21 +60,20 @@ class Touch:
     def until(self, step: float) -> float:
         """Return when within a step (s) the surfaces touch; the step itself if they do not.
 
-        Half of that if it is far off.
+        Half of that if it is far off, and never less than `SHORTEST`.
         """
-        before = self._reach - SHORT * self._depth
         if not self._motion.acceleration or self._after(0.0)[0] >= self._begins:
             return step
         when = step
         for _ in range(TURNS):
-            when = self._arrival(before, when)
+            when = self._arrival(when)
             if when >= step:
                 return step
         far_off = self._after(when)[1] * when > FAR * self._depth
         return min(step, max(0.5 * when if far_off else when, SHORTEST))
 
-    def _arrival(self, reach: float, guess: float) -> float:
-        """Return when the eccentricity is so long (m), at its mean rate until a guess (s)."""
+    def _arrival(self, guess: float) -> float:
+        """Return when a step is to end before the touch, at the mean rate until a guess (s)."""
         place, acceleration = self._motion.place, self._motion.acceleration
         along = square = excess = 0.0
         for i, rate in enumerate(self._motion.velocity):
@@ -81,7 +81,7 @@ class Touch:
             along += place[i] * mean
             square += mean * mean
             excess += place[i] * place[i]
-        excess -= reach * reach  # below zero: the journal is inside
+        excess -= self._stop * self._stop  # below zero: the journal is inside
         if square == 0.0:
             return math.inf
         root = math.sqrt(along * along - square * excess)

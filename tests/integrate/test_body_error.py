@@ -5,6 +5,7 @@ import math
 import pytest
 
 from exu_press.integrate.body_error import FINER, LOOSEST, NEAR, ROUNDING, BodyError
+from exu_press.integrate.stepping import AIM, GROW, ORDER
 
 
 def errors(velocity_limit=1e-3, tolerance=1e-2, masses=(2.0,)):
@@ -65,7 +66,8 @@ def test_a_peak_of_its_own_makes_steps_finer_up_to_a_limit():
 
 
 def test_a_peak_is_met_however_loose_the_tolerance():
-    loose, strict = (errors(velocity_limit=1e-9, tolerance=t) for t in (0.1, LOOSEST))
+    """Where velocities ask for no finer step, and would let it be as fine as peaks need it."""
+    loose, strict = (errors(velocity_limit=1.0, tolerance=t) for t in (0.1, LOOSEST))
     assert loose.tried([1e3, 0.0, 0.0], 0.01) == strict.tried([1e3, 0.0, 0.0], 0.01)
 
 
@@ -86,6 +88,16 @@ def test_what_has_no_say_and_what_rounding_makes():
     step = 1e-8
     rounding = ROUNDING / step**2
     assert errors(velocity_limit=1e-30, tolerance=1e-30).tried([rounding, 0.0, 0.0], step) < 1.0
+
+
+def test_rounding_that_alternates_lets_steps_grow():
+    """Steps after a film's start stood still at 0.13 us, where it was taken for an error."""
+    step = 1e-7
+    error = errors(velocity_limit=1e-5, tolerance=1e-3)
+    for sign in (1.0, -1.0, 1.0):
+        value = error.tried([17.8 + sign * ROUNDING / step**2, 0.0, 0.0], step)
+        error.accept()
+    assert 0.0 < value < AIM / GROW**ORDER
 
 
 def test_jumps_are_told_by_body():

@@ -4,7 +4,7 @@ import argparse
 import sys
 from collections.abc import Sequence
 
-from exu_press.cli import compare, doctor, paper, precision, report, run, stability, sweep, view
+from exu_press.cli import compare, doctor, precision, report, run, stability, sweep, view
 from exu_press.errors import InputError
 
 __all__ = ["main"]
@@ -15,7 +15,6 @@ COMMANDS = {
     "sweep": sweep,
     "precision": precision,
     "stability": stability,
-    "paper": paper,
     "doctor": doctor,
     "view": view,
     "report": report,

@@ -8,10 +8,11 @@ import pytest
 
 import exu_press
 import fe_models
+import paper
 
 MODULES = [
     module.name
-    for package in (exu_press, fe_models)
+    for package in (exu_press, fe_models, paper)
     for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}.")
 ]
 

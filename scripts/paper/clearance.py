@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 
 from exu_press.scene import Scene
-from exu_press.studies.paper.comparison import observed
-from exu_press.studies.paper.readings import MODELS, OBSERVED
-from exu_press.studies.paper.runs import clearance
+from paper.comparison import observed
+from paper.readings import MODELS, OBSERVED
+from paper.runs import clearance
 
 __all__ = ["ALIKE", "SEPARATE", "WEIGHTS", "Choice", "Point", "choose", "point_of", "scenes_of"]
 

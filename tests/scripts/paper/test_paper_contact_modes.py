@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from exu_press.studies.paper.contact_modes import LONGEST_IMPACT, contact_modes
+from paper.contact_modes import LONGEST_IMPACT, contact_modes
 
 
 def test_shares_of_a_known_history():

@@ -9,13 +9,13 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from exu_press.plots.canvas import angle_range, crank_degrees, curve, legend_above, new_figure
-from exu_press.plots.paper.drawing import plain_logarithm
-from exu_press.plots.paper.revolution import ideal_motion, mean_acceleration
 from exu_press.plots.scales import crank_angle_axis, note
 from exu_press.plots.style import COLOURS, GREY, RUN, colour_of, styled
 from exu_press.result import Result
-from exu_press.studies.paper.comparison import observed
-from exu_press.studies.paper.published import stated
+from paper.comparison import observed
+from paper.plots.drawing import plain_logarithm
+from paper.plots.revolution import ideal_motion, mean_acceleration
+from paper.published import stated
 
 __all__ = ["curves_figure", "peaks_figure"]
 

@@ -7,11 +7,11 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from exu_press.plots.canvas import angle_range, crank_degrees, curve, new_figure
-from exu_press.plots.paper.revolution import ideal_motion, mean_acceleration
 from exu_press.plots.scales import crank_angle_axis, impact_scale, note
 from exu_press.plots.style import COLOURS, IDEAL, styled
 from exu_press.result import Result
-from exu_press.studies.paper.published import stated
+from paper.plots.revolution import ideal_motion, mean_acceleration
+from paper.published import stated
 
 __all__ = ["LOOKS", "motion_figure"]
 

@@ -1,10 +1,13 @@
-"""exu-press paper in its reduced form."""
+"""scripts/paper.py in its reduced form."""
 
 import json
+import subprocess
+import sys
+from pathlib import Path
 
 import pytest
 
-from exu_press.cli import main
+SCRIPT = Path(__file__).parents[3] / "scripts" / "paper.py"
 
 KEYS = {
     "quantity",
@@ -22,9 +25,14 @@ KEYS = {
 @pytest.fixture(scope="module")
 def directory(tmp_path_factory):
     directory = tmp_path_factory.mktemp("paper")
-    arguments = ["paper", "--quick", "--quiet", "--no-pictures", "--out", str(directory)]
-    assert main(arguments) == 0
+    assert run("--quiet", "--no-pictures", "--out", str(directory)).returncode == 0
     return directory
+
+
+def run(*arguments):
+    """Start the script as a user does."""
+    words = [sys.executable, str(SCRIPT), "--quick", *arguments]
+    return subprocess.run(words, capture_output=True, text=True, timeout=200)
 
 
 def test_every_published_number_has_a_row(directory):
@@ -53,16 +61,16 @@ def test_sensitivity_and_clearance(directory):
     assert shear[5e-5] == pytest.approx(4.0 * shear[2e-4], rel=0.05)
 
 
-def test_it_goes_on_where_it_was_stopped(directory, capsys):
+def test_it_goes_on_where_it_was_stopped(directory):
     rows = (directory / "runs.jsonl").read_text().splitlines()
     report = (directory / "paper.json").read_text()
     (directory / "runs.jsonl").write_text("\n".join(rows[:-5]) + "\n")
     next((directory / "runs").glob("*.nc")).unlink()
-    assert main(["paper", "--quick", "--no-pictures", "--out", str(directory)]) == 0
+    again = run("--no-pictures", "--out", str(directory))
+    assert again.returncode == 0
     assert len((directory / "runs.jsonl").read_text().splitlines()) == len(rows)
-    captured = capsys.readouterr()
-    assert "are there" in captured.err
-    assert "REDUCED FORM" in captured.out and "largest" not in captured.err
+    assert "are there" in again.stderr
+    assert "REDUCED FORM" in again.stdout and "largest" not in again.stderr
     before, after = (json.loads(text)["rows"] for text in (report, read(directory)))
     assert before == after
 
@@ -75,7 +83,7 @@ def read(directory):
     ("arguments", "named"),
     [(["--workers", "0"], "workers = 0"), (["--out", "/dev/null/paper"], "/dev/null/paper")],
 )
-def test_wrong_input_is_refused_in_one_line(arguments, named, capsys, tmp_path):
-    assert main(["paper", "--quick", "--out", str(tmp_path), *arguments]) == 2
-    message = capsys.readouterr().err
-    assert named in message and message.count("\n") == 1
+def test_wrong_input_is_refused_in_one_line(arguments, named, tmp_path):
+    refused = run("--out", str(tmp_path), *arguments)
+    assert refused.returncode == 2
+    assert named in refused.stderr and refused.stderr.count("\n") == 1

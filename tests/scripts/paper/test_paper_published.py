@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import pytest
 
-from exu_press.studies.paper.published import published, stated
-from exu_press.studies.paper.runs import paper_runs
-from exu_press.studies.paper.trends import TRENDS
+from paper.published import published, stated
+from paper.runs import paper_runs
+from paper.trends import TRENDS
 
 
 def test_names_are_unique():

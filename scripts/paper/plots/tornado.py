@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from exu_press.plots.paper.drawing import headed_figure, plain_logarithm
 from exu_press.plots.style import COLOURS, GREY, RUN, styled
-from exu_press.studies.paper.rows import AGREES_WITHIN
-from exu_press.studies.paper.sensitivity import Effect, Tornado
+from paper.plots.drawing import headed_figure, plain_logarithm
+from paper.rows import AGREES_WITHIN
+from paper.sensitivity import Effect, Tornado
 
 __all__ = ["tornado_figure"]
 

@@ -4,11 +4,11 @@ import json
 
 import pytest
 
-from exu_press.studies.paper.plan import Plan
-from exu_press.studies.paper.published import published
-from exu_press.studies.paper.runs import paper_runs, rigid_twin
-from exu_press.studies.paper.sensitivity import sensitivity_task, tornado_of
-from exu_press.studies.paper.settings import FLEXIBLE, SETTINGS, Setting, Times
+from paper.plan import Plan
+from paper.published import published
+from paper.runs import paper_runs, rigid_twin
+from paper.sensitivity import sensitivity_task, tornado_of
+from paper.settings import FLEXIBLE, SETTINGS, Setting, Times
 
 RUNS = paper_runs()
 

@@ -5,17 +5,17 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from exu_press.plots.paper.motion import LOOKS, motion_figure
-from exu_press.plots.paper.numbers import numbers_figure
-from exu_press.plots.paper.paths import paths_figure
-from exu_press.plots.paper.revolution import last_revolution
-from exu_press.plots.paper.sweeps import curves_figure, peaks_figure
-from exu_press.plots.paper.tornado import tornado_figure
-from exu_press.plots.paper.tradeoff import tradeoff_figure
 from exu_press.plots.save import save_figure
-from exu_press.studies.paper.published import Trend, published
-from exu_press.studies.paper.report import Report
-from exu_press.studies.paper.runs import ELASTIC, LOADS, run_name
+from paper.plots.motion import LOOKS, motion_figure
+from paper.plots.numbers import numbers_figure
+from paper.plots.paths import paths_figure
+from paper.plots.revolution import last_revolution
+from paper.plots.sweeps import curves_figure, peaks_figure
+from paper.plots.tornado import tornado_figure
+from paper.plots.tradeoff import tradeoff_figure
+from paper.published import Trend, published
+from paper.report import Report
+from paper.runs import ELASTIC, LOADS, run_name
 
 __all__ = ["save_paper"]
 

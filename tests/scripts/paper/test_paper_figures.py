@@ -1,4 +1,4 @@
-"""Pictures of exu-press paper: what stands in them."""
+"""Pictures of the study: what stands in them."""
 
 import dataclasses
 
@@ -6,22 +6,22 @@ import numpy as np
 import pytest
 
 from exu_press import simulate
-from exu_press.plots.paper import save_paper
-from exu_press.plots.paper.motion import motion_figure
-from exu_press.plots.paper.numbers import numbers_figure
-from exu_press.plots.paper.paths import paths_figure
-from exu_press.plots.paper.revolution import last_revolution, mean_acceleration
-from exu_press.plots.paper.sweeps import curves_figure, peaks_figure
-from exu_press.plots.paper.tornado import tornado_figure
-from exu_press.plots.paper.tradeoff import tradeoff_figure
-from exu_press.studies.paper.clearance import Point, choose
-from exu_press.studies.paper.published import published
-from exu_press.studies.paper.readings import readings
-from exu_press.studies.paper.report import Report
-from exu_press.studies.paper.rows import number_rows
-from exu_press.studies.paper.runs import paper_runs
-from exu_press.studies.paper.sensitivity import tornado_of
-from exu_press.studies.paper.settings import Setting
+from paper.clearance import Point, choose
+from paper.plots.motion import motion_figure
+from paper.plots.numbers import numbers_figure
+from paper.plots.paths import paths_figure
+from paper.plots.revolution import last_revolution, mean_acceleration
+from paper.plots.save import save_paper
+from paper.plots.sweeps import curves_figure, peaks_figure
+from paper.plots.tornado import tornado_figure
+from paper.plots.tradeoff import tradeoff_figure
+from paper.published import published
+from paper.readings import readings
+from paper.report import Report
+from paper.rows import number_rows
+from paper.runs import paper_runs
+from paper.sensitivity import tornado_of
+from paper.settings import Setting
 
 SWEEP = ("clearance 0.05 mm", "clearance 0.1 mm", "clearance 0.15 mm", "clearance 0.2 mm")
 NUMBER = next(n for n in published().numbers if n.name == "acceleration_200um")
@@ -144,7 +144,7 @@ def test_the_trade_off(runs):
 
 def test_a_report_becomes_files(runs, rows, tornado, tmp_path):
     """Of runs that are missing nothing is drawn."""
-    from exu_press.studies.paper.tasks import run_file
+    from paper.tasks import run_file
 
     for name in SWEEP:
         path = run_file(tmp_path, name)

@@ -8,8 +8,8 @@ import pytest
 
 from exu_press import Scene, simulate
 from exu_press.mechanism import mechanism_of
-from exu_press.studies.paper.losses import losses
-from exu_press.studies.paper.readings import observed_span, readings
+from paper.losses import losses
+from paper.readings import observed_span, readings
 
 
 @pytest.fixture(scope="module")

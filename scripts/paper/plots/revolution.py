@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from exu_press.mechanism import mechanism_of
 from exu_press.result import Result
-from exu_press.studies.paper.readings import WINDOW, observed_span
+from paper.readings import WINDOW, observed_span
 
 __all__ = ["ideal_motion", "last_revolution", "mean_acceleration"]
 

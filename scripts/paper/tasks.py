@@ -5,7 +5,7 @@ from typing import Any
 
 from exu_press.scene import Scene
 from exu_press.simulation import simulate
-from exu_press.studies.paper.readings import readings
+from paper.readings import readings
 
 __all__ = ["observe", "part_frequencies", "run_file"]
 

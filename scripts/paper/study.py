@@ -9,23 +9,23 @@ from typing import Any
 from exu_press.batch import run_batch
 from exu_press.output import output_directory
 from exu_press.scene import Scene
-from exu_press.studies.paper import clearance as choosing
-from exu_press.studies.paper.comparison import observed
-from exu_press.studies.paper.plan import Plan
-from exu_press.studies.paper.published import Published, published
-from exu_press.studies.paper.readings import OBSERVED
-from exu_press.studies.paper.report import Report
-from exu_press.studies.paper.rows import (
+from paper import clearance as choosing
+from paper.comparison import observed
+from paper.plan import Plan
+from paper.published import Published, published
+from paper.readings import OBSERVED
+from paper.report import Report
+from paper.rows import (
     AS_THEY_ARE,
     choice_row,
     frequency_rows,
     number_rows,
     trend_rows,
 )
-from exu_press.studies.paper.runs import REVOLUTIONS, paper_runs, rigid_twin
-from exu_press.studies.paper.sensitivity import Tornado, sensitivity_task, tornado_of
-from exu_press.studies.paper.settings import FLEXIBLE, QUICK, SETTINGS, Setting
-from exu_press.studies.paper.tasks import observe, part_frequencies, run_file
+from paper.runs import REVOLUTIONS, paper_runs, rigid_twin
+from paper.sensitivity import Tornado, sensitivity_task, tornado_of
+from paper.settings import FLEXIBLE, QUICK, SETTINGS, Setting
+from paper.tasks import observe, part_frequencies, run_file
 
 __all__ = ["paper"]
 

@@ -10,8 +10,8 @@ from exu_press.mechanism import mechanism_of
 from exu_press.observe import differentiated_peak, mean_peak, peak
 from exu_press.result import Result
 from exu_press.scene.laws import asperity_onset
-from exu_press.studies.paper.contact_modes import contact_modes
-from exu_press.studies.paper.losses import losses
+from paper.contact_modes import contact_modes
+from paper.losses import losses
 
 __all__ = ["MODELS", "OBSERVED", "WHY_OBSERVED", "observed_span", "readings"]
 

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from exu_press.scene import Scene
-from exu_press.studies.paper.comparison import observed, published_value
-from exu_press.studies.paper.published import Number
-from exu_press.studies.paper.readings import OBSERVED
-from exu_press.studies.paper.settings import Setting
+from paper.comparison import observed, published_value
+from paper.published import Number
+from paper.readings import OBSERVED
+from paper.settings import Setting
 
 __all__ = ["Effect", "Tornado", "sensitivity_task", "tornado_of"]
 

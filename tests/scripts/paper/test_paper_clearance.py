@@ -3,7 +3,7 @@
 import pytest
 
 from exu_press import Scene
-from exu_press.studies.paper.clearance import Point, choose, point_of, scenes_of
+from paper.clearance import Point, choose, point_of, scenes_of
 
 SIZES = (1e-5, 2.5e-5, 5e-5, 1e-4, 1.5e-4, 2e-4, 3e-4, 4e-4)
 

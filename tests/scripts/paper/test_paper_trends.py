@@ -2,7 +2,7 @@
 
 import pytest
 
-from exu_press.studies.paper.trends import follows
+from paper.trends import follows
 
 
 @pytest.mark.parametrize(

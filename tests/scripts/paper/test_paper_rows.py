@@ -2,10 +2,10 @@
 
 import pytest
 
-from exu_press.studies.paper.published import published
-from exu_press.studies.paper.rows import AS_THEY_ARE, frequency_rows, number_rows, trend_rows
-from exu_press.studies.paper.sensitivity import tornado_of
-from exu_press.studies.paper.settings import Setting
+from paper.published import published
+from paper.rows import AS_THEY_ARE, frequency_rows, number_rows, trend_rows
+from paper.sensitivity import tornado_of
+from paper.settings import Setting
 
 
 def run(acceleration=20.0, low=0.4699):

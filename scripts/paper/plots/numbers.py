@@ -6,10 +6,10 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from exu_press.plots.paper.drawing import headed_figure, plain_logarithm
 from exu_press.plots.style import COLOURS, GREY, RUN, styled
-from exu_press.studies.paper.comparison import DATUM
-from exu_press.studies.paper.rows import AGREES_WITHIN, Row
+from paper.comparison import DATUM
+from paper.plots.drawing import headed_figure, plain_logarithm
+from paper.rows import AGREES_WITHIN, Row
 
 __all__ = ["numbers_figure"]
 

@@ -7,10 +7,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from exu_press.plots.paper.drawing import headed_figure, plain_logarithm
 from exu_press.plots.style import COLOURS, GREY, RUN, styled
-from exu_press.studies.paper.clearance import Choice, Point
-from exu_press.studies.paper.readings import MODELS, OBSERVED
+from paper.clearance import Choice, Point
+from paper.plots.drawing import headed_figure, plain_logarithm
+from paper.readings import MODELS, OBSERVED
 
 __all__ = ["tradeoff_figure"]
 

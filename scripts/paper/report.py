@@ -1,4 +1,4 @@
-"""What `exu-press paper` found."""
+"""What the study found."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -6,11 +6,11 @@ from pathlib import Path
 from typing import Any
 
 from exu_press.result import Result
-from exu_press.studies.paper.clearance import Choice
-from exu_press.studies.paper.readings import OBSERVED, WHY_OBSERVED
-from exu_press.studies.paper.rows import AGREES_WITHIN, Row
-from exu_press.studies.paper.sensitivity import Tornado
-from exu_press.studies.paper.tasks import run_file
+from paper.clearance import Choice
+from paper.readings import OBSERVED, WHY_OBSERVED
+from paper.rows import AGREES_WITHIN, Row
+from paper.sensitivity import Tornado
+from paper.tasks import run_file
 
 __all__ = ["Report"]
 

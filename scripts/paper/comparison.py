@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from exu_press.studies.paper.published import Number
+from paper.published import Number
 
 __all__ = ["DATUM", "observed", "published_value", "shown"]
 

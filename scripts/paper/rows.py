@@ -4,12 +4,12 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from exu_press.studies.paper.clearance import Choice
-from exu_press.studies.paper.comparison import observed, published_value, shown
-from exu_press.studies.paper.published import Frequencies, Number, Trend, published
-from exu_press.studies.paper.readings import MODELS, OBSERVED
-from exu_press.studies.paper.sensitivity import Effect, Tornado
-from exu_press.studies.paper.trends import follows
+from paper.clearance import Choice
+from paper.comparison import observed, published_value, shown
+from paper.published import Frequencies, Number, Trend, published
+from paper.readings import MODELS, OBSERVED
+from paper.sensitivity import Effect, Tornado
+from paper.trends import follows
 
 __all__ = [
     "AGREES_WITHIN",

@@ -3,10 +3,10 @@
 import textwrap
 from collections.abc import Iterable, Sequence
 
-from exu_press.studies.paper.comparison import DATUM
-from exu_press.studies.paper.readings import MODELS, OBSERVED
-from exu_press.studies.paper.report import Report
-from exu_press.studies.paper.rows import AGREES_WITHIN, Row
+from paper.comparison import DATUM
+from paper.readings import MODELS, OBSERVED
+from paper.report import Report
+from paper.rows import AGREES_WITHIN, Row
 
 __all__ = ["report_lines"]
 

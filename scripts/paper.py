@@ -1,0 +1,66 @@
+"""Section 5 of the paper, number by number, what moves each number, and the clearance to choose.
+
+Run with: python scripts/paper.py [--quick] [--out DIR] [--workers N]
+"""
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from exu_press.errors import InputError
+from exu_press.output import output_directory, write_json
+from paper.study import paper
+from paper.table import report_lines
+
+
+def parser() -> argparse.ArgumentParser:
+    found = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    found.add_argument(
+        "--quick",
+        action="store_true",
+        help="a reduced form in seconds, whose numbers say nothing of the paper",
+    )
+    found.add_argument("--out", metavar="DIR", default="out/paper", help="where to write")
+    found.add_argument(
+        "--workers", type=int, metavar="N", help="processes at work (default: one a core)"
+    )
+    found.add_argument("--quiet", action="store_true", help="print nothing but errors")
+    found.add_argument("--no-pictures", action="store_true", help="draw nothing")
+    return found
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run the study; return 0, or 3 if one of the paper's runs did not get to its end.
+
+    Runs of the sensitivity study that stop are part of what it reports.
+    """
+    directory = output_directory(Path(options.out))
+    report = paper(directory, quick=options.quick, workers=options.workers, quiet=options.quiet)
+    write_json(directory / "paper.json", report.to_dict())
+    write_json(directory / "sensitivity.json", report.sensitivity_dict())
+    write_json(directory / "clearance.json", report.choice.to_dict())
+    written = ["paper.json", "sensitivity.json", "clearance.json"]
+    if not options.no_pictures:
+        from paper.plots.save import save_paper
+
+        written += [path.name for path in save_paper(report, directory)]
+    if not options.quiet:
+        print("\n".join(report_lines(report)))
+        print("\nwritten:", ", ".join(written), f"in {directory}")
+    for name, reason in report.stopped.items():
+        print(f"paper: {name}: {reason}", file=sys.stderr)
+    return 3 if report.stopped else 0
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Return run's status, or 2 for wrong input."""
+    try:
+        return run(parser().parse_args(arguments))
+    except InputError as error:
+        print(f"paper: {error}", file=sys.stderr)
+        return 2
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -35,9 +35,10 @@ def integrate(model: Model, *, quiet: bool = True) -> Outcome:
         joints = overlay_of(mbs) if model.clearance_joints else None
         solver: Any = exu.MainSolverImplicitSecondOrder()  # whose type stub forgets `self`
         mbs.sys["dynamicSolver"], mbs.sys["simulationSettings"] = solver, settings
-        newton = Newton(mbs, solver, joints, scene.pin_speed)
+        flexible = scene.flexible is not None
+        newton = Newton(mbs, solver, joints, scene.pin_speed, flexible=flexible)
         step_change = StepChange(mbs, solver, smooth=joints is None)
-        if scene.flexible is not None:
+        if flexible:
             FlexibleJacobian(mbs, solver, joints)
         watch = Watch(progress, step_change.before_try, scene.solver.max_steps)
         mbs.SetPreStepUserFunction(watch.before_step)

@@ -60,19 +60,14 @@ def settings_for(scene: Scene) -> exu.SimulationSettings:
 
     # One Jacobian a step: with Exudyn's default (one as long as it seems to converge) dry contact
     # drifts by 4 % at 1e-4 s; a Jacobian an iteration costs more than the iterations it saves.
-    # Flexible bodies' Jacobians cost as much as six iterations: there it is kept while it serves,
-    # that is while three iterations do.
     newton = integration.newton
     newton.useModifiedNewton = True
-    newton.modifiedNewtonJacUpdatePerStep = scene.flexible is None
-    newton.modifiedNewtonContractivity = 0.5 if scene.flexible is None else 0.03
+    newton.modifiedNewtonJacUpdatePerStep = True
+    newton.modifiedNewtonContractivity = 0.5
     # So that accelerations are right to this part of the usual ones; not of the first residual:
     # that one holds what a film would answer to speeds that are not yet balanced, in a stiff film a
-    # million times more. What a Jacobian that is kept leaves in the constraints comes back in the
-    # next step, with the other sign and over the step's square: there it is far less, and ten times
-    # less still where steps are fixed, and may be far shorter than a tolerance makes them.
-    rigid, kept = (0.2, 0.01) if solver.step is None else (0.1, 0.001)
-    part = rigid if scene.flexible is None else kept
+    # million times more.
+    part = 0.2 if solver.step is None else 0.1
     newton.absoluteTolerance = part * (solver.tolerance or 1e-4) * _usual_force(scene)
     newton.relativeTolerance = ROUNDING
     newton.maxIterations = 25

@@ -45,10 +45,6 @@ RISE = 3.0
 FIRST = 1.0 / 64.0
 """First step over the largest one."""
 
-RENEWED = 8
-"""Fixed steps after which a Jacobian that is kept, as flexible bodies' is, is renewed: with its age
-grow the iterations, and what they leave in the constraints."""
-
 
 class StepControl:
     """Sets the step so that its error stays below 1.
@@ -179,8 +175,6 @@ class FixedSteps:
         self._step = step
         self._film_start = film_start
         self._iteration: Any = solver.it  # holds the step
-        self._convergence: Any = solver.conv
-        self._taken = 0
         self._newton, self._data = newton, newton.data
         self._size = step if film_start is None else min(step, FIRST_OF_FILM)
         self._next = self._size
@@ -200,9 +194,6 @@ class FixedSteps:
 
     def _after_step(self, mbs: exu.MainSystem, time: float) -> bool:
         """Set the next step."""
-        self._taken += 1
-        if self._taken % RENEWED == 0:
-            self._convergence.jacobianUpdateRequested = True
         h, done, before = self._step, time - self._time, self._next
         if done > 0.0:
             now = self._data.GetODE2Coordinates_tt(exu.ConfigurationType.Current, False)

@@ -31,12 +31,14 @@ def test_what_is_kept_differs_little_from_what_exudyn_differentiates(scene, monk
         matrix = np.array(solver.GetSystemJacobian())
         step = solver.it.currentStepSize
         by_q, by_q_t = solver.newmarkBeta * step**2, solver.newmarkGamma * step
-        inertia = (1.0 - solver.alphaM) / (1.0 - solver.alphaF) * solver.GetSystemMassMatrix()
-        solver.ComputeJacobianODE2RHS(mbs, -by_q, -by_q_t)
-        exudyn = matrix.copy()
-        exudyn[:size, :size] = inertia + np.array(solver.GetSystemJacobian())[:size, :size]
+        stiffness, damping = jacobian._bodies
+        with jacobian._joints.left_out():
+            solver.ComputeJacobianODE2RHS(mbs, -by_q, -by_q_t)
+        missing = np.zeros_like(matrix)
+        missing[:size, :size] = by_q * stiffness + by_q_t * damping
+        missing[:size, :size] -= np.array(solver.GetSystemJacobian())[:size, :size]
         solver.SetSystemJacobian(matrix)
-        errors = np.linalg.eigvals(np.linalg.solve(matrix, matrix - exudyn))
+        errors = np.linalg.eigvals(np.linalg.solve(matrix, missing))
         left.append(np.abs(errors).max())
         return mine
 
@@ -57,28 +59,10 @@ def test_it_changes_the_cost_and_not_the_result(scene, monkeypatch):
     assert kept.info["newton_iterations"] < 1.1 * stock.info["newton_iterations"]
 
 
-def test_a_kept_jacobian_leaves_no_ring_in_the_constraints(monkeypatch):
-    """The counter-pin carries 36 kN; iterations with an old Jacobian left per cents of it."""
-    from exu_press.integrate import run
-
-    scene = Scene(
-        bodies="flexible",
-        crank_pin="ideal",
-        balls="ideal",
-        flexible={"modes": 4, "mesh_size": 0.05},
-        revolutions=0.02,
-        solver={"step": 1e-5},
-    )
+def test_no_alternation_grows_from_what_newtons_method_leaves_in_the_constraints():
+    """One iteration a step ends with the counterweight at +-11 m/s^2 about -10, and worse."""
+    scene = Scene(bodies="flexible", crank_pin="ideal", balls="ideal", revolutions=0.55)
     result = simulate(scene)
-    usual = run.settings_for
-
-    def finer(scene):
-        settings = usual(scene)
-        settings.timeIntegration.newton.absoluteTolerance *= 1e-3
-        return settings
-
-    monkeypatch.setattr(run, "settings_for", finer)
-    expected = simulate(scene)["counter_pin_force"]
-    assert result.info["newton_iterations"] < 2.0 * result.info["steps"]
-    error = np.abs(result["counter_pin_force"] - expected)[50:]
-    assert error.max() < 1e-4 * np.abs(expected).max()
+    assert result.completed, result.summary()["reason"]
+    force = result["counterweight_pin_force"][:, 1]
+    assert np.abs(np.diff(force, 2)).max() < 0.05 * np.abs(force).max()

@@ -19,11 +19,14 @@ if TYPE_CHECKING:
     from exu_press.scene import Scene, load_scene
     from exu_press.simulation import simulate
 
+    __version__: str
+
 __all__ = [
     "FlexiblePoint",
     "InputError",
     "Result",
     "Scene",
+    "__version__",
     "add_dry_revolute",
     "add_dry_spherical",
     "add_joint_sensor",
@@ -47,7 +50,11 @@ _HOMES = {
 
 
 def __getattr__(name: str) -> Any:
-    """Load a public name from its home."""
+    """Load a public name from its home; the version is that of the installed package."""
+    if name == "__version__":
+        from importlib.metadata import version
+
+        return version("exu-press")
     if name not in _HOMES:
         raise AttributeError(f"module 'exu_press' has no attribute {name!r}")
     value = getattr(importlib.import_module(_HOMES[name]), name)

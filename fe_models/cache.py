@@ -49,7 +49,7 @@ def reduced_part(
     part: Part,
     reduction: Reduction | None = None,
     *,
-    folder: Path | None = None,
+    folder: str | Path | None = None,
     report: Report | None = None,
 ) -> ReducedPart:
     """Return a part reduced: from the cache if it is there and sound, made and stored otherwise.
@@ -64,7 +64,7 @@ def reduced_part(
         InputError: the part cannot be meshed or lacks a face, or the reduction does not fit it.
     """
     reduction = reduction or Reduction()
-    file = cache_file(part, reduction, default_folder() if folder is None else folder)
+    file = cache_file(part, reduction, default_folder() if folder is None else Path(folder))
     found = load(file)
     if found is not None:
         return found

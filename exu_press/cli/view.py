@@ -5,6 +5,7 @@ from pathlib import Path
 
 from exu_press.errors import InputError
 from exu_press.progress import Progress
+from exu_press.report.find import Kind, find_output
 from exu_press.result import Result
 
 __all__ = ["EXAMPLE", "add_arguments", "execute"]
@@ -14,7 +15,7 @@ EXAMPLE = "exu-press view out/press/run.nc --from 0.03 --to 0.05 --save film.gif
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the command's arguments."""
-    parser.add_argument("run", metavar="DIR/run.nc", help="a result file; nothing else is needed")
+    parser.add_argument("path", metavar="PATH", help="a run.nc, or the directory that run wrote to")
     parser.add_argument(
         "--save",
         metavar="FILE",
@@ -50,7 +51,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def execute(options: argparse.Namespace) -> int:
     """Show or write the film; return 0."""
-    result = Result.load(options.run)
+    result = Result.load(_run_in(Path(options.path)))
     target = None if options.save is None else Path(options.save)
     if target is not None:
         from exu_press.view.save import check_target, is_film
@@ -69,6 +70,14 @@ def execute(options: argparse.Namespace) -> int:
             raise InputError(f"{option} {value}: allowed for runs with flexible bodies alone")
     _write_or_show(result, target, one, options)
     return 0
+
+
+def _run_in(path: Path) -> Path:
+    """Return the result file that is meant."""
+    kind, file = find_output(path)
+    if kind is not Kind.RUN:
+        raise InputError(f"{path}: holds {file.name}, many runs; allowed is one of them, a run.nc")
+    return file
 
 
 def _write_or_show(

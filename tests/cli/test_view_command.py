@@ -14,7 +14,8 @@ def run(tmp_path_factory):
 def test_a_film_and_a_picture_from_the_file_alone(run, tmp_path, capsys):
     film, picture = tmp_path / "film.gif", tmp_path / "picture.png"
     assert main(["view", str(run), "--save", str(film), "--frames", "3"]) == 0
-    assert main(["view", str(run), "--save", str(picture), "--at", "0.005", "--quiet"]) == 0
+    directory = str(run.parent)  # as good as the file in it
+    assert main(["view", directory, "--save", str(picture), "--at", "0.005", "--quiet"]) == 0
     assert film.stat().st_size > 10_000 and picture.stat().st_size > 10_000
     assert capsys.readouterr().out == f"written: {film}\n"
 
@@ -44,3 +45,10 @@ def test_a_file_that_is_no_result(tmp_path, capsys):
     (tmp_path / "run.nc").write_text("nothing")
     assert main(["view", str(tmp_path / "run.nc"), "--save", str(tmp_path / "x.gif")]) == 2
     assert "not a result of exu_press" in capsys.readouterr().err
+
+
+def test_a_directory_of_many_runs(tmp_path, capsys):
+    (tmp_path / "comparison.json").write_text("{}")
+    assert main(["view", str(tmp_path), "--save", str(tmp_path / "x.gif")]) == 2
+    told = capsys.readouterr().err
+    assert "comparison.json, many runs; allowed is one of them, a run.nc" in told

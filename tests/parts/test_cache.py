@@ -35,6 +35,11 @@ def same(a, b):
     assert all(np.array_equal(a.couplings[k], b.couplings[k]) for k in a.couplings)
 
 
+def test_a_folder_may_be_a_text(linkage, made):
+    folder, part = made
+    same(reduced_part(linkage, Reduction(6), folder=str(folder)), part)
+
+
 def test_what_is_read_is_what_was_made(linkage, made):
     folder, part = made
     file = cache.cache_file(linkage, Reduction(6), folder)

@@ -1,0 +1,68 @@
+"""How any command ends: Ctrl-C, a closed pipe, and which version it is."""
+
+import importlib.metadata
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import exu_press
+from exu_press.cli import main
+
+COMMAND = str(Path(sys.executable).with_name("exu-press"))
+
+
+def test_version(capsys):
+    with pytest.raises(SystemExit) as ended:
+        main(["--version"])
+    assert ended.value.code == 0
+    version = importlib.metadata.version("exu-press")
+    assert capsys.readouterr().out == f"exu-press {version}\n"
+    assert exu_press.__version__ == version
+
+
+def test_a_closed_pipe_is_quiet(tmp_path):
+    arguments = ["run", "press", "--set", "revolutions=0.02", "--no-pictures"]
+    read, write = os.pipe()
+    os.close(read)
+    process = subprocess.run(
+        [COMMAND, *arguments, "--out", str(tmp_path)],
+        stdout=write,
+        stderr=subprocess.PIPE,
+        text=True,
+        timeout=60,
+    )
+    os.close(write)
+    assert process.stderr == ""
+    assert process.returncode == 141
+    assert (tmp_path / "run.nc").exists()
+
+
+def test_ctrl_c_while_the_commands_are_loaded():
+    code = """
+import os, signal, sys, exu_press.cli
+module = sys.modules["exu_press.cli.main"]
+module.import_module = lambda name: os.kill(os.getpid(), signal.SIGINT)
+sys.exit(module.main(["run", "press"]))
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+    assert (done.stderr, done.returncode) == ("", -signal.SIGINT)
+
+
+def test_ctrl_c_in_a_command(monkeypatch, capsys):
+    def interrupted(options):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("exu_press.cli.doctor.execute", interrupted)
+    assert main(["doctor"]) == 130
+    assert capsys.readouterr().err == "exu-press: interrupted\n"
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+def test_until_then_nothing_is_loaded_that_takes_time():
+    code = "import sys, exu_press.cli; print({'numpy', 'scipy', 'exudyn'} & set(sys.modules))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+    assert done.stdout == "set()\n"

@@ -2,8 +2,9 @@
 
 With e = journal centre - bearing centre, n = e/|e| and t a quarter turn counter-clockwise from n, a
 pair turns (|e|, d|e|/dt, v_t, omega_J, omega_B) into the force on the journal F = f_n n + f_t t,
--F on the bearing, and the moments f_t a_J about the journal's and f_t a_B about the bearing's
-centre. a_J + a_B + |e| = 0, so that momentum and angular momentum are conserved exactly.
+-F on the bearing, and the moments f_t a_J - S about the journal's and f_t a_B + S about the
+bearing's centre. a_J + a_B + |e| = 0, so that momentum and angular momentum are conserved exactly.
+S, which a film alone has, is the couple of its shear.
 """
 
 import math
@@ -50,7 +51,7 @@ Motion = tuple[float, float, float, float, float]
 """|e|, d|e|/dt, v_t, omega_J, omega_B."""
 
 Load = tuple[float, float, float, float, Answer]
-"""f_n, f_t, the moments f_t a_J and f_t a_B, and the laws' answer they come from."""
+"""f_n, f_t, the moments on journal and bearing, and the laws' answer they come from."""
 
 
 RESUME = 0.5
@@ -100,6 +101,10 @@ class Pair:
     def arms(self, e: float) -> Arms:
         """Return a_J, a_B (m) and their derivatives with respect to |e|."""
         raise NotImplementedError
+
+    def shear_slopes(self, answer: Answer, omega_j: float, omega_b: float) -> tuple[float, float]:
+        """Return the derivatives of the couple S by |e| (N) and by omega_J - omega_B (N m s)."""
+        return 0.0, 0.0
 
     def resumed(
         self, before: Load, now: Load | None, e: float, d_e: float, d_rate: float
@@ -260,7 +265,9 @@ class FilmPair(Pair):
     """A lubricant film between journal and bearing.
 
     The resultant acts half-way between the two centres, as the shear of the pressure flow divides
-    the couple e x F; then the film's power is P c (f_r eps_dot - f_t eps W / 2), never positive.
+    the couple e x F. The shear of the rotation drags the journal with S = P c j (omega_J - omega_B)
+    and takes the bearing along (Petroff 1883; j: `FilmForce`). Then the film's power is
+    P c (f_r eps_dot - f_t eps W / 2 - j (omega_J - omega_B)^2), never positive.
     """
 
     def __init__(self, law: FilmLaw, scale: float, clearance: float) -> None:
@@ -288,11 +295,12 @@ class FilmPair(Pair):
             self.outside = e / c
         f_t = p * answer[1]
         moment = -0.5 * e * f_t
-        return f_r, f_t, moment, moment, answer
+        shear = p * c * answer[8] * (omega_j - omega_b)
+        return f_r, f_t, moment - shear, moment + shear, answer
 
     def slopes(self, answer: Answer, e: float, omega_j: float, omega_b: float) -> Slopes:
         """Return the derivatives of the force."""
-        _, _, r_eps, r_dot, r_w, t_eps, t_dot, t_w = answer
+        _, _, r_eps, r_dot, r_w, t_eps, t_dot, t_w, _, _ = answer
         turning = omega_j + omega_b
         q = self.scale / self.clearance
         r_w *= q
@@ -302,6 +310,11 @@ class FilmPair(Pair):
             (q * r_eps + r_w * turning, q * r_dot, -2.0 * r_w, r_turn, r_turn),
             (q * t_eps + t_w * turning, q * t_dot, -2.0 * t_w, t_turn, t_turn),
         )
+
+    def shear_slopes(self, answer: Answer, omega_j: float, omega_b: float) -> tuple[float, float]:
+        """Return the derivatives of Petroff's couple."""
+        p = self.scale
+        return p * answer[9] * (omega_j - omega_b), p * self.clearance * answer[8]
 
     def arms(self, e: float) -> Arms:
         """Return the moment arms of the point half-way between the centres."""

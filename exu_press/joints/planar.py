@@ -96,11 +96,13 @@ class PlanarJoint(PairedJoint):
         """Return one pair's part of the Jacobian."""
         e, e_dot, v_t, w_j, w_b = self._motion
         n_x, n_y, j_x, j_y, b_x, b_y = self._directions
-        f_n, f_t, _, _, _ = load
+        f_n, f_t, _, _, answer = load
         (n_e, n_r, n_v, n_wj, n_wb), (t_e, t_r, t_v, t_wj, t_wb) = self._slopes(i, load)
         lever_j, lever_b, slope_j, slope_b = self.pairs[i].arms(e)
-        slope_j *= by_q * f_t
-        slope_b *= by_q * f_t
+        shear_e, shear_w = self.pairs[i].shear_slopes(answer, w_j, w_b)
+        slope_j = by_q * (slope_j * f_t - shear_e)
+        slope_b = by_q * (slope_b * f_t + shear_e)
+        shear_w *= by_q_t
         # the arms of the two points along n and along t
         j_n, j_t = j_x * n_x + j_y * n_y, j_y * n_x - j_x * n_y
         b_n, b_t = b_x * n_x + b_y * n_y, b_y * n_x - b_x * n_y
@@ -145,8 +147,10 @@ class PlanarJoint(PairedJoint):
         b_2 = lever_b * drag_2 + slope_b * n_y + b_t * n_2 - b_n * t_2
         b_3 = lever_b * drag_3 - slope_b * j_t + b_t * n_3 - b_n * t_3
         b_4 = lever_b * drag_4 + (slope_b + n_4) * b_t - b_n * t_4
-        j_3 -= by_q * (j_n * f_n + j_t * f_t)
-        b_4 += by_q * (b_n * f_n + b_t * f_t)
+        j_3 -= by_q * (j_n * f_n + j_t * f_t) + shear_w
+        j_4 += shear_w
+        b_3 += shear_w
+        b_4 += by_q * (b_n * f_n + b_t * f_t) - shear_w
         return [
             -x_1, -x_2, -x_3, x_1, x_2, -x_4,
             -y_1, -y_2, -y_3, y_1, y_2, -y_4,

@@ -71,7 +71,7 @@ class SpatialRevolute(PairedJoint):
 
     def jacobian(self, by_q: float, by_q_t: float) -> Array | None:
         """Return -(by_q dQ/dq + by_q_t dQ/dq_t), but for what only turns arms and axes."""
-        e, e_dot, v_t, _, _ = self._motion
+        e, e_dot, v_t, w_j, w_b = self._motion
         turn = 1.0 / e if e > 0.0 else 0.0
         law = np.zeros((4, 6))  # (F_n, F_t, m_J, m_B) by (e_n, e_t, v_n, v_t, omega_J, omega_B)
         acting = False
@@ -79,7 +79,7 @@ class SpatialRevolute(PairedJoint):
             if load is None:
                 continue
             acting = True
-            f_n, f_t, _, _, _ = load
+            f_n, f_t, _, _, answer = load
             (n_e, n_r, n_v, n_wj, n_wb), (t_e, t_r, t_v, t_wj, t_wb) = self._slopes(i, load)
             arm_j, arm_b, slope_j, slope_b = self.pairs[i].arms(e)
             n_side = turn * (n_r * v_t - n_v * e_dot)
@@ -90,7 +90,9 @@ class SpatialRevolute(PairedJoint):
             law[1, 1] += turn * f_n
             law[2] += arm_j * drag
             law[3] += arm_b * drag
-            law[2:, 0] += (slope_j * f_t, slope_b * f_t)
+            shear_e, shear_w = self.pairs[i].shear_slopes(answer, w_j, w_b)
+            law[2:, 0] += (slope_j * f_t - shear_e, slope_b * f_t + shear_e)
+            law[2:, 4:] += ((-shear_w, shear_w), (shear_w, -shear_w))
         if not acting:
             return None
         rates = self._rates()

@@ -206,7 +206,7 @@ def test_bristle_is_committed_only_for_accepted_steps():
     def unreliable(eps, eps_dot, eps_w):
         failing["calls"] += 1
         if (failing["calls"] + 700) % 1501 < 6:  # outlasts Newton's own second try
-            return (math.nan,) * 8
+            return (math.nan,) * 10
         return thin(min(eps, 0.5), 0.0, 0.0)
 
     bodies, journal, bearing = free_pair(relative=(0.05, 0.5))

@@ -23,8 +23,8 @@ def _force(pressure, theta):
     )
 
 
-def long_half_film(eps, eps_dot, eps_w):
-    """Periodic pressure, zero on average across the journal, its positive half alone."""
+def _long_pressure(eps, eps_dot, eps_w):
+    """Periodic pressure, zero on average across the journal."""
     theta, gap, source = _source(eps, eps_dot, eps_w)
     step = theta[1] - theta[0]
     outflow = _running_integral(source, step)
@@ -32,8 +32,34 @@ def long_half_film(eps, eps_dot, eps_w):
     constant = np.sum((outflow * mobility)[:-1]) / np.sum(mobility[:-1])
     pressure = _running_integral((constant - outflow) * mobility, step)
     quarter = POINTS // 4
-    pressure -= 0.5 * (pressure[quarter] + pressure[-1 - quarter])
+    return theta, gap, pressure - 0.5 * (pressure[quarter] + pressure[-1 - quarter])
+
+
+def long_half_film(eps, eps_dot, eps_w):
+    """The positive half of the pressure alone."""
+    theta, _, pressure = _long_pressure(eps, eps_dot, eps_w)
     return _force(np.maximum(pressure, 0.0), theta)
+
+
+def wall_moments(theta, gap, pressure, spin):
+    """Shear stress of flow and rotation on the journal's and on the bearing's wall, over P c.
+
+    theta once around; pressure in units of 12 mu R^2 / c^2; spin = omega_J - omega_B.
+    """
+    pressed = 6.0 * np.trapezoid(gap * np.gradient(pressure, theta), theta)
+    sheared = spin * np.trapezoid(1.0 / gap, theta)
+    return -sheared - pressed, sheared - pressed
+
+
+def long_half_film_moments(eps, eps_dot, eps_w, spin):
+    """Moments of the half film, the gap full of oil all round."""
+    theta, gap, pressure = _long_pressure(eps, eps_dot, eps_w)
+    return wall_moments(theta, gap, np.maximum(pressure, 0.0), spin)
+
+
+def long_full_film_moments(eps, eps_w, spin):
+    """Moments of Sommerfeld's film under rotation, which pulls as much as it pushes."""
+    return wall_moments(*_long_pressure(eps, 0.0, eps_w), spin)
 
 
 def short_half_film(eps, eps_dot, eps_w, length_to_diameter):

@@ -3,6 +3,7 @@
 import math
 import random
 
+import numpy as np
 import pytest
 
 from exu_press.laws.film import (
@@ -54,7 +55,7 @@ def test_never_feeds_energy_into_a_whirl_without_rotation(law):
 @EVERY
 def test_first_degree_in_the_speeds_so_euler_holds(law):
     for eps, eps_dot, eps_w in states(200, seed=3):
-        f_r, f_t, _, r_dot, r_w, _, t_dot, t_w = law(eps, eps_dot, eps_w)
+        f_r, f_t, _, r_dot, r_w, _, t_dot, t_w, _, _ = law(eps, eps_dot, eps_w)
         size = math.hypot(f_r, f_t)
         assert abs(eps_dot * r_dot + eps_w * r_w - f_r) < 1e-9 * size
         assert abs(eps_dot * t_dot + eps_w * t_w - f_t) < 1e-9 * size
@@ -83,8 +84,24 @@ def test_derivatives_against_central_differences(law):
 def test_mirror_image_under_reversed_rotation(law):
     for eps, eps_dot, eps_w in states(100, seed=5):
         f, g = law(eps, eps_dot, eps_w), law(eps, eps_dot, -eps_w)
-        signs = (1, -1, 1, 1, -1, -1, -1, 1)
+        signs = (1, -1, 1, 1, -1, -1, -1, 1, 1, 1)
         assert g == pytest.approx([s * x for s, x in zip(signs, f, strict=True)], rel=1e-12)
+
+
+@EVERY
+@pytest.mark.parametrize("eps", [0.0, 0.3, 0.9, 0.97])
+def test_drag_is_the_shear_all_round_the_gap_the_film_has(law, eps):
+    """j = integral of d theta / h; of a mixed film h is the gap that stays open."""
+    shear, by_eps = law(eps, 0.3, -0.7)[8:]
+    gap = 1.0 - eps
+    if law in (LAWS["mixed_pi_film"], LAWS["mixed_finite"]) and gap < 0.05:
+        gap = 0.05 - 0.025 * math.atan(2.0 * (0.05 - gap) / 0.05)
+    theta = np.linspace(0.0, 2.0 * math.pi, 4001)[:-1]
+    around = np.mean(1.0 / (1.0 - (1.0 - gap) * np.cos(theta))) * 2.0 * math.pi
+    assert shear == pytest.approx(around, rel=1e-12)
+    if eps > 0.0:
+        wider, narrower = law(eps - 1e-6, 0.3, -0.7)[8], law(eps + 1e-6, 0.3, -0.7)[8]
+        assert by_eps == pytest.approx((narrower - wider) / 2e-6, rel=1e-6)
 
 
 @EVERY

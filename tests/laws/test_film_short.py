@@ -38,5 +38,5 @@ def test_pure_squeeze_both_ways_sums_to_the_full_film(eps):
 
 @pytest.mark.parametrize("eps", [0.1, 0.7])
 def test_derives_from_a_dissipation_potential(eps):
-    _, _, _, _, r_w, _, t_dot, _ = short(0.5)(eps, 0.3, -0.8)
+    _, _, _, _, r_w, _, t_dot, *_ = short(0.5)(eps, 0.3, -0.8)
     assert t_dot == pytest.approx(-2.0 * r_w)

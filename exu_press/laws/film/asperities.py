@@ -24,7 +24,8 @@ def with_asperities(law: FilmLaw, onset_ratio: float) -> FilmLaw:
     The film sees tilde eps = 1 - tilde g and the speeds T (eps_dot, eps W), T = (d tilde
     eps/d eps, tilde eps/eps), and acts through the same T on the journal: virtual power is kept,
     so the film dissipates exactly what `law` does in the effective gap, and it fades out as the
-    surfaces sink into each other: the radial force as T, the radial damping as T^2.
+    surfaces sink into each other: the radial force as T, the radial damping as T^2. The drag is
+    that of the effective gap.
 
     Contact acts in parallel, from the same onset: the joint adds its normal force at penetration
     e - c + h_on (times c: eps - 1 + eta), which is zero with zero slope where this gap departs
@@ -74,7 +75,7 @@ def with_asperities(law: FilmLaw, onset_ratio: float) -> FilmLaw:
         bend = -2.0 * _STEEPNESS * t * slope * slope / onset_ratio
         share = effective / eps
         d_share = (slope - share) / eps
-        f_r, f_t, r_eps, r_dot, r_w, t_eps, t_dot, t_w = law(
+        f_r, f_t, r_eps, r_dot, r_w, t_eps, t_dot, t_w, shear, shear_eps = law(
             effective, slope * eps_dot, share * eps_w
         )
         d_dot, d_w = bend * eps_dot, d_share * eps_w
@@ -87,6 +88,8 @@ def with_asperities(law: FilmLaw, onset_ratio: float) -> FilmLaw:
             d_share * f_t + share * (slope * t_eps + d_dot * t_dot + d_w * t_w),
             share * slope * t_dot,
             share * share * t_w,
+            shear,
+            slope * shear_eps,
         )
 
     return mixed

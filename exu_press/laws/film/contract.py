@@ -1,20 +1,31 @@
-"""What every film law is: a function of three floats that returns a force and its derivatives."""
+"""What every film law is: a function of three floats that returns force, drag and derivatives."""
 
 import math
 from collections.abc import Callable
+from typing import Final
 
 from exu_press.laws.contact_parameters import positive
 
-__all__ = ["AT_REST", "OUTSIDE", "FilmForce", "FilmLaw", "dissipated", "film_scale"]
+__all__ = ["AROUND", "AT_REST", "OUTSIDE", "FilmForce", "FilmLaw", "dissipated", "film_scale"]
 
-FilmForce = tuple[float, float, float, float, float, float, float, float]
-"""f_r, f_t, then df_r and df_t by eps, eps_dot and eps_w: three of f_r first, then three of f_t."""
+FilmForce = tuple[float, float, float, float, float, float, float, float, float, float]
+"""f_r, f_t, then df_r and df_t by eps, eps_dot and eps_w: three of f_r first, then three of f_t.
+
+Last the drag of the sheared film: j, the integral of 1 / h around the bearing, and dj by eps. The
+moments P c (-j (omega_J - omega_B) - eps f_t / 2) on the journal and P c (j (omega_J - omega_B) -
+eps f_t / 2) on the bearing go with it: shear of the rotation, and of the pressure flow.
+"""
 
 FilmLaw = Callable[[float, float, float], FilmForce]
 """law(eps, eps_dot, eps_w), eps_dot and eps_w = eps (omega_J + omega_B - 2 gamma_dot) in 1/s."""
 
-OUTSIDE: FilmForce = (math.nan,) * 8
+OUTSIDE: FilmForce = (math.nan,) * 10
 """The answer to an eccentricity ratio that has no film: the integrator then halves its step."""
+
+AROUND: Final = 2.0 * math.pi
+"""j of a centred journal: Petroff's. At an eccentricity it is 2 pi / sqrt(1 - eps^2), with the gap
+full of oil all round, also where its pressure is ambient: as Raimondi and Boyd 1958, Butenschoen
+1976 and DIN 31652 have it."""
 
 AT_REST = 1e-100
 """Below this speed [1/s] a film is at rest and answers with its derivatives towards closing."""
@@ -56,8 +67,8 @@ def dissipated(force: FilmForce, eps_dot: float, eps_w: float) -> float:
     .. math:: D = -f_r \dot\varepsilon + \tfrac12 f_t\, \varepsilon W \ge 0   \quad [1/s^2]
 
     It is all the power of the pressure: the force's, and that of the couple e f_t which the two
-    surfaces share in halves (e f_t / 2 against each one's rotation). The drag of the sheared
-    film, 2 pi mu L R^3 (omega_J - omega_B) / c / sqrt(1 - eps^2), comes on top.
+    surfaces share in halves (e f_t / 2 against each one's rotation). The shear of the rotation
+    takes j (omega_J - omega_B)^2 on top.
 
     Examples
     --------

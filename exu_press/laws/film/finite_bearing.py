@@ -5,7 +5,7 @@ from bisect import bisect_right
 from pathlib import Path
 
 from exu_press.laws.contact_parameters import demand
-from exu_press.laws.film.contract import AT_REST, OUTSIDE, FilmForce, FilmLaw
+from exu_press.laws.film.contract import AROUND, AT_REST, OUTSIDE, FilmForce, FilmLaw
 
 __all__ = ["finite"]
 
@@ -125,6 +125,8 @@ def finite(length_to_diameter: float) -> FilmLaw:
             sign * (f_t * (g_eps - eps / s2) + s * e * (b_eps - m_eps * a)),
             sign * (f_t * g_y * c - s * e * (m0 + m_y * c * a)),
             0.5 * (-f_t * g_y * d + s * e * (s + m_y * d * a)),
+            AROUND / s,
+            AROUND / s * eps / s2,
         )
 
     return law

@@ -2,7 +2,7 @@
 
 import math
 
-from exu_press.laws.film.contract import AT_REST, OUTSIDE, FilmForce, FilmLaw
+from exu_press.laws.film.contract import AROUND, AT_REST, OUTSIDE, FilmForce, FilmLaw
 
 __all__ = ["pi_film", "pinkus"]
 
@@ -76,6 +76,8 @@ def pinkus() -> FilmLaw:
             drag * (eps * (1.0 / s2 - 2.0 / n) * x + dx_eps),
             drag * dx_dot,
             turn * x + drag * dx_w,
+            AROUND / s,
+            AROUND / s * eps / s2,
         )
 
     return law
@@ -157,6 +159,8 @@ def pi_film() -> FilmLaw:
             f_t * eps / s2 + turn * (dw_eps * x + w * dx_eps),
             turn * w * dx_dot,
             turn * (x + w * dx_w) / n,
+            AROUND / s,
+            AROUND / s * eps / s2,
         )
 
     return law

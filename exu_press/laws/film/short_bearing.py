@@ -3,7 +3,7 @@
 import math
 
 from exu_press.laws.contact_parameters import positive
-from exu_press.laws.film.contract import AT_REST, OUTSIDE, FilmForce, FilmLaw
+from exu_press.laws.film.contract import AROUND, AT_REST, OUTSIDE, FilmForce, FilmLaw
 
 __all__ = ["short"]
 
@@ -101,6 +101,8 @@ def short(length_to_diameter: float) -> FilmLaw:
             p * (half_w * d_ss - eps_dot * d_cs),
             -p * j_cs,
             0.5 * p * j_ss,
+            AROUND / s,
+            AROUND / s * eps / s2,
         )
 
     return law

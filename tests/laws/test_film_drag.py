@@ -1,0 +1,91 @@
+"""What a film's shear takes: Sommerfeld, Reynolds' equation, published friction tables."""
+
+import math
+
+import numpy as np
+import pytest
+from reynolds import long_full_film_moments, long_half_film_moments, wall_moments
+from test_film_finite import ATTITUDE, ROTATION, WIDTHS, rows
+
+from exu_press.joints.pairs import FilmPair
+from exu_press.laws.film import finite, pi_film
+from exu_press.laws.film.reynolds import solve_reynolds
+
+
+def moments(law, eps, eps_dot, eps_w, spin):
+    """On journal and bearing of a pair with P c = 1; the film's W is eps_w / eps."""
+    pair = FilmPair(law, 1.0, 1.0)
+    v_t = 0.5 * (eps * spin - eps_w)  # the bearing stands still
+    load = pair.load(eps, eps_dot, v_t, spin, 0.0)
+    return load[2], load[3]
+
+
+@pytest.mark.parametrize("eps", [0.1, 0.5, 0.8])
+def test_sommerfeld_1904_full_film(eps):
+    """A film that may pull: what differs in the two closed forms is the couple e x F."""
+
+    def sommerfeld(eps, eps_dot, eps_w):
+        _, f_t, *_ = pi_film()(eps, 0.0, eps_w)
+        return (0.0, 2.0 * f_t, *[0.0] * 6, *pi_film()(eps, 0.0, eps_w)[8:])
+
+    size = 4.0 * math.pi / ((2.0 + eps**2) * math.sqrt(1.0 - eps**2))
+    closed = -size * (1.0 + 2.0 * eps**2), size * (1.0 - eps**2)
+    assert moments(sommerfeld, eps, 0.0, eps, 1.0) == pytest.approx(closed, rel=1e-12)
+    assert long_full_film_moments(eps, eps, 1.0) == pytest.approx(closed, rel=1e-5)
+
+
+@pytest.mark.parametrize("eps", [0.0, 0.3, 0.8])
+@pytest.mark.parametrize("speeds", [(0.0, 1.0), (0.4, 0.7), (-0.4, 0.7)])
+def test_long_half_film_against_the_stress_on_both_walls(eps, speeds):
+    eps_dot, eps_w = speeds
+    found = long_half_film_moments(eps, eps_dot, eps_w, 1.3)
+    assert moments(pi_film(), eps, eps_dot, eps_w, 1.3) == pytest.approx(found, rel=1e-4)
+
+
+@pytest.mark.parametrize("ratio", [0.25, 1.0])
+@pytest.mark.parametrize("eps", [0.2, 0.8])
+def test_finite_bearing_against_the_stress_on_both_walls(ratio, eps):
+    film = solve_reynolds(eps, 0.2, eps, ratio, math.pi)
+    zeta = np.append(film.zeta, 1.0)  # p = 0 there
+    mean = np.trapezoid(np.column_stack([film.p, np.zeros(len(film.p))]), zeta, axis=1)
+    theta = np.concatenate([[math.pi], film.theta, [3.0 * math.pi]])
+    pressure = np.concatenate([[0.0], mean, [0.0]])
+    found = wall_moments(theta, 1.0 - eps * np.cos(theta), pressure, 1.0)
+    given = moments(finite(ratio), eps, 0.2, eps, 1.0)
+    assert given == pytest.approx(found, rel=5e-3)  # the grid's
+
+
+def friction(ratio, eps):
+    """(R / c) f of a journal that turns steadily: its moment over c times the load."""
+    f_r, f_t, *_ = finite(ratio)(eps, 0.0, eps)
+    return -moments(finite(ratio), eps, 0.0, eps, 1.0)[0] / math.hypot(f_r, f_t)
+
+
+@pytest.mark.parametrize(
+    ("ratio", "published"),
+    [
+        (1.0, {0.1: 26.4, 0.2: 12.8, 0.4: 5.79, 0.6: 3.22, 0.8: 1.70, 0.9: 1.05, 0.97: 0.514}),
+        (0.5, {0.1: 85.6, 0.2: 40.9, 0.4: 17.0, 0.6: 8.10, 0.8: 3.26, 0.9: 1.60, 0.97: 0.610}),
+        (0.25, {0.1: 322.0, 0.2: 153.0, 0.4: 61.1, 0.6: 26.7, 0.8: 8.80, 0.9: 3.50, 0.97: 0.922}),
+    ],
+)
+def test_raimondi_and_boyd_1958_friction_variable(ratio, published):
+    """Within 0.9 % to eps = 0.9 and 3 % at 0.97, where a grid of 1958 is at its worst."""
+    for eps, variable in published.items():
+        assert friction(ratio, eps) == pytest.approx(variable, rel=0.01 if eps < 0.95 else 0.035)
+
+
+def test_butenschoen_1976_friction():
+    """mu / psi = pi / (So sqrt(1 - eps^2)) + eps / 2 sin(beta), So and beta from his tables.
+
+    The formula as MBDyn's module-hydrodynamic_plain_bearing has it from him; DIN 31652 has it too.
+    """
+    ratios, load = rows(ROTATION)
+    sine = np.sin(np.radians(rows(ATTITUDE)[1]))
+    eps = ratios[:, None]
+    published = math.pi / (load * np.sqrt(1.0 - eps**2)) + 0.5 * eps * sine
+    found = np.array([[friction(width, e) for width in WIDTHS] for e in ratios])
+    error = np.abs(found / published - 1.0)
+    print(f"friction: mean {error.mean():.2%}, worst {error.max():.2%}")
+    assert error.mean() < 2e-3
+    assert error.max() < 1e-2

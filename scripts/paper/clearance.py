@@ -40,7 +40,7 @@ class Point:
         eccentricity_ratio: largest of the pin.
         deviation: how far the low dead point lies below the ideal one, m.
         scatter: of the low dead points of all strokes but the first, m; None with one alone.
-        losses: W, of balls, pin and shear.
+        losses: W, of balls and pin.
     """
 
     pin: float

@@ -11,7 +11,6 @@ from exu_press.observe import differentiated_peak, mean_peak, peak
 from exu_press.result import Result
 from exu_press.scene.laws import asperity_onset
 from paper.contact_modes import contact_modes
-from paper.losses import losses
 
 __all__ = ["MODELS", "OBSERVED", "WHY_OBSERVED", "observed_span", "readings"]
 
@@ -50,7 +49,8 @@ def readings(result: Result, span: tuple[float, float] | None = None) -> dict[st
     Returns:
         peak_acceleration (m/s^2), peak_velocity (m/s) and low_dead_point (m) under each model;
         low_dead_points (m) of every stroke; oscillation_frequency (Hz); joints: contact modes and
-        largest force of each; losses (W).
+        largest force of each; losses: mean powers (W) of the balls' contact and of the pin, whose
+        film is sheared and pressed.
     """
     start, end = span or observed_span(result)
     inside = (result.time >= start - 1e-12) & (result.time <= end + 1e-12)
@@ -79,7 +79,7 @@ def readings(result: Result, span: tuple[float, float] | None = None) -> dict[st
         "low_dead_points": _low_dead_points(result),
         "oscillation_frequency": _oscillation_frequency(result, time, motion),
         "joints": {name: _joint(result, name, inside) for name in result.clearance_joints},
-        "losses": losses(result, inside),
+        "losses": _losses(result, inside),
     }
 
 
@@ -121,6 +121,17 @@ def _oscillation_frequency(result: Result, time: Array, motion: CubicHermiteSpli
     if size < 1e-9:
         return None
     return float(np.sqrt(np.mean(np.diff(deviation) ** 2)) * RATE / (2.0 * np.pi * size))
+
+
+def _losses(result: Result, inside: NDArray[np.bool_]) -> dict[str, float]:
+    """Return mean powers over the instants that are `inside` (n,), W: of both balls and the pin."""
+    time = result.time[inside]
+    span = float(time[-1] - time[0]) or 1.0
+    lost = {"balls": 0.0, "pin": 0.0}
+    for name in result.clearance_joints:
+        energy = result[f"{name}_loss"][inside]
+        lost["pin" if name == "crank_pin" else "balls"] += float(energy[-1] - energy[0]) / span
+    return lost
 
 
 def _joint(result: Result, name: str, inside: NDArray[np.bool_]) -> dict[str, Any]:

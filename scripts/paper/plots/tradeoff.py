@@ -21,8 +21,7 @@ LOOKS: dict[str, dict[str, Any]] = {
     "resolved": {"color": GREY, "marker": "^", "linestyle": ":", "label": "as resolved"},
 }
 LOSSES = {
-    "shear": ("film, sheared", COLOURS["green"]),
-    "pin": ("film, pressed", COLOURS["purple"]),
+    "pin": ("pin, film", COLOURS["green"]),
     "balls": ("balls, contact", COLOURS["vermilion"]),
 }
 

@@ -18,7 +18,7 @@ def point(pin, balls, acceleration, power):
         eccentricity_ratio=0.1,
         deviation=balls,
         scatter=None,
-        losses={"shear": power},
+        losses={"pin": power},
     )
 
 

@@ -129,7 +129,7 @@ def points():
     models = ("resolved", "mean_1ms", "differentiated_1khz")
     for pin in (5e-5, 1e-4, 2e-4):
         for balls in (5e-5, 1e-4, 2e-4):
-            losses = {"balls": balls * 1e5, "pin": 0.0, "shear": 0.05 / pin}
+            losses = {"balls": balls * 1e5, "pin": 0.05 / pin}
             peaks = dict.fromkeys(models, 1e4 * balls**0.5)
             yield Point(pin, balls, peaks, 1e5, 0.1, balls, 1e-7, losses)
 

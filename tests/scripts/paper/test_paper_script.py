@@ -57,8 +57,8 @@ def test_sensitivity_and_clearance(directory):
     assert wider["change"] > 0.1  # the balls' fall is longer
     choice = json.loads((directory / "clearance.json").read_text())
     assert len(choice["alike"]) == 2 and len(choice["separate"]) == 4
-    shear = {point["pin"]: point["losses"]["shear"] for point in choice["alike"]}
-    assert shear[5e-5] == pytest.approx(4.0 * shear[2e-4], rel=0.05)
+    film = {point["pin"]: point["losses"]["pin"] for point in choice["alike"]}
+    assert 3.0 < film[5e-5] / film[2e-4] < 4.0  # sheared four times as hard; the wide one pressed
 
 
 def test_it_goes_on_where_it_was_stopped(directory):

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from exu_press.errors import InputError
+    from exu_press.integrate import Scales, Status, solve_dynamic
     from exu_press.joints import (
         FlexiblePoint,
         add_dry_revolute,
@@ -25,7 +26,9 @@ __all__ = [
     "FlexiblePoint",
     "InputError",
     "Result",
+    "Scales",
     "Scene",
+    "Status",
     "__version__",
     "add_dry_revolute",
     "add_dry_spherical",
@@ -33,19 +36,23 @@ __all__ = [
     "add_lubricated_revolute",
     "load_scene",
     "simulate",
+    "solve_dynamic",
 ]
 
 _HOMES = {
     "FlexiblePoint": "exu_press.joints",
     "InputError": "exu_press.errors",
     "Result": "exu_press.result",
+    "Scales": "exu_press.integrate",
     "Scene": "exu_press.scene",
+    "Status": "exu_press.integrate",
     "add_dry_revolute": "exu_press.joints",
     "add_dry_spherical": "exu_press.joints",
     "add_joint_sensor": "exu_press.joints",
     "add_lubricated_revolute": "exu_press.joints",
     "load_scene": "exu_press.scene",
     "simulate": "exu_press.simulation",
+    "solve_dynamic": "exu_press.integrate",
 }
 
 

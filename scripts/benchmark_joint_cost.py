@@ -23,10 +23,12 @@ from exudyn.itemInterface import (
 )
 
 from exu_press import Scene, add_lubricated_revolute
-from exu_press.integrate import Status, integrate
-from exu_press.integrate.settings import settings_for
+from exu_press.integrate import Status
+from exu_press.integrate.problem import Problem
+from exu_press.integrate.settings import prepared
 from exu_press.joints import COMPILED
 from exu_press.laws.film import film_scale, pinkus
+from exu_press.solving import settings_for, solve
 
 STEP = 1e-5  # s
 PRESS = {
@@ -43,7 +45,7 @@ def run_press(joints, steps):
     pin, balls = joints
     revolutions = steps * STEP * 240.0 / 60.0
     scene = {"crank_pin": pin, "balls": balls, "revolutions": revolutions, "solver": {"step": STEP}}
-    outcome = integrate(Scene.from_dict(scene).build())
+    outcome = solve(Scene.from_dict(scene).build())
     assert outcome.status is Status.COMPLETED, outcome
     steps = outcome.steps  # a film begins with a few shorter ones
     return outcome.wall_time / steps * 1e6, outcome.newton_iterations / steps
@@ -66,7 +68,8 @@ def run_chain(add_joint, steps):
     settings = settings_for(Scene.from_dict({"solver": {"step": STEP}}))
     settings.timeIntegration.endTime, settings.timeIntegration.numberOfSteps = steps * STEP, steps
     start = time.perf_counter()
-    mbs.SolveDynamic(settings, showHints=False)
+    with prepared(settings, Problem.of(mbs, None), STEP / 1024):
+        mbs.SolveDynamic(settings, showHints=False)
     wall_time = time.perf_counter() - start
     solver = mbs.sys["dynamicSolver"]
     return wall_time / steps * 1e6, solver.it.newtonStepsCount / steps

@@ -1,6 +1,8 @@
-"""Integration: Exudyn's generalized-alpha with steps by tolerance, early stops, statistics."""
+"""Integration: Exudyn's generalized-alpha with steps by tolerance, for any Exudyn system."""
 
+from exu_press.integrate.advice import Advice
 from exu_press.integrate.outcome import Outcome, Status
-from exu_press.integrate.run import integrate
+from exu_press.integrate.scales import Scales
+from exu_press.integrate.solve import solve_dynamic
 
-__all__ = ["Outcome", "Status", "integrate"]
+__all__ = ["Advice", "Outcome", "Scales", "Status", "solve_dynamic"]

@@ -2,7 +2,9 @@
 
 import math
 
-__all__ = ["ROUNDING", "BodyError"]
+from exu_press.integrate.scales import FoundScales
+
+__all__ = ["ROUNDING", "BodyError", "squares"]
 
 VELOCITY_CONSTANT = 2.0 / 12.0
 """Of generalized-alpha's local error h^3 times the acceleration's second derivative (0.083 to 0.077
@@ -27,6 +29,21 @@ NEAR = 0.65
 """Of a body's largest acceleration so far, from where its peak may lie between two instants."""
 
 
+def squares(scales: FoundScales, vector: list[float]) -> list[float]:
+    """Return the squares of each body's kinetic norm of a vector over all coordinates."""
+    found: list[float] = []
+    i = 0
+    inertias, ends, masses = scales.inertias, scales.ends, scales.masses
+    for body in range(len(ends)):
+        twice_energy = 0.0
+        while i < ends[body]:
+            twice_energy += inertias[i] * vector[i] * vector[i]
+            i += 1
+        mass = masses[body]
+        found.append(twice_energy / mass if mass > 0.0 else 0.0)
+    return found
+
+
 class BodyError:
     """Tells from the accelerations at three instants what a step missed; 1 is what it may.
 
@@ -42,33 +59,25 @@ class BodyError:
 
     def __init__(
         self,
-        starts: list[int],
-        masses: list[float],
-        inertias: list[float],
         accelerations: list[float],
-        velocity_limit: float,
+        share: float,
         tolerance: float,
-        usual: float,
+        scales: FoundScales,
     ) -> None:
         """Take the bodies and the scales.
 
         Args:
-            starts: where each body's coordinates begin among all; those of the first one at 0.
-            masses: of the bodies, kg; infinite for what has no say.
-            inertias: the mass matrix's diagonal, kg and kg m^2.
             accelerations: of all coordinates, at the beginning of the first step.
-            velocity_limit: what a velocity may be off by in one step, m/s.
+            share: what a velocity may be off by in one step, over the scale of speeds.
             tolerance: what a peak may be off by, over itself, if that is at most `LOOSEST`.
-            usual: an acceleration below which no peak is looked for, m/s^2.
+            scales: of the motion, which knows the bodies.
         """
-        self._ends = [*starts[1:], len(inertias)]
-        self._masses, self._inertias = masses, inertias
-        self._velocity_limit = velocity_limit
+        self._scales, self._share = scales, share
         self._of_peak = min(tolerance, LOOSEST)
         self._before = self._now = accelerations
         self._rate_before: list[float] = []  # none before the first step
         self._rate: list[float] = []
-        self._peaks_before = [usual * usual for _ in masses]  # squares of the largest so far
+        self._peaks_before = [0.0 for _ in scales.masses]  # squares of the largest so far
         self._peaks = self._peaks_before
         self._sizes = self._sizes_before = self._squares(accelerations)
         self._allowed: list[float] = []  # squares of what peaks may be off by, in the step tried
@@ -81,10 +90,11 @@ class BodyError:
         self._rate = rate = [(now[i] - before[i]) / step for i in range(len(now))]
         self.change = [rate[i] - last[i] for i in range(len(rate))] if last else rate
         self._sizes, self._peaks, self._allowed = self._squares(now), [], []
+        usual = self._scales.acceleration * self._scales.acceleration
         for i, size in enumerate(self._sizes):
-            peak = max(size, self._peaks_before[i])
+            self._peaks.append(max(size, self._peaks_before[i]))
+            peak = max(self._peaks[i], usual)
             near = max(size, self._sizes_before[i]) >= NEAR * NEAR * peak
-            self._peaks.append(peak)
             self._allowed.append(self._of_peak * self._of_peak * peak if near else math.inf)
         return self.error(self.change, step)
 
@@ -92,12 +102,12 @@ class BodyError:
         """Return the error that goes with a change of the accelerations' rate."""
         largest = relative = 0.0
         rounding = (ALTERNATING * ROUNDING / (step * step)) ** 2
-        squares, allowed = self._squares(change), self._allowed
-        for i in range(len(squares)):
-            square = squares[i]
+        sizes, allowed = self._squares(change), self._allowed
+        for i in range(len(sizes)):
+            square = sizes[i]
             largest = max(largest, square)
             relative = max(relative, square / max(allowed[i], rounding))
-        limit = max(self._velocity_limit, ROUNDING / step)
+        limit = max(self._share * self._scales.speed, ROUNDING / step)
         velocity = VELOCITY_CONSTANT * step * step * math.sqrt(largest) / limit
         acceleration = 0.125 * step * math.sqrt(relative)
         # both go with the step's cube
@@ -106,14 +116,14 @@ class BodyError:
     def of_jump(self) -> float:
         """Return the largest change of an acceleration in the step last tried, m/s^2."""
         jump = [a - b for a, b in zip(self._now, self._before, strict=True)]
-        return math.sqrt(max(self._squares(jump)))
+        return math.sqrt(max(self._squares(jump), default=0.0))
 
     def offset(self, step: float) -> float:
         """Return what velocities that constraints prescribe are off by at each instant, m/s.
 
         They follow from two positions: h^2 |rate of the acceleration| / 12.
         """
-        return step * step * math.sqrt(max(self._squares(self._rate))) / 12.0
+        return step * step * math.sqrt(max(self._squares(self._rate), default=0.0)) / 12.0
 
     def accept(self) -> None:
         """Remember the accepted step's end as the next one's beginning."""
@@ -122,13 +132,4 @@ class BodyError:
 
     def _squares(self, vector: list[float]) -> list[float]:
         """Return the squares of each body's kinetic norm."""
-        found: list[float] = []
-        i = 0
-        inertias, ends, masses = self._inertias, self._ends, self._masses
-        for body in range(len(ends)):
-            twice_energy = 0.0
-            while i < ends[body]:
-                twice_energy += inertias[i] * vector[i] * vector[i]
-                i += 1
-            found.append(twice_energy / masses[body])
-        return found
+        return squares(self._scales, vector)

@@ -7,10 +7,12 @@ import exudyn as exu
 import numpy as np
 
 from exu_press.integrate.body_error import ROUNDING, BodyError
+from exu_press.integrate.first_order_error import FirstOrderError
 from exu_press.integrate.joint_error import JointError
 from exu_press.integrate.linear import factorise, solve
+from exu_press.integrate.problem import Problem
+from exu_press.integrate.scales import FoundScales
 from exu_press.integrate.touch import Touch
-from exu_press.model import Model
 
 __all__ = ["StepError"]
 
@@ -31,8 +33,8 @@ def share_of(tolerance: float) -> float:
 class StepError:
     """Estimates the error of the step just tried; 1 is what one step may have.
 
-    Velocities, against the crank pin's speed (or, with a slow crank, the speed at which a journal
-    has fallen through its clearance), and accelerations, against their peaks: `BodyError`. Where
+    Velocities, against the scale of speeds, and accelerations, against their peaks: `BodyError`;
+    first-order coordinates likewise, against their largest values: `FirstOrderError`. Where
     that is too much, what counts is the part that Newton's matrix lets through: constraints, films
     and contacts undo the rest within the step (L. F. Shampine's filter for stiff systems, see
     Hairer and Wanner, Solving Ordinary Differential Equations II, IV.8). Without films and contacts
@@ -47,25 +49,26 @@ class StepError:
         touches: of those clearance joints whose surfaces may touch.
     """
 
-    def __init__(self, model: Model, solver: Any, tolerance: float) -> None:
-        """Take the scales from the scene.
+    def __init__(
+        self, problem: Problem, solver: Any, scales: FoundScales, tolerance: float
+    ) -> None:
+        """Look at what is solved.
 
         Args:
-            model: what is solved.
+            problem: what is solved.
             solver: an exu.MainSolverImplicitSecondOrder, which is about to solve it.
+            scales: of the motion; are told of it.
             tolerance: of the run.
         """
-        scene = model.scene
-        self._model, self._solver = model, solver
-        self._data: Any = model.mbs.systemData
+        self._problem, self._solver, self._scales = problem, solver, scales
+        self._data: Any = problem.mbs.systemData
         self._tolerance = tolerance
         share = share_of(tolerance)
-        widest = max((joint.clearance for joint in model.clearance_joints.values()), default=0.0)
-        self._speed = max(scene.pin_speed, math.sqrt(4.0 * scene.gravity * widest))
         self.accelerations: list[float] = []
         self.of_joints = 0.0
         self._bodies: BodyError | None = None
-        joints = list(model.clearance_joints.values())
+        self._first_order = FirstOrderError(self._data, share) if problem.first_order else None
+        joints = [] if problem.joints is None else problem.joints.joints
         self._joints = [JointError(j, max(share * j.clearance, ROUNDING)) for j in joints]
         pairs = zip(joints, self._joints, strict=True)
         self.touches = [Touch(joint, motion) for joint, motion in pairs if joint.reach < math.inf]
@@ -79,8 +82,10 @@ class StepError:
         if error > 1.0:
             error = self._bodies.error(self._filtered(self._bodies.change), step)
         if not self._joints:  # else impacts and films need finer steps, by far
-            offset = self._bodies.offset(step) / (self._tolerance * self._speed)
+            offset = self._relative(self._bodies.offset(step))
             error = max(error, math.pow(offset, 1.5))  # as the step's cube
+        if self._first_order is not None:
+            error = max(error, self._first_order.error(step))
         self.of_joints = 0.0
         for joint in self._joints:
             self.of_joints = max(self.of_joints, joint.error(step))
@@ -93,30 +98,32 @@ class StepError:
         which is held against the tolerance itself as jumps are few.
         """
         assert self._bodies is not None
-        return 0.5 * step * self._bodies.of_jump() / (self._tolerance * self._speed)
+        return self._relative(0.5 * step * self._bodies.of_jump())
 
     def accept(self) -> None:
         """Remember the accepted step's end as the next one's beginning."""
         assert self._bodies is not None
         self._bodies.accept()
+        if not self._scales.fixed:
+            velocities = self._data.GetODE2Coordinates_t(CURRENT, False).tolist()
+            self._scales.update(velocities, self.accelerations)
+        if self._first_order is not None:
+            self._first_order.accept()
         for joint in self._joints:
             joint.accept()
 
+    def _relative(self, speed: float) -> float:
+        """Return an error of a speed (m/s) over what the run may have of it."""
+        allowed = self._tolerance * self._scales.speed
+        return speed / allowed if allowed > 0.0 else 0.0
+
     def _first_look(self) -> BodyError:
         """Return the bodies' errors from the first step's beginning on."""
-        model, mbs = self._model, self._model.mbs
-        scene = model.scene
-        masses = {body.name: body.mass for body in model.mechanism.bodies}
-        nodes = sorted(model.nodes.items(), key=lambda item: item[1])
-        start = self._data.GetODE2Coordinates_tt(START, False)
         return BodyError(
-            starts=[mbs.GetNodeODE2Index(node) for _, node in nodes],
-            masses=[masses.get(name, math.inf) for name, _ in nodes],  # modes and drive: no say
-            inertias=np.diag(self._solver.GetSystemMassMatrix()).tolist(),
-            accelerations=start.tolist(),
-            velocity_limit=share_of(self._tolerance) * self._speed,
+            accelerations=self._data.GetODE2Coordinates_tt(START, False).tolist(),
+            share=share_of(self._tolerance),
             tolerance=self._tolerance,
-            usual=scene.angular_speed * scene.pin_speed,
+            scales=self._scales,
         )
 
     def _filtered(self, change: list[float]) -> list[float]:

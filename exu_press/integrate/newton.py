@@ -19,6 +19,7 @@ from typing import Any
 import exudyn as exu
 import numpy as np
 
+from exu_press.integrate.scales import FoundScales
 from exu_press.joints.overlay import JointOverlay
 
 __all__ = ["DIGITS", "Newton"]
@@ -45,6 +46,7 @@ class Newton:
 
     Attributes:
         data: of the system, `mbs.systemData`; to ask for it costs as much as what it is asked.
+        now: accelerations at the end of the last accepted step.
     """
 
     def __init__(
@@ -52,58 +54,57 @@ class Newton:
         mbs: exu.MainSystem,
         solver: Any,
         joints: JointOverlay | None,
-        speed: float,
+        scales: FoundScales,
+        part: float,
         *,
         flexible: bool,
     ) -> None:
-        """Let Exudyn ask before every residual.
+        """Guide the solver of a system.
 
         Args:
             mbs: the system.
             solver: an exu.MainSolverImplicitSecondOrder, which is about to solve it.
             joints: its clearance joints, if it has any.
-            speed: of its bodies, m/s.
+            scales: of its motion.
+            part: of the scale of forces, to which forces are to be balanced.
             flexible: whether some of its bodies are.
         """
         self.data: Any = mbs.systemData
-        self._solver, self._joints, self._speed = solver, joints, speed
+        self._solver, self._joints = solver, joints
+        self._scales, self._part = scales, part
         self._flexible = flexible
         self._weights: tuple[float, float, float] | None = None
         self._start: float | None = None  # of the step under way, s
-        self._now: list[float] = []  # accelerations there
+        self.now: list[float] = []
         self._rate: list[float] = []  # of change, in the last step
         self._last = 0.0  # size of the last step, s
-        self._tolerance = 0.0  # that the settings ask for, N
+        self._given: float | None = None  # Newton's absolute tolerance of the settings, N
         self._accepted = 0.0  # now, N
-        mbs.SetPreNewtonResidualUserFunction(self._before_residual)
 
     def stepped(self, time: float, accelerations: list[float]) -> None:
         """Be told where an accepted step ends: the time, s, and all coordinates' accelerations."""
         if self._start is not None:
-            self._last, before = time - self._start, self._now
+            self._last, before = time - self._start, self.now
             last = self._last
             self._rate = [(accelerations[i] - before[i]) / last for i in range(len(before))]
-        self._start, self._now = time, accelerations
+        self._start, self.now = time, accelerations
 
-    def _before_residual(self, mbs: exu.MainSystem, time: float, iteration: int, _: int) -> None:
+    def before_residual(self, time: float, iteration: int) -> None:
+        """Set what an iteration of a step to `time`, s, starts from, and where it may end."""
         if not iteration:
-            if self._start is None:
-                before = self.data.GetODE2Coordinates_tt(START, False).tolist()
-                self.stepped(self.data.GetTime(START), before)
-                self._tolerance = self._accepted = self._solver.newton.absoluteTolerance
             assert self._start is not None
             if time - self._start > SHORT:
                 self._advance(time - self._start)
                 if self._joints is not None:
                     self._joints.resume()
-            self._accept(self._tolerance)
+            self._accept(self._tolerance())
         elif iteration == 1 and self._flexible:
             self._accept(0.0)
         elif iteration == 2 and self._flexible:
-            self._accept(self._tolerance)
+            self._accept(self._tolerance())
         elif iteration == PATIENCE and self._joints is not None:
-            rounding = DIGITS * self._joints.damping * self._speed
-            self._accept(max(self._tolerance, rounding))
+            rounding = DIGITS * self._joints.damping * self._scales.speed
+            self._accept(max(self._tolerance(), rounding))
 
     def _advance(self, step: float) -> None:
         """Add the expected accelerations to a state that was advanced without any."""
@@ -112,9 +113,9 @@ class Newton:
             ratio = (1.0 - solver.alphaF) / (1.0 - solver.alphaM)
             self._weights = ratio, solver.newmarkBeta, solver.newmarkGamma
         ratio, beta, gamma = self._weights
-        ahead, values = min(step, REACH * self._last), self._now
+        ahead, values = min(step, REACH * self._last), self.now
         if self._rate:
-            now, rate = self._now, self._rate
+            now, rate = self.now, self._rate
             values = [now[i] + ahead * rate[i] for i in range(len(rate))]
         expected = np.array(values)
         # as Newton's method adds an increment of them
@@ -125,6 +126,12 @@ class Newton:
         velocities += (step * ratio * gamma) * expected
         data.GetODE2Coordinates_tt(CURRENT, False)[:] = expected
         data.GetAECoordinates(CURRENT, False)[:] = data.GetAECoordinates(START, False)
+
+    def _tolerance(self) -> float:
+        """Return to what Newton's method is to balance forces, N."""
+        if self._given is None:
+            self._given = self._accepted = self._solver.newton.absoluteTolerance
+        return self._part * self._scales.force or self._given
 
     def _accept(self, residual: float) -> None:
         """Let Newton's method end at a residual, N."""

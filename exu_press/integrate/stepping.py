@@ -12,7 +12,6 @@ import exudyn as exu
 
 from exu_press.integrate.error import StepError
 from exu_press.integrate.newton import Newton
-from exu_press.integrate.settings import FIRST_OF_FILM
 from exu_press.integrate.step_change import StepChange
 
 __all__ = ["FixedSteps", "StepControl"]
@@ -42,9 +41,6 @@ leaves an error behind, which shortening would chase."""
 RISE = 3.0
 """So much, at most, a joint's error is expected to rise from one step to the next."""
 
-FIRST = 1.0 / 64.0
-"""First step over the largest one."""
-
 
 class StepControl:
     """Sets the step so that its error stays below 1.
@@ -59,41 +55,38 @@ class StepControl:
         solver: Any,
         newton: Newton,
         *,
-        duration: float,
+        end: float,
         smallest: float,
         largest: float,
+        first: float,
         film_start: StepChange | None,
         next_corner: Callable[[float], float],
     ) -> None:
-        """Control the steps of a run from 0 to `duration`, s.
+        """Control the steps of a run to `end`, s.
 
         Args:
             error: estimates the error of a step.
             solver: an exu.MainSolverImplicitSecondOrder, whose steps these are.
             newton: is told of every step's end.
-            duration: end of the run, s.
+            end: of the run, s.
             smallest: below it the run is given up, s.
-            largest: s; also the mean step of Exudyn's own settings.
+            largest: s.
+            first: s.
             film_start: starts the first step over where a film takes up its load.
             next_corner: time -> the next instant at which a load has a corner, s, or infinity.
         """
         self.error = 0.0
         self._before = 0.0  # joints' error in the step before, over its cube
         self._estimate = error
-        self._duration, self._smallest, self._largest = duration, smallest, largest
+        self._end, self._smallest, self._largest = end, smallest, largest
         self._next_corner = next_corner
         self._film_start = film_start
         self._iteration: Any = solver.it  # holds the step
         self._newton, self._data = newton, newton.data
-        usual = FIRST * largest
-        self._step = max(usual if film_start is None else min(largest, FIRST_OF_FILM), smallest)
+        self._step = max(first, smallest)
+        self._tried = 0.0  # size of the step last tried, s
 
-    def attach(self, mbs: exu.MainSystem) -> None:
-        """Let Exudyn ask this control after every Newton solve and every step."""
-        mbs.SetPostNewtonUserFunction(self._after_newton)
-        mbs.SetPostStepUserFunction(self._after_step)
-
-    def _after_newton(self, mbs: exu.MainSystem, time: float) -> list[float]:
+    def after_newton(self, time: float) -> list[float]:
         """Return [0, -1] to accept the step, or [2, shorter step] to have it repeated."""
         step = time - self._data.GetTime(START)
         if step <= 0.0:
@@ -107,6 +100,12 @@ class StepControl:
         if not error <= 1.0:
             self._step = step * max(SHRINK, _factor(error))
             return [2.0, self._step]
+        self._tried = step
+        return [0.0, -1.0]
+
+    def _accept(self, time: float) -> None:
+        """Take the step last tried as done; choose the size of those to come."""
+        step, error = self._tried, self.error
         self._estimate.accept()
         self._newton.stepped(time, self._estimate.accelerations)
         if step >= 0.5 * self._step:  # else it was cut short, by what it ends on
@@ -117,7 +116,6 @@ class StepControl:
             self._step *= GROW
         elif expected > 1.0:
             self._step *= max(SHORTEN, factor)
-        return [0.0, -1.0]
 
     def _expected(self, step: float) -> float:
         """Return the joints' error in a further step of this size (s), risen as in this one."""
@@ -126,8 +124,14 @@ class StepControl:
         scaled = before * step**ORDER
         return now * min(now / scaled, RISE) if scaled > 0.0 else 0.0
 
-    def _after_step(self, mbs: exu.MainSystem, time: float) -> bool:
-        """Set the next step; it ends on touches, and exactly on corners and the end."""
+    def after_step(self, time: float) -> list[float]:
+        """Set the next step; it ends on touches, and exactly on corners and the end.
+
+        Returns:
+            The accelerations at the end of the last step.
+        """
+        if self._tried > 0.0:
+            self._accept(time)
         touches = self._estimate.touches
         step = min(self._step, self._largest)
         for touch in touches:
@@ -135,7 +139,7 @@ class StepControl:
         self._step = step
         for touch in touches:
             step = min(step, touch.until(self._step))
-        for stop in (self._next_corner(time), self._duration):
+        for stop in (self._next_corner(time), self._end):
             left = stop - time
             if left <= self._smallest:
                 continue
@@ -144,7 +148,7 @@ class StepControl:
             elif step > 0.5 * left:
                 step = 0.5 * left
         self._iteration.currentStepSize = step
-        return True
+        return self._estimate.accelerations or self._newton.now
 
 
 def _factor(error: float) -> float:
@@ -159,10 +163,20 @@ class FixedSteps:
 
     The first one may be taken in pieces that double, so that a film takes up its load; and after a
     step that Exudyn had to halve, steps double back to the grid.
+
+    Attributes:
+        error: none that is known.
     """
 
     def __init__(
-        self, step: float, solver: Any, newton: Newton, *, film_start: StepChange | None
+        self,
+        step: float,
+        solver: Any,
+        newton: Newton,
+        *,
+        start: float,
+        first: float,
+        film_start: StepChange | None,
     ) -> None:
         """Take steps of a size, s.
 
@@ -170,42 +184,41 @@ class FixedSteps:
             step: s.
             solver: an exu.MainSolverImplicitSecondOrder, whose steps these are.
             newton: is told of every step's end.
+            start: of the run, s.
+            first: step, s.
             film_start: starts the first one over.
         """
+        self.error = 0.0
         self._step = step
         self._film_start = film_start
         self._iteration: Any = solver.it  # holds the step
         self._newton, self._data = newton, newton.data
-        self._size = step if film_start is None else min(step, FIRST_OF_FILM)
-        self._next = self._size
-        self._time = 0.0
+        self._size = self._next = first
+        self._start = self._time = start
 
-    def attach(self, mbs: exu.MainSystem) -> None:
-        """Let Exudyn ask after every step."""
-        mbs.SetPostStepUserFunction(self._after_step)
-        if self._film_start is not None:
-            mbs.SetPostNewtonUserFunction(self._after_newton)
+    def after_newton(self, time: float) -> list[float]:
+        """Return [0, -1] to accept the step, or [2, step] to have the first one repeated."""
+        if self._film_start is None or time <= self._start or not self._film_start.start_over(time):
+            return [0.0, -1.0]
+        return [2.0, time - self._start]
 
-    def _after_newton(self, mbs: exu.MainSystem, time: float) -> list[float]:
-        """Return [0, -1] to accept the step, [2, step] to have the first one repeated."""
-        assert self._film_start is not None
-        again = time > 0.0 and self._film_start.start_over(time)
-        return [2.0, time] if again else [0.0, -1.0]
-
-    def _after_step(self, mbs: exu.MainSystem, time: float) -> bool:
-        """Set the next step."""
+    def after_step(self, time: float) -> list[float]:
+        """Set the next step; return the accelerations at the end of this one."""
         h, done, before = self._step, time - self._time, self._next
+        now: list[float] = self._data.GetODE2Coordinates_tt(
+            exu.ConfigurationType.Current, False
+        ).tolist()
         if done > 0.0:
-            now = self._data.GetODE2Coordinates_tt(exu.ConfigurationType.Current, False)
-            self._newton.stepped(time, now.tolist())
+            self._newton.stepped(time, now)
             halved = done < 0.99 * before
             self._size = done if halved else min(h, 2.0 * self._size)
-            to_grid = (math.floor(time / h * (1.0 + 1e-9)) + 1) * h - time
+            gone = time - self._start
+            to_grid = (math.floor(gone / h * (1.0 + 1e-9)) + 1) * h - gone
             on_grid = to_grid > (1.0 - 1e-9) * h
             self._next = self._size if on_grid else min(to_grid, self._size)
             if not halved and self._next == before:
                 self._time = time
-                return True
+                return now
         self._time = time
         self._iteration.currentStepSize = self._next
-        return True
+        return now

@@ -60,6 +60,8 @@ class ClearanceJoint(Protocol):
     reach: float
     """Eccentricity at which its surfaces begin to touch, m, less than the clearance where they are
     rough; infinite where a film alone lies between them."""
+    lubricated: bool
+    """Whether it has a film."""
     places: list[int]
     """Where the joint's coordinates lie among those of the item."""
 

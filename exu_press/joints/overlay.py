@@ -120,6 +120,16 @@ class JointOverlay:
             joint.resume()
 
     @property
+    def lubricated(self) -> bool:
+        """Whether any joint has a film."""
+        return any(joint.lubricated for joint in self.joints)
+
+    @property
+    def widest(self) -> float:
+        """The largest clearance, m; 0.0 without joints."""
+        return max((joint.clearance for joint in self.joints), default=0.0)
+
+    @property
     def damping(self) -> float:
         """The most that any force changed with a speed, N s/m, in the last Jacobian.
 

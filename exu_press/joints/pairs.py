@@ -328,6 +328,7 @@ class PairedJoint:
         pairs: the first one has the joint's clearance.
         clearance: radial clearance, m.
         reach: eccentricity at which surfaces touch in one of them, m, or infinity.
+        lubricated: whether one of them is a film.
     """
 
     def __init__(self, pairs: Sequence[Pair]) -> None:
@@ -336,6 +337,7 @@ class PairedJoint:
         self.clearance = self.pairs[0].clearance
         dry = [pair.clearance for pair in self.pairs if isinstance(pair, DryPair)]
         self.reach = min(dry, default=math.inf)
+        self.lubricated = any(isinstance(pair, FilmPair) for pair in self.pairs)
         self._motion: Motion = (0.0, 0.0, 0.0, 0.0, 0.0)
         self._loads: list[Load | None] = [None for _ in self.pairs]
         self._motion_before = self._motion

@@ -39,6 +39,7 @@ class SpatialSpherical:
         self._contact, self._friction = contact, friction
         self._radius = radius
         self.clearance = self.reach = clearance
+        self.lubricated = False
         self._approach = Approach()
         self._next_bristle: Array = np.zeros(3)
         self.reset()

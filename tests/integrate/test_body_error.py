@@ -5,20 +5,24 @@ import math
 import pytest
 
 from exu_press.integrate.body_error import FINER, LOOSEST, NEAR, ROUNDING, BodyError
+from exu_press.integrate.scales import FoundScales, Scales
 from exu_press.integrate.stepping import AIM, GROW, ORDER
 
 
 def errors(velocity_limit=1e-3, tolerance=1e-2, masses=(2.0,)):
     """Errors of bodies that rest at first; each of one mass and a moment of inertia of 0.5."""
-    return BodyError(
+    scales = FoundScales(Scales(speed=1.0, acceleration=1.0, force=1.0))
+    rest = [0.0] * 3 * len(masses)
+    scales.begin(
         starts=[3 * i for i in range(len(masses))],
-        masses=list(masses),
         inertias=[value for mass in masses for value in (mass, mass, 0.5)],
-        accelerations=[0.0] * 3 * len(masses),
-        velocity_limit=velocity_limit,
-        tolerance=tolerance,
-        usual=1.0,
+        masses=list(masses),
+        velocities=rest,
+        accelerations=rest,
+        longest=1.0,
+        widest=0.0,
     )
+    return BodyError(rest, share=velocity_limit, tolerance=tolerance, scales=scales)
 
 
 def test_accelerations_that_change_at_one_rate_are_followed_exactly():

@@ -9,6 +9,7 @@ import pytest
 
 from exu_press import Result, Scene, simulate
 from exu_press.cli import main
+from exu_press.solving import solve
 
 DRY = {"mechanism": "slider_crank", "crank_pin": "dry", "revolutions": 0.1}
 REASON = re.compile(
@@ -113,8 +114,6 @@ def test_an_error_in_a_law_is_not_told_as_one_of_newton():
     def broken(*_):
         raise ZeroDivisionError("in a law")
 
-    from exu_press.integrate import integrate
-
     model.clearance_joints["crank_pin"].add_force = broken
     with pytest.raises(exu.ExudynError, match="USER FUNCTION"):
-        integrate(model)
+        solve(model)

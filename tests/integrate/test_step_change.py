@@ -13,25 +13,22 @@ STEPS = [4e-4] * 8 + [5e-5] * 8 + [1e-4] * 3 + [2e-4] * 3
 """s, in turn: shortened at once, lengthened by doubling, as the step control does."""
 
 
-def alternate(control, mbs, time):
+def alternate(control, time):
     """Take some long and some short steps in turn, exactly to the end."""
+    newton = control._newton
+    if time > 0.0:
+        newton.stepped(time, newton.data.GetODE2Coordinates_tt().tolist())
     control.count = getattr(control, "count", 0) + 1
     step = STEPS[control.count % len(STEPS)]
-    left = control._duration - time
-    mbs.sys["dynamicSolver"].it.currentStepSize = min(step, left) if left > 1e-12 else step
-    return True
-
-
-def accept(control, mbs, time):
-    """Accept every step."""
-    control._newton.stepped(time, mbs.systemData.GetODE2Coordinates_tt().tolist())
-    return [0.0, -1.0]
+    left = control._end - time
+    control._iteration.currentStepSize = min(step, left) if left > 1e-12 else step
+    return newton.now
 
 
 @pytest.fixture
 def alternating_steps(monkeypatch):
-    monkeypatch.setattr(StepControl, "_after_step", alternate)
-    monkeypatch.setattr(StepControl, "_after_newton", accept)
+    monkeypatch.setattr(StepControl, "after_step", alternate)
+    monkeypatch.setattr(StepControl, "after_newton", lambda control, time: [0.0, -1.0])
 
 
 def ringing(scene):
@@ -56,16 +53,10 @@ def test_a_repeated_step_starts_as_its_first_try_did(monkeypatch):
     scene = Scene(crank_pin="ideal", balls="ideal", revolutions=0.1, solver={"step": 2e-4})
     failing = iter([])
 
-    def fail_every_other(mbs, time):
+    def fail_every_other(control, time):
         return [2.0, -1.0] if next(failing) else [0.0, -1.0]
 
-    attach = FixedSteps.attach
-
-    def attach_failing(control, mbs):
-        mbs.SetPostNewtonUserFunction(fail_every_other)
-        attach(control, mbs)
-
-    monkeypatch.setattr(FixedSteps, "attach", attach_failing)
+    monkeypatch.setattr(FixedSteps, "after_newton", fail_every_other)
 
     def error():
         nonlocal failing
@@ -84,19 +75,13 @@ def test_fixed_steps_return_to_their_grid_after_a_halved_one(monkeypatch):
     scene = Scene(crank_pin="ideal", balls="ideal", revolutions=0.1, solver={"step": 2e-4})
     failed = []
 
-    def fail_one(mbs, time):
+    def fail_one(control, time):
         if time > 5e-3 and not failed:
             failed.append(time)
             return [2.0, -1.0]
         return [0.0, -1.0]
 
-    attach = FixedSteps.attach
-
-    def attach_failing(control, mbs):
-        mbs.SetPostNewtonUserFunction(fail_one)
-        attach(control, mbs)
-
-    monkeypatch.setattr(FixedSteps, "attach", attach_failing)
+    monkeypatch.setattr(FixedSteps, "after_newton", fail_one)
     time = simulate(scene).time
     on_grid = np.abs(time / 2e-4 - np.round(time / 2e-4)) < 1e-6
     assert failed and 1 <= (~on_grid).sum() <= 2

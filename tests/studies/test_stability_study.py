@@ -100,9 +100,9 @@ def test_a_run_that_says_it_was_not_resolved_has_stopped():
 
 def test_the_same_run_without_a_word_would_be_wrong(monkeypatch):
     """The checks, not the status, find it: the verdict does not rest on the run's own word."""
-    import exu_press.integrate.ending as ending
+    from exu_press.integrate.resolution import Resolution
 
-    monkeypatch.setattr(ending, "unresolved", lambda model: None)
+    monkeypatch.setattr(Resolution, "worst", lambda resolution: None)
     row = judged(crank_pin="dry", **{"solver.step": 1e-3})
     assert row["status"] == "completed"
     assert row["verdict"] == "wrong"

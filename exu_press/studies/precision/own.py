@@ -6,11 +6,13 @@ from functools import partial
 
 import exudyn as exu
 
-from exu_press.integrate import Outcome, Status, integrate
-from exu_press.integrate.settings import settings_for
+from exu_press.integrate import Outcome, Status
+from exu_press.integrate.problem import Problem
+from exu_press.integrate.settings import prepared
 from exu_press.joints import overlay_of
 from exu_press.result import record
 from exu_press.scene import Scene
+from exu_press.solving import settings_for, solve
 from exu_press.studies.precision.measured import Attempt, Measured, measured_of
 
 __all__ = [
@@ -28,6 +30,9 @@ FIXED = "fixed step"
 TOLERANCE = "tolerance"
 MODES = "modes, default tolerance"
 
+SMALLEST = 1e-8
+"""How small a fixed step may become where Newton's method fails, s."""
+
 NEWTON_MODES = {"full Newton": (False, False), "modified Newton": (True, False)}
 """Name -> (modified, a Jacobian every step); the package's own is modified with one every step."""
 
@@ -40,7 +45,7 @@ def run_scene(scene: Scene, setting: str, value: float) -> Measured:
 def _run(scene: Scene) -> Measured:
     model = scene.build()
     start = time.process_time()
-    outcome = integrate(model)
+    outcome = solve(model)
     cpu_time = time.process_time() - start
     result = record(model, outcome)
     model.SC.Reset()  # system and solver hold each other, and all they recorded
@@ -105,11 +110,12 @@ def _with_newton(scene: Scene, mode: str, step: float) -> Measured:
     model = scene.build()
     settings = settings_for(scene)
     newton = settings.timeIntegration.newton
-    newton.useModifiedNewton, newton.modifiedNewtonJacUpdatePerStep = NEWTON_MODES[mode]
     silent, exu.config.printToConsole = exu.config.printToConsole, False
     start, cpu_start = time.perf_counter(), time.process_time()
     try:
-        model.mbs.SolveDynamic(settings, showHints=False)
+        with prepared(settings, Problem.of(model.mbs, None), SMALLEST):
+            newton.useModifiedNewton, newton.modifiedNewtonJacUpdatePerStep = NEWTON_MODES[mode]
+            model.mbs.SolveDynamic(settings, showHints=False)
         status, reason = Status.COMPLETED, ""
     except exu.ExudynError as error:
         status, reason = Status.NOT_CONVERGED, str(error).strip().splitlines()[0]

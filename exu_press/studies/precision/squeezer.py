@@ -11,9 +11,9 @@ References
 """
 
 import time
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from functools import partial
-from math import cos, pi, sin
+from math import cos, sin
 from typing import Any
 
 import exudyn as exu
@@ -25,16 +25,12 @@ from exudyn.itemInterface import (
     ObjectConnectorSpringDamper,
     ObjectGround,
     ObjectJointRevolute2D,
-    SensorNode,
 )
 
-from exu_press.integrate import Status, integrate
-from exu_press.mechanism import Body, Mechanism
+from exu_press.integrate import Status, solve_dynamic
+from exu_press.mechanism import Body
 from exu_press.mechanism.kinematics import Motion
-from exu_press.model import Model
 from exu_press.rigid import RigidBody
-from exu_press.scene import Scene
-from exu_press.scene.tables import SliderCrank, Solver
 from exu_press.studies.precision.errors import Errors
 from exu_press.studies.precision.measured import Attempt, Measured
 from exu_press.studies.precision.own import FIXED, TOLERANCE
@@ -109,20 +105,16 @@ JOINTS = (
 )
 """Name and the two bodies, 0 the frame."""
 
-CRANK_RADIUS, CRANK_ROD = 0.007, 0.028  # m
-CRANK_SPEED = 530.0  # rad/s, on average; with the radius the scale of the tolerance
+LARGEST_STEPS = 190  # so many of the largest step that a tolerance may lead to make the run
 
-LEVELS = {
-    "position": exu.OutputVariableType.Coordinates,
-    "velocity": exu.OutputVariableType.Coordinates_t,
-}
+LEVELS = exu.OutputVariableType.Coordinates, exu.OutputVariableType.Coordinates_t
 
 
 def squeezer_attempts(steps: Iterable[float], tolerances: Iterable[float]) -> list[Attempt]:
     """Return the runs with fixed steps (s) and with tolerances."""
-    fixed = [Attempt(FIXED, "step", h, partial(_run, Solver(step=h))) for h in steps]
+    fixed = [Attempt(FIXED, "step", h, partial(_run, round(DURATION / h), None)) for h in steps]
     controlled = [
-        Attempt(TOLERANCE, "tolerance", tol, partial(_run, Solver(tolerance=tol)))
+        Attempt(TOLERANCE, "tolerance", tol, partial(_run, LARGEST_STEPS, tol))
         for tol in tolerances
     ]
     return fixed + controlled
@@ -134,15 +126,20 @@ def squeezer_errors(run: Trajectory) -> Errors:
     return Errors(float(np.abs(angle - END).max()), float(np.abs(rate - END_RATE).max()), None)
 
 
-def _run(solver: Solver) -> Measured:
-    """Integrate as the package does a scene: its settings, its step control, its statistics."""
-    model = _build(solver)
+def _run(steps: int, tolerance: float | None) -> Measured:
+    """Integrate it as any Exudyn system, with fixed steps or with a tolerance."""
+    mbs, nodes = _build()
+    settings = exu.SimulationSettings()
+    settings.timeIntegration.endTime, settings.timeIntegration.numberOfSteps = DURATION, steps
+    settings.timeIntegration.generalizedAlpha.spectralRadius = 0.8
+    settings.linearSolver.solverType = exu.LinearSolverType.EigenDense
+    settings.solution.file.write = False
     start = time.process_time()
-    outcome = integrate(model)
+    outcome = solve_dynamic(mbs, settings, tolerance=tolerance, max_steps=10_000_000)
     cpu_time = time.process_time() - start
     done = outcome.status is Status.COMPLETED
     return Measured(
-        trajectory=_end_of(model) if done else None,
+        trajectory=_end_of(mbs, nodes) if done else None,
         wall_times=(outcome.wall_time,),
         cpu_times=(cpu_time,),
         status=outcome.status.value,
@@ -154,34 +151,21 @@ def _run(solver: Solver) -> Measured:
     )
 
 
-def _build(solver: Solver) -> Model:
-    """Return the assembled model; its scene holds the run's length and the tolerance's scales."""
-    scene = Scene(
-        mechanism="slider_crank",
-        crank_pin="ideal",
-        speed_rpm=CRANK_SPEED * 30.0 / pi,
-        revolutions=DURATION * CRANK_SPEED / (2.0 * pi),
-        slider_crank=SliderCrank(crank_radius=CRANK_RADIUS, rod_length=CRANK_ROD),
-        solver=solver,
-    )
+def _build() -> tuple[exu.MainSystem, list[int]]:
+    """Return the assembled system and the nodes of its seven bodies."""
     container = exu.SystemContainer()
     mbs = container.AddSystem()
     ground = mbs.AddObject(ObjectGround())
-    objects, nodes, rigid = {"frame": ground}, {}, {}
-    bodies, still = [], np.zeros((1, 3))
+    objects, nodes, still = [ground], [], np.zeros((1, 3))
     places = _start_places()
     for number, (place, mass, inertia) in enumerate(zip(places, MASS, INERTIA, strict=True), 1):
-        name = str(number)
-        bodies.append(Body(name, mass, inertia))
-        rigid[name] = RigidBody(mbs, bodies[-1], Motion(np.array([place]), still, still))
-        nodes[name], objects[name] = rigid[name].node, rigid[name].number
-
-    bodies_by_number = list(objects.values())
+        motion = Motion(np.array([place]), still, still)
+        body = RigidBody(mbs, Body(str(number), mass, inertia), motion)
+        nodes.append(body.node)
+        objects.append(body.number)
 
     def marker(body: int, point: tuple[float, float], kind: Any = MarkerBodyRigid) -> int:
-        return int(
-            mbs.AddMarker(kind(bodyNumber=bodies_by_number[body], localPosition=[*point, 0.0]))
-        )
+        return int(mbs.AddMarker(kind(bodyNumber=objects[body], localPosition=[*point, 0.0])))
 
     for name, first, second in JOINTS:
         ends = [
@@ -199,43 +183,8 @@ def _build(solver: Solver) -> Model:
         )
     )
     mbs.AddLoad(LoadTorqueVector(markerNumber=marker(1, (0.0, 0.0)), loadVector=[0, 0, TORQUE]))
-    recorded = {
-        (name, level): int(
-            mbs.AddSensor(
-                SensorNode(nodeNumber=node, storeInternal=True, outputVariableType=output)
-            )
-        )
-        for name, node in nodes.items()
-        for level, output in LEVELS.items()
-    }
     mbs.Assemble()
-    mechanism = Mechanism(
-        bodies=tuple(bodies),
-        joints=(),
-        guides=(),
-        crank="1",
-        slider="3",
-        slider_origin=0.0,
-        motion=_no_closed_form,
-    )
-    return Model(
-        scene=scene,
-        mechanism=mechanism,
-        SC=container,
-        mbs=mbs,
-        bodies=objects,
-        nodes=nodes,
-        rigid=rigid,
-        clearance_joints={},
-        ideal_joints={},
-        drive=-1,
-        sensors=recorded,
-        parts={},
-    )
-
-
-def _no_closed_form(angle: Array, speed: float) -> Mapping[str, Motion]:
-    raise NotImplementedError("the squeezer's motion has no closed form")
+    return mbs, nodes
 
 
 def _start_places() -> list[list[float]]:
@@ -261,16 +210,10 @@ def _turned(point: tuple[float, float], angle: float) -> tuple[float, float]:
     return point[0] * c - point[1] * s, point[0] * s + point[1] * c
 
 
-def _end_of(model: Model) -> Trajectory:
+def _end_of(mbs: exu.MainSystem, nodes: list[int]) -> Trajectory:
     """Return the seven angles and rates at the end, (1, 7)."""
     angles, rates = (
-        np.array(
-            [
-                np.asarray(model.mbs.GetSensorStoredData(model.sensors[name, level]))[-1, -1]
-                for name in model.nodes
-            ]
-        )
-        for level in LEVELS
+        np.array([mbs.GetNodeOutput(node, kind)[-1] for node in nodes]) for kind in LEVELS
     )
     angles += [place[2] for place in _start_places()]
     end = np.array([DURATION])

@@ -1,0 +1,211 @@
+"""An assembled Exudyn system as the integration sees it: nodes with masses, joints, constraints."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import exudyn as exu
+import numpy as np
+from numpy.typing import NDArray
+
+from exu_press.errors import InputError
+from exu_press.joints import overlay_of
+from exu_press.joints.overlay import JointOverlay
+
+__all__ = ["Node", "Problem", "weights"]
+
+Array = NDArray[np.float64]
+
+MATERIAL_POINTS = {
+    "Point": 3,
+    "Point2D": 2,
+    "PointSlope1": 3,
+    "PointSlope2": 3,
+    "PointSlope12": 3,
+    "PointSlope23": 3,
+    "Point2DSlope1": 2,
+    "Point2DSlope12": 2,
+    "RigidBody2D": 2,
+    "RigidBodyEP": 3,
+    "RigidBodyRxyz": 3,
+}
+"""Node types -> how many of their first coordinates are displacements, m."""
+
+LIE_GROUP = "RigidBodyRotVecLG"
+
+RIGID_OR_MODAL = (
+    "Ground",
+    "Mass1D",
+    "RotationalMass1D",
+    "MassPoint",
+    "MassPoint2D",
+    "RigidBody",
+    "RigidBody2D",
+    "FFRFreducedOrder",
+)
+"""Objects whose stiffness and damping, if they have any, belong to modes and do not change."""
+
+
+@dataclass(frozen=True)
+class Node:
+    """Coordinates that count together in errors, and what they weigh.
+
+    Attributes:
+        name: in messages.
+        start: index of the first of its coordinates among the system's.
+        size: how many they are.
+        mass: what turns their kinetic energy into the square of a speed, kg; None where they are
+            not displacements: their own largest kinetic energy is the scale then. Infinite for what
+            has no say.
+        displacements: how many of its first coordinates are displacements.
+        quaternion: whether its last four coordinates are Euler parameters.
+        carrier: number of the node whose mass counts for it too, as a flexible body's frame does
+            for its modes.
+    """
+
+    number: int
+    name: str
+    start: int
+    size: int
+    mass: float | None = None
+    displacements: int = 0
+    quaternion: bool = False
+    carrier: int | None = None
+
+
+@dataclass(frozen=True)
+class Problem:
+    """What is integrated.
+
+    Attributes:
+        mbs: the system.
+        nodes: of the second-order coordinates, in their order.
+        joints: the system's clearance joints, if it has any.
+        flexible: whether some bodies have floating frames and modes.
+        modal_stiffness: whether all stiffness is that of flexible bodies' modes.
+        first_order: whether there are first-order coordinates.
+        switching: whether there are data variables, which Exudyn iterates on after Newton's method.
+        constrained: whether there are constraints.
+    """
+
+    mbs: exu.MainSystem
+    nodes: tuple[Node, ...]
+    joints: JointOverlay | None
+    flexible: bool
+    modal_stiffness: bool
+    first_order: bool
+    switching: bool
+    constrained: bool
+
+    @classmethod
+    def of(cls, mbs: exu.MainSystem, bodies: Mapping[int, tuple[str, float]] | None) -> "Problem":
+        """Look at an assembled system.
+
+        Args:
+            mbs: the system.
+            bodies: node number -> name and mass (kg) of the body that it belongs to; nodes that are
+                not named have no say in errors. None: all of them have one.
+
+        Raises:
+            InputError: the system is not assembled, or has nodes that cannot be stepped with a
+                tolerance.
+        """
+        if not mbs.systemIsConsistent:
+            raise InputError("mbs is not assembled: call mbs.Assemble() first")
+        data: Any = mbs.systemData
+        objects = [mbs.GetObject(number) for number in range(data.NumberOfObjects())]
+        joints = overlay_of(mbs)
+        kinds = [item["objectType"] for item in objects]
+        flexible = "FFRFreducedOrder" in kinds
+        others = (
+            kind
+            for number, kind in enumerate(kinds)
+            if not kind.startswith("Joint") and kind not in RIGID_OR_MODAL and number != joints.item
+        )
+        modal = flexible and all(
+            kind.startswith("ConnectorCoordinate") and "Spring" not in kind for kind in others
+        )
+        return cls(
+            mbs=mbs,
+            nodes=_nodes(mbs, objects, bodies),
+            joints=joints if joints.joints else None,
+            flexible=flexible,
+            modal_stiffness=modal,
+            first_order=data.ODE1Size() > 0,
+            switching=data.DataSize() > 0,
+            constrained=data.AEsize() > 0,
+        )
+
+
+def _nodes(
+    mbs: exu.MainSystem,
+    objects: list[dict[str, Any]],
+    bodies: Mapping[int, tuple[str, float]] | None,
+) -> tuple[Node, ...]:
+    """Return the nodes with second-order coordinates, in the order of these."""
+    data: Any = mbs.systemData
+    translating = {item["nodeNumber"] for item in objects if item["objectType"] == "Mass1D"}
+    carriers = {
+        item["nodeNumbers"][1]: item["nodeNumbers"][0]
+        for item in objects
+        if item["objectType"] == "FFRFreducedOrder" and len(item["nodeNumbers"]) > 1
+    }
+    found = []
+    for number in range(data.NumberOfNodes()):
+        coordinates = data.GetNodeLTGODE2(number)
+        if len(coordinates) == 0:
+            continue
+        item = mbs.GetNode(number)
+        kind = item["nodeType"]
+        if kind == LIE_GROUP:
+            raise InputError(
+                f"node {number} ({item['name']}) is a {kind}: allowed with a tolerance are nodes "
+                "whose coordinates add up, as NodeRigidBodyEP or NodeRigidBodyRxyz"
+            )
+        name, mass = item["name"] or f"node {number}", None
+        displacements = MATERIAL_POINTS.get(kind, 0)
+        if kind == "1D" and number in translating:
+            displacements = 1
+        if bodies is not None:
+            name, mass = bodies.get(number, (name, math.inf))
+        found.append(
+            Node(
+                number=number,
+                name=name,
+                start=int(coordinates[0]),
+                size=len(coordinates),
+                mass=mass,
+                displacements=displacements,
+                quaternion=kind == "RigidBodyEP",
+                carrier=carriers.get(number),
+            )
+        )
+    return tuple(sorted(found, key=lambda node: node.start))
+
+
+def weights(nodes: tuple[Node, ...], mass_matrix: Array) -> tuple[list[float], list[float]]:
+    """Return each coordinate's inertia and each node's mass, 0.0 where that is to be found.
+
+    Euler parameters count with the mean of their four inertias, which no rotation changes.
+
+    Args:
+        nodes: of the system, in the order of their coordinates.
+        mass_matrix: (n, n).
+    """
+    inertias = np.array(np.diag(mass_matrix), dtype=float)
+    masses: dict[int, float] = {}
+    for node in nodes:
+        first, last = node.start, node.start + node.size
+        if node.quaternion:
+            inertias[last - 4 : last] = inertias[last - 4 : last].mean()
+        mass = node.mass
+        if mass is None:
+            mass = float(inertias[first : first + node.displacements].max(initial=0.0))
+            if not inertias[first:last].any():
+                mass = math.inf
+        masses[node.number] = mass
+    for node in nodes:
+        if node.mass is None and node.carrier is not None:
+            masses[node.number] = masses[node.carrier]
+    return inertias.tolist(), [masses[node.number] for node in nodes]

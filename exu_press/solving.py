@@ -1,0 +1,293 @@
+"""Solve a scene's model: what the scene asks for, in the integrator's terms, and its words."""
+
+import dataclasses
+import math
+from collections.abc import Iterator
+
+import exudyn as exu
+import numpy as np
+from numpy.typing import NDArray
+
+from exu_press.integrate import Advice, Outcome, Scales, Status, solve_dynamic
+from exu_press.integrate.problem import Problem
+from exu_press.integrate.resolution import Unresolved
+from exu_press.joints import history, overlay_of
+from exu_press.joints.joint import ClearanceJoint
+from exu_press.laws.contact import NormalContact
+from exu_press.mechanism import mechanism_of
+from exu_press.model import Model
+from exu_press.scene import Scene
+from exu_press.scene.laws import contact_law
+
+__all__ = ["largest_step", "scales", "settings_for", "solve"]
+
+Array = NDArray[np.float64]
+
+FALL = 0.03
+"""Of free fall's acceleration, what counts as usual at least where there is clearance: parts fall
+through it, however slowly the crank turns. Asked for less (below 30 rpm), Newton's method iterates
+on what rounding leaves: at 0.01 rpm a hundred times for each step of 1e-4 s."""
+
+THIN = 1e-6
+"""m; the damping of a film of 1e-7 m, 1e17 N s/m, makes 10 N of a speed's last digit."""
+
+WIDE_CIRCLE = 0.3
+"""Of the friction circle's radius, in crank radii."""
+
+STEPS_IN_A_PULSE = 5.0
+"""So many fixed steps in the rise and in the fall of a blanking pulse: its peak, which may lie
+between two of them, is then missed by a tenth at most."""
+
+STEPS_IN_A_RISE = 3.0
+"""So many steps from first touch to the largest force resolve it to some percent."""
+
+
+def solve(model: Model, *, quiet: bool = True) -> Outcome:
+    """Run a model to its end time or to an early stop; what was computed stays in its sensors.
+
+    Args:
+        model: of a scene; items that were added to `model.mbs` and assembled take part.
+        quiet: False shows the progress on standard error.
+    """
+    scene = model.scene
+    solver = scene.solver
+    assert solver is not None
+    masses = {body.name: body.mass for body in model.mechanism.bodies}
+    outcome = solve_dynamic(
+        model.mbs,
+        settings_for(scene),
+        tolerance=solver.tolerance,
+        scales=scales(scene),
+        next_corner=model.next_corner,
+        # modes and drive: no say
+        bodies={node: (name, masses.get(name, math.inf)) for name, node in model.nodes.items()},
+        advice=lambda problem, by_tolerance: SceneAdvice(model, problem, by_tolerance),
+        max_steps=solver.max_steps,
+        quiet=quiet,
+    )
+    leapt = _leapt_over_pulse(model) if outcome.status is Status.COMPLETED else ""
+    if leapt:
+        return dataclasses.replace(outcome, status=Status.UNDER_RESOLVED, reason=leapt)
+    return outcome
+
+
+def settings_for(scene: Scene) -> exu.SimulationSettings:
+    """Return Exudyn's settings of a scene.
+
+    A fixed step is the largest one not above `solver.step` that divides the run's duration.
+    """
+    solver = scene.solver
+    assert solver is not None
+    settings = exu.SimulationSettings()
+    integration = settings.timeIntegration
+    steps = math.ceil(scene.duration / largest_step(scene) * (1.0 - 1e-12))
+    integration.numberOfSteps = max(1, steps)
+    integration.endTime = scene.duration
+    integration.minimumStepSize = solver.min_step
+    integration.verboseMode = 0
+    integration.generalizedAlpha.spectralRadius = solver.spectral_radius
+    # For the 20 to 160 unknowns here no slower than the sparse one, and its matrix is read at once.
+    settings.linearSolver.solverType = exu.LinearSolverType.EigenDense
+    settings.solution.file.write = False
+    settings.solution.sensors.writePeriod = 0.0  # every step
+    return settings
+
+
+def largest_step(scene: Scene) -> float:
+    """Return the fixed step, or the largest one that a tolerance may lead to, s."""
+    solver = scene.solver
+    assert solver is not None
+    return solver.step or math.radians(solver.max_step_deg) / scene.angular_speed
+
+
+def scales(scene: Scene) -> Scales:
+    """Return the crank pin's speed and acceleration, and what the latter takes of all bodies.
+
+    With a slow crank, the speed at which a journal has fallen through its clearance.
+    """
+    mechanism = mechanism_of(scene)
+    clearance = scene.clearance
+    widest = 0.0
+    if clearance is not None:
+        widest = max(clearance.crank_pin or 0.0, clearance.balls or 0.0)
+    falls = any(joint.kind != "ideal" for joint in mechanism.joints)
+    usual = scene.angular_speed * scene.pin_speed
+    return Scales(
+        speed=max(scene.pin_speed, math.sqrt(4.0 * scene.gravity * widest)),
+        acceleration=usual,
+        force=sum(body.mass for body in mechanism.bodies)
+        * max(usual, FALL * scene.gravity if falls else 0.0),
+    )
+
+
+class SceneAdvice(Advice):
+    """The scene's words: crank angles, and the keys to change."""
+
+    def __init__(self, model: Model, problem: Problem, by_tolerance: bool) -> None:
+        """Speak of a scene's model."""
+        super().__init__(problem, by_tolerance)
+        self._model, self._scene = model, model.scene
+
+    @property
+    def setting(self) -> str:
+        """What makes steps larger or smaller."""
+        return f"solver.{super().setting}"
+
+    def place(self, time: float) -> str:
+        """Return time and crank angle."""
+        scene = self._scene
+        degrees = math.degrees(scene.start_angle + scene.angular_speed * time) % 360.0
+        return f"{super().place(time)}, crank angle {degrees:.2f} deg"
+
+    def joint(self, joint: ClearanceJoint) -> str:
+        """Return a joint's name."""
+        return next(n for n, other in self._model.clearance_joints.items() if other is joint)
+
+    def film(self) -> str:
+        """Return what helps a film that broke down."""
+        return "film.at_contact = 'mixed', or a larger film.viscosity or film.length"
+
+    def smallest(self) -> str:
+        """Return what helps where steps became too small."""
+        return "a larger solver.tolerance or a smaller solver.min_step"
+
+    def budget(self) -> str:
+        """Return what helps where too many steps were needed."""
+        return f"fewer revolutions, a larger {self.setting} or solver.max_steps"
+
+    def cause(self) -> str:
+        """Return that the crank pin seizes, or that a film is too thin, or nothing."""
+        return self._seizing() + self._thin_film()
+
+    def resolution(self, worst: Unresolved) -> str:
+        """Return the step or the tolerance that resolves the impacts."""
+        solver = self._scene.solver
+        assert solver is not None
+        if solver.tolerance is not None:
+            return f"solver.tolerance = {0.1 * solver.tolerance:.0e}"
+        needed = min([0.5 * worst.step, *_impact_steps(self._model)])
+        return f"solver.step = {_rounded_down(needed):.0e}"
+
+    def _seizing(self) -> str:
+        """Return in words that the crank pin's friction circle is wide enough to seize.
+
+        Near dead centre the rod's force passes within it: friction then holds the pin fast,
+        whatever the force, and a crank that turns at constant speed makes it grow without bound.
+        """
+        scene = self._scene
+        size, friction, contact = scene.press or scene.slider_crank, scene.friction, scene.contact
+        if size is None or friction is None or contact is None or friction.law == "none":
+            return ""
+        circle = contact.radius * math.sin(math.atan(friction.mu_static))
+        wide = circle >= WIDE_CIRCLE * size.crank_radius
+        if "crank_pin" not in self._model.clearance_joints or not wide:
+            return ""
+        return (
+            f"; the crank pin seizes near dead centre (friction circle {circle:.2g} m, crank "
+            f"radius {size.crank_radius:.2g} m): try a smaller friction.mu_static or contact.radius"
+        )
+
+    def _thin_film(self) -> str:
+        """Return in words that a film is so thin that rounding moves its forces, or nothing."""
+        clearance = None if self._scene.clearance is None else self._scene.clearance.crank_pin
+        if self._scene.film is None or clearance is None or clearance >= THIN:
+            return ""
+        return (
+            "; a film this thin is too stiff for rounded speeds: try a larger clearance.crank_pin"
+        )
+
+
+def _leapt_over_pulse(model: Model) -> str:
+    """Return in words that fixed steps are too long for the first blanking pulse, or nothing.
+
+    Steps by tolerance end on a pulse's corners.
+    """
+    solver, pulse = model.scene.solver, model.scene.blanking
+    if solver is None or solver.step is None or pulse is None:
+        return ""
+    shortest, begin = min(pulse.rise, pulse.fall), model.next_corner(0.0)
+    if begin >= model.scene.duration or solver.step <= shortest / STEPS_IN_A_PULSE * (1.0 + 1e-9):
+        return ""
+    advice = SceneAdvice(model, Problem.of(model.mbs, None), False)
+    return (
+        f"under-resolved {advice.place(begin)}: steps of {solver.step:.2g} s in a blanking pulse "
+        f"with an edge of {shortest:.2g} s; peaks are the step's; try solver.step = "
+        f"{_rounded_down(shortest / STEPS_IN_A_PULSE):.0e}"
+    )
+
+
+def _impact_steps(model: Model) -> Iterator[float]:
+    """Yield the steps that resolve the fastest impact of every joint whose surfaces may touch, s.
+
+    The impact of the lighter body alone: what hangs on it makes the true one slower.
+    """
+    scene = model.scene
+    if scene.contact is None or not model.clearance_joints:
+        return
+    overlay = overlay_of(model.mbs)
+    held = {number: name for name, number in model.nodes.items()}
+    masses = {body.name: body.mass for body in model.mechanism.bodies}
+    masses[model.mechanism.crank] = math.inf  # driven
+    sensor = next(iter(model.sensors.values()))
+    time = np.asarray(model.mbs.GetSensorStoredData(sensor))[:, 0]
+    q, q_t = (
+        np.hstack(
+            [
+                np.asarray(model.mbs.GetSensorStoredData(model.sensors[held[node], level]))[:, 1:]
+                for node in overlay.nodes
+            ]
+        )
+        for level in ("position", "velocity")
+    )
+    for description in model.mechanism.joints:
+        joint = model.clearance_joints.get(description.name)
+        if joint is None or (description.kind == "lubricated" and scene.friction is None):
+            continue
+        states = history(joint, time, q, q_t)
+        apart = np.array([state.eccentricity for state in states])
+        moving = np.array([state.velocity for state in states])
+        distance = np.linalg.norm(apart, axis=1)
+        closing = (apart * moving).sum(axis=1) / np.maximum(distance, 1e-300)
+        free = distance <= joint.clearance
+        touches = free[:-1] & ~free[1:]
+        speed = float(closing[:-1][touches].max(initial=0.0))
+        if speed > 0.0:
+            law = contact_law(scene.contact, joint.clearance, revolute=not description.spherical)
+            mass = min(masses[description.journal], masses[description.bearing])
+            yield _rise_time(law, mass, speed) / STEPS_IN_A_RISE
+
+
+def _rise_time(contact: NormalContact, mass: float, speed: float) -> float:
+    """Return how long it takes from first touch to the largest force, s.
+
+    Args:
+        contact: law of the normal force.
+        mass: of a free body, kg.
+        speed: at which it arrives, m/s.
+    """
+    from scipy.integrate import solve_ivp  # type: ignore[import-untyped, unused-ignore]
+
+    def motion(_time: float, state: Array) -> list[float]:
+        return [state[1], -contact.force(state[0], state[1], speed)[0] / mass]
+
+    def stopped(_time: float, state: Array) -> float:
+        return float(state[1])
+
+    stopped.terminal = True  # type: ignore[attr-defined]
+    impact = solve_ivp(
+        motion,
+        (0.0, 1.0),
+        (0.0, speed),
+        "LSODA",
+        events=stopped,
+        rtol=1e-6,
+        atol=(1e-15, 1e-9 * speed),
+    )
+    forces = [contact.force(d, v, speed)[0] for d, v in impact.y.T]
+    return float(impact.t[int(np.argmax(forces))])
+
+
+def _rounded_down(value: float) -> float:
+    """Return a value with one digit, not above it."""
+    power = 10.0 ** math.floor(math.log10(value))
+    return math.floor(value / power * (1.0 + 1e-9)) * power

@@ -10,7 +10,14 @@ from typing import Any
 
 from exu_press.errors import InputError
 
-__all__ = ["output_directory", "replacing", "write_json"]
+__all__ = ["PICTURES", "output_directory", "remove_pictures", "replacing", "write_json"]
+
+PICTURES = {
+    "run": ("slider", "orbit", "force", "press", "energy"),
+    "compare": ("compare_slider", "compare_force"),
+    "sweep": ("sweep",),
+}
+"""What a command may draw into its directory, less the .png."""
 
 
 def output_directory(path: str | Path) -> Path:
@@ -26,6 +33,12 @@ def output_directory(path: str | Path) -> Path:
             "allowed is a directory that exists or can be made"
         ) from None
     return directory
+
+
+def remove_pictures(directory: Path, command: str) -> None:
+    """Remove what a command drew there before: beside new results it would pass for theirs."""
+    for name in PICTURES[command]:
+        (directory / f"{name}.png").unlink(missing_ok=True)
 
 
 @contextmanager

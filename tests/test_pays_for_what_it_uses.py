@@ -7,6 +7,7 @@ import sys
 import pytest
 
 from exu_press import Scene
+from exu_press.batch.sources import FOR_READERS
 from exu_press.joints import overlay_of
 
 
@@ -45,6 +46,8 @@ def test_a_rigid_run_imports_neither_ngsolve_nor_matplotlib(tmp_path):
     assert "exudyn" in modules
     tops = {name.partition(".")[0] for name in modules}
     assert not tops & {"ngsolve", "netgen", "pyngcore", "matplotlib", "fe_models"}
+    shown = tuple(f"exu_press.{name}" for name in FOR_READERS)  # rows of a sweep do not know them
+    assert not [name for name in modules if name.startswith(shown)]
 
 
 COMMAND = """

@@ -2,7 +2,7 @@
 
 import os
 import sys
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from contextlib import AbstractContextManager
 from itertools import islice
@@ -12,7 +12,7 @@ from typing import Any, Protocol
 from exu_press.batch.lock import locked
 from exu_press.batch.processes import Processes
 from exu_press.batch.rows import RowFile
-from exu_press.batch.task import Function, Row, Task, name_of, task_of
+from exu_press.batch.task import TIME_LIMIT, Function, Row, Task, name_of, task_of
 from exu_press.errors import InputError
 from exu_press.output import output_directory
 from exu_press.progress import Progress
@@ -48,6 +48,7 @@ def run_batch(
     workers: int | None = None,
     dask: str | None = None,
     time_limit: float | None = None,
+    kept: Callable[[Mapping[str, Any]], bool] | None = None,
     label: str = "sweep",
     quiet: bool = False,
 ) -> list[Row]:
@@ -66,6 +67,8 @@ def run_batch(
         workers: number of processes, each with one BLAS thread; all cores unless told.
         dask: address of a Dask scheduler, tcp://host:port, whose workers are used instead.
         time_limit: of one run, s; a run over it is stopped.
+        kept: says of a run's arguments whether the files that it wrote are still there; a finished
+            run is done again where they are not.
         label: of the progress bar.
         quiet: no progress bar.
 
@@ -84,6 +87,10 @@ def run_batch(
     directory = output_directory(directory)
     with locked(directory), RowFile(directory / FILE) as file:
         rows = {task.key: file.finished(task.key, time_limit) for task in tasks}
+        for task, each in zip(tasks, arguments, strict=True):
+            row = rows[task.key]
+            if kept is not None and row and row["status"] != TIME_LIMIT and not kept(each):
+                rows[task.key] = None
         todo = list({task.key: task for task in tasks if rows[task.key] is None}.values())
         if len(todo) < len(rows) and not quiet:
             print(f"{label}: {len(rows) - len(todo)} of {len(rows)} are there", file=sys.stderr)

@@ -8,6 +8,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from exu_press.batch.sources import source_digest
+
 __all__ = [
     "COMPLETED",
     "FAILED",
@@ -42,7 +44,7 @@ class Task:
         key: sha256 of everything that determines the row.
         function: "module:name".
         arguments: canonical JSON.
-        versions: of PACKAGES; a worker with others refuses.
+        versions: of PACKAGES and of the sources; a worker with others refuses.
     """
 
     key: str
@@ -58,14 +60,19 @@ def task_of(function: str, arguments: Mapping[str, Any]) -> Task:
         ValueError, TypeError: the arguments are no JSON.
     """
     text = _canonical(arguments)
-    known = versions()
+    known = versions(function)
     everything = _canonical({"function": function, "arguments": text, "versions": known})
     return Task(hashlib.sha256(everything.encode()).hexdigest(), function, text, known)
 
 
-def versions() -> dict[str, str | None]:
-    """Return the versions of PACKAGES; None for what is not installed."""
-    found: dict[str, str | None] = {}
+def versions(function: str) -> dict[str, str | None]:
+    """Return the versions of PACKAGES, None for what is not installed, and of a function's sources.
+
+    Our own version alone would not do: sources change between two versions.
+    """
+    found: dict[str, str | None] = {
+        "sources": source_digest(function.partition(":")[0].partition(".")[0])
+    }
     for package in PACKAGES:
         try:
             found[package] = importlib.metadata.version(package)

@@ -28,7 +28,7 @@ def main() -> None:
     except Exception as error:
         _answer(answers, {"error": _in_a_line(error)})
         return
-    _answer(answers, {"versions": versions()})
+    _answer(answers, {"versions": versions(sys.argv[1])})
     while True:
         _answer(answers, row_of(function, json.loads(lines.get())))
 

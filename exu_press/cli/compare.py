@@ -5,7 +5,7 @@ import sys
 
 from exu_press.cli.options import add_scene_arguments, directory_of, scene_of
 from exu_press.observe.table import comparison_lines
-from exu_press.output import output_directory, write_json
+from exu_press.output import output_directory, remove_pictures, write_json
 from exu_press.simulation import simulate
 from exu_press.studies.compare import variants
 
@@ -30,8 +30,10 @@ def execute(options: argparse.Namespace) -> int:
         results[label] = result = simulate(scene, quiet=options.quiet)
         summaries[label] = summary = result.summary()
         place = output_directory(directory / label.replace(" ", "_"))
+        remove_pictures(place, "run")
         result.save(place / "run.nc")
         write_json(place / "summary.json", summary)
+    remove_pictures(directory, "compare")
     write_json(directory / "comparison.json", summaries)
     if not options.no_pictures:
         from exu_press.plots import save_comparison

@@ -6,7 +6,7 @@ import textwrap
 
 from exu_press.cli.options import add_scene_arguments, directory_of, scene_of
 from exu_press.observe.table import run_lines
-from exu_press.output import output_directory, write_json
+from exu_press.output import output_directory, remove_pictures, write_json
 from exu_press.scene.assumptions import assumed_line
 from exu_press.simulation import simulate
 
@@ -26,6 +26,7 @@ def execute(options: argparse.Namespace) -> int:
     directory = output_directory(directory_of(options))
     result = simulate(scene, quiet=options.quiet)
     summary = result.summary()
+    remove_pictures(directory, "run")
     result.save(directory / "run.nc")
     write_json(directory / "summary.json", summary)
     written = [directory / "run.nc", directory / "summary.json"]

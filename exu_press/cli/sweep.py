@@ -5,6 +5,7 @@ import sys
 from pathlib import Path
 
 from exu_press.errors import InputError
+from exu_press.output import remove_pictures
 
 __all__ = ["EXAMPLE", "add_arguments", "execute"]
 
@@ -61,6 +62,7 @@ def _execute(options: argparse.Namespace, directory: Path) -> None:
     if unknown:
         raise InputError(f"--over {unknown[0]}: allowed are {', '.join(study.keys)}")
     table = sweep(study, directory, workers=options.workers, dask=options.dask, quiet=options.quiet)
+    remove_pictures(directory, "sweep")
     written = ["table.csv", "table.nc"]
     if not options.no_pictures:
         from exu_press.plots.sweep import save_sweep

@@ -1,6 +1,7 @@
 """A result as a NetCDF file: units and names as attributes, the complete scene inside."""
 
 import json
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +13,7 @@ from exu_press.result.result import AXES, Channel, Result
 from exu_press.result.surface import ARRAYS, Surface
 from exu_press.scene import Scene
 
-__all__ = ["read", "write"]
+__all__ = ["is_whole", "read", "write"]
 
 FORMAT = "exu_press result 1"
 
@@ -72,6 +73,20 @@ def read(path: Path) -> Result:
         if isinstance(error, InputError):
             raise
         raise InputError(f"{path}: not a result of exu_press") from None
+
+
+def is_whole(path: Path) -> bool:
+    """Return whether a result's file is there and of the length that its head tells.
+
+    Only the head is read.
+    """
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", RuntimeWarning)  # of views that are gone by then
+            netcdf_file(path, "r", mmap=True).close()
+    except (OSError, TypeError, ValueError, IndexError):
+        return False
+    return True
 
 
 def _write_surface(file: netcdf_file, body: str, surface: Surface) -> None:

@@ -41,6 +41,32 @@ def test_finished_runs_are_not_run_again(tmp_path):
     assert sorted(x for x, _ in batch_functions.marks(marks)) == list(range(6))
 
 
+EDITED = """
+import sys; sys.path[:] = {path!r}
+import edited
+from exu_press.batch import run_batch
+print(run_batch(edited.function, [{{}}], "out", workers=1, quiet=True)[0]["value"])
+"""
+
+
+def test_edited_code_gives_new_rows(tmp_path):
+    code = EDITED.format(path=[str(tmp_path), *sys.path])
+    for value in (1, 2):
+        (tmp_path / "edited.py").write_text(f"def function(_):\n    return {{'value': {value}}}\n")
+        done = subprocess.run(
+            [sys.executable, "-B", "-c", code], capture_output=True, text=True, cwd=tmp_path
+        )
+        assert done.stdout == f"{value}\n", done.stderr
+
+
+def test_a_run_whose_file_is_gone_is_run_again(tmp_path):
+    marks = str(tmp_path / "marks")
+    arguments = [{"x": x, "marks": marks} for x in range(3)]
+    for _ in range(2):
+        batch(batch_functions.slow_digits, arguments, tmp_path, kept=lambda each: each["x"] != 1)
+    assert sorted(x for x, _ in batch_functions.marks(marks)) == [0, 1, 1, 2]
+
+
 def test_rows_are_strict_json(tmp_path):
     (row,) = batch(batch_functions.nothing_finite, [{}], tmp_path)
     assert row == {
@@ -118,7 +144,7 @@ def test_wrong_options_are_refused(options, named, tmp_path):
 
 
 def test_a_worker_of_other_versions_is_refused(tmp_path, monkeypatch):
-    monkeypatch.setattr("exu_press.batch.task.versions", lambda: {"exudyn": "0.0"})
+    monkeypatch.setattr("exu_press.batch.task.versions", lambda function: {"exudyn": "0.0"})
     with pytest.raises(InputError, match=r"allowed are the versions here, \{'exudyn': '0.0'\}"):
         batch(batch_functions.digits, [{"x": 1}], tmp_path)
 

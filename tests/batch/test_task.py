@@ -17,7 +17,9 @@ def test_the_key_is_of_function_arguments_and_versions(monkeypatch):
         task_of(name, {"a": 1.0 + 2e-16, "b": {"c": 2}}),
         task_of(name_of(batch_functions.raises), {"a": 1.0, "b": {"c": 2}}),
     ]
-    monkeypatch.setattr("exu_press.batch.task.versions", lambda: {**versions(), "exudyn": "0"})
+    monkeypatch.setattr(
+        "exu_press.batch.task.versions", lambda function: {**versions(function), "exudyn": "0"}
+    )
     others.append(task_of(name, {"a": 1.0, "b": {"c": 2}}))
     assert len({key, *(task.key for task in others)}) == 4
 

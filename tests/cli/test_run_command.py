@@ -6,6 +6,7 @@ import pytest
 
 from exu_press import Result
 from exu_press.cli import main
+from exu_press.output import PICTURES
 
 QUICK = ["--set", "revolutions=0.02", "--no-pictures"]
 KEYS = {
@@ -23,6 +24,20 @@ def test_run_writes_summary_and_result(tmp_path, capsys):
     assert set(summary["joints"]) == {"crank_pin", "ball_left", "ball_right"}
     assert Result.load(tmp_path / "a" / "b" / "run.nc").summary() == summary
     assert "peak acceleration" in capsys.readouterr().out
+
+
+def test_pictures_of_an_earlier_run_do_not_stay(tmp_path):
+    """Those of the package alone: a user's own stay."""
+    pictures = {name: [f"{each}.png" for each in PICTURES[name]] for name in PICTURES}
+    for name in (*pictures["run"], "mine.png"):
+        (tmp_path / name).write_text("old")
+    assert main(["run", "press", *QUICK, "--quiet", "--out", str(tmp_path)]) == 0
+    assert {path.name for path in tmp_path.glob("*.png")} == {"mine.png"}
+    (tmp_path / "dry").mkdir()
+    for name in (*pictures["compare"], "dry/orbit.png"):
+        (tmp_path / name).write_text("old")
+    assert main(["compare", "press", *QUICK, "--quiet", "--out", str(tmp_path)]) == 0
+    assert {path.name for path in tmp_path.rglob("*.png")} == {"mine.png"}
 
 
 def test_quiet_prints_nothing(tmp_path, capsys):

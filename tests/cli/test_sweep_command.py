@@ -43,6 +43,8 @@ def test_table_and_picture(tmp_path, capsys):
 
 def test_quiet_prints_nothing_and_the_second_time_runs_nothing(tmp_path, capsys):
     arguments = ["sweep", study(tmp_path), "--out", str(tmp_path / "o"), "--quiet", "--no-pictures"]
+    (tmp_path / "o").mkdir()
+    (tmp_path / "o" / "sweep.png").write_text("of an earlier time")
     assert main([*arguments, "--workers", "1"]) == 0
     before = (tmp_path / "o" / "table.csv").read_bytes()
     assert main(arguments) == 0
@@ -86,6 +88,19 @@ def test_a_column_that_is_not_there(tmp_path, capsys):
     message = capsys.readouterr().err
     assert "--show nothing: allowed are" in message and message.count("\n") == 1
     assert (tmp_path / "o" / "table.csv").exists()  # the runs are not lost for a wrong name
+
+
+def test_a_printed_column_can_be_asked_for(tmp_path, capsys):
+    path = tmp_path / "study.toml"
+    path.write_text("[scene]\nrevolutions = 0.01\n[grid]\nspeed_rpm = [200.0, 300.0]\n")
+    arguments = ["sweep", str(path), "--workers", "1", "--out", str(tmp_path / "o")]
+    assert main(arguments) == 0
+    head, *_ = capsys.readouterr().out.splitlines()
+    printed = [column.partition(",")[0] for column in head.split("  ") if column]
+    assert "joints.crank_pin.peak_force" in printed
+    for column in printed[1:-1]:
+        assert main([*arguments, "--show", column]) == 0
+        assert column in capsys.readouterr().out.splitlines()[0]
 
 
 def test_another_studys_directory(tmp_path, capsys):

@@ -3,10 +3,11 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from exu_press.errors import InputError
+from exu_press.output import PICTURES
 from exu_press.plots import save_comparison, save_pictures
 from exu_press.plots.save import save_figure
 
-EVERY = ["slider.png", "orbit.png", "force.png", "press.png", "energy.png"]
+EVERY = [f"{name}.png" for name in PICTURES["run"]]
 
 
 def assert_pictures(paths):
@@ -29,7 +30,7 @@ def test_pictures_of_a_run(results, label, tmp_path):
 
 def test_pictures_of_a_comparison(results, tmp_path):
     paths = save_comparison({name: results[name] for name in ("ideal", "dry")}, tmp_path)
-    assert [path.name for path in paths] == ["compare_slider.png", "compare_force.png"]
+    assert [path.name for path in paths] == [f"{name}.png" for name in PICTURES["compare"]]
     assert_pictures(paths)
 
 

@@ -38,6 +38,19 @@ def test_the_table_holds_the_summaries(tmp_path):
     assert {path.name for path in tmp_path.iterdir()} >= {"table.csv", "table.nc", "study.json"}
 
 
+def test_a_file_that_is_gone_or_torn_is_made_again(tmp_path):
+    study = Study(scene=IDEAL, save_runs=True, list={"speed_rpm": [200.0, 300.0, 400.0]})
+    first = sweep(study, tmp_path, workers=1)
+    gone, torn, left = (tmp_path / "runs" / f"{n}.nc" for n in (1, 2, 3))
+    made = left.stat().st_mtime_ns
+    gone.unlink()
+    torn.write_bytes(torn.read_bytes()[:-100])
+    second = sweep(study, tmp_path, workers=1)
+    assert without_times(first) == without_times(second)
+    assert [Result.load(path).scene for path in (gone, torn, left)] == list(study.scenes)
+    assert left.stat().st_mtime_ns == made
+
+
 def test_runs_that_stop_early_or_fail_are_rows(tmp_path):
     scene = {"mechanism": "slider_crank", "crank_pin": "lubricated", "solver": {"step": 1e-4}}
     thin = {"film.viscosity": [0.4, 1e-7], "revolutions": [0.01, 1.0]}

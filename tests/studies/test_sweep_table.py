@@ -78,7 +78,7 @@ def test_what_is_shown(table):
 
 def test_the_table_in_a_terminal(table):
     head, first, second, third, *rest = table_lines(table)
-    assert head.split() == ["speed_rpm", "crank_pin.peak_force,", "N", "ldp,", "m", "status"]
+    assert head.split() == ["speed_rpm", "joints.crank_pin.peak_force,", "N", "ldp,", "m", "status"]
     assert first.split() == ["200", "1000", "0.3", "completed"]
     assert second.split() == ["300", "-", "-", "failed"]
     assert third.endswith("film broke down")

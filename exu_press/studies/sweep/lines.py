@@ -37,8 +37,7 @@ def table_lines(table: Table, wanted: Sequence[str] = ()) -> list[str]:
 
 def _head(name: str) -> str:
     unit = unit_of(name)
-    short = name.removeprefix("joints.")
-    return f"{short}, {unit}" if unit and not short.endswith(f"_{unit}") else short
+    return f"{name}, {unit}" if unit and not name.endswith(f"_{unit}") else name
 
 
 def _cell(value: Value) -> str:

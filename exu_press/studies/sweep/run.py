@@ -1,6 +1,7 @@
 """Run a study: its batch, and the table of what came out."""
 
 import json
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -58,6 +59,7 @@ def sweep(
             workers=workers,
             dask=dask,
             time_limit=study.time_limit,
+            kept=_file_is_whole,
             quiet=quiet,
         )
         table = table_of(study, rows, files)
@@ -76,6 +78,13 @@ def run_scene(arguments: dict[str, Any]) -> dict[str, Any]:
     summary = result.summary()
     del summary["scene"]
     return summary
+
+
+def _file_is_whole(arguments: Mapping[str, Any]) -> bool:
+    """Return whether the run.nc that a run was to keep can be read."""
+    from exu_press.result.netcdf import is_whole
+
+    return "save" not in arguments or is_whole(Path(arguments["save"]))
 
 
 def _claim(directory: Path, study: Study) -> None:

@@ -19,10 +19,10 @@ def row(name, law):
 
 
 print(f"{'restitution of the slider at':44}" + "".join(f"{v:>7} m/s" for v in speeds))
-for factor in (1.0, 1e-2, 1e-3, 1e-4):
-    damping = contact.damping_max * factor
+default = contact.damping_max
+for damping in (default, default / 100, default / 1000, default / 1e4, 0.01):
     law = step_damping(stiffness, damping, contact.damping_depth)
     name = f"step, damping_max = {damping:.4g} N s/m"
-    row(name + (" (default)" if factor == 1.0 else ""), law)
+    row(name + (" (default)" if damping == default else ""), law)
 for name in ("hunt_crossley", "lankarani_nikravesh", "flores", "gonthier", "hu_guo"):
     row(f"{name}, wanted 0.5", DAMPING_LAWS[name](stiffness, restitution=0.5))

@@ -39,7 +39,7 @@ def run(options: argparse.Namespace) -> int:
     report = paper(directory, quick=options.quick, workers=options.workers, quiet=options.quiet)
     write_json(directory / "paper.json", report.to_dict())
     write_json(directory / "sensitivity.json", report.sensitivity_dict())
-    write_json(directory / "clearance.json", report.choice.to_dict())
+    write_json(directory / "clearance.json", report.clearance_dict())
     written = ["paper.json", "sensitivity.json", "clearance.json"]
     if not options.no_pictures:
         from paper.plots.save import save_paper

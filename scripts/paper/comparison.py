@@ -12,24 +12,27 @@ DATUM = 0.47
 an arbitrary datum of half a metre anything would agree."""
 
 
-def observed(row: Mapping[str, Any], measure: str, model: str) -> float | None:
+def observed(
+    row: Mapping[str, Any], measure: str, model: str, *, whole: bool = False
+) -> float | None:
     """Return a measure of a run as it is judged: of a low dead point, m below the datum.
 
     Args:
         row: of the run, from `tasks.observe`.
         measure: a key of its readings, or permanent_contact_ball or _pin.
         model: of observation, where the measure has them.
+        whole: observed from the start on, and not in the last revolution alone.
 
     Returns:
         None where the run did not get to its end, or has no such measure.
     """
-    value = shown(row, measure, model)
+    value = shown(row, measure, model, whole=whole)
     return DATUM - value if measure == "low_dead_point" and value is not None else value
 
 
-def shown(row: Mapping[str, Any], measure: str, model: str) -> float | None:
+def shown(row: Mapping[str, Any], measure: str, model: str, *, whole: bool = False) -> float | None:
     """Return a measure of a run as it is shown beside the paper's: a low dead point in m."""
-    readings = row.get("readings")
+    readings = row.get("whole" if whole else "readings")
     if not readings:
         return None
     if measure.startswith("permanent_contact_"):

@@ -20,12 +20,16 @@ class Plan:
     _rows: Sequence[Row] = ()
 
     def add(self, task: Task) -> int:
-        """Return a task's number: the one of a task on the same scene and span, if there is one."""
-        key = json.dumps([task["scene"], task.get("span")], sort_keys=True)
-        if key not in self._numbers:
-            self._numbers[key] = len(self.tasks)
+        """Return a task's number: the one of a task on the same scene, if there is one.
+
+        Its result is saved where the first of them that asked for it wants it.
+        """
+        key = json.dumps(task["scene"], sort_keys=True)
+        number = self._numbers.setdefault(key, len(self.tasks))
+        if number == len(self.tasks):
             self.tasks.append(task)
-        return self._numbers[key]
+        self.tasks[number] = task | self.tasks[number]
+        return number
 
     def run(self, run_all: Callable[[Sequence[Task]], Sequence[Row]]) -> None:
         """Run everything."""

@@ -10,35 +10,36 @@ from paper.clearance import Choice
 from paper.readings import OBSERVED, WHY_OBSERVED
 from paper.rows import AGREES_WITHIN, Row
 from paper.sensitivity import Tornado
-from paper.tasks import run_file
+from paper.side_by_side import Peaks
 
-__all__ = ["Report"]
+__all__ = ["Findings", "Report"]
 
 
 @dataclass(frozen=True)
-class Report:
-    """Everything.
+class Findings:
+    """What one reading of Table 2's damping gives.
 
     Attributes:
-        quick: the reduced form, whose numbers say nothing of the paper.
+        damping: a key of `damping.DAMPINGS`.
+        bodies: what the runs are made with: "flexible", or "rigid" in the reduced form.
         rows: of the table.
         runs: by name, what `observe` returned of each.
         tornados: of every number with a run, rigid bodies; then those with flexible ones.
         choice: of the clearance.
-        directory: holds the runs' results.
+        peaks: the computed peak accelerations beside the paper's, by bodies.
+        settings: distance of the rigid peaks from the paper's with each setting, by its words.
+        files: of the runs' results, by name.
     """
 
-    quick: bool
+    damping: str
+    bodies: str
     rows: tuple[Row, ...]
     runs: Mapping[str, Mapping[str, Any]]
     tornados: tuple[Tornado, ...]
     choice: Choice
-    directory: Path
-
-    @property
-    def bodies(self) -> str:
-        """Return what the runs are made with: "flexible", or "rigid" in the reduced form."""
-        return "rigid" if self.quick else "flexible"
+    peaks: tuple[Peaks, ...]
+    settings: Mapping[str, float | None]
+    files: Mapping[str, Path]
 
     def result(self, name: str) -> Result:
         """Return the result of a run.
@@ -46,7 +47,7 @@ class Report:
         Raises:
             InputError: its file cannot be read.
         """
-        return Result.load(run_file(self.directory, name))
+        return Result.load(self.files[name])
 
     def has(self, *names: str) -> bool:
         """Return whether all these runs got to their end."""
@@ -62,6 +63,38 @@ class Report:
         }
 
     def to_dict(self) -> dict[str, Any]:
+        """Return the entries of paper.json."""
+        return {
+            "rows": [row.to_dict() for row in self.rows],
+            "runs": {name: dict(row) for name, row in self.runs.items()},
+            "peaks": [peaks.to_dict() for peaks in self.peaks],
+        }
+
+
+@dataclass(frozen=True)
+class Report:
+    """Everything.
+
+    Attributes:
+        quick: the reduced form, whose numbers say nothing of the paper.
+        findings: by reading of the damping, a key of `damping.DAMPINGS`.
+        frequencies: rows of the natural frequencies, which no damping changes.
+    """
+
+    quick: bool
+    findings: Mapping[str, Findings]
+    frequencies: tuple[Row, ...]
+
+    @property
+    def stopped(self) -> dict[str, str]:
+        """Return the reasons of runs that did not get to their end, by reading and name."""
+        return {
+            f"c_max {damping}, {name}": reason
+            for damping, found in self.findings.items()
+            for name, reason in found.stopped.items()
+        }
+
+    def to_dict(self) -> dict[str, Any]:
         """Return the content of paper.json."""
         return {
             "quick": self.quick,
@@ -69,8 +102,8 @@ class Report:
             "observation_model_because": WHY_OBSERVED,
             "agrees_within": AGREES_WITHIN,
             "observed_span": "the last revolution of every run",
-            "rows": [row.to_dict() for row in self.rows],
-            "runs": {name: dict(row) for name, row in self.runs.items()},
+            "frequencies": [row.to_dict() for row in self.frequencies],
+            "dampings": {name: found.to_dict() for name, found in self.findings.items()},
         }
 
     def sensitivity_dict(self) -> dict[str, Any]:
@@ -78,5 +111,15 @@ class Report:
         return {
             "quick": self.quick,
             "observation_model": OBSERVED,
-            "numbers": [tornado.to_dict() for tornado in self.tornados],
+            "dampings": {
+                name: {
+                    "numbers": [tornado.to_dict() for tornado in found.tornados],
+                    "distances_of_peaks": dict(found.settings),
+                }
+                for name, found in self.findings.items()
+            },
         }
+
+    def clearance_dict(self) -> dict[str, Any]:
+        """Return the content of clearance.json."""
+        return {name: found.choice.to_dict() for name, found in self.findings.items()}

@@ -4,13 +4,12 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from exu_press.scene import Scene
 from paper.comparison import observed, published_value
 from paper.published import Number
 from paper.readings import OBSERVED
 from paper.settings import Setting
 
-__all__ = ["Effect", "Tornado", "sensitivity_task", "tornado_of"]
+__all__ = ["Effect", "Tornado", "tornado_of"]
 
 Row = Mapping[str, Any]
 
@@ -97,15 +96,6 @@ class Tornado:
         return max(values) - min(values)
 
 
-def sensitivity_task(scene: Scene, setting: Setting) -> dict[str, Any]:
-    """Return the arguments of `observe` for a setting on a scene."""
-    changed = setting.on(scene)
-    task: dict[str, Any] = {"scene": changed.to_dict()}
-    if setting.whole_run:
-        task["span"] = [0.0, changed.duration]
-    return task
-
-
 def tornado_of(
     number: Number, bodies: str, baseline: Row, runs: Iterable[tuple[Setting, Row]]
 ) -> Tornado | None:
@@ -129,7 +119,7 @@ def tornado_of(
             Effect(
                 setting.factor,
                 setting.label,
-                observed(row, number.measure, setting.model or OBSERVED),
+                observed(row, number.measure, setting.model or OBSERVED, whole=setting.whole_run),
                 row["status"],
             )
             for setting, row in runs

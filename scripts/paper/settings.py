@@ -34,9 +34,16 @@ class Setting:
     whole_run: bool = False
     model: str | None = None
 
+    @property
+    def words(self) -> str:
+        """What is changed, to what."""
+        return f"{self.factor} = {self.label}"
+
     def applies(self, scene: Scene) -> bool:
-        """Return whether a scene has what is changed."""
-        return all(_place(scene, name)[1] for name in self.changes)
+        """Return whether a scene has what is changed, and otherwise than it is changed to."""
+        return all(_place(scene, name)[1] for name in self.changes) and (
+            not self.changes or self.on(scene) != scene
+        )
 
     def on(self, scene: Scene) -> Scene:
         """Return the changed scene."""
@@ -98,14 +105,23 @@ SETTINGS: tuple[Setting, ...] = (
     *_series(
         "contact damping c_max",
         "contact.damping_max",
-        {"0.01 N s/m": 0.01, "2.55e5": 2.5545e5, "2.55e6": 2.5545e6},
+        {"0.01 N s/m": 0.01, "2.55e5": 2.5545e5, "2.55e6": 2.5545e6, "2.5545e8": 2.5545e8},
     ),
     *_series("damping depth d_max", "contact.damping_depth", {"1 µm": 1e-6, "0.1 mm": 1e-4}),
     Setting("damping law", "Flores, 0.5", {"contact.damping": "flores"}),
     Setting(
         "damping law", "Flores, 0.9", {"contact.damping": "flores", "contact.restitution": 0.9}
     ),
-    *_series("contact stiffness K", "contact.stiffness", {"K / 4": Times(0.25), "4 K": Times(4.0)}),
+    *_series(
+        "contact stiffness K",
+        "contact.stiffness",
+        {"K / 4": Times(0.25), "4 K": Times(4.0), "31.6 K": Times(1e3**0.5)},
+    ),
+    Setting(
+        "soft contact",
+        "K 2e8, c_max 1e4",
+        {"contact.stiffness": 2e8, "contact.damping_max": 1e4},
+    ),
     Setting("pin's contact", "cylinder", {"contact.shape": "cylindrical"}),
     Setting("friction", "none", {"friction.law": "none"}),
     Setting("friction", "0.1", {"friction.mu_static": 0.1, "friction.mu_kinetic": 0.1}),

@@ -7,6 +7,7 @@ from paper.comparison import DATUM
 from paper.readings import MODELS, OBSERVED
 from paper.report import Report
 from paper.rows import AGREES_WITHIN, Row
+from paper.side_by_side_table import aligned, side_by_side_lines
 
 __all__ = ["report_lines"]
 
@@ -15,7 +16,6 @@ NUMBERS = ("figure", "paper", "resolved", "over 1 ms", "1 kHz", "ratio", "verdic
 TRENDS = ("figure", "paper", "ours", "", "verdict")
 SECTIONS = {
     "numbers": (("number", "reference", "choice"), NUMBERS),
-    "natural frequencies, Hz": (("frequency",), NUMBERS),
     "trends": (("trend",), TRENDS),
 }
 UNITS = {
@@ -34,7 +34,7 @@ TREND_UNITS = {
 
 
 def report_lines(report: Report) -> list[str]:
-    """Return the table by sections, the counts, and why rows differ."""
+    """Return both readings side by side, then the table of each, its counts and its differences."""
     lines = [
         "Judged for all rows alike: mean over 1 ms, last revolution; "
         f"agrees: within {100 * AGREES_WITHIN:.0f} %.",
@@ -44,12 +44,24 @@ def report_lines(report: Report) -> list[str]:
         lines.append(
             "REDUCED FORM, rigid bodies and a tenth of a revolution: says nothing of the paper."
         )
-    for title, (kinds, headings) in SECTIONS.items():
-        some = [row for row in report.rows if row.kind in kinds]
-        cells = [_trend(row) if headings is TRENDS else _number(row) for row in some]
-        if some:
-            lines += ["", *_aligned([(title, *headings), *cells])]
-    return [*lines, "", _counts(report.rows), "", *_differences(report.rows)]
+    lines += ["", *side_by_side_lines(report)]
+    lines += ["", *_section("natural frequencies, Hz", report.frequencies, NUMBERS)]
+    for damping, found in report.findings.items():
+        lines += ["", f"TABLE 2'S DAMPING READ AS {damping} N s/m"]
+        for title, (kinds, headings) in SECTIONS.items():
+            some = [row for row in found.rows if row.kind in kinds]
+            lines += ["", *_section(title, some, headings)]
+        lines += ["", _counts(found.rows)]
+    for damping, found in report.findings.items():
+        lines += ["", f"Why, with {damping} N s/m:", *_differences(found.rows)]
+    return lines
+
+
+def _section(title: str, rows: Sequence[Row], headings: Sequence[str]) -> list[str]:
+    if not rows:
+        return []
+    cells = [_trend(row) if headings is TRENDS else _number(row) for row in rows]
+    return aligned([(title, *headings), *cells])
 
 
 def _number(row: Row) -> tuple[str, ...]:
@@ -73,14 +85,6 @@ def _trend(row: Row) -> tuple[str, ...]:
 
 def _text(value: object, scale: float, digits: str) -> str:
     return f"{scale * value:{digits}}" if isinstance(value, float) else "-"
-
-
-def _aligned(lines: Sequence[Sequence[str]]) -> list[str]:
-    widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
-    return [
-        "  ".join(cell.ljust(width) for cell, width in zip(line, widths, strict=True)).rstrip()
-        for line in lines
-    ]
 
 
 def _counts(rows: Iterable[Row]) -> str:

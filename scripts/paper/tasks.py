@@ -14,13 +14,13 @@ def observe(arguments: dict[str, Any]) -> dict[str, Any]:
     """Run a scene and read it off.
 
     Args:
-        arguments: scene (as Scene.to_dict), and if wanted save (file for the whole result) and
-            span (from when to when to observe, s).
+        arguments: scene (as Scene.to_dict), and if wanted save (file for the whole result).
 
     Returns:
-        status, reason, steps and wall_time (s) as in the summary, and readings, which a run that
-        stopped early does not have. Fixed steps too long for its impacts do not stop a run; the
-        status says so, and the readings are what such steps show.
+        status, reason, steps and wall_time (s) as in the summary, readings, and whole: the same
+        observed from the start on. A run that stopped early has neither. Fixed steps
+        too long for its impacts do not stop a run; the status says so, and the readings are what
+        such steps show.
     """
     scene = Scene.from_dict(arguments["scene"])
     result = simulate(scene)
@@ -29,10 +29,12 @@ def observe(arguments: dict[str, Any]) -> dict[str, Any]:
         path.parent.mkdir(parents=True, exist_ok=True)
         result.save(path)
     kept = {key: result.info[key] for key in ("status", "reason", "steps", "wall_time")}
-    span = arguments.get("span")
     reached = result.time[-1] > scene.duration * (1.0 - 1e-9)
-    read = readings(result, tuple(span) if span else None) if reached else None
-    return {**kept, "readings": read}
+    return {
+        **kept,
+        "readings": readings(result) if reached else None,
+        "whole": readings(result, (0.0, scene.duration)) if reached else None,
+    }
 
 
 def part_frequencies(arguments: dict[str, Any]) -> dict[str, Any]:

@@ -6,7 +6,12 @@ import pytest
 from exudyn.itemInterface import NodeRigidBody2D, ObjectGround, ObjectRigidBody2D, SensorNode
 
 from exu_press import add_dry_revolute
-from exu_press.laws.contact import DAMPING_LAWS, hertz, step_damping
+from exu_press.laws.contact import (
+    DAMPING_LAWS,
+    delivered_restitution,
+    hertz,
+    step_damping,
+)
 from exu_press.laws.friction import no_friction
 
 WANTED = (0.1, 0.5, 0.9)
@@ -67,3 +72,11 @@ def test_step_damping(speed, expected):
     """K 1e8, n 1.5, c_max 1e3, d_max 1e-4, m 1."""
     contact = step_damping(hertz(1e8), damping_max=1e3, damping_depth=1e-4)
     assert bounce(contact, 1.0, speed, 6e-3, step=2e-6) == pytest.approx(expected, abs=1e-3)
+
+
+@pytest.mark.parametrize("speed", [0.1, 0.5])
+def test_an_almost_undamped_contact_gives_everything_back(speed):
+    """c_max = 0.01 N s/m at the press's stiffness and the slider's mass."""
+    contact = step_damping(hertz(2.5545e10), damping_max=0.01, damping_depth=1e-5)
+    assert delivered_restitution(contact, 1347.0, speed) == pytest.approx(1.0, abs=1e-6)
+    assert bounce(contact, 1347.0, speed, 7.5e-3, step=2e-6) == pytest.approx(1.0, abs=1e-4)

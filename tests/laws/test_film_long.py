@@ -59,6 +59,21 @@ def test_pinkus_is_the_papers_equation_35_with_the_absolute_speed(eps, eps_dot, 
     assert f_t == pytest.approx(tangential)
 
 
+def test_the_factor_of_equation_34b_multiplies():
+    """In the scan it divides; closing, the exact half film says which of the two it does."""
+    multiplied, divided = [], []
+    for eps, eps_dot, eps_w in states(closing=True):
+        exact = long_half_film(eps, eps_dot, eps_w)[1]
+        k = math.sqrt((1 - eps**2) * ((eps_w / (2 * eps * eps_dot)) ** 2 + 1 / eps**2))
+        without = 6 * math.pi * eps_w / ((2 + eps**2) * math.sqrt(1 - eps**2))
+        factor = (k + 3) / (k + 1.5)
+        assert pinkus()(eps, eps_dot, eps_w)[1] == pytest.approx(without * factor)
+        multiplied.append(abs(without * factor / exact - 1))
+        divided.append(abs(without / factor / exact - 1))
+    assert max(multiplied) == pytest.approx(0.106, abs=0.001)
+    assert max(divided) == pytest.approx(0.657, abs=0.001)
+
+
 def test_no_jump_of_the_printed_equation_35a():
     for law in (pinkus(), pi_film()):
         before, after = law(0.5, -1e-9, 0.5)[0], law(0.5, 1e-9, 0.5)[0]

@@ -1,6 +1,8 @@
 """Pictures of the study: what stands in them."""
 
 import dataclasses
+from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,16 +14,18 @@ from paper.plots.numbers import numbers_figure
 from paper.plots.paths import paths_figure
 from paper.plots.revolution import last_revolution, mean_acceleration
 from paper.plots.save import save_paper
+from paper.plots.side_by_side import side_by_side_figure
 from paper.plots.sweeps import curves_figure, peaks_figure
 from paper.plots.tornado import tornado_figure
 from paper.plots.tradeoff import tradeoff_figure
 from paper.published import published
 from paper.readings import readings
-from paper.report import Report
+from paper.report import Findings, Report
 from paper.rows import number_rows
 from paper.runs import paper_runs
 from paper.sensitivity import tornado_of
 from paper.settings import Setting
+from paper.side_by_side import peaks_of
 
 SWEEP = ("clearance 0.05 mm", "clearance 0.1 mm", "clearance 0.15 mm", "clearance 0.2 mm")
 NUMBER = next(n for n in published().numbers if n.name == "acceleration_200um")
@@ -151,17 +155,40 @@ def test_a_report_becomes_files(runs, rows, tornado, tmp_path):
         path.parent.mkdir(exist_ok=True)
         runs[name].save(path)
     alike = [point for point in points() if point.pin == point.balls]
-    report = Report(
-        quick=True,
+    found = Findings(
+        damping="2.5545e8",
+        bodies="rigid",
         rows=tuple(number_rows([NUMBER], rows, {NUMBER.name: tornado})),
         runs={name: rows[name] for name in SWEEP},
         tornados=(tornado,),
         choice=choose(runs["clearance 0.1 mm"].scene, alike, list(points())),
-        directory=tmp_path,
+        peaks=(peaks_of("rigid", published().beside("rigid").numbers, rows),),
+        settings={},
+        files={name: run_file(tmp_path, name) for name in SWEEP},
     )
-    names = {path.stem for path in save_paper(report, tmp_path)}
+    report = Report(True, {"2.5545e8": found, "0.01": replace(found, damping="0.01", runs={})}, ())
+    names = {str(path.relative_to(tmp_path)) for path in save_paper(report, tmp_path)}
+    summary = {"numbers.png", "tornado_acceleration.png", "clearance.png"}
+    sweeps = {"fig19_displacement.png", "fig20_velocity.png", "fig21_acceleration.png"}
     assert names == {
-        "numbers", "tornado_acceleration", "clearance",
-        "fig19_displacement", "fig20_velocity", "fig21_acceleration",
+        "side_by_side.png", *summary, *sweeps, *(f"c_max_0.01/{name}" for name in summary)
     }  # fmt: skip
-    assert all((tmp_path / f"{name}.png").stat().st_size > 10_000 for name in names)
+    assert all((tmp_path / name).stat().st_size > 10_000 for name in names)
+
+
+def test_both_readings_side_by_side(rows):
+    """A point for each peak and reading; a run that stopped has none."""
+    numbers = published().beside("rigid").numbers
+    peaks = peaks_of("rigid", numbers, rows)
+    stopped = peaks_of("rigid", numbers, {**rows, "500 rpm": {"readings": None}})
+    axes = side_by_side_axes(peaks, stopped)
+    assert len(axes) == 3
+    first, second = (line.get_xdata() for line in axes[1].lines[:2])
+    assert np.isfinite(first).all() and np.count_nonzero(np.isnan(second)) == 1
+    values = peaks.values["mean_1ms"]
+    assert first[0] == pytest.approx(values[0] / 29.4)
+
+
+def side_by_side_axes(*peaks):
+    kinds = [SimpleNamespace(damping=str(i), peaks=(one,)) for i, one in enumerate(peaks)]
+    return side_by_side_figure(kinds).axes

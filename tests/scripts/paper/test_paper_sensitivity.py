@@ -4,10 +4,11 @@ import json
 
 import pytest
 
+from paper.damping import with_damping
 from paper.plan import Plan
 from paper.published import published
 from paper.runs import paper_runs, rigid_twin
-from paper.sensitivity import sensitivity_task, tornado_of
+from paper.sensitivity import tornado_of
 from paper.settings import FLEXIBLE, SETTINGS, Setting, Times
 
 RUNS = paper_runs()
@@ -28,15 +29,15 @@ def test_every_setting_that_applies_makes_a_scene_of_its_own(name):
     scene = rigid_twin(RUNS[name])
     for setting in SETTINGS:
         if setting.applies(scene) and setting.changes:
-            task = sensitivity_task(scene, setting)
-            assert task["scene"] != scene.to_dict(), setting
-            json.dumps(task)
+            changed = setting.on(scene).to_dict()
+            assert changed != scene.to_dict(), setting
+            json.dumps(changed)
 
 
 def test_settings_on_flexible_bodies():
     for setting in FLEXIBLE:
         assert setting.applies(RUNS["clearance 0.2 mm"])
-        sensitivity_task(RUNS["clearance 0.2 mm"], setting)
+        setting.on(RUNS["clearance 0.2 mm"])
 
 
 def test_what_a_scene_does_not_have_is_not_varied():
@@ -47,6 +48,13 @@ def test_what_a_scene_does_not_have_is_not_varied():
     assert "viscosity, A-11" not in varied and "pin's contact" in varied
     pulse = next(s for s in SETTINGS if s.factor.startswith("blanking pulse"))
     assert pulse.applies(loaded) and not pulse.applies(lubricated)
+
+
+def test_what_a_scene_is_already_is_not_varied():
+    scene = rigid_twin(RUNS["clearance 0.2 mm"])
+    printed = next(s for s in SETTINGS if s.words == "contact damping c_max = 2.5545e8")
+    assert not printed.applies(scene)
+    assert printed.applies(with_damping(scene, "0.01"))
 
 
 def test_every_assumption_is_varied_but_the_topology():
@@ -95,10 +103,20 @@ def test_a_tornado_of_known_effects():
     assert tornado_of(number, "rigid", row(None), runs) is None
 
 
+def test_observed_from_the_start_on():
+    number = next(n for n in published().numbers if n.name == "acceleration_lubricated")
+    baseline = {**row(20.0), "whole": row(31.0)["readings"]}
+    tornado = tornado_of(
+        number, "rigid", baseline, [(Setting("span", "all", whole_run=True), baseline)]
+    )
+    assert (tornado.baseline, tornado.effects[0].value) == (20.0, 31.0)
+
+
 def test_equal_runs_are_planned_once():
     plan = Plan()
     scene = {"speed_rpm": 240.0}
-    first = plan.add({"scene": scene, "save": "a.nc"})
-    assert plan.add({"scene": dict(scene)}) == first
-    assert plan.add({"scene": scene, "span": [0.0, 1.0]}) != first
-    assert len(plan.tasks) == 2
+    first = plan.add({"scene": scene})
+    assert plan.add({"scene": dict(scene), "save": "a.nc"}) == first
+    assert plan.add({"scene": dict(scene), "save": "b.nc"}) == first
+    assert plan.add({"scene": {"speed_rpm": 200.0}}) != first
+    assert [task.get("save") for task in plan.tasks] == ["a.nc", None]

@@ -33,11 +33,12 @@ def _clearances(scene: Scene) -> Iterator[str]:
         return
     radius = scene.contact.radius
     for name, clearance in vars(scene.clearance).items():
+        film = name == "crank_pin" and scene.film is not None
+        changes = "A film's force falls with its square." if film else "Impacts grow with it."
         if clearance is not None and clearance > WIDEST * radius:
             yield (
                 f"clearance.{name} = {clearance:g} m is {clearance / radius:.2g} times the radius "
-                f"of {radius:g} m. Plain bearings have 0.0005 to 0.003 times. A film's force falls "
-                "with the square of the clearance, and impacts grow with it."
+                f"of {radius:g} m. Plain bearings have 0.0005 to 0.003 times. {changes}"
                 + _slip(clearance, NARROWEST * radius, WIDEST * radius, "m")
             )
 

@@ -7,7 +7,7 @@ import exudyn as exu
 import exudyn.utilities as items
 import numpy as np
 
-from exu_press import add_joint_sensor, add_lubricated_revolute
+from exu_press import add_joint_sensor, add_lubricated_revolute, solve_dynamic
 from exu_press.laws.film import finite
 
 mbs = exu.SystemContainer().AddSystem()
@@ -22,9 +22,10 @@ joint = add_lubricated_revolute(mbs, journal, bearing, radius=0.02, clearance=5e
 sensor = add_joint_sensor(mbs, joint)
 mbs.Assemble()
 settings = exu.SimulationSettings()
-settings.timeIntegration.endTime, settings.timeIntegration.numberOfSteps = 1.0, 2000
+settings.timeIntegration.endTime = 1.0
 settings.solution.file.write, settings.solution.sensors.writePeriod = False, 0.0
-mbs.SolveDynamic(settings)
+outcome = solve_dynamic(mbs, settings, tolerance=1e-4)
 record = np.asarray(mbs.GetSensorStoredData(sensor))
 force = np.hypot(record[:, 3], record[:, 4])
+print(f"{outcome.status.value} in {outcome.steps} steps")
 print(f"least film thickness {record[:, -2].min() * 1e6:.1f} um, largest force {force.max():.0f} N")

@@ -11,7 +11,7 @@ VELOCITY_CONSTANT = 2.0 / 12.0
 for spectral radii at infinity of 1 to 0.8), doubled for good measure."""
 
 ROUNDING = 1e-14
-"""Of positions, m: coordinates of about a metre, known to 1e-16 of it, through an iteration. No
+"""Of positions, over the largest one: known to 1e-16 of it, through an iteration. No
 step is told apart from it; velocities at a step's end are no better than this over the step, and
 accelerations than this over its square."""
 
@@ -101,17 +101,29 @@ class BodyError:
     def error(self, change: list[float], step: float) -> float:
         """Return the error that goes with a change of the accelerations' rate."""
         largest = relative = 0.0
-        rounding = (ALTERNATING * ROUNDING / (step * step)) ** 2
+        rounding = (ALTERNATING * ROUNDING * self._scales.length / (step * step)) ** 2
         sizes, allowed = self._squares(change), self._allowed
         for i in range(len(sizes)):
             square = sizes[i]
             largest = max(largest, square)
             relative = max(relative, square / max(allowed[i], rounding))
-        limit = max(self._share * self._scales.speed, ROUNDING / step)
+        limit = max(self._share * self._scales.speed, ROUNDING * self._scales.length / step)
         velocity = VELOCITY_CONSTANT * step * step * math.sqrt(largest) / limit
         acceleration = 0.125 * step * math.sqrt(relative)
         # both go with the step's cube
         return max(velocity, min(math.pow(acceleration, 1.5), FINER**3 * velocity))
+
+    def of_peaks(self, step: float) -> float:
+        """Return the error of accelerations near their peaks, in the step last tried.
+
+        Where constraints prescribe them too, and whatever makes them alternate.
+        """
+        relative = 0.0
+        rounding = (ALTERNATING * ROUNDING * self._scales.length / (step * step)) ** 2
+        sizes, allowed = self._squares(self.change), self._allowed
+        for i in range(len(sizes)):
+            relative = max(relative, sizes[i] / max(allowed[i], rounding))
+        return math.pow(0.125 * step * math.sqrt(relative), 1.5)
 
     def of_jump(self) -> float:
         """Return the largest change of an acceleration in the step last tried, m/s^2."""

@@ -53,6 +53,8 @@ def how_it_ended(
     where = advice.place(time)
     if monitor.interrupted:
         return Status.INTERRUPTED, f"interrupted {where}"
+    if not monitor.go_on:
+        return Status.INTERRUPTED, f"stopped by a user function {where}"
     if monitor.over_budget:
         return Status.TOO_MANY_STEPS, (
             f"{monitor.max_steps} steps were used up {where}, {gone:.1%} of the run; try "

@@ -67,9 +67,10 @@ class StepError:
         self.accelerations: list[float] = []
         self.of_joints = 0.0
         self._bodies: BodyError | None = None
-        self._first_order = FirstOrderError(self._data, share) if problem.first_order else None
+        self._first_order: FirstOrderError | None = None
         joints = [] if problem.joints is None else problem.joints.joints
-        self._joints = [JointError(j, max(share * j.clearance, ROUNDING)) for j in joints]
+        rounding = ROUNDING * problem.length
+        self._joints = [JointError(j, max(share * j.clearance, rounding)) for j in joints]
         pairs = zip(joints, self._joints, strict=True)
         self.touches = [Touch(joint, motion) for joint, motion in pairs if joint.reach < math.inf]
 
@@ -77,6 +78,8 @@ class StepError:
         """Return the error of the step that ends in the current state."""
         if self._bodies is None:
             self._bodies = self._first_look()
+            if self._problem.first_order:
+                self._first_order = FirstOrderError(self._data, share_of(self._tolerance))
         self.accelerations = self._data.GetODE2Coordinates_tt(CURRENT, False).tolist()
         error = self._bodies.tried(self.accelerations, step)
         if error > 1.0:
@@ -84,6 +87,7 @@ class StepError:
         if not self._joints:  # else impacts and films need finer steps, by far
             offset = self._relative(self._bodies.offset(step))
             error = max(error, math.pow(offset, 1.5))  # as the step's cube
+            error = max(error, self._bodies.of_peaks(step))
         if self._first_order is not None:
             error = max(error, self._first_order.error(step))
         self.of_joints = 0.0

@@ -1,13 +1,27 @@
-"""The error of first-order coordinates in one step."""
+"""The error of first-order coordinates in one step, and the rates from which they start."""
 
 from typing import Any
 
 import exudyn as exu
 import numpy as np
 
-__all__ = ["FirstOrderError"]
+__all__ = ["FirstOrderError", "start_rates"]
 
 CURRENT = exu.ConfigurationType.Current
+START = exu.ConfigurationType.StartOfStep
+
+
+def start_rates(mbs: exu.MainSystem, solver: Any) -> None:
+    """Set the rates of first-order coordinates at the start.
+
+    Exudyn takes them for zero there, which leaves half of the first step's change in the result.
+    """
+    data: Any = mbs.systemData
+    before, size = solver.GetODE2size(), data.ODE1Size()
+    solver.ComputeODE1RHS(mbs)
+    rates = np.array(solver.GetSystemResidual())[before : before + size]
+    for configuration in (CURRENT, START):
+        data.GetODE1Coordinates_t(configuration, False)[:] = rates
 
 
 class FirstOrderError:
@@ -16,8 +30,8 @@ class FirstOrderError:
     def __init__(self, data: Any, share: float) -> None:
         """Take the system's data, and what one step may miss, relative."""
         self._data, self._share = data, share
-        self._before = np.array(data.GetODE1Coordinates_t(CURRENT, False))
-        self._largest = np.abs(np.array(data.GetODE1Coordinates(CURRENT, False)))
+        self._before = np.array(data.GetODE1Coordinates_t(START, False))
+        self._largest = np.abs(np.array(data.GetODE1Coordinates(START, False)))
         self._change: Any = None  # of the rate, over the step, in the step before
         self._tried: tuple[Any, Any] = self._before, None
 

@@ -41,6 +41,7 @@ class Monitor:
         max_steps: tries before the run is given up.
         interrupted: whether Ctrl-C was pressed.
         over_budget: whether all of `max_steps` were used up.
+        go_on: False once a function of the user's own asked to stop.
     """
 
     def __init__(
@@ -74,16 +75,16 @@ class Monitor:
         self._next_update = time.monotonic() + SECONDS_BETWEEN_UPDATES
         self._start = start
         self._users: tuple[Any, Any, Any, Any] = 0, 0, 0, 0
-        self._go_on = True
+        self.go_on = True
 
     @contextmanager
     def attached(self, mbs: exu.MainSystem) -> Iterator[None]:
         """Let Exudyn call this monitor; the user's own functions are called by it, and put back."""
         self._users = (
-            mbs.GetPreStepUserFunction(),
-            mbs.GetPreNewtonResidualUserFunction(),
-            mbs.GetPostNewtonUserFunction(),
-            mbs.GetPostStepUserFunction(),
+            _function(mbs.GetPreStepUserFunction()),
+            _function(mbs.GetPreNewtonResidualUserFunction()),
+            _function(mbs.GetPostNewtonUserFunction()),
+            _function(mbs.GetPostStepUserFunction()),
         )
         places: tuple[Any, Any, Any, Any] = (
             mbs.SetPreStepUserFunction,
@@ -109,8 +110,9 @@ class Monitor:
             self._progress.update(end - self._start)
         self._step_change.before_try(end)
         self.over_budget = self.tries >= self.max_steps
-        users = not self._users[0] or self._users[0](mbs, end)
-        return bool(users and self._go_on and not (self.interrupted or self.over_budget))
+        if self._users[0] and not self._users[0](mbs, end):
+            self.go_on = False
+        return self.go_on and not (self.interrupted or self.over_budget)
 
     def _before_residual(self, mbs: exu.MainSystem, end: float, iteration: int, other: int) -> None:
         if self._users[1]:
@@ -132,8 +134,8 @@ class Monitor:
         self._resolution.stepped(end, accelerations)
         self.steps += self.tries > 0
         if self._users[3] and not self._users[3](mbs, end):
-            self._go_on = False
-        return self._go_on
+            self.go_on = False
+        return self.go_on
 
     @contextmanager
     def _catching_interrupts(self) -> Iterator[None]:
@@ -150,3 +152,8 @@ class Monitor:
             yield
         finally:
             signal.signal(signal.SIGINT, before)
+
+
+def _function(found: Any) -> Any:
+    """Return what Exudyn's getters of user functions hold, or 0 where nothing is set."""
+    return found["function"] if isinstance(found, dict) else 0

@@ -86,7 +86,7 @@ class Problem:
         modal_stiffness: whether all stiffness is that of flexible bodies' modes.
         first_order: whether there are first-order coordinates.
         switching: whether there are data variables, which Exudyn iterates on after Newton's method.
-        constrained: whether there are constraints.
+        length: largest displacement coordinate at the start, m; their last digits are rounded.
     """
 
     mbs: exu.MainSystem
@@ -96,7 +96,7 @@ class Problem:
     modal_stiffness: bool
     first_order: bool
     switching: bool
-    constrained: bool
+    length: float
 
     @classmethod
     def of(cls, mbs: exu.MainSystem, bodies: Mapping[int, tuple[str, float]] | None) -> "Problem":
@@ -126,15 +126,16 @@ class Problem:
         modal = flexible and all(
             kind.startswith("ConnectorCoordinate") and "Spring" not in kind for kind in others
         )
+        nodes = _nodes(mbs, objects, bodies)
         return cls(
             mbs=mbs,
-            nodes=_nodes(mbs, objects, bodies),
+            nodes=nodes,
             joints=joints if joints.joints else None,
             flexible=flexible,
             modal_stiffness=modal,
             first_order=data.ODE1Size() > 0,
             switching=data.DataSize() > 0,
-            constrained=data.AEsize() > 0,
+            length=_length(data, nodes),
         )
 
 
@@ -184,6 +185,15 @@ def _nodes(
     return tuple(sorted(found, key=lambda node: node.start))
 
 
+def _length(data: Any, nodes: tuple[Node, ...]) -> float:
+    """Return the largest displacement coordinate at the start, m; 1.0 where all are zero."""
+    if not nodes:
+        return 1.0
+    total = np.abs(np.array(data.GetODE2CoordinatesTotal(exu.ConfigurationType.Initial)))
+    places = [total[node.start : node.start + node.displacements] for node in nodes]
+    return float(np.concatenate(places).max(initial=0.0)) or 1.0
+
+
 def weights(nodes: tuple[Node, ...], mass_matrix: Array) -> tuple[list[float], list[float]]:
     """Return each coordinate's inertia and each node's mass, 0.0 where that is to be found.
 
@@ -193,7 +203,7 @@ def weights(nodes: tuple[Node, ...], mass_matrix: Array) -> tuple[list[float], l
         nodes: of the system, in the order of their coordinates.
         mass_matrix: (n, n).
     """
-    inertias = np.array(np.diag(mass_matrix), dtype=float)
+    inertias = np.array(np.diag(mass_matrix), dtype=float) if nodes else np.zeros(0)
     masses: dict[int, float] = {}
     for node in nodes:
         first, last = node.start, node.start + node.size

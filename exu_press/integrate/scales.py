@@ -35,14 +35,16 @@ class FoundScales:
         speed: m/s.
         acceleration: m/s^2.
         force: N.
+        length: of the coordinates whose last digits are rounded, m.
         ends: where each node's coordinates end among all.
         inertias: the mass matrix's diagonal, kg and kg m^2.
         masses: of the nodes, kg, infinite for what has no say; where the system gives none, the
             node's largest kinetic energy over half the square of `speed`.
     """
 
-    def __init__(self, given: Scales) -> None:
+    def __init__(self, given: Scales, length: float) -> None:
         """Take what is given; the rest is found from `begin` on."""
+        self.length = length
         self._given = given
         self.ends: list[int] = []
         self.inertias: list[float] = []
@@ -75,7 +77,7 @@ class FoundScales:
             longest: step, s.
             widest: clearance, m, or 0.0 without clearance joints.
         """
-        self.ends = [*starts[1:], len(inertias)]
+        self.ends = [*starts[1:], len(inertias)] if starts else []
         self.inertias, self.masses = inertias, list(masses)
         self._own = [mass == 0.0 for mass in masses]
         self._energies = [0.0 for _ in masses]

@@ -75,10 +75,18 @@ def prepared(settings: exu.SimulationSettings, problem: Problem, smallest: float
     A contact of ours opens and closes within Newton's iterations, so nothing is left to iterate on.
     The step control's word counts: above 1 the step is repeated. Data variables of Exudyn's own
     contacts and friction keep the iterations that the settings give them.
+
+    Exudyn's own dense solver factorises its matrix in place, so that Eigen's dense one takes over.
     """
     integration = settings.timeIntegration
     newton, discontinuous = integration.newton, integration.discontinuous
+    linear = settings.linearSolver
+    in_place = linear.solverType == exu.LinearSolverType.EXUdense
     wanted: list[tuple[Any, dict[str, Any]]] = [
+        (
+            linear,
+            {"solverType": exu.LinearSolverType.EigenDense if in_place else linear.solverType},
+        ),
         (
             newton,
             {

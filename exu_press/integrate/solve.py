@@ -11,6 +11,7 @@ from threadpoolctl import threadpool_limits
 from exu_press.integrate.advice import Advice
 from exu_press.integrate.ending import how_it_ended
 from exu_press.integrate.error import StepError
+from exu_press.integrate.first_order_error import start_rates
 from exu_press.integrate.flexible_jacobian import FlexibleJacobian
 from exu_press.integrate.monitor import Monitor
 from exu_press.integrate.newton import Newton
@@ -102,7 +103,7 @@ def solve_dynamic(
         smallest = SMALLEST_PART * largest
         smallest = min(smallest, 0.5 * FIRST_OF_FILM) if films else smallest
     solver: Any = exu.MainSolverImplicitSecondOrder()  # whose type stub forgets `self`
-    found = FoundScales(scales)
+    found = FoundScales(scales, problem.length)
     newton = Newton(
         mbs, solver, problem.joints, found, part_of_force(tolerance), flexible=problem.flexible
     )
@@ -134,6 +135,8 @@ def solve_dynamic(
 
     def begin() -> None:
         """Look at the state from which the run starts."""
+        if problem.first_order:
+            start_rates(mbs, solver)
         solver.ComputeMassMatrix(mbs)
         inertias, masses = weights(problem.nodes, solver.GetSystemMassMatrix())
         now = data.GetODE2Coordinates_tt(exu.ConfigurationType.Current, False).tolist()

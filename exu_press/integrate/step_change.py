@@ -156,6 +156,8 @@ class StepChange:
         size = len(mass)
         constraints = np.asarray(solver.GetSystemJacobian())[size:, :size]
         count = len(constraints)
+        if count == 0:
+            return np.zeros(size), np.zeros(size)
         # Euler parameters have no mass along themselves, where a constraint holds them: the masses
         # alone cannot be inverted, with the constraints they can
         matrix = np.zeros((size + count, size + count))

@@ -11,7 +11,7 @@ from exu_press.integrate.stepping import AIM, GROW, ORDER
 
 def errors(velocity_limit=1e-3, tolerance=1e-2, masses=(2.0,)):
     """Errors of bodies that rest at first; each of one mass and a moment of inertia of 0.5."""
-    scales = FoundScales(Scales(speed=1.0, acceleration=1.0, force=1.0))
+    scales = FoundScales(Scales(speed=1.0, acceleration=1.0, force=1.0), length=1.0)
     rest = [0.0] * 3 * len(masses)
     scales.begin(
         starts=[3 * i for i in range(len(masses))],

@@ -88,7 +88,7 @@ CTRL_C = """
 import os, signal, sys, threading, time
 
 def press_ctrl_c():
-    while signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+    while signal.getsignal(signal.SIGINT) in (signal.default_int_handler, signal.SIG_DFL):
         time.sleep(0.01)  # until the run listens
     time.sleep(0.3)
     os.kill(os.getpid(), signal.SIGINT)

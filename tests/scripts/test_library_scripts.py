@@ -9,6 +9,7 @@ import pytest
 
 from exu_press import Result
 
+FOUR_BAR = 87.8798  # N
 SCRIPTS = Path(__file__).parents[2] / "scripts"
 
 
@@ -63,3 +64,12 @@ def test_joint_in_your_model(tmp_path):
     assert 0.0 < film < 50.0
     assert force == pytest.approx(2.5 * 10.0 * 9.81, rel=0.01)
     assert len((SCRIPTS / "joint_in_your_model.py").read_text("utf-8").splitlines()) <= 30
+
+
+def test_your_own_model(tmp_path):
+    """Largest pivot force of a four-bar, against 5e4 fixed steps of Exudyn's own: 87.8798 N."""
+    printed = run("your_own_model.py", tmp_path)
+    forces = [float(force) for force in re.findall(r"tolerance \S+: (\S+) N", printed)]
+    for force, tolerance in zip(forces[:3], (1e-2, 1e-3, 1e-4), strict=True):
+        assert abs(force / FOUR_BAR - 1.0) < 3.0 * tolerance
+    assert forces[3] == pytest.approx(forces[5], rel=1e-2)

@@ -1,0 +1,232 @@
+"""Any Exudyn system with a tolerance: its error follows it, whatever the system's size is."""
+
+import exudyn as exu
+import exudyn.utilities as items
+import numpy as np
+import pytest
+from exudyn.utilities import AngularVelocity2EulerParameters_t
+from scipy.integrate import solve_ivp
+from scipy.linalg import expm
+
+from exu_press import InputError, Status, add_dry_revolute, solve_dynamic
+from exu_press.laws.contact import hertz, hunt_crossley
+from exu_press.laws.friction import no_friction
+
+POSITION = exu.OutputVariableType.Coordinates
+TOLERANCES = [1e-2, 1e-3, 1e-4, 1e-5]
+
+
+def settings(end, steps=100):
+    chosen = exu.SimulationSettings()
+    chosen.timeIntegration.endTime, chosen.timeIntegration.numberOfSteps = end, steps
+    chosen.timeIntegration.generalizedAlpha.spectralRadius = 0.8
+    chosen.solution.file.write = False
+    return chosen
+
+
+def pendulum(length=1.0, mass=1.0, joint="ideal"):
+    """A rod let go while horizontal, its centre of mass a length from the joint."""
+    mbs = exu.SystemContainer().AddSystem()
+    ground = mbs.AddObject(items.ObjectGround())
+    node = mbs.AddNode(items.NodeRigidBody2D(referenceCoordinates=[length, 0.0, 0.0]))
+    inertia = mass * length**2 / 12.0
+    rod = mbs.AddObject(items.ObjectRigidBody2D(nodeNumber=node, mass=mass, inertia=inertia))
+    if joint == "ideal":
+        ends = [
+            mbs.AddMarker(items.MarkerBodyRigid(bodyNumber=body, localPosition=[x, 0.0, 0.0]))
+            for body, x in ((ground, 0.0), (rod, -length))
+        ]
+        mbs.AddObject(items.ObjectJointRevolute2D(markerNumbers=ends))
+    else:
+        contact = hunt_crossley(hertz(1e10), restitution=0.5)
+        laws = {"contact": contact, "friction": no_friction()}
+        ends = (rod, (-length, 0.0)), (ground, (0.0, 0.0))
+        add_dry_revolute(mbs, *ends, radius=0.02, clearance=1e-4, **laws)
+    at = mbs.AddMarker(items.MarkerBodyMass(bodyNumber=rod))
+    mbs.AddLoad(items.LoadMassProportional(markerNumber=at, loadVector=[0.0, -9.81, 0.0]))
+    mbs.Assemble()
+    return mbs, node
+
+
+@pytest.mark.parametrize("tolerance", TOLERANCES)
+def test_a_pendulum_from_rest(tolerance):
+    """Angular velocity after 3 s, against the largest one of 4.6 rad/s."""
+    expected = solve_ivp(
+        lambda _, y: [y[1], -9.81 * np.cos(y[0]) / (1.0 + 1.0 / 12.0)],
+        (0.0, 3.0),
+        [0.0, 0.0],
+        "DOP853",
+        rtol=1e-12,
+        atol=1e-12,
+    ).y[:, -1]
+    mbs, node = pendulum()
+    outcome = solve_dynamic(mbs, settings(3.0), tolerance=tolerance)
+    assert outcome.status is Status.COMPLETED
+    rate = mbs.GetNodeOutput(node, exu.OutputVariableType.Coordinates_t)[2]
+    assert 0.1 < abs(rate - expected[1]) / 4.6 / tolerance < 5.0
+
+
+def test_a_watch_and_a_crane_behave_alike():
+    """Scaled in length, mass and time: the same steps, but for rounding."""
+    counts = []
+    for length in (1e-6, 1.0, 1e3):
+        mbs, _ = pendulum(length, length**3)
+        outcome = solve_dynamic(mbs, settings(3.0 * length**0.5))
+        counts.append(outcome.steps)
+    assert max(counts) - min(counts) <= 2
+
+
+@pytest.mark.parametrize("tolerance", TOLERANCES[1:])
+def test_a_body_that_spins_in_space(tolerance):
+    """Euler's equations, about the middle axis, where errors grow by exp(5.8 t): 18 in 0.5 s."""
+    inertia, spin = np.array([1.0, 2.0, 3.0]), [0.1, 10.0, 0.1]
+    expected = solve_ivp(
+        lambda _, w: -np.cross(w, inertia * w) / inertia,
+        (0.0, 0.5),
+        spin,
+        "DOP853",
+        rtol=1e-12,
+        atol=1e-12,
+    ).y[:, -1]
+    mbs = exu.SystemContainer().AddSystem()
+    start = [1.0, 0.0, 0.0, 0.0]
+    node = mbs.AddNode(
+        items.NodeRigidBodyEP(
+            referenceCoordinates=[0.0, 0.0, 0.0, *start],
+            initialVelocities=[0.0, 0.0, 0.0, *AngularVelocity2EulerParameters_t(spin, start)],
+        )
+    )
+    mbs.AddObject(items.ObjectRigidBody(nodeNumber=node, mass=1.0, inertia=[*inertia, 0, 0, 0]))
+    mbs.Assemble()
+    assert solve_dynamic(mbs, settings(0.5), tolerance=tolerance).status is Status.COMPLETED
+    spin = mbs.GetNodeOutput(node, exu.OutputVariableType.AngularVelocityLocal)
+    assert np.abs(spin - expected).max() / 10.0 < 18.0 * tolerance
+
+
+@pytest.mark.parametrize("tolerance", TOLERANCES)
+def test_first_order_coordinates(tolerance):
+    """A damped oscillator as two first-order equations, whose rates Exudyn starts from zero."""
+    matrix = [[0.0, 1.0], [-1.0, -0.1]]
+    mbs = exu.SystemContainer().AddSystem()
+    node = mbs.AddNode(
+        items.NodeGenericODE1(
+            referenceCoordinates=[0.0, 0.0],
+            initialCoordinates=[1.0, 0.0],
+            numberOfODE1Coordinates=2,
+        )
+    )
+    mbs.AddObject(
+        items.ObjectGenericODE1(nodeNumbers=[node], systemMatrix=matrix, rhsVector=[0.0, 0.0])
+    )
+    mbs.Assemble()
+    assert solve_dynamic(mbs, settings(10.0), tolerance=tolerance).status is Status.COMPLETED
+    expected = expm(10.0 * np.array(matrix)) @ [1.0, 0.0]
+    assert np.abs(mbs.GetNodeOutput(node, POSITION) - expected).max() < 5.0 * tolerance
+
+
+def test_friction_of_exudyns_own_with_its_switching():
+    """A mass on a spring comes to rest: Coulomb's friction takes 2 F/k of amplitude a swing."""
+    ends = []
+    for tolerance in (1e-3, 1e-5):
+        mbs = exu.SystemContainer().AddSystem()
+        still = mbs.AddNode(items.NodePointGround())
+        node = mbs.AddNode(items.Node1D(referenceCoordinates=[0.0], initialVelocities=[3.0]))
+        mbs.AddObject(items.ObjectMass1D(mass=2.0, nodeNumber=node))
+        markers = [
+            mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=number, coordinate=0))
+            for number in (still, node)
+        ]
+        states = mbs.AddNode(
+            items.NodeGenericData(initialCoordinates=[1.0, 0.0, 0.0], numberOfDataCoordinates=3)
+        )
+        mbs.AddObject(
+            items.ObjectConnectorCoordinateSpringDamperExt(
+                markerNumbers=markers,
+                nodeNumber=states,
+                stiffness=100.0,
+                dynamicFrictionForce=8.0,
+                stickingStiffness=1e5,
+                stickingDamping=100.0,
+            )
+        )
+        mbs.Assemble()
+        outcome = solve_dynamic(mbs, settings(2.0), tolerance=tolerance)
+        assert outcome.status is Status.COMPLETED
+        ends.append(float(mbs.GetNodeOutput(node, POSITION)))
+    assert abs(ends[1]) < 8.0 / 100.0, "it rests where friction holds the spring"
+    assert ends[0] == pytest.approx(ends[1], abs=3e-4)  # of 0.4 m
+
+
+def test_clearance_joints_in_a_system_of_ones_own():
+    """A rod falls into its bearing and swings: it passes below with 5/2 of its weight at least."""
+    mbs, _ = pendulum(0.5, 10.0, joint="dry")
+    outcome = solve_dynamic(mbs, settings(0.2), tolerance=1e-3)
+    assert outcome.status is Status.COMPLETED, outcome.reason
+    assert outcome.law_evaluations > outcome.steps
+
+
+def test_functions_and_settings_of_the_user_take_part_and_stay():
+    mbs, _ = pendulum()
+    called = {"before": 0, "after": 0}
+
+    def before(mbs, time):
+        called["before"] += 1
+        return True
+
+    def after(mbs, time):
+        called["after"] += 1
+        return time < 0.5
+
+    mbs.SetPreStepUserFunction(before)
+    mbs.SetPostStepUserFunction(after)
+    chosen = settings(3.0)
+    chosen.timeIntegration.newton.maxIterations = 17
+    outcome = solve_dynamic(mbs, chosen)
+    assert called["before"] == outcome.steps + outcome.rejected_steps
+    assert called["after"] == outcome.steps + 1  # at the start too, as Exudyn does
+    assert 0.5 <= outcome.end_time < 0.7
+    assert outcome.status is Status.INTERRUPTED
+    assert chosen.timeIntegration.newton.maxIterations == 17
+    mbs.SolveDynamic(chosen)
+    assert called["after"] > outcome.steps + 2, "it is still there"
+
+
+def unassembled():
+    mbs = exu.SystemContainer().AddSystem()
+    mbs.AddNode(items.NodePoint())
+    return mbs
+
+
+def lie_group():
+    mbs = exu.SystemContainer().AddSystem()
+    node = mbs.AddNode(items.NodeRigidBodyRotVecLG(referenceCoordinates=[0.0] * 6))
+    mbs.AddObject(items.ObjectRigidBody(nodeNumber=node, mass=1, inertia=[1, 1, 1, 0, 0, 0]))
+    mbs.Assemble()
+    return mbs
+
+
+def with_settings(**changes):
+    chosen = settings(1.0)
+    for name, value in changes.items():
+        setattr(chosen.timeIntegration, name, value)
+    return chosen
+
+
+@pytest.mark.parametrize(
+    ("system", "chosen", "tolerance", "message"),
+    [
+        (unassembled, settings(1.0), 1e-3, "not assembled"),
+        (lie_group, settings(1.0), 1e-3, "RotVecLG"),
+        (lambda: pendulum()[0], with_settings(endTime=0.0), 1e-3, "endTime = 0.0"),
+        (lambda: pendulum()[0], settings(1.0), 0.5, "tolerance = 0.5: allowed is"),
+        (
+            lambda: pendulum()[0],
+            with_settings(solverType=exu.DynamicSolverType.RK44),
+            1e-3,
+            "solverType = RK44",
+        ),
+    ],
+)
+def test_what_cannot_be_solved_is_refused_by_name(system, chosen, tolerance, message):
+    with pytest.raises(InputError, match=message):
+        solve_dynamic(system(), chosen, tolerance=tolerance)

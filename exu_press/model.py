@@ -45,8 +45,8 @@ from exu_press.mechanism import (
 )
 from exu_press.mechanism.kinematics import along, turning
 from exu_press.rigid import PivotedBody, RigidBody, SlidingBody
-from exu_press.scene import Scene
-from exu_press.scene.laws import asperity_onset, contact_law, film_law, friction_law
+from exu_press.scene import DryJoint, IdealJoint, LubricatedJoint, Scene
+from exu_press.scene.laws import contact_law, film_law, friction_law
 
 if TYPE_CHECKING:
     from fe_models import FlexibleBody, ReducedPart
@@ -71,6 +71,7 @@ class Model:
         rigid: name -> rigid body.
         clearance_joints: name -> joint.
         ideal_joints: name -> object number; those that hold a coordinate.
+        pivoted: body on an ideal pivot of the frame -> that joint.
         drive: object number of the constraint that turns the crank.
         parts: name -> flexible body's part; empty for rigid bodies.
         sensors: (name, quantity) -> sensor number.
@@ -84,6 +85,7 @@ class Model:
     nodes: dict[str, int]
     clearance_joints: dict[str, ClearanceJoint]
     ideal_joints: dict[str, int]
+    pivoted: dict[str, Joint]
     rigid: Mapping[str, RigidBody]
     drive: int
     sensors: dict[tuple[str, str], int]
@@ -115,6 +117,7 @@ class _Builder:
 
             self.parts = reduced_parts(scene, quiet=quiet)
         self.mechanism = mechanism_of(scene)
+        self.pivoted = self.mechanism.pivoted(scene.joints.ideal)
         self.SC = exu.SystemContainer()
         self.mbs = self.SC.AddSystem()
         self.ground = int(self.mbs.AddObject(ObjectGround()))
@@ -142,7 +145,7 @@ class _Builder:
 
     def _add_rigid_body(self, body: Body, start: Motion) -> None:
         """Add a rigid body with the coordinates that its ideal joints leave it."""
-        pivot = self.mechanism.pivoted.get(body.name)
+        pivot = self.pivoted.get(body.name)
         if pivot is not None:
             places = pivot.bearing_point, pivot.journal_point
             added: RigidBody = PivotedBody(self.mbs, body, start, *places)
@@ -207,43 +210,38 @@ class _Builder:
             self.mbs.AddObject(ObjectJointRevolute2D(name=joint.name, markerNumbers=markers))
         )
 
-    def add_clearance_joint(self, joint: Joint) -> ClearanceJoint:
+    def add_clearance_joint(self, joint: Joint, kind: DryJoint | LubricatedJoint) -> ClearanceJoint:
         """Add a joint with clearance."""
-        scene = self.scene
-        assert scene.clearance is not None
-        assert scene.contact is not None
         journal = self._end(joint, joint.journal, joint.journal_point)
         bearing = self._end(joint, joint.bearing, joint.bearing_point)
-        clearance = scene.clearance.balls if joint.spherical else scene.clearance.crank_pin
-        assert clearance is not None
-        radius = scene.contact.radius
-        contact = contact_law(scene.contact, clearance, revolute=not joint.spherical)
-        friction = no_friction() if scene.friction is None else friction_law(scene.friction)
-        if joint.kind == "dry":
+        contact = None
+        if kind.contact is not None:
+            contact = contact_law(kind.contact, kind.clearance, revolute=not joint.spherical)
+        friction = no_friction() if kind.friction is None else friction_law(kind.friction)
+        if isinstance(kind, DryJoint):
+            assert contact is not None
             add = add_dry_spherical if joint.spherical else add_dry_revolute
             return add(
                 self.mbs,
                 journal,
                 bearing,
-                radius=radius,
-                clearance=clearance,
+                radius=kind.radius,
+                clearance=kind.clearance,
                 contact=contact,
                 friction=friction,
             )
-        assert scene.film is not None
-        onset = asperity_onset(scene.film)
         return add_lubricated_revolute(
             self.mbs,
             journal,
             bearing,
-            radius=radius,
-            clearance=clearance,
-            length=scene.film.length,
-            viscosity=scene.film.viscosity,
-            law=film_law(scene.film, radius, clearance),
-            contact=None if onset is None else contact,
+            radius=kind.radius,
+            clearance=kind.clearance,
+            length=kind.film.length,
+            viscosity=kind.film.viscosity,
+            law=film_law(kind.film, kind.radius, kind.clearance),
+            contact=contact,
             friction=friction,
-            asperity_onset=onset or 0.0,
+            asperity_onset=kind.onset or 0.0,
         )
 
     def add_guide(self, guide: Guide) -> tuple[int, ...]:
@@ -324,15 +322,15 @@ class _Builder:
         """Put everything together."""
         self.add_bodies()
         clearance = {
-            joint.name: self.add_clearance_joint(joint)
+            joint.name: self.add_clearance_joint(joint, kind)
             for joint in self.mechanism.joints
-            if joint.kind != "ideal"
+            if not isinstance(kind := self.scene.joints[joint.name], IdealJoint)
         }
-        pivots = self.mechanism.pivoted.values()
+        pivots = self.pivoted.values()
         ideal = {
             joint.name: self.add_ideal_joint(joint)
             for joint in self.mechanism.joints
-            if joint.kind == "ideal" and joint not in pivots
+            if joint.name in self.scene.joints.ideal and joint not in pivots
         }
         if self.flexible:
             ideal |= self.hold_flexible_bodies()
@@ -355,6 +353,7 @@ class _Builder:
             rigid=self.rigid,
             clearance_joints=clearance,
             ideal_joints=ideal,
+            pivoted=self.pivoted,
             drive=drive,
             sensors=self.sensors,
             parts=self.parts,
@@ -382,6 +381,8 @@ class _Builder:
 
     def _end(self, joint: Joint, body: str, point: Point) -> Any:
         """Return what a clearance joint holds on to."""
+        if body == GROUND:
+            return self.ground, point
         if body not in self.flexible:
             return self.bodies[body], self.rigid[body].local(point)
         from exu_press.flexible import FACES, joint_end

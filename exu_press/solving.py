@@ -14,11 +14,10 @@ from exu_press.integrate.resolution import Unresolved
 from exu_press.joints import history, overlay_of
 from exu_press.joints.joint import ClearanceJoint
 from exu_press.laws.contact import NormalContact
-from exu_press.mechanism import mechanism_of
+from exu_press.mechanism import GROUND, mechanism_of
 from exu_press.model import Model
-from exu_press.scene import Scene
+from exu_press.scene import IdealJoint, LubricatedJoint, Scene
 from exu_press.scene.laws import contact_law
-from exu_press.scene.warnings import doubtful_sizes
 
 __all__ = ["largest_step", "scales", "settings_for", "solve"]
 
@@ -107,17 +106,13 @@ def scales(scene: Scene) -> Scales:
     With a slow crank, the speed at which a journal has fallen through its clearance.
     """
     mechanism = mechanism_of(scene)
-    clearance = scene.clearance
-    widest = 0.0
-    if clearance is not None:
-        widest = max(clearance.crank_pin or 0.0, clearance.balls or 0.0)
-    falls = any(joint.kind != "ideal" for joint in mechanism.joints)
+    widest = max((joint.clearance for joint in scene.joints.values()), default=0.0)
     usual = scene.angular_speed * scene.pin_speed
     return Scales(
         speed=max(scene.pin_speed, math.sqrt(4.0 * scene.gravity * widest)),
         acceleration=usual,
         force=sum(body.mass for body in mechanism.bodies)
-        * max(usual, FALL * scene.gravity if falls else 0.0),
+        * max(usual, FALL * scene.gravity if widest else 0.0),
     )
 
 
@@ -146,9 +141,7 @@ class SceneAdvice(Advice):
 
     def film(self) -> str:
         """Return what helps a film that broke down."""
-        slips = self._slips()
-        thicker = "film.at_contact = 'mixed', or a larger film.viscosity or film.length"
-        return f"what was meant instead of this: {slips}" if slips else thicker
+        return "film.at_contact = 'mixed', or a larger film.viscosity or film.length"
 
     def smallest(self) -> str:
         """Return what helps where steps became too small."""
@@ -159,9 +152,8 @@ class SceneAdvice(Advice):
         return f"fewer revolutions, a larger {self.setting} or solver.max_steps"
 
     def cause(self) -> str:
-        """Return that the pin seizes, a film is too thin or a size hardly meant, or nothing."""
-        slips = self._slips()
-        return self._seizing() + self._thin_film() + (f"; hardly meant: {slips}" if slips else "")
+        """Return that the crank pin seizes, or that a film is too thin, or nothing."""
+        return self._seizing() + self._thin_film()
 
     def resolution(self, worst: Unresolved) -> str:
         """Return the step or the tolerance that resolves the impacts."""
@@ -172,10 +164,6 @@ class SceneAdvice(Advice):
         needed = min([0.5 * worst.step, *_impact_steps(self._model)])
         return f"solver.step = {_rounded_down(needed):.0e}"
 
-    def _slips(self) -> str:
-        """Return in words that a size is hardly meant, or nothing."""
-        return "; ".join(slip.partition(". ")[0] for slip in doubtful_sizes(self._scene))
-
     def _seizing(self) -> str:
         """Return in words that the crank pin's friction circle is wide enough to seize.
 
@@ -183,26 +171,27 @@ class SceneAdvice(Advice):
         whatever the force, and a crank that turns at constant speed makes it grow without bound.
         """
         scene = self._scene
-        size, friction, contact = scene.press or scene.slider_crank, scene.friction, scene.contact
-        if size is None or friction is None or contact is None or friction.law == "none":
+        size, pin = scene.press or scene.slider_crank, scene.joints["crank_pin"]
+        if size is None or isinstance(pin, IdealJoint) or pin.friction is None:
             return ""
-        circle = contact.radius * math.sin(math.atan(friction.mu_static))
-        wide = circle >= WIDE_CIRCLE * size.crank_radius
-        if "crank_pin" not in self._model.clearance_joints or not wide:
+        circle = pin.radius * math.sin(math.atan(pin.friction.mu_static))
+        if pin.friction.law == "none" or circle < WIDE_CIRCLE * size.crank_radius:
             return ""
         return (
             f"; the crank pin seizes near dead centre (friction circle {circle:.2g} m, crank "
-            f"radius {size.crank_radius:.2g} m): try a smaller friction.mu_static or contact.radius"
+            f"radius {size.crank_radius:.2g} m): try a smaller friction.mu_static or "
+            "joints.crank_pin.radius"
         )
 
     def _thin_film(self) -> str:
         """Return in words that a film is so thin that rounding moves its forces, or nothing."""
-        clearance = None if self._scene.clearance is None else self._scene.clearance.crank_pin
-        if self._scene.film is None or clearance is None or clearance >= THIN:
-            return ""
-        return (
-            "; a film this thin is too stiff for rounded speeds: try a larger clearance.crank_pin"
-        )
+        for name, joint in self._scene.joints.with_clearance.items():
+            if isinstance(joint, LubricatedJoint) and joint.clearance < THIN:
+                return (
+                    "; a film this thin is too stiff for rounded speeds: try a larger "
+                    f"joints.{name}.clearance"
+                )
+        return ""
 
 
 def _leapt_over_pulse(model: Model) -> str:
@@ -230,12 +219,13 @@ def _impact_steps(model: Model) -> Iterator[float]:
     The impact of the lighter body alone: what hangs on it makes the true one slower.
     """
     scene = model.scene
-    if scene.contact is None or not model.clearance_joints:
+    if not any(joint.reach < math.inf for joint in model.clearance_joints.values()):
         return
     overlay = overlay_of(model.mbs)
     held = {number: name for name, number in model.nodes.items()}
-    masses = {body.name: body.mass for body in model.mechanism.bodies}
-    masses[model.mechanism.crank] = math.inf  # driven
+    masses = {body.name: body.mass for body in model.mechanism.bodies} | {GROUND: math.inf}
+    if model.mechanism.crank in model.pivoted:
+        masses[model.mechanism.crank] = math.inf  # driven
     sensor = next(iter(model.sensors.values()))
     time = np.asarray(model.mbs.GetSensorStoredData(sensor))[:, 0]
     q, q_t = (
@@ -248,8 +238,8 @@ def _impact_steps(model: Model) -> Iterator[float]:
         for level in ("position", "velocity")
     )
     for description in model.mechanism.joints:
-        joint = model.clearance_joints.get(description.name)
-        if joint is None or (description.kind == "lubricated" and scene.friction is None):
+        joint, kind = model.clearance_joints.get(description.name), scene.joints[description.name]
+        if joint is None or isinstance(kind, IdealJoint) or kind.contact is None:
             continue
         states = history(joint, time, q, q_t)
         apart = np.array([state.eccentricity for state in states])
@@ -260,7 +250,7 @@ def _impact_steps(model: Model) -> Iterator[float]:
         touches = free[:-1] & ~free[1:]
         speed = float(closing[:-1][touches].max(initial=0.0))
         if speed > 0.0:
-            law = contact_law(scene.contact, joint.clearance, revolute=not description.spherical)
+            law = contact_law(kind.contact, joint.clearance, revolute=not description.spherical)
             mass = min(masses[description.journal], masses[description.bearing])
             yield _rise_time(law, mass, speed) / STEPS_IN_A_RISE
 

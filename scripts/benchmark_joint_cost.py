@@ -44,7 +44,11 @@ def run_press(joints, steps):
     """Time per step (us) and Newton iterations per step of a press from top dead centre on."""
     pin, balls = joints
     revolutions = steps * STEP * 240.0 / 60.0
-    scene = {"crank_pin": pin, "balls": balls, "revolutions": revolutions, "solver": {"step": STEP}}
+    scene = {
+        "joints": {"crank_pin": pin, "balls": balls},
+        "revolutions": revolutions,
+        "solver": {"step": STEP},
+    }
     outcome = solve(Scene.from_dict(scene).build())
     assert outcome.status is Status.COMPLETED, outcome
     steps = outcome.steps  # a film begins with a few shorter ones

@@ -17,8 +17,8 @@ from exu_press.studies.sweep.run import run_scene
 
 quick = "--quick" in sys.argv
 clearances = [(50 + n) * 1e-6 for n in range(2 if quick else 48)]
-scene = Scene(balls="ideal", revolutions=0.05 if quick else 8.0)
-study = Study(scene=scene, grid={"clearance.crank_pin": clearances})
+scene = Scene(joints={"crank_pin": "lubricated"}, revolutions=0.05 if quick else 8.0)
+study = Study(scene=scene, grid={"joints.crank_pin.clearance": clearances})
 
 
 def in_one_process():

@@ -11,7 +11,7 @@ from exu_press.plots.precision import save_precision
 from exu_press.studies.precision import case_of, precision
 from exu_press.studies.precision.table import report_lines
 
-scene = Scene(mechanism="slider_crank", crank_pin="lubricated", revolutions=1.0)
+scene = Scene(mechanism="slider_crank", joints={"crank_pin": "lubricated"}, revolutions=1.0)
 report = precision((case_of("my_slider_crank", scene),), quick="--quick" in sys.argv)
 save_precision(report, output_directory("out/error_vs_runtime"))
 print("\n".join(report_lines(report)))

@@ -11,11 +11,12 @@ from exu_press.output import output_directory
 from exu_press.plots import save_pictures
 
 scene = Scene(
-    crank_pin="lubricated",
-    balls="dry",
+    joints={
+        "crank_pin": {"kind": "lubricated", "clearance": 1e-4},  # radial, m
+        "balls": {"kind": "dry", "clearance": 1e-4},
+    },
     speed_rpm=240.0,
     revolutions=0.1 if "--quick" in sys.argv else 2.0,
-    clearance={"crank_pin": 1e-4, "balls": 1e-4},  # radial, m
     film={"law": "finite", "viscosity": 0.1},  # Pa s
 )
 result = simulate(scene)

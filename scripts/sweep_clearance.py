@@ -13,10 +13,13 @@ from exu_press.studies.sweep import Study, sweep, table_lines
 quick = "--quick" in sys.argv
 out = Path(sys.argv[sys.argv.index("--out") + 1] if "--out" in sys.argv else "out/sweep_clearance")
 
-scene = Scene(balls="ideal", revolutions=0.02 if quick else 2.0, blanking={"force": 1e4})
+scene = Scene(
+    joints={"crank_pin": "lubricated"}, revolutions=0.02 if quick else 2.0, blanking={"force": 1e4}
+)
 clearances = [5e-5, 2e-4] if quick else [5e-5, 7.5e-5, 1e-4, 1.25e-4, 1.5e-4, 1.75e-4, 2e-4]
 study = Study(
-    scene=scene, grid={"crank_pin": ["dry", "lubricated"], "clearance.crank_pin": clearances}
+    scene=scene,
+    grid={"joints.crank_pin": ["dry", "lubricated"], "joints.crank_pin.clearance": clearances},
 )
 shown = ("peak_acceleration.resolved", "peak_acceleration.mean_1ms", "joints.crank_pin.peak_force")
 table = sweep(study, out, quiet=quick)

@@ -10,8 +10,7 @@ from exu_press import Scene, simulate
 
 FULL = {
     "bodies": "flexible",
-    "crank_pin": "lubricated",
-    "balls": "dry",
+    "joints": {"crank_pin": "lubricated", "balls": "dry"},
     "revolutions": 0.02 if "--quick" in sys.argv else 1.0,
     "film": {"law": "finite"},
     "friction": {"law": "lugre"},
@@ -27,25 +26,24 @@ CHOICES = {
     "ideal guides": {"guide": None},
     "short-bearing film": {"film": {"law": "short"}},
     "long-bearing film (the paper's)": {"film": {"law": "pinkus"}},
-    "ideal pin instead of a film": {"crank_pin": "ideal", "film": None},
+    "ideal pin instead of a film": {"joints": {"balls": "dry"}, "film": None},
     "friction without bristles": {"friction": {"law": "lugre_steady"}},
     "no friction": {"friction": {"law": "none"}},
-    "ideal balls": {"balls": "ideal", "friction": None},
+    "ideal balls": {"joints": {"crank_pin": "lubricated"}, "friction": None},
     "tolerance 1e-2 instead of 1e-3": {"solver": {"tolerance": 1e-2}},
     "tolerance 1e-4": {"solver": {"tolerance": 1e-4}},
     "rigid, ideal guides": {**RIGID, "guide": None},
     "only the mechanism": {
         **RIGID,
         **dict.fromkeys(["guide", "film", "friction"]),
-        "crank_pin": "ideal",
-        "balls": "ideal",
+        "joints": {},
     },
 }
 FIGURES = {
     "peak a, m/s^2": lambda s: s["peak_acceleration"]["resolved"],
     "over 1 ms": lambda s: s["peak_acceleration"]["mean_1ms"],
     "at 1 kHz": lambda s: s["peak_acceleration"]["differentiated_1khz"],
-    "lowest, mm": lambda s: 1e3 * s["ldp"],
+    "lowest, mm": lambda s: 1e3 * s["bottom_dead_centre"],
     "torque over 1 ms, N m": lambda s: s["press"]["drive"]["peak_torque_mean_1ms"],
 }
 

@@ -38,7 +38,7 @@ def exudyn(pin: str, step: float, friction: tuple[tuple[str, float], ...] = ()) 
     scene = Scene.from_dict(
         {
             "mechanism": "slider_crank",
-            "crank_pin": "lubricated" if lubricated else "dry",
+            "joints": {"crank_pin": "lubricated" if lubricated else "dry"},
             "revolutions": 1.0,
             "solver": {"step": step},
             **law,

@@ -28,7 +28,7 @@ def test_the_allowed_error_is_far_below_what_a_film_does():
     """Without its film the slider-crank is further from the number than a sound run may be."""
     from exu_press import simulate
 
-    scene = Scene(mechanism="slider_crank", crank_pin="ideal", revolutions=0.4)
+    scene = Scene(mechanism="slider_crank", joints={"crank_pin": "ideal"}, revolutions=0.4)
     ideal = simulate(scene)["slider_position"][-1]
     assert abs(ideal - doctor.LUBRICATED_SLIDER) > 10 * doctor.LUBRICATED_ERROR
 

@@ -10,7 +10,7 @@ from exu_press import Scene, simulate
 from exu_press.mechanism import mechanism_of
 from exu_press.model import build
 
-IDEAL = {"crank_pin": "ideal", "balls": "ideal"}
+IDEAL = {"joints": {}}
 ECCENTRIC = {"force": 1e4, "eccentricity": 0.1, "end_angle_deg": 60.0}
 
 
@@ -61,7 +61,7 @@ def test_tilt_of_a_slider_under_a_static_eccentric_force():
     """Slider-crank, pinned in the slider's centre: the guide alone carries F e = k phi."""
     result = run(
         mechanism="slider_crank",
-        crank_pin="ideal",
+        joints={},
         speed_rpm=1.0,
         start_angle_deg=90.0,
         revolutions=0.1,
@@ -84,7 +84,7 @@ def test_tilt_of_the_press_under_a_static_eccentric_force():
     """
     force, eccentricity, arm, stiffness = 8e3, 0.05, 0.1655, 2.5545e10
     result = run(
-        crank_pin="ideal",
+        joints={"balls": "dry"},
         speed_rpm=1.0,
         start_angle_deg=175.0,
         revolutions=0.016,
@@ -118,7 +118,7 @@ def test_tilt_of_the_press_under_a_static_eccentric_force():
 def test_ideal_guides_carry_the_eccentric_moment(balls):
     """With dry balls the guide; with ideal ones these, by forces that differ by M / a."""
     result = run(
-        crank_pin="ideal", balls=balls, revolutions=0.25, blanking=ECCENTRIC, solver={"step": 2e-5}
+        joints={"balls": balls}, revolutions=0.25, blanking=ECCENTRIC, solver={"step": 2e-5}
     )
     moment = result["blanking_moment"]
     assert moment.max() > 950.0
@@ -136,7 +136,8 @@ VARIANTS = [(pin, balls) for pin in ("ideal", "dry", "lubricated") for balls in 
 
 @functools.cache
 def eccentric(crank_pin, balls):
-    return run(crank_pin=crank_pin, balls=balls, revolutions=0.2, blanking=ECCENTRIC, guide={})
+    joints = {"crank_pin": crank_pin, "balls": balls}
+    return run(joints=joints, revolutions=0.2, blanking=ECCENTRIC, guide={})
 
 
 @pytest.mark.parametrize(("crank_pin", "balls"), VARIANTS)

@@ -15,12 +15,13 @@ from exu_press import Scene, simulate
 BLANKING = {"force": 10e3, "end_angle_deg": 90.0}  # within the 0.3 revolutions below
 
 PRESS = [
-    {"mechanism": "press", "crank_pin": pin, "balls": balls}
+    {"mechanism": "press", "joints": {"crank_pin": pin, "balls": balls}}
     for pin in ("ideal", "dry", "lubricated")
     for balls in ("ideal", "dry")
 ]
 SLIDER_CRANK = [
-    {"mechanism": "slider_crank", "crank_pin": pin} for pin in ("ideal", "dry", "lubricated")
+    {"mechanism": "slider_crank", "joints": {"crank_pin": pin}}
+    for pin in ("ideal", "dry", "lubricated")
 ]
 VARIANTS = pytest.mark.parametrize(
     "variant", PRESS + SLIDER_CRANK, ids=lambda variant: " ".join(variant.values())
@@ -70,7 +71,7 @@ def test_balance_of_other_frictions(law):
 
 @functools.cache
 def revolution(pin):
-    scene = {"mechanism": "slider_crank", "crank_pin": pin, "solver": {"step": 1e-4}}
+    scene = {"mechanism": "slider_crank", "joints": {"crank_pin": pin}, "solver": {"step": 1e-4}}
     return run(Scene.from_dict({**scene, "revolutions": 1.0}))
 
 
@@ -95,7 +96,7 @@ def test_balance_against_what_is_dissipated(pin, bound):
     """
     scene = {
         "mechanism": "slider_crank",
-        "crank_pin": pin,
+        "joints": {"crank_pin": pin},
         "revolutions": 0.5,
         "solver": {"step": 1e-4 if pin == "lubricated" else 1e-5},
     }

@@ -23,7 +23,9 @@ def linkage_as_solid():
 @pytest.mark.parametrize(("crank_pin", "balls"), VARIANTS)
 def test_without_modes_it_is_the_rigid_press(crank_pin, balls, linkage_as_solid):
     """Fixed steps, so that both take the same ones; masses to the mesh's 1e-3."""
-    scene = Scene(crank_pin=crank_pin, balls=balls, revolutions=0.02, solver={"step": 1e-5})
+    scene = Scene(
+        joints={"crank_pin": crank_pin, "balls": balls}, revolutions=0.02, solver={"step": 1e-5}
+    )
     twin = {k: v for k, v in linkage_as_solid.items() if k != "linkage_mass"}
     rigid = simulate(scene.replace({f"press.{key}": value for key, value in twin.items()}))
     flexible = simulate(scene.replace(bodies="flexible").replace("flexible.modes", 0))
@@ -33,7 +35,9 @@ def test_without_modes_it_is_the_rigid_press(crank_pin, balls, linkage_as_solid)
 
 @pytest.mark.parametrize(("crank_pin", "balls"), VARIANTS)
 def test_every_pin_variant_runs(crank_pin, balls):
-    result = simulate(Scene(bodies="flexible", crank_pin=crank_pin, balls=balls, **SHORT))
+    result = simulate(
+        Scene(bodies="flexible", joints={"crank_pin": crank_pin, "balls": balls}, **SHORT)
+    )
     summary = result.summary()
     assert result.completed, summary["reason"]
     assert summary["energy"]["residual"] < 1e-2
@@ -45,7 +49,7 @@ def test_every_pin_variant_runs(crank_pin, balls):
 def test_a_hundred_and_ten_thousand_times_stiffer_it_approaches_the_rigid_press():
     """After the start has died away the ideal press bends with 1/E."""
     scene = Scene(
-        bodies="flexible", crank_pin="ideal", balls="ideal", revolutions=0.1,
+        bodies="flexible", joints={}, revolutions=0.1,
         start_angle_deg=60.0, solver={"step": 1e-4}, flexible={"damping_ratio": 0.5},
     )  # fmt: skip
     bends = []
@@ -63,7 +67,7 @@ def test_a_hundred_and_ten_thousand_times_stiffer_it_approaches_the_rigid_press(
 
 def test_blanking_bends_the_crank():
     scene = Scene(
-        bodies="flexible", crank_pin="ideal", balls="ideal", start_angle_deg=140.0,
+        bodies="flexible", joints={}, start_angle_deg=140.0,
         revolutions=0.03, blanking={"force": 1e6, "end_angle_deg": 150.0},
     )  # fmt: skip
     pressed, free = simulate(scene), simulate(scene.replace("blanking.force", 0.0))

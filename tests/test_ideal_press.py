@@ -16,13 +16,11 @@ from exu_press.mechanism import mechanism_of
 def run(mechanism: str, start_angle_deg: float = 0.0) -> Result:
     scene = {
         "mechanism": mechanism,
-        "crank_pin": "ideal",
+        "joints": {},
         "revolutions": 1.0,
         "start_angle_deg": start_angle_deg,
         "solver": {"step": 1e-4},
     }
-    if mechanism == "press":
-        scene["balls"] = "ideal"
     result = simulate(Scene.from_dict(scene))
     assert result.completed, result.info["reason"]
     return result
@@ -104,4 +102,4 @@ def test_summary_shows_the_published_numbers():
     assert summary["stroke"] == pytest.approx(26.19e-3, abs=0.02e-3)
     assert summary["peak_acceleration"]["resolved"] == pytest.approx(17.84, abs=0.05)
     assert summary["peak_velocity"] == pytest.approx(0.441, abs=1e-3)
-    assert summary["ldp"] == pytest.approx(0.47, abs=1e-7)
+    assert summary["bottom_dead_centre"] == pytest.approx(0.47, abs=1e-7)

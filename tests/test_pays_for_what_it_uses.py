@@ -90,7 +90,7 @@ def user_functions(model):
 
 
 def test_an_ideal_scene_has_no_overlay_and_no_callback():
-    model = build(crank_pin="ideal", balls="ideal")
+    model = build(joints={})
     assert "GenericODE2" not in kinds(model)
     assert user_functions(model) == []
     assert model.clearance_joints == {}
@@ -100,11 +100,14 @@ def test_an_ideal_scene_has_no_overlay_and_no_callback():
 @pytest.mark.parametrize(
     ("scene", "joints"),
     [
-        ({"crank_pin": "lubricated", "balls": "ideal"}, ["crank_pin"]),
-        ({"crank_pin": "dry", "balls": "ideal"}, ["crank_pin"]),
-        ({"crank_pin": "ideal", "balls": "dry"}, ["ball_right", "ball_left"]),
-        ({"crank_pin": "lubricated", "balls": "dry"}, ["crank_pin", "ball_right", "ball_left"]),
-        ({"mechanism": "slider_crank", "crank_pin": "dry"}, ["crank_pin"]),
+        ({"joints": {"crank_pin": "lubricated"}}, ["crank_pin"]),
+        ({"joints": {"crank_pin": "dry"}}, ["crank_pin"]),
+        ({"joints": {"balls": "dry"}}, ["ball_right", "ball_left"]),
+        (
+            {"joints": {"crank_pin": "lubricated", "balls": "dry"}},
+            ["crank_pin", "ball_right", "ball_left"],
+        ),
+        ({"mechanism": "slider_crank", "joints": {"crank_pin": "dry"}}, ["crank_pin"]),
     ],
     ids=str,
 )
@@ -120,14 +123,14 @@ def test_clearance_joints_are_one_item_over_their_own_nodes(scene, joints):
     bodies = {
         body
         for joint in model.mechanism.joints
-        if joint.kind != "ideal"
+        if joint.name in model.scene.joints.with_clearance
         for body in (joint.journal, joint.bearing)
     }
     assert len(item["nodeNumbers"]) == len(bodies)
 
 
 def test_a_clearance_joint_replaces_its_ideal_one():
-    ideal, with_clearance = build(crank_pin="ideal", balls="ideal"), build(balls="ideal")
+    ideal, with_clearance = build(joints={}), build(joints={"crank_pin": "dry"})
     revolutes = [kinds(model).count("JointRevolute2D") for model in (ideal, with_clearance)]
     assert revolutes[0] - revolutes[1] == 1
     assert len(objects(with_clearance)) == len(objects(ideal))
@@ -138,9 +141,9 @@ def loads(model):
 
 
 def test_gravity_is_one_load_a_body_and_none_where_there_is_none():
-    model = build(crank_pin="ideal", balls="ideal")
+    model = build(joints={})
     assert loads(model) == len(model.mechanism.bodies) == 14
-    assert loads(build(crank_pin="ideal", balls="ideal", gravity=0.0)) == 0
+    assert loads(build(joints={}, gravity=0.0)) == 0
 
 
 def test_blanking_is_one_load_and_none_without_force():
@@ -157,7 +160,7 @@ def test_bodies_have_the_coordinates_that_their_ideal_joints_leave():
     press, slider_crank = build(), build(mechanism="slider_crank")
     assert press.mbs.systemData.ODE2Size() == 5 + 3 + 6 * 3
     assert slider_crank.mbs.systemData.ODE2Size() == 1 + 1 + 3
-    with_balls = build(crank_pin="ideal", balls="ideal")  # they hold the slider's angle
+    with_balls = build(joints={})  # they hold the slider's angle
     assert with_balls.mbs.systemData.ODE2Size() == 4 + 3 + 7 * 3
     elastic = build(guide={})
     assert elastic.mbs.systemData.ODE2Size() == 3 + 11 * 3

@@ -5,7 +5,7 @@ import numpy as np
 from exu_press.errors import InputError
 from exu_press.mechanism.description import GROUND, Body, Guide, Joint, Mechanism, Point, Spring
 from exu_press.mechanism.kinematics import AssemblyError, Motion
-from exu_press.mechanism.press import press
+from exu_press.mechanism.press import GROUPS, press
 from exu_press.mechanism.slider_crank import slider_crank
 from exu_press.scene import Scene
 
@@ -18,7 +18,7 @@ __all__ = [
     "Motion",
     "Point",
     "Spring",
-    "check_assembly",
+    "checked_assembly",
     "mechanism_of",
 ]
 
@@ -26,16 +26,19 @@ __all__ = [
 def mechanism_of(scene: Scene) -> Mechanism:
     """Return the mechanism of a scene."""
     if scene.press is not None:
-        return press(scene.press, scene.crank_pin, str(scene.balls), scene.guide)
+        kinds = {scene.joints[name].kind for name in GROUPS["balls"]} if scene.joints else set()
+        return press(scene.press, scene.guide, ideal_balls=kinds <= {"ideal"})
     assert scene.slider_crank is not None
-    return slider_crank(scene.slider_crank, scene.crank_pin, scene.guide)
+    return slider_crank(scene.slider_crank, scene.guide)
 
 
-def check_assembly(scene: Scene) -> None:
-    """Raise InputError where the ideal mechanism cannot be assembled at every crank angle."""
+def checked_assembly(scene: Scene) -> Mechanism:
+    """Return the mechanism; InputError where it cannot be assembled at every crank angle."""
     degrees = np.arange(0.0, 360.0, 0.5)
     try:
-        mechanism_of(scene).motion(np.radians(degrees), 1.0)
+        mechanism = mechanism_of(scene)
+        mechanism.motion(np.radians(degrees), 1.0)
     except AssemblyError as error:
         angle = 180.0 if error.index is None else degrees[error.index]
         raise InputError(f"{error} m at crank angle {angle:g} deg") from None
+    return mechanism

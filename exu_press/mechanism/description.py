@@ -1,7 +1,7 @@
 """What moves: a planar mechanism as data, before any Exudyn item is made of it."""
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass, field
 
 from exu_press.mechanism.kinematics import Array, Motion
 
@@ -31,7 +31,6 @@ class Joint:
         journal_point: its centre in that body's frame, m.
         bearing: body that carries the bearing or socket; the film turns with it.
         bearing_point: its centre in that body's frame, m.
-        kind: "ideal", "dry" or "lubricated".
         spherical: forces are recorded as 3-vectors.
         vertical_only: an ideal joint between two guided bodies holds y alone, not x twice.
     """
@@ -41,7 +40,6 @@ class Joint:
     journal_point: Point
     bearing: str
     bearing_point: Point
-    kind: str = "ideal"
     spherical: bool = False
     vertical_only: bool = False
 
@@ -77,12 +75,13 @@ class Mechanism:
 
     Attributes:
         bodies: in the order of the result's body channels.
-        joints: ideal ones and clearance ones.
+        joints: by what the scene says of them ideal or with clearance.
         guides: ideal or elastic.
         crank: name of the driven body.
         slider: name of the body whose motion is the result.
         slider_origin: y of the slider at slider position 0, m.
         motion: (n,) crank angles and a constant speed -> motion (x, y, angle) of every body.
+        groups: names for several joints at once -> these joints.
     """
 
     bodies: tuple[Body, ...]
@@ -92,6 +91,7 @@ class Mechanism:
     slider: str
     slider_origin: float
     motion: Callable[[Array, float], Mapping[str, Motion]]
+    groups: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     @property
     def sliding(self) -> frozenset[str]:
@@ -100,13 +100,16 @@ class Mechanism:
             guide.body for guide in self.guides if guide.holds_angle and guide.lateral is None
         )
 
-    @property
-    def pivoted(self) -> dict[str, Joint]:
-        """Bodies on an ideal pivot of the frame -> that joint, whose journal is theirs."""
+    def pivoted(self, ideal: Collection[str]) -> dict[str, Joint]:
+        """Return bodies on an ideal pivot of the frame -> that joint, whose journal is theirs.
+
+        Args:
+            ideal: names of the joints without clearance.
+        """
         return {
             joint.journal: joint
             for joint in self.joints
-            if joint.bearing == GROUND and joint.kind == "ideal"
+            if joint.bearing == GROUND and joint.name in ideal
         }
 
     def ideal_slider(self, angle: Array, speed: float) -> tuple[Array, Array, Array]:

@@ -23,9 +23,17 @@ __all__ = ["press"]
 
 SIDES = {"right": 1, "left": -1}
 
+GROUPS = {
+    "balls": ("ball_left", "ball_right"),
+    "knuckles": ("knuckle_6_left", "knuckle_6_right", "knuckle_7_left", "knuckle_7_right"),
+    "pivots": ("pivot_left", "pivot_right"),
+    "plunger_pins": ("plunger_pin_left", "plunger_pin_right"),
+    "slide_joints": ("slide_joint_left", "slide_joint_right"),
+}
+
 
 def press(
-    size: Press, crank_pin: str, balls: str, elastic: ElasticGuide | None = None
+    size: Press, elastic: ElasticGuide | None = None, *, ideal_balls: bool = True
 ) -> Mechanism:
     """Return the press; the linkage carries the bearing of the crank pin, the slider the sockets.
 
@@ -91,7 +99,7 @@ def press(
     crank_tip, linkage_end = (0.0, size.crank_radius - offset), size.linkage_length / 2
     joints = [
         Joint("shaft", "crank", (0.0, -offset), GROUND, (0.0, 0.0)),
-        Joint("crank_pin", "crank", crank_tip, "linkage", (-linkage_end - shift, 0.0), crank_pin),
+        Joint("crank_pin", "crank", crank_tip, "linkage", (-linkage_end - shift, 0.0)),
         Joint("slide_pin", "linkage", (linkage_end - shift, 0.0), "slide", (0.0, 0.0)),
     ]
     guides = [guide_of(bodies[-1], elastic)]
@@ -119,14 +127,13 @@ def press(
                 (0.0, -half_plunger),
                 "slider",
                 (x, 0.0),
-                balls,
                 spherical=True,
-                vertical_only=balls == "ideal" and elastic is None,
+                vertical_only=elastic is None,
             ),
         ]
     slider = _rod("slider", size.slider_mass, 2 * size.pivot_distance)
     bodies.append(free_to_tilt(slider, elastic))
-    guides.append(guide_of(bodies[-1], elastic, holds_angle=balls != "ideal"))
+    guides.append(guide_of(bodies[-1], elastic, holds_angle=not ideal_balls))
     if size.counterweight:
         counter_end = size.counter_linkage_length / 2
         counter_tip = (0.0, -size.counter_eccentricity - offset)
@@ -153,6 +160,7 @@ def press(
         slider="slider",
         slider_origin=slider_bottom - size.bottom_dead_centre,
         motion=motion,
+        groups=GROUPS,
     )
 
 

@@ -8,9 +8,7 @@ from exu_press.scene.tables import ElasticGuide, SliderCrank
 __all__ = ["slider_crank"]
 
 
-def slider_crank(
-    size: SliderCrank, crank_pin: str, elastic: ElasticGuide | None = None
-) -> Mechanism:
+def slider_crank(size: SliderCrank, elastic: ElasticGuide | None = None) -> Mechanism:
     """Return the slider-crank; the rod carries the bearing of the crank pin."""
     radius, half = size.crank_radius, size.rod_length / 2
     slider = free_to_tilt(Body("slider", size.slider_mass, 1.0), elastic)  # an ideal guide holds it
@@ -32,7 +30,7 @@ def slider_crank(
         ),
         joints=(
             Joint("shaft", "crank", (0.0, 0.0), GROUND, (0.0, 0.0)),
-            Joint("crank_pin", "crank", (0.0, radius), "rod", (-half, 0.0), crank_pin),
+            Joint("crank_pin", "crank", (0.0, radius), "rod", (-half, 0.0)),
             Joint("wrist_pin", "slider", (0.0, 0.0), "rod", (half, 0.0)),
         ),
         guides=(guide_of(slider, elastic),),

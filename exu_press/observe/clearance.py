@@ -5,6 +5,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from exu_press.result import JointRecord
+
 __all__ = ["TOUCH", "joint_summary"]
 
 Array = NDArray[np.float64]
@@ -14,43 +16,40 @@ TOUCH = 1e-10
 
 
 def joint_summary(
-    time: Array,
-    eccentricity: Array,
-    force: Array,
-    clearance: float,
-    *,
-    film: bool,
-    contact: bool,
-    onset: float = 0.0,
+    time: Array, joint: JointRecord, *, onset: float | None, dissipated: float
 ) -> dict[str, Any]:
-    """Return eccentricity, force, film and contact of one joint.
+    """Return what a joint is, its eccentricity, force, film and contact.
 
     Args:
         time: (n,), s.
-        eccentricity: (n, 2) or (n, 3), m.
-        force: same shape, N.
-        clearance: radial clearance, m.
-        film: whether there is a film; its smallest thickness is given then, 0 where surfaces touch.
-        contact: whether the surfaces may touch; penetration and shares are given then.
-        onset: gap at which the surfaces' asperities begin to touch, m.
+        joint: what it did.
+        onset: gap at which its surfaces begin to touch, m; None where they may not.
+        dissipated: energy that it turned into heat, J.
 
     Returns:
-        The entries of summary.json; null for what the joint does not have. `impacts` counts the
-        touches, the shares are shares of time.
+        The entries of summary.json; null for what the joint does not have. The smallest film is 0
+        where surfaces touch, `impacts` counts the touches, the shares are shares of time. An ideal
+        joint has kind, clearance and force alone.
     """
-    distance = np.linalg.norm(eccentricity, axis=1)
-    penetration = distance - clearance
-    touching = penetration + onset > TOUCH
+    peak_force = float(np.linalg.norm(joint.force, axis=1).max())
+    if joint.kind == "ideal":
+        return {"kind": joint.kind, "clearance": 0.0, "peak_force": peak_force}
+    film = joint.kind == "lubricated"
     entries: dict[str, Any] = {
-        "max_eccentricity_ratio": float(distance.max() / clearance),
-        "peak_force": float(np.linalg.norm(force, axis=1).max()),
+        "kind": joint.kind,
+        "clearance": joint.clearance,
+        "max_eccentricity_ratio": float(joint.distance.max() / joint.clearance),
+        "peak_force": peak_force,
         "peak_penetration": None,
-        "min_film": max(0.0, float(-penetration.max())) if film else None,
+        "min_film": max(0.0, float(joint.gap.min())) if film else None,
         "impacts": None,
         "share_free_flight": None,
         "share_contact": None,
+        "dissipated": dissipated,
     }
-    if contact:
+    if onset is not None:
+        penetration = -joint.gap
+        touching = penetration + onset > TOUCH
         span = np.diff(time)
         share = float(span @ (touching[1:] & touching[:-1]) / span.sum()) if len(span) else 0.0
         entries |= {

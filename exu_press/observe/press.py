@@ -27,16 +27,12 @@ def press_summary(result: Result, joints: Mapping[str, Mapping[str, Any]]) -> di
     the mean over 1 ms too, as accelerations are. Other means are over its last whole revolutions,
     since over a part of one they tell what the mechanism stores; null in a shorter run.
 
-    Guides do not rub. `guide_sliding_power` is the mean of side force times sliding speed, summed
-    over the guides: times a coefficient of friction it is what rubbing guides would take, W, beside
-    the losses and the drive's power.
-
     Args:
         result: of a press.
         joints: what the summary says of its clearance joints.
     """
     time, whole = result.time, _begin_of_whole_revolutions(result)
-    films = [joint["min_film"] for joint in joints.values() if joint["min_film"] is not None]
+    films = [film for joint in joints.values() if (film := joint.get("min_film")) is not None]
     return {
         "bottom_dead_centre": _dead_centres(result),
         "slider_tilt": peak(result["slider_tilt"]),
@@ -59,22 +55,8 @@ def press_summary(result: Result, joints: Mapping[str, Mapping[str, Any]]) -> di
             for name in result
             if name.endswith("_loss")
         },
-        "guide_sliding_power": _mean(time, _sliding_power(result), whole),
         "min_film": min(films, default=None),
     }
-
-
-def _sliding_power(result: Result) -> Array:
-    """Return side force times sliding speed of all guides, (n,), W; tilting moments left out."""
-    power = np.zeros_like(result.time)
-    if len(power) < 2:
-        return power
-    for name in result:
-        if name.endswith("guide_force"):
-            body = name.removesuffix("guide_force").removesuffix("_")
-            height = result["body_position"][:, result.bodies.index(body or "slider"), 1]
-            power += np.abs(result[name] * np.gradient(height, result.time))
-    return power
 
 
 def _dead_centres(result: Result) -> dict[str, Any]:
@@ -112,7 +94,9 @@ def _peaks(result: Result, suffix: str) -> dict[str, float]:
     return {
         name.removesuffix(suffix): peak(values if values.ndim == 1 else np.hypot.reduce(values, 1))
         for name, values in ((name, result[name]) for name in result)
-        if name.endswith(suffix) and name not in NOT_CARRIED
+        if name.endswith(suffix)
+        and name not in NOT_CARRIED
+        and result.channels[name].axis != "ends"
     }
 
 

@@ -7,9 +7,8 @@ import numpy as np
 from exu_press.observe.acceleration import differentiated_peak, mean_peak, peak
 from exu_press.observe.clearance import joint_summary
 from exu_press.observe.press import press_summary
-from exu_press.observe.warnings import run_warnings
 from exu_press.result import Result
-from exu_press.scene.laws import asperity_onset
+from exu_press.scene import IdealJoint
 
 __all__ = ["summary"]
 
@@ -20,9 +19,9 @@ def summary(result: Result) -> dict[str, Any]:
     versions = info.pop("versions")
     time, position = result.time, result["slider_position"]
     velocity = result["slider_velocity"]
-    joints = {name: _joint(result, name) for name in result.clearance_joints}
+    joints = {name: _joint(result, name) for name in result.joints}
     press = {} if result.scene.press is None else {"press": press_summary(result, joints)}
-    found = {
+    return {
         **info,
         "peak_acceleration": {
             "resolved": peak(result["slider_acceleration"]),
@@ -31,32 +30,24 @@ def summary(result: Result) -> dict[str, Any]:
         },
         "peak_velocity": peak(velocity),
         "stroke": float(np.ptp(position)),
-        "ldp": float(position.min()),
+        "bottom_dead_centre": float(position.min()),
         "joints": joints,
         **press,
         "energy": _energy(result),
         "versions": versions,
         "scene": result.scene.to_dict(),
     }
-    return found | {"warnings": run_warnings(found, result.scene)}
 
 
 def _joint(result: Result, name: str) -> dict[str, Any]:
-    """Return the entries of one clearance joint."""
-    clearance = result.scene.clearance
-    assert clearance is not None
-    radial = clearance.crank_pin if name == "crank_pin" else clearance.balls
-    assert radial is not None
-    film = result.scene.film if name == "crank_pin" else None
-    onset = None if film is None else asperity_onset(film)
+    """Return the entries of one joint."""
+    joint = result.scene.joints[name]
+    ideal = isinstance(joint, IdealJoint)
     return joint_summary(
         result.time,
-        result[f"{name}_eccentricity"],
-        result[f"{name}_force"],
-        radial,
-        film=film is not None,
-        contact=film is None or onset is not None,
-        onset=onset or 0.0,
+        result.joints[name],
+        onset=None if isinstance(joint, IdealJoint) else joint.onset,
+        dissipated=0.0 if ideal else float(result[f"{name}_loss"][-1]),
     )
 
 

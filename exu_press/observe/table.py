@@ -20,7 +20,7 @@ def _joints(entry: str, scale: float) -> Callable[[Summary], str]:
         values = {
             name.removesuffix("_left").replace("_", " "): joint[entry]
             for name, joint in summary["joints"].items()
-            if not name.endswith("_right") and joint[entry] is not None
+            if not name.endswith("_right") and joint["clearance"] and joint[entry] is not None
         }
         return ", ".join(f"{name} {_number(v, scale)}" for name, v in values.items()) or "-"
 
@@ -47,7 +47,7 @@ def _tilt(summary: Summary) -> str:
 ROWS: tuple[tuple[str, Callable[[Summary], str]], ...] = (
     ("status", lambda s: str(s["status"])),
     ("stroke, mm", lambda s: _number(s["stroke"], 1e3, 5)),
-    ("lowest position, mm", lambda s: _number(s["ldp"], 1e3, 6)),
+    ("bottom dead centre, mm", lambda s: _number(s["bottom_dead_centre"], 1e3, 6)),
     ("peak velocity, m/s", lambda s: _number(s["peak_velocity"])),
     ("peak acceleration, m/s^2", lambda s: _number(s["peak_acceleration"]["resolved"])),
     ("  mean over 1 ms", lambda s: _number(s["peak_acceleration"]["mean_1ms"])),
@@ -62,7 +62,6 @@ ROWS: tuple[tuple[str, Callable[[Summary], str]], ...] = (
     ("slider tilt, max, urad", _tilt),
     ("drive torque, max, kN m", _press("drive.peak_torque", 1e-3)),
     ("drive power, mean, W", _press("drive.mean_power", 1.0)),
-    ("  guides of mu 0.1 would add, W", _press("guide_sliding_power", 0.1)),
     ("shaking force up, max, kN", _press("shaking_force.vertical", 1e-3)),
     ("  mean over 1 ms", _press("shaking_force.vertical_mean_1ms", 1e-3)),
     (

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from exu_press.plots.canvas import crank_degrees, legend_above
 from exu_press.plots.decimate import visible_segments
 from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, RUN, SHADE
-from exu_press.result import Result
+from exu_press.result import JointRecord, Result
 
 __all__ = ["TOUCH", "Path", "draw_path"]
 
@@ -42,27 +42,32 @@ class Path:
     Attributes:
         title: of the joint.
         result: of the run.
-        channel: name of its eccentricity.
+        joint: its name.
     """
 
     title: str
     result: Result
-    channel: str
+    joint: str
+
+    @property
+    def record(self) -> JointRecord:
+        """What the joint did."""
+        return self.result.joints[self.joint]
 
     @property
     def ball(self) -> bool:
         """Whether this is a spherical joint."""
-        return self.channel.startswith("ball")
+        return self.record.spherical
 
     @property
     def points(self) -> Array:
         """Eccentricity in the x-y plane, (n, 2), um."""
-        return MICRO * self.result[self.channel][:, :2]
+        return MICRO * self.record.eccentricity[:, :2]
 
     @property
     def distance(self) -> Array:
         """Its magnitude, (n,), um."""
-        return MICRO * np.asarray(np.linalg.norm(self.result[self.channel], axis=1))
+        return MICRO * self.record.distance
 
     @property
     def reach(self) -> float:
@@ -82,11 +87,7 @@ class Path:
     @property
     def clearance(self) -> float:
         """Radial clearance, um."""
-        clearance = self.result.scene.clearance
-        assert clearance is not None
-        radial = clearance.balls if self.ball else clearance.crank_pin
-        assert radial is not None
-        return MICRO * radial
+        return MICRO * self.record.clearance
 
 
 def draw_path(axes: Axes, path: Path) -> LineCollection | None:

@@ -8,9 +8,8 @@ from matplotlib.figure import Figure
 
 from exu_press.plots.canvas import angle_range, curve, legend_above, new_figure
 from exu_press.plots.scales import crank_angle_axis, note
-from exu_press.plots.sides import sides_alike
+from exu_press.plots.sides import joint_titles
 from exu_press.plots.style import COLOURS, GREY, colour_of, styled
-from exu_press.plots.words import joint_in_words
 from exu_press.result import Result
 
 __all__ = ["energy_figure"]
@@ -57,20 +56,15 @@ def energy_figure(result: Result) -> Figure:
 
 def _losses(axes: Axes, result: Result) -> None:
     """Draw what every joint has dissipated; two balls that do the same as one, guides as one."""
-    names = sorted(name for name in result if name.endswith("_loss"))
-    guides = [name for name in names if name.endswith("guide_loss")]
-    names = [name for name in names if name not in guides]
-    names.sort(key=lambda name: name.startswith("ball"))
-    alike = sides_alike([result], "ball_left_loss")
-    for index, name in enumerate(names):
-        words = joint_in_words(name.removesuffix("_loss")).lower()
-        if name.startswith("ball") and alike:
-            if name.startswith("ball_right"):
-                continue
-            words = "ball, each side"
-        curve(axes, result, result[name], color=colour_of(index), linewidth=1.4, label=words)
+    names = [name.removesuffix("_loss") for name in result if name.endswith("_loss")]
+    guides = [name for name in names if name not in result.joints]
+    order = sorted(result.clearance_joints, key=lambda n: (result.joints[n].spherical, n))
+    for index, (name, title) in enumerate(joint_titles([result], order, "loss").items()):
+        lost = result[f"{name}_loss"]
+        words = title[0].lower() + title[1:]
+        curve(axes, result, lost, color=colour_of(index), linewidth=1.4, label=words)
     if guides:
-        lost = np.sum([result[name] for name in guides], axis=0)
+        lost = np.sum([result[f"{name}_loss"] for name in guides], axis=0)
         curve(axes, result, lost, color=GREY, linewidth=1.4, label="guides")
     axes.set_title("Dissipated in")
     legend_above(axes)

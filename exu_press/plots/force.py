@@ -8,9 +8,8 @@ from numpy.typing import NDArray
 
 from exu_press.plots.canvas import angle_range, crank_degrees, curve, new_figure
 from exu_press.plots.scales import crank_angle_axis, impact_scale, note
-from exu_press.plots.sides import mirror, sides_alike
+from exu_press.plots.sides import joint_titles
 from exu_press.plots.style import colour_of, styled
-from exu_press.plots.words import joint_in_words
 from exu_press.result import Result
 
 __all__ = ["force_figure"]
@@ -70,18 +69,11 @@ def force_figure(results: Mapping[str, Result]) -> Figure:
 def _force_channels(results: Mapping[str, Result]) -> dict[str, str]:
     """Return the force channels to show, by title; one of two sides that are alike."""
     everyone = list(results.values())
-    names = dict.fromkeys(name for result in everyone for name in JOINTS[result.scene.mechanism])
-    shown: dict[str, str] = {}
-    for name in names:
-        channel = f"{name}_force"
-        if not any(channel in result for result in everyone):
-            continue
-        if mirror(channel) != channel and sides_alike(everyone, channel):
-            if mirror(channel) not in shown.values():
-                shown[f"{joint_in_words(name).partition(',')[0]}, each side"] = channel
-        else:
-            shown[joint_in_words(name)] = channel
-    return shown
+    loose = dict.fromkeys(name for result in everyone for name in result.clearance_joints)
+    usual = [name for result in everyone for name in JOINTS.get(result.scene.mechanism, ())]
+    names = dict.fromkeys((*usual, *sorted(loose)))
+    there = [name for name in names if any(f"{name}_force" in result for result in everyone)]
+    return {title: f"{name}_force" for name, title in joint_titles(everyone, there).items()}
 
 
 def _magnitude(values: Array) -> Array:

@@ -9,9 +9,8 @@ from exu_press.errors import InputError
 from exu_press.plots.canvas import angle_range, curve, legend_above, new_figure
 from exu_press.plots.clearance_circle import TOUCH, Path, draw_path
 from exu_press.plots.scales import angle_ticks, crank_angle_axis, note
-from exu_press.plots.sides import mirror, sides_alike
+from exu_press.plots.sides import joint_titles
 from exu_press.plots.style import GREY, RUN, SHADE, styled
-from exu_press.plots.words import joint_in_words
 from exu_press.result import Result
 
 __all__ = ["orbit_figure"]
@@ -47,16 +46,10 @@ def orbit_figure(result: Result) -> Figure:
 
 
 def _paths(result: Result) -> list[Path]:
-    """Return the paths to show, the crank pin first; one of two balls that do the same."""
-    shown: dict[str, Path] = {}
-    for name in sorted(result.clearance_joints, key=lambda name: (name.startswith("ball"), name)):
-        channel, title = f"{name}_eccentricity", joint_in_words(name)
-        if mirror(channel) != channel and sides_alike([result], channel):
-            if mirror(channel) in shown:
-                continue
-            title = f"{title.partition(',')[0]}, each side"
-        shown[channel] = Path(title, result, channel)
-    return list(shown.values())
+    """Return the paths to show, journals before balls; one of two balls that do the same."""
+    names = sorted(result.clearance_joints, key=lambda n: (result.joints[n].spherical, n))
+    titles = joint_titles([result], names, "eccentricity")
+    return [Path(title, result, name) for name, title in titles.items()]
 
 
 def _angle_colours(

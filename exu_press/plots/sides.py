@@ -1,12 +1,13 @@
 """The two sides of the press: shown as one where they do the same."""
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 
 import numpy as np
 
+from exu_press.plots.words import joint_in_words
 from exu_press.result import Result
 
-__all__ = ["SIDES", "mirror", "sides_alike"]
+__all__ = ["SIDES", "joint_titles", "mirror", "sides_alike"]
 
 SIDES = ("left", "right")
 ALIKE = 1e-3
@@ -37,3 +38,24 @@ def sides_alike(results: Iterable[Result], channel: str) -> bool:
             if np.abs(one - two).max() > ALIKE * np.abs(one).max():
                 return False
     return True
+
+
+def joint_titles(
+    results: Collection[Result], names: Iterable[str], quantity: str = "force"
+) -> dict[str, str]:
+    """Return joints with their titles; one of two sides that do the same.
+
+    Args:
+        results: in which the sides are looked at.
+        names: of the joints, the one to show of two sides first.
+        quantity: what the name of the joint's channel ends in.
+    """
+    shown: dict[str, str] = {}
+    for name in names:
+        channel, title = f"{name}_{quantity}", joint_in_words(name)
+        if mirror(channel) != channel and sides_alike(results, channel):
+            if mirror(channel).removesuffix(f"_{quantity}") in shown:
+                continue
+            title = f"{title.partition(',')[0]}, each side"
+        shown[name] = title
+    return shown

@@ -16,7 +16,6 @@ Array = NDArray[np.float64]
 PREFIXES = {-9: "n", -6: "\N{MICRO SIGN}", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 PREFIXED = ("m", "s", "N", "N m", "J", "W", "Pa")
 NAMES = {
-    "ldp": "lowest position",
     "min_film": "least film thickness",
     "mean_1ms": "mean over 1 ms",
     "differentiated_1khz": "differentiated, 1 kHz",
@@ -42,19 +41,23 @@ def in_unit(name: str, values: Array) -> tuple[Array, str]:
 def words(name: str) -> str:
     """Return what a column is.
 
-    >>> words("clearance.balls"), words("joints.crank_pin.peak_force")
-    ('radial clearance of joints 9-10', 'crank pin, peak force')
+    >>> words("joints.balls.clearance"), words("joints.crank_pin.peak_force")
+    ('balls, radial clearance', 'crank pin, peak force')
     """
     parts = name.removeprefix("joints.").split(".")
     meaning = re.sub(r" \(A-\d+\)", "", meaning_of(name))  # the assumption behind it
+    if name.startswith("joints.") and meaning:
+        return f"{parts[0].replace('_', ' ')}, {meaning}"
     return meaning or ", ".join(NAMES.get(p, p.replace("_", " ")) for p in parts)
 
 
 def setting(name: str, value: Any) -> str:
     """Return a key's value as a legend has it.
 
-    >>> setting("speed_rpm", 300.0), setting("clearance.balls", 1e-4), setting("crank_pin", "dry")
-    ('300 rpm', '100 µm', 'dry')
+    >>> setting("speed_rpm", 300.0), setting("joints.balls.clearance", 1e-4)
+    ('300 rpm', '100 µm')
+    >>> setting("joints.crank_pin", "dry")
+    'dry'
     """
     if isinstance(value, (str, bool)):
         return str(value) if isinstance(value, str) else f"{words(name)}: {value}"

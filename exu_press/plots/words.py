@@ -1,7 +1,7 @@
 """A scene in words, for the title of a picture."""
 
 import textwrap
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 
 from exu_press.result import Result
 from exu_press.scene import Scene
@@ -17,7 +17,9 @@ def describe(scenes: Iterable[Scene], width: int = 130) -> str:
 
     A joint that only some scenes have with clearance is named with that clearance.
     """
-    each = [_parts(scene) for scene in scenes]
+    scenes = list(scenes)
+    joints = dict.fromkeys(name for scene in scenes for name in scene.joints.grouped)
+    each = [_parts(scene, joints) for scene in scenes]
     keys = dict.fromkeys(key for parts in each for key in parts)
     shared: list[str] = []
     for key in keys:
@@ -51,21 +53,24 @@ def joint_in_words(name: str) -> str:
     return name.replace("_", " ").capitalize()
 
 
-def _parts(scene: Scene) -> dict[str, str]:
-    """Return phrases by what they are about."""
+def _parts(scene: Scene, joints: Collection[str]) -> dict[str, str]:
+    """Return phrases by what they are about; of the joints and groups that are named."""
     parts = {
         "mechanism": scene.mechanism.replace("_", "-").capitalize(),
         "bodies": f"{scene.bodies} bodies",
         "speed": f"{scene.speed_rpm:g} rpm",
-        "crank pin": f"crank pin {scene.crank_pin}",
     }
-    clearance = scene.clearance
-    if clearance is not None and clearance.crank_pin is not None:
-        parts["pin clearance"] = f"crank pin radial clearance {clearance.crank_pin * 1e3:g} mm"
-    if scene.balls is not None:
-        parts["balls"] = f"balls {scene.balls}"
-    if clearance is not None and clearance.balls is not None:
-        parts["ball clearance"] = f"ball radial clearance {clearance.balls * 1e3:g} mm"
+    if not joints:
+        parts["joints"] = "all joints ideal"
+    for name in joints:
+        members = [scene.joints[n] for n in scene.joints.members(name) if n in scene.joints]
+        words = name.replace("_", " ")
+        if len({joint.kind for joint in members}) == 1:
+            parts[name] = f"{words} {members[0].kind}"
+        if len({joint.clearance for joint in members}) == 1 and members[0].clearance:
+            clearance = members[0].clearance * 1e3
+            one = words.removesuffix("s") if name in scene.joints.groups else words
+            parts[f"{name} clearance"] = f"{one} radial clearance {clearance:g} mm"
     if scene.blanking is not None and scene.blanking.force:
         parts["load"] = f"blanking force {scene.blanking.force / 1e3:g} kN"
         if scene.blanking.eccentricity:

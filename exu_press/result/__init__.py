@@ -1,6 +1,7 @@
 """Results: channels over time, saved and loaded as one file."""
 
+from exu_press.result.joint import JointRecord
 from exu_press.result.record import record
 from exu_press.result.result import Channel, Result
 
-__all__ = ["Channel", "Result", "record"]
+__all__ = ["Channel", "JointRecord", "Result", "record"]

@@ -39,7 +39,7 @@ def equilibrium(
         force, moment = _applied(model, name, motions[name], channels, states)
         found |= guide_channels(model, name, {"force": -force[:, 0], "moment": -moment})
     masses = {body.name: body.mass for body in model.mechanism.bodies}
-    for name, joint in model.mechanism.pivoted.items():
+    for name, joint in model.pivoted.items():
         if name in model.rigid:
             applied, _ = _applied(model, name, motions[name], channels, states)
             weight = np.array([0.0, -masses[name] * model.scene.gravity])

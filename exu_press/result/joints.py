@@ -1,4 +1,4 @@
-"""What clearance joints do: eccentricity, force, losses."""
+"""What clearance joints do: eccentricity, force, moments, losses."""
 
 from collections.abc import Mapping, Sequence
 
@@ -30,13 +30,14 @@ def joint_states(model: Model, time: Array) -> dict[str, list[JointState]]:
 
 
 def record_joints(
-    histories: Mapping[str, Sequence[JointState]], time: Array
+    model: Model, histories: Mapping[str, Sequence[JointState]], time: Array
 ) -> tuple[dict[str, Channel], Array, Array]:
     """Return the channels of the clearance joints, their stored and their dissipated energy, J."""
     channels: dict[str, Channel] = {}
     stored, dissipated = np.zeros_like(time), np.zeros_like(time)
+    balls = {joint.name for joint in model.mechanism.joints if joint.spherical}
     for name, states in histories.items():
-        spherical = name.startswith("ball")
+        spherical = name in balls
         elastic = np.array([state.stored_energy for state in states])
         loads = np.array([state.force + state.moments for state in states])
         rates = np.array([state.velocity + state.spins for state in states])
@@ -56,6 +57,17 @@ def record_joints(
                 "N",
                 f"{in_words}: force on journal",
                 spherical,
+            ),
+            f"{name}_moment": Channel(
+                np.array([state.moments for state in states]),
+                "N m",
+                f"{in_words}: moment on journal and on bearing",
+                "ends",
+            ),
+            f"{name}_power": Channel(
+                np.array([state.dissipated_power for state in states]),
+                "W",
+                f"{in_words}: dissipated power",
             ),
             f"{name}_loss": Channel(lost, "J", f"{in_words}: energy dissipated since the start"),
         }

@@ -50,10 +50,10 @@ def record(model: Model, outcome: Outcome) -> Result:
         "slider_tilt": Channel(position[:, slider, 2], "rad", "slider tilt, counter-clockwise"),
     }
     states = joint_states(model, time)
-    in_joints, stored_in_joints, lost_in_joints = record_joints(states, time)
+    in_joints, stored_in_joints, lost_in_joints = record_joints(model, states, time)
     channels |= held_forces(model)
     channels |= equilibrium(model, motions, channels | in_joints, states)
-    channels["frame_force"] = frame_force(model, channels)
+    channels["frame_force"] = frame_force(model, channels | in_joints)
     channels |= shaking_forces(model, acceleration)
     rigid = [index for index, name in enumerate(names) if name not in model.parts]
     stored = mechanical_energy(

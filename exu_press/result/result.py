@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -9,14 +10,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.errors import InputError
+from exu_press.result.joint import JointRecord
 from exu_press.result.surface import Surface
-from exu_press.scene import Scene
+from exu_press.scene import IdealJoint, Scene
+from exu_press.scene.joint import Joint
 
 __all__ = ["Channel", "Result"]
 
 Array = NDArray[np.float64]
 
-AXES = {"": (), "plane": ("x", "y"), "space": ("x", "y", "z"), "pose": ("x", "y", "angle")}
+AXES = {
+    "": (),
+    "plane": ("x", "y"),
+    "space": ("x", "y", "z"),
+    "pose": ("x", "y", "angle"),
+    "ends": ("journal", "bearing"),
+}
 """What a channel's columns are."""
 
 
@@ -79,11 +88,18 @@ class Result:
         """Whether the run reached its end; "under-resolved" says that its peaks are not right."""
         return self.info["status"] in ("completed", "under-resolved")
 
+    @cached_property
+    def joints(self) -> Mapping[str, JointRecord]:
+        """Every joint of the mechanism whose force was recorded, by its name."""
+        recorded = {
+            name: joint for name, joint in self.scene.joints.items() if f"{name}_force" in self
+        }
+        return {name: self._joint(name, joint) for name, joint in recorded.items()}
+
     @property
     def clearance_joints(self) -> tuple[str, ...]:
         """Names of the joints with clearance."""
-        suffix = "_eccentricity"
-        return tuple(name.removesuffix(suffix) for name in self.channels if name.endswith(suffix))
+        return tuple(name for name, joint in self.joints.items() if joint.kind != "ideal")
 
     def summary(self) -> dict[str, Any]:
         """Return the dictionary of summary.json."""
@@ -96,6 +112,25 @@ class Result:
         from exu_press.result.netcdf import write
 
         write(self, Path(path))
+
+    def _joint(self, name: str, joint: Joint) -> JointRecord:
+        """Return what one joint did."""
+        force = self[f"{name}_force"]
+        nothing = np.zeros((len(self.time), 2))
+        apart, moment, power = np.zeros_like(force), nothing, nothing[:, 0]
+        if not isinstance(joint, IdealJoint):
+            apart, moment = self[f"{name}_eccentricity"], self[f"{name}_moment"]
+            power = self[f"{name}_power"]
+        return JointRecord(
+            kind=joint.kind,
+            spherical=self.channels[f"{name}_force"].axis == "space",
+            clearance=joint.clearance,
+            force=force,
+            eccentricity=apart,
+            gap=joint.clearance - np.linalg.norm(apart, axis=1),
+            moment=moment,
+            dissipated_power=power,
+        )
 
     @staticmethod
     def load(path: str | Path) -> "Result":

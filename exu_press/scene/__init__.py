@@ -1,10 +1,11 @@
 """Scene: what is asked, checked at the door."""
 
+from exu_press.scene.joint import DryJoint, IdealJoint, LubricatedJoint
+from exu_press.scene.joints import Joints
 from exu_press.scene.load import load_scene, parse_assignment
 from exu_press.scene.scene import Scene
 from exu_press.scene.tables import (
     Blanking,
-    Clearance,
     Contact,
     ElasticGuide,
     Film,
@@ -17,12 +18,15 @@ from exu_press.scene.tables import (
 
 __all__ = [
     "Blanking",
-    "Clearance",
     "Contact",
+    "DryJoint",
     "ElasticGuide",
     "Film",
     "Flexible",
     "Friction",
+    "IdealJoint",
+    "Joints",
+    "LubricatedJoint",
     "Press",
     "Scene",
     "SliderCrank",

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
+from exu_press.scene.joint import DEFAULT_KINDS, Joint
 from exu_press.scene.scene import OF_THE_COUNTERWEIGHT, TABLES, Scene
 
 __all__ = ["ASSUMPTIONS", "Assumption", "Key", "assumed_line", "keys_of", "used_assumptions"]
@@ -101,13 +102,13 @@ def keys_of(scene: Scene) -> dict[str, Key]:
     """Return every key that a scene uses, by name, with the default it would have."""
     defaults = dict(_flat(_at_defaults(scene)))
     kinds = {field.name: field.default for field in dataclasses.fields(Scene)}
-    kinds |= {"balls": "dry", "film.at_contact": "stop", "press.counterweight": True}
+    kinds |= {"film.at_contact": "stop", "press.counterweight": True}
     found = {}
     for name, (value, field) in _flat(scene):
         default = kinds[name] if name in kinds else defaults.get(name, (None,))[0]
         meta = field.metadata
         found[name] = Key(name, value, default, meta["unit"], meta["meaning"])
-    return found
+    return found | _joint_keys(scene)
 
 
 def used_assumptions(scene: Scene) -> dict[Assumption, tuple[Key, ...]]:
@@ -140,9 +141,8 @@ def assumed_line(scene: Scene) -> str:
 
 def _at_defaults(scene: Scene) -> Scene:
     """Return a scene of the same kind in which nothing else is given."""
-    kind: dict[str, Any] = {
-        name: getattr(scene, name) for name in ("mechanism", "bodies", "crank_pin", "balls")
-    }
+    kind: dict[str, Any] = {name: getattr(scene, name) for name in ("mechanism", "bodies")}
+    kind["joints"] = {name: joint.kind for name, joint in scene.joints.items()}
     for name, key in (("film", "at_contact"), ("press", "counterweight")):
         table = getattr(scene, name)
         if table is not None:
@@ -151,12 +151,38 @@ def _at_defaults(scene: Scene) -> Scene:
     return Scene.from_dict(kind)
 
 
+def _joint_keys(scene: Scene) -> dict[str, Key]:
+    """Return the keys of the joints with clearance, and of those that are ideal against habit."""
+    usual = DEFAULT_KINDS.get(scene.mechanism, {})
+    by_joint = {j: kind for name, kind in usual.items() for j in scene.joints.members(name)}
+    shown: dict[str, Joint] = {**scene.joints.grouped}
+    shown |= {name: scene.joints[name] for name in by_joint if name in scene.joints.ideal}
+    found = []
+    for name, joint in shown.items():
+        place = f"joints.{name}"
+        default = by_joint.get(scene.joints.members(name)[0], "ideal")
+        found.append(Key(f"{place}.kind", joint.kind, default, "", "ideal, dry or lubricated"))
+        for field in dataclasses.fields(joint):
+            value, law = getattr(joint, field.name), scene.laws.get(field.name)
+            if field.metadata:
+                meta = field.metadata
+                key = f"{place}.{field.name}"
+                found.append(Key(key, value, field.default, meta["unit"], meta["meaning"]))
+            elif value is not None and law is not None:
+                for inner in dataclasses.fields(value):
+                    own, meta = getattr(value, inner.name), inner.metadata
+                    if own != (common := getattr(law, inner.name)):
+                        key = f"{place}.{field.name}.{inner.name}"
+                        found.append(Key(key, own, common, meta["unit"], meta["meaning"]))
+    return {key.name: key for key in found}
+
+
 def _flat(scene: Scene) -> Iterator[tuple[str, tuple[Any, dataclasses.Field[Any]]]]:
     """Yield the name of every key in use with its value and declaration."""
     used = scene.to_dict()
     for field in dataclasses.fields(scene):
         if field.name not in TABLES:
-            if field.name in used:
+            if field.name in used and field.name != "joints":
                 yield field.name, (getattr(scene, field.name), field)
             continue
         table = getattr(scene, field.name)

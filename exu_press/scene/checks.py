@@ -1,18 +1,27 @@
 """How a key of the scene states what it allows, and the check at the door."""
 
 import dataclasses
+import difflib
 import math
 import numbers
 import types
 import typing
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any, ClassVar, TypeVar
 
 from exu_press.errors import InputError
 
-__all__ = ["Table", "key", "table_from"]
+__all__ = ["RENAMED", "Table", "key", "nearest", "table_from"]
 
 T = TypeVar("T")
+
+RENAMED = {
+    "crank_pin": "joints.crank_pin",
+    "balls": "joints.balls",
+    "clearance": "joints.NAME.clearance",
+    "contact.radius": "joints.NAME.radius",
+}
+"""Keys of before -> what is written instead."""
 
 
 def key(
@@ -113,9 +122,24 @@ def table_from(table: type[T], name: str, data: Any) -> T:
         if given not in known:
             path = f"{name}.{given}" if name else given
             raise InputError(
-                f"{path} = {data[given]!r}: unknown key; allowed are {', '.join(known)}"
+                f"{path} = {data[given]!r}: "
+                + (
+                    f"is {RENAMED[path]} now"
+                    if path in RENAMED
+                    else f"unknown key{nearest(given, known)}; allowed are {', '.join(known)}"
+                )
             )
     return table(**data)
+
+
+def nearest(name: Any, known: Iterable[str]) -> str:
+    """Return a question after the known name that is most like a misspelt one, or nothing.
+
+    >>> nearest("viscocity", ["law", "viscosity"])
+    " (did you mean 'viscosity'?)"
+    """
+    found = difflib.get_close_matches(str(name), list(known), n=1)
+    return f" (did you mean {found[0]!r}?)" if found else ""
 
 
 def _kind(field: dataclasses.Field[Any]) -> type:

@@ -62,7 +62,7 @@ def friction_law(table: Friction) -> FrictionLaw | LuGre:
 
 
 def film_law(table: Film, radius: float, clearance: float) -> FilmLaw:
-    """Return the film law of the crank pin, going on beyond contact where that is asked for.
+    """Return a joint's film law, going on beyond contact where that is asked for.
 
     Args:
         table: [film] of the scene.
@@ -77,7 +77,7 @@ def film_law(table: Film, radius: float, clearance: float) -> FilmLaw:
     if onset >= clearance:
         raise InputError(
             f"film.roughness * film.asperity_onset = {onset:g}: allowed is a number < "
-            f"clearance.crank_pin = {clearance:g}"
+            f"clearance = {clearance:g}"
         )
     return with_asperities(law, onset / clearance)
 

@@ -41,8 +41,8 @@ def parse_assignment(text: str) -> tuple[str, Any]:
 
     >>> parse_assignment("film.viscosity=0.1")
     ('film.viscosity', 0.1)
-    >>> parse_assignment("crank_pin=dry")
-    ('crank_pin', 'dry')
+    >>> parse_assignment("joints.crank_pin=dry")
+    ('joints.crank_pin', 'dry')
 
     Raises:
         InputError: there is no key, no value or no equals sign.

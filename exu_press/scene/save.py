@@ -4,22 +4,27 @@ import dataclasses
 import json
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from exu_press.errors import InputError
 from exu_press.output import replacing
 from exu_press.scene.checks import Table
+from exu_press.scene.joint import joint_dict
+from exu_press.scene.joints import Joints
+
+if TYPE_CHECKING:
+    from exu_press.scene.scene import Scene
 
 __all__ = ["save_scene"]
 
 
 def save_scene(
-    scene: Table, path: str | Path, *, comments: bool = False, overwrite: bool = False
+    scene: "Scene", path: str | Path, *, comments: bool = False, overwrite: bool = False
 ) -> None:
     """Write a complete scene: every key that it uses, defaults filled in.
 
     Args:
-        scene: a `Scene`.
+        scene: complete.
         path: of the file.
         comments: write meaning and unit behind every key.
         overwrite: replace an existing file, whose own comments would be lost.
@@ -36,7 +41,9 @@ def save_scene(
     lines = _lines(scene, comments)
     for field in dataclasses.fields(scene):
         table = getattr(scene, field.name)
-        if isinstance(table, Table):
+        if isinstance(table, Joints):
+            lines += _joint_lines(table, scene, comments)
+        elif isinstance(table, Table):
             lines += ["", f"[{field.name}]", *_lines(table, comments)]
     with replacing(path) as partial:
         partial.write_text("\n".join([*lines, ""]), encoding="utf-8")
@@ -46,18 +53,37 @@ def _lines(table: Table, comments: bool) -> list[str]:
     """Return the keys of one table; None is what the scene does not use."""
     values = {field: getattr(table, field.name) for field in dataclasses.fields(table)}
     keys = {
-        f"{field.name} = {_text(value)}": field.metadata
+        f"{field.name} = {_text(value)}": _meaning(field.metadata)
         for field, value in values.items()
         if value is not None and "meaning" in field.metadata
     }
-    if not comments:
-        return list(keys)
+    return _commented(keys) if comments else list(keys)
+
+
+def _joint_lines(joints: Joints, scene: "Scene", comments: bool) -> list[str]:
+    """Return the joints with clearance, group by group; without any, all joints are ideal."""
+    lines = [] if joints.grouped else ["", "[joints]"]
+    for name, joint in joints.grouped.items():
+        meanings = {f.name: _meaning(f.metadata) for f in dataclasses.fields(joint) if f.metadata}
+        meanings["kind"] = "ideal | dry | lubricated; a joint that is not named is ideal"
+        keys = {
+            f"{key} = {_text(value)}": meanings.get(key, f"where it differs from [{key}]")
+            for key, value in joint_dict(joint, scene.laws).items()
+        }
+        lines += ["", f"[joints.{name}]", *(_commented(keys) if comments else keys)]
+    return lines
+
+
+def _commented(keys: Mapping[str, str]) -> list[str]:
+    """Return lines with their meanings behind them."""
     width = max(map(len, keys), default=0)
-    return [f"{key:{width}}  # {_meaning(metadata)}" for key, metadata in keys.items()]
+    return [f"{key:{width}}  # {meaning}" for key, meaning in keys.items()]
 
 
 def _text(value: Any) -> str:
     """Return a value in TOML: JSON's texts and switches are TOML's, and so is Python's float."""
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(f"{key} = {_text(inner)}" for key, inner in value.items()) + "}"
     return repr(value) if type(value) in (float, int) else json.dumps(value, ensure_ascii=False)
 
 

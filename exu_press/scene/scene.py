@@ -4,14 +4,15 @@ import dataclasses
 import math
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, cast
 
 from exu_press.errors import InputError
-from exu_press.scene.checks import Table, key, table_from
-from exu_press.scene.laws import contact_law, film_law, friction_law
+from exu_press.scene.checks import RENAMED, Table, key, table_from
+from exu_press.scene.joint import LAW_TABLES, joint_dict
+from exu_press.scene.joint_changes import by_group, changed_joints, kinds_of, unused_laws
+from exu_press.scene.joints import Joints, joints_of
 from exu_press.scene.tables import (
     Blanking,
-    Clearance,
     Contact,
     ElasticGuide,
     Film,
@@ -27,7 +28,6 @@ if TYPE_CHECKING:
 
 __all__ = ["Scene"]
 
-DEFAULT_CLEARANCE = 1e-4  # m, Table 2
 RPM = math.pi / 30  # rad/s
 
 PARTS_ARE_MADE_FOR = {
@@ -37,6 +37,9 @@ PARTS_ARE_MADE_FOR = {
     "linkage_mass": 184.5,
 }
 
+RIGID_JOINTS = ("shaft",)
+"""Joints that have no clearance beside flexible bodies: two main bearings carry the crank shaft."""
+
 OF_THE_COUNTERWEIGHT = (
     "counter_eccentricity",
     "counter_linkage_length",
@@ -45,7 +48,6 @@ OF_THE_COUNTERWEIGHT = (
 )
 
 TABLES = {
-    "clearance": Clearance,
     "contact": Contact,
     "friction": Friction,
     "film": Film,
@@ -75,13 +77,11 @@ class Scene(Table):
     table: ClassVar[str] = ""
     mechanism: str = key("press", "mechanism", choices=("press", "slider_crank"))
     bodies: str = key("rigid", "bodies", choices=("rigid", "flexible"))
-    crank_pin: str = key("lubricated", "joint 2-3", choices=("ideal", "dry", "lubricated"))
-    balls: str | None = key(None, "joints 9-10, press only", choices=("ideal", "dry"))
     speed_rpm: float = key(240.0, "crank speed", "rpm", above=0)
     revolutions: float = key(2.0, "length of the run", above=0)
     start_angle_deg: float = key(0.0, "crank angle at the start", "deg")
     gravity: float = key(9.81, "gravitational acceleration, downwards", "m/s^2", at_least=0)
-    clearance: Clearance | None = None
+    joints: Joints = dataclasses.field(default=cast(Any, None))  # until its mechanism is known
     contact: Contact | None = None
     friction: Friction | None = None
     film: Film | None = None
@@ -95,10 +95,7 @@ class Scene(Table):
     def __post_init__(self) -> None:
         """Check the keys, refuse what the scene does not use and fill in what it does."""
         super().__post_init__()
-        if self.mechanism == "press" and self.balls is None:
-            object.__setattr__(self, "balls", "dry")
         unused = _unused({field.name: getattr(self, field.name) for field in _fields(self)})
-        self._refuse(unused, "balls", self.balls)
         for name, table in TABLES.items():
             given = getattr(self, name)
             if given is not None:
@@ -108,12 +105,26 @@ class Scene(Table):
                 for field in _fields(checked):
                     if (value := getattr(checked, field.name)) != field.default:
                         self._refuse(unused, f"{name}.{field.name}", value)
-            elif name not in unused and name not in ONLY_WHERE_GIVEN:
+            elif name not in unused and name not in (*ONLY_WHERE_GIVEN, *LAW_TABLES):
                 object.__setattr__(self, name, table())
-        if self.clearance is not None:
-            object.__setattr__(self, "clearance", self._all_clearances(self.clearance, unused))
-        self._check_laws()
-        self._check_geometry()
+        self._settle_joints()
+        self._check_bodies_and_load()
+
+    def _settle_joints(self) -> None:
+        """Say what every joint of the mechanism is; a law that no joint has is refused."""
+        from exu_press.mechanism import checked_assembly
+
+        given, laws = self.joints, self.laws
+        object.__setattr__(self, "joints", None)
+        mechanism = checked_assembly(self)
+        usual = {name: LAW_TABLES[name]() if law is None else law for name, law in laws.items()}
+        spherical = {joint.name: joint.spherical for joint in mechanism.joints}
+        joints = joints_of(given, self.mechanism, spherical, mechanism.groups, usual)
+        object.__setattr__(self, "joints", joints)
+        unused = unused_laws(kinds_of(joints, None))
+        for name, law in laws.items():
+            self._refuse(unused, name, law)
+            object.__setattr__(self, name, None if name in unused else usual[name])
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> "Scene":
@@ -122,12 +133,17 @@ class Scene(Table):
 
     def to_dict(self) -> dict[str, Any]:
         """Return the complete scene as a nested mapping, for Scene.from_dict or a file."""
-
-        def given(table: Mapping[str, Any]) -> dict[str, Any]:
-            return {k: v for k, v in table.items() if v is not None}
-
-        nested = given(dataclasses.asdict(self))
-        return {k: given(v) if isinstance(v, dict) else v for k, v in nested.items()}
+        complete: dict[str, Any] = {}
+        for field in _fields(self):
+            value = getattr(self, field.name)
+            if isinstance(value, Joints):
+                complete[field.name] = value.to_dict(self.laws)
+            elif isinstance(value, Table):
+                inner = dataclasses.asdict(value)
+                complete[field.name] = {k: v for k, v in inner.items() if v is not None}
+            elif value is not None:
+                complete[field.name] = value
+        return complete
 
     def save(self, path: str | Path, *, comments: bool = False, overwrite: bool = False) -> None:
         """Write the complete scene as TOML, for `load_scene` and the command line.
@@ -155,25 +171,46 @@ class Scene(Table):
         elif change:
             changes.update(change[0])
         data = self.to_dict()
+        groups = self.joints.groups
+        if (mechanism := changes.get("mechanism", self.mechanism)) != self.mechanism:
+            other = Scene.from_dict({"mechanism": mechanism})
+            same = {name: joint for name, joint in self.joints.items() if name in other.joints}
+            data["joints"] = {
+                **other.joints.to_dict(other.laws),
+                **{name: joint_dict(joint, self.laws) for name, joint in same.items()},
+            }
+            groups = other.joints.groups
+        joint_changes = {}
         for name, value in changes.items():
             table, _, inner = name.rpartition(".")
+            if name.startswith("joints."):
+                joint_changes[name.removeprefix("joints.")] = value
+                continue
             place = data.setdefault(table, {}) if table else data
             if not isinstance(place, dict) or (table and table not in TABLES):
-                raise InputError(f"{name} = {value!r}: {table} is no table of a scene")
+                why = RENAMED.get(table, "")
+                why = f"is {why} now" if why else f"{table} is no table of a scene"
+                raise InputError(f"{name} = {value!r}: {why}")
             place[inner] = value
+        if "joints" not in changes:
+            film = data.get("film")
+            data["joints"] = changed_joints(data["joints"], groups, joint_changes, film)
+        elif joint_changes:
+            raise InputError("joints and a key of joints: allowed is one of the two in one change")
         for kept, dropped in (("step", "tolerance"), ("tolerance", "step")):
             if f"solver.{kept}" in changes and f"solver.{dropped}" not in changes:
                 data["solver"].pop(dropped, None)
-        if data["mechanism"] != "press" and "balls" not in changes:
-            data.pop("balls", None)
-        unused = _unused(data)
+        unused = _unused(data) | unused_laws(kinds_of(data["joints"], data.get("film")))
         for name in unused.keys() - changes.keys():
             table, _, inner = name.rpartition(".")
             place = data.get(table) if table else data
             named = any(changed.startswith(f"{name}.") for changed in changes)
             if isinstance(place, dict) and not named:
                 place.pop(inner, None)
-        return Scene.from_dict(data)
+        try:
+            return Scene.from_dict(data)
+        except InputError as error:
+            raise InputError(by_group(str(error), groups, joint_changes)) from None
 
     def build(self) -> "Model":
         """Return the assembled Exudyn model; model.mbs and model.SC are the real objects.
@@ -186,6 +223,11 @@ class Scene(Table):
         model = build(self)
         add_graphics(model)
         return model
+
+    @property
+    def laws(self) -> dict[str, Table | None]:
+        """Contact, friction and film of every joint that does not say otherwise."""
+        return {name: getattr(self, name) for name in LAW_TABLES}
 
     @property
     def angular_speed(self) -> float:
@@ -215,40 +257,17 @@ class Scene(Table):
             shown = f"[{name}]" if name in TABLES else f"{name} = {given!r}"
             raise InputError(f"{shown}: not used by this scene ({unused[name]}); remove it")
 
-    def _all_clearances(self, given: Clearance, unused: Mapping[str, str]) -> Clearance:
-        """Return the clearances of exactly the scene's clearance joints."""
-        values = {}
-        for field in dataclasses.fields(Clearance):
-            name, value = f"clearance.{field.name}", getattr(given, field.name)
-            if name not in unused:
-                values[field.name] = DEFAULT_CLEARANCE if value is None else value
-                assert self.contact is not None
-                if values[field.name] >= self.contact.radius:
-                    raise InputError(
-                        f"{name} = {value!r}: allowed is a number < contact.radius = "
-                        f"{self.contact.radius!r}"
-                    )
-        return Clearance(**values)
-
-    def _check_laws(self) -> None:
-        """Make every law once, so that what is outside its range is refused at the door."""
-        if self.contact is not None and self.clearance is not None:
-            for clearance in (self.clearance.crank_pin, self.clearance.balls):
-                if clearance is not None:
-                    contact_law(self.contact, clearance, revolute=True)
-            if self.film is not None and self.clearance.crank_pin is not None:
-                film_law(self.film, self.contact.radius, self.clearance.crank_pin)
-        if self.friction is not None:
-            friction_law(self.friction)
-
-    def _check_geometry(self) -> None:
-        """Refuse links that do not assemble at every crank angle, and pulses that overlap."""
-        from exu_press.mechanism import check_assembly
-
-        check_assembly(self)
+    def _check_bodies_and_load(self) -> None:
+        """Refuse flexible parts of another size or loose in the frame, and pulses that overlap."""
         if self.flexible is not None:
             if self.press is None:
                 raise InputError("bodies = 'flexible': allowed with mechanism = 'press' alone")
+            for name, joint in self.joints.with_clearance.items():
+                if name in RIGID_JOINTS:
+                    raise InputError(
+                        f"joints.{name}.kind = {joint.kind!r}: allowed with bodies = 'flexible' is "
+                        "'ideal'"
+                    )
             for name, fitted in PARTS_ARE_MADE_FOR.items():
                 if getattr(self.press, name) != fitted:
                     raise InputError(
@@ -274,25 +293,14 @@ def _peek(table: Any, name: str) -> Any:
 
 
 def _unused(scene: Mapping[str, Any]) -> dict[str, str]:
-    """Return the names a scene does not use, each with its reason."""
+    """Return the tables and keys about bodies that a scene does not use, each with its reason."""
     mechanism, bodies = scene["mechanism"], scene["bodies"]
-    crank_pin, balls = scene["crank_pin"], scene.get("balls")
-    at_contact = _peek(scene.get("film"), "at_contact")
-    touching = "dry" in (crank_pin, balls) or (crank_pin == "lubricated" and at_contact == "mixed")
-    pin, ball = f"crank_pin is {crank_pin!r}", f"balls is {balls!r}"
     press = mechanism == "press", f"mechanism is {mechanism!r}"
     countered = _peek(scene.get("press"), "counterweight") is not False
     counterweight = (countered, "press.counterweight is false") if press[0] else press
     wanted = {
-        "balls": press,
         "press": press,
         "slider_crank": (mechanism == "slider_crank", f"mechanism is {mechanism!r}"),
-        "clearance": (crank_pin != "ideal" or balls == "dry", "every joint is 'ideal'"),
-        "clearance.crank_pin": (crank_pin != "ideal", pin),
-        "clearance.balls": (balls == "dry", ball),
-        "contact": (crank_pin != "ideal" or balls == "dry", "every joint is 'ideal'"),
-        "friction": (touching, "no joint is 'dry' or has a mixed film"),
-        "film": (crank_pin == "lubricated", pin),
         "flexible": (bodies == "flexible", f"bodies is {bodies!r}"),
         "guide.slide_inertia": press,
         "guide.counterweight_inertia": counterweight,

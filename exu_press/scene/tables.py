@@ -13,7 +13,6 @@ from exu_press.scene.checks import Table, key
 
 __all__ = [
     "Blanking",
-    "Clearance",
     "Contact",
     "ElasticGuide",
     "Film",
@@ -30,22 +29,12 @@ AT_CONTACT = ("stop", "mixed")
 
 
 @dataclass(frozen=True)
-class Clearance(Table):
-    """Radial clearances; a key is None where the scene has no such clearance joint."""
-
-    table: ClassVar[str] = "clearance"
-    crank_pin: float | None = key(None, "radial clearance of joint 2-3", "m", above=0)
-    balls: float | None = key(None, "radial clearance of joints 9-10", "m", above=0)
-
-
-@dataclass(frozen=True)
 class Contact(Table):
-    """Normal contact: Hertz or cylindrical stiffness with a damping law, Eqs. 23-26."""
+    """Normal contact of every joint that has one: stiffness and damping law, Eqs. 23-26."""
 
     table: ClassVar[str] = "contact"
-    radius: float = key(0.07, "radius of journal and balls", "m", above=0)
     shape: str = key(
-        "point", "Hertz's point contact, or a conformal crank pin", choices=("point", "cylindrical")
+        "point", "Hertz's point contact, or conformal pins", choices=("point", "cylindrical")
     )
     stiffness: float = key(2.5545e10, "point: K of F = K delta^n", "N/m^n", above=0)
     exponent: float = key(1.5, "point: n of F = K delta^n", at_least=1, at_most=3)
@@ -60,7 +49,7 @@ class Contact(Table):
 
 @dataclass(frozen=True)
 class Friction(Table):
-    """Friction where surfaces touch, Eqs. 27-33."""
+    """Friction of every joint whose surfaces may touch, Eqs. 27-33."""
 
     table: ClassVar[str] = "friction"
     law: str = key("lugre_steady", "friction law", choices=FRICTION_LAWS)
@@ -87,7 +76,7 @@ class Friction(Table):
 
 @dataclass(frozen=True)
 class Film(Table):
-    """Lubricant film of the crank pin, Eqs. 34-35 corrected."""
+    """Film of every lubricated joint, Eqs. 34-35 corrected."""
 
     table: ClassVar[str] = "film"
     law: str = key("pinkus", "film law", choices=tuple(FILM_LAWS))

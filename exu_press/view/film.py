@@ -10,9 +10,9 @@ from matplotlib.transforms import Bbox
 from numpy.typing import NDArray
 
 from exu_press.plots.scales import crank_angle_axis, impact_scale, note
-from exu_press.plots.sides import mirror, sides_alike
+from exu_press.plots.sides import joint_titles
 from exu_press.plots.style import GREY, look
-from exu_press.plots.words import describe, early_stops, joint_in_words
+from exu_press.plots.words import describe, early_stops
 from exu_press.result import Result
 from exu_press.view.curve_panel import CurvePanel
 from exu_press.view.flexible_panel import FlexiblePanel, Look
@@ -133,15 +133,8 @@ class Film:
 
 def _joints(result: Result) -> dict[str, str]:
     """Return the joints to magnify with their titles; one of two balls that do the same."""
-    shown: dict[str, str] = {}
-    for name in sorted(result.clearance_joints, key=lambda name: (name.startswith("ball"), name)):
-        channel, title = f"{name}_eccentricity", joint_in_words(name)
-        if mirror(channel) != channel and sides_alike([result], channel):
-            if any(mirror(channel) == f"{other}_eccentricity" for other in shown):
-                continue
-            title = f"{title.partition(',')[0]}, each side"
-        shown[name] = title
-    return shown
+    names = sorted(result.clearance_joints, key=lambda n: (result.joints[n].spherical, n))
+    return joint_titles([result], names, "eccentricity")
 
 
 @dataclass

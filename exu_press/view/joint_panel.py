@@ -8,6 +8,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, FancyArrowPatch
 from numpy.typing import NDArray
 
+from exu_press.mechanism import mechanism_of
 from exu_press.plots.style import COLOURS, GREY, RUN
 from exu_press.result import Result
 from exu_press.view.instants import Instants
@@ -39,18 +40,14 @@ class JointPanel:
         self, axes: Axes, result: Result, name: str, title: str, instants: Instants
     ) -> None:
         """Draw bearing and clearance circle."""
-        clearance = result.scene.clearance
-        assert clearance is not None
-        ball = name.startswith("ball")
-        radial = clearance.balls if ball else clearance.crank_pin
-        assert radial is not None
+        joint = result.joints[name]
+        ball, radial = joint.spherical, joint.clearance
         self._clearance, self._ball, self._instants = radial, ball, instants
-        self._ratio = result[f"{name}_eccentricity"][:, :2] / radial
-        self._distance = np.linalg.norm(result[f"{name}_eccentricity"], axis=1) / radial
-        self._force = result[f"{name}_force"][:, :2]
-        self._size = np.linalg.norm(result[f"{name}_force"], axis=1)
-        self._turn = result["crank_angle"]
-        self._film = result.scene.film is not None and not ball
+        self._ratio = joint.eccentricity[:, :2] / radial
+        self._distance = joint.distance / radial
+        self._force = joint.force[:, :2]
+        self._size = np.linalg.norm(joint.force, axis=1)
+        self._turn = _journal_angle(result, name)
         shown = slice(int(instants.step[0]), int(instants.step[-1]) + 1)
         self._first = shown.start
         self._largest = float(self._size[shown].max()) or 1.0
@@ -60,10 +57,9 @@ class JointPanel:
         axes.set_aspect("equal", adjustable="box")
         axes.set_axis_off()
         axes.set(xlim=(-1.25, 2.15), ylim=(-1.6, 1.5))
-        kind = "lubricated" if self._film else "dry"
-        axes.set_title(f"{title}, {kind}, clearance {radial * 1e6:.4g} µm", fontsize=9.5)
+        axes.set_title(f"{title}, {joint.kind}, clearance {radial * 1e6:.4g} µm", fontsize=9.5)
         axes.add_patch(Circle((0, 0), 1.18, facecolor=STEEL, edgecolor=EDGE, linewidth=0.8))
-        inside = OIL if self._film else "white"
+        inside = OIL if joint.kind == "lubricated" else "white"
         axes.add_patch(Circle((0, 0), BORE, facecolor=inside, edgecolor=EDGE, linewidth=0.8))
         axes.text(
             -1.22,
@@ -155,6 +151,13 @@ class JointPanel:
         gap = (1.0 - distance) * self._clearance * 1e6
         named = f"gap {gap:.1f} µm" if gap >= 0.0 else f"penetration {-gap:.2f} µm"
         return f"e/c = {distance:.3f},  {named},  F = {_kilo(force)}"
+
+
+def _journal_angle(result: Result, name: str) -> Array:
+    """Return how far the journal's body is turned, (n,), rad."""
+    joints = mechanism_of(result.scene).joints
+    body = next(joint.journal for joint in joints if joint.name == name)
+    return np.asarray(result["body_position"][:, result.bodies.index(body), 2])
 
 
 def _legend(body: str, largest: float, still: bool) -> str:

@@ -60,8 +60,9 @@ class MechanismPanel:
                 joinstyle="round",
             )
             axes.add_patch(patch)
-        ideal = [joint for joint in mechanism.joints if joint.kind == "ideal"]
-        loose = [joint for joint in mechanism.joints if joint.kind != "ideal"]
+        names = result.scene.joints.ideal
+        ideal = [joint for joint in mechanism.joints if joint.name in names]
+        loose = [joint for joint in mechanism.joints if joint.name not in names]
         self._joints = [(joint.journal, joint.journal_point) for joint in (*ideal, *loose)]
         size = 4.5
         (pins,) = axes.plot([], [], "o", markersize=size, color="white", markeredgecolor=EDGE)

@@ -121,21 +121,26 @@ def scenes_of(
     return (
         [clearance(scene, radial) for radial in alike],
         [
-            rigid.replace({"clearance.crank_pin": pin, "clearance.balls": balls})
+            rigid.replace({"joints.crank_pin.clearance": pin, "joints.balls.clearance": balls})
             for pin in separate
             for balls in separate
         ],
     )
 
 
+def clearances_of(scene: Scene) -> tuple[float, float]:
+    """Return the radial clearances of the crank pin and of the balls, m."""
+    return scene.joints["crank_pin"].clearance, scene.joints["ball_left"].clearance
+
+
 def point_of(scene: Scene, row: Mapping[str, Any]) -> Point | None:
     """Return what a run says; None where it did not get to its end."""
     readings = row.get("readings")
-    if not readings or scene.clearance is None:
+    if not readings:
         return None
-    pin, balls = scene.clearance.crank_pin, scene.clearance.balls
+    pin, balls = clearances_of(scene)
     deviation = observed(row, "low_dead_point", OBSERVED)
-    assert pin is not None and balls is not None and deviation is not None
+    assert deviation is not None
     strokes = readings["low_dead_points"][1:]
     return Point(
         pin=pin,

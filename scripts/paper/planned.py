@@ -137,9 +137,9 @@ def _choice(
     """Return the clearance to choose for a scene, from the runs of `choosing.scenes_of`."""
     found = {one: choosing.point_of(one, plan[numbers[one]]) for one in (*alike, *separate)}
     stopped = [
-        (one.clearance.crank_pin or 0.0, one.clearance.balls or 0.0, plan[numbers[one]]["reason"])
+        (*choosing.clearances_of(one), plan[numbers[one]]["reason"])
         for one, point in found.items()
-        if point is None and one.clearance is not None
+        if point is None
     ]
     return choosing.choose(
         scene,
@@ -156,7 +156,7 @@ def _rigid_twins(paper: Published, scenes: Mapping[str, Scene]) -> dict[str, Sce
     return {
         name: rigid_twin(scenes[name])
         for name in dict.fromkeys(used)
-        if scenes[name].clearance is not None
+        if scenes[name].joints.with_clearance
     }
 
 

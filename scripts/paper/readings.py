@@ -9,7 +9,7 @@ from scipy.interpolate import CubicHermiteSpline
 from exu_press.mechanism import mechanism_of
 from exu_press.observe import differentiated_peak, mean_peak, peak
 from exu_press.result import Result
-from exu_press.scene.laws import asperity_onset
+from exu_press.scene import IdealJoint
 from paper.contact_modes import contact_modes
 
 __all__ = ["MODELS", "OBSERVED", "WHY_OBSERVED", "observed_span", "readings"]
@@ -136,15 +136,11 @@ def _losses(result: Result, inside: NDArray[np.bool_]) -> dict[str, float]:
 
 def _joint(result: Result, name: str, inside: NDArray[np.bool_]) -> dict[str, Any]:
     """Return contact modes, largest force (N) and eccentricity ratio of one joint."""
-    clearance = result.scene.clearance
-    assert clearance is not None
-    radial = clearance.crank_pin if name == "crank_pin" else clearance.balls
-    assert radial is not None
-    film = result.scene.film if name == "crank_pin" else None
-    onset = None if film is None else asperity_onset(film)
-    distance = np.linalg.norm(result[f"{name}_eccentricity"][inside], axis=1)
+    joint, record = result.scene.joints[name], result.joints[name]
+    assert not isinstance(joint, IdealJoint)
+    gap = record.gap[inside]
     return {
-        **contact_modes(result.time[inside], distance - radial + (onset or 0.0)),
-        "peak_force": peak(np.linalg.norm(result[f"{name}_force"][inside], axis=1)),
-        "max_eccentricity_ratio": float(distance.max() / radial),
+        **contact_modes(result.time[inside], (joint.onset or 0.0) - gap),
+        "peak_force": peak(np.linalg.norm(record.force[inside], axis=1)),
+        "max_eccentricity_ratio": float(record.distance[inside].max() / joint.clearance),
     }

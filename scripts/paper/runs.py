@@ -15,8 +15,8 @@ CLEARANCES = (5e-5, 1e-4, 1.5e-4, 2e-4)  # m
 SPEEDS = (200.0, 300.0, 400.0, 500.0)  # rpm
 FORCES = (1e4, 2e4, 3e4, 4e4)  # N
 JOINTS: dict[str, dict[str, Any]] = {
-    "ideal": {"crank_pin": "ideal", "balls": "ideal"},
-    "dry": {"crank_pin": "dry"},
+    "ideal": {"joints.crank_pin": "ideal", "joints.balls": "ideal"},
+    "dry": {"joints.crank_pin": "dry"},
     "lubricated": {},
 }
 ELASTIC = ", elastic guides"
@@ -67,7 +67,7 @@ def run_name(load: str, joints: str, bodies: str) -> str:
 
 def clearance(scene: Scene, radial: float) -> Scene:
     """Return the scene with the same radial clearance (m) in crank pin and balls."""
-    return scene.replace({"clearance.crank_pin": radial, "clearance.balls": radial})
+    return scene.replace({"joints.crank_pin.clearance": radial, "joints.balls.clearance": radial})
 
 
 def rigid_twin(scene: Scene) -> Scene:

@@ -59,13 +59,16 @@ def _place(scene: Scene, name: str) -> tuple[Any, bool]:
     table, _, inner = name.rpartition(".")
     if not table:
         return getattr(scene, inner), True
+    if table.startswith("joints."):
+        joint = scene.joints[scene.joints.members(table.removeprefix("joints."))[0]]
+        return getattr(joint, inner), joint.kind != "ideal"
     place = getattr(scene, table)
     if place is None or (table == "blanking" and place.force == 0.0):
         return None, False
     value = getattr(place, inner)
     if name in ("contact.shape", "contact.modulus"):
-        return value, scene.crank_pin == "dry"
-    return value, table != "clearance" or value is not None
+        return value, scene.joints["crank_pin"].kind == "dry"
+    return value, True
 
 
 def _series(factor: str, key: str, values: Mapping[str, Any]) -> tuple[Setting, ...]:
@@ -128,10 +131,14 @@ SETTINGS: tuple[Setting, ...] = (
     Setting("friction", "bristles", {"friction.law": "lugre"}),
     *_series("Stribeck velocity v_s", "friction.stribeck_velocity", {"v_s / 10": Times(0.1)}),
     *_series(
-        "clearance of the pin", "clearance.crank_pin", {"half": Times(0.5), "twice": Times(2.0)}
+        "clearance of the pin",
+        "joints.crank_pin.clearance",
+        {"half": Times(0.5), "twice": Times(2.0)},
     ),
     *_series(
-        "clearance of the balls", "clearance.balls", {"half": Times(0.5), "twice": Times(2.0)}
+        "clearance of the balls",
+        "joints.balls.clearance",
+        {"half": Times(0.5), "twice": Times(2.0)},
     ),
     *_series("gravity", "gravity", {"none": 0.0}),
     *_series("start angle", "start_angle_deg", {"90°": 90.0, "180°": 180.0}),

@@ -36,7 +36,7 @@ def test_the_command_writes_report_and_pictures(tmp_path, capsys):
 
 def test_a_scene_of_the_users_own(tmp_path, capsys):
     scene = tmp_path / "mine.toml"
-    scene.write_text('mechanism = "slider_crank"\ncrank_pin = "ideal"\nrevolutions = 0.05\n')
+    scene.write_text('mechanism = "slider_crank"\njoints = {}\nrevolutions = 0.05\n')
     arguments = ["precision", str(scene), "--quick", "--no-pictures", "--out", str(tmp_path / "o")]
     assert main([*arguments, "--set", "speed_rpm=300"]) == 0
     assert "mine: Scene" in capsys.readouterr().out

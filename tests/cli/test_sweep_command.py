@@ -14,8 +14,7 @@ from exu_press.cli import main
 STUDY = """
 {top}
 [scene]
-crank_pin = "ideal"
-balls = "ideal"
+joints = {{}}
 revolutions = {revolutions}
 [grid]
 speed_rpm = {speeds}

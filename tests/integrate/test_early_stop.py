@@ -13,7 +13,7 @@ from exu_press import Result, Scene, simulate
 
 THIN_OIL = {
     "mechanism": "slider_crank",
-    "crank_pin": "lubricated",
+    "joints": {"crank_pin": "lubricated"},
     "revolutions": 1.0,
     "film": {"viscosity": 1e-7},
     "solver": {"step": 1e-4},
@@ -26,10 +26,7 @@ BREAKDOWN = re.compile(
 
 @pytest.fixture(scope="module", params=["slider_crank", "press"])
 def broken(request):
-    scene = {**THIN_OIL, "mechanism": request.param}
-    if request.param == "press":
-        scene["balls"] = "ideal"
-    return simulate(Scene.from_dict(scene))
+    return simulate(Scene.from_dict({**THIN_OIL, "mechanism": request.param}))
 
 
 def test_film_that_breaks_down_says_when_and_where(broken):

@@ -13,8 +13,7 @@ pytest.importorskip("ngsolve")
 def scene():
     return Scene(
         bodies="flexible",
-        crank_pin="lubricated",
-        balls="dry",
+        joints={"crank_pin": "lubricated", "balls": "dry"},
         revolutions=0.1,
         flexible={"modes": 4},
         solver={"tolerance": 0.01},
@@ -61,7 +60,7 @@ def test_it_changes_the_cost_and_not_the_result(scene, monkeypatch):
 
 def test_no_alternation_grows_from_what_newtons_method_leaves_in_the_constraints():
     """One iteration a step ends with the counterweight at +-11 m/s^2 about -10, and worse."""
-    scene = Scene(bodies="flexible", crank_pin="ideal", balls="ideal", revolutions=0.55)
+    scene = Scene(bodies="flexible", joints={}, revolutions=0.55)
     result = simulate(scene)
     assert result.completed, result.summary()["reason"]
     force = result["counterweight_pin_force"][:, 1]

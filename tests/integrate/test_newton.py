@@ -12,7 +12,7 @@ from exu_press.joints.pairs import DryPair
 @pytest.mark.parametrize("pin", ["lubricated", "dry"])
 def test_expected_accelerations_save_iterations(pin, monkeypatch):
     monkeypatch.setattr(DryPair, "resumed", lambda *_: None)  # it saves its own
-    scene = Scene(crank_pin=pin, balls="dry", revolutions=0.1, solver={"step": 5e-5})
+    scene = Scene(joints={"crank_pin": pin, "balls": "dry"}, revolutions=0.1, solver={"step": 5e-5})
     guided = simulate(scene)
     monkeypatch.setattr(Newton, "_advance", lambda newton, step: None)
     plain = simulate(scene)
@@ -22,7 +22,9 @@ def test_expected_accelerations_save_iterations(pin, monkeypatch):
 
 
 def test_lasting_contact_resumes_from_the_force_that_held_it(monkeypatch):
-    scene = Scene(crank_pin="dry", revolutions=0.3, solver={"step": 1e-4})
+    scene = Scene(
+        joints={"crank_pin": "dry", "balls": "dry"}, revolutions=0.3, solver={"step": 1e-4}
+    )
     resumed = simulate(scene)
     monkeypatch.setattr(DryPair, "resumed", lambda *_: None)
     plain = simulate(scene)
@@ -35,7 +37,13 @@ def test_lasting_contact_resumes_from_the_force_that_held_it(monkeypatch):
 
 def test_what_rounding_leaves_is_not_iterated_on(monkeypatch):
     """A film of 0.1 um makes more of the last digit of a speed than the tolerance allows."""
-    thin = Scene(clearance={"crank_pin": 1e-7, "balls": 1e-4}, revolutions=0.1)
+    thin = Scene(
+        joints={
+            "crank_pin": {"kind": "lubricated", "clearance": 1e-7},
+            "balls": {"kind": "dry", "clearance": 1e-4},
+        },
+        revolutions=0.1,
+    )
     forgiving = simulate(thin)
     monkeypatch.setattr(newton, "DIGITS", 0.0)
     strict = simulate(thin)

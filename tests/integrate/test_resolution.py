@@ -11,7 +11,7 @@ from exu_press import Result, Scene, simulate
 from exu_press.cli import main
 from exu_press.solving import solve
 
-DRY = {"mechanism": "slider_crank", "crank_pin": "dry", "revolutions": 0.1}
+DRY = {"mechanism": "slider_crank", "joints": {"crank_pin": "dry"}, "revolutions": 0.1}
 REASON = re.compile(
     r"under-resolved at t = (\S+) s, crank angle (\S+) deg: (\d+)% of the largest inertia force "
     r"\((slider|rod)\) within a step of (\S+) s; peaks are the step's; "
@@ -52,7 +52,7 @@ def test_a_step_that_leaps_over_impacts_names_one_that_does_not(step, reference)
         {"solver.tolerance": 1e-3},
         {"solver.step": 2e-5},
         {"solver.step": 1e-3, "contact.damping_max": 0.0},  # soft: the impact lasts many steps
-        {"solver.step": 1e-3, "crank_pin": "ideal"},
+        {"solver.step": 1e-3, "joints": {}},
     ],
     ids=str,
 )
@@ -60,17 +60,23 @@ def test_resolved_runs_are_completed(changes):
     assert run(**changes).info["status"] == "completed"
 
 
+def test_an_impact_on_the_frame_says_which_step_resolves_it():
+    coarse = run(**{"joints": {"shaft": "dry"}, "solver.step": 1e-3})
+    assert coarse.info["status"] == "under-resolved"
+    assert re.search(r"try solver\.step = \d", coarse.info["reason"])
+
+
 @pytest.mark.parametrize("changes", [{}, {"film.viscosity": 1.0}], ids=str)
 def test_a_film_that_starts_from_rest_is_no_impact(changes):
     """Its accelerations ring for some steps."""
-    result = run(**{"crank_pin": "lubricated", "solver.step": 1e-4, **changes})
+    result = run(**{"joints": {"crank_pin": "lubricated"}, "solver.step": 1e-4, **changes})
     assert result.info["status"] == "completed", result.info["reason"]
 
 
 @pytest.mark.parametrize("rise", [1e-4, 1e-5])
 def test_a_pulse_shorter_than_the_step_is_not_resolved_either(rise):
     load = {"blanking.force": 1e6, "blanking.rise": rise, "blanking.fall": 2.0 * rise}
-    changes = {"crank_pin": "ideal", "blanking.end_angle_deg": 20.0, **load}
+    changes = {"joints": {}, "blanking.end_angle_deg": 20.0, **load}
     leapt = run(**changes, **{"solver.step": 1e-3})
     assert leapt.info["status"] == "under-resolved"
     assert leapt["blanking_force"].max() < 0.9e6, "the pulse's peak was missed"
@@ -83,7 +89,14 @@ def test_a_pulse_shorter_than_the_step_is_not_resolved_either(rise):
 
 def test_the_command_exits_with_3_and_does_not_speak_of_a_stop(tmp_path, capsys):
     out = tmp_path / "out"
-    arguments = ["--set", "crank_pin=dry", "--set", "revolutions=0.05", "--set", "solver.step=2e-4"]
+    arguments = [
+        "--set",
+        "joints.crank_pin=dry",
+        "--set",
+        "revolutions=0.05",
+        "--set",
+        "solver.step=2e-4",
+    ]
     assert main(["run", "slider_crank", *arguments, "--no-pictures", "--out", str(out)]) == 3
     error = capsys.readouterr().err
     assert error.startswith("exu-press: under-resolved at t = ")

@@ -41,7 +41,7 @@ def ringing(scene):
 
 
 def test_shorter_steps_do_not_ring(alternating_steps, monkeypatch):
-    scene = Scene(crank_pin="ideal", balls="ideal", revolutions=0.5)
+    scene = Scene(joints={"crank_pin": "ideal", "balls": "ideal"}, revolutions=0.5)
     fitted = ringing(scene)
     monkeypatch.setattr(StepChange, "before_try", lambda change, time: None)
     assert fitted < 0.2 * ringing(scene)
@@ -50,7 +50,9 @@ def test_shorter_steps_do_not_ring(alternating_steps, monkeypatch):
 
 def test_a_repeated_step_starts_as_its_first_try_did(monkeypatch):
     """Exudyn keeps the algorithmic acceleration of the failed try; here every step fails once."""
-    scene = Scene(crank_pin="ideal", balls="ideal", revolutions=0.1, solver={"step": 2e-4})
+    scene = Scene(
+        joints={"crank_pin": "ideal", "balls": "ideal"}, revolutions=0.1, solver={"step": 2e-4}
+    )
     failing = iter([])
 
     def fail_every_other(control, time):
@@ -72,7 +74,9 @@ def test_a_repeated_step_starts_as_its_first_try_did(monkeypatch):
 
 
 def test_fixed_steps_return_to_their_grid_after_a_halved_one(monkeypatch):
-    scene = Scene(crank_pin="ideal", balls="ideal", revolutions=0.1, solver={"step": 2e-4})
+    scene = Scene(
+        joints={"crank_pin": "ideal", "balls": "ideal"}, revolutions=0.1, solver={"step": 2e-4}
+    )
     failed = []
 
     def fail_one(control, time):
@@ -90,7 +94,7 @@ def test_fixed_steps_return_to_their_grid_after_a_halved_one(monkeypatch):
 
 def test_films_take_up_their_load_in_short_steps():
     """At rest the film carries nothing; a long first step would make the accelerations ring."""
-    scene = Scene(mechanism="slider_crank", crank_pin="lubricated", revolutions=0.05)
+    scene = Scene(mechanism="slider_crank", joints={"crank_pin": "lubricated"}, revolutions=0.05)
     peaks = [
         np.abs(simulate(scene.replace(f"solver.{key}", value))["slider_acceleration"]).max()
         for key, value in (("step", 1e-3), ("step", 1e-5), ("tolerance", 1e-2), ("tolerance", 1e-4))

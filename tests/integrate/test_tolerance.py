@@ -12,10 +12,9 @@ TOLERANCES = (1e-4, 1e-5, 2e-6)
 def test_velocities_of_an_ideal_mechanism_follow_the_tolerance(mechanism):
     errors = []
     for tolerance in TOLERANCES:
-        given = {"crank_pin": "ideal", "revolutions": 0.5, "solver": {"tolerance": tolerance}}
-        if mechanism == "press":
-            given["balls"] = "ideal"
-        scene = Scene(mechanism=mechanism, **given)
+        scene = Scene(
+            mechanism=mechanism, joints={}, revolutions=0.5, solver={"tolerance": tolerance}
+        )
         run = simulate(scene)
         assert run.completed
         motion = scene.build().mechanism.ideal_slider(run["crank_angle"], scene.angular_speed)

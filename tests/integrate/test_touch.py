@@ -10,6 +10,7 @@ from exu_press import Scene, simulate
 from exu_press.integrate import stepping
 from exu_press.integrate.joint_error import JointError
 from exu_press.integrate.touch import DEPTH, SHORT, SHORTEST, Touch
+from exu_press.scene import DryJoint
 
 CLEARANCE = 1e-4
 REACH = CLEARANCE * (1.0 - SHORT * DEPTH)
@@ -96,7 +97,9 @@ def test_no_step_is_so_short_that_rounding_shows():
 
 @pytest.fixture
 def dry_press():
-    return Scene(crank_pin="dry", revolutions=0.5, solver={"tolerance": 0.02})
+    return Scene(
+        joints={"crank_pin": "dry", "balls": "dry"}, revolutions=0.5, solver={"tolerance": 0.02}
+    )
 
 
 def test_impacts_cost_fewer_iterations(dry_press, monkeypatch):
@@ -128,9 +131,9 @@ def test_errors_that_rise_are_foreseen(dry_press, monkeypatch):
 def test_growing_slowly_halves_the_error_of_the_next_impact(monkeypatch):
     """What follows an impact is far below the tolerance step by step, and decides all the same."""
     presses = [
-        Scene(crank_pin="dry", revolutions=0.045, speed_rpm=speed, clearance=both)
+        Scene(joints={"crank_pin": joint, "balls": joint}, revolutions=0.045, speed_rpm=speed)
         for speed in (240.0, 260.0)
-        for both in ({"crank_pin": c, "balls": c} for c in (5e-5, 7e-5, 1e-4, 1.3e-4, 2e-4))
+        for joint in (DryJoint(clearance=c) for c in (5e-5, 7e-5, 1e-4, 1.3e-4, 2e-4))
     ]
 
     def peaks(tolerance):

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
+from exu_press.scene import DryJoint
 
 QUARTER = {"mechanism": "slider_crank", "revolutions": 0.25}
 
@@ -18,7 +19,7 @@ def run(**changes):
 
 def from_ideal(result):
     """Return how far the slider is from the ideal mechanism's at most, m."""
-    ideal = simulate(Scene.from_dict({**QUARTER, "crank_pin": "ideal", "solver": {"step": 2e-5}}))
+    ideal = simulate(Scene.from_dict({**QUARTER, "joints": {}, "solver": {"step": 2e-5}}))
     there = np.interp(result["crank_angle"], ideal["crank_angle"], ideal["slider_position"])
     return np.abs(result["slider_position"] - there).max()
 
@@ -33,7 +34,8 @@ def test_no_clearance_is_the_ideal_joint(pin):
     stiff = {"contact": {"stiffness": 2.5545e14}} if pin == "dry" else {}
     clearances = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
     apart = [
-        from_ideal(run(crank_pin=pin, clearance={"crank_pin": c}, **stiff)) for c in clearances
+        from_ideal(run(joints={"crank_pin": {"kind": pin, "clearance": c}}, **stiff))
+        for c in clearances
     ]
     assert falling(apart)
     assert all(a < 1.02 * c + 1e-6 for a, c in zip(apart, clearances, strict=True))
@@ -51,7 +53,7 @@ def test_no_viscosity_under_asperities_is_the_dry_joint():
     The last of a film goes slowly: squeezed to the asperities it is 1e5 times as stiff as in the
     middle, so that 1e-5 Pa s still cushion an impact.
     """
-    dry = run(crank_pin="dry", clearance={"crank_pin": 1e-4 - 6e-7})
+    dry = run(joints={"crank_pin": DryJoint(clearance=1e-4 - 6e-7)})
     apart = []
     for viscosity in (1e-3, 1e-4, 1e-5, 1e-6, 1e-8):
         thin = run(film={"viscosity": viscosity, "at_contact": "mixed"})
@@ -67,7 +69,9 @@ def test_no_viscosity_under_asperities_is_the_dry_joint():
 def test_infinite_stiffness_does_not_blow_up(damping):
     depths = []
     for factor in (1e-2, 1.0, 1e2, 1e4, 1e6):
-        result = run(crank_pin="dry", contact={"stiffness": 2.5545e10 * factor, **damping})
+        result = run(
+            joints={"crank_pin": "dry"}, contact={"stiffness": 2.5545e10 * factor, **damping}
+        )
         summary = result.summary()
         depths.append(summary["joints"]["crank_pin"]["peak_penetration"])
         assert summary["energy"]["residual"] < 1e-3
@@ -81,7 +85,7 @@ def test_no_speed_is_the_static_solution():
         Scene.from_dict(
             {
                 "mechanism": "slider_crank",
-                "crank_pin": "dry",
+                "joints": {"crank_pin": "dry"},
                 "speed_rpm": 0.01,
                 "revolutions": 5e-5,  # 0.3 s
                 "contact": {"damping_max": 1e6},  # comes to rest within that
@@ -114,7 +118,7 @@ def test_the_journal_stays_in_its_film_which_only_takes_energy(viscosity, law):
 
 @pytest.mark.parametrize("pin", ["dry", "lubricated"])
 def test_two_runs_are_the_same_bit_by_bit(pin):
-    scene = Scene.from_dict({"crank_pin": pin, "revolutions": 0.05})
+    scene = Scene.from_dict({"joints": {"crank_pin": pin, "balls": "dry"}, "revolutions": 0.05})
     one, other = simulate(scene), simulate(scene)
     assert set(one) == set(other)
     for name in one:

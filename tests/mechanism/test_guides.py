@@ -8,7 +8,7 @@ import pytest
 from exu_press import Scene
 from exu_press.mechanism import GROUND, mechanism_of
 
-IDEAL = {"crank_pin": "ideal", "balls": "ideal"}
+IDEAL = {"joints": {}}
 SLIDING = {"slide", "plunger_left", "plunger_right", "slider", "counterweight"}
 
 

@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 from exu_press import Scene
 from exu_press.mechanism import GROUND, mechanism_of
 
-IDEAL = Scene.from_dict({"mechanism": "press", "crank_pin": "ideal", "balls": "ideal"})
+IDEAL = Scene.from_dict({"mechanism": "press", "joints": {}})
 PRESS = mechanism_of(IDEAL)
 DEGREES = np.arange(0.0, 360.0, 0.1)
 BOTTOM = 1800

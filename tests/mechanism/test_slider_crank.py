@@ -17,7 +17,7 @@ SIZE = {
     "slider_mass": 7.0,
 }
 SLIDER_CRANK = mechanism_of(
-    Scene.from_dict({"mechanism": "slider_crank", "crank_pin": "ideal", "slider_crank": SIZE})
+    Scene.from_dict({"mechanism": "slider_crank", "joints": {}, "slider_crank": SIZE})
 )
 ANGLE = np.radians(np.arange(0.0, 360.0, 1.0))
 SPEED = 30.0

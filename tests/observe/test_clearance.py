@@ -4,11 +4,10 @@ import numpy as np
 import pytest
 
 from exu_press.observe import joint_summary
+from exu_press.result import JointRecord
 
 CLEARANCE = 1e-4
 TIME = np.linspace(0.0, 1.0, 1001)
-DRY = {"film": False, "contact": True}
-FILM = {"film": True, "contact": False}
 
 
 def path(distance, dimensions=2):
@@ -17,10 +16,19 @@ def path(distance, dimensions=2):
     return np.asarray(distance)[:, None] * direction
 
 
-def observe(distance, dimensions=2, force=None, time=TIME, **kind):
+def observe(distance, dimensions=2, force=None, time=TIME, kind="dry", onset=0.0):
     eccentricity = path(distance, dimensions)
-    force = np.zeros_like(eccentricity) if force is None else force
-    return joint_summary(time, eccentricity, force, CLEARANCE, **(kind or DRY))
+    joint = JointRecord(
+        kind=kind,
+        spherical=dimensions == 3,
+        clearance=CLEARANCE,
+        force=np.zeros_like(eccentricity) if force is None else force,
+        eccentricity=eccentricity,
+        gap=CLEARANCE - np.asarray(distance),
+        moment=np.zeros((len(time), 2)),
+        dissipated_power=np.zeros(len(time)),
+    )
+    return joint_summary(time, joint, onset=onset, dissipated=2.0)
 
 
 @pytest.mark.parametrize("dimensions", [2, 3])
@@ -67,7 +75,7 @@ def test_shares_are_shares_of_time_not_of_steps():
 
 def test_film_has_a_thickness_and_no_impacts():
     distance = CLEARANCE * (0.4 + 0.3 * np.sin(20.0 * TIME))
-    entries = observe(distance, **FILM)
+    entries = observe(distance, kind="lubricated", onset=None)
     assert entries["min_film"] == pytest.approx(0.3 * CLEARANCE, rel=1e-3)
     assert entries["max_eccentricity_ratio"] == pytest.approx(0.7, rel=1e-3)
     for name in ("peak_penetration", "impacts", "share_free_flight", "share_contact"):
@@ -83,9 +91,8 @@ def test_peak_force_is_a_length():
 def test_mixed_film_touches_from_the_asperities_on():
     distance = np.full(1001, 0.5 * CLEARANCE)
     distance[100:201] = 0.97 * CLEARANCE
-    kind = {"film": True, "contact": True}
-    assert observe(distance, **kind)["impacts"] == 0
-    entries = observe(distance, **kind, onset=0.05 * CLEARANCE)
+    assert observe(distance, kind="lubricated")["impacts"] == 0
+    entries = observe(distance, kind="lubricated", onset=0.05 * CLEARANCE)
     assert entries["impacts"] == 1
     assert entries["share_contact"] == pytest.approx(0.1, abs=1e-12)
     assert entries["min_film"] == pytest.approx(0.03 * CLEARANCE)
@@ -99,4 +106,15 @@ def test_a_single_instant():
 
 def test_entries_are_plain_numbers():
     for value in observe(np.full(1001, CLEARANCE + 1e-6)).values():
-        assert value is None or type(value) in (int, float)
+        assert value is None or type(value) in (int, float, str)
+
+
+def test_an_ideal_joint_has_a_force_alone():
+    force = np.full((1001, 2), 3.0)
+    entries = observe(np.zeros(1001), force=force, kind="ideal", onset=None)
+    assert entries == {"kind": "ideal", "clearance": 0.0, "peak_force": pytest.approx(18**0.5)}
+
+
+def test_what_it_is_and_what_it_lost():
+    entries = observe(np.zeros(1001))
+    assert (entries["kind"], entries["clearance"], entries["dissipated"]) == ("dry", 1e-4, 2.0)

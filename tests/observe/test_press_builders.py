@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
-from exu_press.mechanism import mechanism_of
 from exu_press.observe import bottom_dead_centres
 
 SECTION = {
@@ -20,7 +19,6 @@ SECTION = {
     "peak_forces",
     "peak_moments",
     "losses",
-    "guide_sliding_power",
     "min_film",
 }
 
@@ -72,7 +70,7 @@ def test_scatter_of_strokes_of_known_depth():
 @pytest.fixture(scope="module")
 def run():
     scene = {"revolutions": 2.25, "blanking": {"force": 1e4, "eccentricity": 0.1}, "guide": {}}
-    return simulate(Scene.from_dict({**scene, "crank_pin": "lubricated", "balls": "ideal"}))
+    return simulate(Scene.from_dict({**scene, "joints": {"crank_pin": "lubricated"}}))
 
 
 def test_section(run):
@@ -133,22 +131,8 @@ def test_means_are_over_the_last_whole_revolutions(run):
     assert lost == pytest.approx(change(run["energy_dissipated"]) / 0.5)
 
 
-def test_what_guides_would_take_if_they_rubbed():
-    """Side forces times the ideal mechanism's speeds, over one revolution."""
-    scene = Scene.from_dict({"crank_pin": "ideal", "balls": "ideal", "revolutions": 1.0})
-    result = simulate(scene)
-    motion = mechanism_of(scene).motion(result["crank_angle"], scene.angular_speed)
-    power = np.zeros_like(result.time)
-    for body in ("slider", "slide", "plunger_left", "plunger_right", "counterweight"):
-        name = "guide_force" if body == "slider" else f"{body}_guide_force"
-        power += np.abs(result[name] * motion[body].velocity[:, 1])
-    mean = np.trapezoid(power, result.time) / result.time[-1]
-    assert result.summary()["press"]["guide_sliding_power"] == pytest.approx(mean, rel=1e-3)
-    assert mean > 100.0
-
-
 def test_power_of_an_ideal_drive_is_the_rate_of_stored_energy():
-    scene = {"crank_pin": "ideal", "balls": "ideal", "solver": {"step": 1e-4}, "revolutions": 0.5}
+    scene = {"joints": {}, "solver": {"step": 1e-4}, "revolutions": 0.5}
     result = simulate(Scene.from_dict(scene))
     rate = np.gradient(result["energy_stored"], result.time)
     error = np.abs(result["drive_power"] - rate)[40:-1]
@@ -156,7 +140,9 @@ def test_power_of_an_ideal_drive_is_the_rate_of_stored_energy():
 
 
 def test_a_short_run_has_no_means_and_no_dead_centres():
-    short = simulate(Scene.from_dict({"revolutions": 0.02, "crank_pin": "dry"}))
+    short = simulate(
+        Scene.from_dict({"revolutions": 0.02, "joints": {"crank_pin": "dry", "balls": "dry"}})
+    )
     press = short.summary()["press"]
     assert press["bottom_dead_centre"]["positions"] == []
     assert press["bottom_dead_centre"]["mean"] is None
@@ -167,9 +153,7 @@ def test_a_short_run_has_no_means_and_no_dead_centres():
 
 
 def test_without_counterweight_there_is_nothing_to_compare_with():
-    scene = Scene.from_dict(
-        {"crank_pin": "ideal", "balls": "ideal", "revolutions": 1.0, "solver": {"step": 5e-4}}
-    )
+    scene = Scene.from_dict({"joints": {}, "revolutions": 1.0, "solver": {"step": 5e-4}})
     full = simulate(scene).summary()["press"]
     bare = simulate(scene.replace("press.counterweight", False)).summary()["press"]
     assert bare["shaking_force_without_counterweight"] is None
@@ -179,5 +163,5 @@ def test_without_counterweight_there_is_nothing_to_compare_with():
 
 
 def test_slider_crank_has_no_press_section():
-    scene = {"mechanism": "slider_crank", "crank_pin": "ideal", "revolutions": 0.01}
+    scene = {"mechanism": "slider_crank", "joints": {}, "revolutions": 0.01}
     assert "press" not in simulate(Scene.from_dict(scene)).summary()

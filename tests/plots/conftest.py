@@ -7,17 +7,20 @@ import pytest
 from exu_press import Result, Scene, simulate
 
 SCENES = {
-    "ideal": {"crank_pin": "ideal", "balls": "ideal"},
-    "dry": {"crank_pin": "dry"},
-    "lubricated": {"crank_pin": "lubricated", "blanking": {"force": 1e4}},
+    "ideal": {"joints": {}},
+    "dry": {"joints": {"crank_pin": "dry", "balls": "dry"}},
+    "lubricated": {
+        "joints": {"crank_pin": "lubricated", "balls": "dry"},
+        "blanking": {"force": 1e4},
+    },
     "elastic": {
-        "crank_pin": "ideal",
+        "joints": {"balls": "dry"},
         "guide": {},
         "start_angle_deg": 80.0,
         "revolutions": 0.6,
         "blanking": {"force": 1e4, "eccentricity": 0.1},
     },
-    "slider_crank": {"mechanism": "slider_crank", "crank_pin": "dry"},
+    "slider_crank": {"mechanism": "slider_crank", "joints": {"crank_pin": "dry"}},
 }
 
 

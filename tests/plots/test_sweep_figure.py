@@ -15,7 +15,7 @@ CLEARANCES = [5e-5 + 1e-5 * n for n in range(8)]
 
 def table(missing=(), **way):
     """A table with made-up numbers: force = speed, film = clearance / 2."""
-    study = Study(scene=Scene(balls="ideal"), **way)
+    study = Study(scene=Scene(joints={"crank_pin": "lubricated", "balls": "ideal"}), **way)
     rows = [
         {"status": "failed", "reason": "x"}
         if run in missing
@@ -25,7 +25,7 @@ def table(missing=(), **way):
             "joints": {
                 "crank_pin": {
                     "peak_force": scene.speed_rpm * 1e3,
-                    "min_film": scene.clearance.crank_pin / 2,
+                    "min_film": scene.joints["crank_pin"].clearance / 2,
                 }
             },
         }
@@ -35,7 +35,7 @@ def table(missing=(), **way):
 
 
 SHOWN = ("joints.crank_pin.peak_force", "joints.crank_pin.min_film")
-TWO = ("clearance.crank_pin", "speed_rpm")
+TWO = ("joints.crank_pin.clearance", "speed_rpm")
 
 
 def panels(figure):
@@ -43,11 +43,11 @@ def panels(figure):
 
 
 def test_a_grid_of_few_is_curves():
-    some = table(grid={"clearance.crank_pin": CLEARANCES, "speed_rpm": SPEEDS})
+    some = table(grid={"joints.crank_pin.clearance": CLEARANCES, "speed_rpm": SPEEDS})
     force, film = panels(sweep_figure(some, TWO, SHOWN))
     assert force.get_title(loc="left") == "Crank pin, peak force, kN"
     assert film.get_title(loc="left") == "Crank pin, least film thickness, \N{MICRO SIGN}m"
-    assert force.get_xlabel() == "radial clearance of joint 2-3, \N{MICRO SIGN}m"
+    assert force.get_xlabel() == "crank pin, radial clearance, \N{MICRO SIGN}m"
     assert [line.get_label() for line in force.lines] == ["200 rpm", "300 rpm", "400 rpm"]
     for line, speed in zip(force.lines, SPEEDS, strict=True):
         np.testing.assert_allclose(line.get_xdata(), np.array(CLEARANCES) * 1e6)
@@ -56,7 +56,7 @@ def test_a_grid_of_few_is_curves():
 
 
 def test_a_grid_of_many_is_a_map():
-    some = table(grid={"speed_rpm": SPEEDS, "clearance.crank_pin": CLEARANCES})
+    some = table(grid={"speed_rpm": SPEEDS, "joints.crank_pin.clearance": CLEARANCES})
     figure = sweep_figure(some, TWO[::-1], SHOWN)
     (mesh,) = panels(figure)[0].collections
     np.testing.assert_allclose(
@@ -82,9 +82,11 @@ def test_runs_without_numbers_are_crosses():
 
 
 def test_what_is_drawn_over_what():
-    some = table(grid={"bodies": ["rigid"], "speed_rpm": SPEEDS, "clearance.crank_pin": CLEARANCES})
-    assert axes_of(some) == ("speed_rpm", "clearance.crank_pin")
-    assert axes_of(some, ["clearance.crank_pin"]) == ("clearance.crank_pin",)
+    some = table(
+        grid={"bodies": ["rigid"], "speed_rpm": SPEEDS, "joints.crank_pin.clearance": CLEARANCES}
+    )
+    assert axes_of(some) == ("speed_rpm", "joints.crank_pin.clearance")
+    assert axes_of(some, ["joints.crank_pin.clearance"]) == ("joints.crank_pin.clearance",)
     with pytest.raises(InputError, match="--over bodies: allowed are the numbers that vary"):
         axes_of(some, ["bodies"])
     with pytest.raises(InputError, match="allowed are one or two keys"):
@@ -108,6 +110,6 @@ def test_nothing_to_draw_is_no_picture(tmp_path):
     ],
 )
 def test_units_that_read_well(values, unit):
-    numbers, found = in_unit("ldp", np.array(values))
+    numbers, found = in_unit("bottom_dead_centre", np.array(values))
     assert found == unit
     assert np.max(np.abs(numbers)) < 1000.0

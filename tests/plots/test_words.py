@@ -3,7 +3,11 @@ from exu_press.plots.words import describe, early_stops, joint_in_words
 
 
 def test_a_scene_in_words():
-    scene = Scene(clearance={"crank_pin": 5e-5}, speed_rpm=200, blanking={"force": 1e4})
+    scene = Scene(
+        joints={"crank_pin": {"kind": "lubricated", "clearance": 5e-5}, "balls": "dry"},
+        speed_rpm=200,
+        blanking={"force": 1e4},
+    )
     words = describe([scene])
     for part in (
         "Press",
@@ -29,7 +33,12 @@ def test_guides_counterweight_and_an_eccentric_load():
 
 
 def test_scenes_share_what_they_have_in_common():
-    words = describe([Scene(crank_pin="ideal", balls="ideal"), Scene(crank_pin="dry")])
+    words = describe(
+        [
+            Scene(joints={"crank_pin": "ideal", "balls": "ideal"}),
+            Scene(joints={"crank_pin": "dry", "balls": "dry"}),
+        ]
+    )
     assert "crank pin radial clearance 0.1 mm" in words
     assert "dry" not in words
     assert "ideal" not in words

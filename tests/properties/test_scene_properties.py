@@ -72,9 +72,10 @@ scenes = st.tuples(
 
 
 VARIANTS = st.sampled_from(
-    [{"mechanism": "press", "crank_pin": pin, "balls": balls}
+    [{"mechanism": "press", "joints": {"crank_pin": pin, "balls": balls}}
      for pin in ("ideal", "dry", "lubricated") for balls in ("ideal", "dry")]
-    + [{"mechanism": "slider_crank", "crank_pin": pin} for pin in ("ideal", "dry", "lubricated")]
+    + [{"mechanism": "slider_crank", "joints": {"crank_pin": pin}}
+       for pin in ("ideal", "dry", "lubricated")]
 )  # fmt: skip
 
 

@@ -11,8 +11,8 @@ STUDY = """
 mechanism = "slider_crank"
 revolutions = 0.02
 [grid]
-"clearance.crank_pin" = [5e-5, 1e-4, 2e-4]
-crank_pin = ["dry", "lubricated"]
+"joints.crank_pin.clearance" = [5e-5, 1e-4, 2e-4]
+joints.crank_pin = ["dry", "lubricated"]
 """
 
 
@@ -28,7 +28,7 @@ def outputs(tmp_path_factory) -> dict[str, Path]:
     assert main(["compare", "slider_crank", *short, *quiet, "--out", str(folder / "compare")]) == 0
     stop = [
         "--set",
-        "crank_pin=lubricated",
+        "joints.crank_pin=lubricated",
         "--set",
         "film.viscosity=1e-7",
         "--set",

@@ -8,17 +8,15 @@ from exu_press.mechanism import Mechanism
 
 PULSE = {"force": 1e5, "eccentricity": 0.05, "rise": 2e-3, "fall": 1e-3, "end_angle_deg": 10.0}
 SCENES = {
-    "ideal press": {"crank_pin": "ideal", "balls": "ideal"},
-    "one-sided load": {"crank_pin": "ideal", "balls": "ideal", "blanking": PULSE},
-    "lubricated pin, dry balls": {"crank_pin": "lubricated", "blanking": PULSE},
-    "dry pin": {"crank_pin": "dry"},
-    "slider-crank": {"mechanism": "slider_crank", "crank_pin": "ideal"},
-    "flexible": {
-        "bodies": "flexible",
-        "crank_pin": "ideal",
-        "balls": "ideal",
-        "flexible": {"modes": 4, "mesh_size": 0.05},
+    "ideal press": {"joints": {}},
+    "one-sided load": {"joints": {}, "blanking": PULSE},
+    "lubricated pin, dry balls": {
+        "joints": {"crank_pin": "lubricated", "balls": "dry"},
+        "blanking": PULSE,
     },
+    "dry pin": {"joints": {"crank_pin": "dry", "balls": "dry"}},
+    "slider-crank": {"mechanism": "slider_crank", "joints": {}},
+    "flexible": {"bodies": "flexible", "joints": {}, "flexible": {"modes": 4, "mesh_size": 0.05}},
 }
 STEPS = {"step": 2e-5}
 
@@ -29,9 +27,12 @@ def run(scene):
 
 def hold_all(monkeypatch, flexible):
     """Give all bodies x, y and angle, and hold them by constraints; a crank shaft has bearings."""
-    pivoted = Mechanism.pivoted.fget
+    pivoted = Mechanism.pivoted
     kept = {"crank"} if flexible else set()
-    only = property(lambda self: {k: v for k, v in pivoted(self).items() if k in kept})
+
+    def only(mechanism, ideal):
+        return {k: v for k, v in pivoted(mechanism, ideal).items() if k in kept}
+
     monkeypatch.setattr(Mechanism, "pivoted", only)
     monkeypatch.setattr(Mechanism, "sliding", frozenset())
 

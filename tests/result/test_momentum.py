@@ -11,12 +11,14 @@ from exu_press.solving import scales
 
 GRAVITY = 9.81
 VARIANTS = [
-    {"crank_pin": "ideal", "balls": "ideal"},
-    {"crank_pin": "dry", "balls": "dry"},
-    {"crank_pin": "lubricated", "balls": "dry"},
-    {"crank_pin": "lubricated", "balls": "dry", "guide": {}},
-    {"crank_pin": "lubricated", "balls": "dry", "press": {"counterweight": False}},
-    {"mechanism": "slider_crank", "crank_pin": "lubricated"},
+    {"joints": {}},
+    {"joints": {"crank_pin": "dry", "balls": "dry"}},
+    {"joints": {"crank_pin": "lubricated", "balls": "dry"}},
+    {"joints": {"crank_pin": "lubricated", "balls": "dry"}, "guide": {}},
+    {"joints": {"crank_pin": "lubricated", "balls": "dry"}, "press": {"counterweight": False}},
+    {"joints": {"shaft": "lubricated", "pivots": "dry", "slide_pin": "dry"}},
+    {"mechanism": "slider_crank", "joints": {"crank_pin": "lubricated"}},
+    {"mechanism": "slider_crank", "joints": {"shaft": "dry", "wrist_pin": "lubricated"}},
 ]
 BLANKING = {"force": 1e4, "end_angle_deg": 30.0, "eccentricity": 0.05}
 
@@ -33,9 +35,7 @@ def weight(result):
 
 @functools.cache
 def ideal(**press):
-    return run(
-        crank_pin="ideal", balls="ideal", revolutions=1.0, solver={"step": 1e-4}, press=press
-    )
+    return run(joints={}, revolutions=1.0, solver={"step": 1e-4}, press=press)
 
 
 @pytest.mark.parametrize("variant", VARIANTS, ids=str)

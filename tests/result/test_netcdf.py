@@ -14,7 +14,7 @@ from exu_press.result import netcdf
 def result():
     scene = {
         "mechanism": "press",
-        "crank_pin": "dry",
+        "joints": {"crank_pin": "dry", "balls": "dry"},
         "revolutions": 0.02,
         "friction": {"law": "lugre"},
         "solver": {"step": 2e-5},
@@ -50,7 +50,7 @@ def test_round_trip(result, path):
 
 
 def test_round_trip_without_clearance_joints(path):
-    scene = {"mechanism": "slider_crank", "crank_pin": "ideal", "revolutions": 0.01}
+    scene = {"mechanism": "slider_crank", "joints": {}, "revolutions": 0.01}
     ideal = simulate(Scene.from_dict({**scene, "solver": {"step": 1e-4}}))
     ideal.save(str(path))
     assert_equal(ideal, Result.load(str(path)))

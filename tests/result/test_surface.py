@@ -54,7 +54,7 @@ def test_every_array_has_a_unit_and_a_meaning(run):
 
 
 def test_rigid_runs_have_none(tmp_path):
-    simulate(Scene(mechanism="slider_crank", crank_pin="ideal", revolutions=0.01)).save(
+    simulate(Scene(mechanism="slider_crank", joints={"crank_pin": "ideal"}, revolutions=0.01)).save(
         tmp_path / "run.nc"
     )
     assert Result.load(tmp_path / "run.nc").surfaces == {}

@@ -38,9 +38,9 @@ def test_what_is_given_is_not_assumed():
 @pytest.mark.parametrize(
     ("scene", "unused"),
     [
-        ({"mechanism": "slider_crank"}, {1, 2, 3, 4, 5, 6, 7, 8}),
-        ({"crank_pin": "dry"}, {11, 12, 13}),
-        ({"crank_pin": "ideal", "balls": "ideal"}, {10, 11, 12, 13}),
+        ({"mechanism": "slider_crank"}, {1, 2, 3, 4, 5, 6, 7, 8, 10}),
+        ({"joints": {"crank_pin": "dry"}}, {11, 12, 13}),
+        ({"joints": {}}, {10, 11, 12, 13}),
         ({"guide": {}}, {9}),
         ({"press": {"counterweight": False}}, {3}),
         ({"film": {"at_contact": "mixed"}}, {13}),
@@ -63,10 +63,29 @@ def test_keys_with_defaults_units_and_meanings():
 @pytest.mark.parametrize(
     ("scene", "changed"),
     [
-        ({"crank_pin": "dry"}, {"crank_pin"}),
-        ({"clearance": {"balls": 5e-5}}, {"clearance.balls"}),
+        ({"joints": {"crank_pin": "dry", "balls": "dry"}}, {"joints.crank_pin.kind"}),
+        (
+            {"joints": {"crank_pin": "lubricated", "balls": {"kind": "dry", "clearance": 5e-5}}},
+            {"joints.balls.clearance"},
+        ),
+        (
+            {"joints": {"balls": "dry", "crank_pin": "lubricated", "pivots": "dry"}},
+            {"joints.pivots.kind"},
+        ),
+        (
+            {
+                "joints": {
+                    "balls": "dry",
+                    "crank_pin": {"kind": "lubricated", "film": {"length": 1}},
+                }
+            },
+            {"joints.crank_pin.film.length"},
+        ),
         ({"solver": {"step": 1e-5}}, {"solver.step"}),
-        ({"mechanism": "slider_crank", "crank_pin": "ideal"}, {"mechanism", "crank_pin"}),
+        (
+            {"mechanism": "slider_crank", "joints": {}},
+            {"mechanism", "joints.crank_pin.kind"},
+        ),
         ({"blanking": {"force": 1e4}}, {"blanking.force"}),
         ({"film": {"at_contact": "mixed"}}, {"film.at_contact"}),
     ],
@@ -77,4 +96,4 @@ def test_only_what_differs_counts_as_given(scene, changed):
 
 
 def test_nothing_to_assume_is_no_line():
-    assert assumed_line(Scene(crank_pin="ideal", balls="ideal")) == ""
+    assert assumed_line(Scene(joints={"crank_pin": "ideal", "balls": "ideal"})) == ""

@@ -34,7 +34,7 @@ def test_on_the_command_line():
 @pytest.mark.parametrize(
     ("scene", "message"),
     [
-        ({"guide": {"stiffness": 1.0}}, r"guide\.stiffness = 1\.0: unknown key; allowed are"),
+        ({"guide": {"stiffness": 1.0}}, r"guide\.stiffness = 1\.0: unknown key"),
         ({"guide": {"lateral_stiffness": 0.0}}, r"guide\.lateral_stiffness = 0\.0: allowed .* > 0"),
         ({"guide": {"damping_ratio": -0.1}}, r"guide\.damping_ratio = -0\.1: allowed .* >= 0"),
         ({"guide": 1e9}, r"guide = 1000000000\.0: allowed is a table"),

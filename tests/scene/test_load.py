@@ -29,7 +29,7 @@ def test_file_with_tables(tmp_path):
     path = write(
         tmp_path,
         'mechanism = "slider_crank"\nspeed_rpm = 300\n[film]\nviscosity = 0.1\n'
-        "[clearance]\ncrank_pin = 5e-5\n",
+        "[joints.crank_pin]\nkind = 'lubricated'\nclearance = 5e-5\n",
     )
     scene = load_scene(path)
     assert scene == Scene.from_dict(
@@ -37,7 +37,7 @@ def test_file_with_tables(tmp_path):
             "mechanism": "slider_crank",
             "speed_rpm": 300,
             "film": {"viscosity": 0.1},
-            "clearance": {"crank_pin": 5e-5},
+            "joints": {"crank_pin": {"kind": "lubricated", "clearance": 5e-5}},
         }
     )
     assert load_scene(str(path)) == scene
@@ -56,13 +56,20 @@ def test_empty_file_is_the_default_scene(tmp_path):
         ("speed_rpm = inf", "speed_rpm = inf: allowed is a number"),
         ("speed_rpm = true", "speed_rpm = True: allowed is a number"),
         ("speed_rpm = 2020-01-01", "speed_rpm = "),
-        ('crank_pin = "wet"', "crank_pin = 'wet': allowed is one of"),
+        ('joints.crank_pin = "wet"', "joints.crank_pin.kind = 'wet': allowed is one of"),
+        ('crank_pin = "dry"', "crank_pin = 'dry': is joints.crank_pin now"),
+        ('balls = "dry"', "balls = 'dry': is joints.balls now"),
+        ("[clearance]\ncrank_pin = 1e-4", "clearance = {'crank_pin': 0.0001}: is joints.NAME.cl"),
+        ("[contact]\nradius = 0.1", "contact.radius = 0.1: is joints.NAME.radius now"),
         ("film = 3", "film = 3: allowed is a table"),
         ("[[film]]\nviscosity = 1", "film = "),
-        ('crank_pin = "dry"\n[film]\nviscosity = 1', "[film]: not used by this scene"),
+        ('joints.crank_pin = "dry"\n[film]\nviscosity = 1', "[film]: not used by this scene"),
         ("[solver]\nstep = 1e-5\ntolerance = 1e-3", "solver.tolerance = 0.001"),
         ("[press]\nlinkage_length = 0.01", "press.linkage_length = 0.01: needs > "),
-        ("[clearance]\ncrank_pin = 1.0", "clearance.crank_pin = 1.0: allowed is a number < "),
+        (
+            "[joints.crank_pin]\nkind = 'dry'\nclearance = 1.0",
+            "joints.crank_pin.clearance = 1.0: allowed is a number < ",
+        ),
     ],
 )
 def test_refusal_names_file_key_value_and_what_is_allowed(tmp_path, text, shown):
@@ -108,7 +115,7 @@ def test_assignments_change_the_file(tmp_path):
 
 def test_assignment_drops_what_is_no_longer_used(tmp_path):
     path = write(tmp_path, "[film]\nviscosity = 0.1")
-    assert load_scene(path, ["crank_pin=dry"]).film is None
+    assert load_scene(path, ["joints.crank_pin=dry"]).film is None
 
 
 @pytest.mark.parametrize(
@@ -142,13 +149,16 @@ def test_assignment_without_key_or_value(text):
         ("speed=3", "speed = 3: unknown key"),
         ("film.viscocity=3", "film.viscocity = 3: unknown key"),
         ("film.viscosity=thick", "film.viscosity = 'thick': allowed is a number"),
-        ("clearance.crank_pin=-1e-4", "clearance.crank_pin = -0.0001: allowed is a number > 0"),
+        (
+            "joints.crank_pin.clearance=-1e-4",
+            "joints.crank_pin.clearance = -0.0001: allowed is a number > 0",
+        ),
         ("speed_rpm.now=3", "speed_rpm"),
         ("film.law.name=pinkus", "film.law"),
         ("nothing.at.all=3", "nothing.at"),
         ("film=3", "film = 3: allowed is a table"),
         ("mechanism=3", "mechanism = 3: allowed is one of"),
-        ("crank_pin=3", "crank_pin = 3: allowed is one of"),
+        ("joints.crank_pin=3", "joints.crank_pin = 3: allowed is a table of keys, or one of"),
         ("slider_crank.rod_mass=3", "[slider_crank]: not used by this scene"),
     ],
 )

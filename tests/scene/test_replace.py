@@ -38,39 +38,73 @@ def test_a_table_that_was_not_there():
 
 
 def test_made_dry_it_loses_its_film_and_made_ideal_everything():
-    dry = PRESS.replace("crank_pin", "dry")
+    dry = PRESS.replace("joints.crank_pin", "dry")
     assert dry.film is None
-    assert dry.clearance == PRESS.clearance
-    ideal = dry.replace(crank_pin="ideal", balls="ideal")
-    assert ideal.clearance is ideal.contact is ideal.friction is None
+    assert dry.joints["crank_pin"].clearance == PRESS.joints["crank_pin"].clearance
+    ideal = dry.replace({"joints.crank_pin": "ideal", "joints.balls": "ideal"})
+    assert not ideal.joints.with_clearance
+    assert ideal.contact is ideal.friction is None
 
 
 def test_made_ideal_in_one_joint_it_loses_that_clearance_alone():
-    scene = PRESS.replace("clearance.balls", 2e-4).replace("crank_pin", "ideal")
-    assert scene.clearance.crank_pin is None
-    assert scene.clearance.balls == 2e-4
+    scene = PRESS.replace("joints.balls.clearance", 2e-4).replace("joints.crank_pin", "ideal")
+    assert {name: j.clearance for name, j in scene.joints.with_clearance.items()} == {
+        "ball_left": 2e-4,
+        "ball_right": 2e-4,
+    }
+
+
+def test_one_joint_of_a_group():
+    scene = PRESS.replace("joints.balls.clearance", 2e-4)
+    scene = scene.replace({"joints.ball_left.clearance": 5e-5, "joints.ball_right": "ideal"})
+    assert scene.joints["ball_left"].clearance == 5e-5
+    assert scene.joints["ball_right"].kind == "ideal"
 
 
 def test_made_lubricated_it_gets_a_film():
-    dry = PRESS.replace("crank_pin", "dry")
-    assert dry.replace("crank_pin", "lubricated") == PRESS
-    assert dry.replace({"crank_pin": "lubricated", "film.viscosity": 0.1}).film.viscosity == 0.1
+    dry = PRESS.replace("joints.crank_pin", "dry")
+    assert dry.replace("joints.crank_pin", "lubricated") == PRESS
+    changed = dry.replace({"joints.crank_pin": "lubricated", "film.viscosity": 0.1})
+    assert changed.film.viscosity == 0.1
+
+
+def test_a_joints_own_law_follows_the_scenes_where_it_says_nothing():
+    own = PRESS.replace("joints.crank_pin.film.law", "finite").replace("film.viscosity", 0.1)
+    film = own.joints["crank_pin"].film
+    assert (film.law, film.viscosity, own.film.law) == ("finite", 0.1, "pinkus")
+    stopped = own.replace({"film.at_contact": "mixed", "joints.crank_pin.friction.law": "none"})
+    assert stopped.joints["crank_pin"].friction.law == "none"
+    assert stopped.replace("film.at_contact", "stop").joints["crank_pin"].friction is None
+
+
+def test_all_joints_at_once():
+    """What a change gives for joints is everything: what it does not name is ideal."""
+    assert set(PRESS.replace(joints={"pivot_left": "dry"}).joints.with_clearance) == {"pivot_left"}
 
 
 def test_another_mechanism():
     other = PRESS.replace("mechanism", "slider_crank")
-    assert other.press is other.balls is None
-    assert other.clearance.balls is None
+    assert other.press is None
+    assert set(other.joints) == {"shaft", "crank_pin", "wrist_pin"}
     assert other.slider_crank is not None
     assert other.replace("mechanism", "press") == PRESS
+    ideal = PRESS.replace("joints.crank_pin", "ideal").replace("mechanism", "slider_crank")
+    assert ideal.joints["crank_pin"].kind == "ideal"
 
 
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"crank_pin": "dry", "film.viscosity": 0.1}, r"\[film\]: not used"),
-        ({"crank_pin": "ideal", "clearance.crank_pin": 1e-4}, r"clearance\.crank_pin.*not used"),
-        ({"mechanism": "slider_crank", "balls": "dry"}, "balls = 'dry': not used"),
+        ({"joints.crank_pin": "dry", "film.viscosity": 0.1}, r"\[film\]: not used"),
+        (
+            {"joints.crank_pin": "ideal", "joints.crank_pin.clearance": 1e-4},
+            r"joints\.crank_pin\.clearance: not used",
+        ),
+        (
+            {"joints.crank_pin": "dry", "joints.crank_pin.film.law": "short"},
+            r"joints\.crank_pin\.film: not used",
+        ),
+        ({"mechanism": "slider_crank", "joints.balls": "dry"}, "slider_crank has no such joint"),
         ({"mechanism": "slider_crank", "press.slider_mass": 1.0}, r"\[press\]: not used"),
     ],
 )
@@ -86,7 +120,11 @@ def test_what_the_change_itself_names_is_not_dropped_in_silence(change, message)
         ("film.viscocity", 1.0, r"film\.viscocity = 1\.0: unknown key"),
         ("viscosity", 1.0, r"viscosity = 1\.0: unknown key"),
         ("speed_rpm.now", 1.0, "speed_rpm"),
-        ("clearance.crank_pin", 0.07, r"clearance\.crank_pin = 0\.07: allowed is a number <"),
+        (
+            "joints.crank_pin.clearance",
+            0.07,
+            r"crank_pin\.clearance = 0\.07: allowed is a number <",
+        ),
     ],
 )
 def test_bad_values_are_refused(key, value, message):
@@ -107,4 +145,4 @@ def test_step_clears_the_tolerance_and_the_other_way_round():
 def test_step_is_kept_by_other_changes():
     stepped = PRESS.replace("solver.step", 1e-4).replace("solver.spectral_radius", 0.7)
     assert stepped.solver.step == 1e-4
-    assert stepped.replace("crank_pin", "dry").solver == stepped.solver
+    assert stepped.replace("joints.crank_pin", "dry").solver == stepped.solver

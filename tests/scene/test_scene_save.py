@@ -8,12 +8,19 @@ from exu_press import InputError, Scene, load_scene
 
 SCENES = {
     "press": {},
-    "ideal": {"crank_pin": "ideal", "balls": "ideal"},
-    "dry": {"crank_pin": "dry", "contact": {"tension": True, "shape": "cylindrical"}},
+    "ideal": {"joints": {}},
+    "dry": {
+        "joints": {"crank_pin": "dry", "balls": "dry"},
+        "contact": {"tension": True, "shape": "cylindrical"},
+    },
     "mixed": {"film": {"law": "finite", "at_contact": "mixed"}, "blanking": {"force": 1e4}},
     "flexible": {"bodies": "flexible"},
     "fixed step": {"solver": {"step": 1e-5}},
-    "slider_crank": {"mechanism": "slider_crank", "crank_pin": "dry", "start_angle_deg": -70.0},
+    "slider_crank": {
+        "mechanism": "slider_crank",
+        "joints": {"crank_pin": "dry"},
+        "start_angle_deg": -70.0,
+    },
 }
 
 
@@ -26,10 +33,15 @@ def test_round_trip(keys, comments, tmp_path):
 
 
 def test_every_key_is_there_and_nothing_else(tmp_path):
-    scene = Scene(crank_pin="dry")
+    scene = Scene(joints={"crank_pin": "dry", "balls": "dry"})
     scene.save(tmp_path / "scene.toml")
     text = (tmp_path / "scene.toml").read_text(encoding="utf-8")
-    assert tomllib.loads(text) == scene.to_dict()
+    complete = scene.to_dict()
+    joints = {
+        "crank_pin": complete["joints"]["crank_pin"],
+        "balls": complete["joints"]["ball_left"],
+    }
+    assert tomllib.loads(text) == {**complete, "joints": joints}
     assert "#" not in text
 
 
@@ -38,8 +50,8 @@ def test_comments_say_meaning_unit_and_choices(tmp_path):
     lines = (tmp_path / "scene.toml").read_text(encoding="utf-8").splitlines()
     viscosity = next(line for line in lines if line.startswith("viscosity"))
     assert viscosity.startswith("viscosity = 0.4 ") and viscosity.endswith("Pa s")
-    pin = next(line for line in lines if line.startswith("crank_pin = "))
-    assert "# joint 2-3: ideal | dry | lubricated" in pin
+    pin = lines[lines.index("[joints.crank_pin]") + 1]
+    assert pin.startswith('kind = "lubricated"') and "# ideal | dry | lubricated" in pin
 
 
 def test_a_file_that_is_there_is_kept(tmp_path):
@@ -59,5 +71,5 @@ def test_a_directory_that_is_not_there(tmp_path):
 
 def test_comments_of_a_file_are_no_part_of_the_scene(tmp_path):
     path = tmp_path / "scene.toml"
-    path.write_text('# why\ncrank_pin = "dry"  # because\n\n[clearance]  # radial\n')
-    assert load_scene(path) == Scene(crank_pin="dry")
+    path.write_text('# why\njoints.crank_pin = "dry"  # because\n\n[contact]  # all\n')
+    assert load_scene(path) == Scene(joints={"crank_pin": "dry"})

@@ -17,7 +17,7 @@ PINS = {"dry": "lugre_steady", "lubricated": "pinkus"}
 
 
 def scene(pin, **changes):
-    return Scene(mechanism="slider_crank", crank_pin=pin, revolutions=1.0, **changes)
+    return Scene(mechanism="slider_crank", joints={"crank_pin": pin}, revolutions=1.0, **changes)
 
 
 def states(pin, count=40):

@@ -71,12 +71,19 @@ def test_an_unknown_case_is_refused():
 @pytest.mark.parametrize(
     ("changes", "reference"),
     [
-        ({"mechanism": "slider_crank", "crank_pin": "ideal"}, "closed form"),
-        ({"mechanism": "slider_crank", "crank_pin": "dry"}, "reduced"),
-        ({"mechanism": "slider_crank", "crank_pin": "dry", "friction": {"law": "lugre"}}, "own"),
-        ({"crank_pin": "ideal", "balls": "ideal"}, "closed form"),
-        ({"crank_pin": "ideal", "balls": "dry"}, "own"),
-        ({"crank_pin": "lubricated"}, "own"),
+        ({"mechanism": "slider_crank", "joints": {}}, "closed form"),
+        ({"mechanism": "slider_crank", "joints": {"crank_pin": "dry"}}, "reduced"),
+        (
+            {
+                "mechanism": "slider_crank",
+                "joints": {"crank_pin": "dry"},
+                "friction": {"law": "lugre"},
+            },
+            "own",
+        ),
+        ({"joints": {}}, "closed form"),
+        ({"joints": {"balls": "dry"}}, "own"),
+        ({"joints": {"crank_pin": "lubricated", "balls": "dry"}}, "own"),
     ],
 )
 def test_a_users_scene_gets_the_best_reference_there_is(changes, reference):

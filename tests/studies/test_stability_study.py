@@ -47,7 +47,7 @@ def reached(table, key):
     [
         ("contact.stiffness", 2.5545e7, 2.5545e13),
         ("contact.damping_max", 0.0, 2.55e10),
-        ("clearance.crank_pin", 1e-7, 1e-3),
+        ("joints.crank_pin.clearance", 1e-7, 1e-3),
         ("speed_rpm", 1.0, 3000.0),
         ("film.viscosity", 1e-5, 10.0),
         ("film.length", 0.0141, 0.56),
@@ -118,7 +118,7 @@ def test_a_finer_run_that_stops_leaves_a_case_unchecked_which_is_wrong(monkeypat
 
 @pytest.fixture(scope="module")
 def run():
-    return simulate(Scene.from_dict({**SHORT, "crank_pin": "dry"}))
+    return simulate(Scene.from_dict({**SHORT, "joints": {"crank_pin": "dry", "balls": "dry"}}))
 
 
 def changed(result, **channels):

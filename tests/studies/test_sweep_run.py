@@ -15,8 +15,8 @@ from exu_press.studies.sweep import Study, sweep
 from exu_press.studies.sweep.run import run_scene
 from exu_press.studies.sweep.table import TIMES
 
-IDEAL = Scene(crank_pin="ideal", balls="ideal", revolutions=0.01)
-LUBRICATED = Scene(balls="ideal", revolutions=0.05)
+IDEAL = Scene(joints={"crank_pin": "ideal", "balls": "ideal"}, revolutions=0.01)
+LUBRICATED = Scene(joints={"crank_pin": "lubricated", "balls": "ideal"}, revolutions=0.05)
 
 
 def without_times(table):
@@ -30,7 +30,7 @@ def test_the_table_holds_the_summaries(tmp_path):
     for run, scene in enumerate(study.scenes):
         summary = simulate(scene).summary()
         assert table["status"][run] == "completed"
-        assert table["ldp"][run] == summary["ldp"]
+        assert table["bottom_dead_centre"][run] == summary["bottom_dead_centre"]
         assert table["energy.input"][run] == summary["energy"]["input"]
         assert table["peak_acceleration.resolved"][run] == summary["peak_acceleration"]["resolved"]
         assert table["versions.exudyn"][run] == summary["versions"]["exudyn"]
@@ -52,20 +52,24 @@ def test_a_file_that_is_gone_or_torn_is_made_again(tmp_path):
 
 
 def test_runs_that_stop_early_or_fail_are_rows(tmp_path):
-    scene = {"mechanism": "slider_crank", "crank_pin": "lubricated", "solver": {"step": 1e-4}}
+    scene = {
+        "mechanism": "slider_crank",
+        "joints": {"crank_pin": "lubricated"},
+        "solver": {"step": 1e-4},
+    }
     thin = {"film.viscosity": [0.4, 1e-7], "revolutions": [0.01, 1.0]}
     table = sweep(Study(scene=Scene.from_dict(scene), list=thin), tmp_path, workers=2)
     assert table["status"] == ("completed", "film broke down")
     assert table["reason"][1].startswith("film broke down at t = ")
-    assert table["ldp"][1] is not None
+    assert table["bottom_dead_centre"][1] is not None
 
 
 STUDY = """
 [scene]
-balls = "ideal"
+joints.crank_pin = "lubricated"
 revolutions = 0.05
 [grid]
-clearance.crank_pin = [5e-5, 1e-4, 2e-4, 3e-4]
+joints.crank_pin.clearance = [5e-5, 1e-4, 2e-4, 3e-4]
 speed_rpm = [200.0, 300.0, 400.0]
 """
 

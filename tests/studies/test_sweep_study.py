@@ -5,7 +5,7 @@ import pytest
 from exu_press import InputError, Scene
 from exu_press.studies.sweep import Study, load_study
 
-SCENE = '[scene]\nballs = "ideal"\n'
+SCENE = '[scene]\njoints.crank_pin = "lubricated"\n'
 
 
 def load(tmp_path, text):
@@ -19,11 +19,13 @@ def test_a_grid_with_the_scene_inside(tmp_path):
         tmp_path,
         "save_runs = true\ntime_limit = 600\n"
         + SCENE
-        + '[grid]\n"clearance.crank_pin" = [5e-5, 1e-4]\nspeed_rpm = [200.0, 300.0]\n',
+        + '[grid]\n"joints.crank_pin.clearance" = [5e-5, 1e-4]\nspeed_rpm = [200.0, 300.0]\n',
     )
-    assert study.keys == ("clearance.crank_pin", "speed_rpm")
+    assert study.keys == ("joints.crank_pin.clearance", "speed_rpm")
     assert study.save_runs is True and study.time_limit == 600.0
-    first = Scene(balls="ideal").replace({"clearance.crank_pin": 5e-5, "speed_rpm": 200.0})
+    first = Scene(joints={"crank_pin": "lubricated", "balls": "ideal"}).replace(
+        {"joints.crank_pin.clearance": 5e-5, "speed_rpm": 200.0}
+    )
     assert study.scenes[0] == first
     assert [s.speed_rpm for s in study.scenes] == [200.0, 300.0] * 2
 
@@ -32,7 +34,7 @@ def test_a_scene_beside_the_study(tmp_path, monkeypatch):
     (tmp_path / "scene.toml").write_text(SCENE.replace("[scene]\n", ""))
     monkeypatch.chdir("/")
     study = load(tmp_path, 'scene = "scene.toml"\n[list]\nfilm.viscosity = [0.1, 0.2]\n')
-    assert study.scene == Scene(balls="ideal")
+    assert study.scene == Scene(joints={"crank_pin": "lubricated", "balls": "ideal"})
     assert [scene.film.viscosity for scene in study.scenes] == [0.1, 0.2]
 
 
@@ -67,7 +69,10 @@ def test_a_time_limit_does_not_make_another_study():
             SCENE + '[grid]\nspeed_rpm = [200.0, -1.0]\n"film.viscosity" = [0.1]\n',
             r"run with speed_rpm = -1\.0, film\.viscosity = 0\.1: speed_rpm = -1\.0: allowed",
         ),
-        (SCENE + '[grid]\ncrank_pin = ["ideal"]\nfilm.viscosity = [0.1]\n', "not used by this"),
+        (
+            SCENE + '[grid]\njoints.crank_pin = ["ideal"]\nfilm.viscosity = [0.1]\n',
+            "not used by this",
+        ),
         ("[scene]\nspeed = 1\n[grid]\nspeed_rpm = [1]\n", "speed = 1: unknown key"),
         ("scene = [", "not a TOML file"),
         ('scene = "nowhere.toml"\n[grid]\nspeed_rpm = [1]\n', "nowhere.toml: cannot be read"),

@@ -19,20 +19,25 @@ ROWS = [
         "reason": "",
         "wall_time": 1.25,
         "steps": 10,
-        "ldp": 0.1 + 0.2,
+        "bottom_dead_centre": 0.1 + 0.2,
         "joints": {"crank_pin": {"min_film": None, "peak_force": 1e3}},
         "list": [1.0, 2.0],
         "flag": True,
     },
     {"status": "failed", "reason": 'ValueError: "a", b'},
-    {"status": "film broke down", "reason": "at 0.1 s \N{GREEK SMALL LETTER MU}", "ldp": math.pi},
+    {
+        "status": "film broke down",
+        "reason": "at 0.1 s \N{GREEK SMALL LETTER MU}",
+        "bottom_dead_centre": math.pi,
+    },
 ]
 
 
 @pytest.fixture
 def table():
     study = Study(
-        scene=Scene(balls="ideal", crank_pin="ideal"), grid={"speed_rpm": [200.0, 300.0, 400.0]}
+        scene=Scene(joints={"crank_pin": "ideal", "balls": "ideal"}),
+        grid={"speed_rpm": [200.0, 300.0, 400.0]},
     )
     return table_of(study, ROWS, ["1.nc", "2.nc", "3.nc"])
 
@@ -53,8 +58,8 @@ def test_csv_reads_back_bit_by_bit(table, tmp_path):
         rows = list(csv.DictReader(file))
     assert [row["status"] for row in rows] == ["completed", "failed", "film broke down"]
     assert rows[1]["reason"] == ROWS[1]["reason"]
-    assert [float(row["ldp"]) for row in (rows[0], rows[2])] == [0.1 + 0.2, math.pi]
-    assert rows[1]["ldp"] == rows[0]["joints.crank_pin.min_film"] == ""
+    assert [float(row["bottom_dead_centre"]) for row in (rows[0], rows[2])] == [0.1 + 0.2, math.pi]
+    assert rows[1]["bottom_dead_centre"] == rows[0]["joints.crank_pin.min_film"] == ""
     assert rows[0]["flag"] == "true" and rows[0]["steps"] == "10"
 
 
@@ -62,15 +67,15 @@ def test_netcdf_reads_back(table, tmp_path):
     table.save_netcdf(tmp_path / "table.nc")
     with netcdf_file(tmp_path / "table.nc", mmap=False) as file:
         assert file.dimensions["run"] == 3
-        assert file.variables["ldp"][:].tolist()[::2] == [0.1 + 0.2, math.pi]
-        assert np.isnan(file.variables["ldp"][1])
+        assert file.variables["bottom_dead_centre"][:].tolist()[::2] == [0.1 + 0.2, math.pi]
+        assert np.isnan(file.variables["bottom_dead_centre"][1])
         assert file.variables["speed_rpm"].units == b"rpm"
         texts = [b"".join(row).rstrip(b"\0").decode() for row in file.variables["reason"][:]]
         assert texts == [row["reason"] for row in ROWS]
 
 
 def test_what_is_shown(table):
-    assert shown(table) == ("joints.crank_pin.peak_force", "ldp")
+    assert shown(table) == ("joints.crank_pin.peak_force", "bottom_dead_centre")
     assert shown(table, ["steps"]) == ("steps",)
     with pytest.raises(InputError, match=r"--show status: allowed are .*ldp"):
         shown(table, ["status"])

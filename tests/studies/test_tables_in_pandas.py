@@ -14,7 +14,7 @@ pandas = pytest.importorskip("pandas")
 xarray = pytest.importorskip("xarray")
 
 SCENE = Scene.from_dict(
-    {"mechanism": "slider_crank", "crank_pin": "lubricated", "revolutions": 0.05}
+    {"mechanism": "slider_crank", "joints": {"crank_pin": "lubricated"}, "revolutions": 0.05}
 )
 
 
@@ -43,7 +43,7 @@ def test_comparison(tmp_path):
 
 
 def test_precision():
-    report = precision((case_of("mine", SCENE.replace(crank_pin="ideal")),), quick=True)
+    report = precision((case_of("mine", SCENE.replace({"joints.crank_pin": "ideal"})),), quick=True)
     frame = pandas.DataFrame(report.to_dict()["rows"])
     fixed = frame[frame["solver"] == "fixed step"].sort_values("value")
     assert len(fixed) > 1

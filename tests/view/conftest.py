@@ -9,8 +9,12 @@ from exu_press.view.film import SIZE
 
 SCENES = {
     "press": {"mechanism": "press", "revolutions": 0.3},
-    "slider_crank": {"mechanism": "slider_crank", "crank_pin": "dry", "revolutions": 0.3},
-    "ideal": {"crank_pin": "ideal", "balls": "ideal", "revolutions": 0.1},
+    "slider_crank": {
+        "mechanism": "slider_crank",
+        "joints": {"crank_pin": "dry"},
+        "revolutions": 0.3,
+    },
+    "ideal": {"joints": {}, "revolutions": 0.1},
     "flexible": {"bodies": "flexible", "revolutions": 0.03},
 }
 

@@ -114,14 +114,14 @@ def cases() -> tuple[Case, ...]:
             "press_ideal",
             "Press, rigid, ideal",
             "closed form",
-            Scene(crank_pin="ideal", balls="ideal"),
+            _press("ideal", "ideal"),
             steps=STEPS[:7],
         ),
         Case(
             "press_lubricated",
             "Press, rigid, lubricated pin and dry balls, 0.1 mm",
             "own",
-            Scene(crank_pin="lubricated", balls="dry"),
+            _press("lubricated", "dry"),
             steps=STEPS[:8],
             tolerances=TOLERANCES[:11],
             reference_tolerance=1e-6,
@@ -131,7 +131,7 @@ def cases() -> tuple[Case, ...]:
             "press_dry",
             "Press, rigid, dry pin and dry balls, 0.1 mm",
             "own",
-            Scene(crank_pin="dry", balls="dry"),
+            _press("dry", "dry"),
             horizon=0.225,  # two references part by 2e-7 m before the impacts at 0.24 s, 1e-5 after
             steps=STEPS[:8],
             tolerances=TOLERANCES[:11],
@@ -142,7 +142,7 @@ def cases() -> tuple[Case, ...]:
             "press_flexible_lubricated",
             "Press, flexible (20 modes), lubricated pin and dry balls, 0.1 mm",
             "own",
-            Scene(bodies="flexible", crank_pin="lubricated", balls="dry"),
+            _press("lubricated", "dry", bodies="flexible"),
             steps=STEPS[3:9],
             tolerances=TOLERANCES[:10],
             reference_tolerance=1e-5,
@@ -153,7 +153,7 @@ def cases() -> tuple[Case, ...]:
             "press_flexible_dry",
             "Press, flexible (20 modes), dry pin and dry balls, 0.1 mm",
             "own",
-            Scene(bodies="flexible", crank_pin="dry", balls="dry"),
+            _press("dry", "dry", bodies="flexible"),
             steps=STEPS[3:8],
             tolerances=TOLERANCES[:10],
             reference_tolerance=1e-5,
@@ -164,9 +164,7 @@ def cases() -> tuple[Case, ...]:
             "press_flexible_modes",
             "Press, flexible, lubricated pin and dry balls, against 40 modes",
             "own",
-            Scene(
-                crank_pin="lubricated", balls="dry", bodies="flexible", flexible=Flexible(modes=40)
-            ),
+            _press("lubricated", "dry", bodies="flexible", flexible=Flexible(modes=40)),
             steps=(),
             tolerances=(),
             reference_tolerance=1e-4,
@@ -195,7 +193,7 @@ def chosen(names: list[str]) -> tuple[Case, ...]:
 
 def case_of(name: str, scene: Scene) -> Case:
     """Return the case of a user's scene, with the best reference there is for it."""
-    if "dry" not in (scene.crank_pin, scene.balls) and scene.crank_pin == "ideal":
+    if not scene.joints.with_clearance:
         return Case(name, "Scene, ideal joints", "closed form", scene, steps=STEPS[:7])
     if is_reducible(scene):
         return Case(name, "Scene, slider-crank", "reduced", scene)
@@ -211,6 +209,10 @@ def case_of(name: str, scene: Scene) -> Case:
     )
 
 
+def _press(pin: str, balls: str, **given: Any) -> Scene:
+    return Scene(**given).replace({"joints.crank_pin": pin, "joints.balls": balls})
+
+
 def _slider_crank(pin: str, clearance: float | None = None) -> Scene:
-    given: dict[str, Any] = {} if clearance is None else {"clearance": {"crank_pin": clearance}}
-    return Scene(mechanism="slider_crank", crank_pin=pin, revolutions=1.0, **given)
+    scene = Scene(mechanism="slider_crank", revolutions=1.0).replace("joints.crank_pin", pin)
+    return scene if clearance is None else scene.replace("joints.crank_pin.clearance", clearance)

@@ -43,7 +43,7 @@ class CompiledModel:
         """Return what is seen of states (n, 4) at instants (n,)."""
         seen = np.empty((len(time), 3))
         self._observe(time, states, seen)
-        dry = self.scene.crank_pin == "dry"
+        dry = self.scene.joints["crank_pin"].kind == "dry"
         return Trajectory(
             time, states[:, 1], states[:, 3], seen[:, 0], seen[:, 1], seen[:, 2] if dry else None
         )

@@ -11,12 +11,11 @@ from math import cos, exp, hypot, nan, pi, sin, sqrt, tanh
 from typing import Any, NamedTuple
 
 from exu_press.errors import InputError
-from exu_press.scene import Scene
+from exu_press.scene import Contact, DryJoint, IdealJoint, LubricatedJoint, Scene
 
 __all__ = ["Jit", "Numbers", "ScalarFunction", "is_reducible", "numbers_of", "rate_of", "start_of"]
 
 State = tuple[float, float, float, float]
-PinForce = tuple[float, float, float, float, float]
 ScalarFunction = Callable[..., Any]
 """Floats in, a tuple of floats out; Any, as a compiled one has no signature to check."""
 Jit = Callable[[ScalarFunction], ScalarFunction]
@@ -59,11 +58,10 @@ def numbers_of(scene: Scene) -> Numbers:
             "the reduced model is a rigid slider-crank without blanking, with a dry pin (point "
             "contact, step damping, lugre_steady) or with the film law 'pinkus'"
         )
-    size, clearance, contact = scene.slider_crank, scene.clearance, scene.contact
-    assert size is not None
-    assert clearance is not None and clearance.crank_pin is not None
-    assert contact is not None
-    friction, film, c = scene.friction, scene.film, clearance.crank_pin
+    size, pin = scene.slider_crank, scene.joints["crank_pin"]
+    assert size is not None and not isinstance(pin, IdealJoint)
+    contact, friction, c = pin.contact or Contact(), pin.friction, pin.clearance
+    film = pin.film if isinstance(pin, LubricatedJoint) else None
     return Numbers(
         crank_radius=size.crank_radius,
         rod_length=size.rod_length,
@@ -74,7 +72,7 @@ def numbers_of(scene: Scene) -> Numbers:
         speed=scene.angular_speed,
         start_angle=scene.start_angle,
         clearance=c,
-        radius=contact.radius,
+        radius=pin.radius,
         stiffness=contact.stiffness,
         exponent=contact.exponent,
         damping_max=contact.damping_max,
@@ -85,23 +83,26 @@ def numbers_of(scene: Scene) -> Numbers:
         stribeck_velocity=friction.stribeck_velocity if friction else 1.0,
         stribeck_exponent=friction.stribeck_exponent if friction else 1.0,
         regularisation_velocity=friction.regularisation_velocity if friction else 1.0,
-        film_scale=film.viscosity * film.length * contact.radius**3 / c**2 if film else 0.0,
+        film_scale=film.viscosity * film.length * pin.radius**3 / c**2 if film else 0.0,
     )
 
 
 def is_reducible(scene: Scene) -> bool:
     """Return whether the reduced model holds a scene's mechanism and laws."""
-    contact, friction, film = scene.contact, scene.friction, scene.film
-    dry = (
-        scene.crank_pin == "dry"
-        and contact is not None
-        and friction is not None
-        and (contact.shape, contact.damping, contact.tension) == ("point", "step", False)
-        and friction.law == "lugre_steady"
-    )
-    lubricated = film is not None and (film.law, film.at_contact) == ("pinkus", "stop")
-    rigid_slider_crank = (scene.mechanism, scene.bodies) == ("slider_crank", "rigid")
-    return rigid_slider_crank and scene.blanking is None and (dry or lubricated)
+    if (scene.mechanism, scene.bodies, scene.blanking) != ("slider_crank", "rigid", None):
+        return False
+    if set(scene.joints.with_clearance) != {"crank_pin"}:
+        return False
+    pin = scene.joints["crank_pin"]
+    if isinstance(pin, LubricatedJoint):
+        return (pin.film.law, pin.film.at_contact) == ("pinkus", "stop")
+    assert isinstance(pin, DryJoint)
+    contact = pin.contact
+    return (contact.shape, contact.damping, contact.tension) == (
+        "point",
+        "step",
+        False,
+    ) and pin.friction.law == "lugre_steady"
 
 
 def start_of(numbers: Numbers) -> State:
@@ -116,10 +117,8 @@ def start_of(numbers: Numbers) -> State:
 
 def dry_force(
     n: Numbers, e: float, n_rate: float, t_rate: float, omega_j: float, omega_b: float, c: float
-) -> PinForce:
+) -> State:
     """Return f_n, f_t on the journal (N), the arm of -f_t on the bearing (m), the penetration (m).
-
-    And the couple on the bearing (N m), which a film's shear alone has.
 
     Hertz with STEP damping and no tension (Eqs. 23-26), steady LuGre friction (Eq. 33).
 
@@ -134,7 +133,7 @@ def dry_force(
     """
     depth, reach = e - c, n.radius + e
     if depth <= 0.0:
-        return 0.0, 0.0, reach, depth, 0.0
+        return 0.0, 0.0, reach, depth
     x = min(depth / n.damping_depth, 1.0)
     damping = n.damping_max * x * x * (3.0 - 2.0 * x)
     normal = max(0.0, n.stiffness * depth**n.exponent + damping * n_rate)
@@ -143,16 +142,16 @@ def dry_force(
     mu = (n.mu_kinetic + (n.mu_static - n.mu_kinetic) * stribeck) * tanh(
         v / n.regularisation_velocity
     ) + n.sigma_2 * v
-    return -normal, -mu * normal, reach, depth, 0.0
+    return -normal, -mu * normal, reach, depth
 
 
 def film_force(
     n: Numbers, e: float, n_rate: float, t_rate: float, omega_j: float, omega_b: float, c: float
-) -> PinForce:
+) -> State:
     """Return the same of Pinkus' film with |eps_dot| (Eq. 35); NaN at eccentricity ratio 1."""
     eps, eps_t = e / c, n_rate / c
     if eps >= 1.0:
-        return nan, nan, nan, nan, nan
+        return nan, nan, nan, nan
     eps_w = eps * (omega_j + omega_b) - 2.0 * t_rate / c
     s2, two = 1.0 - eps * eps, 2.0 + eps * eps
     s, b = sqrt(s2), abs(eps_t) * eps
@@ -160,8 +159,7 @@ def film_force(
     x = 1.0 + (3.0 * eps * eps_t / (2.0 * big_s + 3.0 * b) if b > 0.0 else 0.0)
     f_r = -(24.0 * eps * big_s / two + 6.0 * pi * x * eps_t) / (s2 * s)
     f_t = 6.0 * pi * x * eps_w / (two * s)
-    shear = n.film_scale * c * 2.0 * pi / s * (omega_j - omega_b)
-    return n.film_scale * f_r, n.film_scale * f_t, 0.5 * e, e - c, shear
+    return n.film_scale * f_r, n.film_scale * f_t, 0.5 * e, e - c
 
 
 def _pin_forces(law: ScalarFunction, jit: Jit) -> ScalarFunction:
@@ -183,11 +181,11 @@ def _pin_forces(law: ScalarFunction, jit: Jit) -> ScalarFunction:
         v = -r * n.speed * sin_a - y_t + big_l * cos_p * phi_t
         e = hypot(e_x, e_y)
         n_x, n_y = (e_x / e, e_y / e) if e > 0.0 else (1.0, 0.0)
-        f_n, f_t, reach, depth, couple = law(
+        f_n, f_t, reach, depth = law(
             n, e, u * n_x + v * n_y, v * n_x - u * n_y, n.speed, phi_t, n.clearance
         )
         f_x, f_y = f_n * n_x - f_t * n_y, f_n * n_y + f_t * n_x
-        on_phi = big_l * (f_y * cos_p - f_x * sin_p) - reach * f_t + couple
+        on_phi = big_l * (f_y * cos_p - f_x * sin_p) - reach * f_t
         return -f_y, on_phi, hypot(f_n, f_t), depth, e_x, e_y
 
     return jit(pin)
@@ -205,7 +203,7 @@ def rate_of(scene: Scene, jit: Jit | None = None) -> tuple[ScalarFunction, Scala
     """
     jit = jit or _as_it_is
     n = numbers_of(scene)
-    forces = _pin_forces(dry_force if scene.crank_pin == "dry" else film_force, jit)
+    forces = _pin_forces(dry_force if scene.joints["crank_pin"].kind == "dry" else film_force, jit)
 
     def pin(
         t: float, phi: float, y: float, phi_t: float, y_t: float

@@ -55,17 +55,12 @@ class Trajectory:
 def trajectory_of(result: Result) -> Trajectory:
     """Return the trajectory in a result; the joint is its first dry one, else its first one."""
     names = result.clearance_joints
-    scene = result.scene
-    dry = [n for n in names if (scene.crank_pin if n == "crank_pin" else scene.balls) == "dry"]
+    dry = [name for name in names if result.joints[name].kind == "dry"]
     force = penetration = None
     if names:
-        joint = (dry or list(names))[0]
-        force = np.linalg.norm(result[f"{joint}_force"], axis=1)
-        sizes = scene.clearance
-        assert sizes is not None
-        if dry:
-            clearance = sizes.crank_pin if joint == "crank_pin" else sizes.balls
-            penetration = np.linalg.norm(result[f"{joint}_eccentricity"], axis=1) - clearance
+        joint = result.joints[(dry or list(names))[0]]
+        force = np.linalg.norm(joint.force, axis=1)
+        penetration = -joint.gap if dry else None
     return Trajectory(
         result.time,
         result["slider_position"],

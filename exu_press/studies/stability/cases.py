@@ -26,14 +26,14 @@ BUDGET = 20_000
 """Steps of a case, five times as many for the finer run beside it."""
 
 BASES: Mapping[str, Changes] = {
-    "press": {"crank_pin": "dry"},
+    "press": {"joints.crank_pin": "dry"},
     "press lubricated": {"film.viscosity": 0.1},
     "press mixed": {"film.viscosity": 0.1, "film.at_contact": "mixed"},
-    "slider-crank": {"mechanism": "slider_crank", "crank_pin": "dry"},
+    "slider-crank": {"mechanism": "slider_crank", "joints.crank_pin": "dry"},
     "slider-crank lubricated": {"mechanism": "slider_crank"},
     "slider-crank mixed": {"mechanism": "slider_crank", "film.at_contact": "mixed"},
-    "press ideal": {"crank_pin": "ideal", "balls": "ideal"},
-    "slider-crank ideal": {"mechanism": "slider_crank", "crank_pin": "ideal"},
+    "press ideal": {"joints.crank_pin": "ideal", "joints.balls": "ideal"},
+    "slider-crank ideal": {"mechanism": "slider_crank", "joints.crank_pin": "ideal"},
 }
 """What an axis is varied on; dry balls in the press unless it says otherwise."""
 
@@ -147,8 +147,8 @@ def _contacts() -> list[Case]:
 def _clearances() -> list[Case]:
     """Radial clearance of every joint that has one."""
     values = (1e-7, 1e-6, 1e-5, 1e-4, 3e-4, 1e-3)
-    pin = _numbers("clearance.crank_pin", values, " m")
-    both = {name: {**change, "clearance.balls": v} for (name, change), v in zip(
+    pin = _numbers("joints.crank_pin.clearance", values, " m")
+    both = {name: {**change, "joints.balls.clearance": v} for (name, change), v in zip(
         pin.items(), values, strict=True)}  # fmt: skip
     return [
         *_along("clearance", ["press", "press lubricated"], both),
@@ -199,7 +199,7 @@ def _frictions() -> list[Case]:
     near dead centre, which is tried too.
     """
 
-    thin = {"contact.radius": 0.02}
+    thin = {"joints.crank_pin.radius": 0.02}
 
     def both(mu: float) -> Changes:
         return {"friction.mu_static": mu, "friction.mu_kinetic": mu, **(thin if mu > 0.1 else {})}
@@ -323,7 +323,7 @@ def _settings() -> list[Case]:
 def _variants() -> list[Case]:
     """Every joint variant without gravity, for a whole revolution and, where cheap, twenty."""
     variants = {
-        f"pin {pin}, balls {balls}": {"crank_pin": pin, "balls": balls}
+        f"pin {pin}, balls {balls}": {"joints.crank_pin": pin, "joints.balls": balls}
         for pin in ("ideal", "dry", "lubricated")
         for balls in ("ideal", "dry")
     }
@@ -340,7 +340,7 @@ def _variants() -> list[Case]:
         *_along("joint variants", ["slider-crank"], {"pin dry": {"revolutions": 1.0}}),
         *_along("long runs", [*IDEAL, "slider-crank lubricated"], twenty),
         *_along("long runs", ["press lubricated"], {
-            "20 revolutions, balls ideal": {"balls": "ideal", "revolutions": 20.0}}),
+            "20 revolutions, balls ideal": {"joints.balls": "ideal", "revolutions": 20.0}}),
     ]  # fmt: skip
 
 
@@ -354,9 +354,11 @@ def _pairs() -> list[Case]:
         "stiffness x 1e3": {"contact.stiffness": 2.5545e13},
         "undamped": {"contact.damping_max": 0.0},
         "clearance 1e-7 m": {
-            "clearance.crank_pin": 1e-7, "clearance.balls": 1e-7, "film.roughness": 1e-8
+            "joints.crank_pin.clearance": 1e-7,
+            "joints.balls.clearance": 1e-7,
+            "film.roughness": 1e-8,
         },
-        "clearance 1e-3 m": {"clearance.crank_pin": 1e-3, "clearance.balls": 1e-3},
+        "clearance 1e-3 m": {"joints.crank_pin.clearance": 1e-3, "joints.balls.clearance": 1e-3},
         "1 rpm": {"speed_rpm": 1.0, "revolutions": 2e-4},
         "3000 rpm": {"speed_rpm": 3000.0},
         "viscosity 1e-5 Pa s": {"film.viscosity": 1e-5},

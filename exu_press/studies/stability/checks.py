@@ -12,8 +12,8 @@ from exu_press.integrate.newton import DIGITS
 from exu_press.laws.film.contract import film_scale
 from exu_press.mechanism import GROUND, mechanism_of
 from exu_press.result import Result
-from exu_press.scene import Scene
-from exu_press.scene.laws import asperity_onset, contact_law
+from exu_press.scene import LubricatedJoint, Scene
+from exu_press.scene.laws import contact_law
 
 __all__ = ["RESIDUAL_LIMIT", "Check", "agreement", "checks_of"]
 
@@ -86,10 +86,13 @@ def checks_of(result: Result) -> list[Check]:
     if elastic is not None:
         surplus = float((elastic - _energy_there(result)).max())
         checks.append(_check("contact energy out of nothing", _ratio(surplus, scale), ENERGY_LIMIT))
-    film = result.scene.film
-    if film is not None and film.at_contact == "stop":
-        ratio = result.summary()["joints"]["crank_pin"]["max_eccentricity_ratio"]
-        checks.append(_check("eccentricity ratio of the film", ratio, 1.0))
+    films = [
+        float(result.joints[name].distance.max()) / joint.clearance
+        for name, joint in result.scene.joints.with_clearance.items()
+        if joint.onset is None
+    ]
+    if films:
+        checks.append(_check("eccentricity ratio of the film", max(films), 1.0))
     return checks
 
 
@@ -124,7 +127,7 @@ def _quantities(result: Result, asked: float) -> Iterator[tuple[str, float, Any]
         return lambda finer: (share + asked) * abs(finer) + least
 
     yield "stroke", summary["stroke"], lambda _: length
-    yield "lowest position", summary["ldp"], lambda _: length
+    yield "bottom dead centre", summary["bottom_dead_centre"], lambda _: length
     yield "peak velocity", summary["peak_velocity"], relative(0.01)
     for name, share in (("mean_1ms", 0.05), ("resolved", 0.1)):
         value = summary["peak_acceleration"][name]
@@ -163,7 +166,10 @@ def _drifts(result: Result) -> Iterator[tuple[float, str]]:
         )
 
     for joint in mechanism.joints:
-        if joint.kind == "ideal" and not flexible & {joint.journal, joint.bearing}:
+        if joint.name in result.scene.joints.ideal and not flexible & {
+            joint.journal,
+            joint.bearing,
+        }:
             gap = world(joint.journal, joint.journal_point) - world(
                 joint.bearing, joint.bearing_point
             )
@@ -172,22 +178,13 @@ def _drifts(result: Result) -> Iterator[tuple[float, str]]:
 
 def _elastic_energy(result: Result) -> Array | None:
     """Return what the contacts of all joints store, (n,), J; None where nothing may touch."""
-    scene = result.scene
-    if scene.contact is None or scene.clearance is None:
-        return None
     total, found = np.zeros_like(result.time), False
-    for name in result.clearance_joints:
-        radial = scene.clearance.crank_pin if name == "crank_pin" else scene.clearance.balls
-        assert radial is not None
-        onset = 0.0
-        if name == "crank_pin" and scene.film is not None:
-            asperities = asperity_onset(scene.film)
-            if asperities is None:
-                continue
-            onset = asperities
-        found = True
-        law = contact_law(scene.contact, radial, revolute=name == "crank_pin")
-        depth = np.linalg.norm(result[f"{name}_eccentricity"], axis=1) - radial + onset
+    for name, joint in result.scene.joints.with_clearance.items():
+        if joint.contact is None or joint.onset is None:
+            continue
+        found, record = True, result.joints[name]
+        law = contact_law(joint.contact, joint.clearance, revolute=not record.spherical)
+        depth = joint.onset - record.gap
         total += [law.elastic_energy(d) for d in depth.tolist()]
     return total if found else None
 
@@ -211,22 +208,19 @@ def _energy_there(result: Result) -> Array:
 
 
 def _largest_clearance(scene: Scene) -> float:
-    clearance = scene.clearance
-    if clearance is None:
-        return 0.0
-    return max(clearance.crank_pin or 0.0, clearance.balls or 0.0)
+    return max((joint.clearance for joint in scene.joints.values()), default=0.0)
 
 
-def _rounding(scene: Scene, joint: str) -> float:
+def _rounding(scene: Scene, name: str) -> float:
     """Return what the last digits of a speed make of a film's force, N; 0 without a film.
 
     A centred film resists being squeezed by up to 12 pi mu L (R/c)^3 N s/m (long bearing).
     """
-    film, contact, clearance = scene.film, scene.contact, scene.clearance
-    c = clearance.crank_pin if clearance is not None else None
-    if joint != "crank_pin" or film is None or contact is None or c is None:
+    joint = scene.joints[name]
+    if not isinstance(joint, LubricatedJoint):
         return 0.0
-    damping = 12.0 * math.pi * film_scale(film.viscosity, film.length, contact.radius, c) / c
+    film, c = joint.film, joint.clearance
+    damping = 12.0 * math.pi * film_scale(film.viscosity, film.length, joint.radius, c) / c
     return DIGITS * scene.pin_speed * damping
 
 

@@ -14,7 +14,7 @@ USUAL = (
     "joints.crank_pin.peak_force",
     "joints.ball_left.peak_force",
     "joints.crank_pin.min_film",
-    "ldp",
+    "bottom_dead_centre",
     "energy.dissipated",
 )
 MOST = 4

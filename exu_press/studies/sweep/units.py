@@ -4,7 +4,8 @@ import dataclasses
 from collections.abc import Mapping
 from typing import Any
 
-from exu_press.scene import Scene
+from exu_press.scene import DryJoint, Scene
+from exu_press.scene.checks import Table
 from exu_press.scene.scene import TABLES
 
 __all__ = ["meaning_of", "unit_of"]
@@ -13,7 +14,7 @@ UNITS = {
     "peak_acceleration": "m/s^2",
     "peak_velocity": "m/s",
     "stroke": "m",
-    "ldp": "m",
+    "bottom_dead_centre": "m",
     "peak_force": "N",
     "peak_penetration": "m",
     "min_film": "m",
@@ -30,7 +31,7 @@ UNITS = {
 def unit_of(name: str) -> str:
     """Return the SI unit of a scene's key or of a summary's entry, or nothing.
 
-    >>> unit_of("clearance.crank_pin"), unit_of("joints.ball_left.peak_force"), unit_of("steps")
+    >>> unit_of("joints.balls.clearance"), unit_of("joints.ball_left.peak_force"), unit_of("steps")
     ('m', 'N', '')
     """
     metadata = _metadata(name)
@@ -53,8 +54,11 @@ def meaning_of(name: str) -> str:
 def _metadata(name: str) -> Mapping[str, Any] | None:
     """Return what a key of a scene states of itself."""
     table, _, inner = name.removeprefix("scene.").rpartition(".")
-    if table and table not in TABLES:
+    kind: type[Table] = TABLES.get(table, Scene)
+    if table.startswith("joints."):  # joints.NAME.key or joints.NAME.law.key
+        kind = TABLES.get(table.rpartition(".")[2], DryJoint)
+    elif table and table not in TABLES:
         return None
-    fields = {field.name: field for field in dataclasses.fields(TABLES.get(table, Scene))}
+    fields = {field.name: field for field in dataclasses.fields(kind)}
     found = fields.get(inner)
     return found.metadata if found is not None and "meaning" in found.metadata else None

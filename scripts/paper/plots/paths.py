@@ -41,7 +41,7 @@ def paths_figure(
     grid = drawing.subplots(2, len(runs), height_ratios=(1.0, 0.13), squeeze=False)
     coloured = None
     for column, (label, run) in enumerate(runs.items()):
-        lines = draw_path(grid[0, column], Path(label, run, f"{joint}_eccentricity"))
+        lines = draw_path(grid[0, column], Path(label, run, joint))
         grid[0, column].set_title(label)
         ends = grid[0, column].get_legend_handles_labels()
         grid[0, column].get_legend().remove()

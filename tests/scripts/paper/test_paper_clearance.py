@@ -3,7 +3,7 @@
 import pytest
 
 from exu_press import Scene
-from paper.clearance import Point, choose, point_of, scenes_of
+from paper.clearance import Point, choose, clearances_of, point_of, scenes_of
 
 SIZES = (1e-5, 2.5e-5, 5e-5, 1e-4, 1.5e-4, 2e-4, 3e-4, 4e-4)
 
@@ -46,7 +46,7 @@ def test_pin_and_balls_apart():
 
 def test_scenes_and_a_run_that_stopped():
     alike, separate = scenes_of(Scene(), (1e-5, 1e-4), (1e-5, 1e-4), 4.0)
-    assert [s.clearance.balls for s in alike] == [1e-5, 1e-4]
-    pairs = {(s.clearance.crank_pin, s.clearance.balls) for s in separate}
+    assert [s.joints["ball_left"].clearance for s in alike] == [1e-5, 1e-4]
+    pairs = {clearances_of(s) for s in separate}
     assert len(pairs) == 4 and {s.revolutions for s in separate} == {4.0}
     assert point_of(alike[0], {"status": "failed", "readings": None}) is None

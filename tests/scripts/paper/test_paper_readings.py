@@ -13,7 +13,7 @@ from paper.readings import observed_span, readings
 
 @pytest.fixture(scope="module")
 def ideal():
-    scene = Scene(crank_pin="ideal", balls="ideal", revolutions=2.0)
+    scene = Scene(joints={"crank_pin": "ideal", "balls": "ideal"}, revolutions=2.0)
     return simulate(scene.replace("solver.step", 5e-4))
 
 
@@ -82,7 +82,7 @@ def test_the_frequency_of_an_oscillation_on_top_of_the_ideal_motion(ideal):
 
 
 def test_a_centred_journal_costs_petroffs_power():
-    scene = Scene(balls="ideal", revolutions=0.05)
+    scene = Scene(joints={"crank_pin": "lubricated", "balls": "ideal"}, revolutions=0.05)
     run = simulate(scene)
     lost = readings(run)["losses"]
     petroff = 2.0 * math.pi * 0.4 * 0.1 * 0.07**3 * scene.angular_speed**2 / 1e-4

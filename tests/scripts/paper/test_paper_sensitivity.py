@@ -64,8 +64,8 @@ def test_every_assumption_is_varied_but_the_topology():
 
 
 def test_multiples_are_of_what_the_scene_has():
-    twice = Setting("", "", {"clearance.balls": Times(2.0)})
-    assert twice.on(RUNS["clearance 0.05 mm"]).clearance.balls == pytest.approx(1e-4)
+    twice = Setting("", "", {"joints.balls.clearance": Times(2.0)})
+    assert twice.on(RUNS["clearance 0.05 mm"]).joints["ball_left"].clearance == pytest.approx(1e-4)
 
 
 def row(acceleration):

@@ -1,0 +1,94 @@
+"""Joints as nested mappings, before they are checked: what is changed, used and dropped."""
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from exu_press.errors import InputError
+from exu_press.scene.joint import LAW_TABLES, keys_used
+from exu_press.scene.joints import keys_given
+from exu_press.scene.tables import Film
+
+__all__ = ["by_group", "changed_joints", "kinds_of", "unused_laws"]
+
+
+def unused_laws(kinds: Iterable[tuple[Any, Any]]) -> dict[str, str]:
+    """Return which of the scene's laws no joint has -> the reason.
+
+    Args:
+        kinds: kind and film.at_contact of every joint.
+    """
+    used = {key for kind, at_contact in kinds for key in keys_used(kind, at_contact)}
+    touching = "no joint is 'dry' or has a mixed film"
+    reasons = {"contact": touching, "friction": touching, "film": "no joint is 'lubricated'"}
+    return {law: reason for law, reason in reasons.items() if law not in used}
+
+
+def kinds_of(joints: Any, film: Any) -> list[tuple[Any, Any]]:
+    """Return kind and film.at_contact of joints as a scene file or a scene has them."""
+    usual = _peek(film, "at_contact", Film.at_contact)
+    each = joints.values() if isinstance(joints, Mapping) else ()
+    return [
+        (
+            joint if isinstance(joint, str) else _peek(joint, "kind"),
+            _peek(_peek(joint, "film"), "at_contact", usual),
+        )
+        for joint in each
+    ]
+
+
+def changed_joints(
+    joints: Mapping[str, Mapping[str, Any]],
+    groups: Mapping[str, tuple[str, ...]],
+    changes: Mapping[str, Any],
+    film: Any,
+) -> dict[str, dict[str, Any]]:
+    """Return joints with other kinds or keys; what a joint no longer uses is dropped.
+
+    Args:
+        joints: as `Joints.to_dict` has them.
+        groups: names for several joints at once -> these joints.
+        changes: "NAME" -> a kind, or all keys; "NAME.key" or "NAME.law.key" -> a value. What they
+            name themselves is not dropped.
+        film: the scene's own, after the change.
+    """
+    changed = {name: dict(keys) for name, keys in joints.items()}
+    named = set()
+    for path, value in changes.items():
+        name, _, inner = path.partition(".")
+        key, _, last = inner.partition(".")
+        for member in groups.get(name, (name,)):
+            keys = changed.setdefault(member, {})
+            named.add((member, key))
+            if not inner and not isinstance(value, str):
+                changed[member] = keys_given(name, value)
+                named |= {(member, given) for given in changed[member]}
+            elif not last:
+                keys[key or "kind"] = value
+            elif isinstance(keys.setdefault(key, {}), dict):
+                keys[key] = {**keys[key], last: value}
+            else:
+                raise InputError(f"joints.{path} = {value!r}: {key} is no table of a joint")
+    for name, keys in changed.items():
+        ((kind, at_contact),) = kinds_of({name: keys}, film)
+        for key in keys.keys() - {"kind", *keys_used(kind, at_contact)}:
+            if (name, key) not in named and key in ("clearance", "radius", *LAW_TABLES):
+                del keys[key]
+    return changed
+
+
+def by_group(
+    message: str, groups: Mapping[str, tuple[str, ...]], changes: Mapping[str, Any]
+) -> str:
+    """Return a message about a joint with the group's name, where that is what was changed."""
+    for path in changes:
+        group = path.partition(".")[0]
+        for member in groups.get(group, ()):
+            message = message.replace(f"joints.{member}", f"joints.{group}")
+    return message
+
+
+def _peek(table: Any, name: str, otherwise: Any = None) -> Any:
+    """Return a key of a table before or after the table itself has been checked."""
+    if isinstance(table, Mapping):
+        return table.get(name, otherwise)
+    return getattr(table, name, otherwise)

@@ -1,0 +1,263 @@
+"""Every joint of a mechanism: ideal, dry or lubricated, from what a scene says of some of them."""
+
+import dataclasses
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
+
+from exu_press.errors import InputError
+from exu_press.scene.checks import Table, nearest, table_from
+from exu_press.scene.joint import (
+    DEFAULT_KINDS,
+    JOINT_KINDS,
+    LAW_TABLES,
+    DryJoint,
+    IdealJoint,
+    Joint,
+    LubricatedJoint,
+    joint_dict,
+    keys_used,
+)
+from exu_press.scene.laws import contact_law, film_law, friction_law
+from exu_press.scene.tables import Film
+
+__all__ = ["Joints", "joints_of", "keys_given"]
+
+Laws = Mapping[str, Table]
+"""The scene's own "contact", "friction" and "film"."""
+
+
+class Joints(Mapping[str, Joint]):
+    """Every joint of a mechanism by its name, in the mechanism's order.
+
+    Attributes:
+        mechanism: its name, for messages.
+        spherical: names of the balls in their sockets.
+        groups: names for several joints at once -> these joints.
+    """
+
+    def __init__(
+        self,
+        joints: Mapping[str, Joint],
+        mechanism: str,
+        groups: Mapping[str, tuple[str, ...]],
+        spherical: Iterable[str] = (),
+    ) -> None:
+        """Keep joints that have been checked; `joints_of` makes them from what is given."""
+        self.spherical = frozenset(spherical)
+        self._joints = dict(joints)
+        self.mechanism = mechanism
+        self.groups = dict(groups)
+
+    def __getitem__(self, name: str) -> Joint:
+        """Return a joint by its name."""
+        if name not in self._joints:
+            raise InputError(_unknown(name, self.mechanism, self._joints, {}))
+        return self._joints[name]
+
+    def __iter__(self) -> Iterator[str]:
+        """Iterate over the names."""
+        return iter(self._joints)
+
+    def __len__(self) -> int:
+        """Return how many there are."""
+        return len(self._joints)
+
+    def __contains__(self, name: object) -> bool:
+        """Return whether the mechanism has a joint."""
+        return name in self._joints
+
+    def __hash__(self) -> int:
+        """Return the hash of all joints."""
+        return hash(tuple(self._joints.items()))
+
+    def __eq__(self, other: object) -> bool:
+        """Return whether all joints are equal."""
+        return isinstance(other, Joints) and self._joints == other._joints
+
+    def __repr__(self) -> str:
+        """Return the joints that are not ideal."""
+        return f"Joints({self.with_clearance!r})"
+
+    @property
+    def ideal(self) -> frozenset[str]:
+        """Names of the joints without clearance."""
+        return frozenset(n for n, joint in self._joints.items() if isinstance(joint, IdealJoint))
+
+    @property
+    def with_clearance(self) -> dict[str, DryJoint | LubricatedJoint]:
+        """The joints with clearance."""
+        return {n: j for n, j in self._joints.items() if not isinstance(j, IdealJoint)}
+
+    @property
+    def grouped(self) -> dict[str, DryJoint | LubricatedJoint]:
+        """The joints with clearance, those of a group that are all the same under its name."""
+        loose = self.with_clearance
+        shown: dict[str, DryJoint | LubricatedJoint] = {}
+        for name, joint in loose.items():
+            group = next(
+                (
+                    group
+                    for group, members in self.groups.items()
+                    if name in members and all(loose.get(member) == joint for member in members)
+                ),
+                name,
+            )
+            shown.setdefault(group, joint)
+        return shown
+
+    def to_dict(self, laws: Mapping[str, Table | None]) -> dict[str, dict[str, Any]]:
+        """Return the joints with clearance as nested mappings.
+
+        Args:
+            laws: the scene's; what a joint's own differ in is given.
+        """
+        return {name: joint_dict(joint, laws) for name, joint in self.with_clearance.items()}
+
+    def members(self, name: str) -> tuple[str, ...]:
+        """Return the joints that a joint's or a group's name stands for."""
+        return self.groups.get(name, (name,))
+
+
+def joints_of(
+    given: Any,
+    mechanism: str,
+    spherical: Mapping[str, bool],
+    groups: Mapping[str, tuple[str, ...]],
+    laws: Laws,
+) -> Joints:
+    """Return every joint of a mechanism from what a scene gives.
+
+    A joint's own keys go before those of its group; a joint that is not named is ideal.
+
+    Args:
+        given: joint or group -> its kind, a mapping of its keys or one of the three dataclasses;
+            None: the shipped mechanism's own.
+        mechanism: its name.
+        spherical: every joint of it -> whether it is a ball in a socket.
+        groups: names for several joints at once -> these joints.
+        laws: the scene's own, for what a joint does not say.
+
+    Raises:
+        InputError: there is no such joint or group, a joint lies in two groups that are given, a
+            key is not one of this kind of joint, or a law's parameters are outside its range.
+    """
+    if given is None:
+        given = DEFAULT_KINDS.get(mechanism, {})
+    if not isinstance(given, Mapping):
+        raise InputError(f"joints = {given!r}: allowed is a table of joints")
+    own: dict[str, dict[str, Any]] = {}
+    by_group: dict[str, str] = {}
+    for group, members in groups.items():
+        for member in members if group in given else ():
+            if member in by_group:
+                raise InputError(
+                    f"joints.{by_group[member]}, joints.{group}: {member} lies in both; allowed "
+                    "is one of them"
+                )
+            by_group[member] = group
+            own[member] = keys_given(group, given[group])
+    for joint, value in given.items():
+        if joint in spherical:
+            own[joint] = {**own.get(joint, {}), **keys_given(joint, value)}
+        elif joint not in groups:
+            raise InputError(_unknown(joint, mechanism, spherical, groups, value))
+    found = {}
+    for joint, ball in spherical.items():
+        shown = joint if joint in given else by_group.get(joint, joint)
+        found[joint] = _joint(shown, own.get(joint, {"kind": "ideal"}), laws, spherical=ball)
+    return Joints(found, mechanism, groups, [name for name, ball in spherical.items() if ball])
+
+
+def keys_given(name: str, given: Any) -> dict[str, Any]:
+    """Return what is given of a joint or group as a mapping with its kind."""
+    if isinstance(given, (IdealJoint, DryJoint, LubricatedJoint)):
+        fields = {field.name: getattr(given, field.name) for field in dataclasses.fields(given)}
+        return {"kind": given.kind, **{k: v for k, v in fields.items() if v is not None}}
+    if isinstance(given, str):
+        return {"kind": given}
+    if not isinstance(given, Mapping):
+        kinds = ", ".join(map(repr, JOINT_KINDS))
+        raise InputError(
+            f"joints.{name} = {given!r}: allowed is a table of keys, or one of {kinds}"
+        )
+    return dict(given)
+
+
+def _joint(name: str, given: Mapping[str, Any], laws: Laws, *, spherical: bool) -> Joint:
+    """Return one joint, checked."""
+    place = f"joints.{name}"
+    kinds = [kind for kind in JOINT_KINDS if not (spherical and kind == "lubricated")]
+    kind = given.get("kind")
+    if kind not in kinds:
+        what = f"{place}.kind = {kind!r}" if "kind" in given else f"{place} has no kind"
+        ball = ", as it is a ball" if spherical else ""
+        raise InputError(f"{what}: allowed is one of {', '.join(map(repr, kinds))}{ball}")
+    known = ("kind", "clearance", "radius", *LAW_TABLES)
+    for unknown in [key for key in given if key not in known]:
+        raise InputError(
+            f"{place}.{unknown} = {given[unknown]!r}: unknown key{nearest(unknown, known)}; "
+            f"allowed are {', '.join(known)}"
+        )
+    own = {law: _law(place, law, given.get(law), laws[law]) for law in LAW_TABLES}
+    film = own["film"]
+    assert isinstance(film, Film)
+    used = keys_used(kind, film.at_contact)
+    for unused in [key for key in given if key not in ("kind", *used)]:
+        mixed = kind == "lubricated" and unused in ("contact", "friction")
+        reason = "film.at_contact is 'stop'" if mixed else f"{place} is {kind!r}"
+        raise InputError(f"{place}.{unused}: not used by this scene ({reason}); remove it")
+    values: dict[str, Any] = {
+        key: own[key] if key in own else given[key] for key in used if key in {**own, **given}
+    }
+    try:
+        joint = JOINT_KINDS[kind](**values)
+    except InputError as error:
+        raise InputError(f"{place}.{error}") from None
+    _check_laws(place, joint, spherical)
+    return joint
+
+
+def _law(place: str, law: str, given: Any, usual: Table) -> Table:
+    """Return a joint's law: the scene's, but for what it says itself."""
+    kind = LAW_TABLES[law]
+    if given is None or isinstance(given, kind):
+        return given or usual
+    if not isinstance(given, Mapping):
+        raise InputError(f"{place}.{law} = {given!r}: allowed is a table of keys")
+    complete = {field.name: getattr(usual, field.name) for field in dataclasses.fields(usual)}
+    try:
+        return table_from(kind, law, {**complete, **given})
+    except InputError as error:
+        raise InputError(f"{place}.{error}") from None
+
+
+def _check_laws(place: str, joint: Joint, spherical: bool) -> None:
+    """Make every law once, so that what is outside its range is refused before anything is run."""
+    if isinstance(joint, IdealJoint):
+        return
+    try:
+        if joint.contact is not None:
+            contact_law(joint.contact, joint.clearance, revolute=not spherical)
+        if joint.friction is not None:
+            friction_law(joint.friction)
+        if isinstance(joint, LubricatedJoint):
+            film_law(joint.film, joint.radius, joint.clearance)
+    except InputError as error:
+        raise InputError(f"{error} ({place})") from None
+
+
+def _unknown(
+    name: str,
+    mechanism: str,
+    joints: Iterable[str],
+    groups: Iterable[str],
+    value: Any = None,
+) -> str:
+    """Return the message about a joint or group that there is not."""
+    groups = list(groups)
+    known = [*joints, *groups]
+    given = "" if value is None else f" = {value!r}"
+    return (
+        f"joints.{name}{given}: {mechanism} has no such joint{' or group' if groups else ''}"
+        f"{nearest(name, known)}; allowed are {', '.join(known)}"
+    )

@@ -1,0 +1,107 @@
+"""result.joints: any joint of the mechanism with clearance, on the frame and between links."""
+
+import functools
+
+import numpy as np
+import pytest
+
+from exu_press import InputError, Result, Scene, simulate
+from exu_press.mechanism import GROUND, mechanism_of
+
+SCENES = {
+    "shaft": {"shaft": "lubricated", "crank_pin": "lubricated"},
+    "frame": {"shaft": "dry", "pivots": {"kind": "dry", "clearance": 5e-5}},
+    "both ends of a link": {"crank_pin": "dry", "slide_pin": "lubricated"},
+    "unlike balls": {"balls": "dry", "ball_left": {"clearance": 2e-4}},
+    "many": {"knuckles": "dry", "plunger_pins": "lubricated", "slide_joints": "dry"},
+}
+
+
+@functools.cache
+def run(name):
+    result = simulate(Scene(joints=SCENES[name], revolutions=0.1))
+    assert result.completed, result.info["reason"]
+    return result
+
+
+def world(result, body, point):
+    if body == GROUND:
+        return np.array([point])
+    x, y, angle = result["body_position"][:, result.bodies.index(body)].T
+    return np.column_stack(
+        [
+            x + np.cos(angle) * point[0] - np.sin(angle) * point[1],
+            y + np.sin(angle) * point[0] + np.cos(angle) * point[1],
+        ]
+    )
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_eccentricities_are_where_the_bodies_are(name):
+    """Journal centre minus bearing centre, from the bodies' recorded poses; ideal joints meet."""
+    result = run(name)
+    for joint in mechanism_of(result.scene).joints:
+        record = result.joints[joint.name]
+        apart = world(result, joint.journal, joint.journal_point)
+        apart = apart - world(result, joint.bearing, joint.bearing_point)
+        assert np.abs(record.eccentricity[:, :2] - apart).max() < 2e-9, joint.name
+        assert record.clearance == result.scene.joints[joint.name].clearance
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_energy_is_balanced_and_lost_in_the_joints_alone(name):
+    result = run(name)
+    assert result.summary()["energy"]["residual"] < 1e-3
+    lost = sum(joint["dissipated"] for joint in _loose(result).values())
+    assert lost == pytest.approx(result["energy_dissipated"][-1], rel=1e-12)
+    assert lost > 0.0
+    for joint, entries in _loose(result).items():
+        power = result.joints[joint].dissipated_power
+        assert np.trapezoid(power, result.time) == pytest.approx(entries["dissipated"], rel=0.3)
+
+
+def _loose(result):
+    joints = result.summary()["joints"]
+    return {name: entries for name, entries in joints.items() if entries["kind"] != "ideal"}
+
+
+def test_a_record_holds_all_of_a_joint():
+    result = run("both ends of a link")
+    pin, n = result.joints["crank_pin"], len(result.time)
+    assert (pin.kind, pin.clearance, pin.spherical) == ("dry", 1e-4, False)
+    assert pin.force.shape == pin.eccentricity.shape == pin.moment.shape == (n, 2)
+    assert pin.gap.shape == pin.dissipated_power.shape == (n,)
+    assert np.array_equal(pin.gap, 1e-4 - np.linalg.norm(pin.eccentricity, axis=1))
+    touching = pin.gap < 0.0
+    assert touching.any() and np.all(pin.force[pin.gap > 0.0] == 0.0)
+    assert np.abs(pin.moment[touching]).max() > 0.0, "friction at the journal's surface"
+    ideal = result.joints["pivot_left"]
+    assert ideal.kind == "ideal" and np.abs(ideal.force).max() > 0.0
+    assert not ideal.eccentricity.any() and not ideal.gap.any() and not ideal.moment.any()
+    assert result.joints["ball_left"].spherical and result.joints["ball_left"].force.shape == (n, 3)
+
+
+def test_a_stiff_joint_on_the_frame_is_nearly_ideal():
+    """A film of ten micrometres in shaft and pivots lets the slider go astray by less."""
+    film = {"kind": "lubricated", "clearance": 1e-5}
+    joints = {"shaft": film, "pivots": film}
+    result = simulate(Scene(joints=joints, revolutions=0.2, solver={"tolerance": 1e-4}))
+    angle = result["crank_angle"]
+    ideal = mechanism_of(result.scene).ideal_slider(angle, result.scene.angular_speed)[0]
+    assert 1e-10 < np.abs(result["slider_position"] - ideal).max() < 1e-6
+
+
+def test_saved_and_read_back(tmp_path):
+    result = run("unlike balls")
+    result.save(tmp_path / "run.nc")
+    again = Result.load(tmp_path / "run.nc")
+    assert set(again.joints) == set(result.joints)
+    one, other = again.joints["ball_left"], result.joints["ball_left"]
+    assert np.array_equal(one.moment, other.moment) and one.kind == other.kind == "dry"
+    assert sorted(again.clearance_joints) == ["ball_left", "ball_right"]
+
+
+@pytest.mark.parametrize("joint", ["shaft"])
+def test_a_flexible_crank_rests_in_ideal_bearings(joint):
+    with pytest.raises(InputError, match=rf"joints\.{joint}\.kind = 'dry': allowed with bodies"):
+        Scene(bodies="flexible", joints={joint: "dry"})

@@ -1,0 +1,191 @@
+"""[joints.NAME]: every joint of the mechanism, by its name or its group's."""
+
+import pytest
+
+from exu_press import InputError, Scene, load_scene
+from exu_press.mechanism import mechanism_of
+from exu_press.scene import DryJoint, Film, IdealJoint, LubricatedJoint
+
+
+def press(**joints):
+    return Scene(joints=joints)
+
+
+def refusal(**joints):
+    with pytest.raises(InputError) as caught:
+        press(**joints)
+    assert "\n" not in str(caught.value)
+    return str(caught.value)
+
+
+def test_a_joint_that_is_not_named_is_ideal():
+    scene = press(pivot_left="dry")
+    names = [joint.name for joint in mechanism_of(scene).joints]
+    assert list(scene.joints) == names, "every joint of the mechanism, in its order"
+    assert scene.joints["pivot_left"] == DryJoint()
+    others = {joint for name, joint in scene.joints.items() if name != "pivot_left"}
+    assert others == {IdealJoint()}
+
+
+def test_without_any_the_shipped_mechanisms_have_their_own():
+    assert Scene() == press(crank_pin="lubricated", balls="dry")
+    slider_crank = Scene(mechanism="slider_crank")
+    assert set(slider_crank.joints.with_clearance) == {"crank_pin"}
+    assert press() == Scene(joints={}) != Scene()
+
+
+def test_a_group_stands_for_its_joints():
+    scene = press(knuckles={"kind": "dry", "clearance": 5e-5})
+    loose = scene.joints.with_clearance
+    assert len(loose) == 4
+    assert all(name.startswith("knuckle_") and j.clearance == 5e-5 for name, j in loose.items())
+    assert list(scene.joints.grouped) == ["knuckles"]
+
+
+def test_a_joints_own_keys_go_before_its_groups():
+    scene = press(balls={"kind": "dry", "clearance": 5e-5}, ball_left={"clearance": 2e-4})
+    assert scene.joints["ball_left"].clearance == 2e-4
+    assert scene.joints["ball_right"].clearance == 5e-5
+    assert set(scene.joints.grouped) == {"ball_left", "ball_right"}
+
+
+def test_a_kind_a_table_and_a_dataclass_are_the_same():
+    assert press(crank_pin="lubricated") == press(crank_pin={"kind": "lubricated"})
+    assert press(crank_pin={"kind": "dry", "radius": 0.05}) == press(
+        crank_pin=DryJoint(radius=0.05)
+    )
+    film = Film(law="finite", viscosity=0.1)
+    assert press(crank_pin=LubricatedJoint(film=film)).joints["crank_pin"].film == film
+
+
+def test_own_laws_differ_from_the_scenes():
+    scene = Scene(
+        joints={
+            "crank_pin": {"kind": "lubricated", "film": {"law": "finite"}},
+            "slide_pin": "lubricated",
+            "balls": {"kind": "dry", "contact": {"damping": "flores"}, "friction": {"law": "none"}},
+            "pivots": "dry",
+        },
+        film={"viscosity": 0.1},
+    )
+    films = scene.joints["crank_pin"].film, scene.joints["slide_pin"].film
+    assert [(film.law, film.viscosity) for film in films] == [("finite", 0.1), ("pinkus", 0.1)]
+    assert scene.joints["ball_left"].contact.damping == "flores"
+    assert scene.joints["pivot_left"].contact == scene.contact
+    given = scene.to_dict()["joints"]
+    assert given["crank_pin"]["film"] == {"law": "finite"}, "nothing but the difference"
+    assert "film" not in given["slide_pin"]
+    assert Scene.from_dict(scene.to_dict()) == scene
+
+
+def test_contact_and_friction_of_a_film_only_where_it_is_mixed():
+    assert press(crank_pin="lubricated").joints["crank_pin"].contact is None
+    mixed = Scene(joints={"crank_pin": "lubricated"}, film={"at_contact": "mixed"})
+    assert mixed.joints["crank_pin"].contact == mixed.contact
+    assert mixed.joints["crank_pin"].onset == pytest.approx(6e-7)
+
+
+@pytest.mark.parametrize(
+    ("joints", "message"),
+    [
+        ({"crank_pn": "dry"}, "joints.crank_pn = 'dry': press has no such joint or group (did you"),
+        ({"crank_pin": "wet"}, "joints.crank_pin.kind = 'wet': allowed is one of 'ideal', 'dry', "),
+        ({"crank_pin": None}, "joints.crank_pin = None: allowed is a table of keys, or one of"),
+        ({"crank_pin": ["dry"]}, "joints.crank_pin = ['dry']: allowed is a table of keys, or one"),
+        ({"crank_pin": {}}, "joints.crank_pin has no kind: allowed is one of"),
+        ({"crank_pin": {"kind": "dry", "gap": 1}}, "joints.crank_pin.gap = 1: unknown key"),
+        (
+            {"balls": "lubricated"},
+            "joints.balls.kind = 'lubricated': allowed is one of 'ideal', 'd",
+        ),
+        (
+            {"balls": {"kind": "dry", "clearance": -1}},
+            "joints.balls.clearance = -1.0: allowed is a",
+        ),
+        (
+            {"pivots": {"kind": "dry", "clearance": "0.1"}},
+            "joints.pivots.clearance = '0.1': allowed is a number > 0",
+        ),
+        (
+            {"pivots": {"kind": "dry", "clearance": 2e-3, "radius": 1e-3}},
+            "joints.pivots.clearance = 0.002: allowed is a number < radius = 0.001",
+        ),
+        (
+            {"pivots": {"kind": "ideal", "clearance": 2e-3}},
+            "joints.pivots.clearance: not used by this scene (joints.pivots is 'ideal'); remove it",
+        ),
+        (
+            {"pivots": {"kind": "dry", "film": {}}},
+            "joints.pivots.film: not used by this scene (joints.pivots is 'dry'); remove it",
+        ),
+        (
+            {"crank_pin": {"kind": "lubricated", "friction": {"law": "none"}}},
+            "joints.crank_pin.friction: not used by this scene (film.at_contact is 'stop')",
+        ),
+        (
+            {"crank_pin": {"kind": "lubricated", "film": {"viscocity": 1}}},
+            "joints.crank_pin.film.viscocity = 1: unknown key (did you mean 'viscosity'?)",
+        ),
+        (
+            {"crank_pin": {"kind": "lubricated", "film": {"viscosity": -1}}},
+            "joints.crank_pin.film.viscosity = -1.0: allowed is a number > 0",
+        ),
+        (
+            {"crank_pin": {"kind": "dry", "friction": {"mu_static": 0.001}}},
+            "joints.crank_pin.friction.mu_static = 0.001: allowed is a number >=",
+        ),
+        (
+            {
+                "crank_pin": {
+                    "kind": "lubricated",
+                    "film": {"at_contact": "mixed", "roughness": 1e-4},
+                }
+            },
+            "film.roughness * film.asperity_onset = 0.0003: allowed is a number < clearance",
+        ),
+    ],
+    ids=str,
+)
+def test_what_is_refused_is_named(joints, message):
+    assert refusal(**joints).startswith(message)
+
+
+def test_a_joint_in_two_groups_is_refused():
+    """The press has no such groups; a mechanism may."""
+    from exu_press.scene.joints import joints_of
+
+    pins, groups = {"a": False, "b": False}, {"all": ("a", "b"), "some": ("b",)}
+    with pytest.raises(InputError, match="b lies in both"):
+        joints_of({"all": "dry", "some": "ideal"}, "mine", pins, groups, Scene().laws)
+
+
+def test_joints_must_be_a_table():
+    with pytest.raises(InputError, match="joints = 3: allowed is a table"):
+        Scene(joints=3)
+
+
+def test_a_film_that_no_joint_has_is_refused():
+    with pytest.raises(InputError, match=r"\[film\]: not used by this scene"):
+        Scene(joints={"crank_pin": "dry"}, film={})
+
+
+def test_an_unknown_joint_is_named():
+    with pytest.raises(InputError, match=r"press has no such joint \(did you mean 'crank_pin'"):
+        Scene().joints["crankpin"]
+
+
+def test_saved_and_read_back(tmp_path):
+    scene = press(
+        crank_pin={"kind": "lubricated", "film": {"law": "finite", "viscosity": 0.1}},
+        knuckles={"kind": "dry", "clearance": 5e-5},
+        ball_left="dry",
+    )
+    for comments in (False, True):
+        path = tmp_path / f"{comments}.toml"
+        scene.save(path, comments=comments)
+        assert load_scene(path) == scene
+    text = path.read_text()
+    assert "[joints.knuckles]" in text and "[joints.ball_left]" in text
+    ideal = tmp_path / "ideal.toml"
+    press().save(ideal)
+    assert load_scene(ideal) == press(), "not the shipped press's own joints"

@@ -30,7 +30,7 @@ def add_graphics(model: Model) -> None:
     shapes, layers = shapes_of(mechanism), _layers(mechanism)
     for name, shape in shapes.items():
         if name not in model.parts:
-            outline = [model.rigid[name].local((x, y)) for x, y in shape.outline.tolist()]
+            outline = [model.rigid[name].drawn((x, y)) for x, y in shape.outline.tolist()]
             _show(model, name, [_solid(outline, shape.colour, layers[name] * thickness, thickness)])
     if DRIVE in model.bodies:
         flange = float(model.parts[mechanism.crank].interface("flange").centre[2])
@@ -43,6 +43,8 @@ def add_graphics(model: Model) -> None:
         items.show = False
     settings.view0.scene.showMeshEdges = False
     settings.openGL.multiSampling = 4
+    for light in (settings.openGL.light0, settings.openGL.light1):
+        light.specular = 0.0  # plates shine as a whole: their colours would be nearly white
 
 
 def _show(model: Model, body: str, solids: list[Any]) -> None:

@@ -55,6 +55,10 @@ class RigidBody:
         """Return a point of the body's frame, in its centre of mass, in that of Exudyn's item."""
         return point
 
+    def drawn(self, point: Point) -> Point:
+        """Return a point of the body's frame in that in which Exudyn draws the item's graphics."""
+        return self.local(point)
+
     def motion(self, q: Array, q_t: Array, q_tt: Array) -> Motion:
         """Return the centre of mass and the angle by displacements, rates and accelerations.
 
@@ -92,6 +96,10 @@ class SlidingBody(RigidBody):
         """Return a point of the body's frame in that of Exudyn's item, whose x points upwards."""
         x, y = point
         return y, -x
+
+    def drawn(self, point: Point) -> Point:
+        """Return the point itself: Exudyn moves the graphics of sliding masses, and turns none."""
+        return point
 
     def motion(self, q: Array, q_t: Array, q_tt: Array) -> Motion:
         """As `RigidBody.motion`."""

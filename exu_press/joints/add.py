@@ -59,8 +59,11 @@ def add_dry_revolute(
 
     Raises:
         InputError: a body or its node is of a kind that joints cannot hold on to (the message lists
-            those they can), or the axis of a joint between planar bodies is not theirs.
+            those they can), the axis of a joint between planar bodies is not theirs, radius and
+            clearance are not 0 < clearance < radius, a law is given by its name, or the system is
+            assembled already.
     """
+    _check(mbs, contact=contact, friction=friction, radius=radius, clearance=clearance)
     return _revolute(mbs, journal, bearing, axis, [DryPair(contact, friction, radius, clearance)])
 
 
@@ -93,6 +96,7 @@ def add_dry_spherical(
     Raises:
         InputError: as `add_dry_revolute`.
     """
+    _check(mbs, contact=contact, friction=friction, radius=radius, clearance=clearance)
     if _in_plane(mbs, ball) and _in_plane(mbs, socket):
         pairs: list[Pair] = [DryPair(contact, friction, radius, clearance)]
         return _revolute(mbs, ball, socket, (0, 0, 1), pairs)
@@ -143,6 +147,7 @@ def add_lubricated_revolute(
     Raises:
         InputError: as `add_dry_revolute`, or a length, radius, clearance or viscosity not positive.
     """
+    _check(mbs, contact=contact, friction=friction, law=law, radius=radius, clearance=clearance)
     scale = film_scale(viscosity, length, radius, clearance)
     pairs: list[Pair] = [FilmPair(law, scale, clearance)]
     if contact is not None:
@@ -170,6 +175,24 @@ def add_joint_sensor(mbs: exu.MainSystem, joint: ClearanceJoint) -> int:
     return int(
         mbs.AddSensor(SensorUserFunction(storeInternal=True, sensorUserFunction=user_function))
     )
+
+
+def _check(mbs: exu.MainSystem, *, radius: float, clearance: float, **laws: Any) -> None:
+    """Raise InputError for what no joint can be made of."""
+    if mbs.systemIsConsistent:
+        raise InputError("the system is assembled: allowed is to add joints before mbs.Assemble()")
+    if not 0.0 < radius < math.inf:
+        raise InputError(f"radius = {radius:g}: allowed is a number > 0 (m)")
+    if not 0.0 < clearance < radius:
+        raise InputError(
+            f"clearance = {clearance:g}: allowed is a number > 0 and below the radius, {radius:g} m"
+        )
+    for name, law in laws.items():
+        if isinstance(law, str):
+            raise InputError(
+                f"{name} = {law!r}: allowed is a law, as the functions in exu_press.laws return, "
+                "not its name"
+            )
 
 
 def _revolute(

@@ -150,6 +150,7 @@ def _strokes(axes: Axes, result: Result, centres: list[DeadCentre]) -> None:
     axes.set_title("Bottom dead centre")
     axes.set_xlabel("crank angle from bottom dead centre, deg")
     axes.set_ylabel("slider above its lowest, µm")
+    axes.margins(y=0.3)
     axes.legend(loc="upper center", ncols=3)
     note(axes, f"lowest at {1e3 * mean:.6g} mm{_scatter(centres)}")
 

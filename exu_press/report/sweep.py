@@ -26,7 +26,7 @@ def sweep_report(file: Path) -> str:
     counts = Counter(str(status) for status in runs["status"])
     ends = ", ".join(f"{number} {status}" for status, number in counts.items())
     ended = ("status", "reason") if any(runs["reason"]) else ("status",)
-    names = (*runs.study.keys, *shown(runs), *ended)
+    names = (*runs.study.keys, *ended, *shown(runs))  # how it ended is seen at once
     head = ("run", *(f"{name}, {unit_of(name)}" if unit_of(name) else name for name in names))
     count = min(len(runs), MOST_ROWS)
     rows = [[str(run), *(_cell(runs[name][run]) for name in names)] for run in range(count)]

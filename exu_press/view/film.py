@@ -78,7 +78,9 @@ class Film:
         self._clock = figure.text(
             0.988, 0.972, "", fontsize=11, fontweight="bold", va="top", ha="right"
         )
-        speed = f"{self.instants.slow:.3g} times slower than the machine at {self.instants.fps:g}"
+        slow = self.instants.slow
+        factor = f"{slow:.3g} times slower" if slow >= 1.0 else f"{1.0 / slow:.3g} times faster"
+        speed = f"{factor} than the machine at {self.instants.fps:g}"
         if not self.instants.still:
             figure.text(0.012, 0.015, f"{speed} frames a second", fontsize=7.5, color=GREY)
         joints = _joints(result)

@@ -170,4 +170,4 @@ def _legend(body: str, largest: float, still: bool) -> str:
 
 def _kilo(force: float) -> str:
     """Return a force in kN."""
-    return f"{force / 1e3:.3g} kN"
+    return f"{force / 1e3:.3g} kN" if abs(force) < 9.995e5 else f"{force / 1e3:.0f} kN"

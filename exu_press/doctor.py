@@ -111,7 +111,7 @@ def _ideal_press() -> Run:
     import numpy as np
 
     from exu_press import Scene, simulate
-    from exu_press.mechanism import mechanism_of
+    from exu_press.scene import mechanism_of
 
     scene = Scene.from_dict({"joints": {}, "revolutions": 1.0})
     result = simulate(scene)

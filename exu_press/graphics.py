@@ -96,8 +96,8 @@ def _frame(
             size = [width, high - low, thickness]
             solids.append(graphics.Brick(centre, size, FRAME))
     for joint in mechanism.joints:
-        if joint.bearing == GROUND:
-            start = [*joint.bearing_point, -thickness]
+        if GROUND in (joint.journal, joint.bearing):
+            start = [*joint.at, -thickness]
             pin = graphics.Cylinder(start, [0.0, 0.0, 3.0 * thickness], 0.2 * thickness, FRAME)
             solids.append(pin)
     return solids

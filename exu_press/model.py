@@ -17,12 +17,15 @@ from exudyn.itemInterface import (
     ObjectConnectorCoordinate,
     ObjectConnectorCoordinateSpringDamper,
     ObjectConnectorCoordinateVector,
+    ObjectConnectorLinearSpringDamper,
     ObjectGround,
+    ObjectJointGeneric,
     ObjectJointRevolute2D,
     SensorLoad,
     SensorNode,
     SensorObject,
 )
+from exudyn.rigidBodyUtilities import RotationMatrixZ
 
 from exu_press.joints import (
     ClearanceJoint,
@@ -41,11 +44,10 @@ from exu_press.mechanism import (
     Motion,
     Point,
     Spring,
-    mechanism_of,
 )
-from exu_press.mechanism.kinematics import along, turning
+from exu_press.mechanism.holding import HalfHeld, Holding, holding_of
 from exu_press.rigid import PivotedBody, RigidBody, SlidingBody
-from exu_press.scene import DryJoint, IdealJoint, LubricatedJoint, Scene
+from exu_press.scene import DryJoint, IdealJoint, LubricatedJoint, Scene, mechanism_of
 from exu_press.scene.laws import contact_law, film_law, friction_law
 
 if TYPE_CHECKING:
@@ -71,7 +73,6 @@ class Model:
         rigid: name -> rigid body.
         clearance_joints: name -> joint.
         ideal_joints: name -> object number; those that hold a coordinate.
-        pivoted: body on an ideal pivot of the frame -> that joint.
         drive: object number of the constraint that turns the crank.
         parts: name -> flexible body's part; empty for rigid bodies.
         sensors: (name, quantity) -> sensor number.
@@ -85,11 +86,15 @@ class Model:
     nodes: dict[str, int]
     clearance_joints: dict[str, ClearanceJoint]
     ideal_joints: dict[str, int]
-    pivoted: dict[str, Joint]
     rigid: Mapping[str, RigidBody]
     drive: int
     sensors: dict[tuple[str, str], int]
     parts: Mapping[str, "ReducedPart"]
+
+    @property
+    def holding(self) -> Holding:
+        """Which ideal joints and guides hold what."""
+        return holding_of(self.mechanism, self.scene.joints.ideal)
 
     def next_corner(self, time: float) -> float:
         """Return the next instant at which the blanking force has a corner, s, or infinity."""
@@ -117,7 +122,7 @@ class _Builder:
 
             self.parts = reduced_parts(scene, quiet=quiet)
         self.mechanism = mechanism_of(scene)
-        self.pivoted = self.mechanism.pivoted(scene.joints.ideal)
+        self.holding = holding_of(self.mechanism, scene.joints.ideal)
         self.SC = exu.SystemContainer()
         self.mbs = self.SC.AddSystem()
         self.ground = int(self.mbs.AddObject(ObjectGround()))
@@ -125,8 +130,10 @@ class _Builder:
         self.nodes: dict[str, int] = {}
         self.rigid: dict[str, RigidBody] = {}
         self.sensors: dict[tuple[str, str], int] = {}
-        ground_node = self.mbs.AddNode(NodePointGround())
-        self.still = self.mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=ground_node, coordinate=0))
+        self.local_forces: set[int] = set()
+        self.ground_node = int(self.mbs.AddNode(NodePointGround()))
+        still = MarkerNodeCoordinate(nodeNumber=self.ground_node, coordinate=0)
+        self.still = self.mbs.AddMarker(still)
 
     def add_bodies(self) -> None:
         """Add every body in the ideal mechanism's position and velocity."""
@@ -145,12 +152,13 @@ class _Builder:
 
     def _add_rigid_body(self, body: Body, start: Motion) -> None:
         """Add a rigid body with the coordinates that its ideal joints leave it."""
-        pivot = self.pivoted.get(body.name)
+        pivot = self.holding.pivoted.get(body.name)
         if pivot is not None:
-            places = pivot.bearing_point, pivot.journal_point
-            added: RigidBody = PivotedBody(self.mbs, body, start, *places)
-        elif body.name in self.mechanism.sliding:
-            added = SlidingBody(self.mbs, body, start)
+            place = body.local(pivot.at)
+            added: RigidBody = PivotedBody(self.mbs, body, start, pivot.at, place)
+        elif body.name in self.holding.sliding:
+            guide = next(guide for guide in self.mechanism.guides if guide.body == body.name)
+            added = SlidingBody(self.mbs, body, start, guide.direction)
         else:
             added = RigidBody(self.mbs, body, start)
         self._take_in(body.name, added)
@@ -165,17 +173,12 @@ class _Builder:
         from exu_press.flexible import MAIN_BEARINGS, add_part
 
         assert self.scene.press is not None
-        if name == self.mechanism.crank:
-            frame = turning(start.position[:, 2], self.scene.angular_speed, 0.0)
-        else:
-            frame = along(start, -self.scene.press.linkage_mass_offset)
+        offset = self._in_frame(name, (0.0, 0.0))
+        frame = start.at((-offset[0], -offset[1]))
         joints = {
             joint.name: self._in_frame(name, point)
             for joint in self.mechanism.joints
-            for body, point in (
-                (joint.journal, joint.journal_point),
-                (joint.bearing, joint.bearing_point),
-            )
+            for body, point in self.mechanism.ends(joint)
             if body == name and joint.name != "shaft"
         }
         if name == self.mechanism.crank:
@@ -190,7 +193,10 @@ class _Builder:
         """Hold crank and linkage in space; the crank is driven at its flange by a disc."""
         from exu_press.flexible import hold_crank, hold_linkage
 
-        start = turning(np.array([self.scene.start_angle]), self.scene.angular_speed, 0.0)
+        angle = np.array([self.scene.start_angle])
+        crank = self.mechanism.motion(angle, self.scene.angular_speed)[self.mechanism.crank]
+        shaft = self._in_frame(self.mechanism.crank, (0.0, 0.0))
+        start = crank.at((-shaft[0], -shaft[1]))
         disc = PivotedBody(self.mbs, Body(DRIVE, 1.0, 1.0), start, (0.0, 0.0), (0.0, 0.0))
         self._take_in(DRIVE, disc)
         slide = self._marker("slide", (0.0, 0.0))
@@ -199,21 +205,18 @@ class _Builder:
         return hold_crank(self.mbs, self.ground, self.flexible["crank"], disc_marker)
 
     def add_ideal_joint(self, joint: Joint) -> int:
-        """Add a revolute joint, or what holds a ball of a guided body in a guided body."""
-        if joint.vertical_only:
-            return self._hold_vertically(joint)
-        markers = [
-            self._point(joint, joint.journal, joint.journal_point),
-            self._point(joint, joint.bearing, joint.bearing_point),
-        ]
+        """Add a revolute joint, or what holds the one direction that nothing else holds."""
+        half = self.holding.half_held.get(joint.name)
+        if half is not None:
+            return self._hold_half(joint, half)
+        markers = [self._point(joint, *end) for end in self.mechanism.ends(joint)]
         return int(
             self.mbs.AddObject(ObjectJointRevolute2D(name=joint.name, markerNumbers=markers))
         )
 
     def add_clearance_joint(self, joint: Joint, kind: DryJoint | LubricatedJoint) -> ClearanceJoint:
         """Add a joint with clearance."""
-        journal = self._end(joint, joint.journal, joint.journal_point)
-        bearing = self._end(joint, joint.bearing, joint.bearing_point)
+        journal, bearing = (self._end(joint, *end) for end in self.mechanism.ends(joint))
         contact = None
         if kind.contact is not None:
             contact = contact_law(kind.contact, kind.clearance, revolute=not joint.spherical)
@@ -244,17 +247,23 @@ class _Builder:
             asperity_onset=kind.onset or 0.0,
         )
 
-    def add_guide(self, guide: Guide) -> tuple[int, ...]:
-        """Hold a body's x and, if the guide does so, its angle, by constraints or springs."""
-        held = {"x": guide.lateral}
-        if guide.holds_angle:
-            held["angle"] = guide.tilting
-        return tuple(
-            self._hold(guide.body, coordinate)
-            if spring is None
-            else self._spring(guide.body, coordinate, spring)
-            for coordinate, spring in held.items()
-        )
+    def add_guide(self, guide: Guide) -> dict[str, int]:
+        """Hold the way across a guide and the angle, by constraints or springs.
+
+        Returns:
+            "force" and "moment", as far as it holds them, -> object number.
+        """
+        holds_across, holds_angle = self.holding.guides[guide.body]
+        added = {}
+        if guide.lateral is not None:
+            added["force"] = self._lateral_spring(guide, guide.lateral)
+        elif holds_across:
+            added["force"] = self._hold_across(guide)
+        if guide.tilting is not None:
+            added["moment"] = self._spring(guide.body, "angle", guide.tilting)
+        elif holds_angle:
+            added["moment"] = self._hold(guide.body, "angle")
+        return added
 
     def add_drive(self) -> int:
         """Turn the crank at constant speed, by a constraint on its angular velocity."""
@@ -291,7 +300,7 @@ class _Builder:
             SensorLoad(loadNumber=numbers[0], storeInternal=True)
         )
 
-    def add_sensors(self, joints: dict[str, int], guides: dict[str, tuple[int, ...]]) -> None:
+    def add_sensors(self, joints: dict[str, int], guides: dict[str, dict[str, int]]) -> None:
         """Record bodies' coordinates and the constraints' forces in memory, every step."""
         levels = {
             "position": exu.OutputVariableType.Coordinates,
@@ -305,16 +314,15 @@ class _Builder:
                 )
         forces = {(name, "force"): number for name, number in joints.items()}
         for body, numbers in guides.items():
-            forces |= {
-                (f"{body}_guide", kind): n
-                for kind, n in zip(("force", "moment"), numbers, strict=False)
-            }
+            forces |= {(f"{body}_guide", kind): number for kind, number in numbers.items()}
         for key, number in forces.items():
             self.sensors[key] = self.mbs.AddSensor(
                 SensorObject(
                     objectNumber=number,
                     storeInternal=True,
-                    outputVariableType=exu.OutputVariableType.Force,
+                    outputVariableType=exu.OutputVariableType.ForceLocal
+                    if number in self.local_forces
+                    else exu.OutputVariableType.Force,
                 )
             )
 
@@ -326,18 +334,18 @@ class _Builder:
             for joint in self.mechanism.joints
             if not isinstance(kind := self.scene.joints[joint.name], IdealJoint)
         }
-        pivots = self.pivoted.values()
+        held = {*self.holding.joints, *self.holding.half_held}
         ideal = {
             joint.name: self.add_ideal_joint(joint)
             for joint in self.mechanism.joints
-            if joint.name in self.scene.joints.ideal and joint not in pivots
+            if joint.name in held
         }
         if self.flexible:
             ideal |= self.hold_flexible_bodies()
         guides = {
             guide.body: self.add_guide(guide)
             for guide in self.mechanism.guides
-            if guide.body not in self.mechanism.sliding
+            if guide.body not in self.holding.sliding
         }
         drive = self.add_drive()
         self.add_blanking()
@@ -353,7 +361,6 @@ class _Builder:
             rigid=self.rigid,
             clearance_joints=clearance,
             ideal_joints=ideal,
-            pivoted=self.pivoted,
             drive=drive,
             sensors=self.sensors,
             parts=self.parts,
@@ -390,31 +397,61 @@ class _Builder:
         face = FACES[body, joint.name]
         return joint_end(self.flexible[body], face, self._in_frame(body, point))
 
-    def _hold_vertically(self, joint: Joint) -> int:
-        """Hold the y of two guided bodies' points together; the guides hold x already.
+    def _hold_half(self, joint: Joint, half: HalfHeld) -> int:
+        """Hold a joint's two bodies together in one direction, which turns with one of them."""
+        journal, bearing = self.mechanism.ends(joint)
+        (body, point), end = (
+            (journal, bearing) if half.body == joint.journal else (bearing, journal)
+        )
+        place, angle = point, half.angle
+        if body != GROUND:
+            place, angle = self.rigid[body].local(point), angle + self.rigid[body].turned
+        frame = exu.HT().Set(RotationMatrixZ(angle), [*place, 0.0])
+        along = self.mbs.AddMarker(MarkerBodyRigid(bodyNumber=self.bodies[body], localHT=frame))
+        number = self.mbs.AddObject(
+            ObjectJointGeneric(
+                name=joint.name,
+                markerNumbers=[along, self._point(joint, *end)],
+                constrainedAxes=[1, 0, 0, 0, 0, 0],
+            )
+        )
+        self.local_forces.add(int(number))
+        return int(number)
 
-        Linear in the coordinates, exact while the guides keep both bodies upright.
-        """
-        markers, rows = [], []
-        for body, (x, _) in (
-            (joint.journal, joint.journal_point),
-            (joint.bearing, joint.bearing_point),
-        ):
-            rigid = self.rigid[body]
-            markers.append(self.mbs.AddMarker(MarkerNodeCoordinates(nodeNumber=rigid.node)))
-            moved = {"x": 0.0, "y": 1.0, "angle": x}
-            rows.append([[moved[coordinate] for coordinate in rigid.coordinates]])
+    def _hold_across(self, guide: Guide) -> int:
+        """Hold a body across its guide; linear in the coordinates, and exact."""
+        rigid = self.rigid[guide.body]
+        place = np.dot(self.mechanism.body(guide.body).centre_of_mass, guide.across)
+        row = dict(zip(("x", "y", "angle"), (*guide.across, 0.0), strict=True))
         return int(
             self.mbs.AddObject(
                 ObjectConnectorCoordinateVector(
-                    name=joint.name,
-                    markerNumbers=markers,
-                    scalingMarker0=rows[0],
-                    scalingMarker1=rows[1],
-                    offset=[joint.journal_point[1] - joint.bearing_point[1]],
+                    markerNumbers=[
+                        self.mbs.AddMarker(MarkerNodeCoordinates(nodeNumber=node))
+                        for node in (self.ground_node, rigid.node)
+                    ],
+                    scalingMarker0=[],
+                    scalingMarker1=[[row[coordinate] for coordinate in rigid.coordinates]],
+                    offset=[float(place)],
                 )
             )
         )
+
+    def _lateral_spring(self, guide: Guide, spring: Spring) -> int:
+        """Add a spring across a guide, relaxed where the body starts."""
+        body = guide.body
+        start = self.mechanism.motion(np.array([self.scene.start_angle]), 1.0)[body].position[0]
+        place = MarkerBodyRigid(bodyNumber=self.ground, localPosition=[start[0], start[1], 0.0])
+        number = self.mbs.AddObject(
+            ObjectConnectorLinearSpringDamper(
+                markerNumbers=[self.mbs.AddMarker(place), self._marker(body, (0.0, 0.0))],
+                stiffness=spring.stiffness,
+                damping=spring.damping,
+                axisMarker0=[*guide.across, 0.0],
+            )
+        )
+        self.local_forces.add(int(number))
+        return int(number)
 
     def _coordinate(self, body: str, coordinate: str) -> int:
         rigid = self.rigid[body]

@@ -5,7 +5,7 @@ turns about it. No constraint holds the rest, so that its force comes from equil
 `result/equilibrium.py`.
 """
 
-from typing import ClassVar
+import math
 
 import exudyn as exu
 import numpy as np
@@ -24,9 +24,6 @@ __all__ = ["PivotedBody", "RigidBody", "SlidingBody"]
 
 Array = NDArray[np.float64]
 
-UPWARDS = [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
-"""Turns the x axis, along which Exudyn's sliding masses move, to the global y."""
-
 
 class RigidBody:
     """A body that its joints alone hold.
@@ -35,9 +32,11 @@ class RigidBody:
         coordinates: which of "x", "y" and "angle" are coordinates of the node, in their order.
         node: Exudyn's number.
         number: of Exudyn's object.
+        turned: angle of the body's frame in that of Exudyn's object, rad.
     """
 
-    coordinates: ClassVar[tuple[str, ...]] = ("x", "y", "angle")
+    coordinates: tuple[str, ...] = ("x", "y", "angle")
+    turned = 0.0
 
     def __init__(self, mbs: exu.MainSystem, body: Body, start: Motion) -> None:
         """Add the body to a system, with the first pose and velocity of a motion."""
@@ -71,31 +70,49 @@ class RigidBody:
 
 
 class SlidingBody(RigidBody):
-    """A body that an ideal guide keeps upright: only its height is a coordinate."""
+    """A body that an ideal guide along x or y keeps upright: the way along it is the coordinate."""
 
-    coordinates = ("y",)
+    def __init__(self, mbs: exu.MainSystem, body: Body, start: Motion, direction: Point) -> None:
+        """Add the body to a system, with the first place and velocity of a motion.
 
-    def __init__(self, mbs: exu.MainSystem, body: Body, start: Motion) -> None:
-        """Add the body to a system, with the first height and velocity of a motion."""
+        Args:
+            mbs: not yet assembled.
+            body: its inertia does not matter.
+            start: of the motion.
+            direction: (0, 1), (1, 0) or minus one of these.
+        """
         self._start = start.position[0]
-        x, y, _ = self._start
+        column = 1 if direction[0] == 0.0 else 0
+        self.coordinates = (("x", "y")[column],)
+        self._along = np.eye(3)[column]
+        along = self._along[:2]
+        x, y, angle = self._start
+        self.turned = float(angle - math.atan2(along[1], along[0]))
         node = Node1D(
-            name=body.name, referenceCoordinates=[y], initialVelocities=[start.velocity[0, 1]]
+            name=body.name,
+            referenceCoordinates=[self._start[column]],
+            initialVelocities=[start.velocity[0, column]],
         )
         self.node = int(mbs.AddNode(node))
         item = ObjectMass1D(
             name=body.name,
             nodeNumber=self.node,
             mass=body.mass,
-            referencePosition=[x, 0.0, 0.0],
-            referenceRotation=UPWARDS,
+            referencePosition=[x * along[1], y * along[0], 0.0],
+            referenceRotation=[
+                [along[0], -along[1], 0.0],  # turns the x axis, along which the mass moves
+                [along[1], along[0], 0.0],
+                [0.0, 0.0, 1.0],
+            ],
         )
         self.number = int(mbs.AddObject(item))
 
     def local(self, point: Point) -> Point:
-        """Return a point of the body's frame in that of Exudyn's item, whose x points upwards."""
-        x, y = point
-        return y, -x
+        """Return a point of the body's frame in that of Exudyn's item, whose x is the guide's."""
+        c, s = math.cos(self._start[2]), math.sin(self._start[2])
+        x, y = c * point[0] - s * point[1], s * point[0] + c * point[1]
+        a, b, _ = self._along.tolist()
+        return a * x + b * y, a * y - b * x
 
     def drawn(self, point: Point) -> Point:
         """Return the point itself: Exudyn moves the graphics of sliding masses, and turns none."""
@@ -103,14 +120,13 @@ class SlidingBody(RigidBody):
 
     def motion(self, q: Array, q_t: Array, q_tt: Array) -> Motion:
         """As `RigidBody.motion`."""
-        upwards = np.array([0.0, 1.0, 0.0])
-        return Motion(self._start + q * upwards, q_t * upwards, q_tt * upwards)
+        return Motion(self._start + q * self._along, q_t * self._along, q_tt * self._along)
 
 
 class PivotedBody(RigidBody):
     """A body on an ideal pivot of the frame: only its angle is a coordinate."""
 
-    coordinates = ("angle",)
+    coordinates: tuple[str, ...] = ("angle",)
 
     def __init__(
         self, mbs: exu.MainSystem, body: Body, start: Motion, pivot: Point, place: Point

@@ -14,9 +14,9 @@ from exu_press.integrate.resolution import Unresolved
 from exu_press.joints import history, overlay_of
 from exu_press.joints.joint import ClearanceJoint
 from exu_press.laws.contact import NormalContact
-from exu_press.mechanism import GROUND, mechanism_of
+from exu_press.mechanism import GROUND
 from exu_press.model import Model
-from exu_press.scene import IdealJoint, LubricatedJoint, Scene
+from exu_press.scene import IdealJoint, LubricatedJoint, Scene, mechanism_of
 from exu_press.scene.laws import contact_law
 
 __all__ = ["largest_step", "scales", "settings_for", "solve"]
@@ -224,7 +224,7 @@ def _impact_steps(model: Model) -> Iterator[float]:
     overlay = overlay_of(model.mbs)
     held = {number: name for name, number in model.nodes.items()}
     masses = {body.name: body.mass for body in model.mechanism.bodies} | {GROUND: math.inf}
-    if model.mechanism.crank in model.pivoted:
+    if model.mechanism.crank in model.holding.pivoted:
         masses[model.mechanism.crank] = math.inf  # driven
     sensor = next(iter(model.sensors.values()))
     time = np.asarray(model.mbs.GetSensorStoredData(sensor))[:, 0]

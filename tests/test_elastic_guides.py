@@ -7,8 +7,8 @@ import pytest
 from scipy.optimize import fsolve
 
 from exu_press import Scene, simulate
-from exu_press.mechanism import mechanism_of
 from exu_press.model import build
+from exu_press.scene import mechanism_of
 
 IDEAL = {"joints": {}}
 ECCENTRIC = {"force": 1e4, "eccentricity": 0.1, "end_angle_deg": 60.0}
@@ -28,12 +28,15 @@ def kinds(**scene):
 def test_springs_take_the_place_of_constraints():
     """Four bodies that slid, the slider's one constraint, the two balls that held y alone."""
     ideal, elastic = kinds(**IDEAL), kinds(**IDEAL, guide={})
-    assert "ConnectorCoordinateSpringDamper" not in ideal
+    assert not {"ConnectorCoordinateSpringDamper", "ConnectorLinearSpringDamper"} & {*ideal}
     assert ideal.count("Mass1D") == 4
     assert "Mass1D" not in elastic
-    assert ideal.count("ConnectorCoordinate") == 1 + 1  # and the drive
-    assert elastic.count("ConnectorCoordinateSpringDamper") == 10
-    assert elastic.count("ConnectorCoordinate") == 1
+    assert ideal.count("ConnectorCoordinateVector") == 1
+    assert ideal.count("JointGeneric") == 2
+    assert elastic.count("ConnectorCoordinateSpringDamper") == 5
+    assert elastic.count("ConnectorLinearSpringDamper") == 5
+    assert not {"ConnectorCoordinateVector", "JointGeneric"} & {*elastic}
+    assert elastic.count("ConnectorCoordinate") == ideal.count("ConnectorCoordinate") == 1  # drive
     assert elastic.count("JointRevolute2D") == ideal.count("JointRevolute2D") + 2
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from exu_press import Result, Scene, simulate
-from exu_press.mechanism import mechanism_of
+from exu_press.scene import mechanism_of
 
 
 @functools.cache
@@ -93,7 +93,7 @@ def test_both_balls_carry_the_same_force_and_together_the_slider():
     lifted = 1347.0 * (result["slider_acceleration"] + 9.81)
     # The force on the ball is the opposite of the one on the slider.
     assert np.abs((left + right)[1:, 1] + lifted[1:]).max() < 1e-6 * scale
-    assert np.all(left[:, (0, 2)] == 0.0)
+    assert np.abs(left[:, (0, 2)]).max() < 1e-14 * scale
 
 
 def test_summary_shows_the_published_numbers():

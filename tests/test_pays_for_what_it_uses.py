@@ -4,6 +4,7 @@ import json
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 
 from exu_press import Scene
@@ -85,7 +86,7 @@ def user_functions(model):
         f"{item.get('objectType', item.get('loadType'))}.{name}"
         for item in [*objects(model), *loads]
         for name, value in item.items()
-        if "UserFunction" in name and value  # 0 where none is set
+        if "UserFunction" in name and np.any(value)  # 0 where none is set
     ]
 
 

@@ -1,216 +1,310 @@
-"""Closed-form ideal kinematics: points, guided points, dyads and rods, with their derivatives.
+"""The ideal motion of a mechanism, found numerically: loop closure by Newton's method.
 
-Every function takes and gives motions over the same crank angles, so that a mechanism is written
-as a chain of them, front to back. Velocities and accelerations come from differentiating the loop
-equations, not from differences.
+The crank is followed from the drawing over one revolution in steps as long as Newton's method finds
+the next positions close to where the last ones point; a step that jumps, or crosses a position
+where the loops' Jacobian is singular, is halved. Between these knots a quintic polynomial through
+position, velocity and acceleration starts Newton's method for any number of crank angles at once.
+Velocities and accelerations come from the same Jacobian, not from differences.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass
+import math
+from functools import lru_cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = [
-    "AssemblyError",
-    "Motion",
-    "along",
-    "dyad",
-    "fixed",
-    "guided",
-    "rod",
-    "rotating",
-    "sliding",
-    "turning",
-]
+from exu_press.errors import InputError
+from exu_press.mechanism.assur import (
+    Drawing,
+    Group,
+    Pose,
+    groups_of,
+    known_bodies,
+    one_group_of,
+)
+from exu_press.mechanism.motion import Array, Motion
 
-Array = NDArray[np.float64]
+__all__ = ["Kinematics", "kinematics_of"]
+
+LONGEST_STEP = math.radians(30.0)
+SHORTEST_STEP = math.radians(1e-4)
+
+STRAY = 0.1
+"""What a step may end beside its prediction, rad or relative to the mechanism's size."""
+
+CLOSED = 1e-13
+"""Change of the coordinates, rad or relative to the size, that ends Newton's method."""
+
+DISAGREE = 1e-9
+"""Gap, relative to the size, that redundant loops may leave open."""
+
+SINGULAR = 1e-6
+"""Smallest singular value of a group's loops, relative to the size, that counts as held."""
+
+FAST = 1e2
+"""Rate per crank angle from which a singular position is a dead centre, not a branching."""
+
+ITERATIONS = 12
 
 
-class AssemblyError(ValueError):
-    """Links do not reach; the text names them.
+class _LostError(ArithmeticError):
+    """Newton's method did not find a group's next position."""
 
-    `index` is the first crank angle concerned; None is bottom dead centre.
+    def __init__(self, group: Group, index: int = 0) -> None:
+        super().__init__()
+        self.group, self.index = group, index
+
+
+class Kinematics:
+    """The ideal motion of one drawing.
+
+    Raises:
+        InputError: the drawing has another mobility than the crank's, or locks or branches at some
+            crank angle.
     """
 
-    def __init__(self, text: str, index: int | None = None) -> None:
-        """Remember where the links fail to meet."""
-        super().__init__(text)
-        self.index = index
+    def __init__(self, name: str, drawing: Drawing, size: float) -> None:
+        """Follow the crank over a revolution.
+
+        Args:
+            name: of the mechanism, for messages.
+            drawing: lengths in m.
+            size: the mechanism's, m.
+        """
+        self._name, self._size = name, size
+        self._drawing = drawing = _scaled(drawing, size)
+        self._shaft = next(
+            at
+            for _, at, *ends in drawing.joints
+            if sorted(ends) == sorted((drawing.crank, drawing.frame))
+        )
+        self.groups, loose = groups_of(drawing)
+        if loose:
+            raise InputError(
+                f"{name}: the crank alone does not determine the motion of {_listed(loose)} in the "
+                "drawing; allowed are mechanisms with one degree of freedom, the crank's, drawn "
+                "in a position where no links that move each other lie in one line"
+            )
+        try:
+            self._go_round()
+        except InputError as refused:
+            if all(group.square for group in self.groups):
+                raise
+            self.groups = [one_group_of(drawing)]  # loops may hold together what none does alone
+            try:
+                self._go_round()
+            except InputError:
+                raise refused from None
+
+    def _go_round(self) -> None:
+        """Follow the crank, and look at every half degree."""
+        self._signs = [_sign(group, group.jacobian(self._drawn(group))) for group in self.groups]
+        self._follow()
+        self.motion(np.radians(np.arange(0.0, 360.0, 0.5)), 1.0)
+
+    def _drawn(self, last: Group) -> dict[str, Pose]:
+        """Return the drawing's poses up to a group, whose coordinates still count."""
+        poses = known_bodies(self._drawing)
+        for group in self.groups:
+            group.place(poses, group.drawn())
+            if group is last:
+                break
+            group.settle(poses)
+        return poses
+
+    def motion(self, angle: Array, speed: float) -> dict[str, Motion]:
+        """Return the motion of every body for crank angles (n,), rad, at constant speed, rad/s.
+
+        Raises:
+            InputError: links lock or branch at one of the angles.
+        """
+        angle = np.asarray(angle, dtype=float)
+        poses = self._crank(angle)
+        turns = np.floor(angle / (2.0 * np.pi))
+        within = angle - 2.0 * np.pi * turns
+        for group, knots in zip(self.groups, self._knots, strict=True):
+            u = _between(self._angles, knots, within)
+            u += (knots[0][-1] - knots[0][0])[:, None] * turns
+            try:
+                inverse = self._close(group, poses, u)
+            except _LostError as lost:
+                raise self._refusal(group, float(angle[lost.index]), knots[1]) from None
+            group.move(poses, inverse)
+        return {
+            name: _motion(poses[name], len(angle), self._size, speed)
+            for name, *_ in self._drawing.bodies
+        }
+
+    def _crank(self, angle: Any) -> dict[str, Pose]:
+        """Return frame and crank, turning at unit speed."""
+        drawing = self._drawing
+        _, centre, drawn = next(body for body in drawing.bodies if body[0] == drawing.crank)
+        arm = (centre - self._shaft) * np.exp(1j * angle)
+        crank = Pose(self._shaft + arm, drawn + angle)
+        crank.z1, crank.z2, crank.w = 1j * arm, -arm, 1.0
+        return {drawing.frame: Pose(0.0, 0.0), drawing.crank: crank}
+
+    def _follow(self) -> None:
+        """Find the knots: coordinates and their derivatives from 0 to a whole revolution."""
+        angle, step = 0.0, LONGEST_STEP
+        states = self._step(0.0, [(group.drawn(), *_still(group)) for group in self.groups], 0.0)
+        angles, found = [angle], [states]
+        while angle < 2.0 * math.pi * (1.0 - 1e-12):
+            step = min(step, 2.0 * math.pi - angle)
+            try:
+                states = self._step(angle + step, found[-1], step)
+            except _LostError as lost:
+                step /= 2.0
+                if step < SHORTEST_STEP:
+                    rates = found[-1][self.groups.index(lost.group)][1]
+                    raise self._refusal(lost.group, angle, rates) from None
+                continue
+            angle += step
+            step = min(2.0 * step, LONGEST_STEP)
+            angles.append(angle)
+            found.append(states)
+        self._angles = np.array(angles)
+        self._knots = [
+            tuple(np.array([states[index][level] for states in found]) for level in range(3))
+            for index in range(len(self.groups))
+        ]
+        for group, (u, _, _) in zip(self.groups, self._knots, strict=True):
+            turned = u[-1] - u[0]
+            turned -= 2.0 * math.pi * group.winding() * np.round(turned / (2.0 * math.pi))
+            if np.abs(turned).max() > DISAGREE:
+                raise InputError(
+                    f"{self._name}: {_listed(group.bodies)} do not return to where they were "
+                    "after one revolution of the crank"
+                )
+
+    def _step(
+        self, angle: float, states: list[tuple[Array, Array, Array]], step: float
+    ) -> list[tuple[Array, Array, Array]]:
+        """Return the coordinates and derivatives of all groups one step on, or lose one."""
+        poses, found = self._crank(angle), []
+        for group, (u, u_1, u_2) in zip(self.groups, states, strict=True):
+            predicted = u + step * u_1 + 0.5 * step**2 * u_2
+            now = predicted.copy()
+            inverse = self._close(group, poses, now)
+            if np.abs(now - predicted).max() > STRAY:
+                raise _LostError(group)
+            found.append((now, *group.move(poses, inverse)))
+        return found
+
+    def _close(self, group: Group, poses: dict[str, Pose], u: Array) -> Array:
+        """Bring coordinates (k,) or (k, n) to where the loops close; return the inverse there.
+
+        Raises:
+            _LostError: they do not close, or the position is singular.
+        """
+        last = math.inf
+        for _ in range(ITERATIONS):
+            group.place(poses, u)
+            jacobian = group.jacobian(poses)
+            inverse = _inverse(group, jacobian)
+            change = np.moveaxis((inverse @ group.gaps(poses)[..., None])[..., 0], -1, 0)
+            u -= change
+            largest = float(np.abs(change).max())
+            if largest < CLOSED or (largest < 1e-10 and largest > 0.1 * last):
+                break
+            last = largest
+        else:
+            raise _LostError(group, int(np.argmax(np.abs(change).max(axis=0))))
+        group.place(poses, u)
+        gaps = np.abs(group.gaps(poses)).max(axis=-1)
+        if gaps.max() > DISAGREE:
+            raise _LostError(group, int(np.argmax(gaps)))
+        crossed = _sign(group, jacobian) != self._signs[self.groups.index(group)]
+        if np.any(crossed):
+            raise _LostError(group, int(np.argmax(crossed)))
+        return inverse
+
+    def _refusal(self, group: Group, angle: float, rates: Array) -> InputError:
+        """Return the error for a position in which a group cannot be followed."""
+        degrees = math.degrees(angle) % 360.0
+        fast = float(np.abs(rates).max()) > FAST
+        does = "lock: they reach no further" if fast else "lock or branch"
+        return InputError(
+            f"{self._name}: {_listed(group.bodies)} {does} at crank angle {degrees:.4g} deg"
+        )
 
 
-@dataclass(frozen=True)
-class Motion:
-    """Position, velocity and acceleration over n instants, each of shape (n, 2) or (n, 3).
+@lru_cache(maxsize=64)
+def kinematics_of(name: str, drawing: Drawing, size: float) -> Kinematics:
+    """Return the kinematics of a drawing, which scenes that differ in their joints alone share."""
+    return Kinematics(name, drawing, size)
 
-    Points have (x, y) in m; bodies have (x, y, angle), with the angle in rad.
+
+def _scaled(drawing: Drawing, size: float) -> Drawing:
+    """Return a drawing with lengths relative to a size."""
+    return drawing._replace(
+        bodies=tuple((name, centre / size, angle) for name, centre, angle in drawing.bodies),
+        joints=tuple((name, at / size, one, other) for name, at, one, other in drawing.joints),
+    )
+
+
+def _still(group: Group) -> tuple[Array, Array]:
+    return np.zeros(len(group.members)), np.zeros(len(group.members))
+
+
+def _inverse(group: Group, jacobian: Array) -> Array:
+    """Return the inverse of a group's Jacobian; the pseudo-inverse where loops are redundant.
+
+    Raises:
+        _LostError: it is singular.
     """
-
-    position: Array
-    velocity: Array
-    acceleration: Array
-
-    def __getitem__(self, columns: slice) -> "Motion":
-        """Return the motion of some columns: body[:2] is the body's centre."""
-        parts = (self.position, self.velocity, self.acceleration)
-        return Motion(*(part[:, columns] for part in parts))
-
-    def shifted(self, offset: tuple[float, ...]) -> "Motion":
-        """Return the motion of a point that keeps a constant distance, axes not turning."""
-        return Motion(self.position + np.array(offset), self.velocity, self.acceleration)
+    try:
+        inverse = np.asarray(
+            np.linalg.inv(jacobian) if group.square else np.linalg.pinv(jacobian), float
+        )
+    except np.linalg.LinAlgError:
+        index = int(np.argmin(np.abs(np.linalg.svd(jacobian, compute_uv=False)[..., -1])))
+        raise _LostError(group, index) from None
+    size = np.sqrt((inverse**2).sum(axis=(-2, -1)))
+    if not size.max() < 1.0 / SINGULAR:
+        raise _LostError(group, int(np.argmax(size)))
+    return inverse
 
 
-def fixed(x: float, y: float, count: int) -> Motion:
-    """Return a point of the frame."""
-    zero = np.zeros((count, 2))
-    return Motion(zero + np.array([x, y]), zero, zero)
+def _sign(group: Group, jacobian: Array) -> Array:
+    """Return the sign of a square group's determinant, which changes where branches cross."""
+    return np.sign(np.linalg.det(jacobian)) if group.square else np.array(1.0)
 
 
-def rotating(angle: Array, speed: float, radius: float) -> Motion:
-    """Return a point on the crank: at angle 0 it is above the shaft, turning counter-clockwise.
-
-    Args:
-        angle: (n,) crank angle from top dead centre, rad.
-        speed: constant angular speed, rad/s.
-        radius: distance from the shaft, m; negative for the opposite side.
-    """
-    across, up = np.sin(angle), np.cos(angle)
-    return Motion(
-        radius * np.stack([-across, up], 1),
-        radius * speed * np.stack([-up, -across], 1),
-        radius * speed**2 * np.stack([across, -up], 1),
+def _between(angles: Array, knots: tuple[Array, ...], at: Array) -> Array:
+    """Return coordinates (k, n) by the quintic polynomials between the knots."""
+    index = np.clip(np.searchsorted(angles, at, side="right") - 1, 0, len(angles) - 2)
+    width = (angles[index + 1] - angles[index])[:, None]
+    x = (at - angles[index])[:, None] / width
+    (a, b), (a_1, b_1), (a_2, b_2) = (
+        (width**level * part[index], width**level * part[index + 1])
+        for level, part in enumerate(knots)
     )
+    c_2 = 0.5 * a_2
+    gap, gap_1, gap_2 = b - a - a_1 - c_2, b_1 - a_1 - a_2, b_2 - a_2
+    c_3 = 10.0 * gap - 4.0 * gap_1 + 0.5 * gap_2
+    c_4 = -15.0 * gap + 7.0 * gap_1 - gap_2
+    c_5 = 6.0 * gap - 3.0 * gap_1 + 0.5 * gap_2
+    found: NDArray[np.float64] = a + x * (a_1 + x * (c_2 + x * (c_3 + x * (c_4 + x * c_5))))
+    return found.T.copy()
 
 
-def guided(name: str, end: Motion, length: float, guide_x: float, side: int) -> Motion:
-    """Return the end of a link that slides on the vertical x = guide_x.
-
-    Args:
-        name: what to call the link where it is too short.
-        end: the link's other end.
-        length: length of the link, m.
-        guide_x: position of the guide, m.
-        side: -1 below the other end, +1 above it.
-    """
-    across = guide_x - end.position[:, 0]
-    _require(length > np.abs(across), lambda i: f"{name} = {length:g}: needs > {abs(across[i]):g}")
-    up = side * np.sqrt(length**2 - across**2)
-    position = np.stack([np.full_like(across, guide_x), end.position[:, 1] + up], 1)
-    link = position - end.position
-    zero = np.zeros_like(across)
-    vertical = np.stack([zero + 1.0, zero], 1)
-    velocity = _meet(link, vertical, _dot(link, end.velocity), zero)
-    turning = _dot(velocity - end.velocity, velocity - end.velocity)
-    acceleration = _meet(link, vertical, _dot(link, end.acceleration) - turning, zero)
-    return Motion(position, velocity, acceleration)
+def _motion(pose: Pose, count: int, size: float, speed: float) -> Motion:
+    """Return a body's motion in m, rad and s."""
+    levels = []
+    for z, angle, scale in (
+        (pose.z, pose.angle, 1.0),
+        (pose.z1, pose.w, speed),
+        (pose.z2, pose.a, speed**2),
+    ):
+        values = np.empty((count, 3))
+        values[:, 0], values[:, 1] = scale * size * np.real(z), scale * size * np.imag(z)
+        values[:, 2] = scale * angle
+        levels.append(values)
+    return Motion(*levels)
 
 
-def dyad(name: str, a: Motion, length_a: float, b: Motion, length_b: float, side: int) -> Motion:
-    """Return the pin that joins two links whose other ends move as a and b.
-
-    Args:
-        name: what to call the pair of links where it does not meet.
-        a: end of the first link, of length length_a.
-        length_a: m.
-        b: end of the second link, of length length_b.
-        length_b: m.
-        side: +1 where the pin lies to the left of the way from a to b, -1 to the right.
-    """
-    base = b.position - a.position
-    square = _dot(base, base)
-    far = np.sqrt(square)
-    _require(
-        (abs(length_a - length_b) < far) & (far < length_a + length_b),
-        lambda i: f"{name} = {length_a:g}, {length_b:g}: must span {far[i]:g}",
-    )
-    along = (length_a**2 - length_b**2 + square) / (2 * far)
-    unit = base / far[:, None]
-    left = np.stack([-unit[:, 1], unit[:, 0]], 1)
-    aside = side * np.sqrt(length_a**2 - along**2)
-    position = a.position + along[:, None] * unit + aside[:, None] * left
-    link_a, link_b = position - a.position, position - b.position
-    velocity = _meet(link_a, link_b, _dot(link_a, a.velocity), _dot(link_b, b.velocity))
-    turning_a = _dot(velocity - a.velocity, velocity - a.velocity)
-    turning_b = _dot(velocity - b.velocity, velocity - b.velocity)
-    acceleration = _meet(
-        link_a,
-        link_b,
-        _dot(link_a, a.acceleration) - turning_a,
-        _dot(link_b, b.acceleration) - turning_b,
-    )
-    return Motion(position, velocity, acceleration)
-
-
-def rod(a: Motion, b: Motion) -> Motion:
-    """Return the motion (x, y, angle) of the rod from a to b: its middle and its direction."""
-    along = b.position - a.position
-    square = _dot(along, along)
-    relative = b.velocity - a.velocity
-    turn = _cross(along, relative) / square
-    turn_rate = _cross(along, b.acceleration - a.acceleration) / square - 2 * turn * (
-        _dot(along, relative) / square
-    )
-    angle = np.unwrap(np.arctan2(along[:, 1], along[:, 0]))
-    return Motion(
-        np.column_stack([(a.position + b.position) / 2, angle]),
-        np.column_stack([(a.velocity + b.velocity) / 2, turn]),
-        np.column_stack([(a.acceleration + b.acceleration) / 2, turn_rate]),
-    )
-
-
-def turning(angle: Array, speed: float, offset: float) -> Motion:
-    """Return the motion (x, y, angle) of the crank, its centre of mass offset towards the pin."""
-    centre = rotating(angle, speed, offset)
-    rate = np.full_like(angle, speed)
-    return Motion(
-        np.column_stack([centre.position, angle]),
-        np.column_stack([centre.velocity, rate]),
-        np.column_stack([centre.acceleration, 0 * rate]),
-    )
-
-
-def sliding(point: Motion) -> Motion:
-    """Return the motion (x, y, angle) of a body that a guide keeps upright."""
-    parts = (point.position, point.velocity, point.acceleration)
-    return Motion(*(np.column_stack([part, np.zeros(len(part))]) for part in parts))
-
-
-def along(body: Motion, offset: float) -> Motion:
-    """Return the motion (x, y, angle) of the point an offset (m) along a body's own x axis."""
-    if offset == 0.0:
-        return body
-    angle, spin, turn = body.position[:, 2], body.velocity[:, 2], body.acceleration[:, 2]
-    axis = offset * np.column_stack([np.cos(angle), np.sin(angle), np.zeros_like(angle)])
-    across = np.column_stack([-axis[:, 1], axis[:, 0], np.zeros_like(angle)])
-    return Motion(
-        body.position + axis,
-        body.velocity + spin[:, None] * across,
-        body.acceleration + turn[:, None] * across - (spin**2)[:, None] * axis,
-    )
-
-
-def _meet(u: Array, v: Array, along_u: Array, along_v: Array) -> Array:
-    """Return the vectors w with u.w = along_u and v.w = along_v."""
-    determinant = _cross(u, v)
-    return np.stack(
-        [
-            (along_u * v[:, 1] - along_v * u[:, 1]) / determinant,
-            (u[:, 0] * along_v - v[:, 0] * along_u) / determinant,
-        ],
-        1,
-    )
-
-
-def _require(reached: NDArray[np.bool_], text: Callable[[int], str]) -> None:
-    """Raise AssemblyError at the first angle where links do not reach (in line is singular)."""
-    if not reached.all():
-        index = int(np.argmin(reached))
-        raise AssemblyError(text(index), index)
-
-
-def _dot(u: Array, v: Array) -> Array:
-    return np.asarray(np.einsum("ij,ij->i", u, v))
-
-
-def _cross(u: Array, v: Array) -> Array:
-    return np.asarray(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])
+def _listed(names: Any) -> str:
+    *first, last = names
+    return f"{', '.join(first)} and {last}" if first else last

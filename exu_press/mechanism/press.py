@@ -1,174 +1,166 @@
 """The symmetric two-point knuckle press of the paper (section 2, Fig. 1, Table 2)."""
 
 import math
+from dataclasses import dataclass
+from typing import ClassVar
 
-from exu_press.mechanism.description import GROUND, Body, Joint, Mechanism
-from exu_press.mechanism.guides import free_to_tilt, guide_of
-from exu_press.mechanism.kinematics import (
-    Array,
-    AssemblyError,
-    Motion,
-    along,
-    dyad,
-    fixed,
-    guided,
-    rod,
-    rotating,
-    sliding,
-    turning,
-)
-from exu_press.scene.tables import ElasticGuide, Press
+from exu_press.checks import Table, key
+from exu_press.errors import InputError
+from exu_press.mechanism.draw import meet, middle, onto
+from exu_press.mechanism.mechanism import Mechanism
+from exu_press.mechanism.parts import GROUND, Body, Guide, Joint, Output, Point, steel_cube
 
-__all__ = ["press"]
+__all__ = ["Press", "press"]
 
 SIDES = {"right": 1, "left": -1}
 
-GROUPS = {
-    "balls": ("ball_left", "ball_right"),
-    "knuckles": ("knuckle_6_left", "knuckle_6_right", "knuckle_7_left", "knuckle_7_right"),
-    "pivots": ("pivot_left", "pivot_right"),
-    "plunger_pins": ("plunger_pin_left", "plunger_pin_right"),
-    "slide_joints": ("slide_joint_left", "slide_joint_right"),
-}
+
+@dataclass(frozen=True)
+class Press(Table):
+    """Lengths and masses of the press (Table 2); links 5-8 per side (A-7)."""
+
+    table: ClassVar[str] = "press"
+    crank_radius: float = key(0.03, "eccentricity of the crank pin (2)", "m", above=0)
+    linkage_length: float = key(0.383, "linkage (3)", "m", above=0)
+    link_5_length: float = key(0.23, "slide (4) to knuckle", "m", above=0)
+    link_6_length: float = key(0.24, "frame pivot to knuckle", "m", above=0)
+    link_7_length: float = key(0.164, "knuckle to plunger", "m", above=0)
+    plunger_length: float = key(0.55, "plunger (8), upper pin to ball centre", "m", above=0)
+    pivot_distance: float = key(0.1655, "frame pivots and plungers from x = 0 (A-2)", "m", above=0)
+    counterweight: bool = key(True, "whether there are linkage (11) and counterweight (12)")
+    counter_eccentricity: float = key(0.016, "eccentric opposite the pin (A-3)", "m", above=0)
+    counter_linkage_length: float = key(0.275, "linkage (11)", "m", above=0)
+    bottom_dead_centre: float = key(0.47, "slider position at ideal bottom dead centre (A-8)", "m")
+    crank_mass: float = key(217.6, "crank shaft (2)", "kg", above=0)
+    crank_mass_offset: float = key(0.015, "centre of mass, from shaft to pin (A-6)", "m")
+    linkage_mass: float = key(184.5, "linkage (3)", "kg", above=0)
+    linkage_mass_offset: float = key(
+        0.0, "centre of mass, from the linkage's middle to the slide (A-6)", "m"
+    )
+    linkage_inertia: float | None = key(
+        None, "about its centre of mass; a uniform rod's unless given (A-6)", "kg m^2", above=0
+    )
+    slide_mass: float = key(60.0, "slide (4) (A-4)", "kg", above=0)
+    link_5_mass: float = key(22.72, "link (5)", "kg", above=0)
+    link_6_mass: float = key(24.13, "link (6)", "kg", above=0)
+    link_7_mass: float = key(15.5, "link (7)", "kg", above=0)
+    plunger_mass: float = key(155.3, "plunger (8) with ball (9) (A-5)", "kg", above=0)
+    slider_mass: float = key(1347.0, "main slider (10)", "kg", above=0)
+    counter_linkage_mass: float = key(22.58, "linkage (11)", "kg", above=0)
+    counterweight_mass: float = key(1847.2, "counterweight (12)", "kg", above=0)
 
 
-def press(
-    size: Press, elastic: ElasticGuide | None = None, *, ideal_balls: bool = True
-) -> Mechanism:
-    """Return the press; the linkage carries the bearing of the crank pin, the slider the sockets.
+def press(size: Press) -> Mechanism:
+    """Return the press at top dead centre, the shaft in the origin.
 
-    With ideal balls and ideal guides the two balls hold the slider's angle, otherwise its guide
-    does (A-9).
+    The linkage carries the bearing of the crank pin, the slider the sockets of the balls.
+
+    Raises:
+        InputError: its links do not meet.
     """
-    offset, half_plunger = size.crank_mass_offset, size.plunger_length / 2
     if size.link_5_length <= size.pivot_distance:
-        short = f"press.link_5_length = {size.link_5_length:g}: needs > {size.pivot_distance:g}"
-        raise AssemblyError(short)
+        raise InputError(
+            f"press.link_5_length = {size.link_5_length:g}: needs > press.pivot_distance = "
+            f"{size.pivot_distance:g} m at crank angle 180 deg"
+        )
     bottom = -size.crank_radius - size.linkage_length
     drop = math.sqrt(size.link_5_length**2 - size.pivot_distance**2)
     pivot_y = bottom - drop + size.link_6_length  # knuckle stretched at bottom dead centre
     slider_bottom = bottom - drop - size.link_7_length - size.plunger_length
 
-    def motion(angle: Array, speed: float) -> dict[str, Motion]:
-        pin = rotating(angle, speed, size.crank_radius)
-        slide = guided("press.linkage_length", pin, size.linkage_length, 0.0, -1)
-        bodies = {
-            "crank": turning(angle, speed, offset),
-            "linkage": along(rod(pin, slide), size.linkage_mass_offset),
-            "slide": sliding(slide),
-        }
-        if size.counterweight:
-            counter_pin = rotating(angle, speed, -size.counter_eccentricity)
-            counterweight = guided(
-                "press.counter_linkage_length", counter_pin, size.counter_linkage_length, 0.0, +1
-            )
-            bodies["counter_linkage"] = rod(counter_pin, counterweight)
-            bodies["counterweight"] = sliding(counterweight)
-        for side, sign in SIDES.items():
-            pivot = fixed(sign * size.pivot_distance, pivot_y, len(angle))
-            knuckle = dyad(
-                "press.link_5_length, link_6_length",
-                slide,
-                size.link_5_length,
-                pivot,
-                size.link_6_length,
-                -sign,
-            )
-            foot = guided(
-                "press.link_7_length",
-                knuckle,
-                size.link_7_length,
-                sign * size.pivot_distance,
-                -1,
-            )
-            bodies[f"link_5_{side}"] = rod(slide, knuckle)
-            bodies[f"link_6_{side}"] = rod(pivot, knuckle)
-            bodies[f"link_7_{side}"] = rod(knuckle, foot)
-            bodies[f"plunger_{side}"] = sliding(foot.shifted((0.0, -half_plunger)))
-        ball = foot.shifted((-sign * size.pivot_distance, -size.plunger_length))
-        bodies["slider"] = sliding(ball)
-        return bodies
-
-    shift = size.linkage_mass_offset
+    shaft, pin = (0.0, 0.0), (0.0, size.crank_radius)
+    slide = onto("press.linkage_length", pin, size.linkage_length, 0.0, -1)
+    middle_of_linkage = 0.5 * (pin[1] + slide[1]) - size.linkage_mass_offset
+    crank_inertia = size.crank_mass * size.crank_radius**2 / 12
     rod_inertia = size.linkage_mass * size.linkage_length**2 / 12
     bodies = [
-        Body("crank", size.crank_mass, size.crank_mass * size.crank_radius**2 / 12),
-        Body("linkage", size.linkage_mass, size.linkage_inertia or rod_inertia),
-        free_to_tilt(_held("slide", size.slide_mass), elastic),
+        Body("crank", size.crank_mass, crank_inertia, (0.0, size.crank_mass_offset)),
+        Body(
+            "linkage",
+            size.linkage_mass,
+            size.linkage_inertia or rod_inertia,
+            (0.0, middle_of_linkage),
+            -math.pi / 2,
+        ),
+        _block("slide", size.slide_mass, slide),
     ]
-    crank_tip, linkage_end = (0.0, size.crank_radius - offset), size.linkage_length / 2
     joints = [
-        Joint("shaft", "crank", (0.0, -offset), GROUND, (0.0, 0.0)),
-        Joint("crank_pin", "crank", crank_tip, "linkage", (-linkage_end - shift, 0.0)),
-        Joint("slide_pin", "linkage", (linkage_end - shift, 0.0), "slide", (0.0, 0.0)),
+        Joint("shaft", shaft, "crank", GROUND),
+        Joint("crank_pin", pin, "crank", "linkage"),
+        Joint("slide_pin", slide, "linkage", "slide"),
     ]
-    guides = [guide_of(bodies[-1], elastic)]
+    ball_y = 0.0
     for side, sign in SIDES.items():
         x = sign * size.pivot_distance
-        end_5, end_6, end_7 = size.link_5_length / 2, size.link_6_length / 2, size.link_7_length / 2
+        pivot = (x, pivot_y)
+        knuckle = meet(
+            "press.link_5_length, link_6_length",
+            slide,
+            size.link_5_length,
+            pivot,
+            size.link_6_length,
+            -sign,
+        )
+        foot = onto("press.link_7_length", knuckle, size.link_7_length, x, -1)
+        ball_y = foot[1] - size.plunger_length
         link_5, link_6, link_7 = f"link_5_{side}", f"link_6_{side}", f"link_7_{side}"
         plunger = f"plunger_{side}"
+        plunger_inertia = size.plunger_mass * size.plunger_length**2 / 12
+        plunger_centre = (x, foot[1] - 0.5 * size.plunger_length)
         bodies += [
-            _rod(link_5, size.link_5_mass, size.link_5_length),
-            _rod(link_6, size.link_6_mass, size.link_6_length),
-            _rod(link_7, size.link_7_mass, size.link_7_length),
-            _rod(plunger, size.plunger_mass, size.plunger_length),
+            _rod(link_5, size.link_5_mass, slide, knuckle),
+            _rod(link_6, size.link_6_mass, pivot, knuckle),
+            _rod(link_7, size.link_7_mass, knuckle, foot),
+            Body(plunger, size.plunger_mass, plunger_inertia, plunger_centre),
         ]
-        guides.append(guide_of(bodies[-1], elastic))
         joints += [
-            Joint(f"slide_joint_{side}", link_5, (-end_5, 0.0), "slide", (0.0, 0.0)),
-            Joint(f"pivot_{side}", link_6, (-end_6, 0.0), GROUND, (x, pivot_y)),
-            Joint(f"knuckle_6_{side}", link_6, (end_6, 0.0), link_5, (end_5, 0.0)),
-            Joint(f"knuckle_7_{side}", link_7, (-end_7, 0.0), link_5, (end_5, 0.0)),
-            Joint(f"plunger_pin_{side}", link_7, (end_7, 0.0), plunger, (0.0, half_plunger)),
-            Joint(
-                f"ball_{side}",
-                plunger,
-                (0.0, -half_plunger),
-                "slider",
-                (x, 0.0),
-                spherical=True,
-                vertical_only=elastic is None,
-            ),
+            Joint(f"slide_joint_{side}", slide, link_5, "slide"),
+            Joint(f"pivot_{side}", pivot, link_6, GROUND),
+            Joint(f"knuckle_6_{side}", knuckle, link_6, link_5),
+            Joint(f"knuckle_7_{side}", knuckle, link_7, link_5),
+            Joint(f"plunger_pin_{side}", foot, link_7, plunger),
+            Joint(f"ball_{side}", (x, ball_y), plunger, "slider", "spherical"),
         ]
-    slider = _rod("slider", size.slider_mass, 2 * size.pivot_distance)
-    bodies.append(free_to_tilt(slider, elastic))
-    guides.append(guide_of(bodies[-1], elastic, holds_angle=not ideal_balls))
+    bodies.append(_block("slider", size.slider_mass, (0.0, ball_y)))
+    guided = ["slide", "plunger_right", "plunger_left", "slider"]
+    groups = {
+        "balls": ("ball_left", "ball_right"),
+        "knuckles": ("knuckle_6_left", "knuckle_6_right", "knuckle_7_left", "knuckle_7_right"),
+        "slide_joints": ("slide_joint_left", "slide_joint_right"),
+        "pivots": ("pivot_left", "pivot_right"),
+        "plunger_pins": ("plunger_pin_left", "plunger_pin_right"),
+    }
     if size.counterweight:
-        counter_end = size.counter_linkage_length / 2
-        counter_tip = (0.0, -size.counter_eccentricity - offset)
+        name, length = "press.counter_linkage_length", size.counter_linkage_length
+        counter_pin = (0.0, -size.counter_eccentricity)
+        counterweight = onto(name, counter_pin, length, 0.0, +1)
         bodies += [
-            _rod("counter_linkage", size.counter_linkage_mass, size.counter_linkage_length),
-            free_to_tilt(_held("counterweight", size.counterweight_mass), elastic),
+            _rod("counter_linkage", size.counter_linkage_mass, counter_pin, counterweight),
+            _block("counterweight", size.counterweight_mass, counterweight),
         ]
         joints += [
-            Joint("counter_pin", "crank", counter_tip, "counter_linkage", (-counter_end, 0.0)),
-            Joint(
-                "counterweight_pin",
-                "counter_linkage",
-                (counter_end, 0.0),
-                "counterweight",
-                (0.0, 0.0),
-            ),
+            Joint("counter_pin", counter_pin, "crank", "counter_linkage"),
+            Joint("counterweight_pin", counterweight, "counter_linkage", "counterweight"),
         ]
-        guides.append(guide_of(bodies[-1], elastic))
+        guided.append("counterweight")
     return Mechanism(
+        name="press",
         bodies=tuple(bodies),
         joints=tuple(joints),
-        guides=tuple(guides),
+        guides=tuple(Guide(body) for body in guided),
         crank="crank",
-        slider="slider",
-        slider_origin=slider_bottom - size.bottom_dead_centre,
-        motion=motion,
-        groups=GROUPS,
+        output=Output("slider", origin=(0.0, slider_bottom - size.bottom_dead_centre)),
+        groups=groups,
     )
 
 
-def _rod(name: str, mass: float, length: float) -> Body:
-    """Return a uniform rod (A-6)."""
-    return Body(name, mass, mass * length**2 / 12)
+def _rod(name: str, mass: float, start: Point, end: Point) -> Body:
+    """Return a uniform rod (A-6), its x axis from start to end."""
+    angle = math.atan2(end[1] - start[1], end[0] - start[0])
+    inertia = mass * math.dist(start, end) ** 2 / 12
+    return Body(name, mass, inertia, middle(start, end), angle)
 
 
-def _held(name: str, mass: float) -> Body:
-    """Return a body whose angle an ideal guide holds, so that its inertia does not matter."""
-    return Body(name, mass, mass)
+def _block(name: str, mass: float, place: Point) -> Body:
+    """Return a body of unknown shape; its inertia matters where an elastic guide lets it tilt."""
+    return Body(name, mass, steel_cube(mass), place)

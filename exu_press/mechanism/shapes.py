@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.mechanism.description import GROUND, Mechanism, Point
+from exu_press.mechanism.mechanism import Mechanism
 
 __all__ = ["COLOURS", "Shape", "moved", "shapes_of", "swept"]
 
@@ -61,7 +61,7 @@ def shapes_of(mechanism: Mechanism) -> dict[str, Shape]:
     heaviest = max(body.mass for body in mechanism.bodies)
     shapes = {}
     for body in mechanism.bodies:
-        points = np.array(_points(mechanism, body.name))
+        points = np.array(mechanism.points(body.name))
         if body.name in guided:
             margin = BLOCK * height * float(np.cbrt(body.mass / heaviest))
             outline = _block(points, margin)
@@ -76,7 +76,7 @@ def swept(mechanism: Mechanism, steps: int = 73) -> Array:
     """Return every place that a joint passes through in a revolution of the ideal mechanism."""
     motion = mechanism.motion(np.linspace(0.0, 2.0 * np.pi, steps), 1.0)
     places = [
-        moved(np.array(_points(mechanism, body.name)), pose)
+        moved(np.array(mechanism.points(body.name)), pose)
         for body in mechanism.bodies
         for pose in motion[body.name].position
     ]
@@ -97,18 +97,6 @@ def _role(mechanism: Mechanism, body: str) -> str:
         return "block"
     pins = (joint for joint in mechanism.joints if joint.name == "crank_pin")
     return "bearing" if any(joint.bearing == body for joint in pins) else "link"
-
-
-def _points(mechanism: Mechanism, body: str) -> list[Point]:
-    """Return the places of a body's joints in its frame."""
-    assert body != GROUND
-    found = []
-    for joint in mechanism.joints:
-        if joint.journal == body:
-            found.append(joint.journal_point)
-        if joint.bearing == body:
-            found.append(joint.bearing_point)
-    return found
 
 
 def _block(points: Array, margin: float) -> Array:

@@ -1,41 +1,54 @@
 """The field's standard test: crank on top, slider hanging below, clearance in the crank pin."""
 
-from exu_press.mechanism.description import GROUND, Body, Joint, Mechanism
-from exu_press.mechanism.guides import free_to_tilt, guide_of
-from exu_press.mechanism.kinematics import Array, Motion, guided, rod, rotating, sliding, turning
-from exu_press.scene.tables import ElasticGuide, SliderCrank
+import math
+from dataclasses import dataclass
+from typing import ClassVar
 
-__all__ = ["slider_crank"]
+from exu_press.checks import Table, key
+from exu_press.mechanism.draw import middle, onto
+from exu_press.mechanism.mechanism import Mechanism
+from exu_press.mechanism.parts import GROUND, Body, Guide, Joint, Output, steel_cube
+
+__all__ = ["SliderCrank", "slider_crank"]
 
 
-def slider_crank(size: SliderCrank, elastic: ElasticGuide | None = None) -> Mechanism:
-    """Return the slider-crank; the rod carries the bearing of the crank pin."""
-    radius, half = size.crank_radius, size.rod_length / 2
-    slider = free_to_tilt(Body("slider", size.slider_mass, 1.0), elastic)  # an ideal guide holds it
+@dataclass(frozen=True)
+class SliderCrank(Table):
+    """A slider-crank of the press's crank, linkage and slider."""
 
-    def motion(angle: Array, speed: float) -> dict[str, Motion]:
-        pin = rotating(angle, speed, radius)
-        wrist = guided("slider_crank.rod_length", pin, size.rod_length, 0.0, -1)
-        return {
-            "crank": turning(angle, speed, 0.0),
-            "rod": rod(pin, wrist),
-            "slider": sliding(wrist),
-        }
+    table: ClassVar[str] = "slider_crank"
+    crank_radius: float = key(0.03, "shaft to crank pin", "m", above=0)
+    rod_length: float = key(0.383, "crank pin to slider pin", "m", above=0)
+    rod_mass: float = key(184.5, "rod", "kg", above=0)
+    rod_inertia: float = key(
+        184.5 * 0.383**2 / 12, "rod, about its centre of mass in the middle", "kg m^2", above=0
+    )
+    slider_mass: float = key(1347.0, "slider", "kg", above=0)
 
+
+def slider_crank(size: SliderCrank) -> Mechanism:
+    """Return the slider-crank at top dead centre; the rod carries the bearing of the crank pin.
+
+    Raises:
+        InputError: its links do not meet.
+    """
+    pin = (0.0, size.crank_radius)
+    wrist = onto("slider_crank.rod_length", pin, size.rod_length, 0.0, -1)
+    inertia = steel_cube(size.slider_mass)  # matters where an elastic guide lets it tilt
     return Mechanism(
+        name="slider_crank",
         bodies=(
             Body("crank", 1.0, 1.0),  # driven at constant speed about its centre of mass
-            Body("rod", size.rod_mass, size.rod_inertia),
-            slider,
+            Body("rod", size.rod_mass, size.rod_inertia, middle(pin, wrist), -math.pi / 2),
+            Body("slider", size.slider_mass, inertia, wrist),
         ),
         joints=(
-            Joint("shaft", "crank", (0.0, 0.0), GROUND, (0.0, 0.0)),
-            Joint("crank_pin", "crank", (0.0, radius), "rod", (-half, 0.0)),
-            Joint("wrist_pin", "slider", (0.0, 0.0), "rod", (half, 0.0)),
+            Joint("shaft", (0.0, 0.0), "crank", GROUND),
+            Joint("crank_pin", pin, "crank", "rod"),
+            Joint("wrist_pin", wrist, "slider", "rod"),
         ),
-        guides=(guide_of(slider, elastic),),
+        guides=(Guide("slider"),),
         crank="crank",
-        slider="slider",
-        slider_origin=0.0,
-        motion=motion,
+        output=Output("slider"),
+        groups={"pins": ("crank_pin", "wrist_pin")},
     )

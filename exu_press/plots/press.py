@@ -9,13 +9,13 @@ from numpy.typing import NDArray
 from scipy.integrate import cumulative_trapezoid
 from scipy.interpolate import CubicHermiteSpline
 
-from exu_press.mechanism import mechanism_of
 from exu_press.observe import DeadCentre, bottom_dead_centres
 from exu_press.plots.canvas import angle_range, crank_degrees, curve, legend_above, new_figure
 from exu_press.plots.scales import crank_angle_axis, note, widen
 from exu_press.plots.slider import averaged
 from exu_press.plots.style import GREY, IDEAL, colour_of, styled
 from exu_press.result import Result
+from exu_press.scene import mechanism_of
 
 __all__ = ["press_figure"]
 

@@ -7,12 +7,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from exu_press.mechanism import mechanism_of
 from exu_press.plots.canvas import angle_range, crank_degrees, curve, new_figure
 from exu_press.plots.decimate import decimate
 from exu_press.plots.scales import crank_angle_axis, impact_scale, note, widen
 from exu_press.plots.style import IDEAL, colour_of, styled
 from exu_press.result import Result
+from exu_press.scene import mechanism_of
 
 __all__ = ["averaged", "slider_figure"]
 

@@ -35,15 +35,22 @@ def equilibrium(
         states: what each clearance joint did; ideal ones have no moment.
     """
     found: dict[str, Channel] = {}
-    for name in sorted(model.mechanism.sliding):
-        force, moment = _applied(model, name, motions[name], channels, states)
-        found |= guide_channels(model, name, {"force": -force[:, 0], "moment": -moment})
+    guides = {guide.body: guide for guide in model.mechanism.guides}
     masses = {body.name: body.mass for body in model.mechanism.bodies}
-    for name, joint in model.pivoted.items():
+
+    def held(name: str) -> tuple[Array, Array]:
+        """Return what holds a body against all that acts on it: force (n, 2) and moment (n,)."""
+        applied, moment = _applied(model, name, motions[name], channels, states)
+        weight = np.array([0.0, -masses[name] * model.scene.gravity])
+        return masses[name] * motions[name].acceleration[:, :2] - applied - weight, -moment
+
+    for name in sorted(model.holding.sliding):
+        force, moment = held(name)
+        across = force @ np.array(guides[name].across)
+        found |= guide_channels(model, name, {"force": across, "moment": moment})
+    for name, joint in model.holding.pivoted.items():
         if name in model.rigid:
-            applied, _ = _applied(model, name, motions[name], channels, states)
-            weight = np.array([0.0, -masses[name] * model.scene.gravity])
-            force = masses[name] * motions[name].acceleration[:, :2] - applied - weight
+            force = held(name)[0] * (1.0 if joint.journal == name else -1.0)
             words = f"{joint.name.replace('_', ' ')}: force on journal"
             found[f"{joint.name}_force"] = vectors(force, "N", words, spherical=False)
     return found
@@ -61,17 +68,17 @@ def _applied(
     force, moment = np.zeros((len(angle), 2)), np.zeros(len(angle))
     for joint in model.mechanism.joints:
         key = f"{joint.name}_force"
-        ends = (joint.journal, joint.journal_point, 1.0), (joint.bearing, joint.bearing_point, -1.0)
-        for end, (body, (x, y), sign) in enumerate(ends):
+        for end, (body, (x, y)) in enumerate(model.mechanism.ends(joint)):
             if body == name and key in channels:
-                on_body = sign * channels[key].values[:, :2]
+                on_body = (1.0, -1.0)[end] * channels[key].values[:, :2]
                 arm_x = x * np.cos(angle) - y * np.sin(angle)
                 arm_y = x * np.sin(angle) + y * np.cos(angle)
                 force += on_body
                 moment += arm_x * on_body[:, 1] - arm_y * on_body[:, 0]
                 moment += [state.moments[end] for state in states.get(joint.name, ())] or 0.0
     if name == model.mechanism.slider:
-        for load, values in (("blanking_force", force[:, 1]), ("blanking_moment", moment)):
-            if load in channels:
-                values += channels[load].values
+        if "blanking_force" in channels:
+            force += np.outer(channels["blanking_force"].values, model.mechanism.output.direction)
+        if "blanking_moment" in channels:
+            moment += channels["blanking_moment"].values
     return force, moment

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from exu_press.mechanism import GROUND
 from exu_press.model import Model
-from exu_press.result.motion import sensor
+from exu_press.result.motion import body_motion, sensor
 from exu_press.result.result import Channel
 
 __all__ = ["frame_force", "guide_channel", "guide_channels", "held_forces", "vectors"]
@@ -32,8 +32,8 @@ def held_forces(model: Model) -> dict[str, Channel]:
             body = name.removesuffix("_guide")
             channels |= guide_channels(model, body, {quantity: -values[:, 0]})
         else:
-            if values.shape[1] == 1:  # held vertically alone
-                values = np.column_stack([np.zeros(len(values)), values])
+            if name in model.holding.half_held:
+                values = _half_held(model, name, values[:, 0])
             channels[f"{name}_force"] = vectors(
                 values[:, :2], "N", f"{in_words}: force on journal", name in spherical
             )
@@ -43,14 +43,28 @@ def held_forces(model: Model) -> dict[str, Channel]:
 def frame_force(model: Model, channels: Mapping[str, Channel]) -> Channel:
     """Return what shaft, pivots and guides together press the frame with, (n, 2), N."""
     on_bodies = np.zeros((len(channels["time"].values), 2))
-    grounded = [joint.name for joint in model.mechanism.joints if joint.bearing == GROUND]
-    bearings = [name for name in model.ideal_joints if name not in _names(model)]  # flexible crank
-    for name in (*grounded, *bearings):
+    signs = {joint.name: 1.0 for joint in model.mechanism.joints if joint.bearing == GROUND}
+    signs |= {joint.name: -1.0 for joint in model.mechanism.joints if joint.journal == GROUND}
+    main_bearings = [name for name in model.ideal_joints if name not in _names(model)]
+    signs |= dict.fromkeys(main_bearings, 1.0)
+    for name, sign in signs.items():
         if f"{name}_force" in channels:
-            on_bodies += channels[f"{name}_force"].values
+            on_bodies += sign * channels[f"{name}_force"].values[:, :2]
     for guide in model.mechanism.guides:
-        on_bodies[:, 0] += channels[f"{guide_channel(model, guide.body)}_force"].values
+        force = channels.get(f"{guide_channel(model, guide.body)}_force")
+        if force is not None:
+            on_bodies += np.outer(force.values, guide.across)
     return Channel(-on_bodies, "N", "force of shaft, pivots and guides on the frame", "plane")
+
+
+def _half_held(model: Model, joint: str, force: Array) -> Array:
+    """Return the force on the journal, (n, 2), N, of a joint that holds one direction."""
+    held = model.holding.half_held[joint]
+    described = next(one for one in model.mechanism.joints if one.name == joint)
+    turned = 0.0 if held.body == GROUND else body_motion(model, held.body).position[:, 2]
+    angle = held.angle + turned * np.ones_like(force)
+    on_journal = force * (1.0 if held.body == described.journal else -1.0)
+    return np.asarray(on_journal[:, None] * np.column_stack([np.cos(angle), np.sin(angle)]))
 
 
 def guide_channel(model: Model, body: str) -> str:

@@ -28,14 +28,14 @@ def record_guides(
     stored, dissipated = np.zeros_like(time), np.zeros_like(time)
     names = [body.name for body in model.mechanism.bodies]
     for guide in model.mechanism.guides:
-        springs = {0: guide.lateral, 2: guide.tilting}
-        if not any(springs.values()):
+        springs = (guide.lateral, (*guide.across, 0.0)), (guide.tilting, (0.0, 0.0, 1.0))
+        if not any(spring for spring, _ in springs):
             continue
         index, lost = names.index(guide.body), np.zeros_like(time)
-        for column, spring in springs.items():
+        for spring, direction in springs:
             if spring is not None:
-                moved = position[:, index, column] - position[0, index, column]  # starts relaxed
-                rate = velocity[:, index, column]
+                away = position[:, index] - position[0, index]  # starts relaxed
+                moved, rate = away @ np.array(direction), velocity[:, index] @ np.array(direction)
                 stored += 0.5 * spring.stiffness * moved**2
                 lost += work(time, spring.damping * rate, rate)
         words = f"{guide.body.replace('_', ' ')} guide: energy dissipated since the start"

@@ -40,14 +40,22 @@ def record(model: Model, outcome: Outcome) -> Result:
         "time": Channel(time, "s", "time"),
         "crank_angle": Channel(position[:, crank, 2], "rad", "crank angle from top dead centre"),
         "slider_position": Channel(
-            position[:, slider, 1] - mechanism.slider_origin, "m", "slider position, upwards"
+            mechanism.travel(position[:, slider]), "m", "slider position, upwards"
         ),
-        "slider_velocity": Channel(velocity[:, slider, 1], "m/s", "slider velocity, upwards"),
+        "slider_velocity": Channel(
+            mechanism.along(velocity[:, slider]), "m/s", "slider velocity, upwards"
+        ),
         "slider_acceleration": Channel(
-            acceleration[:, slider, 1], "m/s^2", "slider acceleration, upwards"
+            mechanism.along(acceleration[:, slider]), "m/s^2", "slider acceleration, upwards"
         ),
-        "slider_lateral": Channel(position[:, slider, 0], "m", "slider beside its guide, right"),
-        "slider_tilt": Channel(position[:, slider, 2], "rad", "slider tilt, counter-clockwise"),
+        "slider_lateral": Channel(
+            mechanism.beside(position[:, slider]), "m", "slider beside its guide, right"
+        ),
+        "slider_tilt": Channel(
+            position[:, slider, 2] - mechanism.bodies[slider].angle,
+            "rad",
+            "slider tilt, counter-clockwise",
+        ),
     }
     states = joint_states(model, time)
     in_joints, stored_in_joints, lost_in_joints = record_joints(model, states, time)

@@ -1,9 +1,10 @@
 """Scene: what is asked, checked at the door."""
 
+from exu_press.mechanism import Press, SliderCrank
 from exu_press.scene.joint import DryJoint, IdealJoint, LubricatedJoint
 from exu_press.scene.joints import Joints
 from exu_press.scene.load import load_scene, parse_assignment
-from exu_press.scene.scene import Scene
+from exu_press.scene.scene import Scene, mechanism_of
 from exu_press.scene.tables import (
     Blanking,
     Contact,
@@ -11,8 +12,6 @@ from exu_press.scene.tables import (
     Film,
     Flexible,
     Friction,
-    Press,
-    SliderCrank,
     Solver,
 )
 
@@ -32,5 +31,6 @@ __all__ = [
     "SliderCrank",
     "Solver",
     "load_scene",
+    "mechanism_of",
     "parse_assignment",
 ]

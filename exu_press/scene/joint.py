@@ -5,8 +5,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar, Literal
 
+from exu_press.checks import Table, key
 from exu_press.errors import InputError
-from exu_press.scene.checks import Table, key
 from exu_press.scene.laws import asperity_onset
 from exu_press.scene.tables import Contact, Film, Friction
 

@@ -4,8 +4,8 @@ import dataclasses
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
+from exu_press.checks import Table, nearest, table_from
 from exu_press.errors import InputError
-from exu_press.scene.checks import Table, nearest, table_from
 from exu_press.scene.joint import (
     DEFAULT_KINDS,
     JOINT_KINDS,

@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from exu_press.checks import Table
 from exu_press.errors import InputError
 from exu_press.output import replacing
-from exu_press.scene.checks import Table
 from exu_press.scene.joint import joint_dict
 from exu_press.scene.joints import Joints
 

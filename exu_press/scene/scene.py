@@ -6,8 +6,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, cast
 
+from exu_press.checks import RENAMED, Table, key, table_from
 from exu_press.errors import InputError
-from exu_press.scene.checks import RENAMED, Table, key, table_from
+from exu_press.mechanism import Mechanism, Press, SliderCrank, press, slider_crank
+from exu_press.scene.elastic import with_elastic_guides
 from exu_press.scene.joint import LAW_TABLES, joint_dict
 from exu_press.scene.joint_changes import by_group, changed_joints, kinds_of, unused_laws
 from exu_press.scene.joints import Joints, joints_of
@@ -18,15 +20,13 @@ from exu_press.scene.tables import (
     Film,
     Flexible,
     Friction,
-    Press,
-    SliderCrank,
     Solver,
 )
 
 if TYPE_CHECKING:
     from exu_press.model import Model
 
-__all__ = ["Scene"]
+__all__ = ["Scene", "mechanism_of"]
 
 RPM = math.pi / 30  # rad/s
 
@@ -112,11 +112,10 @@ class Scene(Table):
 
     def _settle_joints(self) -> None:
         """Say what every joint of the mechanism is; a law that no joint has is refused."""
-        from exu_press.mechanism import checked_assembly
-
         given, laws = self.joints, self.laws
         object.__setattr__(self, "joints", None)
-        mechanism = checked_assembly(self)
+        mechanism = mechanism_of(self)
+        mechanism.require_turning()
         usual = {name: LAW_TABLES[name]() if law is None else law for name, law in laws.items()}
         spherical = {joint.name: joint.spherical for joint in mechanism.joints}
         joints = joints_of(given, self.mechanism, spherical, mechanism.groups, usual)
@@ -281,6 +280,16 @@ class Scene(Table):
                     f"blanking.rise + blanking.fall = {pulse!r}: allowed is at most one "
                     f"revolution, {period:g} s"
                 )
+
+
+def mechanism_of(scene: Scene) -> Mechanism:
+    """Return the mechanism of a scene, with the guides that it asks for."""
+    if scene.press is not None:
+        drawn = press(scene.press)
+    else:
+        assert scene.slider_crank is not None
+        drawn = slider_crank(scene.slider_crank)
+    return drawn if scene.guide is None else with_elastic_guides(drawn, scene.guide)
 
 
 def _fields(table: Any) -> tuple[dataclasses.Field[Any], ...]:

@@ -6,10 +6,10 @@ Every key says its meaning, unit and range once, here; messages and documentatio
 from dataclasses import dataclass
 from typing import ClassVar
 
+from exu_press.checks import Table, key
 from exu_press.errors import InputError
 from exu_press.laws.contact import DAMPING_LAWS
 from exu_press.laws.film import FILM_LAWS
-from exu_press.scene.checks import Table, key
 
 __all__ = [
     "Blanking",
@@ -18,8 +18,6 @@ __all__ = [
     "Film",
     "Flexible",
     "Friction",
-    "Press",
-    "SliderCrank",
     "Solver",
 ]
 
@@ -185,52 +183,3 @@ class Solver(Table):
             )
         if self.tolerance is None and self.step is None:
             object.__setattr__(self, "tolerance", DEFAULT_TOLERANCE)
-
-
-@dataclass(frozen=True)
-class Press(Table):
-    """Lengths and masses of the press (Table 2); links 5-8 per side (A-7)."""
-
-    table: ClassVar[str] = "press"
-    crank_radius: float = key(0.03, "eccentricity of the crank pin (2)", "m", above=0)
-    linkage_length: float = key(0.383, "linkage (3)", "m", above=0)
-    link_5_length: float = key(0.23, "slide (4) to knuckle", "m", above=0)
-    link_6_length: float = key(0.24, "frame pivot to knuckle", "m", above=0)
-    link_7_length: float = key(0.164, "knuckle to plunger", "m", above=0)
-    plunger_length: float = key(0.55, "plunger (8), upper pin to ball centre", "m", above=0)
-    pivot_distance: float = key(0.1655, "frame pivots and plungers from x = 0 (A-2)", "m", above=0)
-    counterweight: bool = key(True, "whether there are linkage (11) and counterweight (12)")
-    counter_eccentricity: float = key(0.016, "eccentric opposite the pin (A-3)", "m", above=0)
-    counter_linkage_length: float = key(0.275, "linkage (11)", "m", above=0)
-    bottom_dead_centre: float = key(0.47, "slider position at ideal bottom dead centre (A-8)", "m")
-    crank_mass: float = key(217.6, "crank shaft (2)", "kg", above=0)
-    crank_mass_offset: float = key(0.015, "centre of mass, from shaft to pin (A-6)", "m")
-    linkage_mass: float = key(184.5, "linkage (3)", "kg", above=0)
-    linkage_mass_offset: float = key(
-        0.0, "centre of mass, from the linkage's middle to the slide (A-6)", "m"
-    )
-    linkage_inertia: float | None = key(
-        None, "about its centre of mass; a uniform rod's unless given (A-6)", "kg m^2", above=0
-    )
-    slide_mass: float = key(60.0, "slide (4) (A-4)", "kg", above=0)
-    link_5_mass: float = key(22.72, "link (5)", "kg", above=0)
-    link_6_mass: float = key(24.13, "link (6)", "kg", above=0)
-    link_7_mass: float = key(15.5, "link (7)", "kg", above=0)
-    plunger_mass: float = key(155.3, "plunger (8) with ball (9) (A-5)", "kg", above=0)
-    slider_mass: float = key(1347.0, "main slider (10)", "kg", above=0)
-    counter_linkage_mass: float = key(22.58, "linkage (11)", "kg", above=0)
-    counterweight_mass: float = key(1847.2, "counterweight (12)", "kg", above=0)
-
-
-@dataclass(frozen=True)
-class SliderCrank(Table):
-    """A slider-crank of the press's crank, linkage and slider."""
-
-    table: ClassVar[str] = "slider_crank"
-    crank_radius: float = key(0.03, "shaft to crank pin", "m", above=0)
-    rod_length: float = key(0.383, "crank pin to slider pin", "m", above=0)
-    rod_mass: float = key(184.5, "rod", "kg", above=0)
-    rod_inertia: float = key(
-        184.5 * 0.383**2 / 12, "rod, about its centre of mass in the middle", "kg m^2", above=0
-    )
-    slider_mass: float = key(1347.0, "slider", "kg", above=0)

@@ -8,9 +8,9 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, FancyArrowPatch
 from numpy.typing import NDArray
 
-from exu_press.mechanism import mechanism_of
 from exu_press.plots.style import COLOURS, GREY, RUN
 from exu_press.result import Result
+from exu_press.scene import mechanism_of
 from exu_press.view.instants import Instants
 from exu_press.view.mechanism_panel import MARKED
 from exu_press.view.panel import animated

@@ -8,11 +8,12 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Polygon
 from numpy.typing import NDArray
 
-from exu_press.mechanism import GROUND, Mechanism, mechanism_of
+from exu_press.mechanism import GROUND, Mechanism
 from exu_press.mechanism.shapes import Shape, moved, shapes_of
 from exu_press.plots.style import COLOURS, GREY
 from exu_press.plots.words import joint_in_words
 from exu_press.result import Result
+from exu_press.scene import mechanism_of
 from exu_press.view.instants import Instants
 from exu_press.view.panel import animated
 
@@ -63,7 +64,7 @@ class MechanismPanel:
         names = result.scene.joints.ideal
         ideal = [joint for joint in mechanism.joints if joint.name in names]
         loose = [joint for joint in mechanism.joints if joint.name not in names]
-        self._joints = [(joint.journal, joint.journal_point) for joint in (*ideal, *loose)]
+        self._joints = [mechanism.ends(joint)[0] for joint in (*ideal, *loose)]
         size = 4.5
         (pins,) = axes.plot([], [], "o", markersize=size, color="white", markeredgecolor=EDGE)
         (marked,) = axes.plot(
@@ -148,8 +149,8 @@ def _draw_frame(
                 Polygon(rail, facecolor="white", edgecolor=STEEL, hatch="/////", linewidth=0.6)
             )
     for joint in mechanism.joints:
-        if joint.bearing == GROUND:
-            x, y = joint.bearing_point
+        if GROUND in (joint.journal, joint.bearing):
+            x, y = joint.at
             axes.add_patch(
                 Circle(
                     (x, y),

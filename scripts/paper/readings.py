@@ -6,10 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicHermiteSpline
 
-from exu_press.mechanism import mechanism_of
 from exu_press.observe import differentiated_peak, mean_peak, peak
 from exu_press.result import Result
-from exu_press.scene import IdealJoint
+from exu_press.scene import IdealJoint, mechanism_of
 from paper.contact_modes import contact_modes
 
 __all__ = ["MODELS", "OBSERVED", "WHY_OBSERVED", "observed_span", "readings"]

@@ -1,128 +1,243 @@
-"""Building blocks of the closed-form kinematics: derivatives, loop closure, what does not reach."""
+"""Loops closed by Newton's method: against closed forms, derivatives, and what is refused."""
 
+import math
+from dataclasses import replace
+
+import closed_form
 import numpy as np
 import pytest
+from drawings import coupled_cranks, four_bar, slider_crank, stephenson
 
-from exu_press.mechanism.kinematics import (
-    AssemblyError,
-    Motion,
-    dyad,
-    fixed,
-    guided,
-    rod,
-    rotating,
-    sliding,
-    turning,
-)
+import exu_press.mechanism as shipped
+from exu_press import InputError
+from exu_press.mechanism import GROUND, Body, Guide, Joint, Press, SliderCrank
+from exu_press.mechanism.assur import groups_of
 
+HALF_DEGREES = np.radians(np.arange(0.0, 360.0, 0.5))
 SPEED = 25.0
-ANGLES = np.radians(np.arange(0.0, 360.0, 7.0))
-
-
-def pin(angle):
-    return rotating(angle, SPEED, 0.03)
-
-
-def guided_end(angle, side=-1):
-    return guided("link", pin(angle), 0.383, 0.02, side)
-
-
-def dyad_pin(angle, side=+1):
-    return dyad("links", pin(angle), 0.2, fixed(0.25, 0.05, len(angle)), 0.24, side)
-
-
-PARTS = {
-    "rotating": pin,
-    "rotating on the opposite side": lambda angle: rotating(angle, SPEED, -0.016),
-    "turning": lambda angle: turning(angle, SPEED, 0.015),
-    "guided below": guided_end,
-    "guided above": lambda angle: guided_end(angle, +1),
-    "dyad to the left": dyad_pin,
-    "dyad to the right": lambda angle: dyad_pin(angle, -1),
-    "rod to a guide": lambda angle: rod(pin(angle), guided_end(angle)),
-    "rod to a dyad": lambda angle: rod(dyad_pin(angle), guided_end(angle)),
-    "sliding": lambda angle: sliding(guided_end(angle)),
-    "shifted": lambda angle: guided_end(angle).shifted((0.1, -0.2)),
+DRAWINGS = {
+    "press": shipped.press(Press()),
+    "slider-crank": shipped.slider_crank(SliderCrank()),
+    "four-bar": four_bar(),
+    "drag link": four_bar(crank=0.3, coupler=0.25, rocker=0.35, base=0.1),
+    "oblique guide": slider_crank(tilt=0.5, offset=0.05),
+    "guide along -x": slider_crank(tilt=math.pi, offset=-0.02, at=3.0),
+    "doubled rod": slider_crank(tilt=math.pi / 2, second_rod=True),
+    "coupled cranks": coupled_cranks(),
+    "stephenson": stephenson(),
 }
+ALL = pytest.mark.parametrize("mechanism", DRAWINGS.values(), ids=DRAWINGS)
 
 
-def assert_derivatives(motion_of, angle, speed):
-    """Velocity and acceleration are the time derivatives of the position, at every angle."""
-    width = 1e-4  # rad; the differences below are exact to order width^4
-    shifted = [motion_of(angle + k * width) for k in (-2, -1, 1, 2)]
-    time = width / speed
-    for level, rate in (("position", "velocity"), ("velocity", "acceleration")):
-        a, b, c, d = (getattr(motion, level) for motion in shifted)
-        difference = (a - 8 * b + 8 * c - d) / (12 * time)
-        given = getattr(motion_of(angle), rate)
-        scale = max(1.0, np.abs(given).max())
-        assert np.abs(given - difference).max() < 1e-8 * scale, (level, rate)
+def places(mechanism, motion, joint):
+    """Where the two bodies of a joint have it, (n, 2) each."""
+    return [
+        np.broadcast_to(point, (len(HALF_DEGREES), 2))
+        if body == GROUND
+        else motion[body].at(point).position[:, :2]
+        for body, point in mechanism.ends(joint)
+    ]
 
 
-@pytest.mark.parametrize("part", PARTS.values(), ids=PARTS)
-def test_velocity_and_acceleration_are_derivatives(part):
-    assert_derivatives(part, ANGLES, SPEED)
+@pytest.mark.parametrize(
+    ("mechanism", "exact", "size"),
+    [
+        (shipped.press(Press()), closed_form.press, Press()),
+        (shipped.slider_crank(SliderCrank()), closed_form.slider_crank, SliderCrank()),
+        (
+            shipped.press(Press(crank_radius=0.05, linkage_mass_offset=0.1)),
+            closed_form.press,
+            None,
+        ),
+    ],
+)
+def test_press_and_slider_crank_follow_their_closed_forms(mechanism, exact, size):
+    """1e-12 of a length, and of an angle; derivatives as much of what the crank has."""
+    size = size or Press(crank_radius=0.05)
+    found, expected = mechanism.motion(HALF_DEGREES, SPEED), exact(size, HALF_DEGREES, SPEED)
+    assert set(found) == set(expected)
+    for name, body in found.items():
+        offset = 0.1 if size.crank_radius == 0.05 and name == "linkage" else 0.0
+        one = body.at((-offset, 0.0))
+        assert one.position == pytest.approx(expected[name].position, abs=1e-12), name
+        assert one.velocity == pytest.approx(expected[name].velocity, abs=1e-11), name
+        assert one.acceleration == pytest.approx(expected[name].acceleration, abs=1e-9), name
 
 
-def test_crank_starts_on_top_and_turns_counter_clockwise():
-    at = rotating(np.array([0.0, np.pi / 2]), 1.0, 0.03).position
-    assert at == pytest.approx(np.array([[0.0, 0.03], [-0.03, 0.0]]), abs=1e-17)
+@ALL
+def test_every_joint_is_closed_and_every_guide_kept(mechanism):
+    motion = mechanism.motion(HALF_DEGREES, SPEED)
+    for joint in mechanism.joints:
+        one, other = places(mechanism, motion, joint)
+        assert one == pytest.approx(other, abs=1e-12 * mechanism.size), joint.name
+    for guide in mechanism.guides:
+        pose = motion[guide.body].position
+        drawn = mechanism.body(guide.body)
+        away = (pose[:, :2] - drawn.centre_of_mass) @ np.array(guide.across)
+        assert away == pytest.approx(0.0, abs=1e-13)
+        assert pose[:, 2] == pytest.approx(drawn.angle, abs=1e-15)
 
 
-@pytest.mark.parametrize("side", [-1, +1])
-def test_guided_end_keeps_its_length_and_its_side(side):
-    link = guided_end(ANGLES, side).position - pin(ANGLES).position
-    assert np.hypot(*link.T) == pytest.approx(0.383, abs=1e-15)
-    assert np.all(np.sign(link[:, 1]) == side)
-    assert np.all(guided_end(ANGLES, side).position[:, 0] == 0.02)
+@ALL
+def test_the_crank_turns_from_the_drawing(mechanism):
+    motion = mechanism.motion(HALF_DEGREES, SPEED)
+    for body in mechanism.bodies:
+        drawn = [*body.centre_of_mass, body.angle]
+        assert motion[body.name].position[0] == pytest.approx(drawn, abs=1e-13), body.name
+    crank = motion[mechanism.crank]
+    turned = crank.position[:, 2] - mechanism.body(mechanism.crank).angle
+    assert turned == pytest.approx(HALF_DEGREES, abs=1e-14)
+    assert np.all(crank.velocity[:, 2] == SPEED)
 
 
-@pytest.mark.parametrize("side", [-1, +1])
-def test_dyad_keeps_both_lengths_and_its_side(side):
-    a, b = pin(ANGLES).position, np.array([0.25, 0.05])
-    joint = dyad_pin(ANGLES, side).position
-    assert np.hypot(*(joint - a).T) == pytest.approx(0.2, abs=1e-15)
-    assert np.hypot(*(joint - b).T) == pytest.approx(0.24, abs=1e-15)
-    (base_x, base_y), (to_x, to_y) = (b - a).T, (joint - a).T
-    assert np.all(np.sign(base_x * to_y - base_y * to_x) == side)
+@ALL
+def test_velocities_and_accelerations_are_derivatives(mechanism):
+    """Differences exact to the fourth order of 1e-4 rad."""
+    width, angle = 1e-4, np.radians(np.arange(0.5, 360.0, 3.0))
+    a, b, c, d = (mechanism.motion(angle + k * width, SPEED) for k in (-2, -1, 1, 2))
+    for name, body in mechanism.motion(angle, SPEED).items():
+        for level, rate in (("position", "velocity"), ("velocity", "acceleration")):
+            p, q, r, s = (getattr(m[name], level) for m in (a, b, c, d))
+            difference = (p - 8 * q + 8 * r - s) / (12 * width / SPEED)
+            given = getattr(body, rate)
+            assert np.abs(given - difference).max() < 2e-8 * max(1.0, np.abs(given).max()), name
 
 
-def test_rod_lies_between_its_ends():
-    a, b = pin(ANGLES), guided_end(ANGLES)
-    x, y, angle = rod(a, b).position.T
-    along = np.stack([np.cos(angle), np.sin(angle)], 1)
-    middle = np.stack([x, y], 1)
-    assert middle - 0.1915 * along == pytest.approx(a.position, abs=1e-15)
-    assert middle + 0.1915 * along == pytest.approx(b.position, abs=1e-15)
+@ALL
+def test_angles_of_any_order_and_revolution(mechanism):
+    """Positions repeat; angles of bodies that go round go on."""
+    shuffled = np.array([3.0, -1.0, 100.0, 0.2])
+    for name, body in mechanism.motion(shuffled, SPEED).items():
+        for index, angle in enumerate(shuffled):
+            alone = mechanism.motion(np.array([angle]), SPEED)[name]
+            within = mechanism.motion(np.array([angle % (2 * np.pi)]), SPEED)[name]
+            assert body.position[index] == pytest.approx(alone.position[0], abs=1e-13)
+            assert body.position[index, :2] == pytest.approx(within.position[0, :2], abs=1e-12)
+            turns = (body.position[index, 2] - within.position[0, 2]) / (2 * np.pi)
+            assert turns == pytest.approx(round(turns), abs=1e-12)
 
 
-def test_angle_of_a_rod_that_goes_round_is_continuous():
-    turns = np.linspace(0.0, 6 * np.pi, 200)
-    centre = fixed(0.0, 0.0, len(turns))
-    angle = rod(centre, rotating(turns, 1.0, 0.1)).position[:, 2]
-    assert np.diff(angle) == pytest.approx(np.diff(turns), abs=1e-12)
+def test_both_cranks_of_a_drag_link_go_round():
+    rocker = DRAWINGS["drag link"].motion(np.array([0.0, 2 * np.pi - 1e-9]), 1.0)["rocker"]
+    assert np.ptp(rocker.position[:, 2]) == pytest.approx(2 * np.pi, abs=1e-7)
 
 
-def test_columns_of_a_motion():
-    body = rod(pin(ANGLES), guided_end(ANGLES))
-    centre = body[:2]
-    assert isinstance(centre, Motion)
-    assert np.array_equal(centre.acceleration, body.acceleration[:, :2])
+def test_a_rocker_follows_freudenstein():
+    """K1 cos phi - K2 cos theta + K3 = cos(theta - phi), of crank and rocker."""
+    crank, coupler, rocker, base = 0.1, 0.4, 0.3, 0.35
+    motion = four_bar().motion(HALF_DEGREES, 1.0)
+    theta = 0.7 + HALF_DEGREES
+    at_knuckle = np.array(four_bar().joints[2].at) - (base, 0.0)
+    phi = math.atan2(at_knuckle[1], at_knuckle[0]) + motion["rocker"].position[:, 2]
+    k_1, k_2 = base / crank, base / rocker
+    k_3 = (crank**2 - coupler**2 + rocker**2 + base**2) / (2 * crank * rocker)
+    left = k_1 * np.cos(phi) - k_2 * np.cos(theta) + k_3
+    assert left == pytest.approx(np.cos(theta - phi), abs=1e-12)
 
 
-def test_link_too_short_for_its_guide_says_where():
-    with pytest.raises(AssemblyError, match=r"link = 0\.025: needs > 0\.03") as caught:
-        guided("link", pin(np.radians([0.0, 10.0, 90.0])), 0.025, 0.0, -1)
-    assert caught.value.index == 2
+def test_a_press_is_its_crank_and_a_sequence_of_dyads():
+    mechanism = shipped.press(Press())
+    groups = mechanism._kinematics().groups
+    assert max(len(group.bodies) for group in groups) == 2
+    assert {"slide", "linkage"} in [set(group.bodies) for group in groups]
 
 
-@pytest.mark.parametrize("lengths", [(0.1, 0.1), (0.5, 0.1)], ids=["too short", "too unequal"])
-def test_dyad_that_does_not_meet_says_where(lengths):
-    with pytest.raises(AssemblyError, match=r"links = .*must span") as caught:
-        dyad("links", pin(ANGLES), lengths[0], fixed(0.25, 0.05, len(ANGLES)), lengths[1], 1)
-    assert caught.value.index == 0
+def test_a_stephenson_chain_is_one_group():
+    (group,) = stephenson()._kinematics().groups
+    assert set(group.bodies) == {"rod", "ternary", "rocker_left", "rocker_right"}
 
 
-def test_links_in_line_are_refused_as_singular():
-    with pytest.raises(AssemblyError):
-        dyad("links", fixed(0.0, 0.0, 1), 0.1, fixed(0.2, 0.0, 1), 0.1, 1)
+def test_redundant_loops_close_where_half_of_them_is_singular():
+    """Each coupling rod alone passes a change point twice a revolution."""
+    one_rod = coupled_cranks()
+    one_rod = replace(one_rod, bodies=one_rod.bodies[:3], joints=one_rod.joints[:4])
+    follower = coupled_cranks().motion(HALF_DEGREES, 1.0)["follower"]
+    assert follower.position[:, 2] == pytest.approx(HALF_DEGREES, abs=1e-12)
+    with pytest.raises(InputError, match=r"rod and follower|follower and rod"):
+        one_rod.motion(HALF_DEGREES, 1.0)
+
+
+def test_mechanisms_that_differ_in_masses_alone_share_their_kinematics():
+    mechanism = four_bar()
+    heavy = replace(mechanism, bodies=tuple(replace(b, mass=9.0) for b in mechanism.bodies))
+    assert mechanism._kinematics() is heavy._kinematics()
+
+
+def refusal(mechanism):
+    with pytest.raises(InputError) as caught:
+        mechanism.require_turning()
+    assert "\n" not in str(caught.value)
+    return str(caught.value)
+
+
+def test_a_crank_that_cannot_go_round_is_refused_with_angle_and_bodies():
+    """Grashof: 0.3 + 0.2 > 0.25 + 0.15; it locks where coupler and rocker are in line."""
+    locking = four_bar(crank=0.2, coupler=0.25, rocker=0.15, base=0.3, at=0.4)
+    far = math.acos((0.2**2 + 0.3**2 - 0.4**2) / (2 * 0.2 * 0.3))
+    text = refusal(locking)
+    assert "rocker" in text and "coupler" in text and "lock" in text
+    angle = float(text.split("crank angle ")[1].split(" deg")[0])
+    assert angle == pytest.approx(math.degrees(far) - math.degrees(0.4), abs=0.05)
+
+
+def test_a_rod_too_short_for_its_crank():
+    text = refusal(slider_crank(crank=0.1, rod=0.08, at=0.2))
+    assert "rod and slider" in text or "slider and rod" in text
+    angle = float(text.split("crank angle ")[1].split(" deg")[0])
+    assert angle == pytest.approx(math.degrees(math.asin(0.8) - 0.2), abs=0.05)
+
+
+def test_a_change_point_is_refused():
+    """A parallelogram branches where all links lie in one line."""
+    text = refusal(four_bar(crank=0.1, coupler=0.35, rocker=0.1, base=0.35))
+    assert "branch" in text
+    angle = float(text.split("crank angle ")[1].split(" deg")[0])
+    assert angle == pytest.approx(180.0 - math.degrees(0.7), abs=0.2)
+
+
+def test_a_drawing_in_a_singular_position_is_refused():
+    assert "coupler" in refusal(four_bar(crank=0.1, coupler=0.35, rocker=0.1, base=0.35, at=0.0))
+
+
+def test_a_body_too_many():
+    mechanism = four_bar()
+    loose = replace(
+        mechanism,
+        bodies=(*mechanism.bodies, Body("hanging", 1.0, 0.1, (0.0, 0.5))),
+        joints=(*mechanism.joints, Joint("hook", (0.0, 0.4), "hanging", "coupler")),
+    )
+    text = refusal(loose)
+    assert "hanging" in text and "degree of freedom" in text
+    assert "rocker" not in text
+
+
+def test_a_joint_too_many():
+    """The rocker is held by a second pivot: nothing may move."""
+    mechanism = four_bar()
+    held = replace(
+        mechanism, joints=(*mechanism.joints, Joint("bolt", (0.3, 0.4), "rocker", GROUND))
+    )
+    assert "lock" in refusal(held)
+
+
+def test_redundant_loops_that_disagree_are_refused_with_the_bodies():
+    """A second rod half a millimetre longer than the first."""
+    mechanism = slider_crank(second_rod=True)
+    wrong = [
+        replace(j, at=(j.at[0], j.at[1] + 5e-4)) if j.name == "other_rod_small_end" else j
+        for j in mechanism.joints
+    ]
+    text = refusal(replace(mechanism, joints=tuple(wrong)))
+    assert "other_rod" in text or "slider" in text
+
+
+def test_a_guide_and_a_pivot_on_one_body_lock():
+    mechanism = four_bar()
+    text = refusal(replace(mechanism, guides=(Guide("rocker", (1.0, 0.0)),)))
+    assert text == "four_bar: coupler lock or branch at crank angle 0 deg"
+
+
+def test_groups_are_found_from_what_is_known():
+    groups, loose = groups_of(four_bar()._kinematics()._drawing)
+    assert not loose
+    assert [set(group.bodies) for group in groups] == [{"coupler", "rocker"}]

@@ -3,8 +3,8 @@ import pytest
 from matplotlib.path import Path
 
 from exu_press import Scene
-from exu_press.mechanism import mechanism_of
 from exu_press.mechanism.shapes import moved, shapes_of, swept
+from exu_press.scene import mechanism_of
 
 SCENES = [
     {"mechanism": "press"},
@@ -19,10 +19,7 @@ def test_every_body_has_an_outline_around_all_its_joints(scene):
     shapes = shapes_of(mechanism)
     assert list(shapes) == [body.name for body in mechanism.bodies]
     for joint in mechanism.joints:
-        for body, point in (
-            (joint.journal, joint.journal_point),
-            (joint.bearing, joint.bearing_point),
-        ):
+        for body, point in mechanism.ends(joint):
             if body in shapes:
                 outline = Path(shapes[body].outline, closed=False)
                 assert outline.contains_point(point, radius=1e-9), (body, joint.name)

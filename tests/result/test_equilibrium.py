@@ -1,10 +1,12 @@
 """Guides and pivots: their forces from equilibrium are those of constraints in their place."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
-from exu_press.mechanism import Mechanism
+from exu_press.mechanism.holding import holding_of
 
 PULSE = {"force": 1e5, "eccentricity": 0.05, "rise": 2e-3, "fall": 1e-3, "end_angle_deg": 10.0}
 SCENES = {
@@ -27,14 +29,21 @@ def run(scene):
 
 def hold_all(monkeypatch, flexible):
     """Give all bodies x, y and angle, and hold them by constraints; a crank shaft has bearings."""
-    pivoted = Mechanism.pivoted
     kept = {"crank"} if flexible else set()
 
-    def only(mechanism, ideal):
-        return {k: v for k, v in pivoted(mechanism, ideal).items() if k in kept}
+    def constrained(mechanism, ideal):
+        found = holding_of(mechanism, ideal)
+        pivots = {body: joint for body, joint in found.pivoted.items() if body in kept}
+        others = [j.name for body, j in found.pivoted.items() if body not in kept]
+        return replace(
+            found,
+            pivoted=pivots,
+            sliding=frozenset(),
+            joints=(*found.joints, *others),
+            guides={**found.guides, **dict.fromkeys(found.sliding, (True, True))},
+        )
 
-    monkeypatch.setattr(Mechanism, "pivoted", only)
-    monkeypatch.setattr(Mechanism, "sliding", frozenset())
+    monkeypatch.setattr("exu_press.model.holding_of", constrained)
 
 
 @pytest.mark.parametrize("name", SCENES)

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from exu_press import InputError, Result, Scene, simulate
-from exu_press.mechanism import GROUND, mechanism_of
+from exu_press.mechanism import GROUND
+from exu_press.scene import mechanism_of
 
 SCENES = {
     "shaft": {"shaft": "lubricated", "crank_pin": "lubricated"},

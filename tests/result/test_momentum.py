@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
-from exu_press.mechanism import mechanism_of
+from exu_press.scene import mechanism_of
 from exu_press.solving import scales
 
 GRAVITY = 9.81

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from exu_press import InputError, Result, Scene, simulate
-from exu_press.mechanism import mechanism_of
+from exu_press.scene import mechanism_of
 
 SCENE = {"mechanism": "press", "revolutions": 0.02, "solver": {"step": 1e-4}}
 

@@ -174,8 +174,8 @@ def test_static_friction_is_at_least_kinetic_friction():
 @pytest.mark.parametrize(
     ("key", "value", "names"),
     [
-        ("linkage_length", 0.02, "press.linkage_length"),
-        ("counter_linkage_length", 0.01, "press.counter_linkage_length"),
+        ("linkage_length", 0.02, "slide and linkage"),
+        ("counter_linkage_length", 0.01, "counterweight and counter_linkage"),
         ("link_5_length", 0.1, "press.link_5_length"),
         ("link_5_length", 0.1655, "press.link_5_length"),
         ("link_6_length", 0.01, "link_6_length"),
@@ -192,7 +192,7 @@ def test_links_that_cannot_be_assembled(key, value, names):
 
 def test_slider_crank_that_cannot_be_assembled():
     message = refusal({**CRANK, "slider_crank": {"crank_radius": 0.5}})
-    assert message.startswith("slider_crank.rod_length = 0.383: needs > ")
+    assert message.startswith("slider_crank: slider and rod lock")
     assert " deg" in message
 
 

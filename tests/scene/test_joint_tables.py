@@ -3,8 +3,7 @@
 import pytest
 
 from exu_press import InputError, Scene, load_scene
-from exu_press.mechanism import mechanism_of
-from exu_press.scene import DryJoint, Film, IdealJoint, LubricatedJoint
+from exu_press.scene import DryJoint, Film, IdealJoint, LubricatedJoint, mechanism_of
 
 
 def press(**joints):

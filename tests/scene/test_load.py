@@ -65,7 +65,7 @@ def test_empty_file_is_the_default_scene(tmp_path):
         ("[[film]]\nviscosity = 1", "film = "),
         ('joints.crank_pin = "dry"\n[film]\nviscosity = 1', "[film]: not used by this scene"),
         ("[solver]\nstep = 1e-5\ntolerance = 1e-3", "solver.tolerance = 0.001"),
-        ("[press]\nlinkage_length = 0.01", "press.linkage_length = 0.01: needs > "),
+        ("[press]\nlinkage_length = 0.01", "press: slide and linkage lock"),
         (
             "[joints.crank_pin]\nkind = 'dry'\nclearance = 1.0",
             "joints.crank_pin.clearance = 1.0: allowed is a number < ",

@@ -1,8 +1,9 @@
 import numpy as np
 import pytest
 
-from exu_press.mechanism import GROUND, mechanism_of
+from exu_press.mechanism import GROUND
 from exu_press.mechanism.shapes import moved
+from exu_press.scene import mechanism_of
 from exu_press.view import instants
 from exu_press.view.curve_panel import CurvePanel
 from exu_press.view.joint_panel import CLEARANCE, JointPanel
@@ -23,10 +24,7 @@ def test_links_are_drawn_joined(runs, name):
         for frame, now in enumerate(shown.time):
             journal, bearing = (
                 moved(np.array([point]), where[body][frame])[0]
-                for body, point in (
-                    (joint.journal, joint.journal_point),
-                    (joint.bearing, joint.bearing_point),
-                )
+                for body, point in mechanism.ends(joint)
             )
             apart = np.zeros(2)
             if joint.name in result.clearance_joints:
@@ -42,7 +40,7 @@ def test_bodies_are_drawn_at_their_poses(runs, film):
     (panel,) = panels(picture, MechanismPanel)
     picture.show(4)
     slider = panel._bodies["slider"].get_xy()[:4].mean(axis=0)
-    height = result["slider_position"][-1] + mechanism_of(result.scene).slider_origin
+    height = result["slider_position"][-1] + mechanism_of(result.scene).output.origin[1]
     assert slider == pytest.approx([0.0, height], abs=1e-6)
     names = {text.get_text() for text in picture.figure.axes[0].texts}
     assert {"crank", "linkage", "slider", "counterweight", "link 5", "TDC", "BDC"} <= names

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from exu_press.mechanism import mechanism_of
-from exu_press.scene import Scene
+from exu_press.scene import Scene, mechanism_of
 from exu_press.studies.precision.cases import Amount, Case
 from exu_press.studies.precision.compiled import CompiledModel
 from exu_press.studies.precision.errors import Errors, errors_of, instants_until

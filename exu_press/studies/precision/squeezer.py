@@ -28,8 +28,7 @@ from exudyn.itemInterface import (
 )
 
 from exu_press.integrate import Status, solve_dynamic
-from exu_press.mechanism import Body
-from exu_press.mechanism.kinematics import Motion
+from exu_press.mechanism import Body, Motion
 from exu_press.rigid import RigidBody
 from exu_press.studies.precision.errors import Errors
 from exu_press.studies.precision.measured import Attempt, Measured

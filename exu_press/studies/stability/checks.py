@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from exu_press.integrate.newton import DIGITS
 from exu_press.laws.film.contract import film_scale
-from exu_press.mechanism import GROUND, mechanism_of
+from exu_press.mechanism import GROUND
 from exu_press.result import Result
-from exu_press.scene import LubricatedJoint, Scene
+from exu_press.scene import LubricatedJoint, Scene, mechanism_of
 from exu_press.scene.laws import contact_law
 
 __all__ = ["RESIDUAL_LIMIT", "Check", "agreement", "checks_of"]
@@ -170,9 +170,8 @@ def _drifts(result: Result) -> Iterator[tuple[float, str]]:
             joint.journal,
             joint.bearing,
         }:
-            gap = world(joint.journal, joint.journal_point) - world(
-                joint.bearing, joint.bearing_point
-            )
+            journal, bearing = mechanism.ends(joint)
+            gap = world(*journal) - world(*bearing)
             yield float(np.linalg.norm(gap, axis=1).max()), joint.name
 
 

@@ -3,9 +3,9 @@
 import tomllib
 from pathlib import Path
 
+from exu_press.checks import table_from
 from exu_press.errors import InputError
 from exu_press.scene import load_scene
-from exu_press.scene.checks import table_from
 from exu_press.studies.sweep.study import Study
 
 __all__ = ["load_study"]

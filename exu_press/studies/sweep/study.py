@@ -5,9 +5,9 @@ from collections.abc import Mapping
 from functools import cached_property
 from typing import Any
 
+from exu_press.checks import Table, key
 from exu_press.errors import InputError
 from exu_press.scene import Scene
-from exu_press.scene.checks import Table, key
 from exu_press.studies.sweep.points import Points, flat, grid, listed, sample
 
 __all__ = ["Study"]

@@ -4,8 +4,8 @@ import dataclasses
 from collections.abc import Mapping
 from typing import Any
 
+from exu_press.checks import Table
 from exu_press.scene import DryJoint, Scene
-from exu_press.scene.checks import Table
 from exu_press.scene.scene import TABLES
 
 __all__ = ["meaning_of", "unit_of"]

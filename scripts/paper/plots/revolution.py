@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.mechanism import mechanism_of
 from exu_press.result import Result
+from exu_press.scene import mechanism_of
 from paper.readings import WINDOW, observed_span
 
 __all__ = ["ideal_motion", "last_revolution", "mean_acceleration"]

@@ -1,0 +1,134 @@
+"""What a mechanism's data must be, before anything is computed of it."""
+
+import math
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from typing import Any
+
+from exu_press.checks import nearest
+from exu_press.errors import InputError
+from exu_press.mechanism.parts import GROUND, Body, Guide, Joint, Output
+
+__all__ = ["check"]
+
+SHAPES = ("revolute", "spherical")
+
+
+def check(
+    bodies: Sequence[Body],
+    joints: Sequence[Joint],
+    guides: Sequence[Guide],
+    crank: str,
+    output: Output,
+    groups: Mapping[str, Sequence[str]],
+) -> None:
+    """Raise InputError for the first thing that no mechanism can be made of."""
+    names = [body.name for body in bodies]
+    if not bodies:
+        raise InputError("bodies: none; allowed is at least the crank")
+    _once("bodies", names)
+    _once("joints", [joint.name for joint in joints])
+    _once("guides", [guide.body for guide in guides])
+    if GROUND in names:
+        raise InputError(f"bodies.{GROUND}: the name of what stands still; allowed is another one")
+    for body in bodies:
+        where = f"bodies.{body.name}"
+        _positive(f"{where}.mass", body.mass, "kg")
+        _point(f"{where}.centre_of_mass", body.centre_of_mass)
+        _finite(f"{where}.angle", body.angle)
+        if not math.isnan(body.inertia):
+            _positive(f"{where}.inertia", body.inertia, "kg m^2")
+    for joint in joints:
+        _check_joint(joint, names)
+    for guide in guides:
+        _known(f"guides.{guide.body}", guide.body, names)
+        _direction(f"guides.{guide.body}.direction", guide.direction)
+    _known("crank", crank, names)
+    _known("output.body", output.body, names)
+    _direction("output.direction", output.direction)
+    _point("output.origin", output.origin)
+    _check_groups(groups, [joint.name for joint in joints])
+    _check_connections(bodies, joints, guides, crank)
+
+
+def _check_joint(joint: Joint, names: Collection[str]) -> None:
+    where = f"joints.{joint.name}"
+    _point(f"{where}.at", joint.at)
+    _known(f"{where}.journal", joint.journal, [*names, GROUND])
+    _known(f"{where}.bearing", joint.bearing, [*names, GROUND])
+    if joint.journal == joint.bearing:
+        raise InputError(f"{where}: joins {joint.journal!r} to itself; allowed are two bodies")
+    _known(f"{where}.shape", joint.shape, SHAPES)
+
+
+def _check_groups(groups: Mapping[str, Sequence[str]], joints: Sequence[str]) -> None:
+    for name, members in groups.items():
+        if name in joints:
+            raise InputError(f"groups.{name}: is a joint's name too; allowed is another one")
+        if not members:
+            raise InputError(f"groups.{name}: is empty; allowed are names of joints")
+        _once(f"groups.{name}", members)
+        for member in members:
+            _known(f"groups.{name}", member, joints)
+
+
+def _check_connections(
+    bodies: Sequence[Body], joints: Sequence[Joint], guides: Sequence[Guide], crank: str
+) -> None:
+    """Refuse bodies on nothing, rods without two ends, and a crank that is not in the frame."""
+    guided = {guide.body for guide in guides}
+    for body in bodies:
+        places = {joint.at for joint in joints if body.name in (joint.journal, joint.bearing)}
+        if not places and body.name not in guided:
+            raise InputError(f"bodies.{body.name}: no joint and no guide holds it")
+        if math.isnan(body.inertia) and len(places) != 2:
+            raise InputError(
+                f"bodies.{body.name}.inertia: missing; allowed is a number > 0 (kg m^2): only a "
+                f"body with joints in two places is a uniform rod, this one has {len(places)}"
+            )
+    shafts = [joint for joint in joints if {joint.journal, joint.bearing} == {crank, GROUND}]
+    if len(shafts) != 1 or crank in guided:
+        raise InputError(
+            f"crank = {crank!r}: has {len(shafts)} joints with the {GROUND}"
+            f"{' and a guide' if crank in guided else ''}; allowed is one joint, its shaft"
+        )
+
+
+def _known(where: str, name: Any, known: Collection[str]) -> None:
+    if name not in known:
+        raise InputError(
+            f"{where} = {name!r}: unknown{nearest(name, known)}; allowed are {', '.join(known)}"
+        )
+
+
+def _once(where: str, names: Iterable[str]) -> None:
+    seen: set[str] = set()
+    for name in names:
+        if not isinstance(name, str) or not name.isidentifier():
+            raise InputError(f"{where}: {name!r} is no name; allowed are letters, digits and _")
+        if name in seen:
+            raise InputError(f"{where}.{name}: given twice")
+        seen.add(name)
+
+
+def _positive(where: str, value: Any, unit: str) -> None:
+    _finite(where, value)
+    if not value > 0.0:
+        raise InputError(f"{where} = {value!r}: allowed is a number > 0 ({unit})")
+
+
+def _finite(where: str, value: Any) -> None:
+    if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
+        raise InputError(f"{where} = {value!r}: allowed is a number")
+
+
+def _point(where: str, value: Any) -> None:
+    if not isinstance(value, tuple) or len(value) != 2:
+        raise InputError(f"{where} = {value!r}: allowed are two numbers, x and y (m)")
+    for number in value:
+        _finite(where, number)
+
+
+def _direction(where: str, value: Any) -> None:
+    _point(where, value)
+    if math.hypot(*value) == 0.0:
+        raise InputError(f"{where} = {value!r}: allowed is a direction, such as (0, 1)")

@@ -1,0 +1,237 @@
+"""Which constraints hold a mechanism's bodies: as many as are independent, no more.
+
+Guides and joints of a planar mechanism often hold the same thing twice: two balls of a guided
+slider in guided plungers hold it upright and sideways once more. A multibody system with redundant
+constraints is singular, and how they share the load is undetermined; so what is redundant is found
+by the rank of their Jacobian and left out. First come the pivots of the frame, then what guides
+hold across their direction, then the joints, then the guides' hold of the angle, and last what
+joints of two bodies in parallel guides hold across these: so a slider is held upright by two balls
+that share its load, and nothing but guides bears side forces.
+"""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from exu_press.errors import InputError
+from exu_press.mechanism.mechanism import Mechanism
+from exu_press.mechanism.motion import Array
+from exu_press.mechanism.parts import GROUND, Guide, Joint, Point
+
+__all__ = ["HalfHeld", "Holding", "holding_of"]
+
+SOMEWHERE = (1.0, 2.3)
+"""Crank angles that are none of those in which mechanisms are drawn, rad."""
+
+INDEPENDENT = 1e-7
+"""What of a constraint's unit row others must leave."""
+
+KEPT = 1e-6
+"""What a direction may turn in the frame of a body that keeps it, rad."""
+
+
+@dataclass(frozen=True)
+class HalfHeld:
+    """A joint that holds its two bodies together in one direction alone.
+
+    Attributes:
+        body: in whose frame the direction is fixed.
+        angle: of the direction in that frame, rad.
+    """
+
+    body: str
+    angle: float
+
+
+@dataclass(frozen=True)
+class Holding:
+    """What is held by what.
+
+    Attributes:
+        pivoted: bodies on an ideal pivot of the frame -> that joint.
+        sliding: names of bodies whose ideal guide, along x or y, leaves them nothing but the way
+            along it.
+        joints: names of the other ideal joints that hold both directions.
+        half_held: names of those that hold one.
+        guides: bodies that are not sliding -> whether their guide holds them across, and the angle.
+        redundant: names of joints and guides of which something is left out.
+    """
+
+    pivoted: Mapping[str, Joint]
+    sliding: frozenset[str]
+    joints: tuple[str, ...]
+    half_held: Mapping[str, HalfHeld]
+    guides: Mapping[str, tuple[bool, bool]]
+    redundant: tuple[str, ...]
+
+
+@lru_cache(maxsize=64)
+def holding_of(mechanism: Mechanism, ideal: frozenset[str]) -> Holding:
+    """Return what holds a mechanism's bodies, apart from its clearance joints and springs.
+
+    Args:
+        mechanism: its guides are ideal or elastic.
+        ideal: names of the joints without clearance.
+
+    Raises:
+        InputError: half of a joint is redundant, in a direction that neither of its bodies keeps.
+    """
+    first, second = (_Selection(mechanism, ideal, angle) for angle in SOMEWHERE)
+    pivoted = _pivoted(mechanism, ideal)
+    pivots = {joint.name for joint in pivoted.values()}
+    others = [j for j in mechanism.joints if j.name in ideal and j.name not in pivots]
+    guides = {
+        guide.body: (first.held[guide.body, "across"], first.held[guide.body, "angle"])
+        for guide in mechanism.guides
+    }
+    sliding = frozenset(
+        guide.body
+        for guide in mechanism.guides
+        if all(guides[guide.body]) and 0.0 in guide.direction
+    )
+    return Holding(
+        pivoted=pivoted,
+        sliding=sliding,
+        joints=tuple(joint.name for joint in others if len(first.directions[joint.name]) == 2),
+        half_held={
+            joint.name: _half_held(joint, first, second)
+            for joint in others
+            if len(first.directions[joint.name]) == 1
+        },
+        guides={body: held for body, held in guides.items() if body not in sliding},
+        redundant=first.redundant,
+    )
+
+
+class _Selection:
+    """The independent constraints at one crank angle.
+
+    Attributes:
+        angles: of the bodies there, rad.
+        directions: name of an ideal joint -> unit vectors that it holds, none to two.
+        held: (body, "across" or "angle") -> whether its guide holds it.
+        redundant: names of what holds less than it could.
+    """
+
+    def __init__(self, mechanism: Mechanism, ideal: frozenset[str], crank_angle: float) -> None:
+        """Go through the constraints, those to be kept first."""
+        motion = mechanism.motion(np.array([crank_angle]), 1.0)
+        self._mechanism = mechanism
+        self._poses = {name: one.position[0] for name, one in motion.items()}
+        self._places = {body.name: 3 * i for i, body in enumerate(mechanism.bodies)}
+        self._basis = np.zeros((0, 3 * len(mechanism.bodies)))
+        self.angles = {name: float(pose[2]) for name, pose in self._poses.items()} | {GROUND: 0.0}
+        self.directions: dict[str, list[Array]] = {}
+        self.held: dict[tuple[str, str], bool] = {}
+        redundant: dict[str, None] = {}
+        guides = {guide.body: guide for guide in mechanism.guides if guide.lateral is None}
+        joints = [joint for joint in mechanism.joints if joint.name in ideal]
+        pivots = list(_pivoted(mechanism, ideal).values())
+        parallel = {joint.name: _parallel(joint, guides) for joint in joints}
+        self._take(self._angle_row(mechanism.crank)[None, :])  # the drive
+        for joint in pivots:
+            self.directions[joint.name] = self._take_joint(joint, np.eye(2))
+        for guide in mechanism.guides:
+            free = guide.lateral is not None
+            self.held[guide.body, "across"] = not free and self._take_row(self._across_row(guide))
+        for joint in joints:
+            if joint not in pivots:
+                along = parallel[joint.name]
+                wanted = np.eye(2) if along is None else np.array([along])
+                self.directions[joint.name] = self._take_joint(joint, wanted)
+        for guide in mechanism.guides:
+            free = guide.tilting is not None
+            row = self._angle_row(guide.body)
+            self.held[guide.body, "angle"] = not free and self._take_row(row)
+            both = self.held[guide.body, "across"] and self.held[guide.body, "angle"]
+            if not free and not both:
+                redundant[guide.body] = None
+        for joint in joints:
+            along = parallel[joint.name]
+            if along is not None:
+                across = np.array([[along[1], -along[0]]])
+                self.directions[joint.name] += self._take_joint(joint, across)
+            if len(self.directions[joint.name]) < 2:
+                redundant[joint.name] = None
+        self.redundant = tuple(redundant)
+
+    def _take(self, rows: Array) -> list[Array]:
+        """Add what is independent of rows (m, n) to the basis; return its combinations (m,)."""
+        rows = rows / np.linalg.norm(rows, axis=1).max()  # keeps the angle between two directions
+        rest = rows - (rows @ self._basis.T) @ self._basis
+        rest = rest - (rest @ self._basis.T) @ self._basis  # once more, for rounding
+        combinations, sizes, new = np.linalg.svd(rest, full_matrices=False)
+        count = int((sizes > INDEPENDENT).sum())
+        self._basis = np.vstack([self._basis, new[:count]])
+        return [combinations[:, index] for index in range(count)]
+
+    def _take_row(self, row: Array) -> bool:
+        return bool(self._take(row[None, :]))
+
+    def _take_joint(self, joint: Joint, wanted: Array) -> list[Array]:
+        """Let a joint hold some of the wanted directions (m, 2); return which."""
+        rows = np.zeros((2, self._basis.shape[1]))
+        for sign, (body, (x, y)) in zip((1.0, -1.0), self._mechanism.ends(joint), strict=True):
+            if body != GROUND:
+                c, s = math.cos(self.angles[body]), math.sin(self.angles[body])
+                place = self._places[body]
+                rows[:, place : place + 2] = sign * np.eye(2)
+                arm = np.array([c * x - s * y, s * x + c * y]) / self._mechanism.size
+                rows[:, place + 2] = sign * np.array([-arm[1], arm[0]])
+        return [np.asarray(mix @ wanted) for mix in self._take(wanted @ rows)]
+
+    def _across_row(self, guide: Guide) -> Array:
+        row = np.zeros(self._basis.shape[1])
+        place = self._places[guide.body]
+        row[place : place + 2] = guide.across
+        return row
+
+    def _angle_row(self, body: str) -> Array:
+        row = np.zeros(self._basis.shape[1])
+        row[self._places[body] + 2] = 1.0
+        return row
+
+
+def _pivoted(mechanism: Mechanism, ideal: frozenset[str]) -> dict[str, Joint]:
+    """Return the bodies on an ideal pivot of the frame, each with it."""
+    found: dict[str, Joint] = {}
+    for joint in mechanism.joints:
+        if joint.name in ideal and GROUND in (joint.journal, joint.bearing):
+            body = joint.bearing if joint.journal == GROUND else joint.journal
+            found.setdefault(body, joint)
+    return found
+
+
+def _parallel(joint: Joint, guides: Mapping[str, Guide]) -> Point | None:
+    """Return the direction of two parallel guides whose bodies a joint joins, if it does."""
+    if joint.journal not in guides or joint.bearing not in guides:
+        return None
+    one, other = guides[joint.journal].direction, guides[joint.bearing].direction
+    across = one[0] * other[1] - one[1] * other[0]
+    return one if abs(across) < INDEPENDENT else None
+
+
+def _half_held(joint: Joint, first: _Selection, second: _Selection) -> HalfHeld:
+    """Return the direction that a joint holds, in the frame of a body that keeps it."""
+    best: tuple[float, HalfHeld] | None = None
+    for body in (joint.bearing, joint.journal):
+        angles = []
+        for found in (first, second):
+            direction = found.directions[joint.name]
+            if len(direction) != 1:
+                break
+            x, y = direction[0]
+            angles.append(math.atan2(y, x) - found.angles[body])
+        else:
+            apart = abs(math.remainder(angles[1] - angles[0], math.pi))  # either sense
+            if best is None or apart < best[0]:
+                best = apart, HalfHeld(body, angles[0])
+    if best is None or best[0] > KEPT:
+        raise InputError(
+            f"joints.{joint.name}: other joints hold half of it, in a direction that neither "
+            f"{joint.journal} nor {joint.bearing} keeps; allowed is such a joint with clearance"
+        )
+    return best[1]

@@ -1,0 +1,151 @@
+"""A planar mechanism as plain data: bodies, joints and guides in one assembled drawing."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from exu_press.mechanism.assur import Drawing
+from exu_press.mechanism.checks import check
+from exu_press.mechanism.kinematics import Kinematics, kinematics_of
+from exu_press.mechanism.motion import Array, Motion
+from exu_press.mechanism.parts import GROUND, Body, Guide, Joint, Output, Point
+
+__all__ = ["Mechanism"]
+
+
+@dataclass(frozen=True)
+class Mechanism:
+    """Bodies, joints and guides in the coordinates of one assembled drawing, y upwards.
+
+    A joint has one place, which both of its bodies have, so that the drawing closes by itself. The
+    crank's angle in the drawing is the mechanism's zero; it turns counter-clockwise.
+
+    Attributes:
+        name: for messages and pictures.
+        bodies: in the order of the result's body channels.
+        joints: a scene says which are ideal and which have clearance.
+        guides: in the frame.
+        crank: name of the driven body.
+        output: whose motion the result's slider channels record.
+        groups: names for several joints, which a scene gives clearance together.
+
+    Raises:
+        InputError: names are used twice or unknown, a body has no mass, or what else cannot be.
+            Whether the crank turns is found out by `motion`.
+    """
+
+    name: str
+    bodies: tuple[Body, ...]
+    joints: tuple[Joint, ...]
+    guides: tuple[Guide, ...]
+    crank: str
+    output: Output
+    groups: Mapping[str, tuple[str, ...]] = field(default_factory=dict, hash=False)
+
+    def __post_init__(self) -> None:
+        """Check the drawing, fill in the inertia of uniform rods, make directions unit vectors."""
+        check(self.bodies, self.joints, self.guides, self.crank, self.output, self.groups)
+        completed = {
+            "bodies": tuple(
+                replace(body, inertia=_rod_inertia(self, body))
+                if math.isnan(body.inertia)
+                else body
+                for body in self.bodies
+            ),
+            "guides": tuple(replace(g, direction=_unit(g.direction)) for g in self.guides),
+            "output": replace(self.output, direction=_unit(self.output.direction)),
+        }
+        for name, value in completed.items():
+            object.__setattr__(self, name, value)
+
+    @property
+    def slider(self) -> str:
+        """Name of the body whose motion is the result."""
+        return self.output.body
+
+    @property
+    def size(self) -> float:
+        """Largest distance of two joints along x or y in the drawing, m."""
+        places = np.array([joint.at for joint in self.joints])
+        return float(np.ptp(places, axis=0).max())
+
+    def body(self, name: str) -> Body:
+        """Return a body by its name."""
+        return next(body for body in self.bodies if body.name == name)
+
+    def ends(self, joint: Joint) -> tuple[tuple[str, Point], tuple[str, Point]]:
+        """Return journal and bearing of a joint, each with its body and the place in its frame."""
+        journal, bearing = (
+            (name, joint.at if name == GROUND else self.body(name).local(joint.at))
+            for name in (joint.journal, joint.bearing)
+        )
+        return journal, bearing
+
+    def points(self, body: str) -> list[Point]:
+        """Return the places of a body's joints in its frame."""
+        return [point for joint in self.joints for name, point in self.ends(joint) if name == body]
+
+    def require_turning(self) -> None:
+        """Raise InputError unless the crank turns through a whole revolution; see `motion`."""
+        self._kinematics()
+
+    def motion(self, angle: Array, speed: float) -> dict[str, Motion]:
+        """Return the motion (x, y, angle) of every body with ideal joints.
+
+        Args:
+            angle: (n,) crank angles from the drawing's, rad.
+            speed: of the crank, constant, rad/s.
+
+        Raises:
+            InputError: the mechanism has another mobility than the crank's, locks or branches.
+        """
+        return self._kinematics().motion(angle, speed)
+
+    def ideal_slider(self, angle: Array, speed: float) -> tuple[Array, Array, Array]:
+        """Return position (m), velocity and acceleration of the slider with ideal joints."""
+        slider = self.motion(angle, speed)[self.slider]
+        return (
+            self.travel(slider.position),
+            self.along(slider.velocity),
+            self.along(slider.acceleration),
+        )
+
+    def travel(self, position: Array) -> Array:
+        """Return the slider's positions (n,) of its places (n, 2 or 3), m."""
+        return self.along(position) - float(np.dot(self.output.origin, self.output.direction))
+
+    def beside(self, position: Array) -> Array:
+        """Return how far the slider's places (n, 2 or 3) are to the right of the drawn one, m."""
+        drawn = self.body(self.slider).centre_of_mass
+        return np.asarray((position[:, :2] - np.array(drawn)) @ np.array(self.output.across))
+
+    def along(self, vectors: Array) -> Array:
+        """Return the components (n,) of vectors (n, 2 or 3) in the output's direction."""
+        return np.asarray(vectors[:, :2] @ np.array(self.output.direction))
+
+    def _kinematics(self) -> Kinematics:
+        """Return the kinematics of the geometry, which is all that they depend on."""
+        drawing = Drawing(
+            bodies=tuple((b.name, complex(*b.centre_of_mass), b.angle) for b in self.bodies),
+            joints=tuple((j.name, complex(*j.at), j.journal, j.bearing) for j in self.joints),
+            guides=tuple((guide.body, complex(*guide.direction)) for guide in self.guides),
+            crank=self.crank,
+            frame=GROUND,
+        )
+        return kinematics_of(self.name, drawing, self.size)
+
+
+def _unit(direction: Point) -> Point:
+    """Return a direction as a unit vector."""
+    length = math.hypot(*direction)
+    return direction[0] / length, direction[1] / length
+
+
+def _rod_inertia(mechanism: Mechanism, body: Body) -> float:
+    """Return m l^2 / 12 of a uniform rod between a body's two joints (`check` has counted them)."""
+    first, second = dict.fromkeys(
+        joint.at for joint in mechanism.joints if body.name in (joint.journal, joint.bearing)
+    )
+    return body.mass * math.dist(first, second) ** 2 / 12

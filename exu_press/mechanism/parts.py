@@ -1,0 +1,121 @@
+"""What a mechanism is made of, in the coordinates of one assembled drawing."""
+
+import math
+from dataclasses import dataclass
+
+__all__ = ["GROUND", "ROD", "Body", "Guide", "Joint", "Output", "Point", "Spring", "steel_cube"]
+
+GROUND = "frame"
+
+STEEL = 7850.0
+"""kg/m^3, for the size of a body of unknown shape."""
+
+ROD = math.nan
+"""Inertia of a body that is a uniform rod between its two joints; `Mechanism` fills it in."""
+
+Point = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Body:
+    """A rigid body in the plane; its frame sits in its centre of mass.
+
+    Attributes:
+        name: as in the result's channels.
+        mass: kg.
+        inertia: about the centre of mass, kg m^2; `ROD` for m l^2 / 12 of a uniform rod.
+        centre_of_mass: in the drawing, m.
+        angle: of the body's frame in the drawing, rad.
+    """
+
+    name: str
+    mass: float
+    inertia: float = ROD
+    centre_of_mass: Point = (0.0, 0.0)
+    angle: float = 0.0
+
+    def local(self, point: Point) -> Point:
+        """Return a point of the drawing in the body's frame, m."""
+        x, y = point[0] - self.centre_of_mass[0], point[1] - self.centre_of_mass[1]
+        c, s = math.cos(self.angle), math.sin(self.angle)
+        return c * x + s * y, c * y - s * x
+
+
+@dataclass(frozen=True)
+class Joint:
+    """A revolute or spherical joint: a journal (or ball) of one body in a bearing (or socket).
+
+    Attributes:
+        name: as in the result's channels.
+        at: its centre in the drawing, m.
+        journal: body that carries the journal or ball.
+        bearing: body that carries the bearing or socket; the film turns with it.
+        shape: "revolute" or "spherical", whose forces are recorded as 3-vectors.
+    """
+
+    name: str
+    at: Point
+    journal: str
+    bearing: str
+    shape: str = "revolute"
+
+    @property
+    def spherical(self) -> bool:
+        """Whether a ball sits in a socket."""
+        return self.shape == "spherical"
+
+
+@dataclass(frozen=True)
+class Spring:
+    """Linear stiffness and damping: N/m and N s/m, or N m/rad and N m s/rad."""
+
+    stiffness: float
+    damping: float
+
+
+@dataclass(frozen=True)
+class Guide:
+    """A straight guide in the frame: a body moves along it and does not turn.
+
+    Attributes:
+        body: what it guides.
+        direction: along the guide; `Mechanism` makes it a unit vector.
+        lateral: what holds the body across the guide, or None where the guide is ideal.
+        tilting: what holds its angle, or None.
+    """
+
+    body: str
+    direction: Point = (0.0, 1.0)
+    lateral: Spring | None = None
+    tilting: Spring | None = None
+
+    @property
+    def across(self) -> Point:
+        """Unit vector across the guide, to the right of its direction."""
+        return self.direction[1], -self.direction[0]
+
+
+@dataclass(frozen=True)
+class Output:
+    """Whose motion the slider's channels record.
+
+    Attributes:
+        body: its centre of mass is meant.
+        direction: in which the position counts; `Mechanism` makes it a unit vector.
+        origin: where the position is zero, in the drawing, m.
+    """
+
+    body: str
+    direction: Point = (0.0, 1.0)
+    origin: Point = (0.0, 0.0)
+
+    @property
+    def across(self) -> Point:
+        """Unit vector to the right of the direction."""
+        return self.direction[1], -self.direction[0]
+
+
+def steel_cube(mass: float) -> float:
+    """Return the inertia of a steel cube about its centre, m (m / rho)^(2/3) / 6, kg m^2."""
+    side: float = (mass / STEEL) ** (1 / 3)
+    return mass * side**2 / 6

@@ -1,0 +1,42 @@
+"""Elastic guides in place of ideal ones (A-9)."""
+
+import math
+from dataclasses import replace
+
+from exu_press.mechanism import Body, Guide, Mechanism, Spring
+from exu_press.scene.tables import ElasticGuide
+
+__all__ = ["with_elastic_guides"]
+
+
+def with_elastic_guides(drawn: Mechanism, elastic: ElasticGuide) -> Mechanism:
+    """Return a mechanism whose guides are springs and dampers, its guided bodies free to tilt."""
+    guided = {guide.body for guide in drawn.guides}
+    bodies = tuple(_tilting(b, elastic) if b.name in guided else b for b in drawn.bodies)
+    named = {body.name: body for body in bodies}
+    guides = tuple(_elastic(guide, named[guide.body], elastic) for guide in drawn.guides)
+    return replace(drawn, bodies=bodies, guides=guides)
+
+
+def _tilting(body: Body, elastic: ElasticGuide) -> Body:
+    """Return a body with the inertia that the scene gives it."""
+    given: float | None = getattr(elastic, f"{body.name}_inertia", None)
+    return body if given is None else replace(body, inertia=given)
+
+
+def _elastic(guide: Guide, body: Body, elastic: ElasticGuide) -> Guide:
+    """Return a guide of springs and dampers in place of an ideal one (A-9)."""
+    lateral = elastic.lateral_stiffness
+    tilting = elastic.tilting_stiffness or lateral * elastic.length**2 / 12
+    ratio = elastic.damping_ratio
+    return replace(
+        guide,
+        lateral=_spring(lateral, elastic.lateral_damping, ratio, body.mass),
+        tilting=_spring(tilting, elastic.tilting_damping, ratio, body.inertia),
+    )
+
+
+def _spring(stiffness: float, damping: float | None, ratio: float, inertia: float) -> Spring:
+    """Return a spring damped as asked for, or with a share of the critical damping."""
+    critical = 2.0 * math.sqrt(stiffness * inertia)
+    return Spring(stiffness, ratio * critical if damping is None else damping)

@@ -1,0 +1,110 @@
+"""Independent constraints: as many as the rank of all, and those that share loads sensibly."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from drawings import coupled_cranks, four_bar, slider_crank
+
+from exu_press.mechanism import Press, Spring, press
+from exu_press.mechanism.holding import holding_of
+
+PRESS = press(Press())
+BALLS = ("ball_left", "ball_right")
+
+
+def holding(mechanism, *loose):
+    """What holds it where some joints have clearance."""
+    return holding_of(mechanism, frozenset(j.name for j in mechanism.joints) - {*loose})
+
+
+def elastic(mechanism):
+    spring = Spring(1e9, 1e5)
+    guides = [replace(g, lateral=spring, tilting=spring) for g in mechanism.guides]
+    return replace(mechanism, guides=tuple(guides))
+
+
+def kept(mechanism, *loose):
+    """How many coordinates the mechanism keeps."""
+    found = holding(mechanism, *loose)
+    constraints = 2 * len(found.pivoted) + 2 * len(found.sliding)
+    constraints += 2 * len(found.joints) + len(found.half_held)
+    constraints += sum(map(sum, found.guides.values()))
+    return 3 * len(mechanism.bodies) - constraints
+
+
+@pytest.mark.parametrize(
+    "mechanism",
+    [PRESS, four_bar(), slider_crank(0.5), slider_crank(second_rod=True)],
+)
+def test_ideal_mechanisms_keep_the_crank_alone(mechanism):
+    assert kept(mechanism) == 1
+
+
+def test_elastic_guides_free_what_they_held():
+    """Ten things, but three were held by the balls as well."""
+    assert kept(elastic(PRESS)) == 1 + 10 - 3
+
+
+def test_every_joint_with_clearance_frees_two_coordinates():
+    """Unless guides hold them as well, as they do for three of the balls' four directions.
+
+    With both sides loose the slider's guide keeps them level: one coordinate less.
+    """
+    assert kept(PRESS, "crank_pin") == 3
+    assert kept(PRESS, "crank_pin", "knuckle_6_left", "pivot_right", "shaft") == 9 - 1
+    assert kept(PRESS, "ball_left") == 1
+    assert kept(PRESS, *BALLS) == 2
+
+
+def test_two_balls_hold_the_slider_upright_and_share_its_load():
+    found = holding(PRESS)
+    assert set(found.half_held) == set(BALLS)
+    for half in found.half_held.values():
+        assert abs(np.sin(half.angle)) == pytest.approx(1.0)
+    assert found.guides == {"slider": (True, False)}
+    assert set(found.redundant) == {"slider", *BALLS}
+
+
+def test_with_clearance_in_the_balls_the_guide_holds_the_slider_alone():
+    found = holding(PRESS, *BALLS)
+    assert "slider" in found.sliding
+    assert not found.redundant
+
+
+def test_what_stands_on_the_frame_or_in_a_guide_needs_no_constraint():
+    found = holding(PRESS)
+    assert set(found.pivoted) == {"crank", "link_6_left", "link_6_right"}
+    assert found.sliding == {"slide", "plunger_left", "plunger_right", "counterweight"}
+
+
+def test_a_body_in_an_oblique_guide_is_held_by_constraints():
+    found = holding(slider_crank(tilt=0.5))
+    assert not found.sliding
+    assert found.guides == {"slider": (True, True)}
+
+
+def test_a_pivot_may_carry_the_journal():
+    """The four-bar's rocker turns on a pin of the frame."""
+    assert holding(four_bar()).pivoted["rocker"].journal == "frame"
+
+
+def test_half_of_a_second_rod_is_left_out_whatever_its_direction():
+    found = holding(slider_crank(second_rod=True))
+    (name,) = found.half_held
+    assert name.startswith("other_rod")
+    assert found.half_held[name].body == "other_rod"
+    across = np.array([np.cos(found.half_held[name].angle), np.sin(found.half_held[name].angle)])
+    along = np.diff(slider_crank(second_rod=True).points("other_rod"), axis=0)[0]
+    assert across @ along == pytest.approx(0.0, abs=1e-9)
+
+
+def test_elastic_guides_leave_their_work_to_no_joint():
+    found = holding(elastic(PRESS))
+    assert not found.sliding
+    assert not found.half_held
+    assert set(found.guides.values()) == {(False, False)}
+
+
+def test_coupled_cranks_are_held_once():
+    assert kept(coupled_cranks()) == 1

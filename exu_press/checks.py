@@ -33,8 +33,12 @@ def key(
     at_least: float | None = None,
     at_most: float | None = None,
     choices: tuple[str, ...] = (),
+    also: type | None = None,
 ) -> Any:
-    """Declare one key of a scene table: its default, meaning, unit and allowed range."""
+    """Declare one key of a scene table: its default, meaning, unit and allowed range.
+
+    `also` is a class whose objects are allowed as they are.
+    """
     metadata = {
         "meaning": meaning,
         "unit": unit,
@@ -42,6 +46,7 @@ def key(
         "at_least": at_least,
         "at_most": at_most,
         "choices": choices,
+        "also": also,
     }
     return dataclasses.field(default=default, metadata=metadata)
 
@@ -50,7 +55,8 @@ def _allowed(field: dataclasses.Field[Any]) -> str:
     """Return what a key allows, in words."""
     meta = field.metadata
     if meta.get("choices"):
-        return "one of " + ", ".join(repr(choice) for choice in meta["choices"])
+        also = f", or {meta['meaning']}" if meta.get("also") else ""
+        return "one of " + ", ".join(repr(choice) for choice in meta["choices"]) + also
     kind = _kind(field)
     noun = {float: "a number", int: "a whole number", bool: "true or false", str: "a text"}[kind]
     bounds = [
@@ -84,6 +90,8 @@ def _checked(field: dataclasses.Field[Any], name: str, value: Any) -> Any:
     """
     if value is None and field.default is None:
         return None
+    if field.metadata.get("also") and isinstance(value, field.metadata["also"]):
+        return value
     kind = _kind(field)
     if not isinstance(value, bool):
         if kind is float and isinstance(value, numbers.Real):

@@ -165,23 +165,24 @@ class SceneAdvice(Advice):
         return f"solver.step = {_rounded_down(needed):.0e}"
 
     def _seizing(self) -> str:
-        """Return in words that the crank pin's friction circle is wide enough to seize.
+        """Return in words which pin of the crank has a friction circle wide enough to seize.
 
         Near dead centre the rod's force passes within it: friction then holds the pin fast,
         whatever the force, and a crank that turns at constant speed makes it grow without bound.
         """
         scene = self._scene
-        size, pin = scene.press or scene.slider_crank, scene.joints["crank_pin"]
-        if size is None or isinstance(pin, IdealJoint) or pin.friction is None:
-            return ""
-        circle = pin.radius * math.sin(math.atan(pin.friction.mu_static))
-        if pin.friction.law == "none" or circle < WIDE_CIRCLE * size.crank_radius:
-            return ""
-        return (
-            f"; the crank pin seizes near dead centre (friction circle {circle:.2g} m, crank "
-            f"radius {size.crank_radius:.2g} m): try a smaller friction.mu_static or "
-            "joints.crank_pin.radius"
-        )
+        for name, radius in mechanism_of(scene).crank_pins.items():
+            pin = scene.joints[name]
+            if isinstance(pin, IdealJoint) or pin.friction is None or pin.friction.law == "none":
+                continue
+            circle = pin.radius * math.sin(math.atan(pin.friction.mu_static))
+            if circle >= WIDE_CIRCLE * radius:
+                return (
+                    f"; the {name.replace('_', ' ')} seizes near dead centre (friction circle "
+                    f"{circle:.2g} m, crank radius {radius:.2g} m): try a smaller "
+                    f"friction.mu_static or joints.{name}.radius"
+                )
+        return ""
 
     def _thin_film(self) -> str:
         """Return in words that a film is so thin that rounding moves its forces, or nothing."""

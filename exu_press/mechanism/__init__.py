@@ -1,5 +1,13 @@
 """Mechanisms as data, and their ideal motion. Nothing here knows scenes or Exudyn."""
 
+from exu_press.mechanism.file import (
+    SHIPPED,
+    load_mechanism,
+    mechanism_from,
+    mechanism_lines,
+    mechanism_to_dict,
+    shipped_mechanism,
+)
 from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.motion import Motion
 from exu_press.mechanism.parts import (
@@ -19,6 +27,7 @@ from exu_press.mechanism.slider_crank import SliderCrank, slider_crank
 __all__ = [
     "GROUND",
     "ROD",
+    "SHIPPED",
     "Body",
     "Guide",
     "Joint",
@@ -29,7 +38,12 @@ __all__ = [
     "Press",
     "SliderCrank",
     "Spring",
+    "load_mechanism",
+    "mechanism_from",
+    "mechanism_lines",
+    "mechanism_to_dict",
     "press",
+    "shipped_mechanism",
     "slider_crank",
     "steel_cube",
 ]

@@ -85,6 +85,9 @@ def _check_connections(
                 f"bodies.{body.name}.inertia: missing; allowed is a number > 0 (kg m^2): only a "
                 f"body with joints in two places is a uniform rod, this one has {len(places)}"
             )
+    own = [{joint.journal, joint.bearing} for joint in joints]
+    if not any(crank in ends and GROUND not in ends for ends in own):
+        raise InputError(f"crank = {crank!r}: has no joint with another body, which it could move")
     shafts = [joint for joint in joints if {joint.journal, joint.bearing} == {crank, GROUND}]
     if len(shafts) != 1 or crank in guided:
         raise InputError(

@@ -71,6 +71,18 @@ class Mechanism:
         places = np.array([joint.at for joint in self.joints])
         return float(np.ptp(places, axis=0).max())
 
+    @property
+    def crank_pins(self) -> dict[str, float]:
+        """Joints of the crank with other bodies -> distance from its shaft, m."""
+        joints = [j for j in self.joints if self.crank in (j.journal, j.bearing)]
+        shaft = next(j for j in joints if GROUND in (j.journal, j.bearing))
+        return {j.name: math.dist(shaft.at, j.at) for j in joints if j is not shaft}
+
+    @property
+    def crank_radius(self) -> float:
+        """Largest distance of the crank's joints from its shaft, m."""
+        return max(self.crank_pins.values())
+
     def body(self, name: str) -> Body:
         """Return a body by its name."""
         return next(body for body in self.bodies if body.name == name)

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import ClassVar
 
 from exu_press.checks import Table, key
@@ -50,6 +51,7 @@ class Press(Table):
     counterweight_mass: float = key(1847.2, "counterweight (12)", "kg", above=0)
 
 
+@lru_cache(maxsize=64)
 def press(size: Press) -> Mechanism:
     """Return the press at top dead centre, the shaft in the origin.
 

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import ClassVar
 
 from exu_press.checks import Table, key
@@ -26,6 +27,7 @@ class SliderCrank(Table):
     slider_mass: float = key(1347.0, "slider", "kg", above=0)
 
 
+@lru_cache(maxsize=64)
 def slider_crank(size: SliderCrank) -> Mechanism:
     """Return the slider-crank at top dead centre; the rod carries the bearing of the crank pin.
 

@@ -70,7 +70,7 @@ def _force_channels(results: Mapping[str, Result]) -> dict[str, str]:
     """Return the force channels to show, by title; one of two sides that are alike."""
     everyone = list(results.values())
     loose = dict.fromkeys(name for result in everyone for name in result.clearance_joints)
-    usual = [name for result in everyone for name in JOINTS.get(result.scene.mechanism, ())]
+    usual = [name for result in everyone for name in JOINTS.get(result.scene.shipped, ())]
     names = dict.fromkeys((*usual, *sorted(loose)))
     there = [name for name in names if any(f"{name}_force" in result for result in everyone)]
     return {title: f"{name}_force" for name, title in joint_titles(everyone, there).items()}

@@ -86,7 +86,7 @@ def _draw_ideals(
     longest: dict[object, str] = {}
     for label in sorted(results, key=lambda label: float(np.ptp(results[label]["crank_angle"]))):
         scene = results[label].scene
-        longest[scene.press, scene.slider_crank, scene.speed_rpm] = label
+        longest[scene.mechanism, scene.press, scene.slider_crank, scene.speed_rpm] = label
     line = {"color": IDEAL, "linewidth": 1.1, "linestyle": (0, (4, 2)), "zorder": 3}
     for number, label in enumerate(longest.values()):
         angle = crank_degrees(results[label])

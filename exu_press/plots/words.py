@@ -4,7 +4,7 @@ import textwrap
 from collections.abc import Collection, Iterable, Mapping
 
 from exu_press.result import Result
-from exu_press.scene import Scene
+from exu_press.scene import Scene, mechanism_of
 
 __all__ = ["describe", "early_stops", "joint_in_words"]
 
@@ -56,7 +56,7 @@ def joint_in_words(name: str) -> str:
 def _parts(scene: Scene, joints: Collection[str]) -> dict[str, str]:
     """Return phrases by what they are about; of the joints and groups that are named."""
     parts = {
-        "mechanism": scene.mechanism.replace("_", "-").capitalize(),
+        "mechanism": mechanism_of(scene).name.replace("_", "-").capitalize(),
         "bodies": f"{scene.bodies} bodies",
         "speed": f"{scene.speed_rpm:g} rpm",
     }

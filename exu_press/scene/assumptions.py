@@ -153,7 +153,7 @@ def _at_defaults(scene: Scene) -> Scene:
 
 def _joint_keys(scene: Scene) -> dict[str, Key]:
     """Return the keys of the joints with clearance, and of those that are ideal against habit."""
-    usual = DEFAULT_KINDS.get(scene.mechanism, {})
+    usual = DEFAULT_KINDS.get(scene.shipped, {})
     by_joint = {j: kind for name, kind in usual.items() for j in scene.joints.members(name)}
     shown: dict[str, Joint] = {**scene.joints.grouped}
     shown |= {name: scene.joints[name] for name in by_joint if name in scene.joints.ideal}

@@ -28,6 +28,8 @@ def load_scene(path: str | Path, assignments: Iterable[str] = ()) -> Scene:
         raise InputError(f"{path}: cannot be read ({error.strerror})") from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise InputError(f"{path}: not a TOML file ({error})") from None
+    if str(data.get("mechanism", "")).endswith(".toml"):
+        data["mechanism"] = str(path.parent / data["mechanism"])
     try:
         scene = Scene.from_dict(data)
     except InputError as error:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from exu_press.checks import Table
 from exu_press.errors import InputError
+from exu_press.mechanism import Mechanism, mechanism_lines
 from exu_press.output import replacing
 from exu_press.scene.joint import joint_dict
 from exu_press.scene.joints import Joints
@@ -45,6 +46,8 @@ def save_scene(
             lines += _joint_lines(table, scene, comments)
         elif isinstance(table, Table):
             lines += ["", f"[{field.name}]", *_lines(table, comments)]
+    if isinstance(scene.mechanism, Mechanism):
+        lines += ["", *mechanism_lines(scene.mechanism, "mechanism.")]
     with replacing(path) as partial:
         partial.write_text("\n".join([*lines, ""]), encoding="utf-8")
 
@@ -55,7 +58,7 @@ def _lines(table: Table, comments: bool) -> list[str]:
     keys = {
         f"{field.name} = {_text(value)}": _meaning(field.metadata)
         for field, value in values.items()
-        if value is not None and "meaning" in field.metadata
+        if value is not None and "meaning" in field.metadata and not isinstance(value, Mechanism)
     }
     return _commented(keys) if comments else list(keys)
 

@@ -8,9 +8,20 @@ from typing import TYPE_CHECKING, Any, ClassVar, cast
 
 from exu_press.checks import RENAMED, Table, key, table_from
 from exu_press.errors import InputError
-from exu_press.mechanism import Mechanism, Press, SliderCrank, press, slider_crank
+from exu_press.mechanism import (
+    SHIPPED,
+    Mechanism,
+    Press,
+    SliderCrank,
+    load_mechanism,
+    mechanism_from,
+    mechanism_to_dict,
+    press,
+    shipped_mechanism,
+    slider_crank,
+)
 from exu_press.scene.elastic import with_elastic_guides
-from exu_press.scene.joint import LAW_TABLES, joint_dict
+from exu_press.scene.joint import DEFAULT_KINDS, LAW_TABLES, joint_dict
 from exu_press.scene.joint_changes import by_group, changed_joints, kinds_of, unused_laws
 from exu_press.scene.joints import Joints, joints_of
 from exu_press.scene.tables import (
@@ -75,7 +86,12 @@ class Scene(Table):
     """
 
     table: ClassVar[str] = ""
-    mechanism: str = key("press", "mechanism", choices=("press", "slider_crank"))
+    mechanism: str | Mechanism = key(
+        "press",
+        "path of a mechanism file",
+        choices=("press", "slider_crank", *SHIPPED),
+        also=Mechanism,
+    )
     bodies: str = key("rigid", "bodies", choices=("rigid", "flexible"))
     speed_rpm: float = key(240.0, "crank speed", "rpm", above=0)
     revolutions: float = key(2.0, "length of the run", above=0)
@@ -94,6 +110,7 @@ class Scene(Table):
 
     def __post_init__(self) -> None:
         """Check the keys, refuse what the scene does not use and fill in what it does."""
+        object.__setattr__(self, "mechanism", _asked(self.mechanism))
         super().__post_init__()
         unused = _unused({field.name: getattr(self, field.name) for field in _fields(self)})
         for name, table in TABLES.items():
@@ -113,12 +130,14 @@ class Scene(Table):
     def _settle_joints(self) -> None:
         """Say what every joint of the mechanism is; a law that no joint has is refused."""
         given, laws = self.joints, self.laws
+        if given is None:
+            given = DEFAULT_KINDS.get(self.shipped, {})
         object.__setattr__(self, "joints", None)
         mechanism = mechanism_of(self)
         mechanism.require_turning()
         usual = {name: LAW_TABLES[name]() if law is None else law for name, law in laws.items()}
         spherical = {joint.name: joint.spherical for joint in mechanism.joints}
-        joints = joints_of(given, self.mechanism, spherical, mechanism.groups, usual)
+        joints = joints_of(given, mechanism.name, spherical, mechanism.groups, usual)
         object.__setattr__(self, "joints", joints)
         unused = unused_laws(kinds_of(joints, None))
         for name, law in laws.items():
@@ -140,6 +159,8 @@ class Scene(Table):
             elif isinstance(value, Table):
                 inner = dataclasses.asdict(value)
                 complete[field.name] = {k: v for k, v in inner.items() if v is not None}
+            elif isinstance(value, Mechanism):
+                complete[field.name] = mechanism_to_dict(value)
             elif value is not None:
                 complete[field.name] = value
         return complete
@@ -224,6 +245,11 @@ class Scene(Table):
         return model
 
     @property
+    def shipped(self) -> str:
+        """Name of the shipped mechanism; empty where the scene has its own."""
+        return self.mechanism if isinstance(self.mechanism, str) else ""
+
+    @property
     def laws(self) -> dict[str, Table | None]:
         """Contact, friction and film of every joint that does not say otherwise."""
         return {name: getattr(self, name) for name in LAW_TABLES}
@@ -236,9 +262,7 @@ class Scene(Table):
     @property
     def pin_speed(self) -> float:
         """Speed of the crank pin, m/s."""
-        size = self.press or self.slider_crank
-        assert size is not None
-        return self.angular_speed * size.crank_radius
+        return self.angular_speed * mechanism_of(self).crank_radius
 
     @property
     def duration(self) -> float:
@@ -284,12 +308,27 @@ class Scene(Table):
 
 def mechanism_of(scene: Scene) -> Mechanism:
     """Return the mechanism of a scene, with the guides that it asks for."""
-    if scene.press is not None:
+    if isinstance(scene.mechanism, Mechanism):
+        drawn = scene.mechanism
+    elif scene.press is not None:
         drawn = press(scene.press)
-    else:
-        assert scene.slider_crank is not None
+    elif scene.slider_crank is not None:
         drawn = slider_crank(scene.slider_crank)
+    else:
+        drawn = shipped_mechanism(scene.mechanism)
     return drawn if scene.guide is None else with_elastic_guides(drawn, scene.guide)
+
+
+def _asked(mechanism: Any) -> Any:
+    """Return a mechanism that is given as data or as the path of a file; others as they are."""
+    if isinstance(mechanism, Mapping):
+        try:
+            return mechanism_from(mechanism)
+        except InputError as error:
+            raise InputError(f"mechanism.{error}") from None
+    if isinstance(mechanism, str) and mechanism.endswith(".toml"):
+        return load_mechanism(mechanism)
+    return mechanism
 
 
 def _fields(table: Any) -> tuple[dataclasses.Field[Any], ...]:
@@ -304,12 +343,16 @@ def _peek(table: Any, name: str) -> Any:
 def _unused(scene: Mapping[str, Any]) -> dict[str, str]:
     """Return the tables and keys about bodies that a scene does not use, each with its reason."""
     mechanism, bodies = scene["mechanism"], scene["bodies"]
-    press = mechanism == "press", f"mechanism is {mechanism!r}"
+    shown = repr(mechanism) if isinstance(mechanism, str) else "the scene's own"
+    press = mechanism == "press", f"mechanism is {shown}"
+    slider_crank = mechanism == "slider_crank", press[1]
+    with_slider = mechanism in ("press", "slider_crank"), press[1]
     countered = _peek(scene.get("press"), "counterweight") is not False
     counterweight = (countered, "press.counterweight is false") if press[0] else press
     wanted = {
         "press": press,
-        "slider_crank": (mechanism == "slider_crank", f"mechanism is {mechanism!r}"),
+        "slider_crank": slider_crank,
+        "guide.slider_inertia": with_slider,
         "flexible": (bodies == "flexible", f"bodies is {bodies!r}"),
         "guide.slide_inertia": press,
         "guide.counterweight_inertia": counterweight,

@@ -13,7 +13,7 @@ def variants(scene: Scene) -> dict[str, Scene]:
     dry beside lubricated pins. A scene with flexible bodies is compared with rigid ones too.
     Clearances, loads and whatever else a variant uses are the scene's.
     """
-    names = list(scene.joints.grouped) or list(DEFAULT_KINDS.get(scene.mechanism, {}))
+    names = list(scene.joints.grouped) or list(DEFAULT_KINDS.get(scene.shipped, {}))
     balls = [
         name for name in names if scene.joints.spherical.issuperset(scene.joints.members(name))
     ]

@@ -1,0 +1,159 @@
+"""Mechanism files: what is read, what is refused in one line, and the way back."""
+
+import tomllib
+
+import pytest
+
+from exu_press import InputError
+from exu_press.mechanism import (
+    SHIPPED,
+    Press,
+    load_mechanism,
+    mechanism_from,
+    mechanism_lines,
+    press,
+    shipped_mechanism,
+)
+
+TEXT = """
+name = "sliding"
+crank = "crank"
+output = {body = "slider", direction = [3, 4], origin = [0.0, 0.1]}
+[bodies.crank]
+centre_of_mass = [0.0, 0.0]
+mass = 20.0
+inertia = 0.05
+[bodies.rod]
+centre_of_mass = [0.2, 0.0]
+mass = 3.0
+[bodies.slider]
+centre_of_mass = [0.3, 0.0]
+mass = 5.0
+inertia = 0.02
+[joints.shaft]
+at = [0.0, 0.0]
+journal = "crank"
+bearing = "frame"
+[joints.crank_pin]
+at = [0.1, 0.0]
+journal = "crank"
+bearing = "rod"
+[joints.wrist_pin]
+at = [0.4, 0.3]
+journal = "rod"
+bearing = "slider"
+shape = "spherical"
+[guides.slider]
+direction = [0, 2]
+[groups]
+pins = ["crank_pin", "wrist_pin"]
+"""
+
+
+def changed(*changes):
+    """The file with one text after the other in place of another."""
+    text = TEXT
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new, 1)
+    return text
+
+
+def refusal(text):
+    with pytest.raises(InputError) as caught:
+        mechanism_from(tomllib.loads(text))
+    message = str(caught.value)
+    assert "\n" not in message
+    return message
+
+
+def test_a_file_is_read_as_drawn():
+    mechanism = mechanism_from(tomllib.loads(TEXT))
+    assert [body.name for body in mechanism.bodies] == ["crank", "rod", "slider"]
+    assert [joint.spherical for joint in mechanism.joints] == [False, False, True]
+    assert mechanism.output.direction == pytest.approx((0.6, 0.8))
+    assert mechanism.guides[0].direction == (0.0, 1.0)
+    assert mechanism.groups == {"pins": ("crank_pin", "wrist_pin")}
+
+
+def test_a_body_without_inertia_is_a_rod_between_its_two_joints():
+    rod = mechanism_from(tomllib.loads(TEXT)).body("rod")
+    assert rod.inertia == pytest.approx(3.0 * (0.3**2 + 0.3**2) / 12)
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+def test_a_mechanism_is_written_and_read_back_equal(name):
+    drawn = shipped_mechanism(name)
+    assert mechanism_from(tomllib.loads("\n".join(mechanism_lines(drawn)))) == drawn
+
+
+def test_frames_that_are_turned_in_the_drawing_come_back_too():
+    drawn = press(Press())
+    assert mechanism_from(tomllib.loads("\n".join(mechanism_lines(drawn)))) == drawn
+
+
+@pytest.mark.parametrize(
+    ("changes", "shown"),
+    [
+        ([("mass = 3.0", "")], "bodies.rod.mass: missing"),
+        ([("mass = 3.0", "mass = 0.0")], "bodies.rod.mass = 0.0: allowed is a number > 0 (kg)"),
+        ([("mass = 3.0", "mass = nan")], "bodies.rod.mass = nan: allowed is a number"),
+        ([("mass = 3.0", 'mass = "3"')], "bodies.rod.mass = '3': allowed is a number"),
+        ([("mass = 3.0", "mas = 3.0")], "bodies.rod.mas = 3.0: unknown key (did you mean 'mass'?)"),
+        ([("inertia = 0.05", "inertia = nan")], "bodies.crank.inertia = nan: allowed is a number"),
+        ([("inertia = 0.05", "inertia = -1")], "bodies.crank.inertia = -1.0: allowed is a number"),
+        ([("inertia = 0.02", "")], "bodies.slider.inertia: missing; allowed is a number > 0"),
+        ([("at = [0.1, 0.0]", "at = [0.1]")], "joints.crank_pin.at = [0.1]: allowed are two"),
+        ([("at = [0.1, 0.0]", "")], "joints.crank_pin.at: missing"),
+        (
+            [('bearing = "rod"', 'bearing = "rood"')],
+            "joints.crank_pin.bearing = 'rood': unknown (d",
+        ),
+        ([('bearing = "rod"', 'bearing = "crank"')], "joints.crank_pin: joins 'crank' to itself"),
+        ([('"spherical"', '"sphere"')], "joints.wrist_pin.shape = 'sphere': unknown (did you mean"),
+        ([("[guides.slider]", "[guides.sleder]")], "guides.sleder = 'sleder': unknown (did you"),
+        ([("direction = [0, 2]", "direction = [0, 0]")], "guides.slider.direction = (0.0, 0.0): "),
+        ([('crank = "crank"', 'crank = "wheel"')], "crank = 'wheel': unknown"),
+        ([('crank = "crank"', 'crank = "rod"')], "crank = 'rod': has 0 joints with the frame"),
+        ([('crank = "crank"', "crank = 1")], "crank = 1: allowed is a text"),
+        ([('body = "slider"', 'body = "slide"')], "output.body = 'slide': unknown (did you mean"),
+        ([('body = "slider", ', "")], "output.body: missing"),
+        (
+            [('"wrist_pin"]', '"wrist"]')],
+            "groups.pins = 'wrist': unknown (did you mean 'wrist_pin'",
+        ),
+        ([("pins =", "shaft =")], "groups.shaft: is a joint's name too"),
+        ([('["crank_pin", "wrist_pin"]', "[]")], "groups.pins: is empty"),
+        ([("[bodies.rod]", "[bodies.frame]")], "bodies.frame: the name of what stands still"),
+        ([("[bodies.rod]", '[bodies."my rod"]')], "bodies: 'my rod' is no name"),
+        ([("[groups]", "[group]")], "group = "),
+        ([("[bodies.rod]", "[bodies]\nloose = 3\n[bodies.rod]")], "bodies.loose = 3: allowed is a"),
+        ([('name = "sliding"', "")], "name: missing"),
+    ],
+)
+def test_what_is_wrong_is_named_in_one_line(changes, shown):
+    assert refusal(changed(*changes)).startswith(shown)
+
+
+def test_a_body_on_nothing():
+    more = "[bodies.idle]\ncentre_of_mass = [0.0, 0.0]\nmass = 1.0\ninertia = 1.0\n[groups]"
+    assert refusal(changed(("[groups]", more))) == "bodies.idle: no joint and no guide holds it"
+
+
+def test_names_given_twice_are_no_toml(tmp_path):
+    path = tmp_path / "twice.toml"
+    path.write_text(TEXT + "[joints.shaft]\nat = [0, 0]\n")
+    with pytest.raises(InputError, match=r"twice\.toml: not a TOML file"):
+        load_mechanism(path)
+
+
+def test_a_file_that_is_not_there(tmp_path):
+    with pytest.raises(InputError, match=r"none\.toml: cannot be read \(No such file"):
+        load_mechanism(tmp_path / "none.toml")
+
+
+def test_a_refusal_names_the_file(tmp_path):
+    path = tmp_path / "press.toml"
+    path.write_text(changed(("mass = 3.0", "")))
+    with pytest.raises(InputError, match=r"press\.toml: bodies\.rod\.mass: missing"):
+        load_mechanism(path)

@@ -1,0 +1,117 @@
+"""The mechanisms that come as files: what they are meant to show, and short runs of each."""
+
+import math
+
+import numpy as np
+import pytest
+
+from exu_press import Scene, simulate
+from exu_press.mechanism import SHIPPED, shipped_mechanism
+
+DEGREES = np.radians(np.arange(0.0, 360.0, 0.5))
+SMALL = {"radius": 0.001, "clearance": 1e-6}
+PINS = {"radius": 0.02, "clearance": 2e-5}
+JOINTS = {
+    "andrews_squeezer": {"crank_pin": SMALL, "upper": SMALL},
+    "eccentric_press": {"crank_pin": {}, "wrist_pin": {}},
+    "four_bar": {"crank_pin": PINS, "knuckle": PINS, "pivot": PINS},
+    "six_bar": {"crank_pin": PINS, "coupler_pin": PINS, "pivot": PINS, "rod_pins": PINS},
+}
+LIGHT = {"stiffness": 1e9, "damping_max": 1e4}
+LAWS = {
+    "andrews_squeezer": {
+        "contact": {"stiffness": 1e9, "damping_max": 10.0},
+        "film": {"length": 2e-3},
+    },
+    "four_bar": {"contact": LIGHT, "film": {"length": 0.02, "viscosity": 0.1}},
+    "six_bar": {"film": {"length": 0.04, "viscosity": 0.1}},
+}
+
+
+def run(name, kind, **given):
+    joints = {joint: {"kind": kind, **keys} for joint, keys in JOINTS[name].items()}
+    if kind == "ideal":
+        joints = dict.fromkeys(joints, kind)
+    law = {"dry": "contact", "lubricated": "film"}.get(kind)
+    laws = {law: LAWS[name][law]} if law in LAWS.get(name, {}) else {}
+    scene = Scene(mechanism=name, joints=joints, revolutions=0.2, **laws, **given)
+    return simulate(scene)
+
+
+def test_every_file_is_tried():
+    assert set(SHIPPED) == set(JOINTS)
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+def test_ideal_joints_follow_the_ideal_motion(name):
+    result = run(name, "ideal")
+    assert result.completed, result.info["reason"]
+    mechanism = shipped_mechanism(name)
+    position, velocity, _ = mechanism.ideal_slider(result["crank_angle"], 8.0 * math.pi)
+    assert result["slider_position"] == pytest.approx(position, abs=1e-7 * mechanism.size)
+    scale = np.abs(velocity).max()
+    assert result["slider_velocity"] == pytest.approx(velocity, abs=1e-4 * scale)
+
+
+@pytest.mark.parametrize("kind", ["dry", "lubricated"])
+@pytest.mark.parametrize("name", SHIPPED)
+def test_joints_with_clearance_stay_near_it(name, kind):
+    result = run(name, kind)
+    assert result.completed, result.info["reason"]
+    ideal = shipped_mechanism(name).ideal_slider(result["crank_angle"], 1.0)[0]
+    clearance = max(joint.clearance for joint in result.scene.joints.with_clearance.values())
+    away = np.abs(result["slider_position"] - ideal).max()
+    assert 1e-3 * clearance < away < 20.0 * clearance
+    energy = result.summary()["energy"]
+    assert abs(energy["residual"]) < 1e-3
+    assert energy["dissipated"] > 0.0
+
+
+def test_balls_under_a_slide():
+    """Two balls carry the ram, dry beside a lubricated pin."""
+    joints = {"crank_pin": "lubricated", "balls": "dry"}
+    result = simulate(Scene(mechanism="eccentric_press", joints=joints, revolutions=0.2))
+    assert result.completed
+    left, right = result["ball_left_force"][:, 1], result["ball_right_force"][:, 1]
+    assert left == pytest.approx(right, abs=1e-6 * np.abs(left).max())
+    lifted = 1347.0 * (result["slider_acceleration"] + 9.81)
+    assert -(left + right)[1:] == pytest.approx(lifted[1:], abs=1e-4 * np.abs(lifted).max())
+
+
+def test_the_four_bar_is_a_crank_rocker():
+    """Its transmission angle, at the knuckle, between the limits of the law of cosines."""
+    mechanism = shipped_mechanism("four_bar")
+    places = {joint.name: np.array(joint.at) for joint in mechanism.joints}
+    coupler = math.dist(places["crank_pin"], places["knuckle"])
+    rocker, base, crank = math.dist(places["pivot"], places["knuckle"]), 0.35, 0.1
+    limits = [
+        math.degrees(math.acos((coupler**2 + rocker**2 - d**2) / (2 * coupler * rocker)))
+        for d in (base - crank, base + crank)
+    ]
+    assert limits == pytest.approx([37.0, 77.0], abs=0.5)
+    turned = mechanism.motion(DEGREES, 1.0)["rocker"].position[:, 2]
+    assert np.ptp(turned) < math.pi
+
+
+def test_the_six_bar_draws_slowly():
+    """202 deg down; between half of the way and a tenth of it the speed varies by a third."""
+    position, velocity, _ = shipped_mechanism("six_bar").ideal_slider(DEGREES, 1.0)
+    top, bottom = position.argmax(), position.argmin()
+    assert top == 0
+    assert bottom / 2 == pytest.approx(202.0, abs=1.0)
+    down = np.arange(len(DEGREES)) < bottom
+    part = (position - position.min()) / np.ptp(position)
+    drawing = -velocity[down & (part < 0.5) & (part > 0.1)]
+    assert drawing.max() / drawing.min() == pytest.approx(1.36, abs=0.02)
+    assert np.ptp(position) == pytest.approx(0.288, abs=5e-4)
+
+
+def test_the_squeezer_has_the_test_sets_lengths():
+    """Fork 20 mm of bodies 4 and 6, 40 mm of 5 and 7, 35 mm across body 3 to its pivot."""
+    places = {j.name: np.array(j.at) for j in shipped_mechanism("andrews_squeezer").joints}
+    assert math.dist(places["shaft"], places["crank_pin"]) == pytest.approx(0.007, abs=1e-8)
+    assert math.dist(places["crank_pin"], places["fork_3"]) == pytest.approx(0.028, abs=1e-8)
+    for upper in ("upper", "lower"):
+        assert math.dist(places["fork_4"], places[upper]) == pytest.approx(0.02, abs=1e-8)
+    assert math.dist(places["pivot_a5"], places["upper"]) == pytest.approx(0.04, abs=1e-8)
+    assert math.dist(places["pivot_b"], places["fork_3"]) == pytest.approx(0.035, abs=1e-8)

@@ -1,0 +1,122 @@
+"""A scene of one's own mechanism: by path, by data, as an object; saved, changed and read back."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from exu_press import InputError, Result, Scene, load_scene, simulate
+from exu_press.mechanism import Guide, mechanism_lines, shipped_mechanism
+from exu_press.scene import mechanism_of
+
+FOUR_BAR = shipped_mechanism("four_bar")
+JOINTS = {"knuckle": {"kind": "dry", "radius": 0.02, "clearance": 2e-5}}
+SHORT = {"revolutions": 0.01, "solver": {"step": 1e-5}}
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """A scene file beside a mechanism file."""
+    (tmp_path / "my_press.toml").write_text("\n".join(mechanism_lines(FOUR_BAR)))
+    lines = ['mechanism = "my_press.toml"', "revolutions = 0.01", "[solver]", "step = 1e-5"]
+    lines += ["[joints.knuckle]", 'kind = "dry"', "radius = 0.02", "clearance = 2e-5"]
+    (tmp_path / "scene.toml").write_text("\n".join(lines))
+    return tmp_path
+
+
+def test_a_path_is_relative_to_the_scene_file(folder, monkeypatch):
+    monkeypatch.chdir("/")
+    scene = load_scene(folder / "scene.toml")
+    assert scene.mechanism == FOUR_BAR
+    assert scene.joints["knuckle"].kind == "dry"
+    assert scene.joints["pivot"].kind == "ideal"
+
+
+def test_the_same_from_an_object_or_data():
+    scene = Scene(mechanism=FOUR_BAR, joints=JOINTS)
+    assert Scene.from_dict(scene.to_dict()) == scene
+    assert isinstance(scene.to_dict()["mechanism"], dict)
+
+
+def test_a_saved_scene_is_complete_without_the_mechanism_file(folder):
+    scene = load_scene(folder / "scene.toml")
+    scene.save(folder / "saved.toml", comments=True)
+    (folder / "my_press.toml").unlink()
+    assert load_scene(folder / "saved.toml") == scene
+
+
+def test_a_changed_scene_keeps_its_mechanism():
+    scene = Scene(mechanism=FOUR_BAR, joints=JOINTS)
+    faster = scene.replace({"speed_rpm": 300.0, "joints.pivot": "lubricated"})
+    assert faster.mechanism == FOUR_BAR
+    assert faster.joints["pivot"].kind == "lubricated"
+    assert faster.joints["knuckle"] == scene.joints["knuckle"]
+
+
+def test_a_result_file_needs_no_mechanism_file(folder):
+    result = simulate(load_scene(folder / "scene.toml"))
+    result.save(folder / "run.nc")
+    (folder / "my_press.toml").unlink()
+    again = Result.load(folder / "run.nc")
+    assert mechanism_of(again.scene) == FOUR_BAR
+    assert np.array_equal(again["slider_position"], result["slider_position"])
+
+
+def test_a_mechanism_of_its_own_may_have_a_shipped_ones_name():
+    """It has none of that one's joints with clearance."""
+    own = replace(FOUR_BAR, name="press")
+    assert not Scene(mechanism=own).joints.with_clearance
+
+
+def refusal(**scene):
+    with pytest.raises(InputError) as caught:
+        Scene(**scene)
+    assert "\n" not in str(caught.value)
+    return str(caught.value)
+
+
+def test_a_file_that_is_not_there(tmp_path):
+    (tmp_path / "scene.toml").write_text('mechanism = "none.toml"')
+    with pytest.raises(InputError, match=r"scene\.toml: .*none\.toml: cannot be read"):
+        load_scene(tmp_path / "scene.toml")
+
+
+def test_what_is_wrong_with_it_is_said_by_name():
+    data = Scene(mechanism=FOUR_BAR).to_dict()["mechanism"]
+    del data["bodies"]["rocker"]["mass"]
+    assert refusal(mechanism=data) == "mechanism.bodies.rocker.mass: missing"
+    assert refusal(mechanism="four_bra").startswith("mechanism = 'four_bra': allowed is one of")
+    assert "or path of a mechanism file" in refusal(mechanism="four_bra")
+    assert refusal(mechanism=3).startswith("mechanism = 3: allowed is one of")
+    shown = refusal(mechanism=FOUR_BAR, joints={"crankpin": "dry"})
+    assert shown.startswith("joints.crankpin = 'dry': four_bar has no such joint")
+    assert "did you mean 'crank_pin'" in shown
+
+
+def test_a_crank_that_locks_is_refused_with_the_scene():
+    joints = {joint.name: joint for joint in FOUR_BAR.joints}
+    joints["crank_pin"] = replace(joints["crank_pin"], at=(0.0, 0.3))  # as long as the rocker
+    locking = replace(FOUR_BAR, joints=tuple(joints.values()))
+    shown = refusal(mechanism=locking)
+    assert "rocker" in shown and "lock" in shown and "at crank angle" in shown
+
+
+def test_tables_of_other_mechanisms_are_not_used():
+    assert refusal(mechanism=FOUR_BAR, press={}).startswith("[press]: not used by this scene")
+    shown = refusal(mechanism=FOUR_BAR, guide={"slider_inertia": 1.0})
+    assert shown.startswith("guide.slider_inertia = 1.0: not used by this scene")
+
+
+def test_guides_in_any_direction_may_be_elastic():
+    """A slider whose guide leans: the spring pushes across it alone."""
+    leaning = replace(shipped_mechanism("six_bar"), guides=(Guide("ram", (0.1, 1.0)),))
+    steps = {"revolutions": 0.1, "solver": {"step": 1e-4}}
+    result = simulate(Scene(mechanism=leaning, guide={}, **steps))
+    assert result.completed
+    ideal = simulate(Scene(mechanism=leaning, **steps))
+    assert result["slider_position"] == pytest.approx(ideal["slider_position"], abs=2e-5)
+    later = result.time > 0.01  # the spring starts relaxed and rings
+    means = [np.mean(one["guide_force"][later]) for one in (result, ideal)]
+    assert means[0] == pytest.approx(means[1], rel=0.05)
+    assert abs(result.summary()["energy"]["residual"]) < 1e-3
+    assert abs(ideal.summary()["energy"]["residual"]) < 1e-3

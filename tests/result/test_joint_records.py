@@ -41,10 +41,11 @@ def world(result, body, point):
 def test_eccentricities_are_where_the_bodies_are(name):
     """Journal centre minus bearing centre, from the bodies' recorded poses; ideal joints meet."""
     result = run(name)
-    for joint in mechanism_of(result.scene).joints:
+    mechanism = mechanism_of(result.scene)
+    for joint in mechanism.joints:
         record = result.joints[joint.name]
-        apart = world(result, joint.journal, joint.journal_point)
-        apart = apart - world(result, joint.bearing, joint.bearing_point)
+        journal, bearing = mechanism.ends(joint)
+        apart = world(result, *journal) - world(result, *bearing)
         assert np.abs(record.eccentricity[:, :2] - apart).max() < 2e-9, joint.name
         assert record.clearance == result.scene.joints[joint.name].clearance
 

@@ -109,14 +109,14 @@ class SlidingBody(RigidBody):
 
     def local(self, point: Point) -> Point:
         """Return a point of the body's frame in that of Exudyn's item, whose x is the guide's."""
-        x, y = self.drawn(point)
+        c, s = math.cos(self._start[2]), math.sin(self._start[2])
+        x, y = c * point[0] - s * point[1], s * point[0] + c * point[1]
         a, b, _ = self._along.tolist()
         return a * x + b * y, a * y - b * x
 
     def drawn(self, point: Point) -> Point:
-        """Return the point along x and y: Exudyn moves sliding masses' graphics, and turns none."""
-        c, s = math.cos(self._start[2]), math.sin(self._start[2])
-        return c * point[0] - s * point[1], s * point[0] + c * point[1]
+        """Return the point itself: Exudyn moves the graphics of sliding masses, and turns none."""
+        return point
 
     def motion(self, q: Array, q_t: Array, q_tt: Array) -> Motion:
         """As `RigidBody.motion`."""

@@ -16,7 +16,7 @@ from matplotlib.text import Annotation
 from exu_press.plots.save import save_figure
 from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, styled
 from exu_press.studies.stability import Report
-from exu_press.studies.stability.cases import PAIRS
+from exu_press.studies.stability.case import PAIRS
 from exu_press.studies.stability.checks import RESIDUAL_LIMIT
 
 __all__ = ["save_stability", "stability_figure"]
@@ -123,7 +123,7 @@ def _draw_pairs(axes: Axes, rows: Sequence[Mapping[str, Any]], colours: ScalarMa
     axes.set_yticks(range(len(names)), names, fontsize=8)
     axes.set_ylim(len(names) - 0.4, -0.6)
     axes.set_xlim(-0.6, len(names) - 0.4)
-    axes.set_title("Two extremes at once: press with mixed film and dry balls")
+    axes.set_title(f"Two extremes at once: {rows[0]['name'].rpartition(', ')[2]}")
 
 
 def _mark(axes: Axes, x: float, y: float, row: Mapping[str, Any], colours: ScalarMappable) -> None:

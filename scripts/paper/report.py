@@ -62,6 +62,11 @@ class Findings:
             if row["status"] != "completed"
         }
 
+    @property
+    def residual(self) -> float:
+        """Return the largest residual of a run's energy balance, as a part of what went through."""
+        return max((abs(row.get("residual") or 0.0) for row in self.runs.values()), default=0.0)
+
     def to_dict(self) -> dict[str, Any]:
         """Return the entries of paper.json."""
         return {

@@ -9,11 +9,11 @@ from paper.comparison import observed, published_value, shown
 from paper.published import Frequencies, Number, Trend, published
 from paper.readings import MODELS, OBSERVED
 from paper.sensitivity import Effect, Tornado
+from paper.settings import AS_THEY_ARE
 from paper.trends import follows
 
 __all__ = [
     "AGREES_WITHIN",
-    "AS_THEY_ARE",
     "Row",
     "choice_row",
     "frequency_rows",
@@ -23,9 +23,6 @@ __all__ = [
 
 AGREES_WITHIN = 0.25
 """Largest deviation of a ratio from 1 that is called agreement."""
-
-AS_THEY_ARE = "as they are"
-"""Stands for no change among the changes that a trend appears under."""
 
 LEAST = 0.01
 """Of our value: what moves it by less is not named."""

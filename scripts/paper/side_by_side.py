@@ -12,7 +12,7 @@ from typing import Any
 from paper.comparison import observed
 from paper.published import Number
 from paper.readings import MODELS, OBSERVED
-from paper.settings import Setting
+from paper.settings import AS_THEY_ARE, Setting
 
 __all__ = ["Peaks", "distance", "distances_by_setting", "peaks_of"]
 
@@ -30,12 +30,15 @@ class Peaks:
         values: ours, by model of observation, in the order of `numbers`, m/s^2; None where a run
             did not get to its end.
         whole: the same, observed from the start on and not in the last revolution alone.
+        coarser: over 1 ms, at a tolerance ten times as large. Where it differs, the scene does not
+            determine the peak: contacts that lose nothing amplify every difference.
     """
 
     bodies: str
     numbers: tuple[Number, ...]
     values: Mapping[str, Values]
     whole: Mapping[str, Values]
+    coarser: Values
 
     def distances(self, values: Mapping[str, Values]) -> dict[str, float | None]:
         """Return the distance to the paper under every model of observation."""
@@ -59,19 +62,23 @@ class Peaks:
             "published": [number.published for number in self.numbers],
             "values": {model: list(values) for model, values in self.values.items()},
             "whole_run": {model: list(values) for model, values in self.whole.items()},
+            "mean_1ms_at_a_coarser_tolerance": list(self.coarser),
             "distances": self.distances(self.values),
             "distances_whole_run": self.distances(self.whole),
             "resolved_over_mean_1ms": self.sampling(),
         }
 
 
-def peaks_of(bodies: str, numbers: Iterable[Number], rows: Mapping[str, Row]) -> Peaks:
+def peaks_of(
+    bodies: str, numbers: Iterable[Number], rows: Mapping[str, Row], coarser: Mapping[str, Row]
+) -> Peaks:
     """Return the peaks of runs.
 
     Args:
         bodies: of the runs.
         numbers: published ones, of any measure.
         rows: of the runs by name.
+        coarser: of the same runs at a tolerance ten times as large.
     """
     some = computed_peaks(numbers)
     return Peaks(
@@ -79,6 +86,7 @@ def peaks_of(bodies: str, numbers: Iterable[Number], rows: Mapping[str, Row]) ->
         some,
         {m: tuple(observed(rows[n.run], n.measure, m) for n in some) for m in MODELS},
         {m: tuple(observed(rows[n.run], n.measure, m, whole=True) for n in some) for m in MODELS},
+        tuple(observed(coarser[n.run], n.measure, OBSERVED) for n in some),
     )
 
 
@@ -92,7 +100,9 @@ def distances_by_setting(
     baselines: Mapping[str, Row],
     varied: Mapping[str, Sequence[tuple[Setting, Row]]],
 ) -> dict[str, float | None]:
-    """Return the distance with each setting alone, by its words; what it does not touch stays.
+    """Return the distance with each setting alone, by its words, and first with none.
+
+    What a setting does not touch stays.
 
     Args:
         numbers: published ones, of any measure.
@@ -106,7 +116,7 @@ def distances_by_setting(
     }
     labels = dict.fromkeys(label for changes in known.values() for label in changes)
     found = {}
-    for label in labels:
+    for label in (AS_THEY_ARE, *labels):
         values = [setting_value(known[n.run].get(label), baselines[n.run], n.measure) for n in some]
         found[label] = distance(values, [number.published for number in some])
     return found

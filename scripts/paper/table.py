@@ -5,7 +5,7 @@ from collections.abc import Iterable, Sequence
 
 from paper.comparison import DATUM
 from paper.readings import MODELS, OBSERVED
-from paper.report import Report
+from paper.report import Findings, Report
 from paper.rows import AGREES_WITHIN, Row
 from paper.side_by_side_table import aligned, side_by_side_lines
 
@@ -51,7 +51,7 @@ def report_lines(report: Report) -> list[str]:
         for title, (kinds, headings) in SECTIONS.items():
             some = [row for row in found.rows if row.kind in kinds]
             lines += ["", *_section(title, some, headings)]
-        lines += ["", _counts(found.rows)]
+        lines += ["", _counts(found.rows), _ended(found)]
     for damping, found in report.findings.items():
         lines += ["", f"Why, with {damping} N s/m:", *_differences(found.rows)]
     return lines
@@ -85,6 +85,15 @@ def _trend(row: Row) -> tuple[str, ...]:
 
 def _text(value: object, scale: float, digits: str) -> str:
     return f"{scale * value:{digits}}" if isinstance(value, float) else "-"
+
+
+def _ended(found: Findings) -> str:
+    """Return how the runs ended, and how far their energy balances."""
+    completed = len(found.runs) - len(found.stopped)
+    return (
+        f"{completed} of {len(found.runs)} runs completed; largest energy residual "
+        f"{found.residual:.1e}"
+    )
 
 
 def _counts(rows: Iterable[Row]) -> str:

@@ -17,10 +17,10 @@ def observe(arguments: dict[str, Any]) -> dict[str, Any]:
         arguments: scene (as Scene.to_dict), and if wanted save (file for the whole result).
 
     Returns:
-        status, reason, steps and wall_time (s) as in the summary, readings, and whole: the same
-        observed from the start on. A run that stopped early has neither. Fixed steps
-        too long for its impacts do not stop a run; the status says so, and the readings are what
-        such steps show.
+        status, reason, steps and wall_time (s) as in the summary, residual of the energy balance,
+        readings, and whole: the same observed from the start on. A run that stopped early has
+        neither of the two. Fixed steps too long for its impacts do not stop a run; the status says
+        so, and the readings are what such steps show.
     """
     scene = Scene.from_dict(arguments["scene"])
     result = simulate(scene)
@@ -32,6 +32,7 @@ def observe(arguments: dict[str, Any]) -> dict[str, Any]:
     reached = result.time[-1] > scene.duration * (1.0 - 1e-9)
     return {
         **kept,
+        "residual": result.summary()["energy"]["residual"],
         "readings": readings(result) if reached else None,
         "whole": readings(result, (0.0, scene.duration)) if reached else None,
     }

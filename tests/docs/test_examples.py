@@ -9,10 +9,11 @@ import pytest
 import exu_press
 import fe_models
 import paper
+import stability
 
 MODULES = [
     module.name
-    for package in (exu_press, fe_models, paper)
+    for package in (exu_press, fe_models, paper, stability)
     for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}.")
 ]
 

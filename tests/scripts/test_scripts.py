@@ -15,7 +15,6 @@ SCRIPTS = Path(__file__).parents[2] / "scripts"
         (["contact_restitution.py"], "(default)"),
         (["benchmark_modes.py", "--quick"], "ratio"),
         (["flexible_parts.py", "--quick", "--out", "parts"], "flexible, second shapes"),
-        (["stability_map.py", "--out", "map"], "right, 0 stopped"),
     ],
 )
 def test_script(arguments, expected, tmp_path):

@@ -1,24 +1,21 @@
-"""The table of stiff and extreme cases, the verdicts, the report and the map."""
+"""A scene pushed to its extremes, the verdicts, the report and the map."""
 
 import dataclasses
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
-from exu_press.studies.stability import Report, cases, quick_cases, stability
+from exu_press.studies.stability import Report, extremes, stability
 from exu_press.studies.stability import judge as judging
-from exu_press.studies.stability.cases import PAIRS
+from exu_press.studies.stability.case import PAIRS
 from exu_press.studies.stability.checks import agreement, checks_of
 from exu_press.studies.stability.judge import finer, judge
 
 SHORT = {"mechanism": "slider_crank", "revolutions": 0.04}
-
-
-@pytest.fixture(scope="module")
-def table():
-    return cases()
+DRY = {"joints.crank_pin": "dry"}
 
 
 def judged(**changes):
@@ -26,63 +23,8 @@ def judged(**changes):
     return judge({"name": "a case", "scene": scene.to_dict()})
 
 
-def test_at_least_200_cases_with_names_of_their_own(table):
-    assert len(table) >= 200
-    assert len({case.name for case in table}) == len(table)
-    assert len({json.dumps(case.scene.to_dict()) for case in table}) > 0.9 * len(table)
-
-
-def reached(table, key):
-    """Return the smallest and the largest value of a key in the table."""
-    name, _, inner = key.rpartition(".")
-    tables = [case.scene.to_dict() for case in table]
-    if name:
-        tables = [data[name] for data in tables if name in data]
-    values = [data[inner] for data in tables if inner in data]
-    return min(values), max(values)
-
-
-@pytest.mark.parametrize(
-    ("key", "low", "high"),
-    [
-        ("contact.stiffness", 2.5545e7, 2.5545e13),
-        ("contact.damping_max", 0.0, 2.55e10),
-        ("joints.crank_pin.clearance", 1e-7, 1e-3),
-        ("speed_rpm", 1.0, 3000.0),
-        ("film.viscosity", 1e-5, 10.0),
-        ("film.length", 0.0141, 0.56),
-        ("friction.mu_static", 0.01, 1.0),
-        ("blanking.force", 0.0, 2e6),
-        ("blanking.rise", 1e-5, 1e-3),
-        ("press.slider_mass", 13.47, 134700.0),
-        ("flexible.modes", 0, 60),
-        ("solver.tolerance", 1e-7, 0.1),
-        ("solver.step", 1e-6, 1e-3),
-        ("gravity", 0.0, 9.81),
-        ("revolutions", 0.0, 20.0),
-    ],
-)
-def test_the_table_reaches_from_end_to_end(table, key, low, high):
-    lowest, highest = reached(table, key)
-    assert lowest <= low * 1.001 + 1e-3 * (key == "revolutions")
-    assert highest >= high * 0.999
-
-
-def test_the_quick_sample_holds_every_axis(table):
-    sample = quick_cases()
-    assert {case.axis for case in sample} == {case.axis for case in table}
-    assert set(sample) <= set(table)
-    assert sum(case.axis == PAIRS for case in sample) >= 15
-
-
-def test_every_pair_changes_two_things(table):
-    for case in table:
-        if case.axis == PAIRS:
-            assert case.value.count(" + ") == 1
-
-
 def test_a_harmless_case_is_right_with_figures():
-    row = judged(crank_pin="dry")
+    row = judged(**DRY)
     assert row["verdict"] == "right", row["reason"]
     names = [check["name"] for check in row["checks"]]
     assert len(names) == 6
@@ -92,7 +34,7 @@ def test_a_harmless_case_is_right_with_figures():
 
 
 def test_a_run_that_says_it_was_not_resolved_has_stopped():
-    row = judged(crank_pin="dry", **{"solver.step": 1e-3})
+    row = judged(**DRY, **{"solver.step": 1e-3})
     assert row["verdict"] == "stopped"
     assert row["status"] == "under-resolved"
     assert "solver.step" in row["reason"]
@@ -103,7 +45,7 @@ def test_the_same_run_without_a_word_would_be_wrong(monkeypatch):
     from exu_press.integrate.resolution import Resolution
 
     monkeypatch.setattr(Resolution, "worst", lambda resolution: None)
-    row = judged(crank_pin="dry", **{"solver.step": 1e-3})
+    row = judged(**DRY, **{"solver.step": 1e-3})
     assert row["status"] == "completed"
     assert row["verdict"] == "wrong"
     assert "difference from a finer run" in row["reason"] or "energy" in row["reason"]
@@ -118,7 +60,7 @@ def test_a_finer_run_that_stops_leaves_a_case_unchecked_which_is_wrong(monkeypat
 
 @pytest.fixture(scope="module")
 def run():
-    return simulate(Scene.from_dict({**SHORT, "joints": {"crank_pin": "dry", "balls": "dry"}}))
+    return simulate(Scene.from_dict(SHORT).replace(DRY))
 
 
 def changed(result, **channels):
@@ -173,10 +115,30 @@ def test_agreement_sees_a_difference_in_every_quantity(run, channel, factor, nam
     assert check.note.startswith(named)
 
 
-def test_rows_are_kept_and_not_run_again(tmp_path, table):
-    chosen = [case for case in table if case.axis == "spectral radius"][-2:]
+def test_every_number_that_a_scene_uses_is_pushed_both_ways():
+    scene = Scene.from_dict({**SHORT, "film": {"viscosity": 0.3}})
+    table = extremes(scene, "mine")
+    assert len({case.name for case in table}) == len(table)
+    assert table[0].scene.replace("solver.max_steps", scene.solver.max_steps) == scene
+    reached = [case.scene.film.viscosity for case in table if case.axis == "film.viscosity"]
+    assert min(reached) == pytest.approx(3e-4) and max(reached) == pytest.approx(300.0)
+    assert all(case.scene.to_dict() != table[0].scene.to_dict() for case in table[1:])
+    keys = {case.axis for case in table}
+    assert {"speed_rpm", "film.length", "joints.crank_pin.clearance", "solver.tolerance"} <= keys
+    assert not any(key.startswith(("slider_crank.", "gravity", "revolutions")) for key in keys)
+
+
+def test_what_a_scene_refuses_is_left_out():
+    table = extremes(Scene.from_dict(SHORT), "mine")
+    tolerances = [case.scene.solver.tolerance for case in table if case.axis == "solver.tolerance"]
+    assert max(tolerances) <= 0.1
+
+
+def test_rows_are_kept_and_not_run_again(tmp_path):
+    table = extremes(Scene.from_dict(SHORT), "mine")
+    chosen = [*table[:1], *(case for case in table if case.axis == "film.length")][:2]
     first = stability(chosen, tmp_path, workers=1)
-    assert first.counts()["right"] == 2
+    assert sum(first.counts().values()) == 2
     assert [row["name"] for row in first.rows] == [case.name for case in chosen]
     lines = (tmp_path / "runs.jsonl").read_text()
     again = stability(chosen, tmp_path, workers=1)
@@ -184,9 +146,11 @@ def test_rows_are_kept_and_not_run_again(tmp_path, table):
     assert again == first
 
 
-def test_a_worker_that_fails_gives_a_wrong_case_and_the_map_shows_all(tmp_path, table):
+def test_a_worker_that_fails_gives_a_wrong_case_and_the_map_shows_all(tmp_path):
     from exu_press.plots.stability import save_stability
 
+    table = extremes(Scene.from_dict(SHORT), "mine")
+    pair = replace(table[1], axis=PAIRS, value="one + other", name="one + other, mine")
     verdicts = ["right", "stopped", "wrong"]
     rows = tuple(
         {
@@ -194,7 +158,7 @@ def test_a_worker_that_fails_gives_a_wrong_case_and_the_map_shows_all(tmp_path, 
             "status": "completed", "parameters": case.scene.to_dict(),
             "residual": None if i else 1e-5, "reason": "why" * bool(i), "wall_time": 1.0,
         }
-        for case, i in zip(table[::20], [0, 1, 2, *[0] * 99], strict=False)
+        for case, i in zip([*table, pair], [0, 1, 2, *[0] * 999], strict=False)
     )  # fmt: skip
     report = Report(True, rows)
     assert report.counts() == {"right": len(rows) - 2, "stopped": 1, "wrong": 1}

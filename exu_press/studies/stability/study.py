@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from exu_press.batch import run_batch
-from exu_press.studies.stability.cases import Case
+from exu_press.studies.stability.case import Case
 from exu_press.studies.stability.judge import WRONG, judge
 from exu_press.studies.stability.report import Report
 
@@ -26,9 +26,9 @@ def stability(
     """Judge cases and return the report.
 
     Args:
-        table: from `exu_press.studies.stability.cases`.
+        table: of a user's scene from `extremes`, or one of your own.
         directory: rows are kept in it as they come; called again, finished ones are not run again.
-        quick: whether the table is the fixed sample.
+        quick: whether the table is a sample of a larger one.
         workers: number of processes; all cores unless told.
         quiet: False shows the progress on standard error.
 

@@ -162,7 +162,7 @@ def test_a_report_becomes_files(runs, rows, tornado, tmp_path):
         runs={name: rows[name] for name in SWEEP},
         tornados=(tornado,),
         choice=choose(runs["clearance 0.1 mm"].scene, alike, list(points())),
-        peaks=(peaks_of("rigid", published().beside("rigid").numbers, rows),),
+        peaks=(peaks_of("rigid", published().beside("rigid").numbers, rows, rows),),
         settings={},
         files={name: run_file(tmp_path, name) for name in SWEEP},
     )
@@ -179,8 +179,8 @@ def test_a_report_becomes_files(runs, rows, tornado, tmp_path):
 def test_both_readings_side_by_side(rows):
     """A point for each peak and reading; a run that stopped has none."""
     numbers = published().beside("rigid").numbers
-    peaks = peaks_of("rigid", numbers, rows)
-    stopped = peaks_of("rigid", numbers, {**rows, "500 rpm": {"readings": None}})
+    peaks = peaks_of("rigid", numbers, rows, rows)
+    stopped = peaks_of("rigid", numbers, {**rows, "500 rpm": {"readings": None}}, rows)
     axes = side_by_side_axes(peaks, stopped)
     assert len(axes) == 3
     first, second = (line.get_xdata() for line in axes[1].lines[:2])

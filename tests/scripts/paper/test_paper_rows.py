@@ -3,9 +3,9 @@
 import pytest
 
 from paper.published import published
-from paper.rows import AS_THEY_ARE, frequency_rows, number_rows, trend_rows
+from paper.rows import frequency_rows, number_rows, trend_rows
 from paper.sensitivity import tornado_of
-from paper.settings import Setting
+from paper.settings import AS_THEY_ARE, Setting
 
 
 def run(acceleration=20.0, low=0.4699):

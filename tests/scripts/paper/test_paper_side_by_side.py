@@ -35,7 +35,8 @@ def test_distance():
 
 
 def test_peaks_that_are_twice_the_papers_from_the_start_on():
-    peaks = peaks_of("rigid", NUMBERS, {n.run: row(n.published) for n in NUMBERS})
+    rows = {n.run: row(n.published) for n in NUMBERS}
+    peaks = peaks_of("rigid", NUMBERS, rows, rows)
     assert set(peaks.distances(peaks.values).values()) == {0.0}
     whole = peaks.distances(peaks.whole)
     assert all(value == pytest.approx(math.log(2.0)) for value in whole.values())
@@ -50,6 +51,7 @@ def test_a_setting_that_touches_one_peak_leaves_the_others():
     found = distances_by_setting(NUMBERS, baselines, varied)
     assert found["oil = thin"] == pytest.approx(math.log(3.0) / 3.0)  # one of nine
     assert found["span = all"] == pytest.approx(math.log(2.0))
+    assert found["as they are"] == 0.0
 
 
 def test_the_default_scene_is_the_dimensional_reading(tmp_path):

@@ -6,18 +6,15 @@ after some milliseconds, so that a tenth of a revolution holds the first impacts
 
 import itertools
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
 from exu_press.scene import Scene
+from exu_press.studies.stability.case import PAIRS, Case
 
-__all__ = ["PAIRS", "Case", "cases", "quick_cases"]
+__all__ = ["cases", "quick_cases"]
 
 Changes = Mapping[str, Any]
-
-PAIRS = "pairs of extremes"
-"""The axis of those cases that are at the end of two axes at once."""
 
 REVOLUTIONS = 0.1
 """Of a case, unless something takes longer or happens sooner."""
@@ -41,23 +38,6 @@ DRY = ("press", "slider-crank")
 FILM = ("press lubricated", "slider-crank lubricated")
 MIXED = ("press mixed", "slider-crank mixed")
 IDEAL = ("press ideal", "slider-crank ideal")
-
-
-@dataclass(frozen=True)
-class Case:
-    """One scene of the table.
-
-    Attributes:
-        name: unique.
-        axis: what is varied.
-        value: in words, as the map shows it; of a pair, the two.
-        scene: complete.
-    """
-
-    name: str
-    axis: str
-    value: str
-    scene: Scene
 
 
 @cache

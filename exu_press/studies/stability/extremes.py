@@ -1,0 +1,56 @@
+"""A user's scene pushed to its extremes, one key after the other."""
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from exu_press.errors import InputError
+from exu_press.scene import Scene
+from exu_press.studies.stability.case import Case
+
+__all__ = ["FACTORS", "extremes"]
+
+FACTORS = (1e-3, 1e-2, 0.1, 10.0, 100.0, 1e3)
+"""Times what the scene has; a value that a scene refuses is left out."""
+
+NOT_PUSHED = (
+    *("mechanism", "revolutions", "start_angle_deg", "gravity", "press", "slider_crank"),
+    *("solver.min_step", "solver.max_step_deg"),
+)
+"""What makes another mechanism or another task, and what the step control is bounded by."""
+
+AS_IT_IS = "as it is"
+
+BUDGET = 50_000
+"""Most steps of a case, unless the scene allows fewer: it then stops, and says so."""
+
+
+def extremes(scene: Scene, name: str) -> tuple[Case, ...]:
+    """Return the scene as it is, then with every number that it uses times each of FACTORS.
+
+    Args:
+        scene: of the user.
+        name: of the scene, for the cases' names.
+    """
+    allowed = BUDGET if scene.solver is None else min(scene.solver.max_steps, BUDGET)
+    scene = scene.replace("solver.max_steps", allowed)
+    found = [Case(f"{AS_IT_IS}, {name}", AS_IT_IS, AS_IT_IS, scene)]
+    for key, value in _numbers(scene.to_dict()):
+        for factor in FACTORS:
+            try:
+                pushed = scene.replace(key, factor * value)
+            except InputError:
+                continue
+            label = f"{factor * value:.3g}"
+            found.append(Case(f"{key} = {label}, {name}", key, label, pushed))
+    return tuple(found)
+
+
+def _numbers(data: Mapping[str, Any], table: str = "") -> Iterator[tuple[str, float]]:
+    """Yield the keys with a number that is not zero, with their tables' names before them."""
+    for name, value in data.items():
+        if f"{table}{name}" in NOT_PUSHED:
+            continue
+        if isinstance(value, Mapping):
+            yield from _numbers(value, f"{table}{name}.")
+        elif isinstance(value, float) and value != 0.0:
+            yield f"{table}{name}", value

@@ -1,0 +1,1 @@
+"""Four hundred stiff and extreme scenes: scripts/stability.py."""

@@ -18,6 +18,7 @@ from exu_press.mechanism import GROUND
 from exu_press.model import Model
 from exu_press.scene import IdealJoint, LubricatedJoint, Scene, mechanism_of
 from exu_press.scene.laws import contact_law
+from exu_press.scene.warnings import doubtful_sizes
 
 __all__ = ["largest_step", "scales", "settings_for", "solve"]
 
@@ -141,7 +142,9 @@ class SceneAdvice(Advice):
 
     def film(self) -> str:
         """Return what helps a film that broke down."""
-        return "film.at_contact = 'mixed', or a larger film.viscosity or film.length"
+        slips = self._slips()
+        thicker = "film.at_contact = 'mixed', or a larger film.viscosity or film.length"
+        return f"what was meant instead of this: {slips}" if slips else thicker
 
     def smallest(self) -> str:
         """Return what helps where steps became too small."""
@@ -152,8 +155,9 @@ class SceneAdvice(Advice):
         return f"fewer revolutions, a larger {self.setting} or solver.max_steps"
 
     def cause(self) -> str:
-        """Return that the crank pin seizes, or that a film is too thin, or nothing."""
-        return self._seizing() + self._thin_film()
+        """Return that the crank pin seizes, a film is too thin or a size hardly meant, or nothing."""
+        slips = self._slips()
+        return self._seizing() + self._thin_film() + (f"; hardly meant: {slips}" if slips else "")
 
     def resolution(self, worst: Unresolved) -> str:
         """Return the step or the tolerance that resolves the impacts."""
@@ -163,6 +167,10 @@ class SceneAdvice(Advice):
             return f"solver.tolerance = {0.1 * solver.tolerance:.0e}"
         needed = min([0.5 * worst.step, *_impact_steps(self._model)])
         return f"solver.step = {_rounded_down(needed):.0e}"
+
+    def _slips(self) -> str:
+        """Return in words that a size is hardly meant, or nothing."""
+        return "; ".join(slip.partition(". ")[0] for slip in doubtful_sizes(self._scene))
 
     def _seizing(self) -> str:
         """Return in words which pin of the crank has a friction circle wide enough to seize.

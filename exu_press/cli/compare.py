@@ -3,7 +3,7 @@
 import argparse
 import sys
 
-from exu_press.cli.options import add_scene_arguments, directory_of, scene_of
+from exu_press.cli.options import add_scene_arguments, directory_of, scene_of, show_warnings
 from exu_press.observe.table import comparison_lines
 from exu_press.output import output_directory, remove_pictures, write_json
 from exu_press.simulation import simulate
@@ -41,6 +41,7 @@ def execute(options: argparse.Namespace) -> int:
         save_comparison(results, directory)
     if not options.quiet:
         print("\n".join(comparison_lines(summaries)))
+        show_warnings(f"{label}: {w}" for label, s in summaries.items() for w in s["warnings"])
         print(f"written to {directory}")
     stopped = {label: s["reason"] for label, s in summaries.items() if s["reason"]}
     for label, reason in stopped.items():

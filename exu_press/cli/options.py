@@ -1,11 +1,15 @@
 """Arguments that several commands share."""
 
 import argparse
+import sys
+from collections.abc import Iterable
 from pathlib import Path
 
 from exu_press.scene import Scene, load_scene
 
-__all__ = ["add_scene_arguments", "directory_of", "scene_of"]
+__all__ = ["add_scene_arguments", "directory_of", "scene_of", "show_warnings"]
+
+MOST_WARNINGS = 5
 
 SHIPPED = Path(__file__).parent.parent / "scenes"
 
@@ -38,6 +42,15 @@ def scene_of(options: argparse.Namespace) -> Scene:
 def directory_of(options: argparse.Namespace) -> Path:
     """Return the directory that is asked for; it need not exist."""
     return Path(options.out or Path("out") / Path(options.scene).stem)
+
+
+def show_warnings(found: Iterable[str]) -> None:
+    """Print the first few warnings, each of them once."""
+    each = list(dict.fromkeys(found))
+    for warning in each[:MOST_WARNINGS]:
+        print(f"exu-press: warning: {warning}", file=sys.stderr)
+    if len(each) > MOST_WARNINGS:
+        print(f"exu-press: warning: {len(each) - MOST_WARNINGS} more like these", file=sys.stderr)
 
 
 def _path(given: str) -> Path:

@@ -4,7 +4,7 @@ import argparse
 import sys
 import textwrap
 
-from exu_press.cli.options import add_scene_arguments, directory_of, scene_of
+from exu_press.cli.options import add_scene_arguments, directory_of, scene_of, show_warnings
 from exu_press.observe.table import run_lines
 from exu_press.output import output_directory, remove_pictures, write_json
 from exu_press.scene.assumptions import assumed_line
@@ -37,6 +37,7 @@ def execute(options: argparse.Namespace) -> int:
     if not options.quiet:
         assumed = textwrap.wrap(assumed_line(scene), 100, subsequent_indent="  ")
         print("\n".join([*run_lines(summary), *assumed]))
+        show_warnings(summary["warnings"])
         print("written:", ", ".join(path.name for path in written), f"in {directory}")
     if summary["reason"]:
         how = "" if result.completed else "stopped early: "

@@ -4,8 +4,10 @@ import argparse
 import sys
 from pathlib import Path
 
+from exu_press.cli.options import show_warnings
 from exu_press.errors import InputError
 from exu_press.output import remove_pictures
+from exu_press.scene.warnings import scene_warnings
 
 __all__ = ["EXAMPLE", "add_arguments", "execute"]
 
@@ -71,4 +73,5 @@ def _execute(options: argparse.Namespace, directory: Path) -> None:
         written += [path.name for path in pictures]
     if not options.quiet:
         print("\n".join(table_lines(table, options.show)))
+        show_warnings(warning for scene in study.scenes for warning in scene_warnings(scene))
         print("written:", ", ".join(written), f"in {directory}")

@@ -27,6 +27,10 @@ def press_summary(result: Result, joints: Mapping[str, Mapping[str, Any]]) -> di
     the mean over 1 ms too, as accelerations are. Other means are over its last whole revolutions,
     since over a part of one they tell what the mechanism stores; null in a shorter run.
 
+    Guides do not rub. `guide_sliding_power` is the mean of side force times sliding speed, summed
+    over the guides: times a coefficient of friction it is what rubbing guides would take, W, beside
+    the losses and the drive's power.
+
     Args:
         result: of a press.
         joints: what the summary says of its clearance joints.
@@ -55,8 +59,22 @@ def press_summary(result: Result, joints: Mapping[str, Mapping[str, Any]]) -> di
             for name in result
             if name.endswith("_loss")
         },
+        "guide_sliding_power": _mean(time, _sliding_power(result), whole),
         "min_film": min(films, default=None),
     }
+
+
+def _sliding_power(result: Result) -> Array:
+    """Return side force times sliding speed of all guides, (n,), W; tilting moments left out."""
+    power = np.zeros_like(result.time)
+    if len(power) < 2:
+        return power
+    for name in result:
+        if name.endswith("guide_force"):
+            body = name.removesuffix("guide_force").removesuffix("_")
+            height = result["body_position"][:, result.bodies.index(body or "slider"), 1]
+            power += np.abs(result[name] * np.gradient(height, result.time))
+    return power
 
 
 def _dead_centres(result: Result) -> dict[str, Any]:

@@ -7,6 +7,7 @@ import numpy as np
 from exu_press.observe.acceleration import differentiated_peak, mean_peak, peak
 from exu_press.observe.clearance import joint_summary
 from exu_press.observe.press import press_summary
+from exu_press.observe.warnings import run_warnings
 from exu_press.result import Result
 from exu_press.scene import IdealJoint
 
@@ -21,7 +22,7 @@ def summary(result: Result) -> dict[str, Any]:
     velocity = result["slider_velocity"]
     joints = {name: _joint(result, name) for name in result.joints}
     press = {} if result.scene.press is None else {"press": press_summary(result, joints)}
-    return {
+    found = {
         **info,
         "peak_acceleration": {
             "resolved": peak(result["slider_acceleration"]),
@@ -37,6 +38,7 @@ def summary(result: Result) -> dict[str, Any]:
         "versions": versions,
         "scene": result.scene.to_dict(),
     }
+    return found | {"warnings": run_warnings(found, result.scene)}
 
 
 def _joint(result: Result, name: str) -> dict[str, Any]:

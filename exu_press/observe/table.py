@@ -62,6 +62,7 @@ ROWS: tuple[tuple[str, Callable[[Summary], str]], ...] = (
     ("slider tilt, max, urad", _tilt),
     ("drive torque, max, kN m", _press("drive.peak_torque", 1e-3)),
     ("drive power, mean, W", _press("drive.mean_power", 1.0)),
+    ("  guides of mu 0.1 would add, W", _press("guide_sliding_power", 0.1)),
     ("shaking force up, max, kN", _press("shaking_force.vertical", 1e-3)),
     ("  mean over 1 ms", _press("shaking_force.vertical_mean_1ms", 1e-3)),
     (

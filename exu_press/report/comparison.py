@@ -42,8 +42,8 @@ def comparison_report(file: Path) -> str:
         ]
     warnings = [
         f"{label}: {warning}"
-        for label, result in results.items()
-        for warning in warnings_of(summaries[label], result.scene)
+        for label, summary in summaries.items()
+        for warning in warnings_of(summary)
     ]
     richest = max(results.values(), key=lambda result: len(str(result.scene.to_dict())))
     return page(

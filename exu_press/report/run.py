@@ -58,7 +58,7 @@ def run_report(result: Result, source: str) -> str:
         f"{source}: {summary['status']} at t = {summary['end_time']:.6g} s, "
         f"crank angle {np.degrees(result['crank_angle'][-1]):.1f}° from top dead centre",
         [
-            ("Warnings", _warnings(warnings_of(summary, result.scene))),
+            ("Warnings", _warnings(warnings_of(summary))),
             ("Results", table(("quantity", "value"), numbers)),
             ("Pictures", _pictures(result)),
             ("Energy and solver", _energy(summary) + _statistics(summary)),

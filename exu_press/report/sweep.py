@@ -11,6 +11,7 @@ from exu_press.plots.sweep import save_sweep
 from exu_press.plots.words import describe
 from exu_press.report.html import items, page, paragraph, picture, table
 from exu_press.report.run import scene_parts
+from exu_press.scene.warnings import scene_warnings
 from exu_press.studies.sweep import Study, Table
 from exu_press.studies.sweep.shown import shown
 from exu_press.studies.sweep.units import unit_of
@@ -37,6 +38,7 @@ def sweep_report(file: Path) -> str:
             for path in save_sweep(runs, folder)
         ]
     reasons = Counter(str(reason) for reason in runs["reason"] if reason)
+    reasons += Counter(warning for scene in runs.study.scenes for warning in scene_warnings(scene))
     told = [f"{number} x {reason}" for reason, number in reasons.most_common(10)]
     return page(
         f"Sweep: {describe(runs.study.scenes, 200)}",

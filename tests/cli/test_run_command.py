@@ -13,7 +13,7 @@ KEYS = {
     "status", "reason", "end_time", "wall_time", "total_time", "steps", "rejected_steps",
     "newton_iterations", "law_evaluations", "coordinates", "bodies", "connectors",
     "peak_acceleration", "peak_velocity", "stroke", "bottom_dead_centre", "joints", "press",
-    "energy", "versions", "scene",
+    "energy", "versions", "scene", "warnings",
 }  # fmt: skip
 
 
@@ -40,6 +40,16 @@ def test_pictures_of_an_earlier_run_do_not_stay(tmp_path):
         (tmp_path / name).write_text("old")
     assert main(["compare", "press", *QUICK, "--quiet", "--out", str(tmp_path)]) == 0
     assert {path.name for path in tmp_path.rglob("*.png")} == {"mine.png"}
+
+
+def test_a_warning_is_seen_on_the_terminal_and_in_the_summary(tmp_path, capsys):
+    assert main(["run", "press", *QUICK, "--out", str(tmp_path)]) == 0
+    (warning,) = json.loads((tmp_path / "summary.json").read_text())["warnings"]
+    assert warning.startswith("film.law = 'pinkus' is meant for L/D of at least 2. This bearing")
+    assert f"exu-press: warning: {warning}\n" in capsys.readouterr().err
+    assert main(["run", "press", *QUICK, "--set", "film.law=finite", "--out", str(tmp_path)]) == 0
+    assert json.loads((tmp_path / "summary.json").read_text())["warnings"] == []
+    assert capsys.readouterr().err == ""
 
 
 def test_quiet_prints_nothing(tmp_path, capsys):

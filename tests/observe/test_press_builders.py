@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
+from exu_press.mechanism import mechanism_of
 from exu_press.observe import bottom_dead_centres
 
 SECTION = {
@@ -19,6 +20,7 @@ SECTION = {
     "peak_forces",
     "peak_moments",
     "losses",
+    "guide_sliding_power",
     "min_film",
 }
 
@@ -129,6 +131,20 @@ def test_means_are_over_the_last_whole_revolutions(run):
     )
     lost = sum(loss["mean_power"] for loss in press["losses"].values())
     assert lost == pytest.approx(change(run["energy_dissipated"]) / 0.5)
+
+
+def test_what_guides_would_take_if_they_rubbed():
+    """Side forces times the ideal mechanism's speeds, over one revolution."""
+    scene = Scene.from_dict({"crank_pin": "ideal", "balls": "ideal", "revolutions": 1.0})
+    result = simulate(scene)
+    motion = mechanism_of(scene).motion(result["crank_angle"], scene.angular_speed)
+    power = np.zeros_like(result.time)
+    for body in ("slider", "slide", "plunger_left", "plunger_right", "counterweight"):
+        name = "guide_force" if body == "slider" else f"{body}_guide_force"
+        power += np.abs(result[name] * motion[body].velocity[:, 1])
+    mean = np.trapezoid(power, result.time) / result.time[-1]
+    assert result.summary()["press"]["guide_sliding_power"] == pytest.approx(mean, rel=1e-3)
+    assert mean > 100.0
 
 
 def test_power_of_an_ideal_drive_is_the_rate_of_stored_energy():

@@ -1,0 +1,88 @@
+"""What a scene allows although it is hardly meant, and which figures of a run it changes."""
+
+import math
+from collections.abc import Iterator
+
+from exu_press.laws.film import FILM_LAWS
+from exu_press.scene.joint import LubricatedJoint
+from exu_press.scene.scene import Scene
+
+__all__ = ["doubtful_sizes", "scene_warnings"]
+
+NARROWEST, WIDEST = 1e-4, 1e-2
+"""Radial clearance over radius; plain bearings have 0.0005 to 0.003."""
+
+THINNEST, THICKEST = 1e-3, 2.0
+"""Pa s: water, and gear oil of the thickest grade, ISO VG 1500, hardly warm."""
+
+MILLI = 1e-3
+
+
+def scene_warnings(scene: Scene) -> list[str]:
+    """Return what is allowed but hardly meant: the key, what was given, and what it changes."""
+    return [*doubtful_sizes(scene), *_film_law(scene)]
+
+
+def doubtful_sizes(scene: Scene) -> list[str]:
+    """Return the warnings about clearances and viscosity, which may be slips of a unit."""
+    return [*_clearances(scene), *_viscosity(scene)]
+
+
+def _clearances(scene: Scene) -> Iterator[str]:
+    """Yield the clearances that are wide for their radius."""
+    for name, joint in scene.joints.grouped.items():
+        clearance, radius = joint.clearance, joint.radius
+        film = isinstance(joint, LubricatedJoint)
+        changes = "A film's force falls with its square." if film else "Impacts grow with it."
+        if clearance > WIDEST * radius:
+            yield (
+                f"joints.{name}.clearance = {clearance:g} m is {clearance / radius:.2g} times the "
+                f"radius of {radius:g} m. Plain bearings have 0.0005 to 0.003 times. {changes}"
+                + _slip(clearance, NARROWEST * radius, WIDEST * radius, "m")
+            )
+
+
+def _films(scene: Scene) -> Iterator[tuple[str, LubricatedJoint]]:
+    """Yield every lubricated joint, after what its film's keys begin with."""
+    for name, joint in scene.joints.grouped.items():
+        if isinstance(joint, LubricatedJoint):
+            yield "film" if joint.film == scene.film else f"joints.{name}.film", joint
+
+
+def _viscosity(scene: Scene) -> Iterator[str]:
+    """Yield viscosities that no bearing oil has."""
+    for table, given in {table: joint.film.viscosity for table, joint in _films(scene)}.items():
+        if THINNEST <= given <= THICKEST:
+            continue
+        side = f"below water's {THINNEST:g}" if given < THINNEST else f"above {THICKEST:g}"
+        yield (
+            f"{table}.viscosity = {given:g} Pa s is {side} Pa s. Bearing oils in use have 0.005 to "
+            "1, honey has 10 and air 2e-5. Force and drag of the film are in proportion to it."
+            + _slip(given, THINNEST, THICKEST, "Pa s")
+        )
+
+
+def _slip(given: float, low: float, high: float, unit: str) -> str:
+    """Return the question whether thousandths of the unit were meant, where that makes sense."""
+    meant = MILLI * given
+    return f" Was {meant:g} {unit} ({given:g} m{unit}) meant?" if low <= meant <= high else ""
+
+
+def _film_law(scene: Scene) -> Iterator[str]:
+    """Yield film laws that are not meant for their bearing's width, and how far they are off."""
+    for table, joint in _films(scene):
+        ratio = joint.film.length / (2.0 * joint.radius)
+        given = FILM_LAWS[joint.film.law]
+        if given.suits(ratio):
+            continue
+        low, high = given.length_to_diameter
+        meant = f"at least {low:g}" if high == math.inf else f"{low:g} to {high:g}"
+        name = next(name for name in ("finite", "short", "pi_film") if FILM_LAWS[name].suits(ratio))
+        centred = (0.0, 1.0, 0.0)
+        off = given.factory(ratio)(*centred)[0] / FILM_LAWS[name].factory(ratio)(*centred)[0]
+        yield (
+            f"{table}.law = {joint.film.law!r} is meant for L/D of {meant}. This bearing has "
+            f"{ratio:.2g}: near its centre the film resists {off:.2g} times as much as "
+            f"{table}.law = {name!r} says. The eccentricity ratio comes out too small by a factor "
+            "of that order, and the film too thick."
+        )

@@ -1,0 +1,80 @@
+"""What is allowed but hardly meant: said, with what it changes, and not where it is usual."""
+
+import pytest
+
+from exu_press import Scene, simulate
+from exu_press.laws.film import finite, pinkus
+from exu_press.scene.warnings import doubtful_sizes, scene_warnings
+
+FINITE = {"law": "finite"}
+
+
+def test_usual_scenes_have_none():
+    assert scene_warnings(Scene(film=FINITE)) == []
+    assert scene_warnings(Scene(crank_pin="ideal", balls="ideal")) == []
+    assert scene_warnings(Scene(mechanism="slider_crank", crank_pin="dry")) == []
+
+
+@pytest.mark.parametrize(
+    ("film", "meant", "instead"),
+    [
+        ({"law": "pinkus"}, "at least 2", "finite"),
+        ({"law": "pi_film", "length": 0.0139}, "at least 2", "short"),
+        ({"law": "short"}, "0 to 0.5", "finite"),
+        ({"law": "short", "length": 0.6}, "0 to 0.5", "pi_film"),
+    ],
+)
+def test_a_film_law_outside_its_width(film, meant, instead):
+    (warning,) = scene_warnings(Scene(film=film))
+    assert f"film.law = {film['law']!r} is meant for L/D of {meant}. " in warning
+    assert f"film.law = {instead!r} says" in warning
+
+
+@pytest.mark.parametrize(
+    "film", [{"law": "pinkus", "length": 0.28}, {"law": "short", "length": 0.07}]
+)
+def test_a_film_law_within_its_width(film):
+    assert scene_warnings(Scene(film=film)) == []
+
+
+def test_by_how_much_a_film_law_is_off():
+    (warning,) = scene_warnings(Scene(film={"law": "pinkus"}))
+    wide, narrow = pinkus()(0.0, 1.0, 0.0), finite(0.1 / 0.14)(0.0, 1.0, 0.0)
+    assert f"resists {wide[0] / narrow[0]:.2g} times as much" in warning
+
+
+def test_a_clearance_in_millimetres():
+    scene = Scene(film=FINITE, clearance={"crank_pin": 0.05, "balls": 7e-4})
+    (warning,) = scene_warnings(scene)
+    assert warning.startswith("clearance.crank_pin = 0.05 m is 0.71 times the radius of 0.07 m.")
+    assert warning.endswith("Was 5e-05 m (0.05 mm) meant?")
+
+
+def test_a_clearance_that_is_no_slip_of_units():
+    (warning,) = scene_warnings(Scene(film=FINITE, clearance={"balls": 1e-3}))
+    assert "clearance.balls = 0.001 m" in warning and "meant?" not in warning
+
+
+@pytest.mark.parametrize(
+    ("viscosity", "words"),
+    [
+        (400.0, "above 2 Pa s. .* Was 0.4 Pa s (400 mPa s) meant?"),
+        (1e-5, "below water's 0.001 Pa s. "),
+    ],
+)
+def test_a_viscosity_of_honey_or_air(viscosity, words):
+    (warning,) = scene_warnings(Scene(film={**FINITE, "viscosity": viscosity}))
+    assert all(part in warning for part in words.split(".*"))
+
+
+@pytest.mark.parametrize("viscosity", [1e-3, 2.0])
+def test_oils_at_the_limits_are_usual(viscosity):
+    assert doubtful_sizes(Scene(film={**FINITE, "viscosity": viscosity})) == []
+
+
+def test_advice_after_a_stop_names_the_slip_and_no_thicker_oil():
+    film, clearance = {"at_contact": "stop", "viscosity": 1e-5}, {"crank_pin": 0.05}
+    result = simulate(Scene(film=film, clearance=clearance, solver={"step": 1e-4}))
+    assert result.info["status"] == "film broke down"
+    assert "look at this first: clearance.crank_pin = 0.05 m" in result.info["reason"]
+    assert "larger film.viscosity" not in result.info["reason"]

@@ -155,7 +155,7 @@ class SceneAdvice(Advice):
         return f"fewer revolutions, a larger {self.setting} or solver.max_steps"
 
     def cause(self) -> str:
-        """Return that the crank pin seizes, a film is too thin or a size hardly meant, or nothing."""
+        """Return that the pin seizes, a film is too thin or a size hardly meant, or nothing."""
         slips = self._slips()
         return self._seizing() + self._thin_film() + (f"; hardly meant: {slips}" if slips else "")
 

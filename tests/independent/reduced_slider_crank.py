@@ -66,12 +66,12 @@ class ReducedSliderCrank:
         e_y = r * cos(angle) - (y - big_l * s)
         u = -r * n.speed * cos(angle) - big_l * s * phi_t
         v = -r * n.speed * sin(angle) - (y_t - big_l * c * phi_t)
-        f_x, f_y, p_x, p_y, bristle_rate = self.pin_force(
+        f_x, f_y, p_x, p_y, couple, bristle_rate = self.pin_force(
             e_x, e_y, u, v, n.speed, phi_t, state[4] if len(state) > 4 else 0.0
         )
         # -F on the rod at the point p from the bearing's centre
         q_y = -f_y
-        q_phi = -(f_x * big_l * s - f_y * big_l * c) - (p_x * f_y - p_y * f_x)
+        q_phi = -(f_x * big_l * s - f_y * big_l * c) - (p_x * f_y - p_y * f_x) + couple
         a = n.rod_inertia + n.rod_mass * half**2
         b = -n.rod_mass * half * c
         d = n.rod_mass + n.slider_mass
@@ -95,9 +95,9 @@ class ReducedSliderCrank:
         omega_j: float,
         omega_b: float,
         z: float,
-    ) -> tuple[float, float, float, float, float]:
-        """Return the force on the journal, the arm of its opposite on the bearing, and dz/dt."""
-        n = self.numbers
+    ) -> tuple[float, float, float, float, float, float]:
+        """Return force on the journal, arm of its opposite and couple on the bearing, and dz/dt."""
+        n, couple = self.numbers, 0.0
         e = hypot(e_x, e_y)
         n_x, n_y = (e_x / e, e_y / e) if e > 0.0 else (1.0, 0.0)
         v_n, v_t = u * n_x + v * n_y, v * n_x - u * n_y
@@ -105,10 +105,11 @@ class ReducedSliderCrank:
             film = pinkus if self.pin == "pinkus" else pi_film
             eps, c = e / n.clearance, n.clearance
             if eps >= 1.0:  # no film there; Radau then takes a smaller step
-                return nan, nan, nan, nan, nan
+                return nan, nan, nan, nan, nan, nan
             eps_w = eps * (omega_j + omega_b) - 2 * v_t / c
             scale = n.viscosity * n.length * n.radius**3 / c**2
             f_r, f_t = film(eps, v_n / c, eps_w)
+            couple = scale * c * 2 * pi / sqrt(1 - eps * eps) * (omega_j - omega_b)
             f_n, f_t, reach, bristle_rate = scale * f_r, scale * f_t, e / 2, 0.0
         else:
             # contact point on the journal's surface: material velocities of the two bodies there
@@ -122,6 +123,7 @@ class ReducedSliderCrank:
             f_n * n_y + f_t * n_x,
             reach * n_x,
             reach * n_y,
+            couple,
             bristle_rate,
         )
 

@@ -2,6 +2,7 @@
 
 import math
 from bisect import bisect_right
+from functools import lru_cache
 from pathlib import Path
 
 from exu_press.laws.contact_parameters import demand
@@ -150,6 +151,7 @@ def _cubic(p: _Patch, x: float, y: float) -> tuple[float, float, float]:
     )
 
 
+@lru_cache(maxsize=32)  # a scene is made, checked and changed with the same bearing
 def _spline(
     length_to_diameter: float,
 ) -> tuple[list[float], list[float], list[list[tuple[_Patch, _Patch]]]]:

@@ -16,6 +16,7 @@ from exu_press.scene import Contact, DryJoint, IdealJoint, LubricatedJoint, Scen
 __all__ = ["Jit", "Numbers", "ScalarFunction", "is_reducible", "numbers_of", "rate_of", "start_of"]
 
 State = tuple[float, float, float, float]
+PinForce = tuple[float, float, float, float, float]
 ScalarFunction = Callable[..., Any]
 """Floats in, a tuple of floats out; Any, as a compiled one has no signature to check."""
 Jit = Callable[[ScalarFunction], ScalarFunction]
@@ -117,8 +118,10 @@ def start_of(numbers: Numbers) -> State:
 
 def dry_force(
     n: Numbers, e: float, n_rate: float, t_rate: float, omega_j: float, omega_b: float, c: float
-) -> State:
+) -> PinForce:
     """Return f_n, f_t on the journal (N), the arm of -f_t on the bearing (m), the penetration (m).
+
+    And the couple on the bearing (N m), which a film's shear alone has.
 
     Hertz with STEP damping and no tension (Eqs. 23-26), steady LuGre friction (Eq. 33).
 
@@ -133,7 +136,7 @@ def dry_force(
     """
     depth, reach = e - c, n.radius + e
     if depth <= 0.0:
-        return 0.0, 0.0, reach, depth
+        return 0.0, 0.0, reach, depth, 0.0
     x = min(depth / n.damping_depth, 1.0)
     damping = n.damping_max * x * x * (3.0 - 2.0 * x)
     normal = max(0.0, n.stiffness * depth**n.exponent + damping * n_rate)
@@ -142,16 +145,16 @@ def dry_force(
     mu = (n.mu_kinetic + (n.mu_static - n.mu_kinetic) * stribeck) * tanh(
         v / n.regularisation_velocity
     ) + n.sigma_2 * v
-    return -normal, -mu * normal, reach, depth
+    return -normal, -mu * normal, reach, depth, 0.0
 
 
 def film_force(
     n: Numbers, e: float, n_rate: float, t_rate: float, omega_j: float, omega_b: float, c: float
-) -> State:
+) -> PinForce:
     """Return the same of Pinkus' film with |eps_dot| (Eq. 35); NaN at eccentricity ratio 1."""
     eps, eps_t = e / c, n_rate / c
     if eps >= 1.0:
-        return nan, nan, nan, nan
+        return nan, nan, nan, nan, nan
     eps_w = eps * (omega_j + omega_b) - 2.0 * t_rate / c
     s2, two = 1.0 - eps * eps, 2.0 + eps * eps
     s, b = sqrt(s2), abs(eps_t) * eps
@@ -159,7 +162,8 @@ def film_force(
     x = 1.0 + (3.0 * eps * eps_t / (2.0 * big_s + 3.0 * b) if b > 0.0 else 0.0)
     f_r = -(24.0 * eps * big_s / two + 6.0 * pi * x * eps_t) / (s2 * s)
     f_t = 6.0 * pi * x * eps_w / (two * s)
-    return n.film_scale * f_r, n.film_scale * f_t, 0.5 * e, e - c
+    shear = n.film_scale * c * 2.0 * pi / s * (omega_j - omega_b)
+    return n.film_scale * f_r, n.film_scale * f_t, 0.5 * e, e - c, shear
 
 
 def _pin_forces(law: ScalarFunction, jit: Jit) -> ScalarFunction:
@@ -181,11 +185,11 @@ def _pin_forces(law: ScalarFunction, jit: Jit) -> ScalarFunction:
         v = -r * n.speed * sin_a - y_t + big_l * cos_p * phi_t
         e = hypot(e_x, e_y)
         n_x, n_y = (e_x / e, e_y / e) if e > 0.0 else (1.0, 0.0)
-        f_n, f_t, reach, depth = law(
+        f_n, f_t, reach, depth, couple = law(
             n, e, u * n_x + v * n_y, v * n_x - u * n_y, n.speed, phi_t, n.clearance
         )
         f_x, f_y = f_n * n_x - f_t * n_y, f_n * n_y + f_t * n_x
-        on_phi = big_l * (f_y * cos_p - f_x * sin_p) - reach * f_t
+        on_phi = big_l * (f_y * cos_p - f_x * sin_p) - reach * f_t + couple
         return -f_y, on_phi, hypot(f_n, f_t), depth, e_x, e_y
 
     return jit(pin)

@@ -20,7 +20,7 @@ THIN_OIL = {
 }
 BREAKDOWN = re.compile(
     r"film broke down at t = (\S+) s, crank angle (\S+) deg, eccentricity ratio (\S+) "
-    r"\(crank_pin\); try film\.at_contact = 'mixed', or a larger film\.viscosity or film\.length"
+    r"\(crank_pin\); try what was meant instead of this: film\.viscosity = 1e-07 Pa s is below .*"
 )
 
 

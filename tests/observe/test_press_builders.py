@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
-from exu_press.mechanism import mechanism_of
+from exu_press.scene import mechanism_of
 from exu_press.observe import bottom_dead_centres
 
 SECTION = {
@@ -135,7 +135,7 @@ def test_means_are_over_the_last_whole_revolutions(run):
 
 def test_what_guides_would_take_if_they_rubbed():
     """Side forces times the ideal mechanism's speeds, over one revolution."""
-    scene = Scene.from_dict({"crank_pin": "ideal", "balls": "ideal", "revolutions": 1.0})
+    scene = Scene(joints={}, revolutions=1.0)
     result = simulate(scene)
     motion = mechanism_of(scene).motion(result["crank_angle"], scene.angular_speed)
     power = np.zeros_like(result.time)

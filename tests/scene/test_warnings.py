@@ -13,8 +13,8 @@ FINITE = {"law": "finite"}
 
 def test_usual_scenes_have_none():
     assert scene_warnings(Scene(film=FINITE)) == []
-    assert scene_warnings(Scene(crank_pin="ideal", balls="ideal")) == []
-    assert scene_warnings(Scene(mechanism="slider_crank", crank_pin="dry")) == []
+    assert scene_warnings(Scene(joints={})) == []
+    assert scene_warnings(Scene(mechanism="slider_crank", joints={"crank_pin": "dry"})) == []
 
 
 @pytest.mark.parametrize(
@@ -46,15 +46,20 @@ def test_by_how_much_a_film_law_is_off():
 
 
 def test_a_clearance_in_millimetres():
-    scene = Scene(film=FINITE, clearance={"crank_pin": 0.05, "balls": 7e-4})
+    pin = {"kind": "lubricated", "clearance": 0.05}
+    scene = Scene(
+        film=FINITE, joints={"crank_pin": pin, "balls": {"kind": "dry", "clearance": 7e-4}}
+    )
     (warning,) = scene_warnings(scene)
-    assert warning.startswith("clearance.crank_pin = 0.05 m is 0.71 times the radius of 0.07 m.")
+    assert warning.startswith(
+        "joints.crank_pin.clearance = 0.05 m is 0.71 times the radius of 0.07 m."
+    )
     assert warning.endswith("Was 5e-05 m (0.05 mm) meant?")
 
 
 def test_a_clearance_that_is_no_slip_of_units():
-    (warning,) = scene_warnings(Scene(film=FINITE, clearance={"balls": 1e-3}))
-    assert "clearance.balls = 0.001 m" in warning and "meant?" not in warning
+    (warning,) = scene_warnings(Scene(joints={"balls": {"kind": "dry", "clearance": 1e-3}}))
+    assert "joints.balls.clearance = 0.001 m" in warning and "meant?" not in warning
 
 
 @pytest.mark.parametrize(
@@ -75,9 +80,20 @@ def test_oils_at_the_limits_are_usual(viscosity):
 
 
 def test_advice_after_a_stop_names_the_slip_and_no_thicker_oil():
-    film, clearance = {"at_contact": "stop", "viscosity": 1e-5}, {"crank_pin": 0.05}
-    result = simulate(Scene(film=film, clearance=clearance, solver={"step": 1e-4}))
+    joints = {"crank_pin": {"kind": "lubricated", "clearance": 0.05}, "balls": "dry"}
+    film = {"law": "pinkus", "viscosity": 1e-5}
+    result = simulate(Scene(film=film, joints=joints, solver={"step": 1e-4}))
     assert result.info["status"] == "film broke down"
-    slips = "clearance.crank_pin = 0.05 m is .*; film.viscosity = 1e-05 Pa s is below water's 0.001"
+    slips = "joints.crank_pin.clearance = 0.05 m is .*; film.viscosity = 1e-05 Pa s is below water"
     assert re.search(f"try what was meant instead of this: {slips}", result.info["reason"])
     assert "larger film.viscosity" not in result.info["reason"]
+
+
+def test_a_joint_with_a_film_of_its_own_is_named():
+    film = {"law": "short", "viscosity": 1e-4}
+    pin = {"kind": "lubricated", "radius": 0.02, "film": film}
+    oil, law = scene_warnings(
+        Scene(film=FINITE, joints={"crank_pin": pin, "knuckles": "lubricated"})
+    )
+    assert oil.startswith("joints.crank_pin.film.viscosity = 0.0001 Pa s is below water's")
+    assert law.startswith("joints.crank_pin.film.law = 'short' is meant for L/D of 0 to 0.5. ")

@@ -38,8 +38,8 @@ class Point:
         acceleration: peak, m/s^2, by model of observation.
         force: largest in a ball, N.
         eccentricity_ratio: largest of the pin.
-        deviation: how far the low dead point lies below the ideal one, m.
-        scatter: of the low dead points of all strokes but the first, m; None with one alone.
+        deviation: how far the bottom dead centre lies below the ideal one, m.
+        scatter: of the bottom dead centres of all strokes but the first, m; None with one alone.
         losses: W, of balls and pin.
     """
 
@@ -139,9 +139,9 @@ def point_of(scene: Scene, row: Mapping[str, Any]) -> Point | None:
     if not readings:
         return None
     pin, balls = clearances_of(scene)
-    deviation = observed(row, "low_dead_point", OBSERVED)
+    deviation = observed(row, "bottom_dead_centre", OBSERVED)
     assert deviation is not None
-    strokes = readings["low_dead_points"][1:]
+    strokes = readings["bottom_dead_centres"][1:]
     return Point(
         pin=pin,
         balls=balls,

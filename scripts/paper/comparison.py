@@ -8,14 +8,14 @@ from paper.published import Number
 __all__ = ["DATUM", "observed", "published_value", "shown"]
 
 DATUM = 0.47
-"""The paper's ideal low dead point, m. Positions are judged by how far they lie below it: beside
-an arbitrary datum of half a metre anything would agree."""
+"""The paper's ideal bottom dead centre (its "low dead point"), m. Positions are judged by how far
+they lie below it: beside an arbitrary datum of half a metre anything would agree."""
 
 
 def observed(
     row: Mapping[str, Any], measure: str, model: str, *, whole: bool = False
 ) -> float | None:
-    """Return a measure of a run as it is judged: of a low dead point, m below the datum.
+    """Return a measure of a run as it is judged: of a bottom dead centre, m below the datum.
 
     Args:
         row: of the run, from `tasks.observe`.
@@ -27,11 +27,11 @@ def observed(
         None where the run did not get to its end, or has no such measure.
     """
     value = shown(row, measure, model, whole=whole)
-    return DATUM - value if measure == "low_dead_point" and value is not None else value
+    return DATUM - value if measure == "bottom_dead_centre" and value is not None else value
 
 
 def shown(row: Mapping[str, Any], measure: str, model: str, *, whole: bool = False) -> float | None:
-    """Return a measure of a run as it is shown beside the paper's: a low dead point in m."""
+    """Return a measure of a run as it is shown beside the paper's: a bottom dead centre in m."""
     readings = row.get("whole" if whole else "readings")
     if not readings:
         return None
@@ -46,6 +46,6 @@ def shown(row: Mapping[str, Any], measure: str, model: str, *, whole: bool = Fal
 
 def published_value(number: Number) -> float:
     """Return the published number as it is judged."""
-    if number.measure == "low_dead_point":
+    if number.measure == "bottom_dead_centre":
         return round(DATUM - number.published, 6)
     return number.published

@@ -46,10 +46,10 @@ def readings(result: Result, span: tuple[float, float] | None = None) -> dict[st
         span: from when to when, s; `observed_span` unless told.
 
     Returns:
-        peak_acceleration (m/s^2), peak_velocity (m/s) and low_dead_point (m) under each model;
-        low_dead_points (m) of every stroke; oscillation_frequency (Hz); joints: contact modes and
-        largest force of each; losses: mean powers (W) of the balls' contact and of the pin, whose
-        film is sheared and pressed.
+        peak_acceleration (m/s^2), peak_velocity (m/s) and bottom_dead_centre (m) under each model;
+        bottom_dead_centres (m) of every stroke; oscillation_frequency (Hz); joints: contact modes
+        and largest force of each; losses: mean powers (W) of the balls' contact and of the pin,
+        whose film is sheared and pressed.
     """
     start, end = span or observed_span(result)
     inside = (result.time >= start - 1e-12) & (result.time <= end + 1e-12)
@@ -70,12 +70,12 @@ def readings(result: Result, span: tuple[float, float] | None = None) -> dict[st
             "mean_1ms": _largest_mean_velocity(time, motion),
             "differentiated_1khz": peak(np.diff(samples) * RATE) if len(samples) > 1 else None,
         },
-        "low_dead_point": {
+        "bottom_dead_centre": {
             "resolved": float(position.min()),
             "mean_1ms": _lowest_mean(time, motion),
             "differentiated_1khz": float(samples.min()),
         },
-        "low_dead_points": _low_dead_points(result),
+        "bottom_dead_centres": _bottom_dead_centres(result),
         "oscillation_frequency": _oscillation_frequency(result, time, motion),
         "joints": {name: _joint(result, name, inside) for name in result.clearance_joints},
         "losses": _losses(result, inside),
@@ -94,7 +94,7 @@ def _lowest_mean(time: Array, motion: CubicHermiteSpline) -> float | None:
     return float(((area(late) - area(late - WINDOW)) / WINDOW).min()) if len(late) else None
 
 
-def _low_dead_points(result: Result) -> list[float]:
+def _bottom_dead_centres(result: Result) -> list[float]:
     """Return the lowest position of every complete revolution, m."""
     turns = (result["crank_angle"] - result["crank_angle"][0]) / (2.0 * np.pi)
     position = result["slider_position"]

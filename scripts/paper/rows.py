@@ -112,7 +112,7 @@ def frequency_rows(parts: Runs) -> list[Row]:
 def _number_row(number: Number, run: Mapping[str, Any], tornado: Tornado | None) -> Row:
     values = {model: shown(run, number.measure, model) for model in MODELS}
     value, aim = observed(run, number.measure, OBSERVED), published_value(number)
-    if number.name == "ldp_ideal":
+    if number.name == "bottom_dead_centre_ideal":
         value, aim = values[OBSERVED], number.published
     ratio = None if value is None else value / aim
     verdict = _verdict(ratio)
@@ -171,7 +171,7 @@ def _why(tornado: Tornado, aim: float) -> str:
 def _changes(tornado: Tornado, effects: Sequence[Effect]) -> str:
     changes = {effect.label: effect.change(tornado.baseline) for effect in effects}
     known = {label: change for label, change in changes.items() if change is not None}
-    if tornado.number.measure == "low_dead_point":
+    if tornado.number.measure == "bottom_dead_centre":
         measure, base = tornado.number.measure, tornado.baseline
         return ", ".join(f"{key}: {_short(base + base * by, measure)}" for key, by in known.items())
     return ", ".join(f"{label} {100.0 * change:+.0f} %" for label, change in known.items())
@@ -252,7 +252,7 @@ def _frequency_row(entry: Frequencies, index: int, part: Mapping[str, Any]) -> R
 
 def _short(value: float, measure: str) -> str:
     """Return a value as it is judged."""
-    if measure == "low_dead_point":
+    if measure == "bottom_dead_centre":
         return f"{1e6 * value:.1f} µm"
     return f"{value:.3g}"
 

@@ -35,7 +35,7 @@ class Tornado:
     Attributes:
         number: the published one.
         bodies: "rigid" or "flexible".
-        published: what it is judged by, SI; of a low dead point, how far it lies below 0.47 m.
+        published: what it is judged by, SI; of a bottom dead centre, how far it lies below 0.47 m.
         baseline: ours, with every assumption as it is by default.
         effects: of every setting, by swing of its factor.
     """

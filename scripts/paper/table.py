@@ -19,13 +19,13 @@ SECTIONS = {
     "trends": (("trend",), TRENDS),
 }
 UNITS = {
-    "low_dead_point": ("mm", 1e3, ".3f"),
+    "bottom_dead_centre": ("mm", 1e3, ".3f"),
     "peak_acceleration": ("m/s²", 1.0, ".4g"),
     "peak_velocity": ("m/s", 1.0, ".3f"),
     "clearance": ("mm", 1e3, ".2g"),
 }
 TREND_UNITS = {
-    "low_dead_point": ("µm", 1e6, ".1f"),
+    "bottom_dead_centre": ("µm", 1e6, ".1f"),
     "peak_velocity": ("m/s", 1.0, ".4f"),
     "oscillation_frequency": ("Hz", 1.0, ".3g"),
     "permanent_contact_ball": ("%", 1e2, ".0f"),
@@ -38,7 +38,7 @@ def report_lines(report: Report) -> list[str]:
     lines = [
         "Judged for all rows alike: mean over 1 ms, last revolution; "
         f"agrees: within {100 * AGREES_WITHIN:.0f} %.",
-        "Ratios of low dead points: of how far they lie below the ideal one.",
+        "Ratios of bottom dead centres: of how far they lie below the ideal one.",
     ]
     if report.quick:
         lines.append(
@@ -77,7 +77,7 @@ def _trend(row: Row) -> tuple[str, ...]:
     unit, scale, digits = TREND_UNITS.get(row.measure, UNITS.get(row.measure, ("", 1.0, ".4g")))
     series = getattr(row, OBSERVED)
     assert isinstance(series, tuple)
-    if row.measure == "low_dead_point":
+    if row.measure == "bottom_dead_centre":
         series = tuple(None if value is None else DATUM - value for value in series)
     values = ", ".join(_text(value, scale, digits) for value in series)
     return (row.quantity, row.figure, str(row.published), values, unit, row.verdict)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
-from exu_press.scene import mechanism_of
 from exu_press.observe import bottom_dead_centres
+from exu_press.scene import mechanism_of
 
 SECTION = {
     "bottom_dead_centre",

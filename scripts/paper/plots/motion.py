@@ -83,7 +83,7 @@ def _values(kind: str, run: Result) -> tuple[Array, Array]:
 
 def _finish_displacement(panels: NDArray[np.object_], loads: Loads) -> None:
     for axes in panels[1]:
-        note(axes, "the paper: 1200 to 4000 µm at the low dead point")
+        note(axes, "the paper: 1200 to 4000 µm at the bottom dead centre")
 
 
 def _finish_velocity(panels: NDArray[np.object_], loads: Loads) -> None:

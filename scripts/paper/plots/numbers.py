@@ -25,8 +25,8 @@ def numbers_figure(rows: Sequence[Row]) -> Figure:
     """Return the ratio of every number, under each model of observation, on one axis."""
     numbers = [row for row in rows if row.kind != "trend" and row.ratio is not None]
     words = (
-        f"green: within {100 * AGREES_WITHIN:.0f} %; low dead points by how far they lie below the "
-        "ideal one"
+        f"green: within {100 * AGREES_WITHIN:.0f} %; bottom dead centres by how far they lie below "
+        "the ideal one"
     )
     title = "Ours over the paper's"
     figure = headed_figure(title, words, (10.5, 0.27 * len(numbers) + 1.8))
@@ -60,10 +60,10 @@ def numbers_figure(rows: Sequence[Row]) -> Figure:
 def _ratio(row: Row, model: str) -> float | None:
     """Return a row's ratio under a model; the row's own for what has no model."""
     value = getattr(row, model)
-    if row.kind in ("frequency", "choice") or row.name == "ldp_ideal":
+    if row.kind in ("frequency", "choice") or row.name == "bottom_dead_centre_ideal":
         return row.ratio if model == "mean_1ms" else None
     if value is None or isinstance(value, tuple) or isinstance(row.published, str):
         return None
-    if row.name.startswith("ldp"):
+    if row.name.startswith("bottom_dead_centre"):
         return float((DATUM - value) / (DATUM - row.published))
     return float(value / row.published)

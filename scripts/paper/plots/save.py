@@ -26,7 +26,7 @@ __all__ = ["save_paper"]
 Drawn = Iterator[tuple[str, Figure]]
 
 MOTIONS = {"Fig. 14": "displacement", "Fig. 15": "velocity", "Fig. 16": "acceleration"}
-SWEPT = {"low_dead_point": "displacement", "peak_velocity": "velocity"}
+SWEPT = {"bottom_dead_centre": "displacement", "peak_velocity": "velocity"}
 
 
 def save_paper(report: Report, directory: str | Path) -> list[Path]:
@@ -52,7 +52,7 @@ def _numbers(found: Findings, rows: Sequence[Row]) -> Drawn:
     yield "numbers", numbers_figure(rows)
     groups = {
         ("tornado_acceleration", "rigid"): "What moves the peak accelerations, rigid bodies",
-        ("tornado_other", "rigid"): "What moves low dead points and peak velocities, rigid bodies",
+        ("tornado_other", "rigid"): "What moves dead centres and peak velocities, rigid bodies",
         ("tornado_flexible", "flexible"): "What moves the peak accelerations, flexible bodies",
     }
     for (name, bodies), title in groups.items():

@@ -70,9 +70,9 @@ def curves_figure(
     apart.set_xlabel("crank angle from top dead centre, deg")
     legend_above(whole)
     crank_angle_axis([whole, apart], *angle_range(runs))
-    measure = "low_dead_point" if displacement else "peak_velocity"
+    measure = "bottom_dead_centre" if displacement else "peak_velocity"
     _summary(summary, measure, list(runs), readings)
-    summary.set_title("Low dead point below the ideal" if displacement else "Peak velocity")
+    summary.set_title("Bottom dead centre below the ideal" if displacement else "Peak velocity")
     summary.set_ylabel("µm" if displacement else "m/s")
     summary.set_xlabel(f"the paper: {said}")
     return drawing
@@ -122,7 +122,7 @@ def peaks_figure(figure: str, runs: Mapping[str, Result], readings: Readings, sa
 
 def _summary(axes: Axes, measure: str, names: Sequence[str], readings: Readings) -> None:
     """Draw a measure of every run under each model of observation, and the paper's values."""
-    scale = 1e6 if measure == "low_dead_point" else 1.0
+    scale = 1e6 if measure == "bottom_dead_centre" else 1.0
     places = list(range(len(names)))
     for model, (label, look) in MODEL_LOOKS.items():
         values = [observed(readings[name], measure, model) for name in names]

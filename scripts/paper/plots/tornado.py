@@ -109,6 +109,6 @@ def _limits(axes: Axes, ends: Sequence[float]) -> None:
 
 def _unit(tornado: Tornado) -> tuple[float, str]:
     """Return the factor from SI to what is shown, and its unit."""
-    if tornado.number.measure == "low_dead_point":
+    if tornado.number.measure == "bottom_dead_centre":
         return 1e6, "µm below the ideal"
     return 1.0, "m/s²" if tornado.number.measure == "peak_acceleration" else "m/s"

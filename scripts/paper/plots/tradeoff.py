@@ -90,7 +90,7 @@ def _positions(axes: Axes, choice: Choice) -> None:
         radial, values = zip(*scatter, strict=True)
         look: dict[str, Any] = {"color": COLOURS["orange"], "marker": "s"}
         axes.plot(radial, values, **look, label="scatter over strokes, rigid")
-    axes.set_title("Low dead point")
+    axes.set_title("Bottom dead centre")
     axes.set_ylabel("µm")
     axes.legend()
 

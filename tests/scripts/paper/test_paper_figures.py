@@ -143,7 +143,7 @@ def test_the_trade_off(runs):
     alike = [point for point in separate if point.pin == point.balls]
     choice = choose(runs["clearance 0.1 mm"].scene, alike, separate)
     titles = [axes.get_title("left") for axes in tradeoff_figure(choice).axes]
-    assert "Trade-off" in titles and "Low dead point" in titles
+    assert "Trade-off" in titles and "Bottom dead centre" in titles
 
 
 def test_a_report_becomes_files(runs, rows, tornado, tmp_path):

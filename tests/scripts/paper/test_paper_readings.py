@@ -39,8 +39,8 @@ def test_the_ideal_press_is_the_closed_form_under_every_model(ideal):
     for model in ("resolved", "mean_1ms", "differentiated_1khz"):
         assert read["peak_velocity"][model] == pytest.approx(abs(velocity).max(), rel=2e-3)
         assert read["peak_acceleration"][model] == pytest.approx(abs(acceleration).max(), rel=3e-3)
-        assert read["low_dead_point"][model] == pytest.approx(0.47, abs=5e-6)
-    assert len(read["low_dead_points"]) == 2
+        assert read["bottom_dead_centre"][model] == pytest.approx(0.47, abs=5e-6)
+    assert len(read["bottom_dead_centres"]) == 2
     assert read["joints"] == {}
 
 

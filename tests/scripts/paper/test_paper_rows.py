@@ -16,7 +16,7 @@ def run(acceleration=20.0, low=0.4699):
         "readings": {
             "peak_acceleration": {"resolved": 500.0, "mean_1ms": acceleration,
                                   "differentiated_1khz": 1.0},
-            "low_dead_point": dict.fromkeys(models, low),
+            "bottom_dead_centre": dict.fromkeys(models, low),
             "peak_velocity": dict.fromkeys(models, 0.4),
         },
     }  # fmt: skip
@@ -42,8 +42,8 @@ def test_agreement_is_within_a_quarter_under_the_mean_over_1_ms(acceleration, ve
     assert (row.published, row.resolved, row.mean_1ms) == (29.4, 500.0, acceleration)
 
 
-def test_low_dead_points_are_judged_by_how_far_they_lie_below_the_ideal():
-    one = number("ldp_lubricated")
+def test_bottom_dead_centres_are_judged_by_how_far_they_lie_below_the_ideal():
+    one = number("bottom_dead_centre_lubricated")
     (row,) = number_rows([one], {one.run: run(low=0.4699)}, {})
     assert row.mean_1ms == 0.4699 and row.ratio == pytest.approx(1e-4 / 4e-3)
     assert row.verdict == "differs"
@@ -74,8 +74,8 @@ def test_the_reason_says_so_where_rigid_bodies_meet_the_paper():
     assert row.reason.startswith("rigid bodies meet the paper's as they are")
 
 
-def test_low_dead_points_are_explained_in_micrometres():
-    one = number("ldp_lubricated")
+def test_bottom_dead_centres_are_explained_in_micrometres():
+    one = number("bottom_dead_centre_lubricated")
     varied = [(Setting("datum", "0.466 m"), run(low=0.46598)), (Setting("oil", "thin"), run())]
     tornado = tornado_of(one, "rigid", run(low=0.46998), varied)
     (row,) = number_rows([one], {one.run: run(low=0.46998)}, {one.name: tornado})
@@ -105,8 +105,8 @@ def test_trends():
     assert row.reason.endswith("with rigid bodies it appears")
 
 
-def test_trends_of_low_dead_points_are_of_how_far_they_lie_below():
-    one = trend("ldp_over_speed")
+def test_trends_of_bottom_dead_centres_are_of_how_far_they_lie_below():
+    one = trend("bottom_dead_centre_over_speed")
     lower = {name: run(low=0.4699 - 1e-4 * i) for i, name in enumerate(one.runs)}
     (row,) = trend_rows([one], lower, {})
     assert row.verdict == "trend"

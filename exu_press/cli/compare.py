@@ -1,38 +1,55 @@
-"""Compare the variants of one scene: ideal, dry and lubricated joints, side by side."""
+"""Compare scenes and finished runs side by side; one scene alone: ideal, dry, lubricated."""
 
 import argparse
 import sys
+from collections.abc import Mapping
+from pathlib import Path
 
-from exu_press.cli.options import add_scene_arguments, directory_of, scene_of, show_warnings
+from exu_press.cli.options import add_run_arguments, scene_path, shipped_names, show_warnings
+from exu_press.errors import InputError
 from exu_press.observe.table import comparison_lines
 from exu_press.output import output_directory, remove_pictures, write_json
+from exu_press.result import Result
+from exu_press.scene import Scene, load_scene
 from exu_press.simulation import simulate
 from exu_press.studies.compare import variants
 
 __all__ = ["EXAMPLE", "add_arguments", "execute"]
 
-EXAMPLE = "exu-press compare press --set joints.crank_pin.clearance=5e-5 --out out/compare"
+EXAMPLE = "exu-press compare press my_press.toml out/first/run.nc --out out/compare"
+
+RESULT = "run.nc"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the command's arguments."""
-    add_scene_arguments(parser)
+    parser.add_argument(
+        "given",
+        nargs="+",
+        metavar="A",
+        help="a scene file, the name of a shipped scene ("
+        f"{', '.join(shipped_names())}), a {RESULT} or the directory of one; one scene alone is "
+        "compared with ideal, with dry and with lubricated joints",
+    )
+    add_run_arguments(parser)
 
 
 def execute(options: argparse.Namespace) -> int:
-    """Run every variant; return 0, or 3 if one of them stopped early."""
-    scenes = variants(scene_of(options))
-    directory = output_directory(directory_of(options))
-    results, summaries = {}, {}
-    for label, scene in scenes.items():
-        if not options.quiet:
+    """Run every scene, read every result; return 0, or 3 if a run stopped early."""
+    compared = _compared(options.given, options.set)
+    default = Path("out") / (Path(options.given[0]).stem if len(options.given) == 1 else "compare")
+    directory = output_directory(options.out or default)
+    results: dict[str, Result] = {}
+    for label, one in compared.items():
+        if isinstance(one, Scene) and not options.quiet:
             print(f"{label} ...", file=sys.stderr)
-        results[label] = result = simulate(scene, quiet=options.quiet)
-        summaries[label] = summary = result.summary()
+        results[label] = simulate(one, quiet=options.quiet) if isinstance(one, Scene) else one
+    summaries = {label: result.summary() for label, result in results.items()}
+    for label, result in results.items():
         place = output_directory(directory / label.replace(" ", "_"))
         remove_pictures(place, "run")
-        result.save(place / "run.nc")
-        write_json(place / "summary.json", summary)
+        result.save(place / RESULT)
+        write_json(place / "summary.json", summaries[label])
     remove_pictures(directory, "compare")
     write_json(directory / "comparison.json", summaries)
     if not options.no_pictures:
@@ -48,3 +65,26 @@ def execute(options: argparse.Namespace) -> int:
         how = "" if results[label].completed else "stopped early: "
         print(f"exu-press: {label}: {how}{reason}", file=sys.stderr)
     return 3 if stopped else 0
+
+
+def _compared(given: list[str], assignments: list[str]) -> Mapping[str, Scene | Result]:
+    """Return scenes and results by label, all of them read and checked before anything is run."""
+    found: dict[str, Scene | Result] = {}
+    for name in given:
+        path = Path(name)
+        file = path / RESULT if path.is_dir() else path
+        if file.suffix == ".nc":
+            one: Scene | Result = Result.load(file)
+        else:
+            one = load_scene(scene_path(name), assignments)
+        label = file.resolve().parent.name if file.name == RESULT else path.stem
+        twins = [other for other in found if other.partition(" ")[0] == label]
+        found[f"{label} {len(twins) + 1}" if twins else label] = one
+    scenes = [one for one in found.values() if isinstance(one, Scene)]
+    if assignments and not scenes:
+        raise InputError(f"--set {assignments[0]}: changes scenes, and none is given")
+    if len(found) > 1:
+        return found
+    if not scenes:
+        raise InputError(f"{given[0]}: a result alone; allowed are two or more, or a scene alone")
+    return variants(scenes[0])

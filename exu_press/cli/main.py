@@ -14,6 +14,7 @@ from exu_press.errors import InputError
 __all__ = ["main"]
 
 COMMANDS = (
+    "new",
     "run",
     "compare",
     "sweep",

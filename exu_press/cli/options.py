@@ -7,7 +7,15 @@ from pathlib import Path
 
 from exu_press.scene import Scene, load_scene
 
-__all__ = ["add_scene_arguments", "directory_of", "scene_of", "show_warnings"]
+__all__ = [
+    "add_run_arguments",
+    "add_scene_arguments",
+    "directory_of",
+    "scene_of",
+    "scene_path",
+    "shipped_names",
+    "show_warnings",
+]
 
 MOST_WARNINGS = 5
 
@@ -19,9 +27,13 @@ def add_scene_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "scene",
         metavar="SCENE.toml",
-        help="a scene file, or the name of a shipped one: "
-        + ", ".join(sorted(path.stem for path in SHIPPED.glob("*.toml"))),
+        help=f"a scene file, or the name of a shipped one: {', '.join(shipped_names())}",
     )
+    add_run_arguments(parser)
+
+
+def add_run_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add how scenes are changed and where results go."""
     parser.add_argument(
         "--set",
         action="append",
@@ -36,7 +48,7 @@ def add_scene_arguments(parser: argparse.ArgumentParser) -> None:
 
 def scene_of(options: argparse.Namespace) -> Scene:
     """Return the scene that is asked for, with its changes."""
-    return load_scene(_path(options.scene), options.set)
+    return load_scene(scene_path(options.scene), options.set)
 
 
 def directory_of(options: argparse.Namespace) -> Path:
@@ -53,6 +65,12 @@ def show_warnings(found: Iterable[str]) -> None:
         print(f"exu-press: warning: {len(each) - MOST_WARNINGS} more like these", file=sys.stderr)
 
 
-def _path(given: str) -> Path:
+def shipped_names() -> list[str]:
+    """Return the names of the shipped scenes."""
+    return sorted(path.stem for path in SHIPPED.glob("*.toml"))
+
+
+def scene_path(given: str) -> Path:
+    """Return the file of a scene, or of the shipped one of this name."""
     shipped = SHIPPED / f"{given}.toml"
     return shipped if not Path(given).exists() and shipped.exists() else Path(given)

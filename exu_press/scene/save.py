@@ -16,7 +16,7 @@ from exu_press.scene.joints import Joints
 if TYPE_CHECKING:
     from exu_press.scene.scene import Scene
 
-__all__ = ["save_scene"]
+__all__ = ["joint_lines", "save_scene", "table_lines"]
 
 
 def save_scene(
@@ -39,31 +39,41 @@ def save_scene(
             f"{path}: exists, and its comments would be lost; allowed is another name, or "
             "overwrite=True"
         )
-    lines = _lines(scene, comments)
+    lines = table_lines(scene, comments)
     for field in dataclasses.fields(scene):
         table = getattr(scene, field.name)
         if isinstance(table, Joints):
-            lines += _joint_lines(table, scene, comments)
+            lines += joint_lines(table, scene, comments)
         elif isinstance(table, Table):
-            lines += ["", f"[{field.name}]", *_lines(table, comments)]
+            lines += ["", f"[{field.name}]", *table_lines(table, comments)]
     if isinstance(scene.mechanism, Mechanism):
         lines += ["", *mechanism_lines(scene.mechanism, "mechanism.")]
     with replacing(path) as partial:
         partial.write_text("\n".join([*lines, ""]), encoding="utf-8")
 
 
-def _lines(table: Table, comments: bool) -> list[str]:
-    """Return the keys of one table; None is what the scene does not use."""
+def table_lines(table: Table, comments: bool, *, absent: bool = False) -> list[str]:
+    """Return the keys of one table.
+
+    Args:
+        table: of a scene, or the scene.
+        comments: write meaning and unit behind every key.
+        absent: name the keys that the scene does not use or give, too, as comments.
+    """
     values = {field: getattr(table, field.name) for field in dataclasses.fields(table)}
     keys = {
-        f"{field.name} = {_text(value)}": _meaning(field.metadata)
+        f"# {field.name} =" if value is None else f"{field.name} = {_text(value)}": _meaning(
+            field.metadata
+        )
         for field, value in values.items()
-        if value is not None and "meaning" in field.metadata and not isinstance(value, Mechanism)
+        if "meaning" in field.metadata
+        and (absent or value is not None)
+        and not isinstance(value, Mechanism)
     }
     return _commented(keys) if comments else list(keys)
 
 
-def _joint_lines(joints: Joints, scene: "Scene", comments: bool) -> list[str]:
+def joint_lines(joints: Joints, scene: "Scene", comments: bool) -> list[str]:
     """Return the joints with clearance, group by group; without any, all joints are ideal."""
     lines = [] if joints.grouped else ["", "[joints]"]
     for name, joint in joints.grouped.items():
@@ -87,6 +97,8 @@ def _text(value: Any) -> str:
     """Return a value in TOML: JSON's texts and switches are TOML's, and so is Python's float."""
     if isinstance(value, Mapping):
         return "{" + ", ".join(f"{key} = {_text(inner)}" for key, inner in value.items()) + "}"
+    if type(value) is float and float(short := f"{value:g}") == value:
+        return short if set(short) & set(".e") else f"{short}.0"
     return repr(value) if type(value) in (float, int) else json.dumps(value, ensure_ascii=False)
 
 

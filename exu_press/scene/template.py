@@ -1,0 +1,60 @@
+"""A scene file to start from."""
+
+import dataclasses
+import textwrap
+from collections.abc import Iterator
+
+from exu_press.checks import Table
+from exu_press.scene.joints import Joints
+from exu_press.scene.save import joint_lines, table_lines
+from exu_press.scene.scene import TABLES, Scene
+
+__all__ = ["template"]
+
+
+def template(mechanism: str, shown: str = "") -> str:
+    """Return a scene of a mechanism as TOML: what it uses as it stands, the rest as comments.
+
+    Every key has its meaning and unit behind it; a table that is not in use has its defaults.
+
+    Args:
+        mechanism: name of a shipped one, or the path of a mechanism file.
+        shown: that path as the scene is to have it.
+
+    Raises:
+        InputError: there is no such mechanism.
+    """
+    scene = Scene.from_dict({"mechanism": mechanism})
+    own = [] if isinstance(scene.mechanism, str) else [f'mechanism = "{shown or mechanism}"']
+    return "\n".join([*own, *_lines(scene), ""])
+
+
+def _lines(scene: Scene) -> Iterator[str]:
+    yield "# Lines that begin with # are not in use; every key can be left out: it has its default."
+    yield from table_lines(scene, True)
+    for field in dataclasses.fields(scene):
+        value = getattr(scene, field.name)
+        if isinstance(value, Joints):
+            yield from ("", *_all_joints(value), *joint_lines(value, scene, True))
+            if not value.grouped:  # an example
+                name = list(value)[-1]
+                example = scene.replace(f"joints.{name}", "dry")
+                shown = joint_lines(example.joints, example, True)[1:]
+                yield from ("", *(f"# {line}" for line in shown))
+        elif isinstance(value, Table):
+            yield from ("", f"[{field.name}]", *table_lines(value, True, absent=True))
+        elif (kind := TABLES.get(field.name)) is not None and field.name not in OF_MECHANISMS:
+            told = (kind.__doc__ or "").splitlines()[0]
+            lines = f"[{field.name}]  # {told}", *table_lines(kind(), True, absent=True)
+            yield from ("", *(f"# {line.removeprefix('# ')}" for line in lines))
+
+
+OF_MECHANISMS = ("press", "slider_crank")
+"""Tables of other mechanisms than the scene's, which it could not use."""
+
+
+def _all_joints(joints: Joints) -> list[str]:
+    """Return as comments which joints the mechanism has, and which groups of them."""
+    named = [f"joints: {', '.join(joints)}"]
+    named += [f"group {name}: {', '.join(members)}" for name, members in joints.groups.items()]
+    return [f"# {line}" for text in named for line in textwrap.wrap(text, 98)]

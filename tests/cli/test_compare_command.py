@@ -1,0 +1,67 @@
+"""exu-press compare: scenes and finished runs side by side."""
+
+import json
+
+import pytest
+
+from exu_press import Result, load_scene
+from exu_press.cli import main
+
+QUICK = ["--set", "revolutions=0.01", "--no-pictures"]
+
+
+@pytest.fixture
+def mine(tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text('mechanism = "slider_crank"\nrevolutions = 0.01\njoints.wrist_pin = "dry"\n')
+    return path
+
+
+def test_scenes_and_a_result(mine, tmp_path, capsys):
+    """Another mechanism, a result as it was, and the same name twice."""
+    first = tmp_path / "first"
+    assert main(["run", "press", *QUICK, "--out", str(first)]) == 0
+    capsys.readouterr()
+    out, was = tmp_path / "out", (first / "run.nc").read_bytes()
+    given = [str(mine), "press", str(first / "run.nc"), str(first)]
+    assert main(["compare", *given, *QUICK, "--out", str(out)]) == 0
+    captured = capsys.readouterr()
+    head = captured.out.splitlines()[0]
+    assert head.split("  ")[-4:] == ["mine", "press", "first", "first 2"] or "first 2" in head
+    comparison = json.loads((out / "comparison.json").read_text())
+    assert list(comparison) == ["mine", "press", "first", "first 2"]
+    assert comparison["mine"]["joints"]["wrist_pin"]["kind"] == "dry"
+    assert "first ..." not in captured.err, "a result is not run again"
+    assert (first / "run.nc").read_bytes() == was
+    assert Result.load(out / "mine" / "run.nc").scene == load_scene(mine)
+
+
+def test_variants_of_the_joints_that_a_scene_has(mine, tmp_path):
+    assert main(["compare", str(mine), "--no-pictures", "--quiet", "--out", str(tmp_path)]) == 0
+    comparison = json.loads((tmp_path / "comparison.json").read_text())
+    kinds = {label: run["joints"]["wrist_pin"]["kind"] for label, run in comparison.items()}
+    assert kinds == {"ideal": "ideal", "dry": "dry", "lubricated": "lubricated"}
+    assert {run["joints"]["crank_pin"]["kind"] for run in comparison.values()} == {"ideal"}
+
+
+def test_pictures_of_two_mechanisms(mine, tmp_path):
+    arguments = ["compare", str(mine), "press", "--set", "revolutions=0.01", "--quiet"]
+    assert main([*arguments, "--out", str(tmp_path)]) == 0
+    for name in ("compare_slider.png", "compare_force.png"):
+        assert (tmp_path / name).stat().st_size > 10_000
+
+
+def test_wrong_input_is_refused_before_anything_is_run(mine, tmp_path, capsys):
+    out = tmp_path / "out"
+    result = tmp_path / "one"
+    assert main(["run", str(mine), "--no-pictures", "--quiet", "--out", str(result)]) == 0
+    for arguments, message in (
+        (["press", "no_such_file.toml"], "no_such_file.toml: cannot be read"),
+        (["press", str(tmp_path / "none.nc")], "none.nc: cannot be read"),
+        ([str(result)], "a result alone; allowed are two or more, or a scene alone"),
+        ([str(result)] * 2 + ["--set", "gravity=0"], "--set gravity=0: changes scenes, and none"),
+    ):
+        assert main(["compare", *arguments, "--out", str(out)]) == 2
+        error = capsys.readouterr().err
+        assert message in error and error.count("\n") == 1
+        assert not out.exists()

@@ -1,0 +1,46 @@
+"""A scene file to start from: what it says is the mechanism's own scene, what it hides is right."""
+
+import dataclasses
+
+import pytest
+
+from exu_press import InputError, Scene, load_scene
+from exu_press.scene.scene import TABLES
+from exu_press.scene.template import template
+
+
+@pytest.mark.parametrize("mechanism", ["press", "slider_crank", "four_bar"])
+def test_it_is_the_mechanisms_own_scene(mechanism, tmp_path):
+    path = tmp_path / "scene.toml"
+    path.write_text(template(mechanism))
+    assert load_scene(path) == Scene(mechanism=mechanism)
+
+
+def test_every_key_is_there_with_its_meaning_and_every_joint_is_named():
+    text = template("press")
+    for name, kind in {"": Scene, **TABLES}.items():
+        for field in dataclasses.fields(kind):
+            if "meaning" in field.metadata and name != "slider_crank":
+                line = next(x for x in text.splitlines() if x.lstrip("# ").startswith(field.name))
+                assert "  # " in line, field.name
+    for joint in Scene().joints:
+        assert joint in text
+    assert "# group balls: ball_left, ball_right" in text
+
+
+@pytest.mark.parametrize("table", ["blanking", "guide"])
+def test_a_table_that_is_not_in_use_is_right_when_it_is_put_to_use(table, tmp_path):
+    """Its defaults; a key without one is left out."""
+    lines, inside = [], False
+    for line in template("press").splitlines():
+        inside = line.startswith(f"# [{table}]") or (inside and line.startswith("# "))
+        given = line.partition("  #")[0].partition("=")[2].strip() or line.startswith("# [")
+        lines.append(line.removeprefix("# ") if inside and given else line)
+    path = tmp_path / "scene.toml"
+    path.write_text("\n".join(lines))
+    assert load_scene(path) == Scene().replace(table, {})
+
+
+def test_an_unknown_mechanism_is_refused():
+    with pytest.raises(InputError, match="mechanism = 'presss': allowed is one of"):
+        template("presss")

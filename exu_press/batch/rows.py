@@ -4,16 +4,31 @@ import json
 import os
 from pathlib import Path
 from types import TracebackType
-from typing import Any
+from typing import TypedDict
 
 from exu_press.batch.task import FAILED, TIME_LIMIT, WORKER_DIED, Row
 from exu_press.errors import InputError
+from exu_press.stored import from_json
 
 __all__ = ["RowFile"]
 
 
+class Record(TypedDict):
+    """A line.
+
+    Attributes:
+        key: of the task.
+        time_limit: that it had, s.
+        row: with its status and reason, both texts.
+    """
+
+    key: str
+    time_limit: float | None
+    row: Row
+
+
 class RowFile:
-    """runs.jsonl: every line holds a task's key, the time limit it had (s or null) and its row.
+    """runs.jsonl: every line is the record of a task.
 
     A line without its end is what a kill in the middle of a write leaves; it is cut off. Used as a
     context manager, under the directory's lock.
@@ -40,13 +55,16 @@ class RowFile:
 
     def _read(self, number: int, line: bytes) -> None:
         try:
-            record = json.loads(line)
-            self._found[record["key"]] = (dict(record["row"]), record["time_limit"])
-        except (ValueError, KeyError, TypeError):
+            record = from_json(Record, line, "its text")
+            for name in ("status", "reason"):
+                if not isinstance(record["row"].get(name), str):
+                    raise InputError(f"row.{name}: allowed is a text")
+        except InputError as error:
             raise InputError(
-                f"{self._path}, line {number}: not a row of a batch; allowed is a directory of "
-                "its own for every batch"
+                f"{self._path}, line {number}: not a row of a batch ({error}); allowed is a "
+                "directory of its own for every batch"
             ) from None
+        self._found[record["key"]] = record["row"], record["time_limit"]
 
     def finished(self, key: str, time_limit: float | None) -> Row | None:
         """Return a task's row, or None if the task is to be run (again).
@@ -66,7 +84,7 @@ class RowFile:
         Raises:
             InputError: it cannot be written, as on a full disk.
         """
-        record: dict[str, Any] = {"key": key, "time_limit": time_limit, "row": row}
+        record: Record = {"key": key, "time_limit": time_limit, "row": row}
         line = json.dumps(record, separators=(",", ":"), allow_nan=False) + "\n"
         try:
             self._file.write(line.encode())

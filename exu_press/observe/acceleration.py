@@ -12,6 +12,9 @@ __all__ = ["differentiated_peak", "mean_peak", "peak"]
 
 Array = NDArray[np.float64]
 
+MOST_SAMPLES = 10_000_000
+"""Of a displacement; they take 80 MB a copy."""
+
 
 def peak(values: Array) -> float:
     """Return the largest magnitude."""
@@ -50,10 +53,10 @@ def differentiated_peak(
         rate: samples per second.
 
     Returns:
-        None where the record holds fewer than three samples.
+        None where the record holds fewer than three samples, or more than MOST_SAMPLES.
     """
     count = int((time[-1] - time[0]) * rate * (1 + 1e-12)) + 1
-    if count < 3:
+    if not 3 <= count <= MOST_SAMPLES:
         return None
     samples = CubicHermiteSpline(time, position, velocity)(time[0] + np.arange(count) / rate)
     return peak(np.diff(samples, 2) * rate**2)

@@ -43,11 +43,13 @@ def bottom_dead_centres(
     """
     first = np.ceil((crank_angle[0] - np.pi + REACH) / (2 * np.pi) - 1e-9)
     last = np.floor((crank_angle[-1] - np.pi - REACH) / (2 * np.pi) + 1e-9)
+    strokes = np.round((crank_angle - np.pi) / (2 * np.pi))
+    near = np.abs(crank_angle - np.pi - 2 * np.pi * strokes) <= REACH
+    near &= (strokes >= first) & (strokes <= last)
     found = []
-    for stroke in np.arange(first, last + 1):
-        near = np.abs(crank_angle - np.pi - 2 * np.pi * stroke) <= REACH
-        if near.any():
-            lowest = int(np.flatnonzero(near)[np.argmin(position[near])])
+    for stroke in np.split(np.flatnonzero(near), np.flatnonzero(np.diff(strokes[near])) + 1):
+        if len(stroke):
+            lowest = int(stroke[np.argmin(position[stroke])])
             instant, height = _minimum(time, position, velocity, lowest)
             angle = float(np.interp(instant, time, crank_angle))
             found.append(DeadCentre(instant, angle, height))

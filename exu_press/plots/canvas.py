@@ -10,7 +10,7 @@ from matplotlib.text import Annotation
 from numpy.typing import NDArray
 
 from exu_press.plots.decimate import decimate
-from exu_press.plots.words import describe, early_stops
+from exu_press.plots.words import describe, early_stops, plain
 from exu_press.result import Result
 
 __all__ = ["angle_range", "crank_degrees", "curve", "legend_above", "new_figure"]
@@ -30,7 +30,7 @@ def new_figure(heading: str, results: Mapping[str, Result], size: tuple[float, f
     letters = int(12.5 * size[0])
     scenes = [result.scene for result in results.values()]
     lines = [describe(scenes, letters), early_stops(results, letters)]
-    text = "\n".join(["", *filter(None, lines)])  # an empty line, where the heading goes
+    text = plain("\n".join(["", *filter(None, lines)]))  # an empty line, where the heading goes
     below = figure.suptitle(text, x=0.012, ha="left", fontsize=9.5, linespacing=1.45)
     figure.add_artist(
         Annotation(heading, (0, 1), xycoords=below, va="top", fontsize=13, fontweight="bold")

@@ -10,6 +10,7 @@ from exu_press.plots.canvas import angle_range, crank_degrees, curve, new_figure
 from exu_press.plots.scales import crank_angle_axis, impact_scale, note
 from exu_press.plots.sides import joint_titles
 from exu_press.plots.style import colour_of, styled
+from exu_press.plots.words import plain
 from exu_press.result import Result
 
 __all__ = ["force_figure"]
@@ -46,7 +47,9 @@ def force_figure(results: Mapping[str, Result]) -> Figure:
         for index, (label, result) in enumerate(results.items()):
             if channel in result:
                 values = scale * _magnitude(result[channel])
-                curve(axes, result, values, color=colour_of(index), linewidth=0.9, label=label)
+                curve(
+                    axes, result, values, color=colour_of(index), linewidth=0.9, label=plain(label)
+                )
                 curves.append((crank_degrees(result), values))
         signed = any(values.min() < -1e-3 * values.max() for _, values in curves)
         note(axes, impact_scale(axes, curves, signed=signed))

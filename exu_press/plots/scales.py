@@ -15,17 +15,21 @@ __all__ = ["angle_ticks", "crank_angle_axis", "impact_scale", "note", "widen"]
 Array = NDArray[np.float64]
 
 TICK_STEPS = (0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 45, 90, 180, 360)  # deg
+MOST_CENTRES = 100
+"""More dead centres than this would hide the curves; they are not marked."""
+
 DWARFED = 6.0
 """An axis is logarithmic where its peak is more than this times what most of the run shows."""
 
 
 def crank_angle_axis(panels: Iterable[Axes], low: float, high: float) -> None:
-    """Give panels a common crank angle axis (deg) with the dead centres marked.
+    """Give panels a common crank angle axis (deg) with the dead centres marked, unless many.
 
     The labels stand where matplotlib shows them: under the lowest of panels that share an axis.
     """
     high = max(high, low + 1e-3)
-    ticks, centres = angle_ticks(low, high), _multiples(180.0, low, high)
+    ticks = angle_ticks(low, high)
+    centres = _multiples(180.0, low, high) if high - low < 180.0 * MOST_CENTRES else ()
     for axes in panels:
         axes.set_xlim(low, high)
         axes.xaxis.set_major_locator(FixedLocator(list(ticks)))

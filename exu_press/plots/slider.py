@@ -11,6 +11,7 @@ from exu_press.plots.canvas import angle_range, crank_degrees, curve, new_figure
 from exu_press.plots.decimate import decimate
 from exu_press.plots.scales import crank_angle_axis, impact_scale, note, widen
 from exu_press.plots.style import IDEAL, colour_of, styled
+from exu_press.plots.words import plain
 from exu_press.result import Result
 from exu_press.scene import mechanism_of
 
@@ -71,7 +72,7 @@ def _draw_run(panels: Panels, result: Result, ideal: Motion, label: str, colour:
     """Draw one run in all six panels."""
     position, velocity = result["slider_position"], result["slider_velocity"]
     thick, thin = {"color": colour, "linewidth": 2.0}, {"color": colour, "linewidth": 0.9}
-    curve(panels[0, 0], result, 1e3 * position, **thick, label=label)
+    curve(panels[0, 0], result, 1e3 * position, **thick, label=plain(label))
     curve(panels[0, 1], result, 1e6 * (position - ideal[0]), **thin)
     curve(panels[1, 0], result, velocity, **thick)
     curve(panels[1, 1], result, 1e3 * (velocity - ideal[1]), **thin)

@@ -12,7 +12,7 @@ from exu_press.plots.save import save_figure
 from exu_press.plots.style import styled
 from exu_press.plots.sweep_panels import draw_curves, draw_map
 from exu_press.plots.sweep_words import setting, words
-from exu_press.plots.words import describe
+from exu_press.plots.words import describe, plain
 from exu_press.studies.sweep import Table
 from exu_press.studies.sweep.shown import shown
 
@@ -55,7 +55,7 @@ def sweep_figure(table: Table, axes: Sequence[str], quantities: Sequence[str]) -
     columns = min(2, len(quantities))
     rows = -(-len(quantities) // columns)
     figure = Figure(figsize=(6.4 * columns, 1.0 + 3.7 * rows), layout="constrained")
-    text = f"\n{_words(table, int(80 * columns))}"
+    text = plain(f"\n{_words(table, int(80 * columns))}")
     below = figure.suptitle(text, x=0.012, ha="left", fontsize=9.5, linespacing=1.45)
     heading = f"{len(table)} runs over {' and '.join(map(words, axes))}"
     figure.add_artist(
@@ -101,7 +101,7 @@ def _curves(table: Table, axes: Sequence[str]) -> dict[str, list[int]] | None:
     others = [name for name in table.study.keys if name != axes[0] and len(set(table[name])) > 1]
     found: dict[str, list[int]] = {}
     for run in everything:
-        label = ", ".join(setting(name, table[name][run]) for name in others)
+        label = plain(", ".join(setting(name, table[name][run]) for name in others))
         found.setdefault(label, []).append(run)
     if len(found) <= MOST_CURVES:
         return found

@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterable, Mapping
 from exu_press.result import Result
 from exu_press.scene import Scene, mechanism_of
 
-__all__ = ["describe", "early_stops", "joint_in_words"]
+__all__ = ["describe", "early_stops", "joint_in_words", "plain"]
 
 SEPARATOR = "  ·  "
 CROSS = "\N{MULTIPLICATION X}"  # as it marks the end of the curves
@@ -50,7 +50,12 @@ def joint_in_words(name: str) -> str:
     """
     for side in ("left", "right"):
         name = name.replace(f"_{side}", f", {side}")
-    return name.replace("_", " ").capitalize()
+    return plain(name.replace("_", " ").capitalize())
+
+
+def plain(text: str) -> str:
+    """Return a text as matplotlib draws it: as it stands, nothing in it a formula."""
+    return text.replace("$", r"\$")
 
 
 def _parts(scene: Scene, joints: Collection[str]) -> dict[str, str]:

@@ -1,8 +1,8 @@
 """The report of a comparison: its variants side by side."""
 
-import json
 import tempfile
 from pathlib import Path
+from typing import Any
 
 from exu_press.errors import InputError
 from exu_press.observe.table import comparison_cells
@@ -12,6 +12,7 @@ from exu_press.report.html import items, page, picture, table
 from exu_press.report.run import scene_parts
 from exu_press.report.warnings import warnings_of
 from exu_press.result import Result
+from exu_press.stored import from_json, shown
 
 __all__ = ["comparison_report"]
 
@@ -23,16 +24,7 @@ CAPTIONS = {
 
 def comparison_report(file: Path) -> str:
     """Return the page of a comparison, from comparison.json and the variants' run.nc beside it."""
-    try:
-        labels = list(json.loads(file.read_text(encoding="utf-8")))
-    except OSError as error:
-        raise InputError(f"{file}: cannot be read ({error.strerror})") from None
-    except ValueError:
-        raise InputError(f"{file}: not a comparison of exu_press") from None
-    places = {label: file.parent / label.replace(" ", "_") / "run.nc" for label in labels}
-    results = {label: Result.load(path) for label, path in places.items()}
-    if not results:
-        raise InputError(f"{file}: not a comparison of exu_press")
+    results = {label: Result.load(path) for label, path in _runs(file).items()}
     summaries = {label: result.summary() for label, result in results.items()}
     head, *rows = comparison_cells(summaries)
     with tempfile.TemporaryDirectory() as folder:
@@ -56,3 +48,20 @@ def comparison_report(file: Path) -> str:
             *scene_parts(richest.scene),
         ],
     )
+
+
+def _runs(file: Path) -> dict[str, Path]:
+    """Return the variants' results, beside the file, by label."""
+    try:
+        labels = from_json(dict[str, Any], file.read_bytes(), "its text")
+        if not labels:
+            raise InputError("it is empty")
+    except OSError as error:
+        raise InputError(f"{file}: cannot be read ({error.strerror})") from None
+    except InputError as error:
+        raise InputError(f"{file}: not a comparison of exu_press: {error}") from None
+    names = {label: label.replace(" ", "_") for label in labels}
+    for label, name in names.items():
+        if Path(name).name != name or not name.isprintable():
+            raise InputError(f"{file}: {shown(label)}: allowed is the name of a variant")
+    return {label: file.parent / name / "run.nc" for label, name in names.items()}

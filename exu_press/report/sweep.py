@@ -1,17 +1,19 @@
 """The report of a sweep: its runs as a table and a picture."""
 
 import csv
-import json
 import tempfile
 from collections import Counter
 from pathlib import Path
+from typing import Any
 
+from exu_press.checks import table_from
 from exu_press.errors import InputError
 from exu_press.plots.sweep import save_sweep
 from exu_press.plots.words import describe
 from exu_press.report.html import items, page, paragraph, picture, table
 from exu_press.report.run import scene_parts
 from exu_press.scene.warnings import scene_warnings
+from exu_press.stored import LARGEST, from_json
 from exu_press.studies.sweep import Study, Table
 from exu_press.studies.sweep.shown import shown
 from exu_press.studies.sweep.units import unit_of
@@ -56,31 +58,33 @@ def sweep_report(file: Path) -> str:
 def _table(file: Path) -> Table:
     """Return the table that a sweep wrote; columns that its runs lack stay empty."""
     try:
-        study = Study(**json.loads((file.parent / "study.json").read_text(encoding="utf-8")))
+        stored = (file.parent / "study.json").read_bytes()
         with file.open(encoding="utf-8", newline="") as stream:
             head, *lines = csv.reader(stream)
+        columns = [tuple(map(_value, column)) for column in zip(*lines, strict=True)]
+        table = dict(zip(head, columns, strict=True))
+        study = table_from(Study, "", from_json(dict[str, Any], stored, "study.json"))
     except OSError as error:
         raise InputError(f"{error.filename}: cannot be read ({error.strerror})") from None
-    except (ValueError, TypeError) as error:
-        if isinstance(error, InputError):
-            raise
+    except InputError as error:
+        raise InputError(f"{file}: not a sweep of exu_press: {error}") from None
+    except (ValueError, TypeError, csv.Error):
         raise InputError(f"{file}: not a sweep of exu_press") from None
-    if len(lines) != len(study.points) or not {"status", "reason", *study.keys} <= set(head):
+    asked = {name: tuple(point[name] for point in study.points) for name in study.keys}
+    if not {"status", "reason"} <= set(head) or any(table.get(n) != asked[n] for n in asked):
         raise InputError(f"{file}: does not belong to the study.json beside it")
-    columns = zip(*lines, strict=True)
-    return Table(
-        study, {name: tuple(map(_value, c)) for name, c in zip(head, columns, strict=True)}
-    )
+    return Table(study, table)
 
 
 def _value(text: str) -> str | float | bool | None:
-    """Return what a cell holds."""
+    """Return what a cell holds; what is no finite number is a text."""
     if text in ("true", "false"):
         return text == "true"
     try:
-        return float(text)
+        number = float(text)
     except ValueError:
         return text or None
+    return number if abs(number) < LARGEST else text
 
 
 def _cell(value: str | float | bool | None) -> str:

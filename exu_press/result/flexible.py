@@ -1,12 +1,13 @@
 """What flexible crank and linkage do: deformation, energy, stress."""
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.model import Model
 from exu_press.result.energy import work
+from exu_press.result.info import Stress
 from exu_press.result.motion import body_motion, sensor
 from exu_press.result.result import Channel
 
@@ -56,9 +57,9 @@ def record_parts(model: Model, time: Array) -> tuple[dict[str, Channel], Array, 
     return channels, stored, dissipated
 
 
-def worst_stress(model: Model, time: Array) -> dict[str, Any]:
+def worst_stress(model: Model, time: Array) -> dict[str, Stress]:
     """Return the largest von Mises stress (Pa) of each part when its elastic energy is largest."""
-    worst = {}
+    worst: dict[str, Stress] = {}
     for name, part in model.parts.items():
         if part.mode_count and len(part.stress):
             q, _ = modal(model, name, part, len(time))

@@ -1,19 +1,26 @@
 """A result as a NetCDF file: units and names as attributes, the complete scene inside."""
 
 import json
-import warnings
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.io import netcdf_file
 
 from exu_press.errors import InputError
 from exu_press.output import replacing
+from exu_press.result.classic import Classic, Variable, open_classic
+from exu_press.result.info import Info
 from exu_press.result.result import AXES, Channel, Result
 from exu_press.result.surface import ARRAYS, Surface
 from exu_press.scene import Scene
+from exu_press.stored import from_json, shown
 
 __all__ = ["is_whole", "read", "write"]
+
+Number = TypeVar("Number", bound=np.generic)
 
 FORMAT = "exu_press result 1"
 
@@ -47,44 +54,56 @@ def write(result: Result, path: Path) -> None:
 def read(path: Path) -> Result:
     """Return the result in a file."""
     try:
-        with netcdf_file(path, "r", mmap=False) as file:
-            if getattr(file, "format", b"").decode() != FORMAT:
-                raise InputError(f"{path}: not a result of exu_press")
-            channels = {
-                name: Channel(
-                    np.array(variable[:], dtype=float),
-                    variable.units.decode(),
-                    variable.long_name.decode(),
-                    "" if variable.dimensions[-1] == "time" else variable.dimensions[-1],
-                )
+        file = open_classic(path)
+        if file.attributes.get("format") != FORMAT.encode():
+            raise InputError(f"has no format = {FORMAT!r}")
+        scene = from_json(dict[str, Any], _text(file.attributes, "scene"), "scene")
+        return Result(
+            scene=Scene.from_dict(scene),
+            channels={
+                name: _channel(name, variable)
                 for name, variable in file.variables.items()
-                if variable.dimensions[0] == "time"
-            }
-            return Result(
-                scene=Scene.from_dict(json.loads(file.scene)),
-                channels=channels,
-                info=json.loads(file.info),
-                bodies=tuple(json.loads(file.bodies)),
-                surfaces=_surfaces(file),
-            )
+                if next(iter(variable.dimensions), "") == "time"
+            },
+            info=from_json(Info, _text(file.attributes, "info"), "info"),
+            bodies=from_json(tuple[str, ...], _text(file.attributes, "bodies"), "bodies"),
+            surfaces=_surfaces(file),
+        )
     except OSError as error:
         raise InputError(f"{path}: cannot be read ({error.strerror or error})") from None
-    except (TypeError, ValueError, AttributeError, KeyError, IndexError) as error:
-        if isinstance(error, InputError):
-            raise
-        raise InputError(f"{path}: not a result of exu_press") from None
+    except InputError as error:
+        raise InputError(f"{path}: not a result of exu_press, or damaged: {error!s:.400}") from None
+
+
+def _text(attributes: Mapping[str, bytes], name: str) -> str:
+    """Return a text of a file or a variable."""
+    if name not in attributes:
+        raise InputError(f"has no {name}")
+    try:
+        return attributes[name].decode()
+    except UnicodeDecodeError:
+        raise InputError(f"{name} = {shown(attributes[name])}: allowed is UTF-8") from None
+
+
+def _channel(name: str, variable: Variable) -> Channel:
+    """Return a channel; its last dimension says what its columns are."""
+    _, *inner = variable.dimensions
+    try:
+        return Channel(
+            variable.values(np.float64),
+            _text(variable.attributes, "units"),
+            _text(variable.attributes, "long_name"),
+            inner[-1] if inner else "",
+        )
+    except InputError as error:
+        raise InputError(f"channel {shown(name)}: {error}") from None
 
 
 def is_whole(path: Path) -> bool:
-    """Return whether a result's file is there and of the length that its head tells.
-
-    Only the head is read.
-    """
+    """Return whether a file is there and of the length that its head tells, which alone is read."""
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", RuntimeWarning)  # of views that are gone by then
-            netcdf_file(path, "r", mmap=True).close()
-    except (OSError, TypeError, ValueError, IndexError):
+        open_classic(path)
+    except (OSError, InputError):
         return False
     return True
 
@@ -106,20 +125,26 @@ def _write_surface(file: netcdf_file, body: str, surface: Surface) -> None:
         variable.long_name = f"{body}: {words}"
 
 
-def _surfaces(file: netcdf_file) -> dict[str, Surface]:
+def _surfaces(file: Classic) -> dict[str, Surface]:
     """Return the surfaces in a file, by body."""
     suffix = "_surface_nodes"
-    surfaces = {}
-    for name in file.variables:
-        if name.endswith(suffix):
-            body = name.removesuffix(suffix)
-            stored = {
-                array: np.array(file.variables[f"{body}_surface_{array}"][:])
-                for array in ARRAYS
-                if f"{body}_surface_{array}" in file.variables
-            }
-            modes = stored["modes"].shape[-1]
-            stored.setdefault("stress", np.zeros((0, 6, modes), dtype=np.float32))
-            native = {k: v.astype(v.dtype.newbyteorder("=")) for k, v in stored.items()}
-            surfaces[body] = Surface(**native)
-    return surfaces
+    bodies = [name.removesuffix(suffix) for name in file.variables if name.endswith(suffix)]
+    return {body: _surface(file, body) for body in bodies}
+
+
+def _surface(file: Classic, body: str) -> Surface:
+    """Return the surface of a body; in a file without stresses there are none."""
+
+    def stored(array: str, dtype: type[Number]) -> NDArray[Number]:
+        if f"{body}_surface_{array}" not in file.variables:
+            raise InputError(f"has no {array}")
+        return file.variables[f"{body}_surface_{array}"].values(dtype)
+
+    try:
+        modes = stored("modes", np.float32)
+        stress = np.zeros((0, 6, modes.shape[-1]), np.float32)
+        if f"{body}_surface_stress" in file.variables:
+            stress = stored("stress", np.float32)
+        return Surface(stored("nodes", np.float32), stored("triangles", np.int32), modes, stress)
+    except InputError as error:
+        raise InputError(f"surface of {shown(body)}: {error}") from None

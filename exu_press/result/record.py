@@ -2,7 +2,6 @@
 
 import importlib.metadata
 import platform
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +13,7 @@ from exu_press.result.equilibrium import equilibrium
 from exu_press.result.flexible import record_parts, worst_stress
 from exu_press.result.forces import frame_force, held_forces
 from exu_press.result.guides import record_guides
+from exu_press.result.info import Info
 from exu_press.result.joints import joint_states, record_joints
 from exu_press.result.momentum import shaking_forces
 from exu_press.result.motion import body_motion, sensor
@@ -101,11 +101,11 @@ def record(model: Model, outcome: Outcome) -> Result:
     )
 
 
-def _info(model: Model, outcome: Outcome, time: Array) -> dict[str, Any]:
+def _info(model: Model, outcome: Outcome, time: Array) -> Info:
     """Return status, statistics, sizes and versions."""
     mbs = model.mbs
     packages = ("exu-press", "exudyn", "numpy", "scipy")
-    return {
+    info: Info = {
         "status": outcome.status.value,
         "reason": outcome.reason,
         "end_time": outcome.end_time,
@@ -114,7 +114,6 @@ def _info(model: Model, outcome: Outcome, time: Array) -> dict[str, Any]:
         "rejected_steps": outcome.rejected_steps,
         "newton_iterations": outcome.newton_iterations,
         "law_evaluations": outcome.law_evaluations,
-        **({"stress": worst_stress(model, time)} if model.parts else {}),
         "coordinates": mbs.systemData.ODE2Size(),
         "bodies": len(model.nodes),
         "connectors": mbs.systemData.NumberOfObjects() - len(model.nodes) - 1,
@@ -123,3 +122,6 @@ def _info(model: Model, outcome: Outcome, time: Array) -> dict[str, Any]:
             **{name: importlib.metadata.version(name) for name in packages},
         },
     }
+    if model.parts:
+        info["stress"] = worst_stress(model, time)
+    return info

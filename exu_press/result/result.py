@@ -10,10 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.errors import InputError
+from exu_press.result.contents import check_contents
+from exu_press.result.info import Info
 from exu_press.result.joint import JointRecord
 from exu_press.result.surface import Surface
 from exu_press.scene import IdealJoint, Scene
 from exu_press.scene.joint import Joint
+from exu_press.stored import LARGEST
 
 __all__ = ["Channel", "Result"]
 
@@ -38,12 +41,24 @@ class Channel:
         unit: SI.
         long_name: what it is, in words.
         axis: name of the columns: in AXES, or BODY_mode for a flexible body's modes.
+
+    Raises:
+        InputError: the values have another shape, or one of them is no number.
     """
 
     values: Array
     unit: str
     long_name: str
     axis: str = ""
+
+    def __post_init__(self) -> None:
+        """Check the values."""
+        shape, columns = self.values.shape, AXES.get(self.axis)
+        axes = {"": 1, "pose": 3}.get(self.axis, 2)
+        if len(shape) != axes or (columns and shape[-1] != len(columns)):
+            raise InputError(f"{self.long_name}: shape {shape}; columns are {self.axis!r}")
+        if not (np.abs(self.values) < LARGEST).all():
+            raise InputError(f"{self.long_name}: allowed are numbers below {LARGEST:g}")
 
 
 @dataclass(frozen=True)
@@ -56,13 +71,20 @@ class Result:
         info: status, reason and statistics, as they stand in the summary.
         bodies: names of the bodies in `body_position`.
         surfaces: of the flexible bodies, by name, for pictures.
+
+    Raises:
+        InputError: they do not belong together.
     """
 
     scene: Scene
     channels: Mapping[str, Channel]
-    info: Mapping[str, Any]
+    info: Info
     bodies: tuple[str, ...] = field(default=())
     surfaces: Mapping[str, Surface] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        """Check what whoever reads a result relies on."""
+        check_contents(self)
 
     def __getitem__(self, name: str) -> Array:
         """Return the values of a channel."""

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from exu_press.errors import InputError
+
 if TYPE_CHECKING:
     from fe_models import ReducedPart
 
@@ -34,12 +36,33 @@ class Surface:
         triangles: (t, 3), corners by node, outwards counter-clockwise.
         modes: (s, 3, modes).
         stress: (s, 6, modes), Pa per unit of the modal coordinate; (0, 6, modes) if unknown.
+
+    Raises:
+        InputError: an array has another shape, a corner is no node, or a value is no number.
     """
 
     nodes: Array
     triangles: NDArray[np.int32]
     modes: Array
     stress: Array
+
+    def __post_init__(self) -> None:
+        """Check the arrays."""
+        count, modes = len(self.nodes), self.modes.shape[-1]
+        shapes: dict[str, tuple[int, ...]] = {
+            "nodes": (count, 3),
+            "triangles": (len(self.triangles), 3),
+            "modes": (count, 3, modes),
+            "stress": (count if len(self.stress) else 0, 6, modes),
+        }
+        for name, shape in shapes.items():
+            values: NDArray[Any] = getattr(self, name)
+            if values.shape != shape or not (values.size or name == "stress"):
+                raise InputError(f"{name}: shape {values.shape}; allowed is {shape}")
+            if not np.isfinite(values).all():
+                raise InputError(f"{name}: allowed are finite numbers")
+        if self.triangles.min() < 0 or self.triangles.max() >= count:
+            raise InputError(f"triangles: allowed are nodes 0 to {count - 1}")
 
     def displacement(self, coordinates: NDArray[Any]) -> Array:
         """Return the displacement (s, 3) of the nodes for modal coordinates (modes,), m."""

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from exu_press.plots.scales import crank_angle_axis, impact_scale, note
 from exu_press.plots.sides import joint_titles
 from exu_press.plots.style import GREY, look
-from exu_press.plots.words import describe, early_stops
+from exu_press.plots.words import describe, early_stops, plain
 from exu_press.result import Result
 from exu_press.view.curve_panel import CurvePanel
 from exu_press.view.flexible_panel import FlexiblePanel, Look
@@ -74,7 +74,7 @@ class Film:
         figure, result = self.figure, self.result
         width = 150
         lines = [describe([result.scene], width), early_stops({"": result}, width)]
-        figure.text(0.012, 0.975, "\n".join(filter(None, lines)), fontsize=9.0, va="top")
+        figure.text(0.012, 0.975, plain("\n".join(filter(None, lines))), fontsize=9.0, va="top")
         self._clock = figure.text(
             0.988, 0.972, "", fontsize=11, fontweight="bold", va="top", ha="right"
         )

@@ -44,7 +44,22 @@ def test_a_row_is_there_before_the_file_is_closed(tmp_path):
         assert json.loads((tmp_path / "runs.jsonl").read_text())["key"] == "a"
 
 
-@pytest.mark.parametrize("line", ["name,value", "[1, 2]", '{"key": "a"}', ""])
+@pytest.mark.parametrize(
+    "line",
+    [
+        "name,value",
+        "[1, 2]",
+        '{"key": "a"}',
+        "",
+        "[" * 100_000,
+        '{"key": "a", "time_limit": null, "row": {"reason": ""}}',
+        '{"key": "a", "time_limit": null, "row": {"status": 5, "reason": ""}}',
+        '{"key": "a", "time_limit": "long", "row": {"status": "completed", "reason": ""}}',
+        '{"key": ["a"], "time_limit": null, "row": {"status": "completed", "reason": ""}}',
+        '{"key": "a", "time_limit": null, "row": {"status": "completed", "reason": "\\ud800"}}',
+        '{"key": "a", "time_limit": null, "row": {"status": "a", "reason": "", "x": NaN}}',
+    ],
+)
 def test_a_file_of_something_else_is_refused_and_left_alone(tmp_path, line):
     path = tmp_path / "runs.jsonl"
     path.write_text(f"{line}\nsomething")

@@ -1,5 +1,10 @@
+import numpy as np
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
 from exu_press import Scene
-from exu_press.plots.words import describe, early_stops, joint_in_words
+from exu_press.plots.words import describe, early_stops, joint_in_words, plain
 
 
 def test_a_scene_in_words():
@@ -61,3 +66,16 @@ def test_early_stops_are_named(results):
 def test_joint_names():
     assert joint_in_words("ball_right") == "Ball, right"
     assert joint_in_words("knuckle_6_left") == "Knuckle 6, left"
+
+
+@pytest.mark.parametrize("text", [r"$\frac{$", "5 $", r"a\$b$c$", "$$"])
+def test_no_text_is_a_formula(text):
+    """Matplotlib draws it, and draws the same as with formulas switched off."""
+
+    def drawn(shown, **options):
+        figure = Figure()
+        figure.text(0.1, 0.5, shown, **options)
+        FigureCanvasAgg(figure).draw()
+        return np.asarray(figure.canvas.buffer_rgba())
+
+    assert np.array_equal(drawn(plain(text)), drawn(text, parse_math=False))

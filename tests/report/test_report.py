@@ -131,9 +131,18 @@ def test_the_file_names_the_kind(outputs, tmp_path):
         ({}, "no.nc", "cannot be read"),
         ({"run.nc": "x"}, "run.nc", "not a result of exu_press"),
         ({"comparison.json": "{"}, ".", "not a comparison of exu_press"),
-        ({"comparison.json": '["a"]'}, ".", "run.nc: cannot be read"),
+        ({"comparison.json": '{"a": {}}'}, ".", "run.nc: cannot be read"),
+        ({"comparison.json": '["a"]'}, ".", "allowed is a table"),
+        ({"comparison.json": "{}"}, ".", "it is empty"),
+        ({"comparison.json": "[" * 100_000}, ".", "not a comparison of exu_press"),
+        ({"comparison.json": '{"../a": 1}'}, ".", "'../a': allowed is the name of a variant"),
+        ({"comparison.json": r'{"a\u0000": 1}'}, ".", r"'a\x00': allowed is the name of a variant"),
         ({"table.csv": "a\n1\n"}, ".", "study.json: cannot be read"),
         ({"table.csv": "a\n1\n", "study.json": "{}"}, ".", "not a sweep of exu_press"),
+        ({"table.csv": "a\n1\n", "study.json": "[1]"}, ".", "study.json = [1]: allowed is a table"),
+        ({"table.csv": "a\n1\n", "study.json": "[" * 100_000}, ".", "allowed is JSON"),
+        ({"table.csv": "a\n1,2\n1\n", "study.json": "{}"}, ".", "not a sweep of exu_press"),
+        ({"table.csv": "a\n" + 200_000 * "1", "study.json": "{}"}, ".", "not a sweep of exu"),
         ({"summary.json": "{}"}, "summary.json", "allowed is a result file"),
     ],
 )
@@ -155,3 +164,28 @@ def test_where_it_is_written(outputs, tmp_path, capsys):
     assert capsys.readouterr().out.startswith(f"written: {target} (")
     assert main([*command[:-1], str(tmp_path / "page.pdf")]) == 2
     assert main([*command[:-1], str(tmp_path / "no" / "page.html")]) == 2
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [("0.0001,", "0.0003,"), ("0.0001,", "nan,"), ("0.0001,dry", "0.0001,x"), ("status", "state")],
+)
+def test_a_table_that_is_another_study_is_refused(outputs, tmp_path, capsys, old, new):
+    for name in ("table.csv", "study.json"):
+        (tmp_path / name).write_bytes((outputs["sweep"] / name).read_bytes())
+    table = (tmp_path / "table.csv").read_text()
+    assert old in table
+    (tmp_path / "table.csv").write_text(table.replace(old, new))
+    assert main(["report", str(tmp_path)]) == 2
+    assert "does not belong to the study.json beside it" in capsys.readouterr().err
+
+
+def test_hostile_text_of_a_table_is_text(outputs, tmp_path):
+    for name in ("table.csv", "study.json"):
+        (tmp_path / name).write_bytes((outputs["sweep"] / name).read_bytes())
+    table = (tmp_path / "table.csv").read_text()
+    hostile = r"completed,$\frac{$ or $x_$ <script>alert(1)</script>"
+    (tmp_path / "table.csv").write_text(table.replace("completed,", hostile, 1))
+    assert main(["report", str(tmp_path), "--quiet"]) == 0
+    page = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert "<script" not in page and "&lt;script&gt;" in page

@@ -1,5 +1,6 @@
 """Sweeps of real scenes: left alone, killed, in another's directory."""
 
+import json
 import os
 import signal
 import subprocess
@@ -62,6 +63,36 @@ def test_runs_that_stop_early_or_fail_are_rows(tmp_path):
     assert table["status"] == ("completed", "film broke down")
     assert table["reason"][1].startswith("film broke down at t = ")
     assert table["bottom_dead_centre"][1] is not None
+
+
+@pytest.mark.parametrize(
+    ("row", "message"),
+    [
+        ({"status": 5}, "line 1: not a row of a batch"),
+        ({"a b": 1.0}, "not rows of a sweep: 'a b': allowed is the name of a column"),
+        (
+            {"x": {"\u03c9/": 1.0}},
+            "not rows of a sweep: 'x.\u03c9/': allowed is the name of a column",
+        ),
+        ({"energy": {"input": 1.0}, "energy.input": 2.0}, "energy.input: given twice"),
+    ],
+)
+def test_foreign_rows_of_a_resumed_directory_are_refused(tmp_path, row, message):
+    study = Study(scene=IDEAL, list={"speed_rpm": [200.0]})
+    sweep(study, tmp_path, workers=1)
+    record = json.loads((tmp_path / "runs.jsonl").read_text())
+    record["row"] |= row
+    (tmp_path / "runs.jsonl").write_text(json.dumps(record) + "\n")
+    with pytest.raises(InputError, match=message) as caught:
+        sweep(study, tmp_path, workers=1)
+    assert "runs.jsonl" in str(caught.value)
+
+
+def test_a_damaged_study_beside_the_rows_is_another_one(tmp_path):
+    study = Study(scene=IDEAL, list={"speed_rpm": [200.0]})
+    (tmp_path / "study.json").write_text("[" * 100_000)
+    with pytest.raises(InputError, match="belongs to another study"):
+        sweep(study, tmp_path)
 
 
 STUDY = """

@@ -5,16 +5,17 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from exu_press.batch import locked, run_batch
+from exu_press.batch import FILE, locked, run_batch
 from exu_press.errors import InputError
 from exu_press.output import output_directory, write_json
 from exu_press.scene import Scene
+from exu_press.stored import from_json
 from exu_press.studies.sweep.study import Study
 from exu_press.studies.sweep.table import Table, table_of
 
 __all__ = ["run_scene", "sweep"]
 
-OURS = ("study.json", "runs.jsonl", "table.csv", "table.nc")
+OURS = ("study.json", FILE, "table.csv", "table.nc")
 
 
 def sweep(
@@ -62,7 +63,10 @@ def sweep(
             kept=_file_is_whole,
             quiet=quiet,
         )
-        table = table_of(study, rows, files)
+        try:
+            table = table_of(study, rows, files)
+        except InputError as error:
+            raise InputError(f"{directory / FILE}: not rows of a sweep: {error}") from None
         table.save_csv(directory / "table.csv")
         table.save_netcdf(directory / "table.nc")
     return table
@@ -101,8 +105,8 @@ def _claim(directory: Path, study: Study) -> None:
         write_json(path, wanted)
         return
     try:
-        found = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+        found = from_json(dict[str, Any], path.read_bytes(), path.name)
+    except (OSError, InputError):
         found = None
     if found != wanted:
         raise InputError(

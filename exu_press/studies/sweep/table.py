@@ -2,6 +2,7 @@
 
 import csv
 import io
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,13 +11,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from exu_press.errors import InputError
 from exu_press.output import replacing
+from exu_press.stored import shown
 from exu_press.studies.sweep.points import flat
 from exu_press.studies.sweep.study import Study
 
 __all__ = ["TIMES", "Table", "table_of"]
 
 Value = str | float | bool | None
+
+NAME = re.compile(r"[\w.-]+", re.ASCII)
+"""Of a column: what NetCDF takes for a name."""
 
 TIMES = ("wall_time", "total_time")
 """Columns that differ from run to run of the same scene; they stand last."""
@@ -95,7 +101,11 @@ def table_of(study: Study, rows: Sequence[Mapping[str, Any]], files: Sequence[st
 
 def _scalars(row: Mapping[str, Any]) -> dict[str, Any]:
     """Return what is one value, nested names joined by a dot; lists are left to run.nc."""
-    return {name: value for name, value in flat(row).items() if not isinstance(value, list)}
+    scalars = {name: value for name, value in flat(row).items() if not isinstance(value, list)}
+    for name in scalars:
+        if not NAME.fullmatch(name):
+            raise InputError(f"{shown(name)}: allowed is the name of a column")
+    return scalars
 
 
 def _names(rows: Iterable[Mapping[str, Any]]) -> list[str]:

@@ -1,0 +1,112 @@
+"""What a result has to hold, so that whatever reads one can rely on it."""
+
+from collections.abc import Collection, Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from exu_press.errors import InputError
+from exu_press.integrate import Status
+from exu_press.mechanism import Mechanism
+from exu_press.scene import mechanism_of
+from exu_press.stored import shown
+
+if TYPE_CHECKING:
+    from exu_press.result.result import Channel, Result
+
+__all__ = ["check_contents"]
+
+EVERY_RUN = {
+    "time": "",
+    "crank_angle": "",
+    "slider_position": "",
+    "slider_velocity": "",
+    "slider_acceleration": "",
+    "slider_lateral": "",
+    "slider_tilt": "",
+    "drive_torque": "",
+    "drive_power": "",
+    "energy_input": "",
+    "energy_stored": "",
+    "energy_dissipated": "",
+    "frame_force": "plane",
+    "shaking_force": "plane",
+    "body_position": "pose",
+}
+"""The channels of every run -> what their columns are."""
+
+SOME_RUNS = {
+    "shaking_force_without_counterweight": "plane",
+    "blanking_force": "",
+    "blanking_moment": "",
+}
+
+ENDINGS = {"guide_force": "", "guide_moment": "", "_loss": ""}
+"""Of channels whose names begin with what they belong to."""
+
+LARGEST_SINGLE = 1e16
+"""Largest displacement or stress of a surface: its square is a number in single precision."""
+
+
+def check_contents(result: "Result") -> None:
+    """Raise InputError for the first thing in which a result contradicts itself or its scene."""
+    status = result.info["status"]
+    if status not in (each.value for each in Status):
+        allowed = ", ".join(repr(each.value) for each in Status)
+        raise InputError(f"info.status = {shown(status)}: allowed is one of {allowed}")
+    scene, mechanism = result.scene, mechanism_of(result.scene)
+    bodies = tuple(body.name for body in mechanism.bodies)
+    if result.bodies != bodies:
+        raise InputError(
+            f"bodies = {shown(result.bodies)}: allowed are the scene's, {', '.join(bodies)}"
+        )
+    loose = {joint.name for joint in mechanism.joints if scene.joints[joint.name].kind != "ideal"}
+    _check_channels(result.channels, mechanism, loose)
+    _check_surfaces(result)
+
+
+def _check_channels(
+    channels: Mapping[str, "Channel"], mechanism: Mechanism, loose: Collection[str]
+) -> None:
+    """Check which channels there are, and what their columns are."""
+    columns, required = {**EVERY_RUN, **SOME_RUNS}, list(EVERY_RUN)
+    for joint in mechanism.joints:
+        columns[f"{joint.name}_force"] = vector = "space" if joint.spherical else "plane"
+        if joint.name in loose:
+            of_clearance = {"force": vector, "eccentricity": vector, "moment": "ends", "power": ""}
+            found = {f"{joint.name}_{quantity}": axis for quantity, axis in of_clearance.items()}
+            columns |= found
+            required += found
+    for name in required:
+        if name not in channels:
+            raise InputError(f"channel {name}: missing; this scene's results have it")
+    count = len(channels["time"].values)
+    for name, channel in channels.items():
+        if name.endswith("_eccentricity") and name not in required:
+            raise InputError(f"channel {name}: the scene has no such joint with clearance")
+        ending = next((axis for end, axis in ENDINGS.items() if name.endswith(end)), channel.axis)
+        allowed = columns.get(name, ending)
+        if channel.axis != allowed:
+            raise InputError(
+                f"channel {name}: columns are {shown(channel.axis)}; allowed is {allowed!r}"
+            )
+        if len(channel.values) != count:
+            raise InputError(f"channel {name}: {len(channel.values)} values; time has {count}")
+    if channels["body_position"].values.shape[1] != len(mechanism.bodies):
+        raise InputError(f"channel body_position: allowed are {len(mechanism.bodies)} bodies")
+    if count == 0 or not (np.diff(channels["time"].values) > 0.0).all():
+        raise InputError("channel time: allowed are increasing instants, at least one")
+
+
+def _check_surfaces(result: "Result") -> None:
+    """Check that surfaces belong to bodies, and their modes to channels."""
+    for body, surface in result.surfaces.items():
+        if body not in result.bodies:
+            raise InputError(f"surface of {shown(body)}: the scene has no such body")
+        name, modes = f"{body}_modes", surface.modes.shape[-1]
+        if name not in result or result[name].shape[1:] != (modes,):
+            raise InputError(f"channel {name}: allowed are {modes} columns, as the surface's modes")
+        most = modes * np.abs(result[name]).max()
+        for array in (surface.nodes, surface.modes * most, surface.stress * most):
+            if array.size and not np.abs(array).max() < LARGEST_SINGLE:
+                raise InputError(f"surface of {body}: allowed are numbers below {LARGEST_SINGLE:g}")

@@ -1,0 +1,145 @@
+"""Files with something missing, of another type or hostile: refused, with what is wrong where."""
+
+import json
+
+import numpy as np
+import pytest
+from scipy.io import netcdf_file
+
+from exu_press import InputError, Result, Scene, simulate
+from exu_press.cli import main
+
+
+@pytest.fixture(scope="module")
+def original(tmp_path_factory):
+    path = tmp_path_factory.mktemp("run") / "run.nc"
+    simulate(Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=0.05)).save(
+        path
+    )
+    return path
+
+
+@pytest.fixture
+def changed(original, tmp_path):
+    """Return what writes a copy with other texts and variables."""
+
+    def write(texts=None, variables=None):
+        target = tmp_path / "run.nc"
+        with netcdf_file(original, mmap=False) as old, netcdf_file(target, "w", version=2) as new:
+            for name in ("format", "scene", "info", "bodies"):
+                text = (texts or {}).get(name, getattr(old, name))
+                if text is not None:
+                    setattr(new, name, text)
+            for name, length in old.dimensions.items():
+                new.createDimension(name, length)
+            for name, variable in old.variables.items():
+                kept = {"name": name, "dimensions": variable.dimensions, "units": variable.units}
+                kept |= {"long_name": variable.long_name, "values": variable[:].copy()}
+                kept |= (variables or {}).get(name, {})
+                if kept["name"] is None:
+                    continue
+                made = new.createVariable(
+                    kept["name"], kept["values"].dtype.char, kept["dimensions"]
+                )
+                made[:] = kept["values"]
+                for attribute in ("units", "long_name"):
+                    if kept[attribute] is not None:
+                        setattr(made, attribute, kept[attribute])
+        return target
+
+    return write
+
+
+def text_of(original, name):
+    with netcdf_file(original, mmap=False) as file:
+        return json.loads(getattr(file, name))
+
+
+INFO = [
+    ({"status": None}, "info: has no status"),
+    ({"reason": None}, "info: has no reason"),
+    ({"end_time": None}, "info: has no end_time"),
+    ({"versions": None}, "info: has no versions"),
+    ({"versions": [1]}, r"info.versions = \[1\]: allowed is a table"),
+    ({"versions": 5}, "info.versions = 5: allowed is a table"),
+    ({"status": "fine"}, "info.status = 'fine': allowed is one of 'completed', 'under-resolved'"),
+    ({"status": ["completed"]}, "info.status = .*: allowed is a text"),
+    ({"steps": 10**400}, "info.steps = .*: allowed is a whole number"),
+    ({"colour": "red"}, "info.colour: unknown key; allowed are status, reason"),
+]
+
+
+@pytest.mark.parametrize(("change", "message"), INFO)
+def test_metadata_of_another_kind(original, changed, change, message):
+    info = {**text_of(original, "info"), **change}
+    text = json.dumps({name: value for name, value in info.items() if value is not None})
+    with pytest.raises(InputError, match=message):
+        Result.load(changed({"info": text}))
+
+
+@pytest.mark.parametrize(
+    ("texts", "message"),
+    [
+        ({"info": "[1]"}, r"info = \[1\]: allowed is a table"),
+        ({"info": "["}, "info = .*: allowed is JSON"),
+        ({"info": "[" * 100_000}, "info = .*: allowed is JSON"),
+        ({"info": None}, "has no info"),
+        ({"info": b"\xff"}, "info = .*: allowed is UTF-8"),
+        ({"scene": "5"}, "scene = 5: allowed is a table"),
+        ({"scene": '{"speed_rpm": -1}'}, "speed_rpm = -1.0: allowed is a number > 0"),
+        ({"scene": "{}"}, "bodies = .*: allowed are the scene's, crank, linkage"),
+        ({"bodies": "[]"}, r"bodies = \(\): allowed are the scene's, crank, rod, slider"),
+        ({"bodies": '["crank", "$", "slider"]'}, "bodies = .*: allowed are the scene's"),
+        ({"format": "exu_press result 99"}, "has no format = 'exu_press result 1'"),
+    ],
+)
+def test_texts_of_the_file(changed, texts, message):
+    with pytest.raises(InputError, match=message) as caught:
+        Result.load(changed(texts))
+    assert len(str(caught.value)) < 700
+
+
+@pytest.mark.parametrize(
+    ("name", "change", "message"),
+    [
+        ("time", {"name": None}, "channel time: missing"),
+        ("crank_pin_force", {"name": None}, "channel crank_pin_force: missing"),
+        ("crank_pin_loss", {"name": "x_eccentricity"}, "x_eccentricity: the scene has no such"),
+        ("guide_force", {"dimensions": ("time", "plane")}, "columns are 'plane'; allowed is ''"),
+        ("slider_tilt", {"units": None}, "channel 'slider_tilt': has no units"),
+        ("slider_tilt", {"long_name": b"\xff"}, "channel 'slider_tilt': long_name = .*: allowed"),
+        ("slider_tilt", {"values": np.full(1, np.nan)}, "slider_tilt.*: allowed are numbers below"),
+        ("slider_tilt", {"values": np.full(1, 1e200)}, "slider_tilt.*: allowed are numbers below"),
+        ("slider_tilt", {"values": np.zeros(1, np.float32)}, "type float32; allowed is float64"),
+        ("time", {"values": np.zeros(1)}, "channel time: allowed are increasing instants"),
+    ],
+)
+def test_channels(original, changed, name, change, message):
+    change = dict(change)
+    with netcdf_file(original, mmap=False) as file:
+        shape = file.variables[name].shape + (2,) * ("dimensions" in change)
+    if "values" in change or "dimensions" in change:
+        change["values"] = np.broadcast_to(change.get("values", np.zeros(1)), shape).copy()
+    with pytest.raises(InputError, match=message):
+        Result.load(changed(None, {name: change}))
+
+
+@pytest.mark.parametrize("command", ["view", "report"])
+def test_commands_say_it_in_one_line(changed, command, capsys, tmp_path):
+    path = changed({"info": "[1]"})
+    options = ["--save", str(tmp_path / "x.png")] if command == "view" else []
+    assert main([command, str(path), *options]) == 2
+    told = capsys.readouterr().err
+    wrong = "info = [1]: allowed is a table"
+    assert told == f"exu-press: {path}: not a result of exu_press, or damaged: {wrong}\n"
+
+
+def test_hostile_text_is_text_in_a_report(original, changed, tmp_path):
+    """Formulas that cannot be set and a script in the reason of a stop."""
+    why = r"$\frac{$ or $x_$ <script>alert(1)</script>"
+    info = text_of(original, "info") | {"status": "interrupted", "reason": why}
+    path = changed({"info": json.dumps(info)})
+    assert main(["report", str(path), "--quiet", "--out", str(tmp_path / "page.html")]) == 0
+    page = (tmp_path / "page.html").read_text(encoding="utf-8")
+    assert "<script" not in page
+    assert "&lt;script&gt;" in page and r"$\frac{$ or $x_$" in page

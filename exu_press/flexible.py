@@ -6,7 +6,7 @@ and upright by the slide, the crank shaft lengthwise by its first main bearing.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from importlib.util import find_spec
 from math import cos, pi, sin
 from typing import Any
@@ -14,7 +14,12 @@ from typing import Any
 import exudyn as exu
 import numpy as np
 from exudyn.itemInterface import MarkerBodyRigid, ObjectJointGeneric, ObjectJointSpherical
-from exudyn.rigidBodyUtilities import RotationMatrixZ
+from exudyn.rigidBodyUtilities import (
+    EulerParameters2G,
+    EulerParameters2RotationMatrix,
+    RotationMatrixZ,
+)
+from numpy.typing import NDArray
 
 from exu_press.errors import InputError
 from exu_press.joints import FlexiblePoint
@@ -34,12 +39,17 @@ from fe_models import (
 __all__ = [
     "FACES",
     "MAIN_BEARINGS",
+    "FrameStart",
     "add_part",
+    "deformed",
     "hold_crank",
     "hold_linkage",
     "joint_end",
     "reduced_parts",
+    "undeformed",
 ]
+
+Array = NDArray[np.float64]
 
 FACES = {
     ("crank", "crank_pin"): "pin",
@@ -53,6 +63,62 @@ MAIN_BEARINGS = {"main_bearing_a": "journal A", "main_bearing_b": "journal B"}
 
 HELD = ("held_a", "held_b", "held_c")
 """Three points of the linkage around its small bore, in the plane that the slide keeps it in."""
+
+
+@dataclass(frozen=True)
+class FrameStart:
+    """Where a flexible body starts: its frame, and the modal coordinates if it is deformed.
+
+    Attributes:
+        position: of the frame's origin, (3,), m.
+        rotation: from the body to the global frame, (3, 3).
+        velocity: (3,), m/s.
+        angular_velocity: global components, (3,), rad/s.
+        modes: (n,), kg^0.5 m.
+        modes_t: (n,), their rates.
+    """
+
+    position: Array
+    rotation: Array
+    velocity: Array
+    angular_velocity: Array
+    modes: Array | None = None
+    modes_t: Array | None = None
+
+
+def undeformed(start: Motion) -> FrameStart:
+    """Return the start of a frame from its motion (x, y, angle) in the plane, one instant."""
+    (x, y, angle), (u, v, spin) = start.position[0], start.velocity[0]
+    return FrameStart(
+        position=np.array([x, y, 0.0]),
+        rotation=np.asarray(RotationMatrixZ(angle)),
+        velocity=np.array([u, v, 0.0]),
+        angular_velocity=np.array([0.0, 0.0, spin]),
+    )
+
+
+def deformed(
+    mbs: exu.MainSystem, body: FlexibleBody, q: Array, q_t: Array, modes: Array, modes_t: Array
+) -> FrameStart:
+    """Return the start of a frame from a state of the body in another system.
+
+    Args:
+        mbs: that system.
+        body: in it.
+        q: (7,) displacements of the frame's coordinates, Euler parameters.
+        q_t: (7,) their rates.
+        modes: (n,) modal coordinates.
+        modes_t: (n,) their rates.
+    """
+    pose = np.asarray(mbs.GetNodeParameter(body.node_rigid, "referenceCoordinates")) + q
+    return FrameStart(
+        position=pose[:3],
+        rotation=np.asarray(EulerParameters2RotationMatrix(pose[3:])),
+        velocity=q_t[:3],
+        angular_velocity=np.asarray(EulerParameters2G(pose[3:])) @ q_t[3:],
+        modes=modes,
+        modes_t=modes_t,
+    )
 
 
 def reduced_parts(scene: Scene, *, quiet: bool = True) -> dict[str, ReducedPart]:
@@ -78,10 +144,10 @@ def add_part(
     scene: Scene,
     name: str,
     part: ReducedPart,
-    start: Motion,
+    start: FrameStart,
     joints: Mapping[str, Sequence[float]],
 ) -> FlexibleBody:
-    """Add a part on the ideal mechanism's motion.
+    """Add a part.
 
     The frames of the solids: the crank's in the shaft's axis, its pin upwards at angle 0; the
     linkage's in the middle of its bores, x towards the slide.
@@ -91,12 +157,11 @@ def add_part(
         scene: for gravity and damping.
         name: "crank" or "linkage".
         part: reduced.
-        start: motion (x, y, angle) of the frame, one instant.
+        start: of the frame and the modes.
         joints: name -> place (x, y) of the ideal joints in the frame. They sit where the drawing
             has them; a mesh's interface has its centre a micrometre beside.
     """
     assert scene.flexible is not None
-    (x, y, angle), (u, v, spin) = start.position[0], start.velocity[0]
     points = {}
     for joint, place in joints.items():
         face = MAIN_BEARINGS.get(joint) or FACES[name, joint]
@@ -110,10 +175,12 @@ def add_part(
     return add_flexible_body(
         mbs,
         part,
-        position=(x, y, 0.0),
-        rotation=RotationMatrixZ(angle),
-        velocity=(u, v, 0.0),
-        angular_velocity=(0.0, 0.0, spin),
+        position=start.position.tolist(),
+        rotation=start.rotation,
+        velocity=start.velocity.tolist(),
+        angular_velocity=start.angular_velocity.tolist(),
+        initial_modes=start.modes,
+        initial_modes_t=start.modes_t,
         gravity=(0.0, -scene.gravity, 0.0),
         damping_ratio=scene.flexible.damping_ratio,
         points=points,

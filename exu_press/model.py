@@ -1,7 +1,7 @@
 """From a scene to an assembled Exudyn system: only what the scene uses is built."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -26,6 +26,7 @@ from exudyn.itemInterface import (
     SensorObject,
 )
 from exudyn.rigidBodyUtilities import RotationMatrixZ
+from numpy.typing import NDArray
 
 from exu_press.joints import (
     ClearanceJoint,
@@ -46,14 +47,18 @@ from exu_press.mechanism import (
     Spring,
 )
 from exu_press.mechanism.holding import HalfHeld, Holding, holding_of
+from exu_press.quasi_static import quasi_static_motion
 from exu_press.rigid import PivotedBody, RigidBody, SlidingBody
 from exu_press.scene import DryJoint, IdealJoint, LubricatedJoint, Scene, mechanism_of
 from exu_press.scene.laws import contact_law, film_law, friction_law
 
 if TYPE_CHECKING:
+    from exu_press.flexible import FrameStart
     from fe_models import FlexibleBody, ReducedPart
 
 __all__ = ["DRIVE", "Model", "build"]
+
+Array = NDArray[np.float64]
 
 DRIVE = "drive"
 """Name of the disc that turns a flexible crank at its flange."""
@@ -76,6 +81,7 @@ class Model:
         drive: object number of the constraint that turns the crank.
         parts: name -> flexible body's part; empty for rigid bodies.
         sensors: (name, quantity) -> sensor number.
+        made: number of objects and loads that the scene was made of.
     """
 
     scene: Scene
@@ -90,6 +96,12 @@ class Model:
     drive: int
     sensors: dict[tuple[str, str], int]
     parts: Mapping[str, "ReducedPart"]
+    made: int
+
+    @property
+    def own_items(self) -> int:
+        """Number of objects and loads that the user has added since."""
+        return _items(self.mbs) - self.made
 
     @property
     def holding(self) -> Holding:
@@ -113,16 +125,15 @@ class Model:
 class _Builder:
     """Puts a mechanism's parts into a new system, one kind after the other."""
 
-    def __init__(self, scene: Scene, quiet: bool) -> None:
-        self.scene = scene
-        self.parts: Mapping[str, ReducedPart] = {}
+    def __init__(self, scene: Scene, parts: Mapping[str, "ReducedPart"]) -> None:
+        self.scene, self.parts = scene, parts
         self.flexible: dict[str, FlexibleBody] = {}
-        if scene.flexible is not None:
-            from exu_press.flexible import reduced_parts
-
-            self.parts = reduced_parts(scene, quiet=quiet)
         self.mechanism = mechanism_of(scene)
         self.holding = holding_of(self.mechanism, scene.joints.ideal)
+        angle = np.array([scene.start_angle])
+        self.ideal = self.mechanism.motion(angle, scene.angular_speed)
+        self.start = dict(self.ideal)
+        self.frames: dict[str, FrameStart] = {}
         self.SC = exu.SystemContainer()
         self.mbs = self.SC.AddSystem()
         self.ground = int(self.mbs.AddObject(ObjectGround()))
@@ -137,10 +148,8 @@ class _Builder:
 
     def add_bodies(self) -> None:
         """Add every body in the ideal mechanism's position and velocity."""
-        angle = np.array([self.scene.start_angle])
-        motion = self.mechanism.motion(angle, self.scene.angular_speed)
         for body in self.mechanism.bodies:
-            start = motion[body.name]
+            start = self.start[body.name]
             if body.name in self.parts:
                 self._add_flexible_body(body.name, start)
                 continue
@@ -153,14 +162,15 @@ class _Builder:
     def _add_rigid_body(self, body: Body, start: Motion) -> None:
         """Add a rigid body with the coordinates that its ideal joints leave it."""
         pivot = self.holding.pivoted.get(body.name)
+        relaxed = self.ideal[body.name].position[0]
         if pivot is not None:
             place = body.local(pivot.at)
-            added: RigidBody = PivotedBody(self.mbs, body, start, pivot.at, place)
+            added: RigidBody = PivotedBody(self.mbs, body, start, pivot.at, place, relaxed)
         elif body.name in self.holding.sliding:
             guide = next(guide for guide in self.mechanism.guides if guide.body == body.name)
-            added = SlidingBody(self.mbs, body, start, guide.direction)
+            added = SlidingBody(self.mbs, body, start, guide.direction, relaxed)
         else:
-            added = RigidBody(self.mbs, body, start)
+            added = RigidBody(self.mbs, body, start, relaxed)
         self._take_in(body.name, added)
 
     def _take_in(self, name: str, added: RigidBody) -> None:
@@ -170,7 +180,7 @@ class _Builder:
 
     def _add_flexible_body(self, name: str, start: Motion) -> None:
         """Add a flexible body; its frame lies where the solid's does, not in the centre of mass."""
-        from exu_press.flexible import MAIN_BEARINGS, add_part
+        from exu_press.flexible import MAIN_BEARINGS, add_part, undeformed
 
         assert self.scene.press is not None
         offset = self._in_frame(name, (0.0, 0.0))
@@ -183,18 +193,43 @@ class _Builder:
         }
         if name == self.mechanism.crank:
             joints |= dict.fromkeys(MAIN_BEARINGS, (0.0, 0.0))
-        body = add_part(self.mbs, self.scene, name, self.parts[name], frame, joints)
+        begin = self.frames.get(name) or undeformed(frame)
+        body = add_part(self.mbs, self.scene, name, self.parts[name], begin, joints)
         self.flexible[name] = body
         self.bodies[name], self.nodes[name] = body.object_number, body.node_rigid
         if body.node_modes is not None:
             self.nodes[f"{name}_modes"] = body.node_modes
 
+    def start_deformed(self, ideal: "_Builder") -> None:
+        """Start every body as the mechanism with ideal joints moves when its vibrations are over.
+
+        Args:
+            ideal: about to build that mechanism.
+        """
+        from exu_press.flexible import deformed
+
+        model = ideal.build()
+        drive = model.mbs.GetNodeODE2Index(model.nodes[DRIVE])
+        speed = self.scene.angular_speed
+        state = quasi_static_motion(model.mbs, model.drive, drive, speed)
+
+        def parts_of(node: int) -> Iterator[Array]:
+            places = model.mbs.systemData.GetNodeLTGODE2(node)
+            return (values[places] for values in state)
+
+        for name, rigid in model.rigid.items():
+            q, q_t = (values[None, :] for values in parts_of(rigid.node))
+            self.start[name] = rigid.motion(q, q_t, np.zeros_like(q))
+        for name, body in ideal.flexible.items():
+            assert body.node_modes is not None
+            frame, modes = parts_of(body.node_rigid), parts_of(body.node_modes)
+            self.frames[name] = deformed(model.mbs, body, *frame, *modes)
+
     def hold_flexible_bodies(self) -> dict[str, int]:
         """Hold crank and linkage in space; the crank is driven at its flange by a disc."""
         from exu_press.flexible import hold_crank, hold_linkage
 
-        angle = np.array([self.scene.start_angle])
-        crank = self.mechanism.motion(angle, self.scene.angular_speed)[self.mechanism.crank]
+        crank = self.ideal[self.mechanism.crank]
         shaft = self._in_frame(self.mechanism.crank, (0.0, 0.0))
         start = crank.at((-shaft[0], -shaft[1]))
         disc = PivotedBody(self.mbs, Body(DRIVE, 1.0, 1.0), start, (0.0, 0.0), (0.0, 0.0))
@@ -364,6 +399,7 @@ class _Builder:
             drive=drive,
             sensors=self.sensors,
             parts=self.parts,
+            made=_items(self.mbs),
         )
 
     def _marker(self, body: str, point: Point) -> int:
@@ -440,7 +476,7 @@ class _Builder:
     def _lateral_spring(self, guide: Guide, spring: Spring) -> int:
         """Add a spring across a guide, relaxed where the body starts."""
         body = guide.body
-        start = self.mechanism.motion(np.array([self.scene.start_angle]), 1.0)[body].position[0]
+        start = self.ideal[body].position[0]
         place = MarkerBodyRigid(bodyNumber=self.ground, localPosition=[start[0], start[1], 0.0])
         number = self.mbs.AddObject(
             ObjectConnectorLinearSpringDamper(
@@ -480,6 +516,11 @@ class _Builder:
         )
 
 
+def _items(mbs: exu.MainSystem) -> int:
+    """Return the number of objects and loads of a system."""
+    return int(mbs.systemData.NumberOfObjects() + mbs.systemData.NumberOfLoads())
+
+
 def _pulse_period(scene: Scene) -> tuple[float, float]:
     """Return the time between two blanking pulses and the begin of one of them, s."""
     pulse, period = scene.blanking, 60.0 / scene.speed_rpm
@@ -491,8 +532,19 @@ def _pulse_period(scene: Scene) -> tuple[float, float]:
 def build(scene: Scene, *, quiet: bool = True) -> Model:
     """Return the assembled Exudyn model of a scene, on the ideal mechanism's start.
 
+    Flexible bodies start in the deformation, and its rate, that this motion asks for.
+
     Args:
         scene: what is asked.
         quiet: False shows the progress of what takes long, the modes of flexible bodies.
     """
-    return _Builder(scene, quiet).build()
+    parts: Mapping[str, ReducedPart] = {}
+    if scene.flexible is not None:
+        from exu_press.flexible import reduced_parts
+
+        parts = reduced_parts(scene, quiet=quiet)
+    builder = _Builder(scene, parts)
+    if any(part.mode_count for part in parts.values()):
+        ideal = scene.replace({f"joints.{name}": "ideal" for name in scene.joints.with_clearance})
+        builder.start_deformed(_Builder(ideal, parts))
+    return builder.build()

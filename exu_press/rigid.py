@@ -30,6 +30,7 @@ class RigidBody:
 
     Attributes:
         coordinates: which of "x", "y" and "angle" are coordinates of the node, in their order.
+        reference: x, y and angle (m, m, rad) from which they count.
         node: Exudyn's number.
         number: of Exudyn's object.
         turned: angle of the body's frame in that of Exudyn's object, rad.
@@ -38,11 +39,24 @@ class RigidBody:
     coordinates: tuple[str, ...] = ("x", "y", "angle")
     turned = 0.0
 
-    def __init__(self, mbs: exu.MainSystem, body: Body, start: Motion) -> None:
-        """Add the body to a system, with the first pose and velocity of a motion."""
-        self._start: Array = start.position[0]
+    def __init__(
+        self, mbs: exu.MainSystem, body: Body, start: Motion, reference: Array | None = None
+    ) -> None:
+        """Add the body to a system.
+
+        Args:
+            mbs: not yet assembled.
+            body: its inertia is that about the centre of mass.
+            start: its first pose and velocity are the body's.
+            reference: x, y and angle from which displacements count and where springs are relaxed;
+                that of the start unless given.
+        """
+        self.reference: Array = start.position[0] if reference is None else reference
         node = NodeRigidBody2D(
-            name=body.name, referenceCoordinates=self._start, initialVelocities=start.velocity[0]
+            name=body.name,
+            referenceCoordinates=self.reference,
+            initialCoordinates=start.position[0] - self.reference,
+            initialVelocities=start.velocity[0],
         )
         self.node = int(mbs.AddNode(node))
         item = ObjectRigidBody2D(
@@ -62,35 +76,44 @@ class RigidBody:
         """Return the centre of mass and the angle by displacements, rates and accelerations.
 
         Args:
-            q: (n, coordinates) since the start.
+            q: (n, coordinates) from the reference.
             q_t: same shape.
             q_tt: same shape.
         """
-        return Motion(self._start + q, q_t, q_tt)
+        return Motion(self.reference + q, q_t, q_tt)
 
 
 class SlidingBody(RigidBody):
     """A body that an ideal guide along x or y keeps upright: the way along it is the coordinate."""
 
-    def __init__(self, mbs: exu.MainSystem, body: Body, start: Motion, direction: Point) -> None:
-        """Add the body to a system, with the first place and velocity of a motion.
+    def __init__(
+        self,
+        mbs: exu.MainSystem,
+        body: Body,
+        start: Motion,
+        direction: Point,
+        reference: Array | None = None,
+    ) -> None:
+        """As `RigidBody`, of whose pose and velocity it takes those along the guide.
 
         Args:
             mbs: not yet assembled.
             body: its inertia does not matter.
             start: of the motion.
             direction: (0, 1), (1, 0) or minus one of these.
+            reference: as `RigidBody`.
         """
-        self._start = start.position[0]
+        self.reference = start.position[0] if reference is None else reference
         column = 1 if direction[0] == 0.0 else 0
         self.coordinates = (("x", "y")[column],)
         self._along = np.eye(3)[column]
         along = self._along[:2]
-        x, y, angle = self._start
+        x, y, angle = self.reference
         self.turned = float(angle - math.atan2(along[1], along[0]))
         node = Node1D(
             name=body.name,
-            referenceCoordinates=[self._start[column]],
+            referenceCoordinates=[self.reference[column]],
+            initialCoordinates=[start.position[0, column] - self.reference[column]],
             initialVelocities=[start.velocity[0, column]],
         )
         self.node = int(mbs.AddNode(node))
@@ -109,7 +132,7 @@ class SlidingBody(RigidBody):
 
     def local(self, point: Point) -> Point:
         """Return a point of the body's frame in that of Exudyn's item, whose x is the guide's."""
-        c, s = math.cos(self._start[2]), math.sin(self._start[2])
+        c, s = math.cos(self.reference[2]), math.sin(self.reference[2])
         x, y = c * point[0] - s * point[1], s * point[0] + c * point[1]
         a, b, _ = self._along.tolist()
         return a * x + b * y, a * y - b * x
@@ -120,7 +143,7 @@ class SlidingBody(RigidBody):
 
     def motion(self, q: Array, q_t: Array, q_tt: Array) -> Motion:
         """As `RigidBody.motion`."""
-        return Motion(self._start + q * self._along, q_t * self._along, q_tt * self._along)
+        return Motion(self.reference + q * self._along, q_t * self._along, q_tt * self._along)
 
 
 class PivotedBody(RigidBody):
@@ -129,9 +152,15 @@ class PivotedBody(RigidBody):
     coordinates: tuple[str, ...] = ("angle",)
 
     def __init__(
-        self, mbs: exu.MainSystem, body: Body, start: Motion, pivot: Point, place: Point
+        self,
+        mbs: exu.MainSystem,
+        body: Body,
+        start: Motion,
+        pivot: Point,
+        place: Point,
+        reference: Array | None = None,
     ) -> None:
-        """Add the body to a system, with the first angle and spin of a motion.
+        """As `RigidBody`, of whose pose and velocity it takes the angle's.
 
         Args:
             mbs: not yet assembled.
@@ -139,12 +168,15 @@ class PivotedBody(RigidBody):
             start: of the motion.
             pivot: in the global frame, m.
             place: the pivot in the body's frame, m.
+            reference: as `RigidBody`.
         """
         self._pivot, self._place = pivot, place
-        self._angle = float(start.position[0, 2])
+        self.reference = start.position[0] if reference is None else reference
+        angle = float(self.reference[2])
         node = Node1D(
             name=body.name,
-            referenceCoordinates=[self._angle],
+            referenceCoordinates=[angle],
+            initialCoordinates=[start.position[0, 2] - angle],
             initialVelocities=[start.velocity[0, 2]],
         )
         self.node = int(mbs.AddNode(node))
@@ -162,7 +194,7 @@ class PivotedBody(RigidBody):
 
     def motion(self, q: Array, q_t: Array, q_tt: Array) -> Motion:
         """As `RigidBody.motion`."""
-        angle, spin, turn = self._angle + q[:, 0], q_t[:, 0], q_tt[:, 0]
+        angle, spin, turn = self.reference[2] + q[:, 0], q_t[:, 0], q_tt[:, 0]
         x, y = self.local((0.0, 0.0))
         arm_x, arm_y = (
             np.cos(angle) * x - np.sin(angle) * y,

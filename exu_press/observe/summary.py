@@ -6,6 +6,7 @@ import numpy as np
 
 from exu_press.observe.acceleration import differentiated_peak, mean_peak, peak
 from exu_press.observe.clearance import joint_summary
+from exu_press.observe.energy import energy_summary
 from exu_press.observe.press import press_summary
 from exu_press.observe.warnings import run_warnings
 from exu_press.result import Result
@@ -34,7 +35,7 @@ def summary(result: Result) -> dict[str, Any]:
         "bottom_dead_centre": float(position.min()),
         "joints": joints,
         **press,
-        "energy": _energy(result),
+        "energy": energy_summary(result),
         "versions": versions,
         "scene": result.scene.to_dict(),
     }
@@ -51,18 +52,3 @@ def _joint(result: Result, name: str) -> dict[str, Any]:
         onset=None if isinstance(joint, IdealJoint) else joint.onset,
         dissipated=0.0 if ideal else float(result[f"{name}_loss"][-1]),
     )
-
-
-def _energy(result: Result) -> dict[str, float]:
-    """Return the balance at the end; the residual is its worst over the run.
-
-    The residual is relative to the largest work the drive has done or taken back until then.
-    """
-    given, stored, lost = (result[f"energy_{name}"] for name in ("input", "stored", "dissipated"))
-    scale = peak(given)
-    return {
-        "input": float(given[-1]),
-        "dissipated": float(lost[-1]),
-        "stored": float(stored[-1]),
-        "residual": peak(given - stored - lost) / scale if scale else 0.0,
-    }

@@ -9,7 +9,7 @@ from exu_press.scene.warnings import scene_warnings
 __all__ = ["run_warnings"]
 
 RESIDUAL = 0.01
-"""Of the largest work; beyond this the energy balance casts doubt on the integration."""
+"""Of the energy exchanged; beyond this the energy balance casts doubt on the integration."""
 
 NEARLY_TOUCHING = 0.95
 """Eccentricity ratio from which a film is thinner than its law is good for."""
@@ -19,9 +19,13 @@ def run_warnings(summary: Mapping[str, Any], scene: Scene) -> list[str]:
     """Return the warnings of summary.json: about the run's figures, then about what was asked."""
     found = []
     residual = summary["energy"]["residual"]
-    if residual > RESIDUAL:
+    if summary["own_items"]:
         found.append(
-            f"the energy balance misses {residual:.2g} of the largest work: try a smaller "
+            "no energy balance: what your own items put in, store and dissipate is not known"
+        )
+    if residual is not None and residual > RESIDUAL:
+        found.append(
+            f"the energy balance misses {residual:.2g} of the energy: try a smaller "
             "solver.tolerance or solver.step"
         )
     for name, joint in summary["joints"].items():

@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from exu_press.observe.energy import energy_residual
 from exu_press.plots.canvas import angle_range, curve, legend_above, new_figure
 from exu_press.plots.scales import crank_angle_axis, note
 from exu_press.plots.sides import joint_titles
@@ -55,29 +56,35 @@ def energy_figure(result: Result) -> Figure:
 
 
 def _losses(axes: Axes, result: Result) -> None:
-    """Draw what every joint has dissipated; two balls that do the same as one, guides as one."""
+    """Draw what every joint has dissipated; two balls that do the same, guides, modes as one."""
     names = [name.removesuffix("_loss") for name in result if name.endswith("_loss")]
-    guides = [name for name in names if name not in result.joints]
+    others = [name for name in names if name not in result.joints]
+    modes = [name for name in others if name.endswith("_modes")]
+    together = {
+        "guides": [name for name in others if name not in modes],
+        "damping of modes": modes,
+    }
     order = sorted(result.clearance_joints, key=lambda n: (result.joints[n].spherical, n))
     for index, (name, title) in enumerate(joint_titles([result], order, "loss").items()):
         lost = result[f"{name}_loss"]
         words = title[0].lower() + title[1:]
         curve(axes, result, lost, color=colour_of(index), linewidth=1.4, label=words)
-    if guides:
-        lost = np.sum([result[f"{name}_loss"] for name in guides], axis=0)
-        curve(axes, result, lost, color=GREY, linewidth=1.4, label="guides")
+    for style, (label, several) in zip(("-", (0, (5, 1.5))), together.items(), strict=True):
+        if several:
+            lost = np.sum([result[f"{name}_loss"] for name in several], axis=0)
+            curve(axes, result, lost, color=GREY, linewidth=1.4, linestyle=style, label=label)
     axes.set_title("Dissipated in")
-    legend_above(axes)
+    axes.legend(loc="upper left", ncols=2, columnspacing=1.3)  # where all losses begin at nothing
 
 
 def _residual(axes: Axes, result: Result) -> None:
     """Draw what the balance misses, and say how much that is of the work (as the summary does)."""
     given, stored, lost = (result[name] for name in BALANCE)
-    residual, work = given - stored - lost, float(np.abs(given).max())
+    residual, relative = given - stored - lost, energy_residual(result)
     worst = float(np.abs(residual).max())
     unit, scale = ("J", 1.0) if worst > 0.1 else ("mJ", 1e3)
     curve(axes, result, scale * residual, color=GREY, linewidth=1.0)
     axes.set_title("Residual")
     axes.set_ylabel(f"{MINUS.join(('put in', 'stored', 'dissipated'))}, {unit}")
-    if work > 0.0:
-        note(axes, f"at most {worst / work:.1e} of the largest work")
+    if relative is not None:
+        note(axes, f"at most {relative:.1e} of the largest energy on the left")

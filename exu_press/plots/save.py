@@ -7,6 +7,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 from PIL import Image
 
+from exu_press.observe.energy import has_balance
 from exu_press.output import replacing
 from exu_press.plots.energy import energy_figure
 from exu_press.plots.force import force_figure
@@ -22,7 +23,8 @@ __all__ = ["save_comparison", "save_figure", "save_pictures"]
 def save_pictures(result: Result, directory: str | Path) -> list[Path]:
     """Draw everything about one run; return the files: slider, orbit, force, press, energy .png.
 
-    There is no orbit.png of a scene without clearance joints, and press.png of a press alone.
+    There is no orbit.png of a scene without clearance joints, press.png of a press alone, and no
+    energy.png where the user's own items leave no balance.
     `directory` must exist.
 
     Raises:
@@ -35,7 +37,8 @@ def save_pictures(result: Result, directory: str | Path) -> list[Path]:
     figures["force"] = force_figure(run)
     if result.scene.press is not None:
         figures["press"] = press_figure(result)
-    figures["energy"] = energy_figure(result)
+    if has_balance(result):
+        figures["energy"] = energy_figure(result)
     return [
         save_figure(figure, Path(directory) / f"{name}.png") for name, figure in figures.items()
     ]

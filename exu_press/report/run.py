@@ -116,12 +116,16 @@ def _pictures(result: Result) -> str:
 def _energy(summary: Mapping[str, Any]) -> str:
     """Return the balance at the end."""
     energy = summary["energy"]
+    if energy["input"] is None:
+        return ""
     rows = [
         ["put in by drive and load", f"{energy['input']:.6g} J"],
         ["stored (change)", f"{energy['stored']:.6g} J"],
         ["dissipated", f"{energy['dissipated']:.6g} J"],
-        ["largest residual, of the largest work", f"{energy['residual']:.2g}"],
     ]
+    if energy["residual"] is not None:
+        words = "largest residual, of the largest of these over the run"
+        rows.append([words, f"{energy['residual']:.2g}"])
     return table(("", "value"), rows, "Energy since the start")
 
 

@@ -14,7 +14,7 @@ from exu_press.result.result import Channel
 if TYPE_CHECKING:
     from fe_models import ReducedPart
 
-__all__ = ["record_parts", "worst_stress"]
+__all__ = ["pin_deflection", "record_parts", "worst_stress"]
 
 Array = NDArray[np.float64]
 
@@ -23,7 +23,8 @@ def record_parts(model: Model, time: Array) -> tuple[dict[str, Channel], Array, 
     """Return the channels of the flexible bodies, their stored and their dissipated energy, J.
 
     Modes are orthogonal to rigid motions, so that kinetic energy is that of the undeformed body
-    plus half of every modal velocity's square, to terms of the size of deformation over length.
+    plus half of every modal velocity's square and what deformation adds to the moment of inertia,
+    to the square of deformation over length.
     """
     channels: dict[str, Channel] = {}
     stored, dissipated = np.zeros_like(time), np.zeros_like(time)
@@ -34,17 +35,24 @@ def record_parts(model: Model, time: Array) -> tuple[dict[str, Channel], Array, 
         strain = 0.5 * (q**2) @ np.diag(part.stiffness_matrix)
         stored += _rigid_energy(part, position, velocity, model.scene.gravity)
         stored += 0.5 * (q_t**2).sum(axis=1) + strain
+        stored += 0.5 * velocity[:, 2] ** 2 * (q @ _stretch(part))
         assert model.scene.flexible is not None
         damping = np.diag(part.damping_matrix(model.scene.flexible.damping_ratio))
-        dissipated += work(time, q_t * damping, q_t)
+        lost = work(time, q_t * damping, q_t)
+        dissipated += lost
         channels[f"{name}_strain_energy"] = Channel(strain, "J", f"{name}: elastic energy")
         if part.mode_count:
+            words = f"{name}: energy dissipated by the damping of modes since the start"
+            channels[f"{name}_modes_loss"] = Channel(lost, "J", words)
             words = f"{name}: modal coordinates"
             channels[f"{name}_modes"] = Channel(q, "kg^0.5 m", words, f"{name}_mode")
         if name == "crank":
-            moved = q @ part.interface("pin").translation.T
+            moved = q @ pin_deflection(part).T
+            words = (
+                "crank pin: displacement from a rigid crank on the same main bearings and flange"
+            )
             channels["crank_pin_deflection"] = Channel(
-                _turned(moved, position[:, 2]), "m", "crank pin: deflection of the throw", "plane"
+                _turned(moved, position[:, 2]), "m", words, "plane"
             )
         else:
             big, small = part.interface("big bore"), part.interface("small bore")
@@ -55,6 +63,21 @@ def record_parts(model: Model, time: Array) -> tuple[dict[str, Channel], Array, 
                 q @ (small.rotation - big.rotation)[2], "rad", "linkage: bores turned apart"
             )
     return channels, stored, dissipated
+
+
+def pin_deflection(part: "ReducedPart") -> Array:
+    """Return what each mode moves the crank pin, against bearings and flange, (2, modes).
+
+    In the crank's frame: less what a rigid crank moves on the line between the centres of the main
+    journals, and as the flange, which is driven, turns. The mean-axis frame itself moves with the
+    modes, so that a force across the throw seems to bend it by 14 % less, one along it by 5 % more.
+    """
+    first, second, pin = (part.interface(face) for face in ("journal A", "journal B", "pin"))
+    heights = [float(face.centre[2]) for face in (first, second, pin)]
+    share = (heights[2] - heights[0]) / (heights[1] - heights[0])
+    line = (1.0 - share) * first.translation + share * second.translation
+    turned = np.cross(part.interface("flange").rotation.T * (0.0, 0.0, 1.0), pin.centre).T
+    return np.asarray((pin.translation - line - turned)[:2])
 
 
 def worst_stress(model: Model, time: Array) -> dict[str, Stress]:
@@ -74,6 +97,12 @@ def modal(model: Model, name: str, part: "ReducedPart", count: int) -> tuple[Arr
     if part.mode_count == 0:
         return np.zeros((count, 0)), np.zeros((count, 0))
     return sensor(model, f"{name}_modes", "position"), sensor(model, f"{name}_modes", "velocity")
+
+
+def _stretch(part: "ReducedPart") -> Array:
+    """Return what each mode adds to the moment of inertia about the frame's z axis, (modes,)."""
+    products = part.couplings["mXRefTildePsiTilde"][2, 2::3]  # integrals of x u_x + y u_y over mass
+    return np.asarray(2.0 * products)
 
 
 def _rigid_energy(part: "ReducedPart", position: Array, velocity: Array, gravity: float) -> Array:

@@ -34,7 +34,7 @@ def record_guides(
         index, lost = names.index(guide.body), np.zeros_like(time)
         for spring, direction in springs:
             if spring is not None:
-                away = position[:, index] - position[0, index]  # starts relaxed
+                away = position[:, index] - model.rigid[guide.body].reference
                 moved, rate = away @ np.array(direction), velocity[:, index] @ np.array(direction)
                 stored += 0.5 * spring.stiffness * moved**2
                 lost += work(time, spring.damping * rate, rate)

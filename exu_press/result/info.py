@@ -36,6 +36,7 @@ class Info(TypedDict):
         coordinates: of the model.
         bodies: of the model.
         connectors: of the model.
+        own_items: number of objects and loads that the user added to the model.
         versions: of Python and packages, by name.
     """
 
@@ -52,4 +53,5 @@ class Info(TypedDict):
     coordinates: int
     bodies: int
     connectors: int
+    own_items: int
     versions: dict[str, str]

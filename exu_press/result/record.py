@@ -87,11 +87,14 @@ def record(model: Model, outcome: Outcome) -> Result:
             driven += work(time, channels[load].values, velocity[:, slider, column])
     channels |= {
         "drive_power": Channel(torque * turned, "W", "power of the drive"),
-        "energy_input": Channel(driven, "J", "work of drive and load since the start"),
-        "energy_stored": Channel(stored - stored[0], "J", "change of stored energy"),
-        "energy_dissipated": Channel(dissipated, "J", "energy dissipated since the start"),
         "body_position": Channel(position, "m, rad", "centres of mass and angles", "pose"),
     }
+    if not model.own_items:  # what those put in, store and dissipate is not known
+        channels |= {
+            "energy_input": Channel(driven, "J", "work of drive and load since the start"),
+            "energy_stored": Channel(stored - stored[0], "J", "change of stored energy"),
+            "energy_dissipated": Channel(dissipated, "J", "energy dissipated since the start"),
+        }
     return Result(
         scene=scene,
         channels=channels,
@@ -114,6 +117,7 @@ def _info(model: Model, outcome: Outcome, time: Array) -> Info:
         "rejected_steps": outcome.rejected_steps,
         "newton_iterations": outcome.newton_iterations,
         "law_evaluations": outcome.law_evaluations,
+        "own_items": model.own_items,
         "coordinates": mbs.systemData.ODE2Size(),
         "bodies": len(model.nodes),
         "connectors": mbs.systemData.NumberOfObjects() - len(model.nodes) - 1,

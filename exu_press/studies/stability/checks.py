@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from exu_press.integrate.newton import DIGITS
 from exu_press.laws.film.contract import film_scale
 from exu_press.mechanism import GROUND
+from exu_press.observe.energy import energy_residual, energy_scale
 from exu_press.result import Result
 from exu_press.scene import LubricatedJoint, Scene, mechanism_of
 from exu_press.scene.laws import contact_law
@@ -20,9 +21,7 @@ __all__ = ["RESIDUAL_LIMIT", "Check", "agreement", "checks_of"]
 Array = NDArray[np.float64]
 
 RESIDUAL_LIMIT = 1e-3
-"""Of the energy balance, relative to the largest energy that was put in, stored or dissipated; the
-summary's is relative to the first alone, which is next to nothing where a slow crank just begins to
-turn while journals fall through their clearance."""
+"""Of the energy balance, as in the summary."""
 
 COARSE_RESIDUAL = 0.1
 """Times the tolerance: what may be left of the energy where more than a hundredth was asked for."""
@@ -68,9 +67,7 @@ def checks_of(result: Result) -> list[Check]:
     unsound = sum(int(np.count_nonzero(~np.isfinite(result[name]))) for name in result)
     if unsound:
         return [_check("numbers that are not finite", unsound, 0.0)]
-    given, stored, lost = (result[f"energy_{kind}"] for kind in ("input", "stored", "dissipated"))
-    scale = max(float(np.abs(energy).max()) for energy in (given, stored, lost))
-    residual = float(np.abs(given - stored - lost).max())
+    scale, lost = energy_scale(result), result["energy_dissipated"]
     solver = result.scene.solver
     assert solver is not None
     coarse = COARSE_RESIDUAL * (solver.tolerance or 0.0)
@@ -78,7 +75,7 @@ def checks_of(result: Result) -> list[Check]:
     drift, where = max(_drifts(result), default=(0.0, ""))
     checks = [
         _check("numbers that are not finite", 0.0, 0.0),
-        _check("energy residual", _ratio(residual, scale), max(RESIDUAL_LIMIT, coarse)),
+        _check("energy residual", energy_residual(result) or 0.0, max(RESIDUAL_LIMIT, coarse)),
         _check("constraint drift, m", drift, DRIFT_LIMIT, where),
         _check("energy created in joints", _ratio(fallen, scale), ENERGY_LIMIT),
     ]

@@ -1,0 +1,87 @@
+"""Flexible bodies start in the deformation, and its rate, that the ideal motion asks for."""
+
+import exudyn as exu
+import numpy as np
+import pytest
+
+from exu_press import Scene, simulate
+from exu_press.model import _Builder
+
+pytest.importorskip("ngsolve")
+
+IDEAL = {"bodies": "flexible", "joints": {"crank_pin": "ideal", "balls": "ideal"}}
+TURN = 0.25  # s
+
+
+def _over(result, channel, begin, end):
+    """Return a channel, (n, columns), at a hundred instants of a run."""
+    values = result[channel].reshape(len(result.time), -1)
+    instants = np.linspace(begin, end, 100)
+    return np.array([np.interp(instants, result.time, column) for column in values.T])
+
+
+@pytest.fixture(scope="module")
+def result():
+    scene = Scene(**IDEAL, revolutions=1.1, flexible={"modes": 8}, solver={"step": 2e-4})
+    found = simulate(scene)
+    assert found.completed
+    return found
+
+
+@pytest.mark.parametrize(
+    ("channel", "relative"),
+    [
+        ("counter_pin_force", 2e-4),
+        ("crank_pin_force", 4e-4),  # 14.7 of 32.6 kN where the bodies start undeformed
+        ("slider_acceleration", 4e-4),
+        ("drive_torque", 1e-3),
+        ("crank_pin_deflection", 1e-3),
+    ],
+)
+def test_the_first_30_degrees_are_those_of_the_second_revolution(result, channel, relative):
+    first = _over(result, channel, 0.0, TURN / 12.0)
+    second = _over(result, channel, TURN, TURN * 13.0 / 12.0)
+    assert np.abs(first - second).max() < relative * np.abs(result[channel]).max()
+
+
+def test_undeformed_bodies_would_ring(monkeypatch):
+    monkeypatch.setattr(_Builder, "start_deformed", lambda *_: None)
+    scene = Scene(**IDEAL, revolutions=0.02, flexible={"modes": 8})
+    rung = np.linalg.norm(simulate(scene)["crank_pin_force"], axis=1)
+    monkeypatch.undo()
+    quiet = np.linalg.norm(simulate(scene)["crank_pin_force"], axis=1)
+    assert rung.max() > 1.5 * quiet.max()
+
+
+def test_where_nothing_moves_the_bodies_hang_in_their_static_deflection():
+    """A crank at a hundredth of a revolution a minute: weight and stiffness alone."""
+    scene = Scene(**IDEAL, speed_rpm=0.01, revolutions=1e-7, start_angle_deg=60.0)
+    deflection = simulate(scene)["crank_pin_deflection"]
+    assert np.abs(deflection).max() > 1e-6
+    assert np.abs(deflection - deflection[0]).max() < 1e-3 * np.abs(deflection).max()
+
+
+@pytest.mark.parametrize("angle", [0.0, 175.0, 180.0, 300.0])
+def test_the_start_is_on_the_constraints(angle):
+    """Positions and velocities; at half a turn a rotation matrix tells its angle badly."""
+    scene = Scene(**IDEAL, start_angle_deg=angle, flexible={"modes": 4})
+    mbs = scene.build().mbs
+    q, q_t = (np.array(get()) for get in (
+        mbs.systemData.GetODE2Coordinates, mbs.systemData.GetODE2Coordinates_t))  # fmt: skip
+    solver, settings = exu.MainSolverImplicitSecondOrder(), exu.SimulationSettings()
+    settings.solution.file.write = False
+    solver.InitializeSolver(mbs, settings)
+    count = solver.GetODE2size()
+    assert len(q) == len(q_t) == count
+    solver.ComputeAlgebraicEquations(mbs, velocityLevel=False)
+    assert np.abs(np.array(solver.GetSystemResidual())[count:]).max() < 1e-10
+    solver.ComputeAlgebraicEquations(mbs, velocityLevel=True)
+    assert np.abs(np.array(solver.GetSystemResidual())[count:]).max() < 1e-7
+
+
+def test_elastic_guides_start_loaded():
+    """What the guide of the slide carries at the start is what it carries a revolution later."""
+    scene = Scene(**IDEAL, guide={}, revolutions=1.0, start_angle_deg=60.0, flexible={"modes": 4})
+    force = simulate(scene)["slide_guide_force"]
+    assert np.abs(force).max() > 1000.0
+    assert force[0] == pytest.approx(force[-1], abs=10.0)

@@ -16,6 +16,10 @@ from exu_press.integrate.touch import Touch
 
 __all__ = ["StepError"]
 
+KEPT = 40.0
+"""Within so many of the longest steps, a radian of the crank, errors that a film keeps may add up
+to the tolerance."""
+
 CURRENT = exu.ConfigurationType.Current
 START = exu.ConfigurationType.StartOfStep
 
@@ -41,7 +45,7 @@ class StepError:
     also velocities that follow from constraints, at each instant against the tolerance itself.
 
     Clearance joints: what the eccentricity changes by, less the integral of its rate, against the
-    joint's clearance: `JointError`.
+    joint's clearance and penetration, in films against the clearance and the time: `JointError`.
 
     Attributes:
         accelerations: of all coordinates at the end of the step last tried.
@@ -50,7 +54,12 @@ class StepError:
     """
 
     def __init__(
-        self, problem: Problem, solver: Any, scales: FoundScales, tolerance: float
+        self,
+        problem: Problem,
+        solver: Any,
+        scales: FoundScales,
+        tolerance: float,
+        longest: float,
     ) -> None:
         """Look at what is solved.
 
@@ -59,6 +68,7 @@ class StepError:
             solver: an exu.MainSolverImplicitSecondOrder, which is about to solve it.
             scales: of the motion; are told of it.
             tolerance: of the run.
+            longest: step that may be taken, s.
         """
         self._problem, self._solver, self._scales = problem, solver, scales
         self._data: Any = problem.mbs.systemData
@@ -70,7 +80,10 @@ class StepError:
         self._first_order: FirstOrderError | None = None
         joints = [] if problem.joints is None else problem.joints.joints
         rounding = ROUNDING * problem.length
-        self._joints = [JointError(j, max(share * j.clearance, rounding)) for j in joints]
+        per_time = tolerance / (KEPT * longest)
+        self._joints = [
+            JointError(j, share * j.clearance, per_time * j.clearance, rounding) for j in joints
+        ]
         pairs = zip(joints, self._joints, strict=True)
         self.touches = [Touch(joint, motion) for joint, motion in pairs if joint.reach < math.inf]
 

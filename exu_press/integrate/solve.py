@@ -121,7 +121,7 @@ def solve_dynamic(
     else:
         first = integration.initialStepSize or FIRST * largest
         control = StepControl(
-            StepError(problem, solver, found, tolerance),
+            StepError(problem, solver, found, tolerance, largest),
             solver,
             newton,
             end=end,

@@ -19,7 +19,7 @@ REACH = CLEARANCE * (1.0 - SHORT * DEPTH)
 def touch_after(place, velocity, acceleration=(0.0, 0.0), step=1e-4, reach=CLEARANCE):
     """A joint that comes to a place with a velocity and a constant acceleration."""
     joint = SimpleNamespace(clearance=CLEARANCE, reach=reach)
-    motion = JointError(joint, 1e-7)
+    motion = JointError(joint, 1e-7, math.inf, 1e-14)
     for ago in (step, 0.0):
         rates = zip(place, velocity, acceleration, strict=True)
         joint.eccentricity = tuple(p - ago * v + 0.5 * ago * ago * a for p, v, a in rates)
@@ -73,7 +73,7 @@ def test_other_steps_are_left_alone(place, velocity):
 def test_nothing_is_foreseen_before_there_was_a_step():
     joint = SimpleNamespace(clearance=CLEARANCE, reach=CLEARANCE)
     joint.eccentricity, joint.relative_velocity = (0.0,), (1.0,)
-    motion = JointError(joint, 1e-7)
+    motion = JointError(joint, 1e-7, math.inf, 1e-14)
     assert Touch(joint, motion).until(1e-3) == 1e-3
     assert Touch(joint, motion).first_step() == math.inf
 

@@ -26,9 +26,8 @@ AIM = 0.4
 rises and falls several times in each of its periods."""
 
 GROW = 1.2
-"""By what a step is lengthened, once it may be. After an impact the linkage comes to rest on its
-pin within a millisecond; steps that grow by half leap over that, and more than twice the error is
-left in the next impact's peak."""
+"""By what a step is lengthened, once it may be; steps that grow by half swing about what their
+errors ask for, and are a third more with a film."""
 
 SHRINK = 0.05
 """How far a step that failed may be shortened at once."""

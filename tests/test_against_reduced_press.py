@@ -19,8 +19,7 @@ def test_default_press_in_its_first_revolution():
 def test_first_revolution_of_a_dry_press(clearance, peak):
     """20 % off while penetrations were held against the clearance."""
     scene = Scene(
-        crank_pin="dry",
-        clearance={"crank_pin": clearance, "balls": clearance},
+        joints={key: {"kind": "dry", "clearance": clearance} for key in ("crank_pin", "balls")},
         revolutions=1.0,
     )
     independent = ReducedPress(scene).slider(scene.duration, 1e-11)

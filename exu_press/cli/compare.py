@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from exu_press.cli.options import add_run_arguments, scene_path, shipped_names, show_warnings
+from exu_press.confidence import simulate_with_errors
 from exu_press.errors import InputError
 from exu_press.observe.table import comparison_lines
 from exu_press.output import output_directory, remove_pictures, write_json
@@ -40,10 +41,11 @@ def execute(options: argparse.Namespace) -> int:
     default = Path("out") / (Path(options.given[0]).stem if len(options.given) == 1 else "compare")
     directory = output_directory(options.out or default)
     results: dict[str, Result] = {}
+    run = simulate if options.no_error else simulate_with_errors
     for label, one in compared.items():
         if isinstance(one, Scene) and not options.quiet:
             print(f"{label} ...", file=sys.stderr)
-        results[label] = simulate(one, quiet=options.quiet) if isinstance(one, Scene) else one
+        results[label] = run(one, quiet=options.quiet) if isinstance(one, Scene) else one
     summaries = {label: result.summary() for label, result in results.items()}
     for label, result in results.items():
         place = output_directory(directory / label.replace(" ", "_"))

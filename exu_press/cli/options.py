@@ -42,6 +42,11 @@ def add_run_arguments(parser: argparse.ArgumentParser) -> None:
         help="change a key of the scene, as in film.viscosity=0.1; may be repeated",
     )
     parser.add_argument("--out", metavar="DIR", help="where to write (default: out/SCENE)")
+    parser.add_argument(
+        "--no-error",
+        action="store_true",
+        help="leave out the errors of the figures, and the runs beside that they take",
+    )
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
     parser.add_argument("--no-pictures", action="store_true", help="draw nothing")
 

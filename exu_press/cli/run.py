@@ -5,6 +5,7 @@ import sys
 import textwrap
 
 from exu_press.cli.options import add_scene_arguments, directory_of, scene_of, show_warnings
+from exu_press.confidence import simulate_with_errors
 from exu_press.observe.table import run_lines
 from exu_press.output import output_directory, remove_pictures, write_json
 from exu_press.scene.assumptions import assumed_line
@@ -24,7 +25,8 @@ def execute(options: argparse.Namespace) -> int:
     """Run the scene; return 0, or 3 if it stopped early or was not resolved."""
     scene = scene_of(options)
     directory = output_directory(directory_of(options))
-    result = simulate(scene, quiet=options.quiet)
+    run = simulate if options.no_error else simulate_with_errors
+    result = run(scene, quiet=options.quiet)
     summary = result.summary()
     remove_pictures(directory, "run")
     result.save(directory / "run.nc")

@@ -33,9 +33,7 @@ class JointError:
         acceleration: mean rate of that in the last step, m/s^2; empty at first.
     """
 
-    def __init__(
-        self, joint: ClearanceJoint, limit: float, drift: float, rounding: float
-    ) -> None:
+    def __init__(self, joint: ClearanceJoint, limit: float, drift: float, rounding: float) -> None:
         """Take a joint and its scales.
 
         Args:

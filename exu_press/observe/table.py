@@ -3,6 +3,8 @@
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from exu_press.observe.uncertain import uncertain
+
 __all__ = ["comparison_cells", "comparison_lines", "run_lines"]
 
 Summary = Mapping[str, Any]
@@ -13,30 +15,40 @@ def _number(value: float | None, scale: float = 1.0, digits: int = 4) -> str:
     return "-" if value is None else f"{value * scale:.{digits}g}"
 
 
+def _figure(name: str, scale: float = 1.0, digits: int = 4) -> Callable[[Summary], str]:
+    """Return what reads a figure by its dotted name, with its error where that is known."""
+
+    def text(summary: Summary) -> str:
+        value: Any = summary
+        for key in name.split("."):
+            value = None if value is None else value.get(key)
+        return uncertain(value, summary.get("errors", {}).get(name), scale, digits)
+
+    return text
+
+
 def _joints(entry: str, scale: float) -> Callable[[Summary], str]:
     """Return what reads one entry of every clearance joint, both balls as one."""
 
     def text(summary: Summary) -> str:
-        values = {
-            name.removesuffix("_left").replace("_", " "): joint[entry]
+        figures = {
+            name.removesuffix("_left").replace("_", " "): _figure(f"joints.{name}.{entry}", scale)
             for name, joint in summary["joints"].items()
             if not name.endswith("_right") and joint["clearance"] and joint[entry] is not None
         }
-        return ", ".join(f"{name} {_number(v, scale)}" for name, v in values.items()) or "-"
+        return ", ".join(f"{name} {figure(summary)}" for name, figure in figures.items()) or "-"
 
     return text
 
 
 def _press(entry: str, scale: float) -> Callable[[Summary], str]:
     """Return what reads one entry, by its dotted name, of what press builders look at."""
+    return _figure(f"press.{entry}", scale)
 
-    def text(summary: Summary) -> str:
-        value: Any = summary.get("press")
-        for name in entry.split("."):
-            value = None if value is None else value[name]
-        return _number(value, scale)
 
-    return text
+def _determined(summary: Summary) -> str:
+    """Return until when errors are smaller than the figures; a dash if that is throughout."""
+    return _number(summary.get("errors_from"), 1e3)
 
 
 def _tilt(summary: Summary) -> str:
@@ -46,12 +58,13 @@ def _tilt(summary: Summary) -> str:
 
 ROWS: tuple[tuple[str, Callable[[Summary], str]], ...] = (
     ("status", lambda s: str(s["status"])),
-    ("stroke, mm", lambda s: _number(s["stroke"], 1e3, 5)),
-    ("bottom dead centre, mm", lambda s: _number(s["bottom_dead_centre"], 1e3, 6)),
-    ("peak velocity, m/s", lambda s: _number(s["peak_velocity"])),
-    ("peak acceleration, m/s^2", lambda s: _number(s["peak_acceleration"]["resolved"])),
-    ("  mean over 1 ms", lambda s: _number(s["peak_acceleration"]["mean_1ms"])),
-    ("  differentiated, 1 kHz", lambda s: _number(s["peak_acceleration"]["differentiated_1khz"])),
+    ("errors exceed figures from, ms", _determined),
+    ("stroke, mm", _figure("stroke", 1e3, 5)),
+    ("bottom dead centre, mm", _figure("bottom_dead_centre", 1e3, 6)),
+    ("peak velocity, m/s", _figure("peak_velocity")),
+    ("peak acceleration, m/s^2", _figure("peak_acceleration.resolved")),
+    ("  mean over 1 ms", _figure("peak_acceleration.mean_1ms")),
+    ("  differentiated, 1 kHz", _figure("peak_acceleration.differentiated_1khz")),
     ("eccentricity ratio, max", _joints("max_eccentricity_ratio", 1.0)),
     ("joint force, max, kN", _joints("peak_force", 1e-3)),
     ("penetration, max, um", _joints("peak_penetration", 1e6)),
@@ -69,8 +82,8 @@ ROWS: tuple[tuple[str, Callable[[Summary], str]], ...] = (
         "  without counterweight",
         _press("shaking_force_without_counterweight.vertical_mean_1ms", 1e-3),
     ),
-    ("energy put in, J", lambda s: _number(s["energy"]["input"])),
-    ("energy dissipated, J", lambda s: _number(s["energy"]["dissipated"])),
+    ("energy put in, J", _figure("energy.input")),
+    ("energy dissipated, J", _figure("energy.dissipated")),
     ("energy residual", lambda s: _number(s["energy"]["residual"], 1.0, 2)),
     ("steps", lambda s: f"{s['steps']} ({s['rejected_steps']} rejected)"),
     ("wall time, s", lambda s: _number(s["wall_time"], 1.0, 3)),

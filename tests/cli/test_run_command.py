@@ -1,31 +1,40 @@
 """exu-press run and compare: exit status, files, and what is left alone."""
 
 import json
+import re
 
 import pytest
 
 from exu_press import Result
 from exu_press.cli import main
+from exu_press.confidence.figures import figures
 from exu_press.output import PICTURES
 
-QUICK = ["--set", "revolutions=0.02", "--no-pictures"]
+QUICK = ["--set", "revolutions=0.02", "--no-pictures", "--no-error"]
 KEYS = {
     "status", "reason", "end_time", "wall_time", "total_time", "steps", "rejected_steps",
     "newton_iterations", "law_evaluations", "coordinates", "bodies", "connectors",
     "peak_acceleration", "peak_velocity", "stroke", "bottom_dead_centre", "joints", "press",
-    "energy", "versions", "scene", "warnings",
+    "energy", "versions", "scene", "warnings", "errors", "errors_from", "amplification",
 }  # fmt: skip
 
 
 def test_run_writes_summary_and_result(tmp_path, capsys):
-    assert main(["run", "press", *QUICK, "--out", str(tmp_path / "a" / "b")]) == 0
+    with_errors = [argument for argument in QUICK if argument != "--no-error"]
+    assert main(["run", "press", *with_errors, "--out", str(tmp_path / "a" / "b")]) == 0
     summary = json.loads((tmp_path / "a" / "b" / "summary.json").read_text())
     assert set(summary) == KEYS
+    assert set(summary["errors"]) == set(figures(summary))
     kinds = {name: joint["kind"] for name, joint in summary["joints"].items()}
     assert {name for name, kind in kinds.items() if kind == "dry"} == {"ball_left", "ball_right"}
     assert kinds["crank_pin"] == "lubricated"
     assert Result.load(tmp_path / "a" / "b" / "run.nc").summary() == summary
-    assert "peak acceleration" in capsys.readouterr().out
+    assert re.search(r"peak acceleration, m/s\^2 +\S+ \+- \S+\n", capsys.readouterr().out)
+
+
+def test_errors_can_be_left_out(tmp_path):
+    assert main(["run", "press", *QUICK, "--quiet", "--out", str(tmp_path)]) == 0
+    assert not {"errors", "errors_from"} & set(json.loads((tmp_path / "summary.json").read_text()))
 
 
 def test_pictures_of_an_earlier_run_do_not_stay(tmp_path):

@@ -21,19 +21,18 @@ class ReducedPress:
 
     def __init__(self, scene: Scene) -> None:
         """Take a scene with steady laws and balls that are dry."""
-        size, contact, clearance = scene.press, scene.contact, scene.clearance
-        self.size, self.scene, self.radius = size, scene, contact.radius
-        self.pin_clearance, self.ball_clearance = clearance.crank_pin, clearance.balls
+        pin, ball, size = scene.joints["crank_pin"], scene.joints["ball_right"], scene.press
+        self.size, self.scene, self.radius = size, scene, pin.radius
+        self.pin_clearance, self.ball_clearance = pin.clearance, ball.clearance
         self.film = None
-        if scene.crank_pin == "lubricated":
-            self.film = film_law(scene.film, contact.radius, clearance.crank_pin)
-            film = scene.film
-            self.film_scale = (
-                film.viscosity * film.length * contact.radius**3 / clearance.crank_pin**2
-            )
-        self.pin_contact = contact_law(contact, clearance.crank_pin, revolute=True)
-        self.ball_contact = contact_law(contact, clearance.balls, revolute=False)
-        self.friction = friction_law(scene.friction)
+        if pin.kind == "lubricated":
+            film = pin.film
+            self.film = film_law(film, pin.radius, pin.clearance)
+            self.film_scale = film.viscosity * film.length * pin.radius**3 / pin.clearance**2
+        else:
+            self.pin_contact = contact_law(pin.contact, pin.clearance, revolute=True)
+            self.friction = friction_law(pin.friction)
+        self.ball_contact = contact_law(ball.contact, ball.clearance, revolute=False)
         bottom = -size.crank_radius - size.linkage_length
         drop = sqrt(size.link_5_length**2 - size.pivot_distance**2)
         self.pivot_y = bottom - drop + size.link_6_length

@@ -41,8 +41,9 @@ def test_thin_films_follow_the_tolerance():
     """Errors of 0.1 and 0.01 at 1e-2 and 1e-3 while each step had its share of the clearance."""
     ratios = {}
     for tolerance in (1e-2, 1e-3, 1e-4):
-        given = {"mechanism": "slider_crank", "crank_pin": "lubricated", "revolutions": 1.0}
-        scene = Scene(clearance={"crank_pin": 1e-5}, solver={"tolerance": tolerance}, **given)
+        thin = {"crank_pin": {"kind": "lubricated", "clearance": 1e-5}}
+        given = {"mechanism": "slider_crank", "joints": thin, "revolutions": 1.0}
+        scene = Scene(solver={"tolerance": tolerance}, **given)
         run = simulate(scene)
         ratios[tolerance] = np.linalg.norm(run["crank_pin_eccentricity"], axis=1).max() / 1e-5
     for tolerance in (1e-2, 1e-3):

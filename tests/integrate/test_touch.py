@@ -9,7 +9,6 @@ from exu_press import Scene, simulate
 from exu_press.integrate import stepping
 from exu_press.integrate.joint_error import JointError
 from exu_press.integrate.touch import DEPTH, SHORT, SHORTEST, Touch
-from exu_press.scene import DryJoint
 
 CLEARANCE = 1e-4
 REACH = CLEARANCE * (1.0 - SHORT * DEPTH)

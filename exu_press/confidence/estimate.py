@@ -1,0 +1,87 @@
+"""The error of a figure, from the same figure of runs at other tolerances."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+
+__all__ = ["ROUNDING", "FigureError", "converging", "scattered"]
+
+SAFETY = 3.0
+"""Of errors that go with the tolerance. Calibrated by scripts/calibrate_errors.py."""
+
+STUDENT = {1: 6.31, 2: 2.92, 3: 2.35, 4: 2.13, 5: 2.02, 6: 1.94, 7: 1.89}
+"""Student's t for 90 % on both sides together, over the degrees of freedom."""
+
+LITTLE = 0.05
+"""Over the figure: within this a figure counts as determined, however chaotic the motion is."""
+
+ROUNDING = 1e-9
+"""Of a figure, what no two runs agree to better than."""
+
+
+@dataclass(frozen=True)
+class FigureError:
+    """What is known of a figure's error, in the figure's unit.
+
+    Attributes:
+        error: that the figure is off by, at most.
+        determined: whether the scene determines the figure; if not, runs that differ by nothing
+            that is known of the scene lie between `low` and `high`.
+        low: the least that it may be.
+        high: the most.
+    """
+
+    error: float
+    determined: bool
+    low: float
+    high: float
+
+
+def converging(
+    values: Sequence[float], ratios: Sequence[float], rounding: float = ROUNDING
+) -> FigureError:
+    """Return the error of a figure whose error goes with the tolerance (or the step).
+
+    The first value is the figure itself, its ratio 1; of each pair of runs the difference over that
+    of the ratios is an estimate, and the largest counts: two values may agree by chance.
+
+    Args:
+        values: the figure at several tolerances.
+        ratios: of these tolerances to the first.
+
+        rounding: the least error, over the figure.
+
+    >>> round(converging([1.01, 1.04, 1.08], [1.0, 4.0, 8.0]).error, 6)  # thrice 1.01 - 1
+    0.03
+    """
+    pairs = combinations(zip(values, ratios, strict=True), 2)
+    largest = max(abs(a - b) / abs(i - j) for (a, i), (b, j) in pairs)
+    error = SAFETY * largest + rounding * abs(values[0])
+    return FigureError(error, True, _least(values, values[0] - error), values[0] + error)
+
+
+def scattered(values: Sequence[float]) -> FigureError:
+    """Return between which bounds a figure lies that depends on what nobody knows.
+
+    Nine in ten further runs lie there, if such figures scatter normally.
+
+    Args:
+        values: of runs that have nothing in common any more; the first one is reported.
+    """
+    samples = np.asarray(values)
+    count = len(samples)
+    factor = STUDENT.get(count - 1, 1.65) * math.sqrt(1.0 + 1.0 / count)
+    middle, half = float(samples.mean()), factor * float(samples.std(ddof=1))
+    half += ROUNDING * abs(middle)
+    low = _least(values, min(middle - half, values[0]))
+    high = max(middle + half, values[0])
+    error = max(high - values[0], values[0] - low)
+    return FigureError(error, error <= LITTLE * abs(values[0]), low, high)
+
+
+def _least(values: Sequence[float], low: float) -> float:
+    """Return a lower bound; of magnitudes and counts it is not below zero."""
+    return max(low, 0.0) if min(values) >= 0.0 else low

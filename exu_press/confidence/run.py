@@ -1,0 +1,131 @@
+"""A run with the errors of its figures."""
+
+from collections.abc import Mapping
+from dataclasses import asdict, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exu_press.confidence.companions import Companions
+from exu_press.confidence.estimate import ROUNDING, FigureError, converging, scattered
+from exu_press.confidence.figures import figures
+from exu_press.confidence.growth import Growth, growth
+from exu_press.result import Result
+from exu_press.scene import Scene
+from exu_press.simulation import simulate
+
+__all__ = ["errors_of", "simulate_with_errors", "with_errors"]
+
+Array = NDArray[np.float64]
+
+APART = 0.3
+"""Of a clearance: eccentricities that differ by this have nothing in common any more."""
+
+LOADS = ("acceleration", "force", "torque", "moment", "power")
+"""In the names of figures that follow from accelerations."""
+
+OF_LOADS = 2e-5
+"""Their least error, over themselves: all runs begin with the same first step, and what it leaves
+of accelerations is in none of their differences."""
+
+SAME = 1e-9
+"""Relative: a figure that has changed by less since the horizon is one from before it."""
+
+
+def simulate_with_errors(scene: Scene, *, quiet: bool = True) -> Result:
+    """Do what `simulate` does, and companion runs beside it in a further process.
+
+    Returns:
+        The result; `info` and summary have `errors`, figure by figure, `errors_from` and
+        `amplification` too.
+    """
+    with Companions(scene) as companions:
+        result = simulate(scene, quiet=quiet)
+        return _told(result, companions.results())
+
+
+def with_errors(result: Result) -> Result:
+    """Return a result with the errors of its figures, by companion runs of its scene."""
+    with Companions(result.scene) as companions:
+        return _told(result, companions.results())
+
+
+def _told(result: Result, companions: Mapping[float, Result]) -> Result:
+    """Return a result that tells its errors."""
+    return replace(result, info={**result.info, **errors_of(result, companions)})
+
+
+def errors_of(result: Result, companions: Mapping[float, Result]) -> dict[str, Any]:
+    """Return what a summary says of errors.
+
+    Companions that stopped before the run itself did are left out; without any nothing is known.
+
+    Args:
+        result: of a run.
+        companions: the same at other tolerances or steps, by their ratio to its own.
+    """
+    end = float(result.time[-1])
+    kept = {ratio: _until(run, end) for ratio, run in companions.items() if _reached(run, end)}
+    if not kept:
+        return {"errors": {}, "errors_from": None, "amplification": None}
+    parted = _parting(result, kept)
+    now = {1.0: figures(result.summary())}
+    now |= {ratio: figures(run.summary()) for ratio, run in kept.items()}
+    before = now
+    if parted.horizon is not None:
+        runs = {1.0: result, **kept}
+        before = {r: figures(_until(run, parted.horizon).summary()) for r, run in runs.items()}
+    errors = {name: asdict(_error(name, now, before)) for name in now[1.0]}
+    return {"errors": errors, "errors_from": parted.horizon, "amplification": parted.rate}
+
+
+def _error(
+    name: str, now: Mapping[float, Mapping[str, float]], before: Mapping[float, Mapping[str, float]]
+) -> FigureError:
+    """Return the error of a figure.
+
+    Args:
+        name: of the figure.
+        now: ratio -> the figures of the run or of a companion.
+        before: the same, of the motion until the horizon.
+    """
+    values = {ratio: found[name] for ratio, found in now.items() if name in found}
+    if len(values) < 2:
+        return scattered([values[1.0], 0.0])
+    same = all(
+        abs(before[r].get(name, np.inf) - value) <= SAME * abs(value) for r, value in values.items()
+    )
+    if same:
+        rounding = OF_LOADS if any(word in name for word in LOADS) else ROUNDING
+        return converging(list(values.values()), list(values), rounding)
+    return scattered(list(values.values()))
+
+
+def _parting(result: Result, companions: Mapping[float, Result]) -> Growth:
+    """Return how a run and the finest of its companions part."""
+    nearest = companions[min(companions)]
+    distance = np.zeros_like(result.time)
+    for name in result.clearance_joints:
+        clearance = result.joints[name].clearance
+        there, here = nearest[f"{name}_eccentricity"], result[f"{name}_eccentricity"]
+        squares = [
+            (np.interp(result.time, nearest.time, there[:, i]) - here[:, i]) ** 2
+            for i in range(here.shape[1])
+        ]
+        distance = np.maximum(distance, np.sqrt(np.sum(squares, axis=0)) / clearance)
+    return growth(result.time, distance, APART)
+
+
+def _reached(run: Result, end: float) -> bool:
+    return bool(run.time[-1] >= end * (1.0 - 1e-9))
+
+
+def _until(run: Result, end: float) -> Result:
+    """Return a run's record up to an instant, s."""
+    count = int(np.searchsorted(run.time, end * (1.0 + 1e-12), side="right"))
+    channels = {
+        name: replace(channel, values=channel.values[:count])
+        for name, channel in run.channels.items()
+    }
+    return replace(run, channels=channels)

@@ -1,0 +1,50 @@
+"""A figure with its error, as people write it."""
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+__all__ = ["uncertain"]
+
+MOST = 7
+"""Digits of a figure, however small its error is."""
+
+
+def uncertain(
+    value: float | None, error: Mapping[str, Any] | None, scale: float = 1.0, digits: int = 4
+) -> str:
+    """Return a figure with its error, or the bounds of what the scene does not determine.
+
+    Args:
+        value: SI, None where there is none.
+        error: of the summary's `errors`; None where nothing is known.
+        scale: to the unit that is shown.
+        digits: of a figure without error.
+
+    >>> told = {"error": 167.3, "determined": True, "low": 846.7, "high": 1181.3}
+    >>> uncertain(1014.2, told)
+    '1010 +- 170'
+    >>> uncertain(1014.2, {**told, "determined": False, "low": 860.1, "high": 1084.6})
+    '860 to 1080, not determined'
+    """
+    if value is None:
+        return "-"
+    if error is None:
+        return f"{value * scale:.{digits}g}"
+    if not error["determined"]:
+        low, high = error["low"] * scale, error["high"] * scale
+        return f"{_rounded(low, high)} to {_rounded(high, high)}, not determined"
+    spread, shown = error["error"] * scale, value * scale
+    if spread <= abs(shown) * 10.0**-MOST:
+        return f"{shown:.{digits if isinstance(value, float) else MOST}g}"
+    places = 1 - math.floor(math.log10(spread))
+    return f"{_places(shown, places)} +- {_places(spread, places)}"
+
+
+def _rounded(value: float, largest: float) -> str:
+    """Return a bound with three digits of the larger one."""
+    return _places(value, 2 - math.floor(math.log10(abs(largest)))) if largest else f"{value:.3g}"
+
+
+def _places(value: float, places: int) -> str:
+    return f"{round(value, places):.{max(places, 0)}f}"

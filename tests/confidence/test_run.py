@@ -1,0 +1,72 @@
+"""Runs tell how far their figures can be believed."""
+
+import numpy as np
+import pytest
+
+from exu_press import Result, Scene, simulate
+from exu_press.confidence import simulate_with_errors, with_errors
+from exu_press.confidence.companions import plan
+from exu_press.confidence.figures import figures
+from exu_press.confidence.run import errors_of
+
+SCENES = {
+    "ideal": {"joints": {"crank_pin": "ideal"}, "revolutions": 0.5},
+    "film": {
+        "joints": {"crank_pin": {"kind": "lubricated", "clearance": 2e-5}},
+        "revolutions": 0.5,
+    },
+    "dry": {"joints": {"crank_pin": "dry"}, "revolutions": 0.4},
+    "steps": {"revolutions": 0.2, "solver": {"step": 2e-5}},
+}
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_stated_errors_cover_the_true_ones(name):
+    """Of at least nineteen in twenty figures, against a hundredth of the tolerance."""
+    scene = Scene.from_dict({"mechanism": "slider_crank", **SCENES[name]})
+    finer = {"solver.tolerance": 1e-5}
+    if scene.solver.step is not None:
+        finer = {"solver.step": scene.solver.step / 10.0}
+    result = simulate(scene)
+    told = errors_of(result, {r: simulate(other) for r, other in plan(scene).items()})
+    true, found = figures(simulate(scene.replace(finer)).summary()), figures(result.summary())
+    assert told["errors"].keys() == found.keys()
+    covered = [
+        abs(value - true[key]) <= told["errors"][key]["error"] + 1e-6 * abs(value)
+        for key, value in found.items()
+    ]
+    assert np.mean(covered) >= 0.95
+
+
+def test_errors_stand_in_the_summary_and_in_the_file(tmp_path):
+    scene = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=0.05)
+    result = simulate_with_errors(scene)
+    told = result.summary()["errors"]["peak_acceleration.resolved"]
+    assert set(told) == {"error", "determined", "low", "high"}
+    result.save(tmp_path / "run.nc")
+    assert Result.load(tmp_path / "run.nc").summary()["errors"] == result.summary()["errors"]
+    again = with_errors(simulate(scene)).summary()["errors"]
+    assert again["stroke"]["error"] == pytest.approx(result.summary()["errors"]["stroke"]["error"])
+
+
+def test_motions_that_part_leave_bounds():
+    """Companions whose journal is elsewhere: what happens later is not determined."""
+    scene = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=0.1)
+    result = simulate(scene)
+    other = simulate(scene.replace("joints.crank_pin.clearance", 2e-4))
+    told = errors_of(result, {4.0: other})
+    assert told["errors_from"] is not None
+    assert not told["errors"]["joints.crank_pin.peak_force"]["determined"]
+
+
+@pytest.mark.parametrize(
+    ("solver", "ratios"),
+    [
+        ({"tolerance": 1e-3}, [4.0, 8.0, 16.0]),
+        ({"tolerance": 0.01}, [2.0, 4.0, 8.0]),
+        ({"tolerance": 0.1}, [0.5]),
+        ({"step": 1e-5}, [2.0, 3.0, 4.0]),
+    ],
+)
+def test_companions_are_coarser_where_that_is_allowed(solver, ratios):
+    assert list(plan(Scene(solver=solver))) == ratios

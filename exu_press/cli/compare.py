@@ -5,7 +5,13 @@ import sys
 from collections.abc import Mapping
 from pathlib import Path
 
-from exu_press.cli.options import add_run_arguments, scene_path, shipped_names, show_warnings
+from exu_press.cli.options import (
+    add_error_argument,
+    add_run_arguments,
+    scene_path,
+    shipped_names,
+    show_warnings,
+)
 from exu_press.confidence import simulate_with_errors
 from exu_press.errors import InputError
 from exu_press.observe.table import comparison_lines
@@ -33,6 +39,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "compared with ideal, with dry and with lubricated joints",
     )
     add_run_arguments(parser)
+    add_error_argument(parser)
 
 
 def execute(options: argparse.Namespace) -> int:

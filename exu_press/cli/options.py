@@ -8,6 +8,7 @@ from pathlib import Path
 from exu_press.scene import Scene, load_scene
 
 __all__ = [
+    "add_error_argument",
     "add_run_arguments",
     "add_scene_arguments",
     "directory_of",
@@ -42,13 +43,17 @@ def add_run_arguments(parser: argparse.ArgumentParser) -> None:
         help="change a key of the scene, as in film.viscosity=0.1; may be repeated",
     )
     parser.add_argument("--out", metavar="DIR", help="where to write (default: out/SCENE)")
+    parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
+    parser.add_argument("--no-pictures", action="store_true", help="draw nothing")
+
+
+def add_error_argument(parser: argparse.ArgumentParser) -> None:
+    """Add how figures are left without errors."""
     parser.add_argument(
         "--no-error",
         action="store_true",
         help="leave out the errors of the figures, and the runs beside that they take",
     )
-    parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
-    parser.add_argument("--no-pictures", action="store_true", help="draw nothing")
 
 
 def scene_of(options: argparse.Namespace) -> Scene:

@@ -4,7 +4,13 @@ import argparse
 import sys
 import textwrap
 
-from exu_press.cli.options import add_scene_arguments, directory_of, scene_of, show_warnings
+from exu_press.cli.options import (
+    add_error_argument,
+    add_scene_arguments,
+    directory_of,
+    scene_of,
+    show_warnings,
+)
 from exu_press.confidence import simulate_with_errors
 from exu_press.observe.table import run_lines
 from exu_press.output import output_directory, remove_pictures, write_json
@@ -19,6 +25,7 @@ EXAMPLE = "exu-press run press --set joints.crank_pin=dry --set gravity=0 --out 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the command's arguments."""
     add_scene_arguments(parser)
+    add_error_argument(parser)
 
 
 def execute(options: argparse.Namespace) -> int:

@@ -26,14 +26,14 @@ EVERY_RUN = {
     "slider_tilt": "",
     "drive_torque": "",
     "drive_power": "",
-    "energy_input": "",
-    "energy_stored": "",
-    "energy_dissipated": "",
     "frame_force": "plane",
     "shaking_force": "plane",
     "body_position": "pose",
 }
 """The channels of every run -> what their columns are."""
+
+BALANCE = {"energy_input": "", "energy_stored": "", "energy_dissipated": ""}
+"""The channels of every run of a scene's own items alone."""
 
 SOME_RUNS = {
     "shaking_force_without_counterweight": "plane",
@@ -61,15 +61,19 @@ def check_contents(result: "Result") -> None:
             f"bodies = {shown(result.bodies)}: allowed are the scene's, {', '.join(bodies)}"
         )
     loose = {joint.name for joint in mechanism.joints if scene.joints[joint.name].kind != "ideal"}
-    _check_channels(result.channels, mechanism, loose)
+    always = EVERY_RUN if result.info["own_items"] else EVERY_RUN | BALANCE
+    _check_channels(result.channels, mechanism, loose, always)
     _check_surfaces(result)
 
 
 def _check_channels(
-    channels: Mapping[str, "Channel"], mechanism: Mechanism, loose: Collection[str]
+    channels: Mapping[str, "Channel"],
+    mechanism: Mechanism,
+    loose: Collection[str],
+    always: Mapping[str, str],
 ) -> None:
     """Check which channels there are, and what their columns are."""
-    columns, required = {**EVERY_RUN, **SOME_RUNS}, list(EVERY_RUN)
+    columns, required = {**EVERY_RUN, **BALANCE, **SOME_RUNS}, list(always)
     for joint in mechanism.joints:
         columns[f"{joint.name}_force"] = vector = "space" if joint.spherical else "plane"
         if joint.name in loose:

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from exudyn.itemInterface import LoadForceVector, MarkerBodyRigid
 
-from exu_press import Scene
+from exu_press import Result, Scene
 from exu_press.observe.energy import energy_residual, energy_summary
 from exu_press.plots.save import save_pictures
 from exu_press.result import record
@@ -42,6 +42,8 @@ def test_the_user_s_own_load_leaves_no_balance(tmp_path):
     summary = result.summary()
     assert summary["own_items"] == 1
     assert set(summary["energy"].values()) == {None}
+    result.save(tmp_path / "run.nc")
+    result = Result.load(tmp_path / "run.nc")
     assert not any(name.startswith("energy_") for name in result)
     assert any("no energy balance" in warning for warning in summary["warnings"])
     assert "energy.png" not in {path.name for path in save_pictures(result, tmp_path)}

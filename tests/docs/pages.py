@@ -103,15 +103,18 @@ def run(words: list[str], place: Path) -> str:
 
 
 def read(block: Block, place: Path) -> None:
-    """Read a scene or a study as the commands do."""
+    """Read a scene, a study or a mechanism as the commands do."""
     import tomllib
 
     from exu_press import load_scene
+    from exu_press.mechanism import load_mechanism
     from exu_press.studies.sweep import load_study
 
     path = place / (block.file or "block.toml")
     path.write_text(block.text, encoding="utf-8")
-    if "scene" in tomllib.loads(block.text):
+    if "bodies" in tomllib.loads(block.text) and "crank" in tomllib.loads(block.text):
+        load_mechanism(path)
+    elif "scene" in tomllib.loads(block.text):
         load_study(path)
     else:
         load_scene(path)

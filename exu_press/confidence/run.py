@@ -1,8 +1,7 @@
 """A run with the errors of its figures."""
 
 from collections.abc import Mapping
-from dataclasses import asdict, replace
-from typing import Any
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +11,7 @@ from exu_press.confidence.estimate import ROUNDING, FigureError, converging, sca
 from exu_press.confidence.figures import figures
 from exu_press.confidence.growth import Growth, growth
 from exu_press.result import Result
+from exu_press.result.info import Error, Errors
 from exu_press.scene import Scene
 from exu_press.simulation import simulate
 
@@ -56,7 +56,7 @@ def _told(result: Result, companions: Mapping[float, Result]) -> Result:
     return replace(result, info={**result.info, **errors_of(result, companions)})
 
 
-def errors_of(result: Result, companions: Mapping[float, Result]) -> dict[str, Any]:
+def errors_of(result: Result, companions: Mapping[float, Result]) -> Errors:
     """Return what a summary says of errors.
 
     Companions that stopped before the run itself did are left out; without any nothing is known.
@@ -76,7 +76,11 @@ def errors_of(result: Result, companions: Mapping[float, Result]) -> dict[str, A
     if parted.horizon is not None:
         runs = {1.0: result, **kept}
         before = {r: figures(_until(run, parted.horizon).summary()) for r, run in runs.items()}
-    errors = {name: asdict(_error(name, now, before)) for name in now[1.0]}
+    errors: dict[str, Error] = {}
+    for name in now[1.0]:
+        of = _error(name, now, before)
+        low, high = of.low, of.high
+        errors[name] = {"error": of.error, "determined": of.determined, "low": low, "high": high}
     return {"errors": errors, "errors_from": parted.horizon, "amplification": parted.rate}
 
 

@@ -2,7 +2,7 @@
 
 from typing import NotRequired, TypedDict
 
-__all__ = ["Info", "Stress"]
+__all__ = ["Error", "Errors", "Info", "Stress"]
 
 
 class Stress(TypedDict):
@@ -15,6 +15,36 @@ class Stress(TypedDict):
 
     von_mises: float
     time: float
+
+
+class Error(TypedDict):
+    """What is known of the error of a figure.
+
+    Attributes:
+        error: absolute, in the figure's unit.
+        determined: whether the scene determines the figure.
+        low: least value that it may have.
+        high: largest value that it may have.
+    """
+
+    error: float
+    determined: bool
+    low: float
+    high: float
+
+
+class Errors(TypedDict):
+    """What a run says of the errors of its figures.
+
+    Attributes:
+        errors: by the figure's dotted name.
+        errors_from: instant after which the motion amplifies errors beyond the figures, s.
+        amplification: of a difference of motions, 1/s.
+    """
+
+    errors: dict[str, Error]
+    errors_from: float | None
+    amplification: float | None
 
 
 class Info(TypedDict):
@@ -38,6 +68,9 @@ class Info(TypedDict):
         connectors: of the model.
         own_items: number of objects and loads that the user added to the model.
         versions: of Python and packages, by name.
+        errors: as in `Errors`, in runs that were asked for them.
+        errors_from: the same.
+        amplification: the same.
     """
 
     status: str
@@ -55,3 +88,6 @@ class Info(TypedDict):
     connectors: int
     own_items: int
     versions: dict[str, str]
+    errors: NotRequired[dict[str, Error]]
+    errors_from: NotRequired[float | None]
+    amplification: NotRequired[float | None]

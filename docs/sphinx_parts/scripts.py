@@ -13,7 +13,7 @@ SOURCES = ROOT / "out" / "gallery"
 NUMBERS = ROOT / "out" / "gallery_numbers.png"
 """Stands for scripts that end in numbers."""
 
-LEFT_OUT = ("benchmark_", "fit_", "tabulate_", "flexible_parts", "paper", "stability")
+LEFT_OUT = ("benchmark_", "fit_", "tabulate_", "flexible_parts", "paper", "precision", "stability")
 """Beginnings of scripts that take minutes, or overwrite what the package ships."""
 
 HEAD = """Scripts

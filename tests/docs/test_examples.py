@@ -9,11 +9,12 @@ import pytest
 import exu_press
 import fe_models
 import paper
+import precision
 import stability
 
 MODULES = [
     module.name
-    for package in (exu_press, fe_models, paper, stability)
+    for package in (exu_press, fe_models, paper, precision, stability)
     for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}.")
 ]
 

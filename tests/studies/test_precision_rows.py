@@ -1,11 +1,10 @@
-"""What rows and series say: floors, orders, cheapest settings, goals."""
+"""What rows and series say: floors, orders, cheapest settings."""
 
 from dataclasses import replace
 
 import pytest
 
 from exu_press.studies.precision.errors import Errors
-from exu_press.studies.precision.goals import goals_of
 from exu_press.studies.precision.measured import Attempt, Measured, timed
 from exu_press.studies.precision.rows import cheapest, order_of, orders_of, row_of, series_of
 
@@ -57,21 +56,6 @@ def test_failed_runs_do_not_count_as_quick():
 def test_series_run_from_coarse_to_fine():
     rows = [row(1e-4, 0.0), row(1e-2, 0.0), row(1e-3, 0.0, solver="other")]
     assert [r.value for r in series_of(rows)["case", "fixed step"]] == [1e-2, 1e-4]
-
-
-def test_goals_compare_the_cheapest_runs():
-    rows = [
-        row(1e-5, 1e-3, 6.0, "press_lubricated"),
-        row(1e-3, 1e-3, 0.05, "press_lubricated", "tolerance"),
-    ]
-    fixed, real_time = goals_of(rows, {"press_lubricated": 0.5})
-    assert fixed.ratio == pytest.approx(1 / 120) and fixed.met
-    assert real_time.ratio == pytest.approx(0.1) and real_time.met
-
-
-def test_a_goal_without_a_run_is_not_told():
-    (fixed, real_time) = goals_of([row(1e-5, 0.5, case="press_dry")], {"press_dry": 0.5})
-    assert fixed.ratio is None and fixed.met is None and real_time.met is None
 
 
 def test_long_runs_and_failed_ones_are_not_repeated():

@@ -4,10 +4,33 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from exu_press.studies.precision.goals import Goal
 from exu_press.studies.precision.rows import Row
 
-__all__ = ["Report"]
+__all__ = ["Goal", "Report"]
+
+
+@dataclass(frozen=True)
+class Goal:
+    """One ratio of run times.
+
+    Attributes:
+        what: in words.
+        ratio: our time over the other's; None where one of them did not get there.
+        at_most: what is aimed at.
+        ours: our run, in words.
+        other: what it is compared with, in words.
+    """
+
+    what: str
+    ratio: float | None
+    at_most: float
+    ours: str
+    other: str
+
+    @property
+    def met(self) -> bool | None:
+        """Whether the goal is met; None where there is nothing to compare."""
+        return None if self.ratio is None else self.ratio <= self.at_most
 
 
 @dataclass(frozen=True)

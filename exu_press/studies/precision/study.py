@@ -1,7 +1,7 @@
 """The study: every chosen case against its reference, every solver against its time."""
 
 import dataclasses
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -9,21 +9,17 @@ import numpy as np
 from exu_press.progress import Progress
 from exu_press.scene import Scene
 from exu_press.studies.precision import own, references
-from exu_press.studies.precision.cases import FULL, QUICK, Amount, Case
-from exu_press.studies.precision.compiled import CompiledModel, compile_model, has_numba
+from exu_press.studies.precision.amount import FULL, QUICK, Amount
+from exu_press.studies.precision.cases import Case
 from exu_press.studies.precision.errors import Errors, errors_of, late_of
-from exu_press.studies.precision.goals import goals_of
 from exu_press.studies.precision.machine import machine
 from exu_press.studies.precision.measured import Attempt, Measured, timed
-from exu_press.studies.precision.peers import PEERS, installed, peer_attempts
-from exu_press.studies.precision.references import Reference
-from exu_press.studies.precision.report import Report
+from exu_press.studies.precision.report import Goal, Report
 from exu_press.studies.precision.rows import ERRORS, Row, orders_of, row_of
-from exu_press.studies.precision.squeezer import DURATION, squeezer_attempts, squeezer_errors
+from exu_press.studies.precision.truth import Reference
 
 __all__ = ["precision"]
 
-PEER_TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10)
 RADII = (0.5, 0.65, 0.95)
 """Beside the default of 0.8."""
 VARIED_TOLERANCES = (1e-2, 1e-3, 1e-4)
@@ -36,20 +32,19 @@ def precision(
     quick: bool = False,
     quiet: bool = True,
     after_case: Callable[[Report], object] = lambda report: None,
+    goals_of: Callable[[Sequence[Row], dict[str, float]], Sequence[Goal]] = lambda rows, times: (),
+    left_out: Sequence[str] = (),
 ) -> Report:
     """Run cases and return what was measured.
 
     Args:
-        chosen: from `exu_press.studies.precision.cases`.
+        chosen: of a user's scene from `case_of`, or a table of your own.
         quick: a reduced form, whose times mean nothing.
         quiet: False shows the progress on standard error.
         after_case: called after every case with what was measured so far: all of them take half
             an hour.
     """
     amount = QUICK if quick else FULL
-    left_out = [why for peer in PEERS if (why := installed(peer))]
-    if not has_numba():
-        left_out.append("numba is not installed: the peers' right-hand side is not compiled")
     rows: list[Row] = []
     described: dict[str, dict[str, Any]] = {}
     durations: dict[str, float] = {}
@@ -67,11 +62,10 @@ def precision(
 
     for case in chosen:
         scene = _shortened(case.scene, amount)
-        durations[case.name] = scene.duration if scene is not None else DURATION
+        durations[case.name] = _duration(case, scene)
         horizon = min(case.horizon or np.inf, durations[case.name])
-        model = compile_model(scene) if case.reference == "reduced" and scene else None
-        reference = _reference(case, scene, model, horizon, amount)
-        attempts = _attempts(case, scene, model, amount)
+        reference = _reference(case, scene, horizon, amount)
+        attempts = _attempts(case, scene, amount)
         some = _run(case, attempts, reference, horizon, case.repeats or amount.repeats, quiet)
         rows += some
         described[case.name] = _describe(case, reference, horizon, durations[case.name], some)
@@ -87,31 +81,39 @@ def _shortened(scene: Scene | None, amount: Amount) -> Scene | None:
     return scene if scene.revolutions <= longest else scene.replace(revolutions=longest)
 
 
-def _reference(
-    case: Case,
-    scene: Scene | None,
-    model: CompiledModel | None,
-    horizon: float,
-    amount: Amount,
-) -> Reference:
+def _duration(case: Case, scene: Scene | None) -> float:
+    """Return how long a case is simulated, s."""
+    if scene is not None:
+        return scene.duration
+    assert case.extra is not None and case.extra.duration is not None
+    return case.extra.duration
+
+
+def _reference(case: Case, scene: Scene | None, horizon: float, amount: Amount) -> Reference:
     """Make the reference of a case."""
-    if scene is None:
-        return references.published()
-    if model is not None:
-        return references.from_reduced(model, horizon, amount)
+    if case.reference == "extra":
+        assert case.extra is not None
+        return case.extra.reference(scene, horizon, amount)
+    assert scene is not None
     if case.reference == "own":
         return references.from_own(case, scene, horizon, amount)
     return references.closed_form(scene)
 
 
-def _attempts(
-    case: Case, scene: Scene | None, model: CompiledModel | None, amount: Amount
-) -> list[Attempt]:
+def _attempts(case: Case, scene: Scene | None, amount: Amount) -> list[Attempt]:
     """Return the runs of a case."""
     steps = [h for h in case.steps if h >= amount.finest_step]
     tolerances = [tol for tol in case.tolerances if tol >= amount.finest_tolerance]
-    if scene is None:
-        return squeezer_attempts(steps, tolerances)
+    attempts = [] if scene is None else _own(case, scene, amount, steps, tolerances)
+    if case.extra is not None:
+        attempts += case.extra.attempts(scene, amount, steps, tolerances)
+    return attempts
+
+
+def _own(
+    case: Case, scene: Scene, amount: Amount, steps: list[float], tolerances: list[float]
+) -> list[Attempt]:
+    """Return the package's own runs of a scene."""
     attempts = own.fixed_steps(scene, steps) + own.tolerances(scene, tolerances)
     attempts += own.mode_numbers(scene, case.modes)
     if case.variations:
@@ -119,9 +121,6 @@ def _attempts(
         attempts += own.spectral_radii(scene, RADII, varied)
         varied = [h for h in VARIED_STEPS if h >= amount.finest_step]
         attempts += own.newton_modes(scene, varied)
-    if model is not None:
-        tight = [tol for tol in PEER_TOLERANCES if tol >= amount.finest_peer]
-        attempts += peer_attempts(model, tight)
     return attempts
 
 
@@ -152,8 +151,9 @@ def _errors(case: Case, run: Measured, reference: Reference, horizon: float) -> 
     nothing = Errors(None, None, None)
     if run.trajectory is None:
         return nothing, None
-    if case.scene is None:
-        return squeezer_errors(run.trajectory), None
+    special = case.extra.errors(run.trajectory) if case.extra is not None else None
+    if special is not None:
+        return special, None
     if reference.trajectory is None:
         return nothing, None
     errors = errors_of(run.trajectory, reference.trajectory, horizon)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from exu_press.studies.precision.squeezer import _start_places, squeezer_attempts, squeezer_errors
+from precision.squeezer import _start_places, squeezer_attempts, squeezer_errors
 
 
 def angle_error(attempt):
@@ -13,7 +13,7 @@ def angle_error(attempt):
 
 
 def test_the_published_start_closes_every_loop():
-    from exu_press.studies.precision.squeezer import FRAME, JOINTS, POINTS, _turned
+    from precision.squeezer import FRAME, JOINTS, POINTS, _turned
 
     places = _start_places()
     for name, *bodies in JOINTS:

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from exu_press.scene import Scene
-from exu_press.studies.precision.reduced import ScalarFunction, numbers_of, rate_of, start_of
 from exu_press.studies.precision.trajectory import Array, Trajectory
+from precision.reduced import ScalarFunction, numbers_of, rate_of, start_of
 
 __all__ = ["CompiledModel", "compile_model", "has_numba"]
 

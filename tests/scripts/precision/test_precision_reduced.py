@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from exu_press import InputError, Scene
-from exu_press.studies.precision.compiled import compile_model, has_numba
-from exu_press.studies.precision.reduced import numbers_of, rate_of, start_of
+from precision.compiled import compile_model, has_numba
+from precision.reduced import numbers_of, rate_of, start_of
 
-sys.path.append(str(Path(__file__).parents[1]))
+sys.path.append(str(Path(__file__).parents[2]))
 from independent.reduced_slider_crank import ReducedSliderCrank
 
 PINS = {"dry": "lugre_steady", "lubricated": "pinkus"}

@@ -15,11 +15,11 @@ from typing import Any
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from exu_press.studies.precision.compiled import CompiledModel
 from exu_press.studies.precision.measured import Attempt, Measured
 from exu_press.studies.precision.trajectory import Array, Trajectory
+from precision.compiled import CompiledModel, has_numba
 
-__all__ = ["PEERS", "Peer", "PeerError", "installed", "peer_attempts"]
+__all__ = ["PEERS", "Peer", "PeerError", "installed", "left_out", "peer_attempts"]
 
 FIRST_STEP = 1e-7  # s: all of them start in the middle of a clearance, where nothing says how stiff
 SCALES = np.array([1.0, 1.0, 10.0, 10.0])
@@ -83,6 +83,14 @@ def installed(peer: Peer) -> str:
         if importlib.util.find_spec(package) is None:
             return f"{peer.name} left out: {package} is not installed ({HOW[package]})"
     return ""
+
+
+def left_out() -> list[str]:
+    """Return what is not installed, and what that leaves out."""
+    reasons = [why for peer in PEERS if (why := installed(peer))]
+    if not has_numba():
+        reasons.append("numba is not installed: the peers' right-hand side is not compiled")
+    return reasons
 
 
 def _scipy(method: str) -> Callable[[CompiledModel, float, Array | None], Solution]:

@@ -4,12 +4,12 @@ Of processor times: all runs have one thread, and another program beside them do
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from exu_press.studies.precision.own import FIXED, TOLERANCE
+from exu_press.studies.precision.report import Goal
 from exu_press.studies.precision.rows import Row, cheapest, series_of
 
-__all__ = ["Goal", "goals_of"]
+__all__ = ["goals_of"]
 
 PEAK, PEAK_LIMIT = "error_peak_acceleration", 5e-3
 POSITION, POSITION_LIMIT = "error_position", 1e-6
@@ -23,30 +23,6 @@ AGAINST_FIXED = (
 PEER_RATIOS = {"SciPy Radau": 1.0, "SciPy BDF": 1.0, "SciPy LSODA": 10.0}
 PEER_CASE = "slider_crank_dry_0.1mm"
 REAL_TIME = ("press_ideal", "press_lubricated", "press_dry")
-
-
-@dataclass(frozen=True)
-class Goal:
-    """One ratio of run times.
-
-    Attributes:
-        what: in words.
-        ratio: our time over the other's; None where one of them did not get there.
-        at_most: what is aimed at.
-        ours: our run, in words.
-        other: what it is compared with, in words.
-    """
-
-    what: str
-    ratio: float | None
-    at_most: float
-    ours: str
-    other: str
-
-    @property
-    def met(self) -> bool | None:
-        """Whether the goal is met; None where there is nothing to compare."""
-        return None if self.ratio is None else self.ratio <= self.at_most
 
 
 def goals_of(rows: Sequence[Row], durations: dict[str, float]) -> list[Goal]:

@@ -1,0 +1,75 @@
+"""Error against run time of shipped scenes, beside other solvers on a hand-reduced model.
+
+Run with: python scripts/precision.py [--quick] [--case NAME] [--out DIR]
+"""
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from exu_press.errors import InputError
+from exu_press.output import output_directory, write_json
+from exu_press.studies.precision import Report, precision
+from exu_press.studies.precision.table import report_lines
+from precision.cases import chosen
+from precision.goals import goals_of
+from precision.peers import left_out
+
+
+def parser() -> argparse.ArgumentParser:
+    found = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    found.add_argument(
+        "--case",
+        action="append",
+        default=[],
+        metavar="NAME",
+        help="one case of the table; may be repeated (default: all)",
+    )
+    found.add_argument(
+        "--quick", action="store_true", help="a reduced form in under two minutes, times not judged"
+    )
+    found.add_argument("--out", metavar="DIR", default="out/precision", help="where to write")
+    found.add_argument("--quiet", action="store_true", help="print nothing but errors")
+    found.add_argument("--no-pictures", action="store_true", help="draw nothing")
+    return found
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run the study; return 0, as runs that fail are part of what it reports."""
+    table = chosen(options.case)
+    directory = output_directory(Path(options.out))
+
+    def keep(so_far: Report) -> None:
+        write_json(directory / "precision.json", so_far.to_dict())
+
+    report = precision(
+        table,
+        quick=options.quick,
+        quiet=options.quiet,
+        after_case=keep,
+        goals_of=goals_of,
+        left_out=left_out(),
+    )
+    written = ["precision.json"]
+    if not options.no_pictures:
+        from exu_press.plots.precision import save_precision
+
+        written += [path.name for path in save_precision(report, directory)]
+    if not options.quiet:
+        print("\n".join(report_lines(report)))
+        print("written:", ", ".join(written), f"in {directory}")
+    return 0
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Return run's status, or 2 for wrong input."""
+    try:
+        return run(parser().parse_args(arguments))
+    except InputError as error:
+        print(f"precision: {error}", file=sys.stderr)
+        return 2
+
+
+if __name__ == "__main__":
+    sys.exit(main())

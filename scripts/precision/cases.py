@@ -1,0 +1,131 @@
+"""The table of cases: scenes, where their references come from, and settings worth their time."""
+
+from typing import Any
+
+from exu_press.errors import InputError
+from exu_press.scene import Scene
+from exu_press.scene.tables import Flexible
+from exu_press.studies.precision.cases import STEPS, TOLERANCES, Case
+from precision.extras import Reduced, Squeezer
+
+__all__ = ["cases", "chosen"]
+
+SQUEEZER_STEPS = (1e-4, 3e-5, 1e-5, 3e-6, 1e-6)  # s
+
+
+def cases() -> tuple[Case, ...]:
+    """Return the table."""
+    return (
+        Case("slider_crank_ideal", "Slider-crank, ideal", "closed form", _slider_crank("ideal")),
+        Case(
+            "slider_crank_dry_0.1mm",
+            "Slider-crank, dry pin, 0.1 mm",
+            "extra",
+            _slider_crank("dry", 1e-4),
+            extra=Reduced(),
+            variations=True,
+        ),
+        Case(
+            "slider_crank_dry_0.01mm",
+            "Slider-crank, dry pin, 0.01 mm",
+            "extra",
+            _slider_crank("dry", 1e-5),
+            extra=Reduced(),
+        ),
+        Case(
+            "slider_crank_lubricated_0.1mm",
+            "Slider-crank, lubricated pin, 0.1 mm",
+            "extra",
+            _slider_crank("lubricated", 1e-4),
+            extra=Reduced(),
+            variations=True,
+        ),
+        Case(
+            "press_ideal",
+            "Press, rigid, ideal",
+            "closed form",
+            _press("ideal", "ideal"),
+            steps=STEPS[:7],
+        ),
+        Case(
+            "press_lubricated",
+            "Press, rigid, lubricated pin and dry balls, 0.1 mm",
+            "own",
+            _press("lubricated", "dry"),
+            steps=STEPS[:8],
+            tolerances=TOLERANCES[:11],
+            reference_tolerance=1e-6,
+            reference_step=2e-6,
+        ),
+        Case(
+            "press_dry",
+            "Press, rigid, dry pin and dry balls, 0.1 mm",
+            "own",
+            _press("dry", "dry"),
+            horizon=0.225,  # two references part by 2e-7 m before the impacts at 0.24 s, 1e-5 after
+            steps=STEPS[:8],
+            tolerances=TOLERANCES[:11],
+            reference_tolerance=1e-5,
+            reference_step=1e-6,
+        ),
+        Case(
+            "press_flexible_lubricated",
+            "Press, flexible (20 modes), lubricated pin and dry balls, 0.1 mm",
+            "own",
+            _press("lubricated", "dry", bodies="flexible"),
+            steps=STEPS[3:9],
+            tolerances=TOLERANCES[:10],
+            reference_tolerance=1e-5,
+            reference_step=2e-6,
+            repeats=1,
+        ),
+        Case(
+            "press_flexible_dry",
+            "Press, flexible (20 modes), dry pin and dry balls, 0.1 mm",
+            "own",
+            _press("dry", "dry", bodies="flexible"),
+            steps=STEPS[3:8],
+            tolerances=TOLERANCES[:10],
+            reference_tolerance=1e-5,
+            reference_step=2e-6,
+            repeats=1,
+        ),
+        Case(
+            "press_flexible_modes",
+            "Press, flexible, lubricated pin and dry balls, against 40 modes",
+            "own",
+            _press("lubricated", "dry", bodies="flexible", flexible=Flexible(modes=40)),
+            steps=(),
+            tolerances=(),
+            reference_tolerance=1e-4,
+            reference_step=4e-6,
+            modes=(0, 2, 4, 10, 20, 30, 40),
+            repeats=1,
+        ),
+        Case(
+            "squeezer",
+            "Andrews' squeezer, endpoint of the test set for IVP solvers",
+            "extra",
+            None,
+            steps=SQUEEZER_STEPS,
+            extra=Squeezer(),
+        ),
+    )
+
+
+def chosen(names: list[str]) -> tuple[Case, ...]:
+    """Return the cases of these names, all of them for none."""
+    table = {case.name: case for case in cases()}
+    for name in names:
+        if name not in table:
+            raise InputError(f"--case {name}: allowed is one of {', '.join(table)}")
+    return tuple(case for name, case in table.items() if not names or name in names)
+
+
+def _slider_crank(pin: str, clearance: float | None = None) -> Scene:
+    scene = Scene(mechanism="slider_crank", revolutions=1.0).replace("joints.crank_pin", pin)
+    return scene if clearance is None else scene.replace("joints.crank_pin.clearance", clearance)
+
+
+def _press(pin: str, balls: str, **given: Any) -> Scene:
+    return Scene(**given).replace({"joints.crank_pin": pin, "joints.balls": balls})

@@ -1,0 +1,71 @@
+"""The study on its cheapest cases, and its table of cases."""
+
+import itertools
+
+import pytest
+
+from exu_press import InputError
+from exu_press.studies.precision import precision
+from exu_press.studies.precision.table import report_lines
+from precision.cases import cases, chosen
+from precision.peers import left_out
+
+
+@pytest.fixture(scope="module")
+def report():
+    some = chosen(["slider_crank_ideal", "slider_crank_lubricated_0.1mm"])
+    return precision(some, quick=True, left_out=left_out())
+
+
+def rows(report, case, solver):
+    return [row for row in report.rows if (row.case, row.solver) == (case, solver)]
+
+
+def test_fixed_steps_are_of_second_order_where_lubricated(report):
+    order = next(
+        o
+        for o in report.orders
+        if o["case"].startswith("slider_crank_lub") and o["solver"] == "fixed step"
+    )
+    assert order["error_position"] == pytest.approx(2.0, abs=0.1)
+
+
+def test_the_error_follows_the_tolerance(report):
+    errors = [r.error_position for r in rows(report, "slider_crank_lubricated_0.1mm", "tolerance")]
+    assert all(b < 1.01 * a for a, b in itertools.pairwise(errors))
+    assert errors[-1] < 0.1 * errors[0]
+
+
+def test_peers_are_there_or_left_out_with_a_reason(report):
+    for peer in ("SciPy Radau", "SciPy BDF", "SciPy LSODA", "CVODE", "IDA", "numbalsoda LSODA"):
+        shown = rows(report, "slider_crank_lubricated_0.1mm", peer)
+        assert shown or any(why.startswith(peer) for why in report.left_out)
+
+
+def test_failed_runs_are_shown_with_their_reason(report):
+    for row in report.rows:
+        if row.status != "completed":
+            assert row.reason and row.error_position is None
+
+
+def test_references_are_known_ten_times_better_than_what_is_told(report):
+    for row in report.rows:
+        difference = report.cases[row.case]["reference"]["difference"]
+        if row.resolved("error_position") is not None:
+            assert row.error_position > 10.0 * difference["position"]
+
+
+def test_the_table_holds_every_run(report):
+    text = "\n".join(report_lines(report))
+    assert text.count("completed") + text.count("failed") >= len(report.rows)
+    assert "Radau" in text and report.machine["processor"] in text
+
+
+def test_every_case_has_its_own_name():
+    names = [case.name for case in cases()]
+    assert len(set(names)) == len(names) >= 8
+
+
+def test_an_unknown_case_is_refused():
+    with pytest.raises(InputError, match="press_lubricated"):
+        chosen(["press"])

@@ -1,0 +1,30 @@
+"""Ratios of run times that are aimed at."""
+
+import pytest
+
+from exu_press.studies.precision.errors import Errors
+from exu_press.studies.precision.measured import Attempt, Measured
+from exu_press.studies.precision.rows import row_of
+from precision.goals import goals_of
+
+NO_FLOOR = Errors(0.0, 0.0, 0.0)
+
+
+def row(value, error, wall_time=1.0, case="case", solver="fixed step", floor=NO_FLOOR):
+    attempt = Attempt(solver, "step", value, lambda: Measured(None, (wall_time,), (wall_time,)))
+    return row_of(case, attempt, attempt.run(), Errors(error, error, error), floor, None)
+
+
+def test_goals_compare_the_cheapest_runs():
+    rows = [
+        row(1e-5, 1e-3, 6.0, "press_lubricated"),
+        row(1e-3, 1e-3, 0.05, "press_lubricated", "tolerance"),
+    ]
+    fixed, real_time = goals_of(rows, {"press_lubricated": 0.5})
+    assert fixed.ratio == pytest.approx(1 / 120) and fixed.met
+    assert real_time.ratio == pytest.approx(0.1) and real_time.met
+
+
+def test_a_goal_without_a_run_is_not_told():
+    (fixed, real_time) = goals_of([row(1e-5, 0.5, case="press_dry")], {"press_dry": 0.5})
+    assert fixed.ratio is None and fixed.met is None and real_time.met is None

@@ -33,6 +33,13 @@ def test_a_scene_is_checked_without_exudyn():
     assert not modules & {"exudyn", "matplotlib", "ngsolve", "netgen"}
 
 
+@pytest.mark.parametrize("option", ["--help", "--version"])
+def test_help_and_version_load_no_package(option):
+    code = f"from exu_press.cli import main\ntry: main([{option!r}])\nexcept SystemExit: pass"
+    tops = {name.partition(".")[0] for name in imported_after(code)}
+    assert not tops & {"exudyn", "numpy", "scipy", "matplotlib", "ngsolve", "tqdm"}
+
+
 RIGID_RUN = """
 from exu_press import Scene, simulate
 result = simulate(Scene.from_dict({

@@ -6,6 +6,7 @@ import signal
 import sys
 from collections.abc import Sequence
 from importlib import import_module
+from pathlib import Path
 from types import ModuleType
 
 from exu_press import __version__
@@ -24,7 +25,7 @@ COMMANDS = (
     "view",
     "report",
 )
-"""Modules beside this one, loaded by `main` and not before."""
+"""Modules beside this one; the one that is asked for is loaded, which takes up to a second."""
 
 INTERRUPTED = 130
 CLOSED_PIPE = 141
@@ -55,8 +56,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return status
 
 
-def _loaded() -> dict[str, ModuleType]:
-    """Return the modules of all commands; Ctrl-C meanwhile ends the process without a word.
+def _loaded(name: str) -> ModuleType:
+    """Return the module of a command; Ctrl-C meanwhile ends the process without a word.
 
     An exception inside the start of a compiled module would come out as any other one.
     """
@@ -64,14 +65,21 @@ def _loaded() -> dict[str, ModuleType]:
     if usual:
         signal.signal(signal.SIGINT, signal.SIG_DFL)
     try:
-        return {name: import_module(f"exu_press.cli.{name}") for name in COMMANDS}
+        return import_module(f"exu_press.cli.{name}")
     finally:
         if usual:
             signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
+def _summary(name: str) -> str:
+    """Return the first line of a command's module, which is not loaded for it."""
+    text = Path(__file__).with_name(f"{name}.py").read_text(encoding="utf-8")
+    return text.partition("\n")[0].strip('"')
+
+
 def _execute(arguments: Sequence[str] | None) -> int:
     """Parse the arguments and run the command that they name."""
+    given = sys.argv[1:] if arguments is None else list(arguments)
     parser = argparse.ArgumentParser(
         prog="exu-press",
         description="Dynamics of press mechanisms with clearance and lubrication in their joints.",
@@ -79,15 +87,13 @@ def _execute(arguments: Sequence[str] | None) -> int:
     )
     parser.add_argument("--version", action="version", version=f"%(prog)s {__version__}")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    for name, module in _loaded().items():
-        summary = (module.__doc__ or "").splitlines()[0]
-        command = commands.add_parser(
-            name,
-            help=summary,
-            description=summary,
-            epilog=f"example: {module.EXAMPLE}",
-        )
-        module.add_arguments(command)
-        command.set_defaults(execute=module.execute)
-    options = parser.parse_args(arguments)
+    for name in COMMANDS:
+        summary = _summary(name)
+        command = commands.add_parser(name, help=summary, description=summary)
+        if given[:1] == [name]:
+            module = _loaded(name)
+            command.epilog = f"example: {module.EXAMPLE}"
+            module.add_arguments(command)
+            command.set_defaults(execute=module.execute)
+    options = parser.parse_args(given)
     return int(options.execute(options))

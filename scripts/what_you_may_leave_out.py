@@ -44,7 +44,7 @@ FIGURES = {
     "over 1 ms": lambda s: s["peak_acceleration"]["mean_1ms"],
     "at 1 kHz": lambda s: s["peak_acceleration"]["differentiated_1khz"],
     "lowest, mm": lambda s: 1e3 * s["bottom_dead_centre"],
-    "torque over 1 ms, N m": lambda s: s["press"]["drive"]["peak_torque_mean_1ms"],
+    "torque over 1 ms, N m": lambda s: s["drive"]["peak_torque_mean_1ms"],
 }
 
 

@@ -2,7 +2,12 @@
 
 from exu_press.observe.acceleration import differentiated_peak, mean_peak, peak
 from exu_press.observe.clearance import joint_summary
-from exu_press.observe.dead_centre import DeadCentre, bottom_dead_centres
+from exu_press.observe.dead_centre import (
+    DeadCentre,
+    bottom_dead_centres,
+    ideal_bottom_angle,
+    lowest_of_strokes,
+)
 from exu_press.observe.press import press_summary
 from exu_press.observe.summary import summary
 
@@ -10,7 +15,9 @@ __all__ = [
     "DeadCentre",
     "bottom_dead_centres",
     "differentiated_peak",
+    "ideal_bottom_angle",
     "joint_summary",
+    "lowest_of_strokes",
     "mean_peak",
     "peak",
     "press_summary",

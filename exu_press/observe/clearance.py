@@ -15,16 +15,13 @@ TOUCH = 1e-10
 """Penetration from which surfaces count as touching, m; the force begins at zero."""
 
 
-def joint_summary(
-    time: Array, joint: JointRecord, *, onset: float | None, dissipated: float
-) -> dict[str, Any]:
+def joint_summary(time: Array, joint: JointRecord, *, onset: float | None) -> dict[str, Any]:
     """Return what a joint is, its eccentricity, force, film and contact.
 
     Args:
         time: (n,), s.
         joint: what it did.
         onset: gap at which its surfaces begin to touch, m; None where they may not.
-        dissipated: energy that it turned into heat, J.
 
     Returns:
         The entries of summary.json; null for what the joint does not have. The smallest film is 0
@@ -45,7 +42,6 @@ def joint_summary(
         "impacts": None,
         "share_free_flight": None,
         "share_contact": None,
-        "dissipated": dissipated,
     }
     if onset is not None:
         penetration = -joint.gap

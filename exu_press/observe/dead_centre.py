@@ -1,4 +1,4 @@
-"""Where the slider turns: its lowest position in every stroke."""
+"""Where the slider turns: the bottom dead centre of every stroke."""
 
 from dataclasses import dataclass
 
@@ -6,18 +6,21 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicHermiteSpline
 
-__all__ = ["DeadCentre", "bottom_dead_centres"]
+from exu_press.result import Result
+from exu_press.scene import Scene, mechanism_of
+
+__all__ = ["DeadCentre", "bottom_dead_centres", "ideal_bottom_angle", "lowest_of_strokes"]
 
 Array = NDArray[np.float64]
 
 REACH = np.pi / 2
-"""A stroke's lowest position is looked for this far before and behind the crank's lowest one, rad:
-clearances shift it by degrees."""
+"""A stroke's dead centre is looked for this far before and behind the ideal one, rad: clearances
+shift it by degrees."""
 
 
 @dataclass(frozen=True)
 class DeadCentre:
-    """The slider's lowest position in one stroke.
+    """The slider's bottom dead centre in one stroke.
 
     Attributes:
         time: s.
@@ -30,21 +33,40 @@ class DeadCentre:
     position: float
 
 
-def bottom_dead_centres(
-    time: Array, crank_angle: Array, position: Array, velocity: Array
+def bottom_dead_centres(result: Result) -> list[DeadCentre]:
+    """Return the lowest position of every stroke that a run holds; strokes are the crank's."""
+    return lowest_of_strokes(
+        result.time,
+        result["crank_angle"],
+        result["slider_position"],
+        result["slider_velocity"],
+        about=ideal_bottom_angle(result.scene),
+    )
+
+
+def ideal_bottom_angle(scene: Scene) -> float:
+    """Return the crank angle at which the ideal slider is lowest, to half a degree, rad."""
+    angle = np.linspace(0.0, 2.0 * np.pi, 721)
+    position = mechanism_of(scene).ideal_slider(angle, scene.angular_speed)[0]
+    return float(angle[np.argmin(position)])
+
+
+def lowest_of_strokes(
+    time: Array, crank_angle: Array, position: Array, velocity: Array, *, about: float
 ) -> list[DeadCentre]:
     """Return the lowest position of every stroke that a record holds.
 
     Args:
         time: (n,), s, increasing.
-        crank_angle: (n,) from top dead centre, rad, increasing.
+        crank_angle: (n,), rad, increasing.
         position: (n,), m; interpolated between steps by cubic Hermite polynomials.
         velocity: (n,), m/s.
+        about: crank angle at which the ideal slider is lowest, rad.
     """
-    first = np.ceil((crank_angle[0] - np.pi + REACH) / (2 * np.pi) - 1e-9)
-    last = np.floor((crank_angle[-1] - np.pi - REACH) / (2 * np.pi) + 1e-9)
-    strokes = np.round((crank_angle - np.pi) / (2 * np.pi))
-    near = np.abs(crank_angle - np.pi - 2 * np.pi * strokes) <= REACH
+    first = np.ceil((crank_angle[0] - about + REACH) / (2 * np.pi) - 1e-9)
+    last = np.floor((crank_angle[-1] - about - REACH) / (2 * np.pi) + 1e-9)
+    strokes = np.round((crank_angle - about) / (2 * np.pi))
+    near = np.abs(crank_angle - about - 2 * np.pi * strokes) <= REACH
     near &= (strokes >= first) & (strokes <= last)
     found = []
     for stroke in np.split(np.flatnonzero(near), np.flatnonzero(np.diff(strokes[near])) + 1):

@@ -7,7 +7,7 @@ import numpy as np
 from exu_press.observe.acceleration import differentiated_peak, mean_peak, peak
 from exu_press.observe.clearance import joint_summary
 from exu_press.observe.energy import energy_summary
-from exu_press.observe.press import press_summary
+from exu_press.observe.press import begin_of_whole_revolutions, mean_rate, press_summary
 from exu_press.observe.warnings import run_warnings
 from exu_press.result import Result
 from exu_press.scene import IdealJoint
@@ -22,7 +22,6 @@ def summary(result: Result) -> dict[str, Any]:
     time, position = result.time, result["slider_position"]
     velocity = result["slider_velocity"]
     joints = {name: _joint(result, name) for name in result.joints}
-    press = {} if result.scene.press is None else {"press": press_summary(result, joints)}
     found = {
         **info,
         "peak_acceleration": {
@@ -34,7 +33,7 @@ def summary(result: Result) -> dict[str, Any]:
         "stroke": float(np.ptp(position)),
         "bottom_dead_centre": float(position.min()),
         "joints": joints,
-        **press,
+        **press_summary(result),
         "energy": energy_summary(result),
         "versions": versions,
         "scene": result.scene.to_dict(),
@@ -45,10 +44,13 @@ def summary(result: Result) -> dict[str, Any]:
 def _joint(result: Result, name: str) -> dict[str, Any]:
     """Return the entries of one joint."""
     joint = result.scene.joints[name]
-    ideal = isinstance(joint, IdealJoint)
-    return joint_summary(
+    entries = joint_summary(
         result.time,
         result.joints[name],
         onset=None if isinstance(joint, IdealJoint) else joint.onset,
-        dissipated=0.0 if ideal else float(result[f"{name}_loss"][-1]),
     )
+    if not isinstance(joint, IdealJoint):
+        lost = result[f"{name}_loss"]
+        entries["dissipated"] = float(lost[-1])
+        entries["mean_power"] = mean_rate(result.time, lost, begin_of_whole_revolutions(result))
+    return entries

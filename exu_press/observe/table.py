@@ -41,11 +41,6 @@ def _joints(entry: str, scale: float) -> Callable[[Summary], str]:
     return text
 
 
-def _press(entry: str, scale: float) -> Callable[[Summary], str]:
-    """Return what reads one entry, by its dotted name, of what press builders look at."""
-    return _figure(f"press.{entry}", scale)
-
-
 def _determined(summary: Summary) -> str:
     """Return until when errors are smaller than the figures; a dash if that is throughout."""
     return _number(summary.get("errors_from"), 1e3)
@@ -53,7 +48,13 @@ def _determined(summary: Summary) -> str:
 
 def _tilt(summary: Summary) -> str:
     """Return the slider's largest tilt, where its guide lets it."""
-    return _press("slider_tilt", 1e6)(summary) if "guide" in summary["scene"] else "-"
+    return _figure("slider_tilt", 1e6)(summary) if "guide" in summary["scene"] else "-"
+
+
+def _rubbing(summary: Summary) -> str:
+    """Return what all guides would take with a coefficient of friction of 0.1, W."""
+    powers = [guide["sliding_power"] for guide in summary["guides"].values()]
+    return _number(0.1 * sum(powers)) if powers and None not in powers else "-"
 
 
 ROWS: tuple[tuple[str, Callable[[Summary], str]], ...] = (
@@ -71,17 +72,14 @@ ROWS: tuple[tuple[str, Callable[[Summary], str]], ...] = (
     ("film thickness, min, um", _joints("min_film", 1e6)),
     ("impacts", _joints("impacts", 1.0)),
     ("share in contact", _joints("share_contact", 1.0)),
-    ("dead centres differ by, um", _press("bottom_dead_centre.range", 1e6)),
+    ("dead centres differ by, um", _figure("strokes.range", 1e6)),
     ("slider tilt, max, urad", _tilt),
-    ("drive torque, max, kN m", _press("drive.peak_torque", 1e-3)),
-    ("drive power, mean, W", _press("drive.mean_power", 1.0)),
-    ("  guides of mu 0.1 would add, W", _press("guide_sliding_power", 0.1)),
-    ("shaking force up, max, kN", _press("shaking_force.vertical", 1e-3)),
-    ("  mean over 1 ms", _press("shaking_force.vertical_mean_1ms", 1e-3)),
-    (
-        "  without counterweight",
-        _press("shaking_force_without_counterweight.vertical_mean_1ms", 1e-3),
-    ),
+    ("drive torque, max, kN m", _figure("drive.peak_torque", 1e-3)),
+    ("drive power, mean, W", _figure("drive.mean_power", 1.0)),
+    ("  guides of mu 0.1 would add, W", _rubbing),
+    ("shaking force up, max, kN", _figure("shaking.vertical", 1e-3)),
+    ("  mean over 1 ms", _figure("shaking.vertical_mean_1ms", 1e-3)),
+    ("  without counterweight", _figure("shaking.without_counterweight.vertical_mean_1ms", 1e-3)),
     ("energy put in, J", _figure("energy.input")),
     ("energy dissipated, J", _figure("energy.dissipated")),
     ("energy residual", lambda s: _number(s["energy"]["residual"], 1.0, 2)),

@@ -9,11 +9,12 @@ from numpy.typing import NDArray
 from scipy.integrate import cumulative_trapezoid
 from scipy.interpolate import CubicHermiteSpline
 
-from exu_press.observe import DeadCentre, bottom_dead_centres
+from exu_press.observe import DeadCentre, bottom_dead_centres, ideal_bottom_angle
 from exu_press.plots.canvas import angle_range, crank_degrees, curve, legend_above, new_figure
 from exu_press.plots.scales import crank_angle_axis, note, widen
 from exu_press.plots.slider import averaged
 from exu_press.plots.style import GREY, IDEAL, colour_of, styled
+from exu_press.plots.words import joint_in_words
 from exu_press.result import Result
 from exu_press.scene import mechanism_of
 
@@ -38,16 +39,14 @@ def press_figure(result: Result) -> Figure:
     """
     elastic = result.scene.guide is not None
     rows = 3 if elastic else 2
-    heading = "Press: frame, drive, guides, dead centres"
+    heading = "Frame, drive, guides, dead centres"
     figure = new_figure(heading, {"": result}, (13.0, 3.6 * rows))
     panels = list(figure.subplots(rows, 2).flat)
     _shaking(panels[0], result)
     _drive(panels[1], result)
     _guides(panels[2], result)
     over_angle = [panel for index, panel in enumerate(panels) if index != 3]
-    centres = bottom_dead_centres(
-        result.time, result["crank_angle"], result["slider_position"], result["slider_velocity"]
-    )
+    centres = bottom_dead_centres(result)
     if centres:
         _strokes(panels[3], result, centres)
     else:
@@ -96,14 +95,16 @@ def _drive(axes: Axes, result: Result) -> None:
 
 def _guides(axes: Axes, result: Result) -> None:
     """Draw the guides' lateral forces."""
+    mechanism = mechanism_of(result.scene)
     names = {
-        "slide": "slide_guide_force",
-        "left plunger": "plunger_left_guide_force",
-        "right": "plunger_right_guide_force",
-        "slider": "guide_force",
-        "counterweight": "counterweight_guide_force",
+        joint_in_words(guide.body).lower(): f"{guide.body}_guide_force"
+        for guide in mechanism.guides
     }
-    _draw(axes, result, {label: result[name] for label, name in names.items() if name in result})
+    names |= {joint_in_words(mechanism.slider).lower(): "guide_force"}
+    curves = {label: result[name] for label, name in names.items() if name in result}
+    if not curves:
+        axes.text(0.5, 0.5, "no guide", transform=axes.transAxes, ha="center", color=GREY)
+    _draw(axes, result, curves)
     axes.set_title("Guides")
     axes.set_ylabel("force, mean over 1 ms, kN")
 
@@ -123,7 +124,8 @@ def _strokes(axes: Axes, result: Result, centres: list[DeadCentre]) -> None:
     """Draw every stroke about its bottom dead centre, and the ideal one."""
     mean = float(np.mean([centre.position for centre in centres]))
     from_centre = np.linspace(-ABOUT, ABOUT, 200)
-    ideal = mechanism_of(result.scene).ideal_slider(np.radians(180.0 + from_centre), 1.0)[0]
+    bottom = np.degrees(ideal_bottom_angle(result.scene))
+    ideal = mechanism_of(result.scene).ideal_slider(np.radians(bottom + from_centre), 1.0)[0]
     axes.plot(
         from_centre,
         1e6 * (ideal - ideal.min()),
@@ -136,7 +138,7 @@ def _strokes(axes: Axes, result: Result, centres: list[DeadCentre]) -> None:
     angle = crank_degrees(result)
     path = CubicHermiteSpline(result.time, result["slider_position"], result["slider_velocity"])
     for index, centre in enumerate(centres):
-        turn = 360.0 * np.floor(np.degrees(centre.crank_angle) / 360.0) + 180.0
+        turn = 360.0 * np.round((np.degrees(centre.crank_angle) - bottom) / 360.0) + bottom
         near = turn + from_centre
         near = near[(near >= angle[0]) & (near <= angle[-1])]
         few = len(centres) <= CROWD

@@ -23,9 +23,8 @@ __all__ = ["save_comparison", "save_figure", "save_pictures"]
 def save_pictures(result: Result, directory: str | Path) -> list[Path]:
     """Draw everything about one run; return the files: slider, orbit, force, press, energy .png.
 
-    There is no orbit.png of a scene without clearance joints, press.png of a press alone, and no
-    energy.png where the user's own items leave no balance.
-    `directory` must exist.
+    There is no orbit.png of a scene without clearance joints, and no energy.png where the user's
+    own items leave no balance. `directory` must exist.
 
     Raises:
         InputError: a file cannot be written.
@@ -35,8 +34,7 @@ def save_pictures(result: Result, directory: str | Path) -> list[Path]:
     if result.clearance_joints:
         figures["orbit"] = orbit_figure(result)
     figures["force"] = force_figure(run)
-    if result.scene.press is not None:
-        figures["press"] = press_figure(result)
+    figures["press"] = press_figure(result)
     if has_balance(result):
         figures["energy"] = energy_figure(result)
     return [

@@ -14,7 +14,8 @@ QUICK = ["--set", "revolutions=0.02", "--no-pictures", "--no-error"]
 KEYS = {
     "status", "reason", "end_time", "wall_time", "total_time", "steps", "rejected_steps",
     "newton_iterations", "law_evaluations", "coordinates", "bodies", "connectors", "own_items",
-    "peak_acceleration", "peak_velocity", "stroke", "bottom_dead_centre", "joints", "press",
+    "peak_acceleration", "peak_velocity", "stroke", "bottom_dead_centre", "joints", "strokes",
+    "slider_tilt", "slider_lateral", "drive", "shaking", "guides",
     "energy", "versions", "scene", "warnings", "errors", "errors_from", "amplification",
 }  # fmt: skip
 

@@ -39,7 +39,7 @@ def test_elastic_guides_show_tilt_and_the_stroke(results):
     shown = panels(result)
     assert list(shown) == [*ALWAYS, "Bottom dead centre", "Slider tilt", "Slider sideways"]
     assert "µrad" in shown["Slider tilt"].get_ylabel()
-    centre = result.summary()["press"]["bottom_dead_centre"]
+    centre = result.summary()["strokes"]
     (dot,) = (line for line in shown["Slider tilt"].lines if line.get_marker() == "o")
     assert dot.get_ydata() == pytest.approx(1e6 * np.array(centre["tilts"]))
     assert f"{1e3 * centre['mean']:.6g} mm" in shown["Bottom dead centre"].get_title("right")

@@ -101,6 +101,7 @@ def test_summary_has_what_the_interface_promises(result):
         "kind",
         "clearance",
         "dissipated",
+        "mean_power",
         "max_eccentricity_ratio",
         "peak_force",
         "peak_penetration",

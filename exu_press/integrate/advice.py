@@ -29,7 +29,7 @@ class Advice:
     def joint(self, joint: ClearanceJoint) -> str:
         """Return what a clearance joint is called."""
         assert self.problem.joints is not None
-        return f"clearance joint {self.problem.joints.joints.index(joint)}"
+        return self.problem.joints.number(joint)
 
     def film(self) -> str:
         """Return what helps a film that broke down."""

@@ -88,12 +88,16 @@ def solve_dynamic(
         sensors hold what was computed.
 
     Raises:
-        InputError: the system is not assembled, there is nothing to solve, or the settings ask for
-            what has no error estimate; the system is left as it was.
+        InputError: the system is not assembled, there is nothing to solve, the settings ask for
+            what has no error estimate, or a joint starts with a film's surfaces in touch or a
+            contact deeper than its laws hold; the system is left as it was.
         exudyn.ExudynError: a user function failed.
     """
     refuse_unusable(settings, tolerance)
     problem = Problem.of(mbs, bodies)
+    words = advice(problem, tolerance is not None)
+    if problem.joints is not None:
+        problem.joints.refuse_start(words.joint)
     integration = settings.timeIntegration
     start, end = integration.startTime, integration.endTime
     largest = (end - start) / integration.numberOfSteps
@@ -179,7 +183,7 @@ def solve_dynamic(
         problem,
         monitor,
         resolution,
-        advice(problem, tolerance is not None),
+        words,
         gone=(reached - start) / (end - start),
         time=reached,
         error=control.error,

@@ -6,13 +6,17 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["GROUND", "ClearanceJoint", "JointState", "history"]
+__all__ = ["GROUND", "SHALLOW", "ClearanceJoint", "JointState", "history"]
 
 Array = NDArray[np.float64]
 Vector = tuple[float, ...]
 
 GROUND = (0.0, 0.0, 0.0)
 """Stands behind all other coordinates of the item for those of the ground in the plane."""
+
+SHALLOW = 0.01
+"""Penetration over radius up to which contact laws hold: they are for a contact that is small
+beside the radius, and its half-width sqrt(R delta) is then a tenth of it (Johnson 1985, 4.2)."""
 
 
 @dataclass(frozen=True)
@@ -60,6 +64,8 @@ class ClearanceJoint(Protocol):
     reach: float
     """Eccentricity at which its surfaces begin to touch, m, less than the clearance where they are
     rough; infinite where a film alone lies between them."""
+    deepest: float
+    """Eccentricity up to which its contact laws hold, m; infinite without contact."""
     lubricated: bool
     """Whether it has a film."""
     places: list[int]

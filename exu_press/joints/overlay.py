@@ -7,7 +7,7 @@ item costs a call of its own.
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from struct import Struct
 from typing import Any
@@ -20,7 +20,8 @@ from exudyn.itemInterface import (
 )
 from numpy.typing import NDArray
 
-from exu_press.joints.joint import GROUND, ClearanceJoint, JointState
+from exu_press.errors import InputError
+from exu_press.joints.joint import GROUND, SHALLOW, ClearanceJoint, JointState
 
 __all__ = ["JointOverlay", "overlay_of"]
 
@@ -61,6 +62,7 @@ class JointOverlay:
         self._matrix = exu.MatrixContainer()
         self._within: list[tuple[NDArray[np.intp], NDArray[np.intp]]] = []
         self._silent = False
+        self._started = False
         self._blocks: list[Block] = []
         self._by_q_t = 1.0
 
@@ -113,6 +115,51 @@ class JointOverlay:
         if q is None:
             q = q_t = [0.0] * self.size
         return joint.state([*q, *GROUND], [*q_t, *GROUND])
+
+    def refuse_start(self, called: Callable[[ClearanceJoint], str]) -> None:
+        """Refuse initial values with which a joint starts further out than its laws hold.
+
+        Args:
+            called: a joint -> what it is called.
+
+        Raises:
+            InputError: a joint does; its message has the joint, its eccentricity, its clearance and
+                what is allowed.
+        """
+        data: Any = self._mbs.systemData
+        values = data.GetODE2Coordinates(exu.ConfigurationType.Initial)
+        q = [0.0] * self.size
+        for node, start in self.nodes.items():
+            index = self._mbs.GetNodeODE2Index(node)
+            for i in range(len(self._mbs.GetNodeParameter(node, "referenceCoordinates"))):
+                q[start + i] = float(values[index + i])
+        self._check_start(q, called)
+
+    def _check_start(self, q: list[float], called: Callable[[ClearanceJoint], str]) -> None:
+        """Raise InputError for a joint that is further out in a state than its laws hold."""
+        self._started = True
+        if self._last[0] == q:
+            return  # a run that goes on where the last one ended: joints keep what they remember
+        for joint in self.joints:
+            e = joint.clearance - joint.state([*q, *GROUND], [0.0] * (self.size + 3)).gap
+            spent = joint.outside is not None
+            joint.reset()
+            if not spent and e <= joint.deepest:
+                continue
+            allowed = (
+                "less, since a film ends where the surfaces touch (one with contact= goes on)"
+                if spent
+                else f"{joint.deepest:.4g} m, a penetration of {SHALLOW:.0%} of the radius, up to "
+                "which contact laws hold"
+            )
+            raise InputError(
+                f"{called(joint)} starts with an eccentricity of {e:.4g} m at a clearance of "
+                f"{joint.clearance:.4g} m: allowed is {allowed}"
+            )
+
+    def number(self, joint: ClearanceJoint) -> str:
+        """Return a joint by its number, in the order in which they were added."""
+        return f"clearance joint {self.joints.index(joint)}"
 
     def resume(self) -> None:
         """Tell the joints that the next state is Newton's first guess of a step's end."""
@@ -184,6 +231,8 @@ class JointOverlay:
         Not a number where a state is so far out that a law overflows.
         """
         self.evaluations += 1
+        if not self._started:  # of Exudyn's own solvers, which would end without a word
+            self._check_start(q, self.number)
         if self._contacts:
             self._begin_step(time)
         self._last, self._time = (q, q_t), time

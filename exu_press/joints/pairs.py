@@ -10,6 +10,7 @@ S, which a film alone has, is the couple of its shear.
 import math
 from collections.abc import Sequence
 
+from exu_press.joints.joint import SHALLOW
 from exu_press.laws.contact import Approach, NormalContact
 from exu_press.laws.film import FilmLaw
 from exu_press.laws.friction import Friction, LuGre
@@ -328,6 +329,7 @@ class PairedJoint:
         pairs: the first one has the joint's clearance.
         clearance: radial clearance, m.
         reach: eccentricity at which surfaces touch in one of them, m, or infinity.
+        deepest: eccentricity up to which their contact laws hold, m, or infinity.
         lubricated: whether one of them is a film.
     """
 
@@ -335,8 +337,11 @@ class PairedJoint:
         """Let the pairs act in parallel."""
         self.pairs = list(pairs)
         self.clearance = self.pairs[0].clearance
-        dry = [pair.clearance for pair in self.pairs if isinstance(pair, DryPair)]
-        self.reach = min(dry, default=math.inf)
+        dry = [pair for pair in self.pairs if isinstance(pair, DryPair)]
+        self.reach = min([pair.clearance for pair in dry], default=math.inf)
+        self.deepest = self.clearance + min(
+            [SHALLOW * pair.radius for pair in dry], default=math.inf
+        )
         self.lubricated = any(isinstance(pair, FilmPair) for pair in self.pairs)
         self._motion: Motion = (0.0, 0.0, 0.0, 0.0, 0.0)
         self._loads: list[Load | None] = [None for _ in self.pairs]

@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.joints.ends import BodyEnd, Vector, cross, cross_matrix
-from exu_press.joints.joint import JointState
+from exu_press.joints.joint import SHALLOW, JointState
 from exu_press.laws.contact import Approach, NormalContact
 from exu_press.laws.friction import Friction, LuGre
 
@@ -39,6 +39,7 @@ class SpatialSpherical:
         self._contact, self._friction = contact, friction
         self._radius = radius
         self.clearance = self.reach = clearance
+        self.deepest = clearance + SHALLOW * radius
         self.lubricated = False
         self._approach = Approach()
         self._next_bristle: Array = np.zeros(3)

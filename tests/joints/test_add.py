@@ -1,10 +1,26 @@
-"""What the joints' functions refuse, in one line, before anything is added."""
+"""What joints refuse, in one line: to be added, and to start where no law of theirs holds."""
+
+import re
 
 import exudyn as exu
 import pytest
-from exudyn.itemInterface import NodeRigidBody2D, ObjectGround, ObjectRigidBody2D
+from exudyn.itemInterface import (
+    NodeRigidBody2D,
+    NodeRigidBodyRxyz,
+    ObjectGround,
+    ObjectRigidBody,
+    ObjectRigidBody2D,
+)
 
-from exu_press import InputError, add_dry_revolute, add_dry_spherical, add_lubricated_revolute
+from exu_press import (
+    InputError,
+    Status,
+    add_dry_revolute,
+    add_dry_spherical,
+    add_lubricated_revolute,
+    solve_dynamic,
+)
+from exu_press.laws.film import with_asperities
 from exu_press.laws.friction import no_friction
 from exu_press.scene import Scene
 from exu_press.scene.laws import contact_law, film_law
@@ -58,3 +74,66 @@ def test_an_assembled_system_takes_no_joint(add, arguments):
     mbs.Assemble()
     with pytest.raises(InputError, match=r"assembled: allowed is to add joints before"):
         add(mbs, journal, bearing, **arguments)
+
+
+def start(add, arguments, out):
+    """A body that starts out of its bearing's middle (m), ready to be solved."""
+    container, mbs, journal, bearing = system()
+    if add is add_dry_spherical:
+        node = mbs.AddNode(NodeRigidBodyRxyz())
+        inertia = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0]
+        body = mbs.AddObject(ObjectRigidBody(nodeNumber=node, mass=1.0, inertia=inertia))
+        journal = int(body), (0.0, 0.0, 0.0)
+    add(mbs, journal, bearing, **arguments)
+    mbs.Assemble()
+    data = mbs.systemData
+    before = data.GetODE2Coordinates(exu.ConfigurationType.Initial)
+    x, y = (-6, -5) if add is add_dry_spherical else (-3, -2)  # of the last node
+    before[x] += 0.6 * out
+    before[y] += 0.8 * out
+    data.SetODE2Coordinates(before, exu.ConfigurationType.Initial)
+    data.SetODE2Coordinates_t([1e-3] * len(before), exu.ConfigurationType.Initial)
+    settings = exu.SimulationSettings()
+    settings.timeIntegration.endTime = 1e-4
+    settings.timeIntegration.numberOfSteps = 10
+    settings.solution.file.write = False
+    return container, mbs, settings
+
+
+MIXED = FILM | {
+    "law": with_asperities(FILM["law"], 0.02),
+    "contact": CONTACT,
+    "asperity_onset": 2e-6,
+}
+TOO_FAR = [
+    (add_lubricated_revolute, FILM, 1e-4, "less, since a film ends where the surfaces touch"),
+    (add_lubricated_revolute, FILM, 2e-2, "less, since a film ends where the surfaces touch"),
+    (add_lubricated_revolute, MIXED, 3.1e-4, "0.0003 m, a penetration of 1% of the radius"),
+    (add_dry_revolute, DRY, 3.1e-4, "0.0003 m, a penetration of 1% of the radius"),
+    (add_dry_spherical, DRY, 3.1e-4, "0.0003 m, a penetration of 1% of the radius"),
+]
+
+
+@pytest.mark.parametrize(("add", "arguments", "out", "allowed"), TOO_FAR)
+def test_a_start_too_far_out_is_refused(add, arguments, out, allowed):
+    """With what is allowed, and before anything has run; Exudyn's own solver says so too."""
+    out *= 1.0001
+    said = (
+        f"clearance joint 0 starts with an eccentricity of {out:.4g} m at a clearance of 0.0001 m: "
+        f"allowed is {allowed}"
+    )
+    _container, mbs, settings = start(add, arguments, out)
+    for _ in range(2):
+        with pytest.raises(InputError, match=re.escape(said)):
+            solve_dynamic(mbs, settings)
+        assert "dynamicSolver" not in mbs.sys
+    _container, mbs, settings = start(add, arguments, out)
+    with pytest.raises(exu.ExudynError, match=re.escape(said)):
+        mbs.SolveDynamic(settings)
+
+
+@pytest.mark.parametrize(("add", "arguments", "out", "allowed"), TOO_FAR)
+def test_a_start_not_quite_as_far_out_is_solved(add, arguments, out, allowed):
+    out = 0.99 * min(out, 1e-4 if arguments is FILM else 3e-4)
+    _container, mbs, settings = start(add, arguments, out)
+    assert solve_dynamic(mbs, settings).status is Status.COMPLETED

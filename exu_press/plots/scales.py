@@ -18,6 +18,9 @@ TICK_STEPS = (0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 45, 90, 180, 360)  # deg
 MOST_CENTRES = 100
 """More dead centres than this would hide the curves; they are not marked."""
 
+SLACK = 1e-4
+"""Of an axis' length, how far beyond its ends a tick may lie."""
+
 DWARFED = 6.0
 """An axis is logarithmic where its peak is more than this times what most of the run shows."""
 
@@ -26,9 +29,13 @@ def crank_angle_axis(panels: Iterable[Axes], low: float, high: float) -> None:
     """Give panels a common crank angle axis (deg) with the dead centres marked, unless many.
 
     The labels stand where matplotlib shows them: under the lowest of panels that share an axis.
+    The axis goes on to a tick that is just beyond its end: a flexible crank's angle, bent as it is,
+    lags by some thousandths of a degree at the end of a revolution.
     """
     high = max(high, low + 1e-3)
-    ticks = angle_ticks(low, high)
+    slack = SLACK * (high - low)
+    ticks = angle_ticks(low - slack, high + slack)
+    low, high = min([low, *ticks]), max([high, *ticks])
     centres = _multiples(180.0, low, high) if high - low < 180.0 * MOST_CENTRES else ()
     for axes in panels:
         axes.set_xlim(low, high)

@@ -25,6 +25,18 @@ def test_dead_centres_are_marked_and_named():
     assert [line.get_xdata()[0] for line in axes.lines] == [0.0, 180.0, 360.0]
 
 
+@pytest.mark.parametrize(("low", "high"), [(0.0, 359.9986), (0.0014, 360.0), (0.0, 360.02)])
+def test_a_bent_crank_ends_its_revolution_at_a_dead_centre(low, high):
+    """Flexible, one revolution: its angle is off by thousandths of a degree at the end."""
+    figure = Figure()
+    axes = figure.subplots()
+    crank_angle_axis([axes], low, high)
+    figure.draw_without_rendering()
+    labels = [label.get_text() for label in axes.get_xticklabels()]
+    assert (labels[0], labels[-1]) == ("0\nTDC", "360\nTDC")
+    assert [line.get_xdata()[0] for line in axes.lines] == [0.0, 180.0, 360.0]
+
+
 def test_an_axis_without_impacts_stays_linear():
     axes, angle = Figure().subplots(), np.linspace(0, 720, 1000)
     assert impact_scale(axes, [(angle, np.sin(angle))], signed=True) == ""

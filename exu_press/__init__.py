@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from exu_press.errors import InputError
-    from exu_press.integrate import Scales, Status, solve_dynamic
+    from exu_press.integrate import Scales, Status, Tuning, solve_dynamic
     from exu_press.joints import (
         FlexiblePoint,
         add_dry_revolute,
@@ -29,6 +29,7 @@ __all__ = [
     "Scales",
     "Scene",
     "Status",
+    "Tuning",
     "__version__",
     "add_dry_revolute",
     "add_dry_spherical",
@@ -46,6 +47,7 @@ _HOMES = {
     "Scales": "exu_press.integrate",
     "Scene": "exu_press.scene",
     "Status": "exu_press.integrate",
+    "Tuning": "exu_press.integrate",
     "add_dry_revolute": "exu_press.joints",
     "add_dry_spherical": "exu_press.joints",
     "add_joint_sensor": "exu_press.joints",

@@ -8,7 +8,7 @@ import exudyn as exu
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.integrate import Advice, Outcome, Scales, Status, solve_dynamic
+from exu_press.integrate import Advice, Outcome, Scales, Status, Tuning, solve_dynamic
 from exu_press.integrate.problem import Problem
 from exu_press.integrate.resolution import Unresolved
 from exu_press.joints import history, overlay_of
@@ -23,6 +23,8 @@ from exu_press.scene.warnings import doubtful_sizes
 __all__ = ["largest_step", "scales", "settings_for", "solve"]
 
 Array = NDArray[np.float64]
+
+DEFAULTS = Tuning()
 
 FALL = 0.03
 """Of free fall's acceleration, what counts as usual at least where there is clearance: parts fall
@@ -43,11 +45,12 @@ STEPS_IN_A_RISE = 3.0
 """So many steps from first touch to the largest force resolve it to some percent."""
 
 
-def solve(model: Model, *, quiet: bool = True) -> Outcome:
+def solve(model: Model, *, tuning: Tuning = DEFAULTS, quiet: bool = True) -> Outcome:
     """Run a model to its end time or to an early stop; what was computed stays in its sensors.
 
     Args:
         model: of a scene; items that were added to `model.mbs` and assembled take part.
+        tuning: the numbers of step control, to vary them.
         quiet: False shows the progress on standard error.
     """
     scene = model.scene
@@ -63,6 +66,7 @@ def solve(model: Model, *, quiet: bool = True) -> Outcome:
         # modes and drive: no say
         bodies={node: (name, masses.get(name, math.inf)) for name, node in model.nodes.items()},
         advice=lambda problem, by_tolerance: SceneAdvice(model, problem, by_tolerance),
+        tuning=tuning,
         max_steps=solver.max_steps,
         quiet=quiet,
     )

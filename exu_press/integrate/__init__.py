@@ -4,5 +4,6 @@ from exu_press.integrate.advice import Advice
 from exu_press.integrate.outcome import Outcome, Status
 from exu_press.integrate.scales import Scales
 from exu_press.integrate.solve import solve_dynamic
+from exu_press.integrate.tuning import Tuning
 
-__all__ = ["Advice", "Outcome", "Scales", "Status", "solve_dynamic"]
+__all__ = ["Advice", "Outcome", "Scales", "Status", "Tuning", "solve_dynamic"]

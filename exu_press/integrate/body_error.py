@@ -3,30 +3,9 @@
 import math
 
 from exu_press.integrate.scales import FoundScales
+from exu_press.integrate.tuning import Tuning
 
-__all__ = ["ROUNDING", "BodyError", "squares"]
-
-VELOCITY_CONSTANT = 2.0 / 12.0
-"""Of generalized-alpha's local error h^3 times the acceleration's second derivative (0.083 to 0.077
-for spectral radii at infinity of 1 to 0.8), doubled for good measure."""
-
-ROUNDING = 1e-14
-"""Of positions, over the largest one: known to 1e-16 of it, through an iteration. No
-step is told apart from it; velocities at a step's end are no better than this over the step, and
-accelerations than this over its square."""
-
-ALTERNATING = 4.0
-"""What rounding makes of accelerations' second differences: it changes sign from step to step."""
-
-FINER = 4.5
-"""How much shorter than velocities need it a step may become for the peaks of accelerations."""
-
-LOOSEST = 1e-2
-"""What a peak may be off by, over itself, where the tolerance is looser: few instants are near one,
-so that this costs little."""
-
-NEAR = 0.65
-"""Of a body's largest acceleration so far, from where its peak may lie between two instants."""
+__all__ = ["BodyError", "squares"]
 
 
 def squares(scales: FoundScales, vector: list[float]) -> list[float]:
@@ -63,17 +42,23 @@ class BodyError:
         share: float,
         tolerance: float,
         scales: FoundScales,
+        tuning: Tuning,
     ) -> None:
         """Take the bodies and the scales.
 
         Args:
             accelerations: of all coordinates, at the beginning of the first step.
             share: what a velocity may be off by in one step, over the scale of speeds.
-            tolerance: what a peak may be off by, over itself, if that is at most `LOOSEST`.
+            tolerance: what a peak may be off by, over itself, if that is at most `loosest_peak`.
             scales: of the motion, which knows the bodies.
+            tuning: numbers.
         """
         self._scales, self._share = scales, share
-        self._of_peak = min(tolerance, LOOSEST)
+        self._rounding = tuning.rounding * scales.length
+        self._alternating = tuning.alternating
+        self._constant, self._finer = tuning.velocity_constant, tuning.finer_for_peaks**3
+        self._near = tuning.near_peak * tuning.near_peak
+        self._of_peak = min(tolerance, tuning.loosest_peak)
         self._before = self._now = accelerations
         self._rate_before: list[float] = []  # none before the first step
         self._rate: list[float] = []
@@ -94,24 +79,24 @@ class BodyError:
         for i, size in enumerate(self._sizes):
             self._peaks.append(max(size, self._peaks_before[i]))
             peak = max(self._peaks[i], usual)
-            near = max(size, self._sizes_before[i]) >= NEAR * NEAR * peak
+            near = max(size, self._sizes_before[i]) >= self._near * peak
             self._allowed.append(self._of_peak * self._of_peak * peak if near else math.inf)
         return self.error(self.change, step)
 
     def error(self, change: list[float], step: float) -> float:
         """Return the error that goes with a change of the accelerations' rate."""
         largest = relative = 0.0
-        rounding = (ALTERNATING * ROUNDING * self._scales.length / (step * step)) ** 2
+        rounding = (self._alternating * self._rounding / (step * step)) ** 2
         sizes, allowed = self._squares(change), self._allowed
         for i in range(len(sizes)):
             square = sizes[i]
             largest = max(largest, square)
             relative = max(relative, square / max(allowed[i], rounding))
-        limit = max(self._share * self._scales.speed, ROUNDING * self._scales.length / step)
-        velocity = VELOCITY_CONSTANT * step * step * math.sqrt(largest) / limit
+        limit = max(self._share * self._scales.speed, self._rounding / step)
+        velocity = self._constant * step * step * math.sqrt(largest) / limit
         acceleration = 0.125 * step * math.sqrt(relative)
         # both go with the step's cube
-        return max(velocity, min(math.pow(acceleration, 1.5), FINER**3 * velocity))
+        return max(velocity, min(math.pow(acceleration, 1.5), self._finer * velocity))
 
     def of_peaks(self, step: float) -> float:
         """Return the error of accelerations near their peaks, in the step last tried.
@@ -119,7 +104,7 @@ class BodyError:
         Where constraints prescribe them too, and whatever makes them alternate.
         """
         relative = 0.0
-        rounding = (ALTERNATING * ROUNDING * self._scales.length / (step * step)) ** 2
+        rounding = (self._alternating * self._rounding / (step * step)) ** 2
         sizes, allowed = self._squares(self.change), self._allowed
         for i in range(len(sizes)):
             relative = max(relative, sizes[i] / max(allowed[i], rounding))

@@ -6,19 +6,16 @@ from typing import Any
 import exudyn as exu
 import numpy as np
 
-from exu_press.integrate.body_error import ROUNDING, BodyError
+from exu_press.integrate.body_error import BodyError
 from exu_press.integrate.first_order_error import FirstOrderError
 from exu_press.integrate.joint_error import JointError
 from exu_press.integrate.linear import factorise, solve
 from exu_press.integrate.problem import Problem
 from exu_press.integrate.scales import FoundScales
 from exu_press.integrate.touch import Touch
+from exu_press.integrate.tuning import Tuning
 
 __all__ = ["StepError"]
-
-KEPT = 40.0
-"""Within so many of the longest steps, a radian of the crank, errors that a film keeps may add up
-to the tolerance."""
 
 CURRENT = exu.ConfigurationType.Current
 START = exu.ConfigurationType.StartOfStep
@@ -60,6 +57,7 @@ class StepError:
         scales: FoundScales,
         tolerance: float,
         longest: float,
+        tuning: Tuning,
     ) -> None:
         """Look at what is solved.
 
@@ -69,23 +67,27 @@ class StepError:
             scales: of the motion; are told of it.
             tolerance: of the run.
             longest: step that may be taken, s.
+            tuning: numbers.
         """
         self._problem, self._solver, self._scales = problem, solver, scales
         self._data: Any = problem.mbs.systemData
-        self._tolerance = tolerance
+        self._tolerance, self._tuning = tolerance, tuning
         share = share_of(tolerance)
         self.accelerations: list[float] = []
         self.of_joints = 0.0
         self._bodies: BodyError | None = None
         self._first_order: FirstOrderError | None = None
         joints = [] if problem.joints is None else problem.joints.joints
-        rounding = ROUNDING * problem.length
-        per_time = tolerance / (KEPT * longest)
+        rounding = tuning.rounding * problem.length
+        per_time = tolerance / (tuning.kept_steps * longest)
         self._joints = [
-            JointError(j, share * j.clearance, per_time * j.clearance, rounding) for j in joints
+            JointError(j, share * j.clearance, per_time * j.clearance, rounding, tuning)
+            for j in joints
         ]
         pairs = zip(joints, self._joints, strict=True)
-        self.touches = [Touch(joint, motion) for joint, motion in pairs if joint.reach < math.inf]
+        self.touches = [
+            Touch(joint, motion, tuning) for joint, motion in pairs if joint.reach < math.inf
+        ]
 
     def __call__(self, step: float) -> float:
         """Return the error of the step that ends in the current state."""
@@ -141,6 +143,7 @@ class StepError:
             share=share_of(self._tolerance),
             tolerance=self._tolerance,
             scales=self._scales,
+            tuning=self._tuning,
         )
 
     def _filtered(self, change: list[float]) -> list[float]:

@@ -2,21 +2,12 @@
 
 import math
 
+from exu_press.integrate.tuning import Tuning
 from exu_press.joints.joint import ClearanceJoint
 
 __all__ = ["JointError"]
 
 Vector = tuple[float, ...]
-
-PENETRATION = 0.1
-"""Of what an eccentricity may be off by in free flight, over the clearance, what a penetration may
-be, over itself. A contact damps by its penetration, often for ten milliseconds, and the impact that
-ends it hands a penetration's error on a thousandfold: against the clearance alone, ten or twenty
-times the penetration, the next peaks of dry presses are 20 % off at a tolerance of 1e-3; with 0.3
-they are 2 % off, with 0.1 a per cent for half as many steps again."""
-
-LEAST = 1e-3
-"""Penetration over clearance, up to which it counts as this: less than a contact's first step."""
 
 
 class JointError:
@@ -33,7 +24,14 @@ class JointError:
         acceleration: mean rate of that in the last step, m/s^2; empty at first.
     """
 
-    def __init__(self, joint: ClearanceJoint, limit: float, drift: float, rounding: float) -> None:
+    def __init__(
+        self,
+        joint: ClearanceJoint,
+        limit: float,
+        drift: float,
+        rounding: float,
+        tuning: Tuning,
+    ) -> None:
         """Take a joint and its scales.
 
         Args:
@@ -42,10 +40,12 @@ class JointError:
             drift: the same over the step, m/s, where a film alone lies between the surfaces: it
                 keeps what each step leaves, always on the same side, so that errors add up.
             rounding: of positions, m; no error counts as 1 that is below it.
+            tuning: numbers.
         """
         self._joint = joint
         self._limit = limit
         self._rounding = rounding
+        self._least, self._penetration = tuning.least_penetration, tuning.penetration
         self._drift = drift if joint.reach == math.inf else math.inf
         self.place: Vector = ()
         self.velocity: Vector = ()
@@ -75,7 +75,7 @@ class JointError:
         distance = math.sqrt(excess)
         depth = distance - self._joint.reach
         if depth > 0.0:
-            relative = max(LEAST, PENETRATION * depth / self._joint.clearance)
+            relative = max(self._least, self._penetration * depth / self._joint.clearance)
             limit = max(relative * self._limit, self._rounding)
             error = max(error, abs(along) / distance / limit)
         return error

@@ -20,25 +20,13 @@ import exudyn as exu
 import numpy as np
 
 from exu_press.integrate.scales import FoundScales
+from exu_press.integrate.tuning import Tuning
 from exu_press.joints.overlay import JointOverlay
 
-__all__ = ["DIGITS", "Newton"]
+__all__ = ["Newton"]
 
 CURRENT = exu.ConfigurationType.Current
 START = exu.ConfigurationType.StartOfStep
-
-PATIENCE = 4
-"""Iterations after which rounding is thought of; most steps take one or two."""
-
-REACH = 2.0
-"""Over the last step, how far ahead its rate of change is believed."""
-
-SHORT = 2e-6
-"""Steps, s, that start from zero accelerations after all: there one iteration would leave newtons
-of rounding in the constraints, positions' last digits over the step's square."""
-
-DIGITS = 4e-15
-"""Of a speed, what rounding makes of it on its way through an iteration: twenty last digits."""
 
 
 class Newton:
@@ -55,7 +43,8 @@ class Newton:
         solver: Any,
         joints: JointOverlay | None,
         scales: FoundScales,
-        part: float,
+        tolerance: float,
+        tuning: Tuning,
         *,
         flexible: bool,
     ) -> None:
@@ -66,12 +55,15 @@ class Newton:
             solver: an exu.MainSolverImplicitSecondOrder, which is about to solve it.
             joints: its clearance joints, if it has any.
             scales: of its motion.
-            part: of the scale of forces, to which forces are to be balanced.
+            tolerance: of the run.
+            tuning: numbers.
             flexible: whether some of its bodies are.
         """
         self.data: Any = mbs.systemData
         self._solver, self._joints = solver, joints
-        self._scales, self._part = scales, part
+        self._scales, self._part = scales, tuning.balance * tolerance
+        self._patience, self._digits = tuning.patience, tuning.digits
+        self._reach, self._shortest = tuning.reach, tuning.shortest_prediction
         self._flexible = flexible
         self._weights: tuple[float, float, float] | None = None
         self._start: float | None = None  # of the step under way, s
@@ -93,7 +85,7 @@ class Newton:
         """Set what an iteration of a step to `time`, s, starts from, and where it may end."""
         if not iteration:
             assert self._start is not None
-            if time - self._start > SHORT:
+            if time - self._start > self._shortest:
                 self._advance(time - self._start)
                 if self._joints is not None:
                     self._joints.resume()
@@ -102,8 +94,8 @@ class Newton:
             self._accept(0.0)
         elif iteration == 2 and self._flexible:
             self._accept(self._tolerance())
-        elif iteration == PATIENCE and self._joints is not None:
-            rounding = DIGITS * self._joints.damping * self._scales.speed
+        elif iteration == self._patience and self._joints is not None:
+            rounding = self._digits * self._joints.damping * self._scales.speed
             self._accept(max(self._tolerance(), rounding))
 
     def _advance(self, step: float) -> None:
@@ -113,7 +105,7 @@ class Newton:
             ratio = (1.0 - solver.alphaF) / (1.0 - solver.alphaM)
             self._weights = ratio, solver.newmarkBeta, solver.newmarkGamma
         ratio, beta, gamma = self._weights
-        ahead, values = min(step, REACH * self._last), self.now
+        ahead, values = min(step, self._reach * self._last), self.now
         if self._rate:
             now, rate = self.now, self._rate
             values = [now[i] + ahead * rate[i] for i in range(len(rate))]

@@ -17,11 +17,9 @@ from dataclasses import dataclass
 
 from exu_press.integrate.body_error import squares
 from exu_press.integrate.scales import FoundScales
+from exu_press.integrate.tuning import Tuning
 
 __all__ = ["Resolution", "Unresolved"]
-
-LARGEST_JUMP = 0.65
-"""Of an inertia force within one step, relative to the run's largest one."""
 
 
 @dataclass(frozen=True)
@@ -44,14 +42,16 @@ class Unresolved:
 class Resolution:
     """Follows the inertia forces of all bodies from step to step."""
 
-    def __init__(self, scales: FoundScales, spectral_radius: float) -> None:
+    def __init__(self, scales: FoundScales, spectral_radius: float, tuning: Tuning) -> None:
         """Start.
 
         Args:
             scales: of the motion, which knows the bodies.
             spectral_radius: at infinity, by which a ring decays from step to step.
+            tuning: numbers.
         """
         self._scales, self._radius = scales, spectral_radius
+        self._allowed = tuning.largest_jump
         self._time = 0.0
         self._before: list[float] = []
         # A stiff film that starts from rest makes the accelerations ring; that is no impact.
@@ -88,7 +88,7 @@ class Resolution:
 
     def worst(self) -> Unresolved | None:
         """Return the step with the largest change of an inertia force, if it is too large."""
-        if self._steps < 2 or self._largest <= 0.0 or self._jump <= LARGEST_JUMP * self._largest:
+        if self._steps < 2 or self._largest <= 0.0 or self._jump <= self._allowed * self._largest:
             return None
         time, step, node = self._worst
         return Unresolved(time, step, node, self._jump / self._largest)

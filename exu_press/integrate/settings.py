@@ -9,7 +9,7 @@ import exudyn as exu
 from exu_press.errors import InputError
 from exu_press.integrate.problem import Problem
 
-__all__ = ["part_of_force", "prepared", "refuse_unusable"]
+__all__ = ["prepared", "refuse_unusable"]
 
 ROUNDING = 1e-10
 """Of the first residual: where Newton's method ends if it cannot get further."""
@@ -18,9 +18,6 @@ TOLERANCES = 1e-8, 0.1
 """Between these a tolerance means something."""
 
 IMPLICIT = "GeneralizedAlpha"
-
-FIXED_STEPS = 1e-4
-"""The tolerance whose Newton's method fixed steps have."""
 
 
 def refuse_unusable(settings: exu.SimulationSettings, tolerance: float | None) -> None:
@@ -53,16 +50,6 @@ def refuse_unusable(settings: exu.SimulationSettings, tolerance: float | None) -
             "not allowed; the error estimate and the changes of step are generalized-alpha's, with "
             "constraints of index 3"
         )
-
-
-def part_of_force(tolerance: float | None) -> float:
-    """Return to which part of the usual forces Newton's method is to balance them.
-
-    So that accelerations are right to this part of the usual ones; not of the first residual: that
-    one holds what a film would answer to speeds that are not yet balanced, in a stiff film a
-    million times more.
-    """
-    return 0.1 * FIXED_STEPS if tolerance is None else 0.2 * tolerance
 
 
 @contextmanager

@@ -19,25 +19,19 @@ from exu_press.integrate.outcome import Outcome
 from exu_press.integrate.problem import Problem, weights
 from exu_press.integrate.resolution import Resolution
 from exu_press.integrate.scales import FoundScales, Scales
-from exu_press.integrate.settings import part_of_force, prepared, refuse_unusable
+from exu_press.integrate.settings import prepared, refuse_unusable
 from exu_press.integrate.step_change import StepChange
 from exu_press.integrate.stepping import FixedSteps, StepControl
+from exu_press.integrate.tuning import Tuning
 from exu_press.progress import Progress
 
 __all__ = ["solve_dynamic"]
 
-FIRST = 1.0 / 64.0
-"""First step over the largest one."""
-
-FIRST_OF_FILM = 1e-7
-"""First step with a film, s: the journals start centred and without load, and a film takes up its
-load within about a microsecond. A longer first step would make it ring, a shorter one is lost in
-rounding."""
-
-SMALLEST_PART = 2.0**-10
-"""How far a fixed step may be halved where Newton's method fails or a film's law does not hold."""
+FIXED_STEPS = 5e-5
+"""The tolerance whose Newton's method fixed steps have."""
 
 NO_SCALES = Scales()
+DEFAULTS = Tuning()
 
 
 def _never(time: float) -> float:
@@ -51,6 +45,7 @@ def solve_dynamic(
     *,
     tolerance: float | None = 1e-3,
     scales: Scales = NO_SCALES,
+    tuning: Tuning = DEFAULTS,
     next_corner: Callable[[float], float] = _never,
     bodies: Mapping[int, tuple[str, float]] | None = None,
     advice: Callable[[Problem, bool], Advice] = Advice,
@@ -75,6 +70,7 @@ def solve_dynamic(
             clearances, peaks of accelerations to the largest so far; from 1e-8 to 0.1. None takes
             fixed steps of the settings' size.
         scales: what errors are relative to, where they are not to be found from the motion.
+        tuning: the numbers of step control, to vary them.
         next_corner: time (s) -> the next instant at which a load has a corner, s, or infinity;
             steps end on them.
         bodies: node number -> name and mass (kg) of its body; nodes that are not named have no say
@@ -104,34 +100,41 @@ def solve_dynamic(
     films = problem.joints is not None and problem.joints.lubricated
     smallest = integration.minimumStepSize
     if tolerance is None:
-        smallest = SMALLEST_PART * largest
-        smallest = min(smallest, 0.5 * FIRST_OF_FILM) if films else smallest
+        smallest = 2.0**-tuning.halvings * largest
+        smallest = min(smallest, 0.5 * tuning.first_step_of_film) if films else smallest
     solver: Any = exu.MainSolverImplicitSecondOrder()  # whose type stub forgets `self`
     found = FoundScales(scales, problem.length)
     newton = Newton(
-        mbs, solver, problem.joints, found, part_of_force(tolerance), flexible=problem.flexible
+        mbs,
+        solver,
+        problem.joints,
+        found,
+        FIXED_STEPS if tolerance is None else tolerance,
+        tuning,
+        flexible=problem.flexible,
     )
-    step_change = StepChange(mbs, solver, smooth=problem.joints is None)
+    step_change = StepChange(mbs, solver, smooth=problem.joints is None, tuning=tuning)
     film_start = step_change if films else None
-    resolution = Resolution(found, integration.generalizedAlpha.spectralRadius)
+    resolution = Resolution(found, integration.generalizedAlpha.spectralRadius, tuning)
     if problem.modal_stiffness:
         FlexibleJacobian(mbs, solver, problem.joints)
     control: StepControl | FixedSteps
     if tolerance is None:
-        first = min(largest, FIRST_OF_FILM) if films else largest
+        first = min(largest, tuning.first_step_of_film) if films else largest
         control = FixedSteps(
             largest, solver, newton, start=start, first=first, film_start=film_start
         )
     else:
-        first = integration.initialStepSize or FIRST * largest
+        first = integration.initialStepSize or tuning.first_step * largest
         control = StepControl(
-            StepError(problem, solver, found, tolerance, largest),
+            StepError(problem, solver, found, tolerance, largest, tuning),
             solver,
             newton,
             end=end,
             smallest=smallest,
             largest=largest,
-            first=min(largest, FIRST_OF_FILM) if films else first,
+            first=min(largest, tuning.first_step_of_film) if films else first,
+            tuning=tuning,
             film_start=film_start,
             next_corner=next_corner,
         )

@@ -34,6 +34,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.integrate.linear import factorise, solve
+from exu_press.integrate.tuning import Tuning
 
 __all__ = ["StepChange"]
 
@@ -42,28 +43,22 @@ Array = NDArray[np.float64]
 CURRENT = exu.ConfigurationType.Current
 START = exu.ConfigurationType.StartOfStep
 
-TURNS = 3
-"""Of the way to velocities and positions that fit the constraints; each leaves some hundredths."""
-
-SAME = 1e-6
-"""Steps that differ by less, relative, are one size."""
-
-MUCH = 0.35
-"""A step shorter than this, over the one that constrained velocities fit, makes them fit anew."""
-
 
 class StepChange:
     """Fits the state at a step's beginning to the step, if that is another or repeated."""
 
-    def __init__(self, mbs: exu.MainSystem, solver: Any, smooth: bool) -> None:
+    def __init__(self, mbs: exu.MainSystem, solver: Any, smooth: bool, tuning: Tuning) -> None:
         """Watch the steps of a system.
 
         Args:
             mbs: the system.
             solver: an exu.MainSolverImplicitSecondOrder, which is about to solve it.
             smooth: whether there is neither a film nor a contact.
+            tuning: numbers.
         """
         self._smooth = smooth
+        self._same, self._refit = tuning.same_step, tuning.refit
+        self._iterations = tuning.constraint_iterations
         self._mbs, self._solver = mbs, solver
         self._data: Any = mbs.systemData
         self._start: float | None = None  # of the step under way, s
@@ -97,7 +92,7 @@ class StepChange:
         ratio = 1.0 if self._last is None else step / self._last
         if not self._smooth:
             ratio = min(1.0, ratio)
-        if repeated or abs(ratio - 1.0) > SAME:
+        if repeated or abs(ratio - 1.0) > self._same:
             self._shift(step, ratio)
 
     def _shift(self, step: float, ratio: float) -> None:
@@ -110,9 +105,9 @@ class StepChange:
         if self._state is None:
             self._state = [np.array(view) for view in self._views(START)]
         q, v, a = self._state
-        if abs(ratio - 1.0) > SAME:
+        if abs(ratio - 1.0) > self._same:
             part = step / self._fits
-            if part < MUCH or self._smooth:
+            if part < self._refit or self._smooth:
                 if self._offsets is None:
                     self._offsets = self._forbidden()
                 q = q - self._offsets[0]
@@ -169,7 +164,7 @@ class StepChange:
         factors, pivots, _ = factorise(matrix, overwrite_a=True)
         position, velocity, _ = self._views(CURRENT)
         found, violated = np.zeros((size, 2)), np.zeros((size + count, 2))
-        for _ in range(TURNS):
+        for _ in range(self._iterations):
             position[:] = self._state[0] - found[:, 0]
             velocity[:] = self._state[1] - found[:, 1]
             self._violations(violated[size:])

@@ -13,6 +13,7 @@ import exudyn as exu
 from exu_press.integrate.error import StepError
 from exu_press.integrate.newton import Newton
 from exu_press.integrate.step_change import StepChange
+from exu_press.integrate.tuning import Tuning
 
 __all__ = ["FixedSteps", "StepControl"]
 
@@ -20,25 +21,6 @@ START = exu.ConfigurationType.StartOfStep
 
 ORDER = 3
 """Power of the step with which its error goes."""
-
-AIM = 0.4
-"""Error at which steps are aimed; the reserve saves repeated steps, as a swinging part's error
-rises and falls several times in each of its periods."""
-
-GROW = 1.2
-"""By what a step is lengthened, once it may be; steps that grow by half swing about what their
-errors ask for, and are a third more with a film."""
-
-SHRINK = 0.05
-"""How far a step that failed may be shortened at once."""
-
-SHORTEN = 0.7
-"""How far a step may be shortened at once before it fails: where the joints' error rises so that
-the next one would. Bodies' errors rise and fall too fast to be foreseen, and a change of step
-leaves an error behind, which shortening would chase."""
-
-RISE = 3.0
-"""So much, at most, a joint's error is expected to rise from one step to the next."""
 
 
 class StepControl:
@@ -58,6 +40,7 @@ class StepControl:
         smallest: float,
         largest: float,
         first: float,
+        tuning: Tuning,
         film_start: StepChange | None,
         next_corner: Callable[[float], float],
     ) -> None:
@@ -71,6 +54,7 @@ class StepControl:
             smallest: below it the run is given up, s.
             largest: s.
             first: s.
+            tuning: numbers.
             film_start: starts the first step over where a film takes up its load.
             next_corner: time -> the next instant at which a load has a corner, s, or infinity.
         """
@@ -79,6 +63,9 @@ class StepControl:
         self._estimate = error
         self._end, self._smallest, self._largest = end, smallest, largest
         self._next_corner = next_corner
+        self._safety, self._rise = tuning.safety, tuning.rise
+        self._factor_max, self._factor_min = tuning.factor_max, tuning.factor_min
+        self._foreseen_min = tuning.foreseen_min
         self._film_start = film_start
         self._iteration: Any = solver.it  # holds the step
         self._newton, self._data = newton, newton.data
@@ -97,7 +84,7 @@ class StepControl:
             error = min(error, self._estimate.of_jump(step))
         self.error = error
         if not error <= 1.0:
-            self._step = step * max(SHRINK, _factor(error))
+            self._step = step * max(self._factor_min, self._factor(error))
             return [2.0, self._step]
         self._tried = step
         return [0.0, -1.0]
@@ -110,18 +97,18 @@ class StepControl:
         if step >= 0.5 * self._step:  # else it was cut short, by what it ends on
             self._step = step
         expected = self._expected(step)
-        factor = _factor(max(error, expected))
-        if factor > GROW:
-            self._step *= GROW
+        factor = self._factor(max(error, expected))
+        if factor > self._factor_max:
+            self._step *= self._factor_max
         elif expected > 1.0:
-            self._step *= max(SHORTEN, factor)
+            self._step *= max(self._foreseen_min, factor)
 
     def _expected(self, step: float) -> float:
         """Return the joints' error in a further step of this size (s), risen as in this one."""
         now = self._estimate.of_joints
         before, self._before = self._before, now / step**ORDER
         scaled = before * step**ORDER
-        return now * min(now / scaled, RISE) if scaled > 0.0 else 0.0
+        return now * min(now / scaled, self._rise) if scaled > 0.0 else 0.0
 
     def after_step(self, time: float) -> list[float]:
         """Set the next step; it ends on touches, and exactly on corners and the end.
@@ -149,12 +136,11 @@ class StepControl:
         self._iteration.currentStepSize = step
         return self._estimate.accelerations or self._newton.now
 
-
-def _factor(error: float) -> float:
-    """Return by how much a step may be changed for its error; to nothing where that is nan."""
-    if error != error:
-        return 0.0
-    return math.pow(AIM / error, 1.0 / ORDER) if error > 0.0 else math.inf
+    def _factor(self, error: float) -> float:
+        """Return by how much a step may be changed for its error; to nothing where that is nan."""
+        if error != error:
+            return 0.0
+        return math.pow(self._safety / error, 1.0 / ORDER) if error > 0.0 else math.inf
 
 
 class FixedSteps:

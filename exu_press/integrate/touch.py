@@ -8,69 +8,54 @@ and where it arrives can be told.
 import math
 
 from exu_press.integrate.joint_error import JointError
+from exu_press.integrate.tuning import Tuning
 from exu_press.joints.joint import ClearanceJoint
 
 __all__ = ["Touch"]
 
-DEPTH = 2.5e-3
-"""Penetration over clearance, where a contact's first step ends; 1e-3 to 5e-3 do as well."""
-
-SHORT = 0.05
-"""Of this penetration, how far before the touch the step before ends: a force at the end of a long
-step, however small, acts on all of it."""
-
-NEAR = 0.1
-"""Of this penetration, what is a touch already; no prediction misses it by half of that."""
-
-SHORTEST = 1e-7
-"""No step, s, is made shorter for a touch: positions' last digits, 1e-14 m, are accelerations of a
-metre a second squared there. Of clearances of 0.1 um a step is then longer than any depth asks."""
-
-FAR = 60.0
-"""Of a contact's first step, how far off a touch is approached in two steps: what the last one
-leaves of velocities is what the impact begins with."""
-
-TURNS = 5
-"""Of the way to the instant of the touch."""
+ITERATIONS = 5
+"""To the instant of the touch; a Newton-like iteration that gains two digits each time."""
 
 
 class Touch:
     """Foresees when a joint's surfaces touch, from its motion at the end of an accepted step."""
 
-    def __init__(self, joint: ClearanceJoint, motion: JointError) -> None:
+    def __init__(self, joint: ClearanceJoint, motion: JointError, tuning: Tuning) -> None:
         """Take a joint whose surfaces may touch.
 
         Args:
             joint: has the clearance and the reach.
-            motion: remembers eccentricity, its rate and its rate's rate.
+            motion: remembers eccentricity, relative velocity and acceleration.
+            tuning: numbers.
         """
         self._motion = motion
         self._reach = joint.reach
-        self._depth = DEPTH * joint.clearance
-        self._begins = joint.reach - NEAR * self._depth
-        self._stop = joint.reach - SHORT * self._depth
+        self._depth = tuning.touch_depth * joint.clearance
+        self._begins = joint.reach - tuning.touch_begun * self._depth
+        self._stop = joint.reach - tuning.touch_reserve * self._depth
+        self._shortest, self._far = tuning.shortest_touch, tuning.touch_from_afar
 
     def first_step(self) -> float:
         """Return the longest step (s) for a contact that is just beginning; infinite elsewhere."""
         distance, closing = self._after(0.0)
         if closing > 0.0 and self._begins <= distance < self._reach + self._depth:
-            return max(self._depth / closing, SHORTEST)
+            return max(self._depth / closing, self._shortest)
         return math.inf
 
     def until(self, step: float) -> float:
         """Return when within a step (s) the surfaces touch; the step itself if they do not.
 
-        Half of that if it is far off, and never less than `SHORTEST`.
+        Half of that if it is far off, and never less than the shortest step for a touch.
         """
         if not self._motion.acceleration or self._after(0.0)[0] >= self._begins:
             return step
         when = step
-        for _ in range(TURNS):
+        for _ in range(ITERATIONS):
             when = self._arrival(when)
             if when >= step:
                 return step
-        far_off = self._after(when)[1] * when > FAR * self._depth
-        return min(step, max(0.5 * when if far_off else when, SHORTEST))
+        far_off = self._after(when)[1] * when > self._far * self._depth
+        return min(step, max(0.5 * when if far_off else when, self._shortest))
 
     def _arrival(self, guess: float) -> float:
         """Return when a step is to end before the touch, at the mean rate until a guess (s)."""

@@ -4,9 +4,12 @@ import math
 
 import pytest
 
-from exu_press.integrate.body_error import FINER, LOOSEST, NEAR, ROUNDING, BodyError
+from exu_press.integrate.body_error import BodyError
 from exu_press.integrate.scales import FoundScales, Scales
-from exu_press.integrate.stepping import AIM, GROW, ORDER
+from exu_press.integrate.stepping import ORDER
+from exu_press.integrate.tuning import Tuning
+
+TUNING = Tuning()
 
 
 def errors(velocity_limit=1e-3, tolerance=1e-2, masses=(2.0,)):
@@ -22,7 +25,7 @@ def errors(velocity_limit=1e-3, tolerance=1e-2, masses=(2.0,)):
         longest=1.0,
         widest=0.0,
     )
-    return BodyError(rest, share=velocity_limit, tolerance=tolerance, scales=scales)
+    return BodyError(rest, share=velocity_limit, tolerance=tolerance, scales=scales, tuning=TUNING)
 
 
 def test_accelerations_that_change_at_one_rate_are_followed_exactly():
@@ -64,18 +67,22 @@ def test_a_peak_of_its_own_makes_steps_finer_up_to_a_limit():
         strict.accept()
     curvature = 100.0 * (math.pi / duration) ** 2
     velocity = h**3 * curvature / 6.0 / 1e3
-    assert limited == pytest.approx(FINER**3 * velocity, rel=0.1)
-    expected = min((h**2 * curvature / 8.0 / (1e-2 * 100.0)) ** 1.5, FINER**3 * velocity)
+    assert limited == pytest.approx(TUNING.finer_for_peaks**3 * velocity, rel=0.1)
+    expected = min(
+        (h**2 * curvature / 8.0 / (1e-2 * 100.0)) ** 1.5, TUNING.finer_for_peaks**3 * velocity
+    )
     assert value == pytest.approx(expected, rel=0.1)
 
 
 def test_a_peak_is_met_however_loose_the_tolerance():
     """Where velocities ask for no finer step, and would let it be as fine as peaks need it."""
-    loose, strict = (errors(velocity_limit=1.0, tolerance=t) for t in (0.1, LOOSEST))
+    loose, strict = (errors(velocity_limit=1.0, tolerance=t) for t in (0.1, TUNING.loosest_peak))
     assert loose.tried([1e3, 0.0, 0.0], 0.01) == strict.tried([1e3, 0.0, 0.0], 0.01)
 
 
-@pytest.mark.parametrize(("share", "counts"), [(1.1 * NEAR, True), (0.9 * NEAR, False)])
+@pytest.mark.parametrize(
+    ("share", "counts"), [(1.1 * TUNING.near_peak, True), (0.9 * TUNING.near_peak, False)]
+)
 def test_only_near_a_peak_is_it_looked_for(share, counts):
     """The error is what the peak may be off by, or that of the velocity alone."""
     error = errors(velocity_limit=1e-3)
@@ -90,7 +97,7 @@ def test_only_near_a_peak_is_it_looked_for(share, counts):
 def test_what_has_no_say_and_what_rounding_makes():
     assert errors(masses=(math.inf,)).tried([1e3, 1e3, 0.0], 0.01) == 0.0
     step = 1e-8
-    rounding = ROUNDING / step**2
+    rounding = TUNING.rounding / step**2
     assert errors(velocity_limit=1e-30, tolerance=1e-30).tried([rounding, 0.0, 0.0], step) < 1.0
 
 
@@ -99,9 +106,9 @@ def test_rounding_that_alternates_lets_steps_grow():
     step = 1e-7
     error = errors(velocity_limit=1e-5, tolerance=1e-3)
     for sign in (1.0, -1.0, 1.0):
-        value = error.tried([17.8 + sign * ROUNDING / step**2, 0.0, 0.0], step)
+        value = error.tried([17.8 + sign * TUNING.rounding / step**2, 0.0, 0.0], step)
         error.accept()
-    assert 0.0 < value < AIM / GROW**ORDER
+    assert 0.0 < value < TUNING.safety / TUNING.factor_max**ORDER
 
 
 def test_jumps_are_told_by_body():

@@ -6,8 +6,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from exu_press import Scene, simulate
-from exu_press.integrate.joint_error import PENETRATION, JointError
+from exu_press import Scene, Tuning, simulate
+from exu_press.integrate.joint_error import JointError
 
 CLEARANCE, LIMIT = 1e-4, 1e-9
 
@@ -15,7 +15,7 @@ CLEARANCE, LIMIT = 1e-4, 1e-9
 def error_of(missed, *, place, reach=CLEARANCE, drift=math.inf, step=1e-4):
     """The error of a step in which a joint at rest is found `missed` away from its place."""
     joint = SimpleNamespace(clearance=CLEARANCE, reach=reach, relative_velocity=(0.0, 0.0))
-    error = JointError(joint, LIMIT, drift, 1e-14)
+    error = JointError(joint, LIMIT, drift, 1e-14, Tuning())
     joint.eccentricity = place
     error.error(step)
     error.accept()
@@ -26,7 +26,7 @@ def error_of(missed, *, place, reach=CLEARANCE, drift=math.inf, step=1e-4):
 def test_a_penetration_counts_against_itself():
     deep = (CLEARANCE + 5e-6, 0.0)
     across = error_of((1e-10, 0.0), place=deep)
-    assert across == pytest.approx(0.1 / (PENETRATION * 0.05), rel=1e-3)
+    assert across == pytest.approx(0.1 / (Tuning().penetration * 0.05), rel=1e-3)
     assert error_of((0.0, 1e-10), place=deep) == pytest.approx(0.1)
     assert error_of((1e-10, 0.0), place=(5e-5, 0.0)) == pytest.approx(0.1)
 

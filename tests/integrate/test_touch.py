@@ -5,10 +5,13 @@ from types import SimpleNamespace
 
 import pytest
 
-from exu_press import Scene, simulate
-from exu_press.integrate import stepping
+from exu_press import Scene, Tuning, simulate
 from exu_press.integrate.joint_error import JointError
-from exu_press.integrate.touch import DEPTH, SHORT, SHORTEST, Touch
+from exu_press.integrate.touch import Touch
+from exu_press.solving import solve
+
+TUNING = Tuning()
+DEPTH, SHORT, SHORTEST = TUNING.touch_depth, TUNING.touch_reserve, TUNING.shortest_touch
 
 CLEARANCE = 1e-4
 REACH = CLEARANCE * (1.0 - SHORT * DEPTH)
@@ -17,7 +20,7 @@ REACH = CLEARANCE * (1.0 - SHORT * DEPTH)
 def touch_after(place, velocity, acceleration=(0.0, 0.0), step=1e-4, reach=CLEARANCE):
     """A joint that comes to a place with a velocity and a constant acceleration."""
     joint = SimpleNamespace(clearance=CLEARANCE, reach=reach)
-    motion = JointError(joint, 1e-7, math.inf, 1e-14)
+    motion = JointError(joint, 1e-7, math.inf, 1e-14, TUNING)
     for ago in (step, 0.0):
         rates = zip(place, velocity, acceleration, strict=True)
         joint.eccentricity = tuple(p - ago * v + 0.5 * ago * ago * a for p, v, a in rates)
@@ -25,7 +28,7 @@ def touch_after(place, velocity, acceleration=(0.0, 0.0), step=1e-4, reach=CLEAR
         joint.relative_velocity = tuple(v - ago * a for v, a in pairs)
         motion.error(step)
         motion.accept()
-    return Touch(joint, motion)
+    return Touch(joint, motion, TUNING)
 
 
 def test_a_free_journal_arrives_when_its_parabola_says():
@@ -71,9 +74,9 @@ def test_other_steps_are_left_alone(place, velocity):
 def test_nothing_is_foreseen_before_there_was_a_step():
     joint = SimpleNamespace(clearance=CLEARANCE, reach=CLEARANCE)
     joint.eccentricity, joint.relative_velocity = (0.0,), (1.0,)
-    motion = JointError(joint, 1e-7, math.inf, 1e-14)
-    assert Touch(joint, motion).until(1e-3) == 1e-3
-    assert Touch(joint, motion).first_step() == math.inf
+    motion = JointError(joint, 1e-7, math.inf, 1e-14, TUNING)
+    assert Touch(joint, motion, TUNING).until(1e-3) == 1e-3
+    assert Touch(joint, motion, TUNING).first_step() == math.inf
 
 
 def test_a_contact_that_begins_goes_a_little_deeper():
@@ -120,7 +123,6 @@ def test_a_loose_tolerance_meets_an_impact_of_rough_surfaces():
     assert loose["peak_force"] == pytest.approx(fine["peak_force"], rel=0.05)
 
 
-def test_errors_that_rise_are_foreseen(dry_press, monkeypatch):
-    foreseen = simulate(dry_press).info
-    monkeypatch.setattr(stepping, "RISE", 0.0)
-    assert foreseen["rejected_steps"] < 0.7 * simulate(dry_press).info["rejected_steps"]
+def test_errors_that_rise_are_foreseen(dry_press):
+    foreseen = solve(dry_press.build()).rejected_steps
+    assert foreseen < 0.7 * solve(dry_press.build(), tuning=Tuning(rise=0.0)).rejected_steps

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.integrate.newton import DIGITS
+from exu_press.integrate import Tuning
 from exu_press.laws.film.contract import film_scale
 from exu_press.mechanism import GROUND
 from exu_press.observe.energy import energy_residual, energy_scale
@@ -217,7 +217,7 @@ def _rounding(scene: Scene, name: str) -> float:
         return 0.0
     film, c = joint.film, joint.clearance
     damping = 12.0 * math.pi * film_scale(film.viscosity, film.length, joint.radius, c) / c
-    return DIGITS * scene.pin_speed * damping
+    return Tuning().digits * scene.pin_speed * damping
 
 
 def _mean(time: Array, values: Array) -> float:

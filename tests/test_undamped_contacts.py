@@ -1,0 +1,33 @@
+"""Contacts with Table 2's c_max taken for 0.01 N s/m: they end, resolved, and lose nothing."""
+
+import numpy as np
+import pytest
+
+from exu_press import Scene, simulate
+
+UNDAMPED = {
+    "joints.crank_pin": "dry",
+    "joints.crank_pin.clearance": 1e-5,
+    "joints.balls.clearance": 1e-5,
+    "contact.damping_max": 0.01,
+}
+
+
+def test_without_friction_the_press_keeps_all_its_energy():
+    """Ten impacts and more; what the contacts damp is nothing beside what they store."""
+    scene = Scene(revolutions=0.25).replace({**UNDAMPED, "friction.law": "none"})
+    result = simulate(scene)
+    assert result.info["status"] == "completed", result.info["reason"]
+    summary = result.summary()
+    assert sum(joint.get("impacts", 0) for joint in summary["joints"].values()) >= 10
+    assert summary["energy"]["residual"] < 1e-3
+    stored = np.abs(result["energy_stored"]).max()
+    assert np.abs(result["energy_dissipated"]).max() < 1e-6 * stored
+
+
+@pytest.mark.long
+def test_flexible_bodies_between_undamped_contacts_do_not_ring_numerically():
+    scene = Scene(bodies="flexible", revolutions=0.6).replace(UNDAMPED)
+    result = simulate(scene)
+    assert result.info["status"] == "completed", result.info["reason"]
+    assert result.summary()["energy"]["residual"] < 1e-3

@@ -23,13 +23,11 @@ SLIDER_CRANK = [
     {"mechanism": "slider_crank", "joints": {"crank_pin": pin}}
     for pin in ("ideal", "dry", "lubricated")
 ]
-VARIANTS = pytest.mark.parametrize(
-    "variant", PRESS + SLIDER_CRANK, ids=lambda variant: " ".join(variant.values())
-)
+VARIANTS = pytest.mark.parametrize("variant", PRESS + SLIDER_CRANK, ids=str)
 
 
 def with_steps(variant, **more):
-    step = 1e-5 if "dry" in variant.values() else 1e-4
+    step = 1e-5 if "dry" in str(variant) else 1e-4
     return Scene.from_dict({**variant, "revolutions": 0.3, "solver": {"step": step}, **more})
 
 
@@ -49,7 +47,7 @@ def test_balance_with_blanking(variant):
 @pytest.mark.parametrize(
     "variant",
     [PRESS[0], PRESS[3], PRESS[4], SLIDER_CRANK[2]],
-    ids=lambda variant: " ".join(variant.values()),
+    ids=str,
 )
 def test_balance_without_load(variant):
     result = run(with_steps(variant))

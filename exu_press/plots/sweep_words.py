@@ -7,13 +7,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from exu_press.plots.typesetting import typeset
 from exu_press.studies.sweep.units import meaning_of, unit_of
 
 __all__ = ["in_unit", "setting", "words"]
 
 Array = NDArray[np.float64]
 
-PREFIXES = {-9: "n", -6: "\N{MICRO SIGN}", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
+PREFIXES = {-9: "n", -6: "u", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 PREFIXED = ("m", "s", "N", "N m", "J", "W", "Pa")
 NAMES = {
     "min_film": "least film thickness",
@@ -32,10 +33,10 @@ def in_unit(name: str, values: Array) -> tuple[Array, str]:
     unit = unit_of(name)
     largest = float(np.max(np.abs(values[np.isfinite(values)]), initial=0.0))
     if unit not in PREFIXED or largest == 0.0:
-        return values, unit
+        return values, typeset(unit)
     power = 3 * math.floor(math.log10(largest) / 3.0 + 1e-9)
     power = min(max(power, min(PREFIXES)), max(PREFIXES))
-    return values / 10.0**power, f"{PREFIXES[power]}{unit}"
+    return values / 10.0**power, typeset(f"{PREFIXES[power]}{unit}")
 
 
 def words(name: str) -> str:

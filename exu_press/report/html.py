@@ -6,6 +6,8 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from string import Template
 
+from exu_press.plots.typesetting import typeset
+
 __all__ = ["details", "items", "page", "paragraph", "picture", "section", "table"]
 
 PAGE = Template("""<!DOCTYPE html>
@@ -116,4 +118,5 @@ def picture(path: Path, words: str) -> str:
 
 
 def _text(text: str) -> str:
-    return html.escape(text)
+    """Return a plain text for a page, its units typeset."""
+    return html.escape(typeset(text))

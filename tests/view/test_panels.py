@@ -6,7 +6,7 @@ from exu_press.mechanism.shapes import moved
 from exu_press.scene import mechanism_of
 from exu_press.view import instants
 from exu_press.view.curve_panel import CurvePanel
-from exu_press.view.joint_panel import CLEARANCE, JointPanel
+from exu_press.view.joint_panel import CLEARANCE, JointPanel, _kilo
 from exu_press.view.mechanism_panel import MechanismPanel, poses
 
 
@@ -69,6 +69,22 @@ def test_no_impact_is_lost_between_frames(runs, film):
         lengths.append(float(np.linalg.norm(np.subtract(tip, tail))))
     assert any(f"F = {peak / 1e3:.3g} kN" in text for text in texts)
     assert max(lengths) == pytest.approx(0.9, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("newtons", "words"),
+    [
+        (0.0, "0 kN"),
+        (12.345, "0.0123 kN"),
+        (579_400.0, "579 kN"),
+        (999_499.0, "999 kN"),
+        (999_501.0, "1000 kN"),
+        (2_837_600.0, "2838 kN"),
+        (1.5e7, "15000 kN"),
+    ],
+)
+def test_forces_are_written_without_powers_of_ten(newtons, words):
+    assert _kilo(newtons) == words
 
 
 def test_the_arrow_points_along_the_force(runs, film):

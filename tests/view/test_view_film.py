@@ -53,7 +53,10 @@ def test_a_film_says_how_slow_it_is_and_a_picture_does_not(runs, film):
 
     shown = instants(runs["press"], 0.0, 0.05, slow=16.0)
     assert "16 times slower than the machine at 25 frames a second" in words(runs["press"], shown)
-    assert "slower" not in words(runs["press"], moment(runs["press"], 0.02))
+    shown = instants(runs["press"], 0.0, 0.05, frames=2)  # 40 ms for 50
+    assert "1.25 times faster than the machine at 25 frames a second" in words(runs["press"], shown)
+    still = words(runs["press"], moment(runs["press"], 0.02))
+    assert "slower" not in still and "faster" not in still
 
 
 def test_the_clock(runs, film):

@@ -1,0 +1,21 @@
+"""Units as pictures and pages have them; terminals, CSV and NetCDF keep them in ASCII."""
+
+import re
+
+__all__ = ["typeset"]
+
+POWERS = str.maketrans("23", "\N{SUPERSCRIPT TWO}\N{SUPERSCRIPT THREE}")
+POWER = re.compile(r"(?<=\w)\^([23])(?!\w)")
+MICRO = re.compile(r"(?<![\w./])u(?=(?:m|rad)(?![\w/]|\.\w))")
+
+
+def typeset(text: str) -> str:
+    """Return a text with the signs that units are printed with; names and paths stay.
+
+    >>> typeset("peak acceleration, m/s^2"), typeset("0.31 um"), typeset("2 +- 0.1 urad")
+    ('peak acceleration, m/s²', '0.31 µm', '2 ± 0.1 µrad')
+    >>> typeset("joints.um.radius in out/um/run.nc")
+    'joints.um.radius in out/um/run.nc'
+    """
+    text = POWER.sub(lambda found: found[1].translate(POWERS), text)
+    return MICRO.sub("\N{MICRO SIGN}", text).replace(" +- ", " \N{PLUS-MINUS SIGN} ")

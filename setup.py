@@ -3,6 +3,10 @@
 EXU_PRESS_COMPILE=1 demands it, 0 forbids it. By default an ordinary install does it where there is
 a C compiler and stays in Python where that fails; an editable one stays in Python, whose sources
 could be edited beside what was compiled from them.
+
+Every module is a C file of its own; they are compiled side by side, without debug information. By
+default the C compiler optimises little, which is quicker installed and a tenth slower in a run;
+where compiling is demanded, as for wheels, it optimises as much as it can.
 """
 
 import os
@@ -10,7 +14,9 @@ import shlex
 import shutil
 import sys
 import sysconfig
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from typing import Any
 
 from setuptools import setup
 from setuptools.command.build_ext import build_ext
@@ -58,6 +64,21 @@ def wanted() -> bool:
 class BuildCompiled(build_ext):
     """Where compiling was not demanded, its failure leaves the package in Python."""
 
+    def build_extensions(self) -> None:
+        """Compile the C files side by side; setuptools would do one after the other."""
+        print(f"compiling {len(MODULES)} modules of joints, laws and steps", flush=True)
+        one_after_the_other = self.compiler.compile
+
+        def side_by_side(sources: list[str], *args: Any, **options: Any) -> list[str]:
+            def compiled(source: str) -> list[str]:
+                return list(one_after_the_other([source], *args, **options))
+
+            with ThreadPoolExecutor(os.cpu_count()) as pool:
+                return [file for files in pool.map(compiled, sources) for file in files]
+
+        self.compiler.compile = side_by_side
+        super().build_extensions()
+
     def run(self) -> None:
         """Compile all modules or none."""
         try:
@@ -80,7 +101,13 @@ def extensions() -> list:
     options = ["--config-file=", "--ignore-missing-imports", "--follow-imports=silent"]
     sources = [f"exu_press/{module}.py" for module in MODULES]
     try:
-        found = mypycify(options + sources, opt_level="3", group_name="exu_press")
+        found = mypycify(
+            options + sources,
+            opt_level="3" if ASKED else "1",
+            debug_level="0",
+            multi_file=True,
+            group_name="exu_press",
+        )
     except SystemExit:  # its type check failed
         if ASKED:
             raise

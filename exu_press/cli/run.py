@@ -11,7 +11,9 @@ from exu_press.cli.options import (
     scene_of,
     show_warnings,
 )
-from exu_press.confidence import simulate_with_errors
+from exu_press.confidence import deliver, simulate_with_errors
+from exu_press.confidence.told import delivered_lines
+from exu_press.errors import InputError
 from exu_press.observe.table import run_lines
 from exu_press.output import output_directory, remove_pictures, write_json
 from exu_press.scene.assumptions import assumed_line
@@ -26,14 +28,37 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the command's arguments."""
     add_scene_arguments(parser)
     add_error_argument(parser)
+    parser.add_argument(
+        "--within",
+        metavar="ERROR",
+        type=_share,
+        help="find the tolerance that delivers this error, as in 1%%; where the motion is chaotic, "
+        "the distribution over revolutions instead",
+    )
+    parser.add_argument("--figure", metavar="NAME", help="--within is for this figure alone")
+
+
+def _share(text: str) -> float:
+    """Return the share that a text as "1%" or "0.01" names."""
+    value = float(text.removesuffix("%")) * (0.01 if text.endswith("%") else 1.0)
+    if not 1e-5 <= value < 1.0:
+        raise argparse.ArgumentTypeError(f"{text!r}: allowed is a number from 0.001% to 100%")
+    return value
 
 
 def execute(options: argparse.Namespace) -> int:
     """Run the scene; return 0, or 3 if it stopped early or was not resolved."""
     scene = scene_of(options)
     directory = output_directory(directory_of(options))
-    run = simulate if options.no_error else simulate_with_errors
-    result = run(scene, quiet=options.quiet)
+    found = []
+    if options.within is not None:
+        delivered = deliver(scene, options.within, options.figure, quiet=options.quiet)
+        result, found = delivered.result, delivered_lines(delivered, options.within)
+    elif options.figure is not None:
+        raise InputError(f"--figure {options.figure}: only together with --within")
+    else:
+        run = simulate if options.no_error else simulate_with_errors
+        result = run(scene, quiet=options.quiet)
     summary = result.summary()
     remove_pictures(directory, "run")
     result.save(directory / "run.nc")
@@ -45,7 +70,7 @@ def execute(options: argparse.Namespace) -> int:
         written += save_pictures(result, directory)
     if not options.quiet:
         assumed = textwrap.wrap(assumed_line(scene), 100, subsequent_indent="  ")
-        print("\n".join([*run_lines(summary), *assumed]))
+        print("\n".join([*run_lines(summary), *found, *assumed]))
         show_warnings(summary["warnings"])
         print("written:", ", ".join(path.name for path in written), f"in {directory}")
     if summary["reason"]:

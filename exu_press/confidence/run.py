@@ -10,6 +10,7 @@ from exu_press.confidence.companions import Companions
 from exu_press.confidence.estimate import ROUNDING, FigureError, converging, scattered
 from exu_press.confidence.figures import figures
 from exu_press.confidence.growth import Growth, growth
+from exu_press.confidence.windows import until
 from exu_press.result import Result
 from exu_press.result.info import Error, Errors
 from exu_press.scene import Scene
@@ -25,9 +26,9 @@ APART = 0.3
 LOADS = ("acceleration", "force", "torque", "moment", "power")
 """In the names of figures that follow from accelerations."""
 
-OF_LOADS = 2e-5
-"""Their least error, over themselves: all runs begin with the same first step, and what it leaves
-of accelerations is in none of their differences."""
+OF_LOADS = 1e-4
+"""Their least error, over themselves: peaks are read at steps, and what the first step leaves of
+accelerations is the same in all runs, so that it is in none of their differences."""
 
 SAME = 1e-9
 """Relative: a figure that has changed by less since the horizon is one from before it."""
@@ -66,7 +67,7 @@ def errors_of(result: Result, companions: Mapping[float, Result]) -> Errors:
         companions: the same at other tolerances or steps, by their ratio to its own.
     """
     end = float(result.time[-1])
-    kept = {ratio: _until(run, end) for ratio, run in companions.items() if _reached(run, end)}
+    kept = {ratio: until(run, end) for ratio, run in companions.items() if _reached(run, end)}
     if not kept:
         return {"errors": {}, "errors_from": None, "amplification": None}
     parted = _parting(result, kept)
@@ -75,7 +76,7 @@ def errors_of(result: Result, companions: Mapping[float, Result]) -> Errors:
     before = now
     if parted.horizon is not None:
         runs = {1.0: result, **kept}
-        before = {r: figures(_until(run, parted.horizon).summary()) for r, run in runs.items()}
+        before = {r: figures(until(run, parted.horizon).summary()) for r, run in runs.items()}
     errors: dict[str, Error] = {}
     for name in now[1.0]:
         of = _error(name, now, before)
@@ -123,13 +124,3 @@ def _parting(result: Result, companions: Mapping[float, Result]) -> Growth:
 
 def _reached(run: Result, end: float) -> bool:
     return bool(run.time[-1] >= end * (1.0 - 1e-9))
-
-
-def _until(run: Result, end: float) -> Result:
-    """Return a run's record up to an instant, s."""
-    count = int(np.searchsorted(run.time, end * (1.0 + 1e-12), side="right"))
-    channels = {
-        name: replace(channel, values=channel.values[:count])
-        for name, channel in run.channels.items()
-    }
-    return replace(run, channels=channels)

@@ -1,0 +1,142 @@
+"""The tolerance that delivers figures within a wanted error, and no finer."""
+
+import math
+from dataclasses import dataclass
+
+from exu_press.confidence.distribution import CUMULATED, Distribution, distribution
+from exu_press.confidence.figures import figures
+from exu_press.confidence.run import simulate_with_errors
+from exu_press.errors import InputError
+from exu_press.result import Result
+from exu_press.scene import Scene
+
+__all__ = ["Delivered", "deliver", "headline"]
+
+LOOSEST = 2e-2
+FINEST = 1e-6
+
+ROUNDS = 6
+
+ENOUGH = 0.3
+"""Of what is allowed: a tolerance that uses this much of it is not made looser."""
+
+COARSE = 3.0
+"""A tolerance is not looked for more closely than by this factor."""
+
+AIM = 0.8
+"""Of what is allowed."""
+
+HEADLINE = (
+    "peak_acceleration.",
+    "peak_velocity",
+    "stroke",
+    ".max_eccentricity_ratio",
+    "crank_pin.peak_force",
+    "energy.dissipated",
+)
+
+
+@dataclass(frozen=True)
+class Delivered:
+    """What came of it.
+
+    Attributes:
+        result: the run at the tolerance that was found, with its errors.
+        tolerance: of that run.
+        missed: figures that no tolerance determines within what was asked for, with what is
+            determined instead; None where that is nothing either.
+    """
+
+    result: Result
+    tolerance: float
+    missed: dict[str, Distribution | None]
+
+
+def headline(result: Result, name: str | None = None) -> list[str]:
+    """Return the names of the figures that are asked for.
+
+    Args:
+        result: whose figures.
+        name: of one figure; None: those that everybody looks at first.
+
+    Raises:
+        InputError: there is no such figure.
+    """
+    found = figures(result.summary())
+    if name is not None:
+        if name not in found:
+            raise InputError(f"--figure {name}: allowed are {', '.join(found)}")
+        return [name]
+    return [key for key, value in found.items() if value and any(h in key for h in HEADLINE)]
+
+
+def deliver(
+    scene: Scene, within: float, name: str | None = None, *, quiet: bool = True
+) -> Delivered:
+    """Find the tolerance that delivers figures within an error, and no finer.
+
+    Args:
+        scene: its own tolerance is where the search begins.
+        within: the error over the figure.
+        name: of a figure, dotted; None: the headline ones.
+        quiet: False shows the progress.
+
+    Raises:
+        InputError: the scene has fixed steps, or no such figure.
+    """
+    solver = scene.solver
+    assert solver is not None
+    if solver.tolerance is None:
+        raise InputError("--within: finds a tolerance, and solver.step asks for fixed steps")
+    tolerance, best = solver.tolerance, None
+    fails = math.inf
+    for _ in range(ROUNDS):
+        result = simulate_with_errors(scene.replace("solver.tolerance", tolerance), quiet=quiet)
+        off = {key: _error(result, key) / within for key in headline(result, name)}
+        need = max(off.values())
+        if need <= 1.0:
+            best = Delivered(result, tolerance, {})
+            wanted = tolerance * min(AIM / max(need, 1e-3), 20.0)
+            if need >= ENOUGH or fails <= COARSE * tolerance:
+                return best
+            if wanted >= fails:
+                wanted = math.sqrt(fails * tolerance)
+        else:
+            fails = min(fails, tolerance)
+            if best is not None:
+                if fails <= COARSE * best.tolerance:
+                    return best
+                tolerance = math.sqrt(fails * best.tolerance)
+                continue
+            wanted = tolerance * min(AIM / need, _for_horizon(result))
+            if wanted < FINEST:
+                break
+        if min(wanted, LOOSEST) == tolerance:
+            break
+        tolerance = min(wanted, LOOSEST)
+    if best is not None:
+        return best
+    determined = scene.replace("solver.tolerance", solver.tolerance)
+    missed = {
+        key: None
+        if any(part in key for part in CUMULATED)
+        else distribution(determined, key, within)
+        for key, error in off.items()
+        if error > 1.0
+    }
+    return Delivered(result, tolerance, missed)
+
+
+def _error(result: Result, name: str) -> float:
+    """Return a figure's error over the figure; not determined ones count by their bounds."""
+    told = result.info["errors"].get(name)
+    value = figures(result.summary())[name]
+    return math.inf if told is None else float(told["error"] / abs(value)) if value else 0.0
+
+
+def _for_horizon(result: Result) -> float:
+    """Return by how much the tolerance would have to fall for the horizon to reach the end."""
+    horizon, rate = result.info["errors_from"], result.info["amplification"]
+    if horizon is None or rate is None:
+        return 1.0
+    return math.exp(-rate * float(result.time[-1] - horizon))

@@ -7,10 +7,14 @@ from itertools import combinations
 
 import numpy as np
 
-__all__ = ["ROUNDING", "FigureError", "converging", "scattered"]
+__all__ = ["ROUNDING", "SAFETY", "SAFETY_OF_STEPS", "FigureError", "converging", "scattered"]
 
 SAFETY = 2.0
 """Of errors that go with the tolerance. Calibrated by scripts/calibrate_errors.py."""
+
+SAFETY_OF_STEPS = 3.0
+"""Of errors that go with a fixed step: impacts and films that it leaps over are not sampled better
+by half of it."""
 
 STUDENT = {1: 6.31, 2: 2.92, 3: 2.35, 4: 2.13, 5: 2.02, 6: 1.94, 7: 1.89}
 """Student's t for 90 % on both sides together, over the degrees of freedom."""
@@ -41,7 +45,7 @@ class FigureError:
 
 
 def converging(
-    values: Sequence[float], ratios: Sequence[float], rounding: float = ROUNDING
+    values: Sequence[float], ratios: Sequence[float], least: float = 0.0, safety: float = SAFETY
 ) -> FigureError:
     """Return the error of a figure whose error goes with the tolerance (or the step).
 
@@ -52,14 +56,15 @@ def converging(
         values: the figure at several tolerances.
         ratios: of these tolerances to the first.
 
-        rounding: the least error, over the figure.
+        least: error, in the figure's unit.
+        safety: factor on what the differences say.
 
     >>> round(converging([1.01, 1.04, 1.08], [1.0, 4.0, 8.0]).error, 6)  # twice 1.01 - 1
     0.02
     """
     pairs = combinations(zip(values, ratios, strict=True), 2)
     largest = max(abs(a - b) / abs(i - j) for (a, i), (b, j) in pairs)
-    error = SAFETY * largest + rounding * abs(values[0])
+    error = safety * largest + least
     return FigureError(error, True, _least(values, values[0] - error), values[0] + error)
 
 

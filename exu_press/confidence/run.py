@@ -7,7 +7,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.confidence.companions import Companions
-from exu_press.confidence.estimate import ROUNDING, FigureError, converging, scattered
+from exu_press.confidence.estimate import (
+    ROUNDING,
+    SAFETY,
+    SAFETY_OF_STEPS,
+    FigureError,
+    converging,
+    scattered,
+)
 from exu_press.confidence.figures import figures
 from exu_press.confidence.growth import Growth, growth
 from exu_press.confidence.windows import until
@@ -29,6 +36,10 @@ LOADS = ("acceleration", "force", "torque", "moment", "power")
 OF_LOADS = 1e-4
 """Their least error, over themselves: peaks are read at steps, and what the first step leaves of
 accelerations is the same in all runs, so that it is in none of their differences."""
+
+OF_SHARES = 1e-4
+"""Least error of a share of time: touches are told apart by steps, which in free flight are the
+longest ones allowed in all runs."""
 
 SAME = 1e-9
 """Relative: a figure that has changed by less since the horizon is one from before it."""
@@ -77,16 +88,21 @@ def errors_of(result: Result, companions: Mapping[float, Result]) -> Errors:
     if parted.horizon is not None:
         runs = {1.0: result, **kept}
         before = {r: figures(until(run, parted.horizon).summary()) for r, run in runs.items()}
+    solver = result.scene.solver
+    safety = SAFETY if solver is not None and solver.step is None else SAFETY_OF_STEPS
     errors: dict[str, Error] = {}
     for name in now[1.0]:
-        of = _error(name, now, before)
+        of = _error(name, now, before, safety)
         low, high = of.low, of.high
         errors[name] = {"error": of.error, "determined": of.determined, "low": low, "high": high}
     return {"errors": errors, "errors_from": parted.horizon, "amplification": parted.rate}
 
 
 def _error(
-    name: str, now: Mapping[float, Mapping[str, float]], before: Mapping[float, Mapping[str, float]]
+    name: str,
+    now: Mapping[float, Mapping[str, float]],
+    before: Mapping[float, Mapping[str, float]],
+    safety: float,
 ) -> FigureError:
     """Return the error of a figure.
 
@@ -94,6 +110,7 @@ def _error(
         name: of the figure.
         now: ratio -> the figures of the run or of a companion.
         before: the same, of the motion until the horizon.
+        safety: of errors that go with the tolerance or the step.
     """
     values = {ratio: found[name] for ratio, found in now.items() if name in found}
     if len(values) < 2:
@@ -102,9 +119,15 @@ def _error(
         abs(before[r].get(name, np.inf) - value) <= SAME * abs(value) for r, value in values.items()
     )
     if same:
-        rounding = OF_LOADS if any(word in name for word in LOADS) else ROUNDING
-        return converging(list(values.values()), list(values), rounding)
+        return converging(list(values.values()), list(values), _least(name, values[1.0]), safety)
     return scattered(list(values.values()))
+
+
+def _least(name: str, value: float) -> float:
+    """Return the least error of a figure, in its unit."""
+    if ".share_" in name:
+        return OF_SHARES
+    return abs(value) * (OF_LOADS if any(word in name for word in LOADS) else ROUNDING)
 
 
 def _parting(result: Result, companions: Mapping[float, Result]) -> Growth:

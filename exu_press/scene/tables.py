@@ -77,7 +77,7 @@ class Film(Table):
     """Film of every lubricated joint, Eqs. 34-35 corrected."""
 
     table: ClassVar[str] = "film"
-    law: str = key("pinkus", "film law", choices=tuple(FILM_LAWS))
+    law: str = key("finite", "film law", choices=tuple(FILM_LAWS))
     viscosity: float = key(0.4, "dynamic viscosity (A-11)", "Pa s", above=0)
     length: float = key(0.1, "bearing length (A-12)", "m", above=0)
     at_contact: str = key(

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from exu_press.scene import Scene
+from exu_press.scene import Film, Scene
 
 __all__ = ["ELASTIC", "LOADS", "REVOLUTIONS", "clearance", "paper_runs", "rigid_twin", "run_name"]
 
@@ -34,7 +34,7 @@ def paper_runs(*, rigid_only: bool = False, revolutions: float = REVOLUTIONS) ->
         rigid_only: leave flexible bodies out; sweeps are rigid then, under their own names.
         revolutions: length of every run.
     """
-    rigid = Scene(bodies="rigid", revolutions=revolutions)
+    rigid = Scene(bodies="rigid", film=Film(law="pinkus"), revolutions=revolutions)
     bodies = {"rigid": rigid}
     if not rigid_only:
         bodies["flexible"] = rigid.replace(bodies="flexible")

@@ -4,11 +4,14 @@ from typing import Any
 
 from exu_press.errors import InputError
 from exu_press.scene import Scene
-from exu_press.scene.tables import Flexible
+from exu_press.scene.tables import Film, Flexible
 from exu_press.studies.precision.cases import STEPS, TOLERANCES, Case
 from precision.extras import Reduced, Squeezer
 
 __all__ = ["cases", "chosen"]
+
+PAPERS = Film(law="pinkus")
+"""The paper's film, which the reduced model has."""
 
 SQUEEZER_STEPS = (1e-4, 3e-5, 1e-5, 3e-6, 1e-6)  # s
 
@@ -123,9 +126,11 @@ def chosen(names: list[str]) -> tuple[Case, ...]:
 
 
 def _slider_crank(pin: str, clearance: float | None = None) -> Scene:
-    scene = Scene(mechanism="slider_crank", revolutions=1.0).replace("joints.crank_pin", pin)
+    scene = Scene(mechanism="slider_crank", film=PAPERS, revolutions=1.0)
+    scene = scene.replace("joints.crank_pin", pin)
     return scene if clearance is None else scene.replace("joints.crank_pin.clearance", clearance)
 
 
 def _press(pin: str, balls: str, **given: Any) -> Scene:
-    return Scene(**given).replace({"joints.crank_pin": pin, "joints.balls": balls})
+    joints = {"joints.crank_pin": pin, "joints.balls": balls}
+    return Scene(film=PAPERS, **given).replace(joints)

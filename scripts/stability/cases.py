@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping
 from functools import cache
 from typing import Any
 
-from exu_press.scene import Scene
+from exu_press.scene import Film, Scene
 from exu_press.studies.stability.case import PAIRS, Case
 
 __all__ = ["cases", "quick_cases"]
@@ -80,7 +80,7 @@ def _case(axis: str, base: str, value: str, changes: Changes) -> Case:
 
 @cache
 def _start() -> Scene:
-    return Scene()
+    return Scene(film=Film(law="pinkus"))  # the paper's
 
 
 def _along(axis: str, bases: Iterable[str], values: Mapping[str, Changes]) -> list[Case]:

@@ -44,6 +44,7 @@ def test_lasting_contact_resumes_from_the_force_that_held_it(monkeypatch):
 def test_what_rounding_leaves_is_not_iterated_on():
     """A film of 0.1 um makes more of the last digit of a speed than the tolerance allows."""
     thin = Scene(
+        film={"law": "pinkus"},
         joints={
             "crank_pin": {"kind": "lubricated", "clearance": 1e-7},
             "balls": {"kind": "dry", "clearance": 1e-4},

@@ -12,7 +12,7 @@ FINITE = {"law": "finite"}
 
 
 def test_usual_scenes_have_none():
-    assert scene_warnings(Scene(film=FINITE)) == []
+    assert scene_warnings(Scene()) == []
     assert scene_warnings(Scene(joints={})) == []
     assert scene_warnings(Scene(mechanism="slider_crank", joints={"crank_pin": "dry"})) == []
 

@@ -17,7 +17,9 @@ PINS = {"dry": "lugre_steady", "lubricated": "pinkus"}
 
 
 def scene(pin, **changes):
-    return Scene(mechanism="slider_crank", joints={"crank_pin": pin}, revolutions=1.0, **changes)
+    film = {"film": {"law": "pinkus"}} if pin == "lubricated" else {}
+    joints = {"crank_pin": pin}
+    return Scene(mechanism="slider_crank", joints=joints, revolutions=1.0, **film, **changes)
 
 
 def states(pin, count=40):

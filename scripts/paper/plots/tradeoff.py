@@ -101,7 +101,6 @@ def _losses(axes: Axes, choice: Choice) -> None:
         axes.plot(_sizes(choice), values, color=colour, marker="o", label=label)
     total = [point.power for point in choice.alike]
     axes.plot(_sizes(choice), total, color="black", linewidth=1.8, label="all")
-    axes.set_ylim(max(1e-2, axes.get_ylim()[0]))
     axes.set_title("Power lost")
     axes.set_ylabel("W")
     axes.legend()

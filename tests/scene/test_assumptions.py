@@ -76,7 +76,7 @@ def test_keys_with_defaults_units_and_meanings():
             {
                 "joints": {
                     "balls": "dry",
-                    "crank_pin": {"kind": "lubricated", "film": {"length": 1}},
+                    "crank_pin": {"kind": "lubricated", "film": {"length": 0.2}},
                 }
             },
             {"joints.crank_pin.film.length"},

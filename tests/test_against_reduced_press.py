@@ -9,7 +9,7 @@ from exu_press import Scene, simulate
 
 def test_default_press_in_its_first_revolution():
     """Lubricated pin, dry balls: the resolved peak at the default tolerance."""
-    scene = Scene(revolutions=0.5)
+    scene = Scene(film={"law": "pinkus"}, revolutions=0.5)
     true = np.abs(ReducedPress(scene).slider(scene.duration, 1e-10)[:, 7]).max()
     assert np.abs(simulate(scene)["slider_acceleration"]).max() == pytest.approx(true, rel=2e-3)
 

@@ -1,0 +1,67 @@
+"""How long it takes to begin, as processor times and as ratios to importing Exudyn.
+
+Commands are the least of several fresh processes; pictures and animation are drawn once.
+"""
+
+import resource
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+from matplotlib.figure import Figure
+
+from exu_press import Scene, simulate
+from exu_press.plots import save_pictures
+from exu_press.view import Film, instants, save_film
+from exu_press.view.film import SIZE
+
+REPEATS = 5
+MAIN = "from exu_press.cli import main\ntry: main([{}])\nexcept SystemExit: pass"
+FIRST_STEP = """
+from exu_press import Scene, simulate
+simulate(Scene(revolutions=1e-6))
+"""
+COMMANDS = {
+    "import exudyn": "import exudyn",
+    "exu-press --help": MAIN.format("'--help'"),
+    "exu-press --version": MAIN.format("'--version'"),
+    "first step of a rigid run": FIRST_STEP,
+}
+FRAMES = 50
+
+
+def processor_time(code: str) -> float:
+    """Return the least processor time of fresh processes, s."""
+    times = []
+    for _ in range(REPEATS):
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        subprocess.run([sys.executable, "-c", code], stdout=subprocess.DEVNULL, check=True)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        times.append(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
+    return min(times)
+
+
+def drawing_times() -> dict[str, float]:
+    """Return the processor times of all pictures of a run and of a frame of its animation, s."""
+    result = simulate(Scene(revolutions=1.0))
+    with tempfile.TemporaryDirectory() as folder:
+        start = time.process_time()
+        save_pictures(result, folder)
+        pictures = time.process_time()
+        film = Film(result, instants(result, frames=FRAMES), Figure(figsize=SIZE))
+        save_film(film, Path(folder) / "run.gif")
+        frame = (time.process_time() - pictures) / FRAMES
+    return {"all pictures of a run": pictures - start, "a frame of a .gif": frame}
+
+
+def main() -> None:
+    times = {name: processor_time(code) for name, code in COMMANDS.items()} | drawing_times()
+    exudyn = times["import exudyn"]
+    for name, seconds in times.items():
+        print(f"{name:28} {seconds:7.3f} s  {seconds / exudyn:6.2f} x import exudyn")
+
+
+if __name__ == "__main__":
+    main()

@@ -9,6 +9,12 @@ __all__ = ["comparison_cells", "comparison_lines", "run_lines"]
 
 Summary = Mapping[str, Any]
 
+MOST = 3
+"""Joints that a line names, those with the largest forces."""
+
+ALIKE = 1e-2
+"""Two sides that differ by less, relatively, are shown as one."""
+
 
 def _number(value: float | None, scale: float = 1.0, digits: int = 4) -> str:
     """Return a value in a multiple of its SI unit, or a dash where there is none."""
@@ -31,14 +37,36 @@ def _joints(entry: str, scale: float) -> Callable[[Summary], str]:
     """Return what reads one entry of every clearance joint, both balls as one."""
 
     def text(summary: Summary) -> str:
-        figures = {
-            name.removesuffix("_left").replace("_", " "): _figure(f"joints.{name}.{entry}", scale)
+        loose = {
+            name: joint
             for name, joint in summary["joints"].items()
-            if not name.endswith("_right") and joint["clearance"] and joint[entry] is not None
+            if joint["clearance"] and joint[entry] is not None
         }
-        return ", ".join(f"{name} {figure(summary)}" for name, figure in figures.items()) or "-"
+        shown = {}
+        for name, joint in loose.items():
+            both = name.removesuffix("_left").removesuffix("_right")
+            left, right = loose.get(f"{both}_left", {}), loose.get(f"{both}_right", {})
+            alike = _alike(left.get(entry), right.get(entry))
+            if not (alike and name.endswith("_right")):
+                words = name.removesuffix("_left") if alike else name
+                shown[name] = words.replace("_", " "), joint["peak_force"]
+        busiest = sorted(shown, key=lambda name: -shown[name][1])[:MOST]
+        texts = [
+            f"{shown[name][0]} {_figure(f'joints.{name}.{entry}', scale)(summary)}"
+            for name in shown
+            if name in busiest
+        ]
+        rest = [f"{len(shown) - MOST} more"] * (len(shown) > MOST)
+        return ", ".join([*texts, *rest]) or "-"
 
     return text
+
+
+def _alike(one: float | None, other: float | None) -> bool:
+    """Return whether a figure is the same on both sides of a press, to a hundredth."""
+    if one is None or other is None:
+        return False
+    return abs(one - other) <= ALIKE * max(abs(one), abs(other))
 
 
 def _determined(summary: Summary) -> str:

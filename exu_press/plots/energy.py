@@ -17,6 +17,9 @@ __all__ = ["energy_figure"]
 
 MINUS = " \N{MINUS SIGN} "
 
+MOST = 6
+"""Joints whose losses are drawn, the largest ones."""
+
 BALANCE: dict[str, dict[str, Any]] = {
     "energy_input": {"label": "put in", "color": COLOURS["blue"]},
     "energy_stored": {"label": "stored", "color": COLOURS["orange"], "linestyle": (0, (5, 1.5))},
@@ -65,7 +68,12 @@ def _losses(axes: Axes, result: Result) -> None:
         "damping of modes": modes,
     }
     order = sorted(result.clearance_joints, key=lambda n: (result.joints[n].spherical, n))
-    for index, (name, title) in enumerate(joint_titles([result], order, "loss").items()):
+    titles = joint_titles([result], order, "loss")
+    most = sorted(titles, key=lambda name: -float(result[f"{name}_loss"][-1]))[:MOST]
+    drawn = {name: title for name, title in titles.items() if name in most}
+    sides = sum(title.endswith("each side") for title in drawn.values())
+    rest = len(order) - len(drawn) - sides
+    for index, (name, title) in enumerate(drawn.items()):
         lost = result[f"{name}_loss"]
         words = title[0].lower() + title[1:]
         curve(axes, result, lost, color=colour_of(index), linewidth=1.4, label=words)
@@ -74,6 +82,8 @@ def _losses(axes: Axes, result: Result) -> None:
             lost = np.sum([result[f"{name}_loss"] for name in several], axis=0)
             curve(axes, result, lost, color=GREY, linewidth=1.4, linestyle=style, label=label)
     axes.set_title("Dissipated in")
+    if rest:
+        note(axes, f"{rest} joints that dissipate less are not drawn")
     axes.legend(loc="upper left", ncols=2, columnspacing=1.3)  # where all losses begin at nothing
 
 

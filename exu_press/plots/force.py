@@ -1,30 +1,27 @@
 """What the joints and the drive carry, over crank angle."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from exu_press.mechanism import GROUND
+from exu_press.plots.busiest import busiest
 from exu_press.plots.canvas import angle_range, crank_degrees, curve, new_figure
 from exu_press.plots.scales import crank_angle_axis, impact_scale, note
-from exu_press.plots.sides import joint_titles
 from exu_press.plots.style import colour_of, styled
 from exu_press.plots.words import plain
 from exu_press.result import Result
+from exu_press.scene import mechanism_of
 
 __all__ = ["force_figure"]
 
 Array = NDArray[np.float64]
 
-JOINTS = {
-    "press": ("crank_pin", "ball_left", "ball_right", "pivot_left", "pivot_right"),
-    "slider_crank": ("crank_pin", "wrist_pin", "guide"),
-}
-"""Which joints are shown: those with clearance, and where the frame or the slider takes the load.
-
-Of two sides that do the same, one is shown.
-"""
+MOST = 5
+"""Joints whose forces are drawn: those with the largest ones, of the joints with clearance, of the
+crank's pin, and of those in the frame and on the slider; of two sides that do the same, one."""
 
 
 @styled
@@ -34,10 +31,13 @@ def force_figure(results: Mapping[str, Result]) -> Figure:
     An axis is linear, or where impacts dwarf the rest linear for the rest and logarithmic beyond;
     it says so.
     """
-    figure = new_figure("Joint forces and drive torque", results, (13.0, 7.6))
-    shown = {
-        title: (channel, "force, kN", 1e-3) for title, channel in _force_channels(results).items()
-    }
+    everyone = list(results.values())
+    drawn, rest = busiest(everyone, _joints(everyone), "force", MOST)
+    heading = "Joint forces and drive torque"
+    if rest:
+        heading += f" ({len(rest)} joints with smaller forces are not drawn)"
+    figure = new_figure(heading, results, (13.0, 7.6))
+    shown = {title: (f"{name}_force", "force, kN", 1e-3) for name, title in drawn.items()}
     shown["Drive torque"] = "drive_torque", "torque, N m", 1.0
     rows = -(-len(shown) // 2)
     grid = figure.subplots(rows, 2, sharex=True, squeeze=False)
@@ -69,14 +69,27 @@ def force_figure(results: Mapping[str, Result]) -> Figure:
     return figure
 
 
-def _force_channels(results: Mapping[str, Result]) -> dict[str, str]:
-    """Return the force channels to show, by title; one of two sides that are alike."""
-    everyone = list(results.values())
-    loose = dict.fromkeys(name for result in everyone for name in result.clearance_joints)
-    usual = [name for result in everyone for name in JOINTS.get(result.scene.shipped, ())]
-    names = dict.fromkeys((*usual, *sorted(loose)))
-    there = [name for name in names if any(f"{name}_force" in result for result in everyone)]
-    return {title: f"{name}_force" for name, title in joint_titles(everyone, there).items()}
+def _joints(results: Sequence[Result]) -> list[str]:
+    """Return the joints and guides that may be shown: pins, balls, then those in the frame."""
+    order: dict[str, int] = {}
+    for result in results:
+        mechanism = mechanism_of(result.scene)
+        on_crank = [
+            joint.name
+            for joint in mechanism.joints
+            if mechanism.crank in (joint.journal, joint.bearing)
+            and GROUND not in (joint.journal, joint.bearing)
+        ]
+        order |= dict.fromkeys((*result.clearance_joints, *on_crank[:1]), 0)
+        for joint in mechanism.joints:
+            bodies = {joint.journal, joint.bearing}
+            if bodies & {GROUND, mechanism.slider} and mechanism.crank not in bodies:
+                order.setdefault(joint.name, 2)
+        order |= {name: 1 for name in result.scene.joints.spherical if name in order}
+        if len(mechanism.guides) == 1:
+            order["guide"] = 3
+    there = [name for name in order if any(f"{name}_force" in result for result in results)]
+    return sorted(there, key=lambda name: (order[name], name))
 
 
 def _magnitude(values: Array) -> Array:

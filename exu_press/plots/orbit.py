@@ -6,16 +6,20 @@ from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 
 from exu_press.errors import InputError
+from exu_press.plots.busiest import busiest, draw_rest
 from exu_press.plots.canvas import angle_range, curve, legend_above, new_figure
 from exu_press.plots.clearance_circle import TOUCH, Path, draw_path
 from exu_press.plots.scales import angle_ticks, crank_angle_axis, note
-from exu_press.plots.sides import joint_titles
 from exu_press.plots.style import GREY, RUN, SHADE, styled
 from exu_press.result import Result
 
 __all__ = ["orbit_figure"]
 
 ROW = 3.75  # inch
+LINE = 0.19  # inch
+
+MOST = 4
+"""Joints whose paths are drawn, the busiest ones; the rest stand in a table below them."""
 
 
 @styled
@@ -30,12 +34,23 @@ def orbit_figure(result: Result) -> Figure:
     Raises:
         InputError: the scene has no clearance joint.
     """
-    paths = _paths(result)
+    names = sorted(result.clearance_joints, key=lambda n: (result.joints[n].spherical, n))
+    drawn, rest = busiest([result], names, "eccentricity", MOST)
+    paths = [Path(title, result, name) for name, title in drawn.items()]
     if not paths:
         raise InputError("orbit_figure: this scene has no joint with clearance; draw its forces")
-    height = 1.3 + ROW * len(paths)
+    lines_of_rest = LINE * (len(rest) + 2) if rest else 0.0
+    height = 1.3 + ROW * len(paths) + lines_of_rest
     figure = new_figure("Journal and ball centres in their clearance", {"": result}, (13.0, height))
-    grid = figure.subplots(len(paths), 3, squeeze=False, width_ratios=(0.03, 1.0, 1.8))
+    heights = [ROW] * len(paths) + [lines_of_rest] * bool(rest)
+    grid = figure.subplots(
+        len(heights), 3, squeeze=False, width_ratios=(0.03, 1.0, 1.8), height_ratios=heights
+    )
+    if rest:
+        for axes in grid[-1]:
+            axes.set_axis_off()
+        draw_rest(grid[-1, 1], result, rest, 9.5)
+        grid = grid[:-1]
     for row, path in enumerate(paths):
         lines = draw_path(grid[row, 1], path)
         _angle_colours(figure, grid[row, 0], lines, result)
@@ -43,13 +58,6 @@ def orbit_figure(result: Result) -> Figure:
     crank_angle_axis(grid[:, 2], *angle_range({"": result}))
     grid[-1, 2].set_xlabel("crank angle from top dead centre, deg")
     return figure
-
-
-def _paths(result: Result) -> list[Path]:
-    """Return the paths to show, journals before balls; one of two balls that do the same."""
-    names = sorted(result.clearance_joints, key=lambda n: (result.joints[n].spherical, n))
-    titles = joint_titles([result], names, "eccentricity")
-    return [Path(title, result, name) for name, title in titles.items()]
 
 
 def _angle_colours(

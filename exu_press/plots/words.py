@@ -8,6 +8,9 @@ from exu_press.scene import Scene, mechanism_of
 
 __all__ = ["describe", "early_stops", "joint_in_words", "plain"]
 
+FEW = 3
+"""Joints or groups with clearance that are named one by one."""
+
 SEPARATOR = "  ·  "
 CROSS = "\N{MULTIPLICATION X}"  # as it marks the end of the curves
 
@@ -67,15 +70,7 @@ def _parts(scene: Scene, joints: Collection[str]) -> dict[str, str]:
     }
     if not joints:
         parts["joints"] = "all joints ideal"
-    for name in joints:
-        members = [scene.joints[n] for n in scene.joints.members(name) if n in scene.joints]
-        words = name.replace("_", " ")
-        if len({joint.kind for joint in members}) == 1:
-            parts[name] = f"{words} {members[0].kind}"
-        if len({joint.clearance for joint in members}) == 1 and members[0].clearance:
-            clearance = members[0].clearance * 1e3
-            one = words.removesuffix("s") if name in scene.joints.groups else words
-            parts[f"{name} clearance"] = f"{one} radial clearance {clearance:g} mm"
+    parts |= _of_each(scene, joints) if len(joints) <= FEW else _of_many(scene)
     if scene.blanking is not None and scene.blanking.force:
         parts["load"] = f"blanking force {scene.blanking.force / 1e3:g} kN"
         if scene.blanking.eccentricity:
@@ -85,6 +80,32 @@ def _parts(scene: Scene, joints: Collection[str]) -> dict[str, str]:
     if scene.press is not None and not scene.press.counterweight:
         parts["counterweight"] = "no counterweight"
     return parts
+
+
+def _of_each(scene: Scene, joints: Iterable[str]) -> dict[str, str]:
+    """Return kind and clearance of each joint or group."""
+    parts = {}
+    for name in joints:
+        members = [scene.joints[n] for n in scene.joints.members(name) if n in scene.joints]
+        words = name.replace("_", " ")
+        if len({joint.kind for joint in members}) == 1:
+            parts[name] = f"{words} {members[0].kind}"
+        if len({joint.clearance for joint in members}) == 1 and members[0].clearance:
+            clearance = members[0].clearance * 1e3
+            one = words.removesuffix("s") if name in scene.joints.groups else words
+            parts[f"{name} clearance"] = f"{one} radial clearance {clearance:g} mm"
+    return parts
+
+
+def _of_many(scene: Scene) -> dict[str, str]:
+    """Return the joints and groups of each kind and clearance in one phrase."""
+    alike: dict[tuple[str, float], list[str]] = {}
+    for name, joint in scene.joints.grouped.items():
+        alike.setdefault((joint.kind, joint.clearance), []).append(name.replace("_", " "))
+    return {
+        f"{kind} {clearance}": f"{', '.join(names)} {kind}, {clearance * 1e3:g} mm"
+        for (kind, clearance), names in alike.items()
+    }
 
 
 def _wrapped(phrases: Iterable[str], width: int) -> str:

@@ -9,8 +9,8 @@ from matplotlib.gridspec import SubplotSpec
 from matplotlib.transforms import Bbox
 from numpy.typing import NDArray
 
+from exu_press.plots.busiest import busiest, draw_rest
 from exu_press.plots.scales import crank_angle_axis, impact_scale, note
-from exu_press.plots.sides import joint_titles
 from exu_press.plots.style import GREY, look
 from exu_press.plots.words import describe, early_stops, plain
 from exu_press.result import Result
@@ -25,6 +25,9 @@ __all__ = ["SIZE", "Film", "Look"]
 
 SIZE = (12.8, 7.2)
 """Inch."""
+
+MOST = 2
+"""Joints that are magnified, the busiest ones; the rest stand in a table."""
 
 CURVES = (
     ("slider_position", "Slider position", "mm", 1e3),
@@ -83,7 +86,8 @@ class Film:
         speed = f"{factor} than the machine at {self.instants.fps:g}"
         if not self.instants.still:
             figure.text(0.012, 0.015, f"{speed} frames a second", fontsize=7.5, color=GREY)
-        joints = _joints(result)
+        names = sorted(result.clearance_joints, key=lambda n: (result.joints[n].spherical, n))
+        joints, rest = busiest([result], names, "eccentricity", MOST)
         columns = figure.add_gridspec(
             1,
             3,
@@ -96,7 +100,10 @@ class Film:
         )
         self.panels.append(MechanismPanel(figure.add_subplot(columns[0]), result, self.instants))
         if joints:
-            rows = columns[1].subgridspec(len(joints), 1, hspace=0.16)
+            heights = [1.0] * len(joints) + [0.055 * (len(rest) + 2)] * bool(rest)
+            rows = columns[1].subgridspec(len(heights), 1, hspace=0.16, height_ratios=heights)
+            if rest:
+                draw_rest(figure.add_subplot(rows[-1]), result, rest, 6.5)
             for index, (name, title) in enumerate(joints.items()):
                 axes = figure.add_subplot(rows[index])
                 self.panels.append(JointPanel(axes, result, name, title, self.instants))
@@ -131,12 +138,6 @@ class Film:
             panels.append(axes)
         panels[-1].set_xlabel("crank angle from top dead centre, deg")
         crank_angle_axis(panels, degrees[shown][0], degrees[shown][-1])
-
-
-def _joints(result: Result) -> dict[str, str]:
-    """Return the joints to magnify with their titles; one of two balls that do the same."""
-    names = sorted(result.clearance_joints, key=lambda n: (result.joints[n].spherical, n))
-    return joint_titles([result], names, "eccentricity")
 
 
 @dataclass

@@ -1,0 +1,77 @@
+"""Many joints in one picture: the busiest few are drawn, the rest stand in a table."""
+
+from collections.abc import Collection, Iterable, Mapping
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from exu_press.plots.sides import joint_titles
+from exu_press.plots.style import GREY
+from exu_press.result import Result
+
+__all__ = ["busiest", "draw_rest", "rest_lines"]
+
+
+def busiest(
+    results: Collection[Result], names: Iterable[str], quantity: str, most: int
+) -> tuple[dict[str, str], dict[str, str]]:
+    """Return the joints to draw and the rest, each joint with its title; one of two equal sides.
+
+    Args:
+        results: of the runs in the picture.
+        names: of the joints, in the picture's order.
+        quantity: whose channels tell whether two sides do the same.
+        most: joints to draw; those with the largest forces.
+    """
+    titles = joint_titles(results, names, quantity)
+    force = {name: max(_peak(result, name) for result in results) for name in titles}
+    drawn = sorted(titles, key=lambda name: -force[name])[:most]
+    return (
+        {name: title for name, title in titles.items() if name in drawn},
+        {name: title for name, title in titles.items() if name not in drawn},
+    )
+
+
+def rest_lines(result: Result, rest: Mapping[str, str]) -> list[str]:
+    """Return a table of joints, a line each: kind, clearance, eccentricity ratio and force."""
+    cells = [("also", "kind", "c, µm", "e/c, max", "F, max, kN")]
+    for name, title in rest.items():
+        joint = result.joints[name]
+        loose = joint.clearance > 0.0
+        cells.append(
+            (
+                title,
+                joint.kind,
+                f"{joint.clearance * 1e6:.4g}" if loose else "-",
+                f"{joint.distance.max() / joint.clearance:.3f}" if loose else "-",
+                f"{_peak(result, name) * 1e-3:.4g}",
+            )
+        )
+    widths = [max(len(line[column]) for line in cells) for column in range(len(cells[0]))]
+    return [
+        "  ".join(cell.ljust(width) for cell, width in zip(line, widths, strict=True)).rstrip()
+        for line in cells
+    ]
+
+
+def draw_rest(axes: Axes, result: Result, rest: Mapping[str, str], size: float = 8.0) -> None:
+    """Write the table of the joints that are not drawn into a panel of its own."""
+    axes.set_axis_off()
+    axes.text(
+        0.0,
+        1.0,
+        "\n".join(rest_lines(result, rest)),
+        transform=axes.transAxes,
+        va="top",
+        fontsize=size,
+        color=GREY,
+        family="monospace",
+    )
+
+
+def _peak(result: Result, name: str) -> float:
+    """Return the largest force in a joint, N; that of a guide as well."""
+    if f"{name}_force" not in result:
+        return 0.0
+    force = result[f"{name}_force"]
+    return float(np.linalg.norm(force.reshape(len(force), -1), axis=1).max())

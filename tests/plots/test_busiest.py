@@ -1,0 +1,88 @@
+"""Pictures of a press with twelve clearance joints can be read: few drawn, the rest in a table."""
+
+import functools
+
+import pytest
+from matplotlib.figure import Figure
+
+from exu_press import Scene, simulate
+from exu_press.observe.table import run_lines
+from exu_press.plots.busiest import busiest, rest_lines
+from exu_press.plots.energy import energy_figure
+from exu_press.plots.force import force_figure
+from exu_press.plots.orbit import orbit_figure
+from exu_press.plots.words import describe
+from exu_press.view import Film, moment
+from exu_press.view.film import SIZE
+
+JOINTS = {"pivots": "lubricated", "slide_pin": "lubricated", "crank_pin": "lubricated"}
+JOINTS |= dict.fromkeys(("knuckles", "plunger_pins", "balls"), "dry")
+
+
+@pytest.fixture(scope="module")
+def twelve():
+    result = simulate(Scene(joints=JOINTS, revolutions=0.02))
+    assert len(result.clearance_joints) == 12
+    return result
+
+
+def test_the_largest_forces_are_drawn_and_every_other_joint_is_in_the_table(twelve):
+    drawn, rest = busiest([twelve], twelve.clearance_joints, "eccentricity", 3)
+    peak = {name: joint["peak_force"] for name, joint in twelve.summary()["joints"].items()}
+    assert len(drawn) == 3
+    assert min(peak[name] for name in drawn) >= max(peak[name] for name in rest)
+    head, *lines = rest_lines(twelve, rest)
+    assert head.split()[0] == "also"
+    assert len(lines) == len(rest)
+    assert all(any(twelve.joints[name].kind in line for line in lines) for name in rest)
+
+
+def _titles(figure):
+    return [axes.get_title("left") for axes in figure.axes]
+
+
+@pytest.mark.parametrize(
+    ("draw", "most"),
+    [
+        (lambda result: force_figure({"run": result}), 6),
+        (orbit_figure, 8),
+        (energy_figure, 3),
+        (lambda result: Film(result, moment(result), Figure(figsize=SIZE)).figure, 6),
+    ],
+    ids=["force", "orbit", "energy", "view"],
+)
+def test_panels_are_few(twelve, draw, most):
+    assert len(list(filter(None, _titles(draw(twelve))))) <= most
+
+
+def test_titles_name_them_by_kind(twelve):
+    words = describe([twelve.scene])
+    assert "crank pin, slide pin, pivots lubricated, 0.1 mm" in words
+    assert "knuckles, plunger pins, balls dry, 0.1 mm" in words
+    titles = _titles(Film(twelve, moment(twelve), Figure(figsize=SIZE)).figure)
+    kinds = {name.split(",")[0]: joint.kind for name, joint in _titled(twelve)}
+    magnified = [title for title in titles if "clearance" in title]
+    assert len(magnified) == 2
+    for title in magnified:
+        assert kinds[title.split(",")[0]] in title
+
+
+def _titled(result):
+    from exu_press.plots.words import joint_in_words
+
+    return [(joint_in_words(name), joint) for name, joint in result.joints.items()]
+
+
+@functools.cache
+def one_ball():
+    return simulate(Scene(joints={"ball_right": "dry", "crank_pin": "dry"}, revolutions=0.02))
+
+
+def test_a_joint_of_the_right_side_alone_is_printed():
+    (line,) = [x for x in run_lines(one_ball().summary()) if x.startswith("joint force")]
+    assert "ball right" in line and "crank pin" in line
+
+
+def test_many_joints_are_counted_in_the_terminal(twelve):
+    (line,) = [x for x in run_lines(twelve.summary()) if x.startswith("joint force")]
+    assert " more" in line and len(line) < 110

@@ -1,0 +1,161 @@
+"""Four-bar, eccentric press and the paper's press against independent models of their own.
+
+Reduced coordinates, own laws, SciPy's LSODA: nothing in them knows Exudyn or this package. Dry
+impacts amplify differences until nothing of the motion is determined but its statistics; so dry
+runs are judged in the first revolution alone, where they are.
+"""
+
+import functools
+import math
+
+import numpy as np
+import pytest
+from independent.reduced_eccentric_press import ReducedEccentricPress
+from independent.reduced_four_bar import ReducedFourBar
+from independent.reduced_press import ReducedPress
+from independent.reduced_slider_crank import Numbers
+from scipy.interpolate import CubicHermiteSpline
+
+from exu_press import Scene, simulate
+
+KINDS = {"pinkus": "lubricated", "lugre_steady": "dry"}
+SMALL = {"radius": 0.02, "clearance": 2e-5}
+LIGHT = {"stiffness": 1e9, "damping_max": 1e4}
+OIL = {"viscosity": 0.1, "length": 0.02}
+
+
+def body(result, name, times):
+    """Centre of mass and angle (n, 3) of a body at instants of the steps."""
+    at = np.searchsorted(result.time, times - 1e-9)
+    assert result.time[at] == pytest.approx(times, abs=1e-12)
+    return result["body_position"][at][:, result.bodies.index(name)]
+
+
+@pytest.mark.parametrize(("pin", "step"), [("pinkus", 2e-5), ("lugre_steady", 5e-6)])
+def test_four_bar(pin, step):
+    """The rocker's centre of mass, which swings by 87 mm, within 2e-9 m; measured 6e-10."""
+    times = np.linspace(0.0, 0.05, 21)
+    model = ReducedFourBar(pin, Numbers(**SMALL, **LIGHT, **OIL))
+    expected = model.run(times, 1e-9)[1]
+    laws = {"film": OIL} if pin == "pinkus" else {"contact": LIGHT}
+    result = simulate(
+        Scene(
+            mechanism="four_bar",
+            joints={"knuckle": {"kind": KINDS[pin], **SMALL}},
+            revolutions=0.2,
+            solver={"step": step},
+            **laws,
+        )
+    )
+    arm = 0.5 * abs(model.knuckle - model.pivot)
+    centre = model.pivot + arm * np.exp(1j * expected)
+    pose = body(result, "rocker", times)
+    assert np.abs(pose[:, 0] + 1j * pose[:, 1] - centre).max() < 2e-9
+    ideal = simulate(Scene(mechanism="four_bar", joints={}, revolutions=0.2, solver={"step": 1e-4}))
+    away = np.abs(pose - body(ideal, "rocker", times)).max()
+    assert away > 4e-8, "the clearance is seen, twenty times the bound"
+
+
+@pytest.mark.parametrize(
+    ("crank_pin", "wrist_pin", "bound"),
+    [
+        ("pinkus", "pinkus", 1e-9),
+        ("pinkus", "lugre_steady", 2e-7),
+        ("lugre_steady", "lugre_steady", 2e-6),
+    ],
+)
+def test_eccentric_press_with_two_clearance_joints(crank_pin, wrist_pin, bound):
+    """The slide's height; measured 1e-10, 4e-8 and 1.7e-6 m after half a revolution."""
+    times = np.linspace(0.0, 0.05, 21)
+    numbers = Numbers(slider_mass=60.0 + 1347.0)
+    expected = ReducedEccentricPress(crank_pin, wrist_pin, numbers).run(times, 1e-9)[3]
+    joints = {"crank_pin": KINDS[crank_pin], "wrist_pin": KINDS[wrist_pin]}
+    step = 2e-5 if crank_pin == wrist_pin == "pinkus" else 5e-6
+    result = simulate(
+        Scene(mechanism="eccentric_press", joints=joints, revolutions=0.2, solver={"step": step})
+    )
+    assert np.abs(body(result, "slide", times)[:, 1] - expected).max() < bound
+
+
+@functools.cache
+def press(pin, clearance, rpm, revolutions, tolerance):
+    """Instants and states of the reduced press, and the peaks of its first revolution."""
+    model = ReducedPress(pin, Numbers(clearance=clearance, speed=rpm * math.pi / 30.0))
+    times, states = model.steps(revolutions * 60.0 / rpm, tolerance)
+    first = times <= 60.0 / rpm
+    loads = [
+        model.loads(t, state[:3].tolist(), state[3:].tolist())
+        for t, state in zip(times[first], states.T[first], strict=True)
+    ]
+    peaks = [max(values) for values in zip(*((abs(a[2]), f, b) for a, f, b in loads), strict=True)]
+    return times, states, peaks
+
+
+def exudyn_press(pin, clearance, rpm, revolutions, **solver):
+    result = simulate(
+        Scene(
+            joints={
+                "crank_pin": {"kind": KINDS[pin], "clearance": clearance},
+                "balls": {"kind": "dry", "clearance": clearance},
+            },
+            speed_rpm=float(rpm),
+            revolutions=revolutions,
+            solver=solver,
+        )
+    )
+    assert result.completed, result.info["reason"]
+    return result
+
+
+def difference(result, times, states):
+    """Of the slider's position at the reduced model's instants, m."""
+    height = result["body_position"][:, result.bodies.index("slider"), 1]
+    found = CubicHermiteSpline(result.time, height, result["slider_velocity"])(times)
+    return np.abs(found - states[2])
+
+
+def peaks_of(result, rpm):
+    """Largest acceleration of the slider, force of crank pin and ball in the first revolution."""
+    first = result.time <= 60.0 / rpm
+    return [
+        np.linalg.norm(result[channel][first].reshape(first.sum(), -1), axis=1).max()
+        for channel in ("slider_acceleration", "crank_pin_force", "ball_right_force")
+    ]
+
+
+@pytest.mark.parametrize("pin", KINDS)
+def test_press_through_its_first_impacts(pin):
+    """0.1 mm, 240 rpm: the largest peak lies at 36.8 ms."""
+    times, states, expected = press(pin, 1e-4, 240, 0.2, 1e-9)
+    result = exudyn_press(pin, 1e-4, 240, 0.2, tolerance=1e-4)
+    assert difference(result, times, states).max() < 1e-7
+    assert peaks_of(result, 240) == pytest.approx(expected, rel=2e-3)
+    assert expected[0] > 600.0  # there were impacts
+
+
+def test_reference_of_the_press_is_converged():
+    _, _, coarse = press("pinkus", 1e-4, 240, 0.2, 1e-9)
+    _, _, fine = press("pinkus", 1e-4, 240, 0.2, 1e-11)
+    assert coarse == pytest.approx(fine, rel=5e-4)  # each at its own steps
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("rpm", [240, 500])
+@pytest.mark.parametrize("clearance", [1e-4, 1e-5])
+@pytest.mark.parametrize("pin", KINDS)
+def test_press_over_its_first_revolution(pin, clearance, rpm):
+    """Peaks measured within 3e-4, positions within 7e-9 m, at a tolerance of 1e-5."""
+    times, states, expected = press(pin, clearance, rpm, 1.0, 1e-12)
+    result = exudyn_press(pin, clearance, rpm, 1.0, tolerance=1e-5)
+    assert difference(result, times, states).max() < 5e-8
+    assert peaks_of(result, rpm) == pytest.approx(expected, rel=1e-3)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("rpm", [240, 500])
+@pytest.mark.parametrize("clearance", [1e-4, 1e-5])
+def test_lubricated_press_over_two_revolutions(clearance, rpm):
+    """The oil keeps the motion determined."""
+    times, states, _ = press("pinkus", clearance, rpm, 2.0, 1e-12)
+    result = exudyn_press("pinkus", clearance, rpm, 2.0, tolerance=1e-5)
+    assert difference(result, times, states).max() < 1e-7

@@ -60,7 +60,7 @@ def test_a_kind_a_table_and_a_dataclass_are_the_same():
 def test_own_laws_differ_from_the_scenes():
     scene = Scene(
         joints={
-            "crank_pin": {"kind": "lubricated", "film": {"law": "finite"}},
+            "crank_pin": {"kind": "lubricated", "film": {"law": "pi_film"}},
             "slide_pin": "lubricated",
             "balls": {"kind": "dry", "contact": {"damping": "flores"}, "friction": {"law": "none"}},
             "pivots": "dry",
@@ -68,11 +68,11 @@ def test_own_laws_differ_from_the_scenes():
         film={"viscosity": 0.1},
     )
     films = scene.joints["crank_pin"].film, scene.joints["slide_pin"].film
-    assert [(film.law, film.viscosity) for film in films] == [("finite", 0.1), ("pinkus", 0.1)]
+    assert [(film.law, film.viscosity) for film in films] == [("pi_film", 0.1), ("finite", 0.1)]
     assert scene.joints["ball_left"].contact.damping == "flores"
     assert scene.joints["pivot_left"].contact == scene.contact
     given = scene.to_dict()["joints"]
-    assert given["crank_pin"]["film"] == {"law": "finite"}, "nothing but the difference"
+    assert given["crank_pin"]["film"] == {"law": "pi_film"}, "nothing but the difference"
     assert "film" not in given["slide_pin"]
     assert Scene.from_dict(scene.to_dict()) == scene
 

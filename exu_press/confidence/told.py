@@ -36,7 +36,7 @@ def _chaos(result: Result) -> list[str]:
     growth = ""
     if rate is not None:
         impacts = sum(
-            joint["impacts"] or 0 for joint in result.summary()["joints"].values()
+            joint.get("impacts") or 0 for joint in result.summary()["joints"].values()
         ) / float(result.time[-1])
         growth = f", and grow tenfold in {math.log(10.0) / rate * 1e3:.3g} ms"
         if impacts > 0.0:

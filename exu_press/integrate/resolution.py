@@ -9,7 +9,9 @@ So the figure is the largest change of an inertia force m |a| within one step, o
 the largest inertia force of the run. Measured against a tolerance of 1e-5 on dry, lubricated and
 mixed presses and slider-cranks of many clearances, speeds and dampings, steps of 1e-3 to 1e-5 s:
 above 0.8 the joints' peak forces were off by 9 to 90 %, seldom less; between 0.65 and 0.8 by 2 to
-17 %; below by 7 % at most.
+17 %. Below, steps say nothing against a peak, and nothing for it either: an error that an earlier
+impact left may have grown by then. How far a figure is off its stated error says (see
+`exu_press.confidence`).
 """
 
 import math

@@ -14,6 +14,7 @@ from exu_press.cli.options import (
 )
 from exu_press.confidence import simulate_with_errors
 from exu_press.errors import InputError
+from exu_press.observe.differences import difference_lines
 from exu_press.observe.table import comparison_lines
 from exu_press.output import output_directory, remove_pictures, write_json
 from exu_press.result import Result
@@ -66,7 +67,7 @@ def execute(options: argparse.Namespace) -> int:
 
         save_comparison(results, directory)
     if not options.quiet:
-        print("\n".join(comparison_lines(summaries)))
+        print("\n".join([*comparison_lines(summaries), *difference_lines(summaries)]))
         show_warnings(f"{label}: {w}" for label, s in summaries.items() for w in s["warnings"])
         print(f"written to {directory}")
     stopped = {label: s["reason"] for label, s in summaries.items() if s["reason"]}

@@ -39,6 +39,13 @@ def test_the_table_holds_the_summaries(tmp_path):
     assert {path.name for path in tmp_path.iterdir()} >= {"table.csv", "table.nc", "study.json"}
 
 
+def test_a_study_may_ask_for_errors(tmp_path):
+    study = Study(scene=LUBRICATED, errors=True, list={"speed_rpm": [300.0]})
+    table = sweep(study, tmp_path, workers=1)
+    assert table["errors.peak_acceleration.resolved.error"][0] > 0.0
+    assert table["errors.peak_acceleration.resolved.determined"][0] is True
+
+
 def test_a_file_that_is_gone_or_torn_is_made_again(tmp_path):
     study = Study(scene=IDEAL, save_runs=True, list={"speed_rpm": [200.0, 300.0, 400.0]})
     first = sweep(study, tmp_path, workers=1)

@@ -53,6 +53,7 @@ def sweep(
             run_scene,
             [
                 {"scene": scene.to_dict()}
+                | ({"errors": True} if study.errors else {})
                 | ({"save": str((directory / files[index]).resolve())} if files else {})
                 for index, scene in enumerate(study.scenes)
             ],
@@ -73,10 +74,12 @@ def sweep(
 
 
 def run_scene(arguments: dict[str, Any]) -> dict[str, Any]:
-    """Run {"scene": ..., "save": file, if wanted} and return its summary less the scene."""
+    """Run {"scene": ...}, with "save": file and "errors": True if wanted; return its summary."""
+    from exu_press.confidence import simulate_with_errors
     from exu_press.simulation import simulate
 
-    result = simulate(Scene.from_dict(arguments["scene"]))
+    run = simulate_with_errors if arguments.get("errors") else simulate
+    result = run(Scene.from_dict(arguments["scene"]))
     if "save" in arguments:
         result.save(arguments["save"])
     summary = result.summary()

@@ -22,6 +22,7 @@ class Study(Table):
     Attributes:
         scene: what is common to all runs; a Scene or its mapping.
         save_runs: whether every run keeps its run.nc.
+        errors: whether every figure has its error, by companion runs: twice the work.
         time_limit: of one run, s.
         grid: key -> values, every combination.
         list: key -> values, side by side.
@@ -33,6 +34,7 @@ class Study(Table):
 
     scene: Scene
     save_runs: bool = key(False, "keep a run.nc for every run")
+    errors: bool = key(False, "find the error of every figure")
     time_limit: float | None = key(None, "for one run", "s", above=0)
     grid: Mapping[str, Any] | None = None
     list: Mapping[str, Any] | None = None
@@ -79,6 +81,7 @@ class Study(Table):
         return {
             "scene": self.scene.to_dict(),
             "save_runs": self.save_runs,
+            "errors": self.errors,
             self.way: dict(getattr(self, self.way)),
         }
 

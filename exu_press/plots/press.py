@@ -90,7 +90,7 @@ def _drive(axes: Axes, result: Result) -> None:
     axes.set_title("Power of the drive")
     axes.set_ylabel("mean over 1 ms, kW")
     worst = float(np.abs(result["drive_torque"]).max())
-    note(axes, f"torque, as resolved: at most {worst:.4g} N m")
+    note(axes, f"torque, as resolved: at most {worst / 1e3:.4g} kN m")
 
 
 def _guides(axes: Axes, result: Result) -> None:

@@ -1,4 +1,4 @@
-"""Crank speed: accelerations and forces grow with its square, the film gets thinner.
+"""Crank speed: forces grow with its square, accelerations with less; the film gets thinner.
 
 Run with: python scripts/sweep_speed.py [--quick] [--out DIR]
 """

@@ -1,5 +1,6 @@
 """What press builders look at: shaking force, drive, guides, bottom dead centres, tilt."""
 
+import math
 from collections.abc import Mapping
 
 import numpy as np
@@ -117,7 +118,8 @@ def _draw(axes: Axes, result: Result, curves: Mapping[str, Array | None]) -> Non
             mean = 1e-3 * averaged(result.time, np.asarray(integral))
             curve(axes, result, mean, color=colour_of(index), linewidth=1.1, label=label)
     if len(curves) > 1:
-        legend_above(axes, columns=len(curves))
+        rows = 1 if len(curves) < 5 else 2  # beside the panel's title
+        legend_above(axes, columns=math.ceil(len(curves) / rows))
 
 
 def _strokes(axes: Axes, result: Result, centres: list[DeadCentre]) -> None:

@@ -23,6 +23,17 @@ def test_with_and_without_counterweight(results):
     assert names == ["vertical", "vertical, without counterweight", "horizontal"]
 
 
+@pytest.mark.parametrize("name", ["ideal", "elastic"])
+def test_legends_stand_beside_their_titles(results, name):
+    for title, axes in panels(results[name]).items():
+        axes.figure.draw_without_rendering()
+        legend = axes.get_legend()
+        if legend is not None:
+            assert not legend.get_window_extent().overlaps(axes._left_title.get_window_extent()), (
+                title
+            )
+
+
 def test_shaking_force_is_drawn_as_its_mean_over_a_millisecond(results):
     """Without impacts that is the force itself, in kN."""
     line = panels(results["ideal"])["Shaking force"].lines[0]

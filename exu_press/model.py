@@ -306,33 +306,40 @@ class _Builder:
         return self._hold(turned, "angle", velocityLevel=True, offset=self.scene.angular_speed)
 
     def add_blanking(self) -> None:
-        """Press the slider upwards once a revolution, at a place of the frame."""
+        """Press the slider in its direction once a revolution, at a place of the frame."""
         pulse = self.scene.blanking
         if pulse is None or pulse.force == 0.0:
             return
         period, begin = _pulse_period(self.scene)
+        slider, direction = self.mechanism.slider, self.mechanism.output.direction
 
         def force(mbs: exu.MainSystem, t: float, load: float) -> float:
             return blanking_force((t - begin) % period, pulse.force, pulse.rise, pulse.fall)
 
+        def along(mbs: exu.MainSystem, t: float, load: Any) -> list[float]:
+            size = force(mbs, t, 0.0)
+            return [size * direction[0], size * direction[1], 0.0]
+
+        vector: Any = along
+
         def moment(mbs: exu.MainSystem, t: float, load: float) -> float:
             return pulse.eccentricity * force(mbs, t, load)
 
-        loads = {"y": force}
-        if pulse.eccentricity != 0.0 and "angle" in self.rigid[self.mechanism.slider].coordinates:
-            loads["angle"] = moment
-        numbers = [
-            self.mbs.AddLoad(
-                LoadCoordinate(
-                    markerNumber=self._coordinate(self.mechanism.slider, coordinate),
-                    load=0.0,
-                    loadUserFunction=load,
-                )
+        upwards = direction == (0.0, 1.0) and "y" in self.rigid[slider].coordinates
+        if upwards:
+            pressed: Any = LoadCoordinate(
+                markerNumber=self._coordinate(slider, "y"), load=0.0, loadUserFunction=force
             )
-            for coordinate, load in loads.items()
-        ]
+        else:
+            pressed = LoadForceVector(
+                markerNumber=self._marker(slider, (0.0, 0.0)), loadVectorUserFunction=vector
+            )
+        number = self.mbs.AddLoad(pressed)
+        if pulse.eccentricity != 0.0 and "angle" in self.rigid[slider].coordinates:
+            turned = self._coordinate(slider, "angle")
+            self.mbs.AddLoad(LoadCoordinate(markerNumber=turned, load=0.0, loadUserFunction=moment))
         self.sensors["blanking", "force"] = self.mbs.AddSensor(
-            SensorLoad(loadNumber=numbers[0], storeInternal=True)
+            SensorLoad(loadNumber=number, storeInternal=True)
         )
 
     def add_sensors(self, joints: dict[str, int], guides: dict[str, dict[str, int]]) -> None:

@@ -27,7 +27,8 @@ def held_forces(model: Model) -> dict[str, Channel]:
         if name == "drive":
             channels["drive_torque"] = Channel(-values[:, 0], "N m", "torque that turns the crank")
         elif name == "blanking":
-            channels |= _load(model, values[:, 0])
+            force = values[:, 0] if values.shape[1] == 1 else model.mechanism.along(values)
+            channels |= _load(model, force)
         elif name.endswith("_guide"):
             body = name.removesuffix("_guide")
             channels |= guide_channels(model, body, {quantity: -values[:, 0]})

@@ -82,9 +82,10 @@ def record(model: Model, outcome: Outcome) -> Result:
     turned = body_motion(model, DRIVE if DRIVE in model.nodes else mechanism.crank).velocity[:, 2]
     torque = channels["drive_torque"].values
     driven = work(time, torque, turned)
-    for load, column in (("blanking_force", 1), ("blanking_moment", 2)):
+    moved = mechanism.along(velocity[:, slider]), velocity[:, slider, 2]
+    for load, speed in zip(("blanking_force", "blanking_moment"), moved, strict=True):
         if load in channels:
-            driven += work(time, channels[load].values, velocity[:, slider, column])
+            driven += work(time, channels[load].values, speed)
     channels |= {
         "drive_power": Channel(torque * turned, "W", "power of the drive"),
         "body_position": Channel(position, "m, rad", "centres of mass and angles", "pose"),

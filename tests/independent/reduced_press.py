@@ -1,126 +1,196 @@
-"""The paper's press, symmetric and in ideal guides, with clearance in crank pin and balls.
+"""The symmetric press with dry or lubricated crank pin and dry balls, in three coordinates.
 
-Three coordinates: the slide's height, the linkage's direction (from its crank end to the slide) and
-the slider's height. Links 5 to 7 and the plungers follow the slide; the counterweight follows the
-crank and bears on nothing else. The crank turns at constant speed. Lengths and masses: Table 2.
+Written from the equations of docs/theory, without Exudyn: coordinates are the slide's height y, the
+linkage's angle phi (direction from its crank end to the slide) and the slider's height z. The crank
+turns at constant speed, the guides are ideal and both sides do the same, so that the balls move
+vertically alone. The laws of contact, friction and film are the package's, which have tests of
+their own.
 """
 
-from cmath import exp
-from dataclasses import dataclass
-from math import cos, pi, sin, sqrt
+from math import cos, hypot, sin, sqrt
 
-from independent.clearance import Clearance, Reduced
-from independent.reduced_slider_crank import Numbers, ReducedSliderCrank
+import numpy as np
+from scipy.integrate import LSODA
 
-A, LINK_5, LINK_6, LINK_7, PLUNGER = 0.1655, 0.23, 0.24, 0.164, 0.55
-SLIDE, MASS_5, MASS_6, MASS_7, MASS_8, SLIDER = 60.0, 22.72, 24.13, 15.5, 155.3, 1347.0
-BOTTOM = -0.03 - 0.383
-PIVOT = complex(A, BOTTOM - sqrt(LINK_5**2 - A**2) + LINK_6)
+from exu_press import Scene
+from exu_press.scene.laws import contact_law, film_law, friction_law
 
 
-def chain(y):
-    """Ball's height, its slope, and the right half's mass, mass rate and weight by slide height.
+class ReducedPress:
+    """Lagrange's equations of a rigid press without blanking and elastic guides."""
 
-    The slide stands at height y. Kinetic energy is M(y) y_t^2 / 2, so that its force is
-    M y_tt + M' y_t^2 / 2, and gravity's is -g W.
-    """
-    slide, slide_1 = 1j * y, 1j
-    base = PIVOT - slide
-    far = abs(base)
-    along = (LINK_5**2 - LINK_6**2 + far**2) / (2 * far)
-    knuckle = slide + (along - 1j * sqrt(LINK_5**2 - along**2)) * base / far
-    u, v = knuckle - slide, knuckle - PIVOT
-    knuckle_1 = solve(u, v, dot(u, slide_1), 0.0)
-    knuckle_2 = solve(u, v, -(abs(knuckle_1 - slide_1) ** 2), -(abs(knuckle_1) ** 2))
-    across = A - knuckle.real
-    foot = complex(A, knuckle.imag - sqrt(LINK_7**2 - across**2))
-    w = foot - knuckle
-    foot_1 = solve(w, 1 + 0j, dot(w, knuckle_1), 0.0)
-    foot_2 = solve(w, 1 + 0j, dot(w, knuckle_2) - abs(foot_1 - knuckle_1) ** 2, 0.0)
-    mass = half_rate = weight = 0.0
-    zero = 0j
-    for m, length, (p, p_1, p_2), (r, r_1, r_2) in (
-        (MASS_5, LINK_5, (slide, slide_1, zero), (knuckle, knuckle_1, knuckle_2)),
-        (MASS_6, LINK_6, (PIVOT, zero, zero), (knuckle, knuckle_1, knuckle_2)),
-        (MASS_7, LINK_7, (knuckle, knuckle_1, knuckle_2), (foot, foot_1, foot_2)),
-    ):
-        centre_1, centre_2 = (p_1 + r_1) / 2, (p_2 + r_2) / 2
-        d, d_1, d_2 = r - p, r_1 - p_1, r_2 - p_2
-        turn_1 = (d.conjugate() * d_1).imag / length**2
-        turn_2 = (d.conjugate() * d_2).imag / length**2
-        inertia = m * length**2 / 12
-        mass += m * abs(centre_1) ** 2 + inertia * turn_1**2
-        half_rate += m * dot(centre_1, centre_2) + inertia * turn_1 * turn_2
-        weight += m * centre_1.imag
-    mass += MASS_8 * abs(foot_1) ** 2
-    half_rate += MASS_8 * dot(foot_1, foot_2)
-    weight += MASS_8 * foot_1.imag
-    return foot.imag - PLUNGER, foot_1.imag, mass, half_rate, weight
+    def __init__(self, scene: Scene) -> None:
+        """Take a scene with steady laws and balls that are dry."""
+        pin, ball, size = scene.joints["crank_pin"], scene.joints["ball_right"], scene.press
+        self.size, self.scene, self.radius = size, scene, pin.radius
+        self.pin_clearance, self.ball_clearance = pin.clearance, ball.clearance
+        self.film = None
+        if pin.kind == "lubricated":
+            film = pin.film
+            self.film = film_law(film, pin.radius, pin.clearance)
+            self.film_scale = film.viscosity * film.length * pin.radius**3 / pin.clearance**2
+        else:
+            self.pin_contact = contact_law(pin.contact, pin.clearance, revolute=True)
+            self.friction = friction_law(pin.friction)
+        self.ball_contact = contact_law(ball.contact, ball.clearance, revolute=False)
+        bottom = -size.crank_radius - size.linkage_length
+        drop = sqrt(size.link_5_length**2 - size.pivot_distance**2)
+        self.pivot_y = bottom - drop + size.link_6_length
+        self.origin = bottom - drop - size.link_7_length - size.plunger_length
+        self.linkage_inertia = (
+            size.linkage_inertia or size.linkage_mass * size.linkage_length**2 / 12
+        )
 
+    def side(self, y: float) -> tuple[float, ...]:
+        """Return what one side does at a height of the slide, and its derivatives with that.
 
-def dot(a, b):
-    """Scalar product."""
-    return (a.conjugate() * b).real
+        The mass that the slide feels (kg), half its derivative, the weight's force over gravity,
+        and the ball's height with its derivative.
+        """
+        s = self.size
+        a, l5, l6, l7 = s.pivot_distance, s.link_5_length, s.link_6_length, s.link_7_length
+        # knuckle: to the right of the way from the slide (0, y) to the pivot (a, pivot_y), or left
+        b_x, b_y = a, self.pivot_y - y
+        square = b_x * b_x + b_y * b_y
+        along = (l5 * l5 - l6 * l6 + square) / (2.0 * square)
+        across = sqrt(l5 * l5 / square - along * along)
+        k_x, k_y = along * b_x + across * b_y, along * b_y - across * b_x  # from the slide
+        p_x, p_y = k_x - b_x, k_y - b_y  # from the pivot
+        # derivatives with y: p.p' = 0, k.(p' - (0, 1)) = 0
+        det = p_x * k_y - p_y * k_x
+        d_x, d_y = -p_y * k_y / det, p_x * k_y / det
+        v = d_y - 1.0
+        r1, r2 = -(d_x * d_x + d_y * d_y), -(d_x * d_x + v * v)
+        dd_x, dd_y = (r1 * k_y - r2 * p_y) / det, (r2 * p_x - r1 * k_x) / det
+        # foot on x = a: link 7 from the knuckle, (-p_x, f)
+        f = -sqrt(l7 * l7 - p_x * p_x)
+        f_1 = -p_x * d_x / f
+        f_2 = -(d_x * d_x + p_x * dd_x + f_1 * f_1) / f
+        u, u_1, u_2 = self.pivot_y + p_y + f, d_y + f_1, dd_y + f_2
+        mass = half = weight = 0.0
+        for m, x1, y1, x2, y2 in (
+            (s.link_5_mass, 0.5 * d_x, 0.5 * (1 + d_y), 0.5 * dd_x, 0.5 * dd_y),
+            (s.link_6_mass, 0.5 * d_x, 0.5 * d_y, 0.5 * dd_x, 0.5 * dd_y),
+            (s.link_7_mass, 0.5 * d_x, 0.5 * (d_y + u_1), 0.5 * dd_x, 0.5 * (dd_y + u_2)),
+            (s.plunger_mass, 0.0, u_1, 0.0, u_2),
+        ):
+            mass += m * (x1 * x1 + y1 * y1)
+            half += m * (x1 * x2 + y1 * y2)
+            weight += m * y1
+        for m, x1, y1, x2, y2 in (  # m l^2 / 12 turn^2, turn = |change of the link| / l
+            (s.link_5_mass / 12, d_x, d_y - 1.0, dd_x, dd_y),
+            (s.link_6_mass / 12, d_x, d_y, dd_x, dd_y),
+            (s.link_7_mass / 12, -d_x, f_1, -dd_x, f_2),
+        ):
+            mass += m * (x1 * x1 + y1 * y1)
+            half += m * (x1 * x2 + y1 * y2)
+        return mass, half, weight, u - s.plunger_length, u_1
 
+    def pin_force(self, e_x, e_y, v_x, v_y, omega_b):
+        """Return force on the journal and the moment of its opposite about the bearing's centre."""
+        e = hypot(e_x, e_y)
+        n_x, n_y = (e_x / e, e_y / e) if e > 0.0 else (1.0, 0.0)
+        rate, across = v_x * n_x + v_y * n_y, v_y * n_x - v_x * n_y
+        omega_j, c = self.scene.angular_speed, self.pin_clearance
+        f_n = f_t = moment = 0.0
+        if self.film is not None:
+            answer = self.film(e / c, rate / c, (e * (omega_j + omega_b) - 2.0 * across) / c)
+            f_n, f_t = self.film_scale * answer[0], self.film_scale * answer[1]
+            moment = -0.5 * e * f_t
+        elif e > c:
+            normal = self.pin_contact.force(e - c, rate, 0.0)[0]
+            reach = self.radius + e
+            sliding = across + self.radius * omega_j - reach * omega_b
+            f_n, f_t = -normal, -self.friction(sliding)[0] * normal
+            moment = -reach * f_t
+        return f_n * n_x - f_t * n_y, f_n * n_y + f_t * n_x, moment
 
-def solve(u, v, along_u, along_v):
-    """The vector with these scalar products."""
-    det = u.real * v.imag - u.imag * v.real
-    return complex(
-        (along_u * v.imag - along_v * u.imag) / det, (u.real * along_v - v.real * along_u) / det
-    )
-
-
-@dataclass(frozen=True)
-class ReducedPress(Reduced):
-    """`crank_pin` is a kind of `Clearance`; the balls are dry."""
-
-    crank_pin: str
-    numbers: Numbers
+    def rate(self, t, state):
+        """Return the state's rate: y, phi, z and theirs."""
+        y, phi, z, y_t, phi_t, z_t = state.tolist()
+        s, g = self.size, self.scene.gravity
+        length, half = s.linkage_length, s.linkage_length / 2
+        angle, w = self.scene.start_angle + self.scene.angular_speed * t, self.scene.angular_speed
+        c, n = cos(phi), sin(phi)
+        r = s.crank_radius
+        e_x = -r * sin(angle) + length * c
+        e_y = r * cos(angle) - (y - length * n)
+        v_x = -r * w * cos(angle) - length * n * phi_t
+        v_y = -r * w * sin(angle) - (y_t - length * c * phi_t)
+        f_x, f_y, moment = self.pin_force(e_x, e_y, v_x, v_y, phi_t)
+        mass, half_slope, weight, ball, ball_1 = self.side(y)
+        e = ball - z
+        rate = ball_1 * y_t - z_t
+        ball_force = 0.0
+        if abs(e) > self.ball_clearance:
+            sign = 1.0 if e > 0 else -1.0
+            ball_force = (
+                -sign * self.ball_contact.force(abs(e) - self.ball_clearance, sign * rate, 0.0)[0]
+            )
+        # linkage: centre (-shift from the middle along phi), kinetic energy with y and phi
+        arm = half + s.linkage_mass_offset  # from the slide's pin to the centre of mass
+        m = s.linkage_mass
+        inertia = self.linkage_inertia + m * arm * arm
+        coupled = -m * arm * c
+        on_phi = m * g * arm * c - (f_x * length * n - f_y * length * c) + moment
+        on_y = (
+            -m * g
+            - f_y
+            - m * arm * n * phi_t * phi_t
+            - s.slide_mass * g
+            + 2.0 * (-half_slope * y_t * y_t - weight * g + ball_force * ball_1)
+        )
+        total = m + s.slide_mass + 2.0 * mass
+        det = total * inertia - coupled * coupled
+        return np.array(
+            (
+                y_t,
+                phi_t,
+                z_t,
+                (on_y * inertia - coupled * on_phi) / det,
+                (total * on_phi - coupled * on_y) / det,
+                -g - 2.0 * ball_force / s.slider_mass,
+            )
+        )
 
     def start(self):
-        """Return the ideal mechanism at top dead centre."""
-        n = self.numbers
-        y = n.crank_radius - n.rod_length
-        turn = n.crank_radius * n.speed / n.rod_length
-        return (y, -pi / 2, chain(y)[0]), (0.0, turn, 0.0)
+        """Return coordinates and rates of the ideal mechanism at the start."""
+        s, w, angle = self.size, self.scene.angular_speed, self.scene.start_angle
+        x, h = -s.crank_radius * sin(angle), s.crank_radius * cos(angle)
+        up = sqrt(s.linkage_length**2 - x * x)
+        y = h - up
+        phi = np.arctan2(y - h, -x)
+        v_x, v_y = -h * w, x * w
+        y_t = v_y + x * v_x / up
+        phi_t = -v_x / up  # -L sin(phi) phi_t = -v_x with sin(phi) = -up / L
+        _, _, _, ball, ball_1 = self.side(y)
+        return np.array((y, float(phi), ball, y_t, phi_t, ball_1 * y_t))
 
-    def accelerations(self, t, q, q_t):
-        """Lagrange's equations."""
-        return self.loads(t, q, q_t)[0]
+    def slider(self, duration: float, tolerance: float, moved: float = 0.0):
+        """Return time, the six coordinates and rates, and the slider's acceleration, (n, 8).
 
-    def loads(self, t, q, q_t):
-        """Return the accelerations and the forces on the crank pin and on each ball, N."""
-        n = self.numbers
-        (y, phi, slider), (y_t, phi_t, slider_t) = q, q_t
-        ball, slope, mass, half_rate, weight = chain(y)
-        rod, half = n.rod_length * exp(1j * phi), 0.5 * n.rod_length
-        angle = n.speed * t
-        pin = n.crank_radius * complex(-sin(angle), cos(angle))
-        end, end_t = 1j * y - rod, 1j * y_t - 1j * phi_t * rod
-        force, _, on_rod = Clearance(self.crank_pin, n).loads(
-            pin - end, 1j * n.speed * pin - end_t, n.speed, phi_t
+        Args:
+            duration: s.
+            tolerance: relative and, in m and 10 m/s, absolute times 1e-3.
+            moved: by how much the slider starts too high, m.
+        """
+        state = self.start()
+        state[2] += moved
+        scale = np.array((1.0, 1.0, 1.0, 10.0, 10.0, 10.0))
+        solver = LSODA(
+            self.rate,
+            0.0,
+            state,
+            duration,
+            rtol=max(tolerance, 1e-13),
+            atol=1e-3 * tolerance * scale,
+            first_step=1e-8,
+            max_step=1e-4,
         )
-        apart, closing = ball - slider, slope * y_t - slider_t
-        sense = 1.0 if apart > 0.0 else -1.0
-        law = ReducedSliderCrank("none", n)
-        on_ball = -sense * law.normal_force(abs(apart) - n.clearance, sense * closing)
-        c, s = cos(phi), sin(phi)
-        on_phi = (-rod.conjugate() * -force).imag + on_rod  # -F at its end, from the slide
-        a, b = n.rod_inertia + n.rod_mass * half**2, -n.rod_mass * half * c
-        d = n.rod_mass + SLIDE + 2 * mass
-        rhs_phi = on_phi + n.rod_mass * n.gravity * half * c
-        rhs_y = (
-            -force.imag
-            + 2 * slope * on_ball
-            - n.gravity * (n.rod_mass + SLIDE + 2 * weight)
-            - n.rod_mass * half * s * phi_t**2
-            - 2 * half_rate * y_t**2
-        )
-        det = a * d - b * b
-        accelerations = (
-            (a * rhs_y - b * rhs_phi) / det,
-            (d * rhs_phi - b * rhs_y) / det,
-            -2 * on_ball / SLIDER - n.gravity,
-        )
-        return accelerations, abs(force), abs(on_ball)
+        found = [(0.0, *state, self.rate(0.0, state)[5])]
+        while solver.status == "running":
+            message = solver.step()
+            if solver.status == "failed":
+                raise RuntimeError(message)
+            found.append((solver.t, *solver.y, self.rate(solver.t, solver.y)[5]))
+        return np.array(found)

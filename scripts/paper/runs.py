@@ -7,7 +7,7 @@ from exu_press.scene import Film, Scene
 __all__ = ["ELASTIC", "LOADS", "REVOLUTIONS", "clearance", "paper_runs", "rigid_twin", "run_name"]
 
 REVOLUTIONS = 2.0
-"""The second one is observed: flexible bodies start undeformed and ring through the first."""
+"""The second one is observed: in the first one journals and balls fall from where they start."""
 
 BASELINE = 1e-5  # m
 STATED = 1e-4  # m, the clearance of sections 5.2 and 5.3

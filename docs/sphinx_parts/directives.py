@@ -10,6 +10,7 @@ from docutils import nodes
 from docutils.parsers.rst import Directive
 
 from exu_press import Scene
+from exu_press.scene import DryJoint
 from exu_press.scene.scene import TABLES
 
 
@@ -26,7 +27,8 @@ class SceneKeys(Directive):
     def run(self) -> list[nodes.Node]:
         """Return a section a table."""
         found: list[nodes.Node] = []
-        for name, kind in {"at the top": Scene, **TABLES}.items():
+        joints = {"joints.NAME": DryJoint}
+        for name, kind in {"at the top": Scene, **joints, **TABLES}.items():
             shown = name if kind is Scene else f"[{name}]"
             section = nodes.section(ids=[f"keys-{name.replace(' ', '-')}"], names=[shown])
             section += nodes.title(shown, shown)

@@ -51,9 +51,9 @@ ITERATIONS = 12
 class _LostError(ArithmeticError):
     """Newton's method did not find a group's next position."""
 
-    def __init__(self, group: Group, index: int = 0) -> None:
+    def __init__(self, group: Group, index: int = 0, *, apart: bool = False) -> None:
         super().__init__()
-        self.group, self.index = group, index
+        self.group, self.index, self.apart = group, index, apart
 
 
 class Kinematics:
@@ -129,7 +129,7 @@ class Kinematics:
             try:
                 inverse = self._close(group, poses, u)
             except _LostError as lost:
-                raise self._refusal(group, float(angle[lost.index]), knots[1]) from None
+                raise self._refusal(lost, float(angle[lost.index]), knots[1]) from None
             group.move(poses, inverse)
         return {
             name: _motion(poses[name], len(angle), self._size, speed)
@@ -158,7 +158,7 @@ class Kinematics:
                 step /= 2.0
                 if step < SHORTEST_STEP:
                     rates = found[-1][self.groups.index(lost.group)][1]
-                    raise self._refusal(lost.group, angle, rates) from None
+                    raise self._refusal(lost, angle, rates) from None
                 continue
             angle += step
             step = min(2.0 * step, LONGEST_STEP)
@@ -214,20 +214,24 @@ class Kinematics:
         group.place(poses, u)
         gaps = np.abs(group.gaps(poses)).max(axis=-1)
         if gaps.max() > DISAGREE:
-            raise _LostError(group, int(np.argmax(gaps)))
+            raise _LostError(group, int(np.argmax(gaps)), apart=True)
         crossed = _sign(group, jacobian) != self._signs[self.groups.index(group)]
         if np.any(crossed):
             raise _LostError(group, int(np.argmax(crossed)))
         return inverse
 
-    def _refusal(self, group: Group, angle: float, rates: Array) -> InputError:
+    def _refusal(self, lost: _LostError, angle: float, rates: Array) -> InputError:
         """Return the error for a position in which a group cannot be followed."""
-        degrees = math.degrees(angle) % 360.0
+        where = f"at crank angle {math.degrees(angle) % 360.0:.4g} deg"
+        bodies = _listed(lost.group.bodies)
+        if lost.apart and not lost.group.square:
+            return InputError(
+                f"{self._name}: joints and guides hold {bodies} more than once and do not agree "
+                f"{where}: one is too many, or what moves alike is not drawn exactly alike"
+            )
         fast = float(np.abs(rates).max()) > FAST
         does = "lock: they reach no further" if fast else "lock or branch"
-        return InputError(
-            f"{self._name}: {_listed(group.bodies)} {does} at crank angle {degrees:.4g} deg"
-        )
+        return InputError(f"{self._name}: {bodies} {does} {where}")
 
 
 @lru_cache(maxsize=64)

@@ -217,7 +217,7 @@ def test_a_joint_too_many():
     held = replace(
         mechanism, joints=(*mechanism.joints, Joint("bolt", (0.3, 0.4), "rocker", GROUND))
     )
-    assert "lock" in refusal(held)
+    assert "hold coupler more than once" in refusal(held)
 
 
 def test_redundant_loops_that_disagree_are_refused_with_the_bodies():
@@ -228,13 +228,15 @@ def test_redundant_loops_that_disagree_are_refused_with_the_bodies():
         for j in mechanism.joints
     ]
     text = refusal(replace(mechanism, joints=tuple(wrong)))
-    assert "other_rod" in text or "slider" in text
+    assert "other_rod" in text
+    assert "do not agree" in text
 
 
 def test_a_guide_and_a_pivot_on_one_body_lock():
     mechanism = four_bar()
     text = refusal(replace(mechanism, guides=(Guide("rocker", (1.0, 0.0)),)))
-    assert text == "four_bar: coupler lock or branch at crank angle 0 deg"
+    assert text.startswith("four_bar: joints and guides hold coupler more than once")
+    assert "at crank angle 0 deg" in text
 
 
 def test_groups_are_found_from_what_is_known():

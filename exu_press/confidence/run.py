@@ -50,11 +50,11 @@ def simulate_with_errors(scene: Scene, *, quiet: bool = True) -> Result:
 
     Returns:
         The result; `info` and summary have `errors`, figure by figure, `errors_from` and
-        `amplification` too.
+        `amplification` too. Of a run that stopped early, or was stopped, nothing is known.
     """
     with Companions(scene) as companions:
         result = simulate(scene, quiet=quiet)
-        return _told(result, companions.results())
+        return _told(result, companions.results() if result.completed else {})
 
 
 def with_errors(result: Result) -> Result:

@@ -9,7 +9,7 @@ from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 
-from exu_press import __version__
+import exu_press
 from exu_press.errors import InputError
 
 __all__ = ["main"]
@@ -85,7 +85,9 @@ def _execute(arguments: Sequence[str] | None) -> int:
         description="Dynamics of press mechanisms with clearance and lubrication in their joints.",
         epilog="example: exu-press compare press --out out/compare",
     )
-    parser.add_argument("--version", action="version", version=f"%(prog)s {__version__}")
+    # to find it takes as long as all else here, in which Ctrl-C would meet Python's imports
+    version = f"%(prog)s {exu_press.__version__}" if "--version" in given else ""
+    parser.add_argument("--version", action="version", version=version)
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for name in COMMANDS:
         summary = _summary(name)

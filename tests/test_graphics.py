@@ -72,7 +72,7 @@ def test_the_picture(tmp_path):
         pixels = np.array(image.convert("RGB"), dtype=float)
     model = build(Scene())
     shapes = shapes_of(model.mechanism)
-    plates = [name for name in model.mechanism.sliding if name != "slide"]  # hidden by the links
+    plates = [name for name in model.holding.sliding if name != "slide"]  # hidden by the links
     (colour,) = {shapes[name].colour for name in plates}
     wanted = np.array([int(colour[i : i + 2], 16) for i in (1, 3, 5)])
     drawn = np.abs(pixels - 0.88 * wanted).max(axis=2) < 4.0

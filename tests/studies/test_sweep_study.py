@@ -60,7 +60,10 @@ def test_a_time_limit_does_not_make_another_study():
         (SCENE + "[grid]\nspeed_rpm = [1]\n[list]\nspeed_rpm = [1]\n", r"\[grid\] and \[list\]"),
         ("grid = 3\n" + SCENE, "grid = 3: allowed is a table"),
         (SCENE + "[grid]\n", r"\[grid\]: empty"),
-        (SCENE + "[gird]\nspeed_rpm = [1]\n", "gird = .*: unknown key; allowed are scene, "),
+        (
+            SCENE + "[gird]\nspeed_rpm = [1]\n",
+            "gird = .*: unknown key .did you mean .grid...; allowed are scene, ",
+        ),
         ("points = []\n" + SCENE + "[grid]\nspeed_rpm = [1]\n", "points = .*: unknown key"),
         ("time_limit = 0\n" + SCENE + "[grid]\nspeed_rpm = [1]\n", "time_limit = 0.*: allowed"),
         ("save_runs = 1\n" + SCENE + "[grid]\nspeed_rpm = [1]\n", "save_runs = 1: allowed is"),

@@ -77,13 +77,20 @@ def test_netcdf_reads_back(table, tmp_path):
 def test_what_is_shown(table):
     assert shown(table) == ("joints.crank_pin.peak_force", "bottom_dead_centre")
     assert shown(table, ["steps"]) == ("steps",)
-    with pytest.raises(InputError, match=r"--show status: allowed are .*ldp"):
+    with pytest.raises(InputError, match=r"--show status: allowed are .*bottom_dead_centre"):
         shown(table, ["status"])
 
 
 def test_the_table_in_a_terminal(table):
     head, first, second, third, *rest = table_lines(table)
-    assert head.split() == ["speed_rpm", "joints.crank_pin.peak_force,", "N", "ldp,", "m", "status"]
+    assert head.split() == [
+        "speed_rpm",
+        "joints.crank_pin.peak_force,",
+        "N",
+        "bottom_dead_centre,",
+        "m",
+        "status",
+    ]
     assert first.split() == ["200", "1000", "0.3", "completed"]
     assert second.split() == ["300", "-", "-", "failed"]
     assert third.endswith("film broke down")

@@ -78,7 +78,7 @@ class StepError:
         self._bodies: BodyError | None = None
         self._first_order: FirstOrderError | None = None
         joints = [] if problem.joints is None else problem.joints.joints
-        rounding = tuning.rounding * problem.length
+        rounding = tuning.newton_rounding * problem.length
         per_time = tolerance / (tuning.kept_steps * longest)
         self._joints = [
             JointError(j, share * j.clearance, per_time * j.clearance, rounding, tuning)

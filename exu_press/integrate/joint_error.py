@@ -39,7 +39,7 @@ class JointError:
             limit: the error of a step that counts as 1, m.
             drift: the same over the step, m/s, where a film alone lies between the surfaces: it
                 keeps what each step leaves, always on the same side, so that errors add up.
-            rounding: of positions, m; no error counts as 1 that is below it.
+            rounding: what Newton's method leaves of positions, m; no error below it counts as 1.
             tuning: numbers.
         """
         self._joint = joint

@@ -47,6 +47,9 @@ class Tuning:
             a thousandfold: against the clearance alone the next peaks of dry presses are 20 % off
             at a tolerance of 1e-3; with 0.3 they are 2 % off, with 0.1 one per cent.
         least_penetration: over the clearance, up to which a penetration counts as this.
+        newton_rounding: of positions, over the largest one: what Newton's method leaves of them in
+            constraints, anew in every step (some 1e-11 m in the press with dry pivots). No
+            eccentricity is resolved better.
         kept_steps: within so many of the longest steps, a radian of the crank, errors that a film
             keeps may add up to the tolerance.
         patience: Newton iterations after which rounding is thought of; most steps take one or two.
@@ -91,6 +94,7 @@ class Tuning:
     near_peak: float = 0.65
     penetration: float = 0.1
     least_penetration: float = 1e-3
+    newton_rounding: float = 1.5e-11
     kept_steps: float = 40.0
 
     patience: int = 4

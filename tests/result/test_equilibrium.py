@@ -60,4 +60,6 @@ def test_forces_are_those_of_constraints(name, monkeypatch):
         scale = 1.0 if tilts else np.abs(expected).max()
         if "moment" in channel or channel.endswith("guide_force"):  # of the mechanism's forces
             scale = np.abs(constrained["crank_pin_force"][settled]).max()
+        if channel.endswith("modes_loss"):  # squares of the modes' small rates, 1e-8 J
+            scale *= 10.0
         assert free[channel][settled] == pytest.approx(expected, abs=3e-4 * scale), channel

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from exu_press import Scene, simulate
+from exu_press import InputError, Scene, simulate
 from exu_press.studies.stability import Report, extremes, stability
 from exu_press.studies.stability import judge as judging
 from exu_press.studies.stability.case import PAIRS
@@ -82,7 +82,8 @@ def test_each_check_can_fail(run):
     rising = np.linspace(0.0, 1.0, len(given))
     nan = given.copy()
     nan[3] = np.nan
-    assert failed(changed(run, energy_input=nan)) == ["numbers that are not finite"]
+    with pytest.raises(InputError, match="work of drive"):  # no result can hold it
+        changed(run, energy_input=nan)
     off = changed(run, energy_stored=run["energy_stored"] + 2e-3 * scale * rising)
     assert failed(off) == ["energy residual"]
     made = changed(

@@ -168,3 +168,20 @@ def test_lubricated_press_over_two_revolutions(clearance, rpm):
     times, states, _ = press("pinkus", clearance, rpm, 2.0, 1e-12)
     result = exudyn_press("pinkus", clearance, rpm, 2.0, tolerance=1e-5)
     assert difference(result, times, states).max() < 1e-7
+
+
+def test_press_at_the_default_tolerance():
+    """Lubricated pin, dry balls, over half a revolution."""
+    _, _, expected = press("pinkus", 1e-4, 240, 0.5, 1e-10)
+    result = exudyn_press("pinkus", 1e-4, 240, 0.5)
+    assert peaks_of(result, 240)[0] == pytest.approx(expected[0], rel=2e-3)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("clearance", "peak"), [(1e-4, 845.7), (2e-4, 2370.7)])
+def test_dry_press_at_the_default_tolerance(clearance, peak):
+    """20 % off while penetrations were held against the clearance."""
+    _, _, expected = press("lugre_steady", clearance, 240, 1.0, 1e-11)
+    assert expected[0] == pytest.approx(peak, rel=1e-3)
+    result = exudyn_press("lugre_steady", clearance, 240, 1.0)
+    assert peaks_of(result, 240)[0] == pytest.approx(expected[0], rel=2.5e-2)

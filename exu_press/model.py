@@ -28,6 +28,7 @@ from exudyn.itemInterface import (
 from exudyn.rigidBodyUtilities import RotationMatrixZ
 from numpy.typing import NDArray
 
+from exu_press.integrate import Outcome, Tuning
 from exu_press.joints import (
     ClearanceJoint,
     add_dry_revolute,
@@ -51,6 +52,7 @@ from exu_press.quasi_static import quasi_static_motion
 from exu_press.rigid import PivotedBody, RigidBody, SlidingBody
 from exu_press.scene import DryJoint, IdealJoint, LubricatedJoint, Scene, mechanism_of
 from exu_press.scene.laws import contact_law, film_law, friction_law
+from exu_press.solving import DEFAULTS, solve
 
 if TYPE_CHECKING:
     from exu_press.flexible import FrameStart
@@ -107,6 +109,18 @@ class Model:
     def holding(self) -> Holding:
         """Which ideal joints and guides hold what."""
         return holding_of(self.mechanism, self.scene.joints.ideal)
+
+    def solve(self, *, tuning: Tuning = DEFAULTS, quiet: bool = True) -> Outcome:
+        """Run to the end time or to an early stop; what was computed stays in the sensors.
+
+        Items that were added to `mbs` since, and assembled, take part.
+        `exu_press.result.record(model, outcome)` makes a result of it.
+
+        Args:
+            tuning: the numbers of step control, to vary them.
+            quiet: False shows the progress on standard error.
+        """
+        return solve(self, tuning=tuning, quiet=quiet)
 
     def next_corner(self, time: float) -> float:
         """Return the next instant at which the blanking force has a corner, s, or infinity."""

@@ -6,7 +6,6 @@ from dataclasses import replace
 from exu_press.model import build
 from exu_press.result import Result, record
 from exu_press.scene import Scene
-from exu_press.solving import solve
 
 __all__ = ["simulate"]
 
@@ -25,7 +24,7 @@ def simulate(scene: Scene, *, quiet: bool = True) -> Result:
     start = time.perf_counter()
     model = build(scene, quiet=quiet)
     try:
-        outcome = solve(model, quiet=quiet)
+        outcome = model.solve(quiet=quiet)
         result = record(model, outcome)
     finally:
         model.SC.Reset()  # its systems and their solvers hold each other: never freed otherwise

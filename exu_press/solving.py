@@ -2,7 +2,8 @@
 
 import dataclasses
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from typing import Protocol
 
 import exudyn as exu
 import numpy as np
@@ -14,13 +15,13 @@ from exu_press.integrate.resolution import Unresolved
 from exu_press.joints import history, overlay_of
 from exu_press.joints.joint import ClearanceJoint
 from exu_press.laws.contact import NormalContact
-from exu_press.mechanism import GROUND
-from exu_press.model import Model
+from exu_press.mechanism import GROUND, Mechanism
+from exu_press.mechanism.holding import Holding
 from exu_press.scene import IdealJoint, LubricatedJoint, Scene, mechanism_of
 from exu_press.scene.laws import contact_law
 from exu_press.scene.warnings import doubtful_sizes
 
-__all__ = ["largest_step", "scales", "settings_for", "solve"]
+__all__ = ["DEFAULTS", "Assembled", "largest_step", "scales", "settings_for", "solve"]
 
 Array = NDArray[np.float64]
 
@@ -45,7 +46,42 @@ STEPS_IN_A_RISE = 3.0
 """So many steps from first touch to the largest force resolve it to some percent."""
 
 
-def solve(model: Model, *, tuning: Tuning = DEFAULTS, quiet: bool = True) -> Outcome:
+class Assembled(Protocol):
+    """What solving needs of a scene's model; `exu_press.model.Model` is one."""
+
+    @property
+    def scene(self) -> Scene:
+        """What was asked."""
+
+    @property
+    def mechanism(self) -> Mechanism:
+        """Bodies, joints and guides."""
+
+    @property
+    def holding(self) -> Holding:
+        """Which ideal joints and guides hold what."""
+
+    @property
+    def mbs(self) -> exu.MainSystem:
+        """Exudyn's main system, assembled."""
+
+    @property
+    def nodes(self) -> Mapping[str, int]:
+        """Name -> node number."""
+
+    @property
+    def clearance_joints(self) -> Mapping[str, ClearanceJoint]:
+        """Name -> joint."""
+
+    @property
+    def sensors(self) -> Mapping[tuple[str, str], int]:
+        """(name, quantity) -> sensor number."""
+
+    def next_corner(self, time: float) -> float:
+        """Return the next instant at which a load has a corner, s, or infinity."""
+
+
+def solve(model: Assembled, *, tuning: Tuning = DEFAULTS, quiet: bool = True) -> Outcome:
     """Run a model to its end time or to an early stop; what was computed stays in its sensors.
 
     Args:
@@ -124,7 +160,7 @@ def scales(scene: Scene) -> Scales:
 class SceneAdvice(Advice):
     """The scene's words: crank angles, and the keys to change."""
 
-    def __init__(self, model: Model, problem: Problem, by_tolerance: bool) -> None:
+    def __init__(self, model: Assembled, problem: Problem, by_tolerance: bool) -> None:
         """Speak of a scene's model."""
         super().__init__(problem, by_tolerance)
         self._model, self._scene = model, model.scene
@@ -207,7 +243,7 @@ class SceneAdvice(Advice):
         return ""
 
 
-def _leapt_over_pulse(model: Model) -> str:
+def _leapt_over_pulse(model: Assembled) -> str:
     """Return in words that fixed steps are too long for the first blanking pulse, or nothing.
 
     Steps by tolerance end on a pulse's corners.
@@ -226,7 +262,7 @@ def _leapt_over_pulse(model: Model) -> str:
     )
 
 
-def _impact_steps(model: Model) -> Iterator[float]:
+def _impact_steps(model: Assembled) -> Iterator[float]:
     """Yield the steps that resolve the fastest impact of every joint whose surfaces may touch, s.
 
     The impact of the lighter body alone: what hangs on it makes the true one slower.

@@ -18,7 +18,6 @@ import numpy as np
 
 from exu_press import Scene, Status, Tuning, solve_dynamic
 from exu_press.joints.pairs import DryPair
-from exu_press.solving import solve
 
 GRID = 4000  # instants at which runs are compared
 FINER = 1e-2
@@ -39,7 +38,7 @@ def scene(tolerance, tuning, **keys):
     """Time, output velocity, iterations and status of a scene."""
     model = Scene.from_dict({**keys, "solver": {"tolerance": tolerance}}).build()
     try:
-        outcome = solve(model, tuning=tuning)
+        outcome = model.solve(tuning=tuning)
         sensor = model.sensors[model.mechanism.slider, "velocity"]
         record = np.array(model.mbs.GetSensorStoredData(sensor))
     finally:

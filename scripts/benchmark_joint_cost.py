@@ -28,7 +28,7 @@ from exu_press.integrate.problem import Problem
 from exu_press.integrate.settings import prepared
 from exu_press.joints import COMPILED
 from exu_press.laws.film import film_scale, pinkus
-from exu_press.solving import settings_for, solve
+from exu_press.solving import settings_for
 
 STEP = 1e-5  # s
 PRESS = {
@@ -49,7 +49,7 @@ def run_press(joints, steps):
         "revolutions": revolutions,
         "solver": {"step": STEP},
     }
-    outcome = solve(Scene.from_dict(scene).build())
+    outcome = Scene.from_dict(scene).build().solve()
     assert outcome.status is Status.COMPLETED, outcome
     steps = outcome.steps  # a film begins with a few shorter ones
     return outcome.wall_time / steps * 1e6, outcome.newton_iterations / steps

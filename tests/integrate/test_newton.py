@@ -7,12 +7,11 @@ from exu_press import Scene, Tuning, simulate
 from exu_press.integrate.newton import Newton
 from exu_press.joints.pairs import DryPair
 from exu_press.result import record
-from exu_press.solving import solve
 
 
 def tuned(scene, **numbers):
     model = scene.build()
-    return record(model, solve(model, tuning=Tuning(**numbers)))
+    return record(model, model.solve(tuning=Tuning(**numbers)))
 
 
 @pytest.mark.parametrize("pin", ["lubricated", "dry"])

@@ -9,7 +9,6 @@ import pytest
 
 from exu_press import Result, Scene, simulate
 from exu_press.cli import main
-from exu_press.solving import solve
 
 DRY = {"mechanism": "slider_crank", "joints": {"crank_pin": "dry"}, "revolutions": 0.1}
 REASON = re.compile(
@@ -129,4 +128,4 @@ def test_an_error_in_a_law_is_not_told_as_one_of_newton():
 
     model.clearance_joints["crank_pin"].add_force = broken
     with pytest.raises(exu.ExudynError, match="USER FUNCTION"):
-        solve(model)
+        model.solve()

@@ -8,7 +8,6 @@ import pytest
 from exu_press import Scene, Tuning, simulate
 from exu_press.integrate.joint_error import JointError
 from exu_press.integrate.touch import Touch
-from exu_press.solving import solve
 
 TUNING = Tuning()
 DEPTH, SHORT, SHORTEST = TUNING.touch_depth, TUNING.touch_reserve, TUNING.shortest_touch
@@ -124,5 +123,5 @@ def test_a_loose_tolerance_meets_an_impact_of_rough_surfaces():
 
 
 def test_errors_that_rise_are_foreseen(dry_press):
-    foreseen = solve(dry_press.build()).rejected_steps
-    assert foreseen < 0.7 * solve(dry_press.build(), tuning=Tuning(rise=0.0)).rejected_steps
+    foreseen = dry_press.build().solve().rejected_steps
+    assert foreseen < 0.7 * dry_press.build().solve(tuning=Tuning(rise=0.0)).rejected_steps

@@ -9,7 +9,6 @@ from exu_press import Result, Scene
 from exu_press.observe.energy import energy_residual, energy_summary
 from exu_press.plots.save import save_pictures
 from exu_press.result import record
-from exu_press.solving import solve
 
 
 def _balance(given, stored, lost):
@@ -38,7 +37,7 @@ def test_the_user_s_own_load_leaves_no_balance(tmp_path):
     load = LoadForceVector(markerNumber=model.mbs.AddMarker(marker), loadVector=[0.0, 1e3, 0.0])
     model.mbs.AddLoad(load)
     model.mbs.Assemble()
-    result = record(model, solve(model))
+    result = record(model, model.solve())
     summary = result.summary()
     assert summary["own_items"] == 1
     assert set(summary["energy"].values()) == {None}
@@ -56,7 +55,7 @@ def test_sensors_of_one_s_own_change_nothing():
     sensor = {"sensorType": "Body", "outputVariableType": output, "storeInternal": True}
     model.mbs.AddSensor(sensor | {"bodyNumber": model.bodies["slider"]})
     model.mbs.Assemble()
-    result = record(model, solve(model))
+    result = record(model, model.solve())
     assert result.info["own_items"] == 0
     assert energy_summary(result)["residual"] < 1e-3
 

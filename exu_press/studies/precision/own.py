@@ -12,7 +12,7 @@ from exu_press.integrate.settings import prepared
 from exu_press.joints import overlay_of
 from exu_press.result import record
 from exu_press.scene import Scene
-from exu_press.solving import settings_for, solve
+from exu_press.solving import settings_for
 from exu_press.studies.precision.measured import Attempt, Measured, measured_of
 
 __all__ = [
@@ -45,7 +45,7 @@ def run_scene(scene: Scene, setting: str, value: float) -> Measured:
 def _run(scene: Scene) -> Measured:
     model = scene.build()
     start = time.process_time()
-    outcome = solve(model)
+    outcome = model.solve()
     cpu_time = time.process_time() - start
     result = record(model, outcome)
     model.SC.Reset()  # system and solver hold each other, and all they recorded

@@ -10,7 +10,9 @@ import argparse
 import dataclasses
 import math
 from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
 from functools import partial
+from multiprocessing import get_context
 
 import exudyn as exu
 import exudyn.utilities as items
@@ -144,6 +146,7 @@ def variants():
             yield f"{field.name} {word}", {field.name: changed}
         if field.name in OFF:
             yield f"{field.name} off", {field.name: OFF[field.name]}
+    yield "contacts resumed off", {}  # the last one, as it changes its process
 
 
 def main():
@@ -168,22 +171,26 @@ def main():
     ]
     print(f"{'defaults':{width}}" + "".join(f"{cell:>21}" for cell in cells))
 
-    def row(label, tuning):
-        cells = []
-        for name, run in systems.items():
-            tried = run(options.tolerance, tuning)
-            before = error_of(usual[name], references[name])
-            work = tried[2].newton_iterations / usual[name][2].newton_iterations
-            error = error_of(tried, references[name])
-            cells.append("stopped" if error == math.inf else f"{error / before:.2f} | {work:.2f}")
-        print(f"{label:{width}}" + "".join(f"{cell:>21}" for cell in cells), flush=True)
+    tried = partial(row, systems=tuple(systems), references=references, usual=usual)
+    tolerances = [options.tolerance] * len(chosen)
+    with ProcessPoolExecutor(mp_context=get_context("spawn")) as pool:
+        for (label, _), cells in zip(chosen, pool.map(tried, chosen, tolerances), strict=True):
+            print(f"{label:{width}}" + "".join(f"{cell:>21}" for cell in cells), flush=True)
 
-    for label, numbers in chosen:
-        row(label, Tuning(**numbers))
-    if not options.quick:
-        resumed, DryPair.resumed = DryPair.resumed, lambda *_: None
-        row("contacts resumed off", defaults)
-        DryPair.resumed = resumed
+
+def row(variant, tolerance, *, systems, references, usual):
+    """Return a variant's cells."""
+    label, numbers = variant
+    if label == "contacts resumed off":
+        DryPair.resumed = lambda *_: None  # in a process that runs nothing else after this
+    cells = []
+    for name in systems:
+        tried = SYSTEMS[name](tolerance, Tuning(**numbers))
+        before = error_of(usual[name], references[name])
+        work = tried[2].newton_iterations / usual[name][2].newton_iterations
+        error = error_of(tried, references[name])
+        cells.append("stopped" if error == math.inf else f"{error / before:.2f} | {work:.2f}")
+    return cells
 
 
 if __name__ == "__main__":

@@ -19,6 +19,7 @@ NO_FIGURES = {
     "rejected_steps",
     "newton_iterations",
     "law_evaluations",
+    "own_items",
     "coordinates",
     "bodies",
     "connectors",

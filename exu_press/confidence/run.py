@@ -30,7 +30,7 @@ Array = NDArray[np.float64]
 APART = 0.3
 """Of a clearance: eccentricities that differ by this have nothing in common any more."""
 
-LOADS = ("acceleration", "force", "torque", "moment", "power")
+LOADS = ("acceleration", "force", "torque", "moment", "power", "shaking")
 """In the names of figures that follow from accelerations."""
 
 OF_LOADS = 1e-4

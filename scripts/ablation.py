@@ -23,6 +23,7 @@ from exu_press.joints.pairs import DryPair
 
 GRID = 4000  # instants at which runs are compared
 FINER = 1e-2
+BUDGET = 50_000  # steps; a variant that needs more counts as stopped
 
 OFF = {
     "factor_max": 1e9,
@@ -38,7 +39,9 @@ OFF = {
 
 def scene(tolerance, tuning, **keys):
     """Time, output velocity, iterations and status of a scene."""
-    model = Scene.from_dict({**keys, "solver": {"tolerance": tolerance}}).build()
+    model = Scene.from_dict(
+        {**keys, "solver": {"tolerance": tolerance, "max_steps": BUDGET}}
+    ).build()
     try:
         outcome = model.solve(tuning=tuning)
         sensor = model.sensors[model.mechanism.slider, "velocity"]
@@ -65,7 +68,7 @@ def system(tolerance, tuning, *, build, end):
     settings = exu.SimulationSettings()
     settings.timeIntegration.endTime = end
     settings.solution.file.write, settings.solution.sensors.writePeriod = False, 0.0
-    outcome = solve_dynamic(mbs, settings, tolerance=tolerance, tuning=tuning)
+    outcome = solve_dynamic(mbs, settings, tolerance=tolerance, tuning=tuning, max_steps=BUDGET)
     record = np.array(mbs.GetSensorStoredData(sensor))
     container.Reset()
     return record[:, 0], record[:, -1], outcome

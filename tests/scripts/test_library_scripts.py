@@ -73,3 +73,11 @@ def test_your_own_model(tmp_path):
     for force, tolerance in zip(forces[:3], (1e-2, 1e-3, 1e-4), strict=True):
         assert abs(force / FOUR_BAR - 1.0) < 3.0 * tolerance
     assert forces[3] == pytest.approx(forces[5], rel=1e-2)
+
+
+def test_ablation(tmp_path):
+    """Half the safety is twice the care: less error, more work."""
+    rows = run("ablation.py", tmp_path).splitlines()
+    (cells,) = (row for row in rows if row.startswith("safety half"))
+    error, work = (float(value) for value in cells.split()[-3::2])
+    assert error < 1.0 < work

@@ -43,7 +43,7 @@ FIGURES = {
     "peak a, m/s^2": lambda s: s["peak_acceleration"]["resolved"],
     "over 1 ms": lambda s: s["peak_acceleration"]["mean_1ms"],
     "at 1 kHz": lambda s: s["peak_acceleration"]["differentiated_1khz"],
-    "lowest, mm": lambda s: 1e3 * s["bottom_dead_centre"],
+    "bottom, mm": lambda s: 1e3 * s["bottom_dead_centre"],
     "torque over 1 ms, N m": lambda s: s["drive"]["peak_torque_mean_1ms"],
 }
 

@@ -189,7 +189,12 @@ def _length(data: Any, nodes: tuple[Node, ...]) -> float:
     """Return the largest displacement coordinate at the start, m; 1.0 where all are zero."""
     if not nodes:
         return 1.0
-    total = np.abs(np.array(data.GetODE2CoordinatesTotal(exu.ConfigurationType.Initial)))
+    # GetODE2CoordinatesTotal(Initial) crashes Exudyn 1.13.6 from about a hundred coordinates on
+    start, reference = (
+        np.array(data.GetODE2Coordinates(configuration))
+        for configuration in (exu.ConfigurationType.Initial, exu.ConfigurationType.Reference)
+    )
+    total = np.abs(start + reference)
     places = [total[node.start : node.start + node.displacements] for node in nodes]
     return float(np.concatenate(places).max(initial=0.0)) or 1.0
 

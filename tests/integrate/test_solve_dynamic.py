@@ -230,3 +230,18 @@ def with_settings(**changes):
 def test_what_cannot_be_solved_is_refused_by_name(system, chosen, tolerance, message):
     with pytest.raises(InputError, match=message):
         solve_dynamic(system(), chosen, tolerance=tolerance)
+
+
+def test_a_system_of_hundreds_of_coordinates():
+    """Exudyn 1.13.6 crashed when it was asked for all coordinates at the start."""
+    mbs = exu.SystemContainer().AddSystem()
+    for i in range(200):
+        node = mbs.AddNode(items.NodePoint(referenceCoordinates=[0.01 * i, 0.0, 0.0]))
+        mbs.AddObject(items.ObjectMassPoint(nodeNumber=node, mass=1.0))
+        at = mbs.AddMarker(items.MarkerNodePosition(nodeNumber=node))
+        mbs.AddLoad(items.LoadForceVector(markerNumber=at, loadVector=[0.0, -9.81, 0.0]))
+    mbs.Assemble()
+    chosen = settings(0.1)
+    assert solve_dynamic(mbs, chosen).status is Status.COMPLETED
+    fall = mbs.GetNodeOutput(node, exu.OutputVariableType.Displacement)[1]
+    assert fall == pytest.approx(-0.5 * 9.81 * 0.1**2, rel=1e-6)

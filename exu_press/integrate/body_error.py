@@ -85,29 +85,28 @@ class BodyError:
 
     def error(self, change: list[float], step: float) -> float:
         """Return the error that goes with a change of the accelerations' rate."""
-        largest = relative = 0.0
-        rounding = (self._alternating * self._rounding / (step * step)) ** 2
-        sizes, allowed = self._squares(change), self._allowed
-        for i in range(len(sizes)):
-            square = sizes[i]
-            largest = max(largest, square)
-            relative = max(relative, square / max(allowed[i], rounding))
+        sizes = self._squares(change)
         limit = max(self._share * self._scales.speed, self._rounding / step)
+        largest = 0.0
+        for size in sizes:  # what has no say may be no number, and is passed over
+            largest = max(largest, size)
         velocity = self._constant * step * step * math.sqrt(largest) / limit
-        acceleration = 0.125 * step * math.sqrt(relative)
         # both go with the step's cube
-        return max(velocity, min(math.pow(acceleration, 1.5), self._finer * velocity))
+        return max(velocity, min(self._near_peaks(sizes, step), self._finer * velocity))
 
     def of_peaks(self, step: float) -> float:
         """Return the error of accelerations near their peaks, in the step last tried.
 
         Where constraints prescribe them too, and whatever makes them alternate.
         """
+        return self._near_peaks(self._squares(self.change), step)
+
+    def _near_peaks(self, sizes: list[float], step: float) -> float:
+        """Return the peaks' error, as the step's cube, from squares of changes of the rate."""
         relative = 0.0
         rounding = (self._alternating * self._rounding / (step * step)) ** 2
-        sizes, allowed = self._squares(self.change), self._allowed
         for i in range(len(sizes)):
-            relative = max(relative, sizes[i] / max(allowed[i], rounding))
+            relative = max(relative, sizes[i] / max(self._allowed[i], rounding))
         return math.pow(0.125 * step * math.sqrt(relative), 1.5)
 
     def of_jump(self) -> float:

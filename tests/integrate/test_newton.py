@@ -2,14 +2,12 @@
 
 import numpy as np
 import pytest
+from patched import PATCHED
 
 from exu_press import Scene, Tuning, simulate
 from exu_press.integrate.newton import Newton
-from exu_press.joints import COMPILED
 from exu_press.joints.pairs import DryPair
 from exu_press.result import record
-
-PATCHED = pytest.mark.skipif(COMPILED, reason="compiled code does not look up what is patched here")
 
 
 def tuned(scene, **numbers):

@@ -7,13 +7,10 @@ import re
 import exudyn as exu
 import numpy as np
 import pytest
+from patched import PATCHED
 
 from exu_press import Result, Scene, simulate
 from exu_press.cli import main
-from exu_press.joints import COMPILED
-
-PATCHED = pytest.mark.skipif(COMPILED, reason="compiled code does not look up what is patched here")
-
 
 DRY = {"mechanism": "slider_crank", "joints": {"crank_pin": "dry"}, "revolutions": 0.1}
 REASON = re.compile(

@@ -4,14 +4,11 @@ import itertools
 
 import numpy as np
 import pytest
+from patched import PATCHED
 
 from exu_press import Scene, simulate
 from exu_press.integrate.step_change import StepChange
 from exu_press.integrate.stepping import FixedSteps, StepControl
-from exu_press.joints import COMPILED
-
-PATCHED = pytest.mark.skipif(COMPILED, reason="compiled code does not look up what is patched here")
-
 
 STEPS = [4e-4] * 8 + [5e-5] * 8 + [1e-4] * 3 + [2e-4] * 3
 """s, in turn: shortened at once, lengthened by doubling, as the step control does."""

@@ -4,20 +4,17 @@ import math
 from types import SimpleNamespace
 
 import pytest
+from patched import PATCHED
 
 from exu_press import Scene, Tuning, simulate
 from exu_press.integrate.joint_error import JointError
 from exu_press.integrate.touch import Touch
-from exu_press.joints import COMPILED
 
 TUNING = Tuning()
 DEPTH, SHORT, SHORTEST = TUNING.touch_depth, TUNING.touch_reserve, TUNING.shortest_touch
 
 CLEARANCE = 1e-4
 REACH = CLEARANCE * (1.0 - SHORT * DEPTH)
-
-
-PATCHED = pytest.mark.skipif(COMPILED, reason="compiled code does not look up what is patched here")
 
 
 def touch_after(place, velocity, acceleration=(0.0, 0.0), step=1e-4, reach=CLEARANCE):

@@ -43,7 +43,7 @@ def hold_all(monkeypatch, flexible):
             guides={**found.guides, **dict.fromkeys(found.sliding, (True, True))},
         )
 
-    monkeypatch.setattr("exu_press.model.holding_of", constrained)
+    monkeypatch.setattr("exu_press.model.system.holding_of", constrained)
 
 
 @pytest.mark.parametrize("name", SCENES)

@@ -1,0 +1,97 @@
+"""Put a scene's model together, one room after the other."""
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from exu_press.mechanism import Motion
+from exu_press.model.bodies import add_bodies
+from exu_press.model.drive import add_drive, hold_flexible_bodies
+from exu_press.model.guides import add_guide
+from exu_press.model.joints import add_clearance_joint, add_ideal_joint
+from exu_press.model.loads import add_blanking
+from exu_press.model.model import Model, count_items
+from exu_press.model.sensors import add_sensors
+from exu_press.model.start import deformed_start
+from exu_press.model.system import System
+from exu_press.scene import IdealJoint, Scene
+
+if TYPE_CHECKING:
+    from exu_press.flexible import FrameStart
+    from fe_models import ReducedPart
+
+__all__ = ["build"]
+
+
+def build(scene: Scene, *, quiet: bool = True) -> Model:
+    """Return the assembled Exudyn model of a scene, on the ideal mechanism's start.
+
+    Flexible bodies start in the deformation, and its rate, that this motion asks for.
+
+    Args:
+        scene: what is asked.
+        quiet: False shows the progress of what takes long, the modes of flexible bodies.
+    """
+    parts: Mapping[str, ReducedPart] = {}
+    if scene.flexible is not None:
+        from exu_press.flexible import reduced_parts
+
+        parts = reduced_parts(scene, quiet=quiet)
+    start: dict[str, Motion] = {}
+    frames: dict[str, FrameStart] = {}
+    if any(part.mode_count for part in parts.values()):
+        ideal = scene.replace({f"joints.{name}": "ideal" for name in scene.joints.with_clearance})
+        settled = System(ideal, parts)
+        start, frames = deformed_start(settled, _assembled(settled, {}, {}).drive)
+    return _assembled(System(scene, parts), start, frames)
+
+
+def _assembled(
+    system: System, start: Mapping[str, Motion], frames: Mapping[str, "FrameStart"]
+) -> Model:
+    """Return a system with everything in it that its scene asks for.
+
+    Args:
+        system: with nothing but the frame in it.
+        start: name -> motion at the start, where it is not the ideal mechanism's.
+        frames: name -> start of the frame of a flexible body that starts deformed.
+    """
+    mechanism, holding, joints = system.mechanism, system.holding, system.scene.joints
+    add_bodies(system, {**system.ideal, **start}, frames)
+    clearance = {
+        joint.name: add_clearance_joint(system, joint, kind)
+        for joint in mechanism.joints
+        if not isinstance(kind := joints[joint.name], IdealJoint)
+    }
+    held = {*holding.joints, *holding.half_held}
+    ideal = {
+        joint.name: add_ideal_joint(system, joint)
+        for joint in mechanism.joints
+        if joint.name in held
+    }
+    if system.flexible:
+        ideal |= hold_flexible_bodies(system)
+    guides = {
+        guide.body: add_guide(system, guide)
+        for guide in mechanism.guides
+        if guide.body not in holding.sliding
+    }
+    drive = add_drive(system)
+    add_blanking(system)
+    add_sensors(system, ideal | {"drive": drive}, guides)
+    system.mbs.Assemble()
+    return Model(
+        scene=system.scene,
+        mechanism=mechanism,
+        holding=holding,
+        SC=system.SC,
+        mbs=system.mbs,
+        bodies=system.bodies,
+        nodes=system.nodes,
+        rigid=system.rigid,
+        clearance_joints=clearance,
+        ideal_joints=ideal,
+        drive=drive,
+        sensors=system.sensors,
+        parts=system.parts,
+        made=count_items(system.mbs),
+    )

@@ -1,0 +1,86 @@
+"""The bodies of a system, rigid or flexible, in the position and velocity that they start with."""
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from exudyn.itemInterface import LoadForceVector
+
+from exu_press.mechanism import Body, Motion, Point
+from exu_press.model.system import System
+from exu_press.rigid import PivotedBody, RigidBody, SlidingBody
+
+if TYPE_CHECKING:
+    from exu_press.flexible import FrameStart
+
+__all__ = ["add_bodies", "in_frame"]
+
+
+def add_bodies(
+    system: System, start: Mapping[str, Motion], frames: Mapping[str, "FrameStart"]
+) -> None:
+    """Add every body, with its weight.
+
+    Args:
+        system: with nothing but the frame in it.
+        start: name -> motion at the start.
+        frames: name -> start of the frame of a flexible body that starts deformed.
+    """
+    gravity = system.scene.gravity
+    for body in system.mechanism.bodies:
+        if body.name in system.parts:
+            _add_flexible_body(system, body.name, start[body.name], frames.get(body.name))
+            continue
+        _add_rigid_body(system, body, start[body.name])
+        if gravity > 0.0:
+            weight = [0.0, -body.mass * gravity, 0.0]
+            centre = system.marker(body.name, (0.0, 0.0))
+            system.mbs.AddLoad(LoadForceVector(markerNumber=centre, loadVector=weight))
+
+
+def in_frame(system: System, body: str, point: Point) -> Point:
+    """Return a point given from the centre of mass in the frame of a flexible body's solid."""
+    size = system.scene.press
+    assert size is not None
+    if body == system.mechanism.crank:
+        return point[0], point[1] + size.crank_mass_offset
+    return point[0] + size.linkage_mass_offset, point[1]
+
+
+def _add_rigid_body(system: System, body: Body, start: Motion) -> None:
+    """Add a rigid body with the coordinates that its ideal joints leave it."""
+    pivot = system.holding.pivoted.get(body.name)
+    relaxed = system.ideal[body.name].position[0]
+    if pivot is not None:
+        place = body.local(pivot.at)
+        added: RigidBody = PivotedBody(system.mbs, body, start, pivot.at, place, relaxed)
+    elif body.name in system.holding.sliding:
+        guide = next(guide for guide in system.mechanism.guides if guide.body == body.name)
+        added = SlidingBody(system.mbs, body, start, guide.direction, relaxed)
+    else:
+        added = RigidBody(system.mbs, body, start, relaxed)
+    system.take_in(body.name, added)
+
+
+def _add_flexible_body(
+    system: System, name: str, start: Motion, deformed: "FrameStart | None"
+) -> None:
+    """Add a flexible body; its frame lies where the solid's does, not in the centre of mass."""
+    from exu_press.flexible import MAIN_BEARINGS, add_part, undeformed
+
+    mechanism = system.mechanism
+    offset = in_frame(system, name, (0.0, 0.0))
+    frame = start.at((-offset[0], -offset[1]))
+    joints = {
+        joint.name: in_frame(system, name, point)
+        for joint in mechanism.joints
+        for body, point in mechanism.ends(joint)
+        if body == name and joint.name != "shaft"
+    }
+    if name == mechanism.crank:
+        joints |= dict.fromkeys(MAIN_BEARINGS, (0.0, 0.0))
+    begin = deformed or undeformed(frame)
+    body = add_part(system.mbs, system.scene, name, system.parts[name], begin, joints)
+    system.flexible[name] = body
+    system.bodies[name], system.nodes[name] = body.object_number, body.node_rigid
+    if body.node_modes is not None:
+        system.nodes[f"{name}_modes"] = body.node_modes

@@ -1,0 +1,65 @@
+"""The guides of a system: constraints where they are ideal, springs where they are elastic."""
+
+import numpy as np
+from exudyn.itemInterface import (
+    MarkerBodyRigid,
+    MarkerNodeCoordinates,
+    ObjectConnectorCoordinateVector,
+    ObjectConnectorLinearSpringDamper,
+)
+
+from exu_press.mechanism import Guide, Spring
+from exu_press.model.system import System
+
+__all__ = ["add_guide"]
+
+
+def add_guide(system: System, guide: Guide) -> dict[str, int]:
+    """Hold the way across a guide and the angle.
+
+    Returns:
+        "force" and "moment", as far as it holds them, -> object number.
+    """
+    holds_across, holds_angle = system.holding.guides[guide.body]
+    added = {}
+    if guide.lateral is not None:
+        added["force"] = _lateral_spring(system, guide, guide.lateral)
+    elif holds_across:
+        added["force"] = _hold_across(system, guide)
+    if guide.tilting is not None:
+        added["moment"] = system.spring(guide.body, "angle", guide.tilting)
+    elif holds_angle:
+        added["moment"] = system.hold(guide.body, "angle")
+    return added
+
+
+def _hold_across(system: System, guide: Guide) -> int:
+    """Hold a body across its guide; linear in the coordinates, and exact."""
+    rigid = system.rigid[guide.body]
+    place = np.dot(system.mechanism.body(guide.body).centre_of_mass, guide.across)
+    row = dict(zip(("x", "y", "angle"), (*guide.across, 0.0), strict=True))
+    held = ObjectConnectorCoordinateVector(
+        markerNumbers=[
+            system.mbs.AddMarker(MarkerNodeCoordinates(nodeNumber=node))
+            for node in (system.ground_node, rigid.node)
+        ],
+        scalingMarker0=[],
+        scalingMarker1=[[row[coordinate] for coordinate in rigid.coordinates]],
+        offset=[float(place)],
+    )
+    return int(system.mbs.AddObject(held))
+
+
+def _lateral_spring(system: System, guide: Guide, spring: Spring) -> int:
+    """Add a spring across a guide, relaxed where the ideal mechanism starts."""
+    start = system.ideal[guide.body].position[0]
+    place = MarkerBodyRigid(bodyNumber=system.ground, localPosition=[start[0], start[1], 0.0])
+    held = ObjectConnectorLinearSpringDamper(
+        markerNumbers=[system.mbs.AddMarker(place), system.marker(guide.body, (0.0, 0.0))],
+        stiffness=spring.stiffness,
+        damping=spring.damping,
+        axisMarker0=[*guide.across, 0.0],
+    )
+    number = int(system.mbs.AddObject(held))
+    system.local_forces.add(number)
+    return number

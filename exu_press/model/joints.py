@@ -1,0 +1,101 @@
+"""The joints of a system: ideal ones as constraints, the others with clearance."""
+
+from typing import Any
+
+import exudyn as exu
+from exudyn.itemInterface import MarkerBodyRigid, ObjectJointGeneric, ObjectJointRevolute2D
+from exudyn.rigidBodyUtilities import RotationMatrixZ
+
+from exu_press.joints import (
+    ClearanceJoint,
+    add_dry_revolute,
+    add_dry_spherical,
+    add_lubricated_revolute,
+)
+from exu_press.laws.friction import no_friction
+from exu_press.mechanism import GROUND, Joint, Point
+from exu_press.mechanism.holding import HalfHeld
+from exu_press.model.bodies import in_frame
+from exu_press.model.system import System
+from exu_press.scene import DryJoint, LubricatedJoint
+from exu_press.scene.laws import contact_law, film_law, friction_law
+
+__all__ = ["add_clearance_joint", "add_ideal_joint"]
+
+
+def add_ideal_joint(system: System, joint: Joint) -> int:
+    """Add a revolute joint, or what holds the one direction that nothing else holds."""
+    half = system.holding.half_held.get(joint.name)
+    if half is not None:
+        return _hold_half(system, joint, half)
+    markers = [system.joint_marker(joint, *end) for end in system.mechanism.ends(joint)]
+    revolute = ObjectJointRevolute2D(name=joint.name, markerNumbers=markers)
+    return int(system.mbs.AddObject(revolute))
+
+
+def add_clearance_joint(
+    system: System, joint: Joint, kind: DryJoint | LubricatedJoint
+) -> ClearanceJoint:
+    """Add a joint with clearance."""
+    journal, bearing = (_end(system, joint, *end) for end in system.mechanism.ends(joint))
+    contact = None
+    if kind.contact is not None:
+        contact = contact_law(kind.contact, kind.clearance, revolute=not joint.spherical)
+    friction = no_friction() if kind.friction is None else friction_law(kind.friction)
+    if isinstance(kind, DryJoint):
+        assert contact is not None
+        add = add_dry_spherical if joint.spherical else add_dry_revolute
+        return add(
+            system.mbs,
+            journal,
+            bearing,
+            radius=kind.radius,
+            clearance=kind.clearance,
+            contact=contact,
+            friction=friction,
+        )
+    return add_lubricated_revolute(
+        system.mbs,
+        journal,
+        bearing,
+        radius=kind.radius,
+        clearance=kind.clearance,
+        length=kind.film.length,
+        viscosity=kind.film.viscosity,
+        law=film_law(kind.film, kind.radius, kind.clearance),
+        contact=contact,
+        friction=friction,
+        asperity_onset=kind.onset or 0.0,
+    )
+
+
+def _end(system: System, joint: Joint, body: str, point: Point) -> Any:
+    """Return what a clearance joint holds on to."""
+    if body == GROUND:
+        return system.ground, point
+    if body not in system.flexible:
+        return system.bodies[body], system.rigid[body].local(point)
+    from exu_press.flexible import FACES, joint_end
+
+    face = FACES[body, joint.name]
+    return joint_end(system.flexible[body], face, in_frame(system, body, point))
+
+
+def _hold_half(system: System, joint: Joint, half: HalfHeld) -> int:
+    """Hold a joint's two bodies together in one direction, which turns with one of them."""
+    journal, bearing = system.mechanism.ends(joint)
+    (body, point), end = (journal, bearing) if half.body == joint.journal else (bearing, journal)
+    place, angle = point, half.angle
+    if body != GROUND:
+        place, angle = system.rigid[body].local(point), angle + system.rigid[body].turned
+    frame = exu.HT().Set(RotationMatrixZ(angle), [*place, 0.0])
+    marker = MarkerBodyRigid(bodyNumber=system.bodies[body], localHT=frame)
+    along = system.mbs.AddMarker(marker)
+    held = ObjectJointGeneric(
+        name=joint.name,
+        markerNumbers=[along, system.joint_marker(joint, *end)],
+        constrainedAxes=[1, 0, 0, 0, 0, 0],
+    )
+    number = int(system.mbs.AddObject(held))
+    system.local_forces.add(number)
+    return number

@@ -1,0 +1,84 @@
+"""An assembled Exudyn system and what its items are called."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import exudyn as exu
+
+from exu_press.integrate import Outcome, Tuning
+from exu_press.joints import ClearanceJoint
+from exu_press.mechanism import Mechanism
+from exu_press.mechanism.holding import Holding
+from exu_press.model.loads import next_corner
+from exu_press.rigid import RigidBody
+from exu_press.scene import Scene
+from exu_press.solving import DEFAULTS, solve
+
+if TYPE_CHECKING:
+    from fe_models import ReducedPart
+
+__all__ = ["Model", "count_items"]
+
+
+@dataclass(frozen=True)
+class Model:
+    """An assembled system and what its items are called.
+
+    Attributes:
+        scene: what was asked.
+        mechanism: bodies, joints and guides.
+        holding: which ideal joints and guides hold what.
+        SC: Exudyn's system container.
+        mbs: Exudyn's main system, assembled.
+        bodies: name -> object number.
+        nodes: name -> node number.
+        rigid: name -> rigid body.
+        clearance_joints: name -> joint.
+        ideal_joints: name -> object number; those that hold a coordinate.
+        drive: object number of the constraint that turns the crank.
+        parts: name -> flexible body's part; empty for rigid bodies.
+        sensors: (name, quantity) -> sensor number.
+        made: number of objects and loads that the scene was made of.
+    """
+
+    scene: Scene
+    mechanism: Mechanism
+    holding: Holding
+    SC: exu.SystemContainer
+    mbs: exu.MainSystem
+    bodies: dict[str, int]
+    nodes: dict[str, int]
+    clearance_joints: dict[str, ClearanceJoint]
+    ideal_joints: dict[str, int]
+    rigid: Mapping[str, RigidBody]
+    drive: int
+    sensors: dict[tuple[str, str], int]
+    parts: Mapping[str, "ReducedPart"]
+    made: int
+
+    @property
+    def own_items(self) -> int:
+        """Number of objects and loads that the user has added since."""
+        return count_items(self.mbs) - self.made
+
+    def solve(self, *, tuning: Tuning = DEFAULTS, quiet: bool = True) -> Outcome:
+        """Run to the end time or to an early stop; what was computed stays in the sensors.
+
+        Items that were added to `mbs` since, and assembled, take part.
+        `exu_press.result.record(model, outcome)` makes a result of it.
+
+        Args:
+            tuning: the numbers of step control, to vary them.
+            quiet: False shows the progress on standard error.
+        """
+        return solve(self, tuning=tuning, quiet=quiet)
+
+    def next_corner(self, time: float) -> float:
+        """Return the next instant at which a load has a corner, s, or infinity."""
+        return next_corner(self.scene, time)
+
+
+def count_items(mbs: exu.MainSystem) -> int:
+    """Return the number of objects and loads of a system."""
+    return int(mbs.systemData.NumberOfObjects() + mbs.systemData.NumberOfLoads())

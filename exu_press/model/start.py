@@ -1,0 +1,47 @@
+"""Where flexible bodies start: on the motion of ideal joints when vibrations are over."""
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exu_press.mechanism import Motion
+from exu_press.model.drive import DRIVE
+from exu_press.model.system import System
+from exu_press.quasi_static import quasi_static_motion
+
+if TYPE_CHECKING:
+    from exu_press.flexible import FrameStart
+
+__all__ = ["deformed_start"]
+
+Array = NDArray[np.float64]
+
+
+def deformed_start(ideal: System, drive: int) -> tuple[dict[str, Motion], dict[str, "FrameStart"]]:
+    """Return the motion of the rigid bodies and the frames of the flexible ones at the start.
+
+    Args:
+        ideal: assembled, on the start of undeformed bodies; all joints are ideal.
+        drive: object number of the constraint that turns the crank.
+    """
+    from exu_press.flexible import deformed
+
+    mbs = ideal.mbs
+    coordinate = mbs.GetNodeODE2Index(ideal.nodes[DRIVE])
+    state = quasi_static_motion(mbs, drive, coordinate, ideal.scene.angular_speed)
+
+    def parts_of(node: int) -> Iterator[Array]:
+        places = mbs.systemData.GetNodeLTGODE2(node)
+        return (values[places] for values in state)
+
+    start, frames = {}, {}
+    for name, rigid in ideal.rigid.items():
+        q, q_t = (values[None, :] for values in parts_of(rigid.node))
+        start[name] = rigid.motion(q, q_t, np.zeros_like(q))
+    for name, body in ideal.flexible.items():
+        assert body.node_modes is not None
+        frame, modes = parts_of(body.node_rigid), parts_of(body.node_modes)
+        frames[name] = deformed(mbs, body, *frame, *modes)
+    return start, frames

@@ -1,0 +1,105 @@
+"""An Exudyn system under construction: its bodies by name, and markers and springs on them."""
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import exudyn as exu
+import numpy as np
+from exudyn.itemInterface import (
+    MarkerBodyRigid,
+    MarkerNodeCoordinate,
+    NodePointGround,
+    ObjectConnectorCoordinate,
+    ObjectConnectorCoordinateSpringDamper,
+    ObjectGround,
+)
+
+from exu_press.mechanism import GROUND, Joint, Point, Spring
+from exu_press.mechanism.holding import holding_of
+from exu_press.rigid import RigidBody
+from exu_press.scene import Scene, mechanism_of
+
+if TYPE_CHECKING:
+    from fe_models import FlexibleBody, ReducedPart
+
+__all__ = ["System"]
+
+
+class System:
+    """What every room that adds something to a system uses.
+
+    Attributes:
+        scene: what is asked.
+        parts: name -> flexible body's part; empty for rigid bodies.
+        mechanism: bodies, joints and guides.
+        holding: which ideal joints and guides hold what.
+        ideal: name -> motion of the ideal mechanism at the start.
+        SC: Exudyn's system container.
+        mbs: Exudyn's main system, not yet assembled.
+        ground: object number of the frame.
+        ground_node: node number of the frame.
+        bodies: name -> object number.
+        nodes: name -> node number.
+        rigid: name -> rigid body.
+        flexible: name -> flexible body.
+        sensors: (name, quantity) -> sensor number.
+        local_forces: object numbers of connectors whose force is known in their own axes alone.
+    """
+
+    def __init__(self, scene: Scene, parts: Mapping[str, "ReducedPart"]) -> None:
+        """Make a system with nothing but the frame in it."""
+        self.scene, self.parts = scene, parts
+        self.mechanism = mechanism_of(scene)
+        self.holding = holding_of(self.mechanism, scene.joints.ideal)
+        self.ideal = self.mechanism.motion(np.array([scene.start_angle]), scene.angular_speed)
+        self.SC = exu.SystemContainer()
+        self.mbs = self.SC.AddSystem()
+        self.ground = int(self.mbs.AddObject(ObjectGround()))
+        self.ground_node = int(self.mbs.AddNode(NodePointGround()))
+        self.bodies = {GROUND: self.ground}
+        self.nodes: dict[str, int] = {}
+        self.rigid: dict[str, RigidBody] = {}
+        self.flexible: dict[str, FlexibleBody] = {}
+        self.sensors: dict[tuple[str, str], int] = {}
+        self.local_forces: set[int] = set()
+        still = MarkerNodeCoordinate(nodeNumber=self.ground_node, coordinate=0)
+        self._still = self.mbs.AddMarker(still)
+
+    def take_in(self, name: str, added: RigidBody) -> None:
+        """Remember a rigid body by its name."""
+        self.rigid[name] = added
+        self.bodies[name], self.nodes[name] = added.number, added.node
+
+    def marker(self, body: str, point: Point) -> int:
+        """Add a marker on a rigid body or the frame."""
+        local = point if body == GROUND else self.rigid[body].local(point)
+        marker = MarkerBodyRigid(bodyNumber=self.bodies[body], localPosition=[*local, 0.0])
+        return int(self.mbs.AddMarker(marker))
+
+    def joint_marker(self, joint: Joint, body: str, point: Point) -> int:
+        """Add a marker for a joint; on a flexible body it follows the interface's mean motion."""
+        if body not in self.flexible:
+            return self.marker(body, point)
+        return self.flexible[body].add_point_marker(self.mbs, joint.name)
+
+    def coordinate(self, body: str, coordinate: str) -> int:
+        """Add a marker on a rigid body's "x", "y" or "angle"."""
+        rigid = self.rigid[body]
+        number = rigid.coordinates.index(coordinate)
+        marker = MarkerNodeCoordinate(nodeNumber=rigid.node, coordinate=number)
+        return int(self.mbs.AddMarker(marker))
+
+    def hold(self, body: str, coordinate: str, **options: Any) -> int:
+        """Hold a rigid body's coordinate by a constraint."""
+        markers = [self._still, self.coordinate(body, coordinate)]
+        held = ObjectConnectorCoordinate(markerNumbers=markers, **options)
+        return int(self.mbs.AddObject(held))
+
+    def spring(self, body: str, coordinate: str, spring: Spring) -> int:
+        """Hold a rigid body's coordinate by a spring and damper."""
+        held = ObjectConnectorCoordinateSpringDamper(
+            markerNumbers=[self._still, self.coordinate(body, coordinate)],
+            stiffness=spring.stiffness,
+            damping=spring.damping,
+        )
+        return int(self.mbs.AddObject(held))

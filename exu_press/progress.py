@@ -3,9 +3,10 @@
 import sys
 import time
 from types import TracebackType
-from typing import NoReturn, TextIO
+from typing import TYPE_CHECKING, NoReturn, TextIO
 
-from tqdm import tqdm
+if TYPE_CHECKING:
+    from tqdm import tqdm
 
 __all__ = ["Progress"]
 
@@ -32,16 +33,20 @@ class Progress:
         self._stream = sys.stderr if stream is None else stream
         self._quiet = quiet
         self._start = self._last_line = time.monotonic()
-        self._bar: tqdm[NoReturn] | None = None
-        if not quiet and self._stream.isatty():
-            self._bar = tqdm(
-                desc=label,
-                total=total,
-                file=self._stream,
-                bar_format="{desc}: {percentage:3.0f} %|{bar}| {n:.3g}/{total:.3g} "
-                + unit
-                + ", {remaining} left",
-            )
+        on_terminal = not quiet and self._stream.isatty()
+        self._bar = self._begin_bar() if on_terminal else None
+
+    def _begin_bar(self) -> "tqdm[NoReturn]":
+        from tqdm import tqdm
+
+        return tqdm(
+            desc=self._label,
+            total=self._total,
+            file=self._stream,
+            bar_format="{desc}: {percentage:3.0f} %|{bar}| {n:.3g}/{total:.3g} "
+            + self._unit
+            + ", {remaining} left",
+        )
 
     def update(self, done: float) -> None:
         """Say how much is done."""

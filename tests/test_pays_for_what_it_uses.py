@@ -49,6 +49,17 @@ result.save(r"%s")
 """
 
 
+def test_nothing_but_exudyn_and_numpy_is_loaded_before_the_first_step():
+    """SciPy takes twice as long to load as those two."""
+    modules = imported_after(
+        "from exu_press import Scene, simulate\n"
+        "import exu_press.cli.run\n"
+        "simulate(Scene(revolutions=1e-6))"
+    )
+    assert {"exudyn", "numpy"} <= modules
+    assert not modules & {"scipy", "tqdm", "matplotlib", "ngsolve", "netgen"}
+
+
 def test_a_rigid_run_imports_neither_ngsolve_nor_matplotlib(tmp_path):
     modules = imported_after(RIGID_RUN % (tmp_path / "run.nc"))
     assert "exudyn" in modules

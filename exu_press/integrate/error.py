@@ -9,7 +9,6 @@ import numpy as np
 from exu_press.integrate.body_error import BodyError
 from exu_press.integrate.first_order_error import FirstOrderError
 from exu_press.integrate.joint_error import JointError
-from exu_press.integrate.linear import factorise, solve
 from exu_press.integrate.problem import Problem
 from exu_press.integrate.scales import FoundScales
 from exu_press.integrate.touch import Touch
@@ -153,6 +152,5 @@ class StepError:
         right = np.zeros(len(jacobian))
         right[: len(change)] = np.asarray(solver.GetSystemMassMatrix()) @ change
         right *= (1.0 - solver.alphaM) / (1.0 - solver.alphaF)
-        factors, pivots, _ = factorise(jacobian.T, overwrite_a=True)  # by columns as LAPACK has it
-        filtered: list[float] = solve(factors, pivots, right, trans=1)[0][: len(change)].tolist()
+        filtered: list[float] = np.linalg.solve(jacobian, right)[: len(change)].tolist()
         return filtered

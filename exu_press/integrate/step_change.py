@@ -33,7 +33,6 @@ import exudyn as exu
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.integrate.linear import factorise, solve
 from exu_press.integrate.tuning import Tuning
 
 __all__ = ["StepChange"]
@@ -161,14 +160,13 @@ class StepChange:
         matrix[:size, size:] = constraints.T
         idle = size + np.flatnonzero(~constraints.any(axis=1))
         matrix[idle, idle] = 1.0
-        factors, pivots, _ = factorise(matrix, overwrite_a=True)
         position, velocity, _ = self._views(CURRENT)
         found, violated = np.zeros((size, 2)), np.zeros((size + count, 2))
         for _ in range(self._iterations):
             position[:] = self._state[0] - found[:, 0]
             velocity[:] = self._state[1] - found[:, 1]
             self._violations(violated[size:])
-            found += solve(factors, pivots, violated)[0][:size]
+            found += np.linalg.solve(matrix, violated)[:size]
         return found[:, 0], found[:, 1]
 
     def _violations(self, found: Array) -> None:

@@ -6,7 +6,8 @@ program that prints one value a millisecond, or an instrument that differentiate
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicHermiteSpline
+
+from exu_press.piecewise import evaluate, hermite
 
 __all__ = ["differentiated_peak", "mean_peak", "peak"]
 
@@ -58,5 +59,6 @@ def differentiated_peak(
     count = int((time[-1] - time[0]) * rate * (1 + 1e-12)) + 1
     if not 3 <= count <= MOST_SAMPLES:
         return None
-    samples = CubicHermiteSpline(time, position, velocity)(time[0] + np.arange(count) / rate)
+    instants = time[0] + np.arange(count) / rate
+    samples = evaluate(time, hermite(time, position, velocity), instants)
     return peak(np.diff(samples, 2) * rate**2)

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicHermiteSpline
 
+from exu_press.piecewise import hermite
 from exu_press.result import Result
 from exu_press.scene import Scene, mechanism_of
 
@@ -81,10 +81,17 @@ def lowest_of_strokes(
 def _minimum(time: Array, position: Array, velocity: Array, lowest: int) -> tuple[float, float]:
     """Return instant and position of the minimum about the lowest sample."""
     about = slice(max(0, lowest - 1), lowest + 2)
-    best = float(time[lowest]), float(position[lowest])
-    if len(time[about]) < 2:
-        return best
-    curve = CubicHermiteSpline(time[about], position[about], velocity[about])
-    turns = curve.derivative().roots(extrapolate=False)
-    turns = turns[np.isfinite(turns)]
-    return min([best, *zip(turns.tolist(), curve(turns).tolist(), strict=True)], key=lambda p: p[1])
+    found = [(float(position[lowest]), float(time[lowest]))]
+    for start, length, (c0, c1, c2, c3) in zip(
+        time[about],
+        np.diff(time[about]),
+        hermite(time[about], position[about], velocity[about]).T,
+        strict=False,
+    ):
+        turns = np.roots([3.0 * c3, 2.0 * c2, c1])
+        for turn in turns[np.isreal(turns)].real:
+            if 0.0 <= turn <= length:
+                height = ((c3 * turn + c2) * turn + c1) * turn + c0
+                found.append((float(height), float(start + turn)))
+    height, instant = min(found)
+    return instant, height

@@ -4,11 +4,11 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import cumulative_trapezoid
 
 from exu_press.mechanism import Guide
 from exu_press.observe.acceleration import mean_peak, peak
 from exu_press.observe.dead_centre import bottom_dead_centres
+from exu_press.piecewise import integral
 from exu_press.result import Result
 from exu_press.scene import mechanism_of
 
@@ -113,7 +113,7 @@ def _mean(time: Array, values: Array, begin: float | None) -> float | None:
     """Return the mean of a channel (n,) from an instant on, None without one."""
     if begin is None:
         return None
-    return mean_rate(time, _integral(time, values), begin)
+    return mean_rate(time, integral(time, values), begin)
 
 
 def mean_rate(time: Array, amount: Array, begin: float | None) -> float | None:
@@ -125,8 +125,4 @@ def mean_rate(time: Array, amount: Array, begin: float | None) -> float | None:
 
 def _mean_peak(time: Array, values: Array) -> float | None:
     """Return the largest magnitude of the mean over 1 ms, None where the record is shorter."""
-    return mean_peak(time, _integral(time, values))
-
-
-def _integral(time: Array, values: Array) -> Array:
-    return np.asarray(cumulative_trapezoid(values, time, initial=0.0))
+    return mean_peak(time, integral(time, values))

@@ -7,10 +7,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
-from scipy.integrate import cumulative_trapezoid
-from scipy.interpolate import CubicHermiteSpline
 
 from exu_press.observe import DeadCentre, bottom_dead_centres, ideal_bottom_angle
+from exu_press.piecewise import evaluate, hermite, integral
 from exu_press.plots.canvas import angle_range, crank_degrees, curve, legend_above, new_figure
 from exu_press.plots.scales import crank_angle_axis, note, widen
 from exu_press.plots.slider import averaged
@@ -114,8 +113,7 @@ def _draw(axes: Axes, result: Result, curves: Mapping[str, Array | None]) -> Non
     """Draw means over 1 ms in thousands."""
     for index, (label, values) in enumerate(curves.items()):
         if values is not None:
-            integral = cumulative_trapezoid(values, result.time, initial=0.0)
-            mean = 1e-3 * averaged(result.time, np.asarray(integral))
+            mean = 1e-3 * averaged(result.time, integral(result.time, values))
             curve(axes, result, mean, color=colour_of(index), linewidth=1.1, label=label)
     if len(curves) > 1:
         rows = 1 if len(curves) < 5 else 2  # beside the panel's title
@@ -138,14 +136,14 @@ def _strokes(axes: Axes, result: Result, centres: list[DeadCentre]) -> None:
         label="ideal",
     )
     angle = crank_degrees(result)
-    path = CubicHermiteSpline(result.time, result["slider_position"], result["slider_velocity"])
+    path = hermite(result.time, result["slider_position"], result["slider_velocity"])
     for index, centre in enumerate(centres):
         turn = 360.0 * np.round((np.degrees(centre.crank_angle) - bottom) / 360.0) + bottom
         near = turn + from_centre
         near = near[(near >= angle[0]) & (near <= angle[-1])]
         few = len(centres) <= CROWD
         colour = colour_of(index) if few else GREY
-        height = 1e6 * (path(np.interp(near, angle, result.time)) - mean)
+        height = 1e6 * (evaluate(result.time, path, np.interp(near, angle, result.time)) - mean)
         label = f"stroke {index + 1}" if few else ""
         axes.plot(near - turn, height, color=colour, linewidth=1.1, label=label)
         place = np.degrees(centre.crank_angle) - turn, 1e6 * (centre.position - mean)

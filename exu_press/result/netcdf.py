@@ -3,11 +3,10 @@
 import json
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.io import netcdf_file
 
 from exu_press.errors import InputError
 from exu_press.output import replacing
@@ -18,6 +17,9 @@ from exu_press.result.surface import ARRAYS, Surface
 from exu_press.scene import Scene
 from exu_press.stored import from_json, shown
 
+if TYPE_CHECKING:
+    from scipy.io import netcdf_file
+
 __all__ = ["is_whole", "read", "write"]
 
 Number = TypeVar("Number", bound=np.generic)
@@ -27,6 +29,8 @@ FORMAT = "exu_press result 1"
 
 def write(result: Result, path: Path) -> None:
     """Write to a temporary name beside `path`, then rename: no half file is ever left there."""
+    from scipy.io import netcdf_file  # takes longer to load than a short run
+
     with replacing(path) as partial, netcdf_file(partial, "w", version=2) as file:
         file.format = FORMAT
         file.scene = json.dumps(result.scene.to_dict())
@@ -108,7 +112,7 @@ def is_whole(path: Path) -> bool:
     return True
 
 
-def _write_surface(file: netcdf_file, body: str, surface: Surface) -> None:
+def _write_surface(file: "netcdf_file", body: str, surface: Surface) -> None:
     """Write the arrays of a flexible body's surface; dimensions that the bodies share once."""
     for array, (axes, unit, words) in ARRAYS.items():
         values = getattr(surface, array)

@@ -7,7 +7,6 @@ import pytest
 from scipy.io import netcdf_file
 
 from exu_press import InputError, Result, Scene, simulate
-from exu_press.result import netcdf
 
 
 @pytest.fixture(scope="module")
@@ -91,9 +90,9 @@ def test_a_write_that_fails_leaves_the_old_file_and_no_half_one(
         raise OSError(errno.ENOSPC, "No space left on device") if kind is OSError else kind
 
     if moment == "while writing":
-        monkeypatch.setattr(netcdf.netcdf_file, "createVariable", fail)
+        monkeypatch.setattr(netcdf_file, "createVariable", fail)
     elif moment == "when closing":
-        monkeypatch.setattr(netcdf.netcdf_file, "flush", fail)
+        monkeypatch.setattr(netcdf_file, "flush", fail)
     else:
         monkeypatch.setattr(type(path), "replace", fail)
     expected = InputError if kind is OSError else kind
@@ -109,13 +108,13 @@ def test_a_write_that_fails_leaves_the_old_file_and_no_half_one(
 def test_a_killed_process_leaves_no_half_file(result, path, monkeypatch):
     """Until all is written nothing bears the name: looked at in the middle of a write."""
     seen = []
-    original = netcdf.netcdf_file.createVariable
+    original = netcdf_file.createVariable
 
     def watch(self, *arguments, **options):
         seen.append(path.exists())
         return original(self, *arguments, **options)
 
-    monkeypatch.setattr(netcdf.netcdf_file, "createVariable", watch)
+    monkeypatch.setattr(netcdf_file, "createVariable", watch)
     result.save(path)
     assert seen
     assert not any(seen), "the name appears with the rename, after the last variable"

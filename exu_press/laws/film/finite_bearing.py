@@ -4,6 +4,7 @@ import math
 from bisect import bisect_right
 from functools import lru_cache
 from pathlib import Path
+from typing import Literal
 
 from exu_press.laws.contact_parameters import demand
 from exu_press.laws.film.contract import AROUND, AT_REST, OUTSIDE, FilmForce, FilmLaw
@@ -157,20 +158,21 @@ def _spline(
 ) -> tuple[list[float], list[float], list[list[tuple[_Patch, _Patch]]]]:
     """Knots of -ln(1 - eps) and of the direction, and the patches of ln E and m between them."""
     import numpy as np  # the law itself is plain floats
-    from scipy.interpolate import CubicSpline  # type: ignore[import-untyped, unused-ignore]
+
+    from exu_press.piecewise import evaluate, spline
 
     table = np.load(Path(__file__).with_name("finite_bearing.npz"))
     x, y, ratio = -np.log1p(-table["eps"]), table["turn"], np.log(table["ratio"])
 
-    def patches(name: str, ends: str) -> list[list[_Patch]]:
-        rows = CubicSpline(ratio, table[name].astype(float))(math.log(length_to_diameter))
-        along_y = CubicSpline(y, rows, axis=1, bc_type=ends).c  # power, interval of y, x
-        both = CubicSpline(x, along_y, axis=2)
-        c = both.c[::-1, :, ::-1]  # power of x, interval of x, power of y, interval of y
-        beyond = np.zeros_like(c[:, -1:])  # straight on from the last knot
-        beyond[0, 0] = both(x[-1])[::-1]
-        beyond[1, 0] = both(x[-1], 1)[::-1]
-        c = np.concatenate([c, beyond], axis=1).transpose(1, 3, 0, 2)
+    def patches(name: str, ends: Literal["clamped", "natural"]) -> list[list[_Patch]]:
+        over_ratio = spline(ratio, np.moveaxis(table[name].astype(float), 0, -1))
+        along_y = spline(y, evaluate(ratio, over_ratio, math.log(length_to_diameter)), ends)
+        rows = np.moveaxis(along_y, 1, -1)  # power of y, interval of y, x
+        both = spline(x, rows)  # power of x, power of y, interval of y, interval of x
+        last = evaluate(x, both, x[-1], derivative=1)
+        flat = np.zeros_like(last)
+        beyond = np.stack([rows[..., -1], last, flat, flat])  # straight on from the last knot
+        c = np.concatenate([both, beyond[..., np.newaxis]], axis=-1).transpose(3, 2, 0, 1)
         return [[tuple(p.ravel().tolist()) for p in row] for row in c]
 
     ln_e, m = patches("log_e", "clamped"), patches("m", "natural")

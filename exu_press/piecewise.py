@@ -1,0 +1,79 @@
+"""Piecewise polynomials, as SciPy has them, whose import takes longer than a short run.
+
+A cubic one is c[0] + c[1] u + c[2] u^2 + c[3] u^3 between two neighbours of x, u from the left one.
+"""
+
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["evaluate", "hermite", "integral", "spline"]
+
+Array = NDArray[np.float64]
+
+
+def hermite(x: Array, values: Array, slopes: Array) -> Array:
+    """Return the coefficients (4, ..., n - 1) that meet values and slopes (..., n) at x (n,)."""
+    step = np.diff(x)
+    chord = np.diff(values) / step
+    left, right = slopes[..., :-1], slopes[..., 1:]
+    square = (3.0 * chord - 2.0 * left - right) / step
+    return np.stack([values[..., :-1], left, square, (left + right - 2.0 * chord) / step**2])
+
+
+def spline(
+    x: Array, values: Array, ends: Literal["clamped", "natural", "not-a-knot"] = "not-a-knot"
+) -> Array:
+    """Return the coefficients (4, ..., n - 1) of the cubic spline through values (..., n).
+
+    Args:
+        x: (n,), increasing; four at least.
+        values: at x, along the last axis.
+        ends: there the slope is zero, or the curvature, or the outer two polynomials are one.
+    """
+    step = np.diff(x)
+    chord = np.diff(values) / step
+    inner = np.arange(1, len(x) - 1)
+    matrix, right = np.zeros((len(x), len(x))), np.zeros_like(values)
+    matrix[inner, inner - 1] = 1.0 / step[:-1]  # the curvature has no jumps
+    matrix[inner, inner] = 2.0 / step[:-1] + 2.0 / step[1:]
+    matrix[inner, inner + 1] = 1.0 / step[1:]
+    right[..., 1:-1] = 3.0 * (chord[..., :-1] / step[:-1] + chord[..., 1:] / step[1:])
+    for end, (a, b, c), near, next_one in ((0, (0, 1, 2), 0, 1), (-1, (-1, -2, -3), -1, -2)):
+        if ends == "clamped":
+            matrix[end, a] = 1.0
+        elif ends == "natural":
+            matrix[end, [a, b]] = 2.0, 1.0
+            right[..., end] = 3.0 * chord[..., near]
+        else:
+            outer, other = step[near] ** -2, step[next_one] ** -2
+            matrix[end, [a, b, c]] = outer, outer - other, -other
+            right[..., end] = 2.0 * (outer * chord[..., near] - other * chord[..., next_one])
+    slopes = np.linalg.solve(matrix, right.reshape(-1, len(x)).T).T
+    return hermite(x, values, slopes.reshape(values.shape))
+
+
+def evaluate(x: Array, coefficients: Array, at: Array | float, derivative: int = 0) -> Array:
+    """Return the values at given places, beyond the ends those of the outer polynomials.
+
+    Args:
+        x: (n,), increasing.
+        coefficients: (4, ..., n - 1).
+        at: (m,), or one place.
+        derivative: 0, or 1 for the slopes.
+
+    Returns:
+        (..., m), or (...) at one place.
+    """
+    left = np.clip(np.searchsorted(x, at, side="right") - 1, 0, len(x) - 2)
+    u = at - x[left]
+    c0, c1, c2, c3 = (c[..., left] for c in coefficients)
+    if derivative:
+        return np.asarray((3.0 * c3 * u + 2.0 * c2) * u + c1)
+    return np.asarray(((c3 * u + c2) * u + c1) * u + c0)
+
+
+def integral(x: Array, values: Array) -> Array:
+    """Return the integral (n,) from x[0] to each x (n,), straight between the values (n,)."""
+    return np.concatenate([[0.0], np.cumsum(0.5 * np.diff(x) * (values[1:] + values[:-1]))])

@@ -6,6 +6,8 @@ What is imported here costs nothing until it is used: names are loaded on first 
 import importlib
 from typing import TYPE_CHECKING, Any
 
+from exu_press.above import WORKERS
+
 if TYPE_CHECKING:
     from exu_press.errors import InputError
     from exu_press.integrate import Scales, Status, Tuning, solve_dynamic
@@ -56,6 +58,17 @@ _HOMES = {
     "simulate": "exu_press.simulation",
     "solve_dynamic": "exu_press.integrate",
 }
+
+
+def _build(scene: Any) -> Any:
+    return importlib.import_module("exu_press.graphics").build_with_graphics(scene)
+
+
+def _summary(result: Any) -> Any:
+    return importlib.import_module("exu_press.observe").summary(result)
+
+
+WORKERS.update(build=_build, summary=_summary)
 
 
 def __getattr__(name: str) -> Any:

@@ -11,15 +11,23 @@ from exudyn import graphics
 
 from exu_press.mechanism import GROUND, Mechanism, Point
 from exu_press.mechanism.shapes import Shape, shapes_of, swept
-from exu_press.model import DRIVE, Model
+from exu_press.model import DRIVE, Model, build
+from exu_press.scene import Scene
 
-__all__ = ["add_graphics"]
+__all__ = ["add_graphics", "build_with_graphics"]
 
 THICKNESS = 0.03
 """Of a body along z, relative to the mechanism's height; neighbours lie side by side."""
 
 FRAME = [0.55, 0.55, 0.55, 1.0]
 DISC = [0.90, 0.72, 0.25, 1.0]
+
+
+def build_with_graphics(scene: Scene) -> Model:
+    """Return the model of a scene with something to be seen by: what `scene.build()` does."""
+    model = build(scene)
+    add_graphics(model)
+    return model
 
 
 def add_graphics(model: Model) -> None:

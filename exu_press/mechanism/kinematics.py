@@ -148,7 +148,11 @@ class Kinematics:
     def _follow(self) -> None:
         """Find the knots: coordinates and their derivatives from 0 to a whole revolution."""
         angle, step = 0.0, LONGEST_STEP
-        states = self._step(0.0, [(group.drawn(), *_still(group)) for group in self.groups], 0.0)
+        drawn = [(group.drawn(), *_still(group)) for group in self.groups]
+        try:
+            states = self._step(0.0, drawn, 0.0)
+        except _LostError as lost:
+            raise self._refusal(lost, 0.0, np.zeros(1)) from None
         angles, found = [angle], [states]
         while angle < 2.0 * math.pi * (1.0 - 1e-12):
             step = min(step, 2.0 * math.pi - angle)

@@ -1,20 +1,20 @@
 """What a result has to hold, so that whatever reads one can rely on it."""
 
 from collections.abc import Collection, Mapping
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from exu_press.errors import InputError
 from exu_press.integrate import Status
 from exu_press.mechanism import Mechanism
-from exu_press.scene import mechanism_of
+from exu_press.result.channel import Channel
+from exu_press.result.info import Info
+from exu_press.result.surface import Surface
+from exu_press.scene import Scene, mechanism_of
 from exu_press.stored import shown
 
-if TYPE_CHECKING:
-    from exu_press.result.result import Channel, Result
-
-__all__ = ["check_contents"]
+__all__ = ["Contents"]
 
 EVERY_RUN = {
     "time": "",
@@ -48,7 +48,22 @@ LARGEST_SINGLE = 1e16
 """Largest displacement or stress of a surface: its square is a number in single precision."""
 
 
-def check_contents(result: "Result") -> None:
+@dataclass(frozen=True)
+class Contents:
+    """What a `Result` is made of and its file holds, checked once; the attributes are there."""
+
+    scene: Scene
+    channels: Mapping[str, Channel]
+    info: Info
+    bodies: tuple[str, ...] = field(default=())
+    surfaces: Mapping[str, Surface] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        """Check what whoever reads a result relies on."""
+        _check(self)
+
+
+def _check(result: Contents) -> None:
     """Raise InputError for the first thing in which a result contradicts itself or its scene."""
     status = result.info["status"]
     if status not in (each.value for each in Status):
@@ -67,7 +82,7 @@ def check_contents(result: "Result") -> None:
 
 
 def _check_channels(
-    channels: Mapping[str, "Channel"],
+    channels: Mapping[str, Channel],
     mechanism: Mechanism,
     loose: Collection[str],
     always: Mapping[str, str],
@@ -102,15 +117,15 @@ def _check_channels(
         raise InputError("channel time: allowed are increasing instants, at least one")
 
 
-def _check_surfaces(result: "Result") -> None:
+def _check_surfaces(result: Contents) -> None:
     """Check that surfaces belong to bodies, and their modes to channels."""
     for body, surface in result.surfaces.items():
         if body not in result.bodies:
             raise InputError(f"surface of {shown(body)}: the scene has no such body")
         name, modes = f"{body}_modes", surface.modes.shape[-1]
-        if name not in result or result[name].shape[1:] != (modes,):
+        if name not in result.channels or result.channels[name].values.shape[1:] != (modes,):
             raise InputError(f"channel {name}: allowed are {modes} columns, as the surface's modes")
-        most = modes * np.abs(result[name]).max()
+        most = modes * np.abs(result.channels[name].values).max()
         for array in (surface.nodes, surface.modes * most, surface.stress * most):
             if array.size and not np.abs(array).max() < LARGEST_SINGLE:
                 raise InputError(f"surface of {body}: allowed are numbers below {LARGEST_SINGLE:g}")

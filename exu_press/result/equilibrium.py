@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from exu_press.joints import JointState
 from exu_press.mechanism import Motion
 from exu_press.model import Model
+from exu_press.result.channel import Channel
 from exu_press.result.forces import guide_channels, vectors
-from exu_press.result.result import Channel
 
 __all__ = ["equilibrium"]
 

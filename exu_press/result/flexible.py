@@ -6,10 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.model import Model
+from exu_press.result.channel import Channel
 from exu_press.result.energy import work
 from exu_press.result.info import Stress
 from exu_press.result.motion import body_motion, sensor
-from exu_press.result.result import Channel
 
 if TYPE_CHECKING:
     from fe_models import ReducedPart

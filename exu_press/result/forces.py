@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 from exu_press.mechanism import GROUND
 from exu_press.model import Model
+from exu_press.result.channel import Channel
 from exu_press.result.motion import body_motion, sensor
-from exu_press.result.result import Channel
 
 __all__ = ["frame_force", "guide_channel", "guide_channels", "held_forces", "vectors"]
 

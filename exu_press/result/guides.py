@@ -4,9 +4,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.model import Model
+from exu_press.result.channel import Channel
 from exu_press.result.energy import work
 from exu_press.result.forces import guide_channel
-from exu_press.result.result import Channel
 
 __all__ = ["record_guides"]
 

@@ -7,10 +7,10 @@ from numpy.typing import NDArray
 
 from exu_press.joints import JointState, history, overlay_of
 from exu_press.model import Model
+from exu_press.result.channel import Channel
 from exu_press.result.energy import work
 from exu_press.result.forces import vectors
 from exu_press.result.motion import sensor
-from exu_press.result.result import Channel
 
 __all__ = ["joint_states", "record_joints"]
 

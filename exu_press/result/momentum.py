@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.model import Model
+from exu_press.result.channel import Channel
 from exu_press.result.motion import point_acceleration
-from exu_press.result.result import Channel
 
 __all__ = ["shaking_forces"]
 

@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 
 from exu_press.errors import InputError
 from exu_press.output import replacing
+from exu_press.result.channel import AXES, Channel
 from exu_press.result.classic import Classic, Variable, open_classic
+from exu_press.result.contents import Contents
 from exu_press.result.info import Info
-from exu_press.result.result import AXES, Channel, Result
 from exu_press.result.surface import ARRAYS, Surface
 from exu_press.scene import Scene
 from exu_press.stored import from_json, shown
@@ -22,12 +23,13 @@ if TYPE_CHECKING:
 
 __all__ = ["is_whole", "read", "write"]
 
+Kind = TypeVar("Kind", bound=Contents)
 Number = TypeVar("Number", bound=np.generic)
 
 FORMAT = "exu_press result 1"
 
 
-def write(result: Result, path: Path) -> None:
+def write(result: Contents, path: Path) -> None:
     """Write to a temporary name beside `path`, then rename: no half file is ever left there."""
     from scipy.io import netcdf_file  # takes longer to load than a short run
 
@@ -36,7 +38,7 @@ def write(result: Result, path: Path) -> None:
         file.scene = json.dumps(result.scene.to_dict())
         file.info = json.dumps(result.info)
         file.bodies = json.dumps(result.bodies)
-        file.createDimension("time", len(result.time))
+        file.createDimension("time", len(result.channels["time"].values))
         for axis, columns in AXES.items():
             if columns:
                 file.createDimension(axis, len(columns))
@@ -55,14 +57,14 @@ def write(result: Result, path: Path) -> None:
             _write_surface(file, body, surface)
 
 
-def read(path: Path) -> Result:
-    """Return the result in a file."""
+def read(path: Path, kind: type[Kind]) -> Kind:
+    """Return the result in a file, as an object of this kind."""
     try:
         file = open_classic(path)
         if file.attributes.get("format") != FORMAT.encode():
             raise InputError(f"has no format = {FORMAT!r}")
         scene = from_json(dict[str, Any], _text(file.attributes, "scene"), "scene")
-        return Result(
+        return kind(
             scene=Scene.from_dict(scene),
             channels={
                 name: _channel(name, variable)

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from exu_press.integrate import Outcome
 from exu_press.model import DRIVE, Model
+from exu_press.result.channel import Channel
 from exu_press.result.energy import mechanical_energy, work
 from exu_press.result.equilibrium import equilibrium
 from exu_press.result.flexible import record_parts, worst_stress
@@ -17,7 +18,7 @@ from exu_press.result.info import Info
 from exu_press.result.joints import joint_states, record_joints
 from exu_press.result.momentum import shaking_forces
 from exu_press.result.motion import body_motion, sensor
-from exu_press.result.result import Channel, Result
+from exu_press.result.result import Result
 from exu_press.result.surface import surfaces_of
 
 __all__ = ["record"]

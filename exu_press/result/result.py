@@ -1,7 +1,7 @@
 """What came out of one run: channels over time, how it ended, and the scene it came from."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -9,60 +9,20 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from exu_press.above import WORKERS
 from exu_press.errors import InputError
-from exu_press.result.contents import check_contents
-from exu_press.result.info import Info
+from exu_press.result.contents import Contents
 from exu_press.result.joint import JointRecord
-from exu_press.result.surface import Surface
-from exu_press.scene import IdealJoint, Scene
+from exu_press.scene import IdealJoint
 from exu_press.scene.joint import Joint
-from exu_press.stored import LARGEST
 
-__all__ = ["Channel", "Result"]
+__all__ = ["Result"]
 
 Array = NDArray[np.float64]
 
-AXES = {
-    "": (),
-    "plane": ("x", "y"),
-    "space": ("x", "y", "z"),
-    "pose": ("x", "y", "angle"),
-    "ends": ("journal", "bearing"),
-}
-"""What a channel's columns are."""
-
 
 @dataclass(frozen=True)
-class Channel:
-    """One recorded quantity.
-
-    Attributes:
-        values: (n,), or (n, k) with one of AXES as columns, or (n, bodies, 3) for "pose".
-        unit: SI.
-        long_name: what it is, in words.
-        axis: name of the columns: in AXES, or BODY_mode for a flexible body's modes.
-
-    Raises:
-        InputError: the values have another shape, or one of them is no number.
-    """
-
-    values: Array
-    unit: str
-    long_name: str
-    axis: str = ""
-
-    def __post_init__(self) -> None:
-        """Check the values."""
-        shape, columns = self.values.shape, AXES.get(self.axis)
-        axes = {"": 1, "pose": 3}.get(self.axis, 2)
-        if len(shape) != axes or (columns and shape[-1] != len(columns)):
-            raise InputError(f"{self.long_name}: shape {shape}; columns are {self.axis!r}")
-        if not (np.abs(self.values) < LARGEST).all():
-            raise InputError(f"{self.long_name}: allowed are numbers below {LARGEST:g}")
-
-
-@dataclass(frozen=True)
-class Result:
+class Result(Contents):
     """Channels of a run by name, as in result["slider_position"].
 
     Attributes:
@@ -75,16 +35,6 @@ class Result:
     Raises:
         InputError: they do not belong together.
     """
-
-    scene: Scene
-    channels: Mapping[str, Channel]
-    info: Info
-    bodies: tuple[str, ...] = field(default=())
-    surfaces: Mapping[str, Surface] = field(default_factory=dict)
-
-    def __post_init__(self) -> None:
-        """Check what whoever reads a result relies on."""
-        check_contents(self)
 
     def __getitem__(self, name: str) -> Array:
         """Return the values of a channel."""
@@ -125,9 +75,8 @@ class Result:
 
     def summary(self) -> dict[str, Any]:
         """Return the dictionary of summary.json."""
-        from exu_press.observe import summary
-
-        return summary(self)
+        found: dict[str, Any] = WORKERS["summary"](self)
+        return found
 
     def save(self, path: str | Path) -> None:
         """Write everything to a NetCDF file; an existing one is replaced only when complete."""
@@ -163,4 +112,4 @@ class Result:
         """
         from exu_press.result.netcdf import read
 
-        return read(Path(path))
+        return read(Path(path), Result)

@@ -4,7 +4,7 @@ import dataclasses
 import json
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from exu_press.checks import Table
 from exu_press.errors import InputError
@@ -13,19 +13,20 @@ from exu_press.output import replacing
 from exu_press.scene.joint import joint_dict
 from exu_press.scene.joints import Joints
 
-if TYPE_CHECKING:
-    from exu_press.scene.scene import Scene
+Laws = Mapping[str, Table | None]
+"""The scene's own "contact", "friction" and "film"."""
 
 __all__ = ["joint_lines", "save_scene", "table_lines"]
 
 
 def save_scene(
-    scene: "Scene", path: str | Path, *, comments: bool = False, overwrite: bool = False
+    scene: Table, laws: Laws, path: str | Path, *, comments: bool = False, overwrite: bool = False
 ) -> None:
     """Write a complete scene: every key that it uses, defaults filled in.
 
     Args:
         scene: complete.
+        laws: of joints that have none of their own.
         path: of the file.
         comments: write meaning and unit behind every key.
         overwrite: replace an existing file, whose own comments would be lost.
@@ -39,17 +40,17 @@ def save_scene(
             f"{path}: exists, and its comments would be lost; allowed is another name, or "
             "overwrite=True"
         )
-    lines = table_lines(scene, comments)
+    lines, drawn = table_lines(scene, comments), []
     for field in dataclasses.fields(scene):
         table = getattr(scene, field.name)
         if isinstance(table, Joints):
-            lines += joint_lines(table, scene, comments)
+            lines += joint_lines(table, laws, comments)
         elif isinstance(table, Table):
             lines += ["", f"[{field.name}]", *table_lines(table, comments)]
-    if isinstance(scene.mechanism, Mechanism):
-        lines += ["", *mechanism_lines(scene.mechanism, "mechanism.")]
+        elif isinstance(table, Mechanism):
+            drawn = ["", *mechanism_lines(table, "mechanism.")]
     with replacing(path) as partial:
-        partial.write_text("\n".join([*lines, ""]), encoding="utf-8")
+        partial.write_text("\n".join([*lines, *drawn, ""]), encoding="utf-8")
 
 
 def table_lines(table: Table, comments: bool, *, absent: bool = False) -> list[str]:
@@ -73,7 +74,7 @@ def table_lines(table: Table, comments: bool, *, absent: bool = False) -> list[s
     return _commented(keys) if comments else list(keys)
 
 
-def joint_lines(joints: Joints, scene: "Scene", comments: bool) -> list[str]:
+def joint_lines(joints: Joints, laws: Laws, comments: bool) -> list[str]:
     """Return the joints with clearance, group by group; without any, all joints are ideal."""
     lines = [] if joints.grouped else ["", "[joints]"]
     for name, joint in joints.grouped.items():
@@ -81,7 +82,7 @@ def joint_lines(joints: Joints, scene: "Scene", comments: bool) -> list[str]:
         meanings["kind"] = "ideal | dry | lubricated; a joint that is not named is ideal"
         keys = {
             f"{key} = {_text(value)}": meanings.get(key, f"where it differs from [{key}]")
-            for key, value in joint_dict(joint, scene.laws).items()
+            for key, value in joint_dict(joint, laws).items()
         }
         lines += ["", f"[joints.{name}]", *(_commented(keys) if comments else keys)]
     return lines

@@ -4,8 +4,9 @@ import dataclasses
 import math
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, cast
+from typing import Any, ClassVar, cast
 
+from exu_press.above import WORKERS
 from exu_press.checks import RENAMED, Table, key, table_from
 from exu_press.errors import InputError
 from exu_press.mechanism import (
@@ -24,6 +25,7 @@ from exu_press.scene.elastic import with_elastic_guides
 from exu_press.scene.joint import DEFAULT_KINDS, LAW_TABLES, joint_dict
 from exu_press.scene.joint_changes import by_group, changed_joints, kinds_of, unused_laws
 from exu_press.scene.joints import Joints, joints_of
+from exu_press.scene.save import save_scene
 from exu_press.scene.tables import (
     Blanking,
     Contact,
@@ -33,9 +35,6 @@ from exu_press.scene.tables import (
     Friction,
     Solver,
 )
-
-if TYPE_CHECKING:
-    from exu_press.model import Model
 
 __all__ = ["Scene", "mechanism_of"]
 
@@ -176,9 +175,7 @@ class Scene(Table):
         Raises:
             InputError: the file exists, or cannot be written.
         """
-        from exu_press.scene.save import save_scene
-
-        save_scene(self, path, comments=comments, overwrite=overwrite)
+        save_scene(self, self.laws, path, comments=comments, overwrite=overwrite)
 
     def replace(self, *change: Any, **changes: Any) -> "Scene":
         """Return the scene with other values: replace("film.viscosity", 0.1) or replace({...}).
@@ -232,17 +229,12 @@ class Scene(Table):
         except InputError as error:
             raise InputError(by_group(str(error), groups, joint_changes)) from None
 
-    def build(self) -> "Model":
-        """Return the assembled Exudyn model; model.mbs and model.SC are the real objects.
+    def build(self) -> Any:
+        """Return the assembled `exu_press.model.Model`; its mbs and SC are the real Exudyn objects.
 
         Every body has graphics for Exudyn's own renderer and SolutionViewer.
         """
-        from exu_press.graphics import add_graphics
-        from exu_press.model import build
-
-        model = build(self)
-        add_graphics(model)
-        return model
+        return WORKERS["build"](self)
 
     @property
     def shipped(self) -> str:

@@ -35,11 +35,11 @@ def _lines(scene: Scene) -> Iterator[str]:
     for field in dataclasses.fields(scene):
         value = getattr(scene, field.name)
         if isinstance(value, Joints):
-            yield from ("", *_all_joints(value), *joint_lines(value, scene, True))
+            yield from ("", *_all_joints(value), *joint_lines(value, scene.laws, True))
             if not value.grouped:  # an example
                 name = list(value)[-1]
                 example = scene.replace(f"joints.{name}", "dry")
-                shown = joint_lines(example.joints, example, True)[1:]
+                shown = joint_lines(example.joints, example.laws, True)[1:]
                 yield from ("", *(f"# {line}" for line in shown))
         elif isinstance(value, Table):
             yield from ("", f"[{field.name}]", *table_lines(value, True, absent=True))

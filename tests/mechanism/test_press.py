@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from exu_press import Scene
+from exu_press import InputError, Scene
 from exu_press.scene import mechanism_of
 
 IDEAL = Scene.from_dict({"mechanism": "press", "joints": {}})
@@ -121,3 +121,9 @@ def test_links_are_uniform_rods():
     inertia = {body.name: body.inertia for body in PRESS.bodies}
     assert inertia["linkage"] == pytest.approx(184.5 * 0.383**2 / 12)
     assert inertia["link_6_left"] == pytest.approx(24.13 * 0.24**2 / 12)
+
+
+def test_links_out_of_all_proportion_are_refused():
+    """Relative to their length the linkage does not move: already the drawing is singular."""
+    with pytest.raises(InputError, match="link_5_right and link_6_right lock or branch"):
+        Scene(press={"link_5_length": 23000.0})

@@ -10,12 +10,12 @@ from exu_press.output import replacing
 from exu_press.studies.sweep.table import Table
 from exu_press.studies.sweep.units import meaning_of, unit_of
 
-__all__ = ["FORMAT", "write"]
+__all__ = ["FORMAT", "save_netcdf"]
 
 FORMAT = "exu_press sweep 1"
 
 
-def write(table: Table, path: Path) -> None:
+def save_netcdf(table: Table, path: Path) -> None:
     """Write numbers as numbers (NaN where a run has none), everything else as text."""
     with replacing(path) as partial, netcdf_file(partial, "w", version=2) as file:
         file.format = FORMAT

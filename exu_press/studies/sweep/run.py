@@ -68,8 +68,10 @@ def sweep(
             table = table_of(study, rows, files)
         except InputError as error:
             raise InputError(f"{directory / FILE}: not rows of a sweep: {error}") from None
+        from exu_press.studies.sweep.netcdf import save_netcdf
+
         table.save_csv(directory / "table.csv")
-        table.save_netcdf(directory / "table.nc")
+        save_netcdf(table, directory / "table.nc")
     return table
 
 

@@ -69,12 +69,6 @@ class Table:
         with replacing(path) as partial:
             partial.write_text(text.getvalue(), encoding="utf-8")
 
-    def save_netcdf(self, path: Path) -> None:
-        """Write the table as NetCDF."""
-        from exu_press.studies.sweep.netcdf import write
-
-        write(self, path)
-
 
 def table_of(study: Study, rows: Sequence[Mapping[str, Any]], files: Sequence[str]) -> Table:
     """Return the table of a study's rows.

@@ -1,0 +1,51 @@
+"""One recorded quantity over time."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exu_press.errors import InputError
+from exu_press.stored import LARGEST
+
+__all__ = ["AXES", "Channel"]
+
+Array = NDArray[np.float64]
+
+AXES = {
+    "": (),
+    "plane": ("x", "y"),
+    "space": ("x", "y", "z"),
+    "pose": ("x", "y", "angle"),
+    "ends": ("journal", "bearing"),
+}
+"""What a channel's columns are."""
+
+
+@dataclass(frozen=True)
+class Channel:
+    """One recorded quantity.
+
+    Attributes:
+        values: (n,), or (n, k) with one of AXES as columns, or (n, bodies, 3) for "pose".
+        unit: SI.
+        long_name: what it is, in words.
+        axis: name of the columns: in AXES, or BODY_mode for a flexible body's modes.
+
+    Raises:
+        InputError: the values have another shape, or one of them is no number.
+    """
+
+    values: Array
+    unit: str
+    long_name: str
+    axis: str = ""
+
+    def __post_init__(self) -> None:
+        """Check the values."""
+        shape, columns = self.values.shape, AXES.get(self.axis)
+        axes = {"": 1, "pose": 3}.get(self.axis, 2)
+        if len(shape) != axes or (columns and shape[-1] != len(columns)):
+            raise InputError(f"{self.long_name}: shape {shape}; columns are {self.axis!r}")
+        if not (np.abs(self.values) < LARGEST).all():
+            raise InputError(f"{self.long_name}: allowed are numbers below {LARGEST:g}")

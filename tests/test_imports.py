@@ -1,0 +1,54 @@
+"""Rooms know what lies below them alone: nothing imports backwards, lazily or for types."""
+
+import ast
+from collections import defaultdict
+from graphlib import CycleError, TopologicalSorter
+from pathlib import Path
+
+import pytest
+
+import exu_press
+
+PACKAGE = Path(exu_press.__file__).parent
+FILES = sorted(path for path in PACKAGE.rglob("*.py"))
+
+
+def name_of(path):
+    """Return the dotted name of a module; a package's face has its folder's."""
+    parts = [*path.relative_to(PACKAGE.parent).with_suffix("").parts]
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+MODULES = {name_of(path) for path in FILES}
+
+
+def imported(path):
+    """Yield the modules of the package that a file imports anywhere in its text."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names if alias.name in MODULES)
+        elif isinstance(node, ast.ImportFrom) and node.module in MODULES:
+            inner = [f"{node.module}.{alias.name}" for alias in node.names]
+            yield from (name if name in MODULES else node.module for name in inner)
+
+
+def room(module):
+    """Return the folder or file of the package that a module lies in."""
+    return ".".join(module.split(".")[:2])
+
+
+@pytest.mark.parametrize("unit", [room, str], ids=["rooms", "files"])
+def test_imports_run_one_way(unit):
+    arrows = defaultdict(set)
+    for path in FILES:
+        name = name_of(path)
+        if name == "exu_press" or (unit is str and path.name == "__init__.py"):
+            continue  # faces hand names on
+        for other in imported(path):
+            if unit(other) != unit(name):
+                arrows[unit(name)].add(unit(other))
+    assert len(arrows) > 20
+    try:
+        TopologicalSorter(arrows).prepare()
+    except CycleError as error:
+        pytest.fail(f"a circle of imports: {' -> '.join(error.args[1])}")

@@ -6,19 +6,20 @@ contacts start from the force that held them. So do constraints.
 
 A thin film answers the last digit of a speed with newtons: no iteration balances forces better.
 
-Exudyn's residual adds newtons and metres, so that it says nothing of constraints. With flexible
-bodies, whose markers' Jacobians are a few 1e-5 off, one iteration balances the forces and leaves
-some 1e-4 of what it changed in the constraints; of an alternating rest generalized-alpha makes
-accelerations that alternate, 1/(1 - spectral radius)^2 times as large, and the next step's start,
-which follows them, errs by four times that: they grew to 1.2 times the mechanism's own. So two
-iterations are made there, and nothing is left to alternate.
+Euler parameters must have unit length, and the constraints' directions that Exudyn gives Newton's
+method are right on the unit sphere only: where the expected state leaves it, an iteration that puts
+the length right moves the body by as much, and what that leaves in the constraints alternates from
+step to step, 1/(1 - spectral radius)^2 times as large in the accelerations. So the expected
+accelerations are those that end on the sphere, and one iteration does.
 """
 
+import math
 from typing import Any
 
 import exudyn as exu
 import numpy as np
 
+from exu_press.integrate.problem import Node
 from exu_press.integrate.scales import FoundScales
 from exu_press.integrate.tuning import Tuning
 from exu_press.joints.overlay import JointOverlay
@@ -45,8 +46,7 @@ class Newton:
         scales: FoundScales,
         tolerance: float,
         tuning: Tuning,
-        *,
-        flexible: bool,
+        nodes: tuple[Node, ...],
     ) -> None:
         """Guide the solver of a system.
 
@@ -57,14 +57,16 @@ class Newton:
             scales: of its motion.
             tolerance: of the run.
             tuning: numbers.
-            flexible: whether some of its bodies are.
+            nodes: of the system, with its coordinates.
         """
         self.data: Any = mbs.systemData
         self._solver, self._joints = solver, joints
         self._scales, self._part = scales, tuning.balance * tolerance
         self._patience, self._digits = tuning.patience, tuning.digits
         self._reach, self._shortest = tuning.reach, tuning.shortest_prediction
-        self._flexible = flexible
+        reference = np.array(self.data.GetODE2Coordinates(exu.ConfigurationType.Reference))
+        starts = [node.start + node.size - 4 for node in nodes if node.quaternion]
+        self._quaternions = [(i, reference[i : i + 4]) for i in starts]
         self._weights: tuple[float, float, float] | None = None
         self._start: float | None = None  # of the step under way, s
         self.now: list[float] = []
@@ -90,10 +92,6 @@ class Newton:
                 if self._joints is not None:
                     self._joints.resume()
             self._accept(self._tolerance())
-        elif iteration == 1 and self._flexible:
-            self._accept(0.0)
-        elif iteration == 2 and self._flexible:
-            self._accept(self._tolerance())
         elif iteration == self._patience and self._joints is not None:
             rounding = self._digits * self._joints.damping * self._scales.speed
             self._accept(max(self._tolerance(), rounding))
@@ -111,9 +109,13 @@ class Newton:
             values = [now[i] + ahead * rate[i] for i in range(len(rate))]
         expected = np.array(values)
         # as Newton's method adds an increment of them
-        data = self.data
+        data, by_q = self.data, step * step * ratio * beta
         positions = data.GetODE2Coordinates(CURRENT, False)
-        positions += (step * step * ratio * beta) * expected
+        for i, reference in self._quaternions:
+            turned = reference + positions[i : i + 4] + by_q * expected[i : i + 4]
+            length = math.sqrt(float(turned @ turned))
+            expected[i : i + 4] += (1.0 / length - 1.0) / by_q * turned
+        positions += by_q * expected
         velocities = data.GetODE2Coordinates_t(CURRENT, False)
         velocities += (step * ratio * gamma) * expected
         data.GetODE2Coordinates_tt(CURRENT, False)[:] = expected

@@ -82,7 +82,6 @@ class Problem:
         mbs: the system.
         nodes: of the second-order coordinates, in their order.
         joints: the system's clearance joints, if it has any.
-        flexible: whether some bodies have floating frames and modes.
         modal_stiffness: whether all stiffness is that of flexible bodies' modes.
         first_order: whether there are first-order coordinates.
         switching: whether there are data variables, which Exudyn iterates on after Newton's method.
@@ -92,7 +91,6 @@ class Problem:
     mbs: exu.MainSystem
     nodes: tuple[Node, ...]
     joints: JointOverlay | None
-    flexible: bool
     modal_stiffness: bool
     first_order: bool
     switching: bool
@@ -117,13 +115,12 @@ class Problem:
         objects = [mbs.GetObject(number) for number in range(data.NumberOfObjects())]
         joints = overlay_of(mbs)
         kinds = [item["objectType"] for item in objects]
-        flexible = "FFRFreducedOrder" in kinds
         others = (
             kind
             for number, kind in enumerate(kinds)
             if not kind.startswith("Joint") and kind not in RIGID_OR_MODAL and number != joints.item
         )
-        modal = flexible and all(
+        modal = "FFRFreducedOrder" in kinds and all(
             kind.startswith("ConnectorCoordinate") and "Spring" not in kind for kind in others
         )
         nodes = _nodes(mbs, objects, bodies)
@@ -131,7 +128,6 @@ class Problem:
             mbs=mbs,
             nodes=nodes,
             joints=joints if joints.joints else None,
-            flexible=flexible,
             modal_stiffness=modal,
             first_order=data.ODE1Size() > 0,
             switching=data.DataSize() > 0,

@@ -111,7 +111,7 @@ def solve_dynamic(
         found,
         FIXED_STEPS if tolerance is None else tolerance,
         tuning,
-        flexible=problem.flexible,
+        problem.nodes,
     )
     step_change = StepChange(mbs, solver, smooth=problem.joints is None, tuning=tuning)
     film_start = step_change if films else None

@@ -57,3 +57,20 @@ def test_what_rounding_leaves_is_not_iterated_on():
     strict = tuned(thin, digits=0.0)
     assert forgiving.completed
     assert strict.info["status"] == "not converged"
+
+
+def test_euler_parameters_are_expected_on_their_unit_sphere():
+    """Else one iteration leaves something in the constraints, whose forces alternate."""
+    pytest.importorskip("ngsolve")
+    run = simulate(
+        Scene(
+            bodies="flexible",
+            joints={"crank_pin": "ideal", "balls": "ideal"},
+            flexible={"modes": 4},
+            revolutions=0.2,
+        )
+    )
+    assert run.completed
+    assert run.info["newton_iterations"] < 1.1 * run.info["steps"]
+    force = np.linalg.norm(run.joints["counterweight_pin"].force, axis=1)
+    assert np.abs(np.diff(force, 2)).max() < 0.02 * force.max()

@@ -64,7 +64,7 @@ class Newton:
         self._scales, self._part = scales, tuning.balance * tolerance
         self._patience, self._digits = tuning.patience, tuning.digits
         self._reach, self._shortest = tuning.reach, tuning.shortest_prediction
-        reference = np.array(self.data.GetODE2Coordinates(exu.ConfigurationType.Reference))
+        reference: Any = np.array(self.data.GetODE2Coordinates(exu.ConfigurationType.Reference))
         starts = [node.start + node.size - 4 for node in nodes if node.quaternion]
         self._quaternions = [(i, reference[i : i + 4]) for i in starts]
         self._weights: tuple[float, float, float] | None = None

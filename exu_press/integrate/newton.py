@@ -64,9 +64,7 @@ class Newton:
         self._scales, self._part = scales, tuning.balance * tolerance
         self._patience, self._digits = tuning.patience, tuning.digits
         self._reach, self._shortest = tuning.reach, tuning.shortest_prediction
-        reference: Any = np.array(self.data.GetODE2Coordinates(exu.ConfigurationType.Reference))
-        starts = [node.start + node.size - 4 for node in nodes if node.quaternion]
-        self._quaternions = [(i, reference[i : i + 4]) for i in starts]
+        self._quaternions = [self._reference(node) for node in nodes if node.quaternion]
         self._weights: tuple[float, float, float] | None = None
         self._start: float | None = None  # of the step under way, s
         self.now: list[float] = []
@@ -120,6 +118,12 @@ class Newton:
         velocities += (step * ratio * gamma) * expected
         data.GetODE2Coordinates_tt(CURRENT, False)[:] = expected
         data.GetAECoordinates(CURRENT, False)[:] = data.GetAECoordinates(START, False)
+
+    def _reference(self, node: Node) -> tuple[int, Any]:
+        """Return where a node's Euler parameters begin, and what their coordinates add to."""
+        first = node.start + node.size - 4
+        reference = self.data.GetODE2Coordinates(exu.ConfigurationType.Reference)
+        return first, np.array(reference[first : first + 4])
 
     def _tolerance(self) -> float:
         """Return to what Newton's method is to balance forces, N."""

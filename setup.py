@@ -35,6 +35,7 @@ MODULES = [
     "joints/ends",
     "joints/overlay",
     "joints/pairs",
+    "joints/path",
     "joints/planar",
     "joints/spatial",
     "laws/contact_damping",

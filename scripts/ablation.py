@@ -19,7 +19,6 @@ import exudyn.utilities as items
 import numpy as np
 
 from exu_press import Scene, Status, Tuning, solve_dynamic
-from exu_press.joints.pairs import DryPair
 
 GRID = 4000  # instants at which runs are compared
 FINER = 1e-2
@@ -149,7 +148,6 @@ def variants():
             yield f"{field.name} {word}", {field.name: changed}
         if field.name in OFF:
             yield f"{field.name} off", {field.name: OFF[field.name]}
-    yield "contacts resumed off", {}  # the last one, as it changes its process
 
 
 def main():
@@ -183,9 +181,7 @@ def main():
 
 def row(variant, tolerance, *, systems, references, usual):
     """Return a variant's cells."""
-    label, numbers = variant
-    if label == "contacts resumed off":
-        DryPair.resumed = lambda *_: None  # in a process that runs nothing else after this
+    numbers = variant[1]
     cells = []
     for name in systems:
         tried = SYSTEMS[name](tolerance, Tuning(**numbers))

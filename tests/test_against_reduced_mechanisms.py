@@ -180,8 +180,8 @@ def test_press_at_the_default_tolerance():
 @pytest.mark.long
 @pytest.mark.parametrize(("clearance", "peak"), [(1e-4, 845.7), (2e-4, 2370.7)])
 def test_dry_press_at_the_default_tolerance(clearance, peak):
-    """20 % off while penetrations were held against the clearance."""
+    """20 % off while penetrations were held against the clearance, 2 % while they drifted."""
     _, _, expected = press("lugre_steady", clearance, 240, 1.0, 1e-11)
     assert expected[0] == pytest.approx(peak, rel=1e-3)
     result = exudyn_press("lugre_steady", clearance, 240, 1.0)
-    assert peaks_of(result, 240)[0] == pytest.approx(expected[0], rel=2.5e-2)
+    assert peaks_of(result, 240) == pytest.approx(expected, rel=1e-2)

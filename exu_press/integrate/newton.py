@@ -87,8 +87,6 @@ class Newton:
             assert self._start is not None
             if time - self._start > self._shortest:
                 self._advance(time - self._start)
-                if self._joints is not None:
-                    self._joints.resume()
             self._accept(self._tolerance())
         elif iteration == self._patience and self._joints is not None:
             rounding = self._digits * self._joints.damping * self._scales.speed

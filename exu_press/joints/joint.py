@@ -6,6 +6,8 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from exu_press.joints.path import Path
+
 __all__ = ["GROUND", "SHALLOW", "ClearanceJoint", "JointState", "history"]
 
 Array = NDArray[np.float64]
@@ -68,6 +70,8 @@ class ClearanceJoint(Protocol):
     """Eccentricity up to which its contact laws hold, m; infinite without contact."""
     lubricated: bool
     """Whether it has a film."""
+    path: Path
+    """Of the journal."""
     places: list[int]
     """Where the joint's coordinates lie among those of the item."""
 
@@ -97,9 +101,6 @@ class ClearanceJoint(Protocol):
 
     def begin_step(self, step: float, accepted: bool) -> None:
         """Start a step of size `step` (s), after the last one was accepted or is repeated."""
-
-    def resume(self) -> None:
-        """Be told that the next `add_force` is at Newton's first guess of a step's end."""
 
     def reset(self) -> None:
         """Forget everything."""

@@ -161,11 +161,6 @@ class JointOverlay:
         """Return a joint by its number, in the order in which they were added."""
         return f"clearance joint {self.joints.index(joint)}"
 
-    def resume(self) -> None:
-        """Tell the joints that the next state is Newton's first guess of a step's end."""
-        for joint in self._contacts:
-            joint.resume()
-
     @property
     def lubricated(self) -> bool:
         """Whether any joint has a film."""
@@ -293,7 +288,7 @@ class JointOverlay:
         if self._step is not None and self._step[1] == time:
             return
         start = self._mbs.systemData.GetTime(exu.ConfigurationType.StartOfStep)
-        accepted = self._step is None or start != self._step[0]
+        accepted = self._step is None or start != self._step[0] or start == self._step[1]
         self._step = start, time
         for joint in self._contacts:
             joint.begin_step(time - start, accepted)

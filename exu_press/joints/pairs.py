@@ -11,6 +11,7 @@ import math
 from collections.abc import Sequence
 
 from exu_press.joints.joint import SHALLOW
+from exu_press.joints.path import Path
 from exu_press.laws.contact import Approach, NormalContact
 from exu_press.laws.film import FilmLaw
 from exu_press.laws.friction import Friction, LuGre
@@ -55,10 +56,6 @@ Load = tuple[float, float, float, float, Answer]
 """f_n, f_t, the moments on journal and bearing, and the laws' answer they come from."""
 
 
-RESUME = 0.5
-"""A first guess with this part of the last step's contact force, or its inverse, is good enough."""
-
-
 class Pair:
     """What a joint needs of its pair of surfaces; `None` stands for no force at all.
 
@@ -69,10 +66,12 @@ class Pair:
             secant: a film's does (of first degree in the speeds, but with a kink at rest), a
             contact's does not.
         outside: eccentricity ratio where the pair's law did not hold, if the last state was so.
+        drift: what is taken out of a penetration (`exu_press.joints.path`), m.
     """
 
     def __init__(self, clearance: float, stateful: bool, bends: bool) -> None:
         """Set what does not change."""
+        self.drift = 0.0
         self.clearance = clearance
         self.stateful = stateful
         self.bends = bends
@@ -106,24 +105,6 @@ class Pair:
     def shear_slopes(self, answer: Answer, omega_j: float, omega_b: float) -> tuple[float, float]:
         """Return the derivatives of the couple S by |e| (N) and by omega_J - omega_B (N m s)."""
         return 0.0, 0.0
-
-    def resumed(
-        self, before: Load, now: Load | None, e: float, d_e: float, d_rate: float
-    ) -> tuple[Load, Load] | None:
-        """Return where Newton's method had better start than at the load of its first guess.
-
-        Args:
-            before: load at the end of the last step.
-            now: load at the first guess of where this step ends.
-            e: eccentricity there, m.
-            d_e: its change since the last step's end, m.
-            d_rate: its rate's change, m/s.
-
-        Returns:
-            The load whose slopes to take, and the load that belongs to the first guess; None where
-            `now` will do.
-        """
-        return None
 
     def stored_energy(self, e: float) -> float:
         """Return the elastic energy at an eccentricity, J; none unless the pair says so."""
@@ -180,7 +161,7 @@ class DryPair(Pair):
         self, e: float, e_dot: float, v_t: float, omega_j: float, omega_b: float
     ) -> Load | None:
         """Return force and moments, or None in free flight."""
-        penetration = e - self.clearance
+        penetration = e - self.clearance - self.drift
         if penetration <= 0.0 and not self.stateful:
             return None
         sliding = v_t + self.radius * omega_j - (self.radius + e) * omega_b
@@ -223,30 +204,13 @@ class DryPair(Pair):
         """Return the moment arms of the contact point about the two centres."""
         return self.radius, -(self.radius + e), 0.0, -1.0
 
-    def resumed(
-        self, before: Load, now: Load | None, e: float, d_e: float, d_rate: float
-    ) -> tuple[Load, Load] | None:
-        """Go on from the force that held the contact, along its slopes.
-
-        A contact is so stiff that the first guess, some tenths of a micrometre and a millimetre a
-        second off, would be answered with a hundred times that force or with none.
-        """
-        mu, slope, normal, stiffness, damping = before[4]
-        if normal <= 0.0 or (now is not None and RESUME < -now[0] / normal < 1.0 / RESUME):
-            return None
-        if now is not None:
-            mu, slope = now[4][0], now[4][1]
-        answer = mu, slope, normal, stiffness, damping
-        first = normal + stiffness * d_e + damping * d_rate
-        return self._loaded(e, normal, answer), self._loaded(e, first, answer)
-
     def stored_energy(self, e: float) -> float:
         """Return the elastic energy of the penetration."""
-        return self.contact.elastic_energy(e - self.clearance)
+        return self.contact.elastic_energy(e - self.clearance - self.drift)
 
     def stored_force(self, e: float) -> float:
         """Return the elastic part of the normal force."""
-        depth = e - self.clearance
+        depth = e - self.clearance - self.drift
         return self.contact.stiffness.force(depth)[0] if depth > 0.0 else 0.0
 
     def begin_step(self, step: float, accepted: bool) -> None:
@@ -331,6 +295,7 @@ class PairedJoint:
         reach: eccentricity at which surfaces touch in one of them, m, or infinity.
         deepest: eccentricity up to which their contact laws hold, m, or infinity.
         lubricated: whether one of them is a film.
+        path: of the journal.
     """
 
     def __init__(self, pairs: Sequence[Pair]) -> None:
@@ -347,9 +312,8 @@ class PairedJoint:
         self._loads: list[Load | None] = [None for _ in self.pairs]
         self._motion_before = self._motion
         self._loads_before = self._loads
-        self._motion_settled = self._motion  # at the end of the last step
-        self._loads_settled = self._loads
-        self._resuming = False
+        self.path = Path()
+        self._step = 0.0
 
     @property
     def outside(self) -> float | None:
@@ -359,21 +323,32 @@ class PairedJoint:
                 return pair.outside
         return None
 
+    @property
+    def eccentricity(self) -> tuple[float, ...]:
+        """Journal centre - bearing centre at the last `add_force`, m."""
+        raise NotImplementedError
+
+    @property
+    def relative_velocity(self) -> tuple[float, ...]:
+        """Rate of the eccentricity at the last `add_force`, m/s."""
+        raise NotImplementedError
+
     def begin_step(self, step: float, accepted: bool) -> None:
         """Start a step of size `step` (s), after the last one was accepted or is repeated."""
         if accepted:
-            self._motion_settled, self._loads_settled = self._motion, self._loads
+            depth = self._motion[0] - self.reach
+            self.path.go_on(self.eccentricity, self.relative_velocity, self._step, depth)
+        self._step = step
         for pair in self.pairs:
+            pair.drift = self.path.drift
             pair.begin_step(step, accepted)
-
-    def resume(self) -> None:
-        """Let contacts that last answer the next state by their force at the last step's end."""
-        self._resuming = True
 
     def reset(self) -> None:
         """Forget everything."""
         self._loads = [None for _ in self.pairs]
+        self.path, self._step = Path(), 0.0
         for pair in self.pairs:
+            pair.drift = 0.0
             pair.reset()
 
     def _load(self, motion: Motion) -> list[Load | None]:
@@ -385,22 +360,7 @@ class PairedJoint:
         for pair in self.pairs:
             loads.append(pair.load(e, e_dot, v_t, w_j, w_b))
         self._loads = loads
-        if self._resuming:
-            self._resuming = False
-            return self._resume(motion, loads)
         return loads
-
-    def _resume(self, motion: Motion, loads: list[Load | None]) -> list[Load | None]:
-        """Return what each pair does at a step's first guess; `_loads` become those for slopes."""
-        d_e, d_rate = motion[0] - self._motion_settled[0], motion[1] - self._motion_settled[1]
-        first = list(loads)
-        for i, pair in enumerate(self.pairs):
-            before = self._loads_settled[i]
-            if before is not None:
-                resumed = pair.resumed(before, loads[i], motion[0], d_e, d_rate)
-                if resumed is not None:
-                    loads[i], first[i] = resumed
-        return first
 
     def _slopes(self, i: int, load: Load) -> Slopes:
         """Return a pair's slopes; a film's lead to the force of the state before, too.

@@ -5,6 +5,7 @@ from numpy.typing import NDArray
 
 from exu_press.joints.ends import BodyEnd, Vector, cross, cross_matrix
 from exu_press.joints.joint import SHALLOW, JointState
+from exu_press.joints.path import Path
 from exu_press.laws.contact import Approach, NormalContact
 from exu_press.laws.friction import Friction, LuGre
 
@@ -43,21 +44,24 @@ class SpatialSpherical:
         self.lubricated = False
         self._approach = Approach()
         self._next_bristle: Array = np.zeros(3)
+        self._e = self._step = 0.0
         self.reset()
 
     def begin_step(self, step: float, accepted: bool) -> None:
         """Keep bristle deflection and approach speed of the last step if it was accepted."""
         if accepted:
+            depth = self._e - self.reach
+            self.path.go_on(self.eccentricity, self.relative_velocity, self._step, depth)
             self._bristle = self._next_bristle
             self._approach.accept()
         self._step = step
 
-    def resume(self) -> None:
-        """Take the first guess for what it is."""
-
     def reset(self) -> None:
         """Relax the bristle."""
-        self._bristle, self._step = np.zeros(3), 0.0
+        self.path, self._step = Path(), 0.0
+        self._e = 0.0
+        self._n, self._relative = np.array([1.0, 0.0, 0.0]), np.zeros(3)
+        self._bristle = np.zeros(3)
         self._next_bristle = self._bristle
         self._approach.reset()
         self._touching = False
@@ -107,7 +111,8 @@ class SpatialSpherical:
         self._move(q, q_t)
         force = self._normal_force + self._drag
         reach, depth = self._radius + self._e, self._e - self.clearance
-        elastic = self._contact.stiffness.force(depth)[0] if depth > 0.0 else 0.0
+        pressed = depth - self.path.drift
+        elastic = self._contact.stiffness.force(pressed)[0] if pressed > 0.0 else 0.0
         moments = np.concatenate(
             [
                 self._radius * _cross(self._n, self._drag),
@@ -121,7 +126,7 @@ class SpatialSpherical:
             moments=tuple(moments.tolist()),
             spins=tuple(self._spins.tolist()),
             gap=-depth,
-            stored_energy=self._contact.elastic_energy(depth),
+            stored_energy=self._contact.elastic_energy(pressed),
             stored_power=elastic * float(self._n @ self._relative),
         )
 
@@ -136,7 +141,7 @@ class SpatialSpherical:
         self._relative = np.subtract(ball.velocity, socket.velocity)
         self._spins = np.concatenate([ball.spin, socket.spin])
         self._normal_force = self._drag = np.zeros(3)
-        penetration = e - self.clearance
+        penetration = e - self.clearance - self.path.drift
         self._touching = penetration > 0.0
         if not self._touching and not self._stateful:
             return

@@ -6,7 +6,6 @@ from patched import PATCHED
 
 from exu_press import Scene, Tuning, simulate
 from exu_press.integrate.newton import Newton
-from exu_press.joints.pairs import DryPair
 from exu_press.result import record
 
 
@@ -18,7 +17,6 @@ def tuned(scene, **numbers):
 @PATCHED
 @pytest.mark.parametrize("pin", ["lubricated", "dry"])
 def test_expected_accelerations_save_iterations(pin, monkeypatch):
-    monkeypatch.setattr(DryPair, "resumed", lambda *_: None)  # it saves its own
     scene = Scene(joints={"crank_pin": pin, "balls": "dry"}, revolutions=0.1, solver={"step": 5e-5})
     guided = simulate(scene)
     monkeypatch.setattr(Newton, "_advance", lambda newton, step: None)
@@ -26,21 +24,6 @@ def test_expected_accelerations_save_iterations(pin, monkeypatch):
     assert guided.info["newton_iterations"] < 0.7 * plain.info["newton_iterations"]
     apart = guided["slider_acceleration"] - plain["slider_acceleration"]
     assert np.abs(apart).max() < 1e-3 * np.abs(plain["slider_acceleration"]).max()
-
-
-@PATCHED
-def test_lasting_contact_resumes_from_the_force_that_held_it(monkeypatch):
-    scene = Scene(
-        joints={"crank_pin": "dry", "balls": "dry"}, revolutions=0.3, solver={"step": 1e-4}
-    )
-    resumed = simulate(scene)
-    monkeypatch.setattr(DryPair, "resumed", lambda *_: None)
-    plain = simulate(scene)
-    assert resumed.completed and plain.completed
-    assert resumed.info["newton_iterations"] < 0.8 * plain.info["newton_iterations"]
-    before = resumed.time < 0.02  # later, impacts tell the last digits apart
-    apart = (resumed["slider_acceleration"] - plain["slider_acceleration"])[before]
-    assert np.abs(apart).max() < 1e-3 * np.abs(plain["slider_acceleration"][before]).max()
 
 
 def test_what_rounding_leaves_is_not_iterated_on():

@@ -1,0 +1,63 @@
+"""What a step misses of a journal's way, and what of it is taken out of a penetration."""
+
+import math
+
+import pytest
+
+from exu_press.joints.path import SMALL, Path
+
+STEP = 1e-3
+
+
+def cubic(time):
+    """Place and velocity of a motion that the corrected trapezoidal rule integrates exactly."""
+    place = 1.0 + 2.0 * time - 3.0 * time**2 + 4.0 * time**3, 0.5 * time**3
+    return place, (2.0 - 6.0 * time + 12.0 * time**2, 1.5 * time**2)
+
+
+def path_of(motion, steps):
+    path = Path()
+    for i in range(steps):
+        path.go_on(*motion(i * STEP), STEP, depth=0.0)
+    return path
+
+
+def test_a_way_of_third_degree_is_followed_exactly():
+    path = path_of(cubic, 3)
+    assert path.missed(*cubic(3 * STEP), STEP) == pytest.approx((0.0, 0.0), abs=1e-14)
+
+
+def test_what_is_missed_is_told_with_its_part_along_the_place():
+    path = path_of(lambda time: ((3.0, 4.0), (0.0, 0.0)), 3)
+    missed, along = path.missed((3.0, 4.0 + 1e-6), (0.0, 0.0), STEP)
+    assert missed == pytest.approx(1e-6)
+    assert along == pytest.approx(0.8e-6)
+
+
+def test_the_trapezoidal_rule_drifts_on_a_circle_and_the_drift_is_taken_out():
+    """A journal that swings along its bearing: its distance drifts by h^3 v a / 4 a step."""
+    radius, speed, rate = 1e-4, 0.05, 40.0
+
+    def swinging(distance, time):
+        angle = (speed * time + 0.5 * rate * time**2) / radius
+        along = speed + rate * time
+        place = distance * math.cos(angle), distance * math.sin(angle)
+        return place, (-along * math.sin(angle), along * math.cos(angle))
+
+    step, path, distance, drifted = 2e-5, Path(), radius, 0.0
+    for i in range(40):
+        time = i * step
+        if i > 2:  # as Newmark's positions do
+            drifted -= 0.25 * step**3 * (speed + rate * (time - 0.5 * step)) * rate / radius
+        path.go_on(*swinging(distance + drifted, time), step, depth=1e-5)
+    assert path.drift == pytest.approx(drifted, rel=0.05)
+
+
+def test_drift_ends_with_the_contact_and_is_not_believed_where_steps_are_coarse():
+    path = path_of(lambda time: ((1.0, 0.0), (0.0, 0.0)), 3)
+    path.go_on((1.0 + 1e-6, 0.0), (0.0, 0.0), STEP, depth=1e-4)
+    assert path.drift == pytest.approx(1e-6)
+    path.go_on((1.0 + 1e-6 + 2.0 * SMALL * 1e-4, 0.0), (0.0, 0.0), STEP, depth=1e-4)
+    assert path.drift == pytest.approx(1e-6)
+    path.go_on((1.0, 0.0), (0.0, 0.0), STEP, depth=-1e-6)
+    assert path.drift == 0.0

@@ -35,7 +35,7 @@ def spline(
     step = np.diff(x)
     chord = np.diff(values) / step
     inner = np.arange(1, len(x) - 1)
-    matrix, right = np.zeros((len(x), len(x))), np.zeros_like(values)
+    matrix, right = np.zeros((len(x), len(x))), np.zeros(values.shape)
     matrix[inner, inner - 1] = 1.0 / step[:-1]  # the curvature has no jumps
     matrix[inner, inner] = 2.0 / step[:-1] + 2.0 / step[1:]
     matrix[inner, inner + 1] = 1.0 / step[1:]
@@ -50,7 +50,7 @@ def spline(
             outer, other = step[near] ** -2, step[next_one] ** -2
             matrix[end, [a, b, c]] = outer, outer - other, -other
             right[..., end] = 2.0 * (outer * chord[..., near] - other * chord[..., next_one])
-    slopes = np.linalg.solve(matrix, right.reshape(-1, len(x)).T).T
+    slopes = np.asarray(np.linalg.solve(matrix, right.reshape(-1, len(x)).T).T, float)
     return hermite(x, values, slopes.reshape(values.shape))
 
 

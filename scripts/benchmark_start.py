@@ -29,7 +29,6 @@ COMMANDS = {
     "exu-press --version": MAIN.format("'--version'"),
     "first step of a rigid run": FIRST_STEP,
 }
-FRAMES = 50
 
 
 def processor_time(code: str) -> float:
@@ -50,9 +49,9 @@ def drawing_times() -> dict[str, float]:
         start = time.process_time()
         save_pictures(result, folder)
         pictures = time.process_time()
-        film = Film(result, instants(result, frames=FRAMES), Figure(figsize=SIZE))
+        film = Film(result, instants(result), Figure(figsize=SIZE))
         save_film(film, Path(folder) / "run.gif")
-        frame = (time.process_time() - pictures) / FRAMES
+        frame = (time.process_time() - pictures) / len(film.instants)
     return {"all pictures of a run": pictures - start, "a frame of a .gif": frame}
 
 

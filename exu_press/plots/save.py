@@ -1,9 +1,11 @@
 """Pictures as PNG files."""
 
-import io
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
 
@@ -57,15 +59,14 @@ def save_comparison(results: Mapping[str, Result], directory: str | Path) -> lis
 def save_figure(figure: Figure, path: Path) -> Path:
     """Write under a temporary name, then rename.
 
-    256 colours halve the file and do not show, except in what runs through a range of them.
+    `Figure.savefig` would draw twice, the first time to find out what is on it.
     """
-    pixels = io.BytesIO()
     figure.set_layout_engine("none")  # it has been laid out; not again
+    figure.set_dpi(DPI)
+    canvas: Any = FigureCanvasAgg(figure)
     with look():
-        figure.savefig(pixels, format="png", dpi=DPI, pil_kwargs={"compress_level": 1})
-    image = Image.open(pixels).convert("RGB")
-    if path.stem != "orbit":
-        image = image.quantize(256)
+        canvas.draw()
+    image = Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")
     with replacing(path) as partial:
-        image.save(partial, format="png", dpi=(DPI, DPI), optimize=True)
+        image.save(partial, format="png", dpi=(DPI, DPI), compress_level=4)
     return path

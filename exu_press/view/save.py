@@ -10,7 +10,6 @@ from typing import IO
 
 import numpy as np
 from matplotlib.colors import to_rgb
-from numpy.typing import NDArray
 from PIL import Image
 
 from exu_press.errors import InputError
@@ -21,8 +20,6 @@ from exu_press.view.film import Film, Painter
 from exu_press.view.flexible_panel import COLOURS as SURFACES
 
 __all__ = ["check_target", "is_film", "save_film", "save_picture"]
-
-Pixels = NDArray[np.uint8]
 
 DPI = {".mp4": 150.0, ".gif": 75.0, ".png": 150.0}
 KEPT = [
@@ -55,13 +52,11 @@ def check_target(path: Path) -> None:
 
 
 def save_picture(film: Film, frame: int, path: Path) -> Path:
-    """Write one frame as .png; 256 colours halve the file, where no surfaces are shaded."""
+    """Write one frame as .png."""
     check_target(path)
-    image = Image.fromarray(Painter(film, DPI[".png"]).paint(frame)).convert("RGB")
-    if not film.result.surfaces:
-        image = image.quantize(256)
+    image = Painter(film, DPI[".png"]).paint(frame)
     with replacing(path) as partial:
-        image.save(partial, format="png", optimize=True)
+        image.save(partial, format="png")
     return path
 
 
@@ -80,14 +75,14 @@ def save_film(film: Film, path: Path, report: Callable[[int], None] | None = Non
     kind = path.suffix.lower()
     painter = Painter(film, DPI[kind])
 
-    def frames() -> Iterator[Pixels]:
+    def frames() -> Iterator[Image.Image]:
         for frame in range(len(film.instants)):
             yield painter.paint(frame)
             if report is not None:
                 report(frame + 1)
 
     if kind == ".png":
-        return [_write_png(path, number, pixels) for number, pixels in enumerate(frames())]
+        return [_write_png(path, number, image) for number, image in enumerate(frames())]
     with replacing(path) as partial:
         if kind == ".gif":
             _write_gif(partial, frames(), film.instants.fps)
@@ -96,22 +91,21 @@ def save_film(film: Film, path: Path, report: Callable[[int], None] | None = Non
     return [path]
 
 
-def _write_png(path: Path, number: int, pixels: Pixels) -> Path:
+def _write_png(path: Path, number: int, image: Image.Image) -> Path:
     """Write one of many."""
     numbered = path.with_name(NUMBER.sub(lambda found: found[0] % number, path.name))
     with replacing(numbered) as partial:
-        Image.fromarray(pixels).convert("RGB").save(partial, format="png")
+        image.save(partial, format="png")
     return numbered
 
 
-def _write_gif(path: Path, frames: Iterator[Pixels], fps: float) -> None:
+def _write_gif(path: Path, frames: Iterator[Image.Image], fps: float) -> None:
     """Write a GIF with one palette throughout: nothing flickers, and it is small."""
-    images = (Image.fromarray(pixels).convert("RGB") for pixels in frames)
-    first = next(images)
+    first = next(frames)
     palette = _palette(first)
     shown = (
         image.quantize(palette=palette, dither=Image.Dither.NONE)
-        for image in itertools.chain([first], images)
+        for image in itertools.chain([first], frames)
     )
     start = next(shown)
     start.save(
@@ -141,12 +135,11 @@ def _ffmpeg(path: Path) -> str:
     return found
 
 
-def _write_mp4(path: Path, partial: Path, frames: Iterator[Pixels], fps: float) -> None:
+def _write_mp4(path: Path, partial: Path, frames: Iterator[Image.Image], fps: float) -> None:
     """Hand the frames to ffmpeg."""
     first = next(frames)
-    height, width = first.shape[:2]
-    command = [_ffmpeg(path), "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgba"]
-    command += ["-s", f"{width}x{height}", "-r", f"{fps:g}", "-i", "-", "-an"]
+    command = [_ffmpeg(path), "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24"]
+    command += ["-s", f"{first.width}x{first.height}", "-r", f"{fps:g}", "-i", "-", "-an"]
     command += ["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p"]
     command += ["-movflags", "+faststart", "-f", "mp4", str(partial)]
     process = subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE)
@@ -156,13 +149,13 @@ def _write_mp4(path: Path, partial: Path, frames: Iterator[Pixels], fps: float) 
         raise InputError(f"--save {path}: ffmpeg failed ({last})")
 
 
-def _feed(process: "subprocess.Popen[bytes]", frames: Iterator[Pixels]) -> tuple[bytes, bytes]:
+def _feed(process: "subprocess.Popen[bytes]", frames: Iterator[Image.Image]) -> tuple[bytes, bytes]:
     """Write frames to a program's input; return what it said."""
     pipe: IO[bytes] | None = process.stdin
     assert pipe is not None
     try:
-        for pixels in frames:
-            pipe.write(pixels.tobytes())
+        for image in frames:
+            pipe.write(image.tobytes())
     except BrokenPipeError:
         pass  # it ended early, and says why
     except BaseException:

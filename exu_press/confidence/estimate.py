@@ -65,7 +65,7 @@ def converging(
     pairs = combinations(zip(values, ratios, strict=True), 2)
     largest = max(abs(a - b) / abs(i - j) for (a, i), (b, j) in pairs)
     error = safety * largest + least
-    return FigureError(error, True, _least(values, values[0] - error), values[0] + error)
+    return FigureError(error, True, values[0] - error, values[0] + error)
 
 
 def scattered(values: Sequence[float]) -> FigureError:
@@ -81,12 +81,6 @@ def scattered(values: Sequence[float]) -> FigureError:
     factor = STUDENT.get(count - 1, 1.65) * math.sqrt(1.0 + 1.0 / count)
     middle, half = float(samples.mean()), factor * float(samples.std(ddof=1))
     half += ROUNDING * abs(middle)
-    low = _least(values, min(middle - half, values[0]))
-    high = max(middle + half, values[0])
+    low, high = min(middle - half, values[0]), max(middle + half, values[0])
     error = max(high - values[0], values[0] - low)
     return FigureError(error, error <= LITTLE * abs(values[0]), low, high)
-
-
-def _least(values: Sequence[float], low: float) -> float:
-    """Return a lower bound; of magnitudes and counts it is not below zero."""
-    return max(low, 0.0) if min(values) >= 0.0 else low

@@ -25,8 +25,10 @@ NO_FIGURES = {
     "connectors",
     "clearance",
     "residual",
+    "time",
 }
-"""Keys of what is asked, of what the run took, and of what is a measure of error itself."""
+"""Keys of what is asked, of what the run took, of what is a measure of error itself, and of the
+instants of peaks: two that are nearly as high may change places."""
 
 
 def figures(summary: Mapping[str, Any], prefix: str = "") -> dict[str, float]:

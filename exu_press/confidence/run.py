@@ -1,12 +1,12 @@
 """A run with the errors of its figures."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.confidence.companions import Companions
+from exu_press.confidence.companions import Companions, plan
 from exu_press.confidence.estimate import (
     ROUNDING,
     SAFETY,
@@ -17,6 +17,7 @@ from exu_press.confidence.estimate import (
 )
 from exu_press.confidence.figures import figures
 from exu_press.confidence.growth import Growth, growth
+from exu_press.confidence.reading import LOADS, smoothed
 from exu_press.confidence.windows import until
 from exu_press.result import Result
 from exu_press.result.info import Error, Errors
@@ -30,35 +31,62 @@ Array = NDArray[np.float64]
 APART = 0.3
 """Of a clearance: eccentricities that differ by this have nothing in common any more."""
 
-LOADS = ("acceleration", "force", "torque", "moment", "power", "shaking")
-"""In the names of figures that follow from accelerations."""
+OF_LOADS = 1e-5
+"""Least error of figures that follow from accelerations, over themselves."""
 
-OF_LOADS = 1e-4
-"""Their least error, over themselves: peaks are read at steps, and what the first step leaves of
-accelerations is the same in all runs, so that it is in none of their differences."""
+OF_THE_START = 1e-4
+"""The same where all runs agree to OF_LOADS: the figure is from the start then, and what the first
+step leaves of accelerations is in all of them."""
+
+OF_READING = 0.75
+"""Of what averaging with the neighbours takes of a figure: a peak between steps may be higher by
+half of it, one of alternating loads is too high by all of it."""
 
 OF_SHARES = 1e-4
 """Least error of a share of time: touches are told apart by steps, which in free flight are the
 longest ones allowed in all runs."""
 
+SIGNED = (
+    *("bottom_dead_centre", "strokes.mean", "mean_torque", "mean_power"),
+    *("energy.input", "energy.stored"),
+)
+"""Ends of the names of figures that may be below zero; others are magnitudes and counts."""
+
 SAME = 1e-9
 """Relative: a figure that has changed by less since the horizon is one from before it."""
 
 
-def simulate_with_errors(scene: Scene, *, quiet: bool = True) -> Result:
-    """Do what `simulate` does, and companion runs beside it in a further process.
+def simulate_with_errors(scene: Scene, *, quiet: bool = True, beside: bool = True) -> Result:
+    """Do what `simulate` does, with companion runs.
+
+    Args:
+        scene: what to simulate.
+        quiet: False shows the progress.
+        beside: the companions run in a further process meanwhile; else in this one afterwards, as
+            where all cores have their runs already.
 
     Returns:
         The result; `info` and summary have `errors`, figure by figure, `errors_from` and
         `amplification` too. Of a run that stopped early, or was stopped, nothing is known.
     """
+    if not beside:
+        return with_errors(simulate(scene, quiet=quiet), beside=False)
     with Companions(scene) as companions:
         result = simulate(scene, quiet=quiet)
         return _told(result, companions.results() if result.completed else {})
 
 
-def with_errors(result: Result) -> Result:
-    """Return a result with the errors of its figures, by companion runs of its scene."""
+def with_errors(result: Result, *, beside: bool = True) -> Result:
+    """Return a result with the errors of its figures, by companion runs of its scene.
+
+    Args:
+        result: of a run.
+        beside: the companions run in a further process, else in this one.
+    """
+    if not result.completed:
+        return _told(result, {})
+    if not beside:
+        return _told(result, {r: simulate(scene) for r, scene in plan(result.scene).items()})
     with Companions(result.scene) as companions:
         return _told(result, companions.results())
 
@@ -90,10 +118,13 @@ def errors_of(result: Result, companions: Mapping[float, Result]) -> Errors:
         before = {r: figures(until(run, parted.horizon).summary()) for r, run in runs.items()}
     solver = result.scene.solver
     safety = SAFETY if solver is not None and solver.step is None else SAFETY_OF_STEPS
+    read = figures(smoothed(result).summary())
     errors: dict[str, Error] = {}
-    for name in now[1.0]:
-        of = _error(name, now, before, safety)
+    for name, value in now[1.0].items():
+        of = _error(name, now, before, read, safety)
         low, high = of.low, of.high
+        if value >= 0.0 and not name.endswith(SIGNED):
+            low = max(low, 0.0)
         errors[name] = {"error": of.error, "determined": of.determined, "low": low, "high": high}
     return {"errors": errors, "errors_from": parted.horizon, "amplification": parted.rate}
 
@@ -102,6 +133,7 @@ def _error(
     name: str,
     now: Mapping[float, Mapping[str, float]],
     before: Mapping[float, Mapping[str, float]],
+    read: Mapping[str, float],
     safety: float,
 ) -> FigureError:
     """Return the error of a figure.
@@ -110,6 +142,7 @@ def _error(
         name: of the figure.
         now: ratio -> the figures of the run or of a companion.
         before: the same, of the motion until the horizon.
+        read: the figures of the run with its loads averaged with their neighbours.
         safety: of errors that go with the tolerance or the step.
     """
     values = {ratio: found[name] for ratio, found in now.items() if name in found}
@@ -119,15 +152,20 @@ def _error(
         abs(before[r].get(name, np.inf) - value) <= SAME * abs(value) for r, value in values.items()
     )
     if same:
-        return converging(list(values.values()), list(values), _least(name, values[1.0]), safety)
+        least = _least(name, list(values.values())) + OF_READING * abs(values[1.0] - read[name])
+        return converging(list(values.values()), list(values), least, safety)
     return scattered(list(values.values()))
 
 
-def _least(name: str, value: float) -> float:
-    """Return the least error of a figure, in its unit."""
+def _least(name: str, values: Sequence[float]) -> float:
+    """Return the least error of a figure, in its unit, from its values in all runs."""
+    size = abs(values[0])
     if ".share_" in name:
         return OF_SHARES
-    return abs(value) * (OF_LOADS if any(word in name for word in LOADS) else ROUNDING)
+    if not any(word in name for word in LOADS):
+        return ROUNDING * size
+    alike = max(values) - min(values) <= OF_LOADS * size
+    return (OF_THE_START if alike else OF_LOADS) * size
 
 
 def _parting(result: Result, companions: Mapping[float, Result]) -> Growth:

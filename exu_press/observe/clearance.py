@@ -46,8 +46,7 @@ def joint_summary(time: Array, joint: JointRecord, *, onset: float | None) -> di
     if onset is not None:
         penetration = -joint.gap
         touching = penetration + onset > TOUCH
-        span = np.diff(time)
-        share = float(span @ (touching[1:] & touching[:-1]) / span.sum()) if len(span) else 0.0
+        share = _share_touching(time, penetration + onset - TOUCH)
         entries |= {
             "peak_penetration": float(max(0.0, penetration.max())),
             "impacts": int(np.count_nonzero(touching[1:] & ~touching[:-1])) + int(touching[0]),
@@ -55,3 +54,15 @@ def joint_summary(time: Array, joint: JointRecord, *, onset: float | None) -> di
             "share_contact": share,
         }
     return entries
+
+
+def _share_touching(time: Array, depth: Array) -> float:
+    """Return the share of time in which a depth (n,), linear between instants, is above zero."""
+    span = np.diff(time)
+    if not len(span):
+        return 0.0
+    one, other = np.maximum(depth[:-1], 0.0), np.maximum(depth[1:], 0.0)
+    apart = np.maximum(-depth[:-1], 0.0) + np.maximum(-depth[1:], 0.0)
+    above = one + other
+    part = np.divide(above, above + apart, out=np.zeros_like(span), where=above > 0.0)
+    return float(span @ part / span.sum())

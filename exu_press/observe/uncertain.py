@@ -7,7 +7,7 @@ from typing import Any
 __all__ = ["uncertain"]
 
 MOST = 7
-"""Digits of a figure, however small its error is."""
+"""Digits to which a figure is exact: with a smaller error it is shown without."""
 
 
 def uncertain(
@@ -26,6 +26,8 @@ def uncertain(
     '1010 +- 170'
     >>> uncertain(1014.2, {**told, "determined": False, "low": 860.1, "high": 1084.6})
     '860 to 1080, not determined'
+    >>> uncertain(5, {**told, "error": 0.0})
+    '5 exact'
     """
     if value is None:
         return "-"
@@ -36,7 +38,7 @@ def uncertain(
         return f"{_rounded(low, high)} to {_rounded(high, high)}, not determined"
     spread, shown = error["error"] * scale, value * scale
     if spread <= abs(shown) * 10.0**-MOST:
-        return f"{shown:.{digits if isinstance(value, float) else MOST}g}"
+        return f"{shown:.{digits if isinstance(value, float) else MOST}g} exact"
     places = 1 - math.floor(math.log10(spread))
     return f"{_places(shown, places)} +- {_places(spread, places)}"
 

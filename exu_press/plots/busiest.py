@@ -5,6 +5,7 @@ from collections.abc import Collection, Iterable, Mapping
 import numpy as np
 from matplotlib.axes import Axes
 
+from exu_press.plots.peaks import with_error
 from exu_press.plots.sides import joint_titles
 from exu_press.plots.style import GREY
 from exu_press.result import Result
@@ -43,8 +44,8 @@ def rest_lines(result: Result, rest: Mapping[str, str]) -> list[str]:
                 title,
                 joint.kind,
                 f"{joint.clearance * 1e6:.4g}" if loose else "-",
-                f"{joint.distance.max() / joint.clearance:.3f}" if loose else "-",
-                f"{_peak(result, name) * 1e-3:.4g}",
+                _eccentricity(result, name) if loose else "-",
+                with_error(result, f"joints.{name}.peak_force", _peak(result, name), 1e-3),
             )
         )
     widths = [max(len(line[column]) for line in cells) for column in range(len(cells[0]))]
@@ -67,6 +68,13 @@ def draw_rest(axes: Axes, result: Result, rest: Mapping[str, str], size: float =
         color=GREY,
         family="monospace",
     )
+
+
+def _eccentricity(result: Result, name: str) -> str:
+    """Return the largest eccentricity over the clearance of a joint, in words."""
+    joint = result.joints[name]
+    ratio = float(joint.distance.max()) / joint.clearance
+    return with_error(result, f"joints.{name}.max_eccentricity_ratio", ratio, 1.0, 3)
 
 
 def _peak(result: Result, name: str) -> float:

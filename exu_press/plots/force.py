@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from exu_press.mechanism import GROUND
 from exu_press.plots.busiest import busiest
 from exu_press.plots.canvas import angle_range, crank_degrees, curve, new_figure
+from exu_press.plots.peaks import mark_peak
 from exu_press.plots.scales import crank_angle_axis, impact_scale, note
 from exu_press.plots.style import colour_of, styled
 from exu_press.plots.words import plain
@@ -43,16 +44,18 @@ def force_figure(results: Mapping[str, Result]) -> Figure:
     grid = figure.subplots(rows, 2, sharex=True, squeeze=False)
     panels = list(grid.flat)[: len(shown)]
     for axes, (title, (channel, unit, scale)) in zip(panels, shown.items(), strict=True):
-        curves = []
+        curves, peaks = [], []
         for index, (label, result) in enumerate(results.items()):
             if channel in result:
-                values = scale * _magnitude(result[channel])
-                curve(
-                    axes, result, values, color=colour_of(index), linewidth=0.9, label=plain(label)
-                )
+                magnitude, colour = _magnitude(result[channel]), colour_of(index)
+                values = scale * magnitude
+                curve(axes, result, values, color=colour, linewidth=0.9, label=plain(label))
                 curves.append((crank_degrees(result), values))
+                figure_name = _figure_of(result, channel)
+                peaks.append(mark_peak(axes, result, figure_name, magnitude, scale, colour))
         signed = any(values.min() < -1e-3 * values.max() for _, values in curves)
-        note(axes, impact_scale(axes, curves, signed=signed))
+        words = impact_scale(axes, curves, signed=signed)
+        note(axes, *(peaks if len(results) == 1 else ()), words)
         axes.set_title(title)
         axes.set_ylabel(unit)
     for axes in list(grid.flat)[len(shown) :]:
@@ -90,6 +93,15 @@ def _joints(results: Sequence[Result]) -> list[str]:
             order["guide"] = 3
     there = [name for name in order if any(f"{name}_force" in result for result in results)]
     return sorted(there, key=lambda name: (order[name], name))
+
+
+def _figure_of(result: Result, channel: str) -> str:
+    """Return the dotted name of the figure that is a channel's peak."""
+    if channel == "drive_torque":
+        return "drive.peak_torque"
+    if channel == "guide_force":
+        return f"guides.{mechanism_of(result.scene).slider}.peak_force"
+    return f"joints.{channel.removesuffix('_force')}.peak_force"
 
 
 def _magnitude(values: Array) -> Array:

@@ -1,7 +1,7 @@
 """What press builders look at: shaking force, drive, guides, bottom dead centres, tilt."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from exu_press.observe import DeadCentre, bottom_dead_centres, ideal_bottom_angle
 from exu_press.piecewise import evaluate, hermite, integral
 from exu_press.plots.canvas import angle_range, crank_degrees, curve, legend_above, new_figure
+from exu_press.plots.peaks import mark_peak, with_error
 from exu_press.plots.scales import crank_angle_axis, note, widen
 from exu_press.plots.slider import averaged
 from exu_press.plots.style import GREY, IDEAL, colour_of, styled
@@ -74,6 +75,11 @@ def _shaking(axes: Axes, result: Result) -> None:
             "vertical, without counterweight": _without_counterweight(result),
             "horizontal": result["shaking_force"][:, 0],
         },
+        (
+            "shaking.vertical_mean_1ms",
+            "shaking.without_counterweight.vertical_mean_1ms",
+            "shaking.horizontal_mean_1ms",
+        ),
     )
     axes.set_title("Shaking force")
     axes.set_ylabel("mean over 1 ms, kN")
@@ -86,11 +92,12 @@ def _without_counterweight(result: Result) -> Array | None:
 
 def _drive(axes: Axes, result: Result) -> None:
     """Draw the drive's power."""
-    _draw(axes, result, {"": result["drive_power"]})
+    _draw(axes, result, {"": result["drive_power"]}, ())
     axes.set_title("Power of the drive")
     axes.set_ylabel("mean over 1 ms, kW")
     worst = float(np.abs(result["drive_torque"]).max())
-    note(axes, f"torque, as resolved: at most {worst / 1e3:.4g} kN m")
+    told = with_error(result, "drive.peak_torque", worst, 1e-3)
+    note(axes, f"torque, as resolved: at most {told} kN m")
 
 
 def _guides(axes: Axes, result: Result) -> None:
@@ -104,17 +111,21 @@ def _guides(axes: Axes, result: Result) -> None:
     curves = {label: result[name] for label, name in names.items() if name in result}
     if not curves:
         axes.text(0.5, 0.5, "no guide", transform=axes.transAxes, ha="center", color=GREY)
-    _draw(axes, result, curves)
+    _draw(axes, result, curves, ())
     axes.set_title("Guides")
     axes.set_ylabel("force, mean over 1 ms, kN")
 
 
-def _draw(axes: Axes, result: Result, curves: Mapping[str, Array | None]) -> None:
-    """Draw means over 1 ms in thousands."""
+def _draw(
+    axes: Axes, result: Result, curves: Mapping[str, Array | None], figures: Sequence[str]
+) -> None:
+    """Draw means over 1 ms in thousands, and the errors of their peaks where those are figures."""
     for index, (label, values) in enumerate(curves.items()):
         if values is not None:
             mean = 1e-3 * averaged(result.time, integral(result.time, values))
             curve(axes, result, mean, color=colour_of(index), linewidth=1.1, label=label)
+            if figures:
+                mark_peak(axes, result, figures[index], 1e3 * mean, 1e-3, colour_of(index))
     if len(curves) > 1:
         rows = 1 if len(curves) < 5 else 2  # beside the panel's title
         legend_above(axes, columns=math.ceil(len(curves) / rows))
@@ -154,15 +165,18 @@ def _strokes(axes: Axes, result: Result, centres: list[DeadCentre]) -> None:
     axes.set_ylabel("slider above its lowest, µm")
     axes.margins(y=0.3)
     axes.legend(loc="upper center", ncols=3)
-    note(axes, f"lowest at {1e3 * mean:.6g} mm{_scatter(centres)}")
+    told = with_error(result, "strokes.mean", mean, 1e3, 6)
+    note(axes, f"lowest at {told} mm{_scatter(result, centres)}")
 
 
-def _scatter(centres: list[DeadCentre]) -> str:
+def _scatter(result: Result, centres: list[DeadCentre]) -> str:
     """Return in words how far the strokes' lowest positions differ."""
     if len(centres) < 2:
         return ""
-    spread = 1e9 * float(np.ptp([centre.position for centre in centres]))
-    return f", strokes differ by {spread:.2g} nm" if spread >= 0.01 else ", all strokes alike"
+    spread = float(np.ptp([centre.position for centre in centres]))
+    if spread < 1e-11:
+        return ", all strokes alike"
+    return f", strokes differ by {with_error(result, 'strokes.range', spread, 1e9, 2)} nm"
 
 
 def _at_dead_centres(

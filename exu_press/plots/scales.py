@@ -82,7 +82,7 @@ def impact_scale(axes: Axes, curves: Iterable[tuple[Array, Array]], *, signed: b
     axes.yaxis.set_minor_locator(NullLocator())
     axes.yaxis.set_major_formatter(FuncFormatter(_number_text))
     axes.axhspan(-linear if signed else 0.0, linear, color=SHADE, linewidth=0, zorder=0.5)
-    return f"linear to {linear:g} (shaded), then logarithmic"
+    return f"logarithmic beyond {linear:g}"
 
 
 def widen(axes: Axes, least: float) -> None:
@@ -91,9 +91,11 @@ def widen(axes: Axes, least: float) -> None:
     axes.set_ylim(min(low, -least), max(high, least))
 
 
-def note(axes: Axes, text: str) -> None:
-    """Say over a panel's right end what to know about its scale."""
-    axes.set_title(text, loc="right", fontsize=8.5, fontweight="normal", color=GREY)
+def note(axes: Axes, *texts: str) -> None:
+    """Say over a panel's right end what to know about its scale; empty texts are left out."""
+    axes.set_title(
+        "; ".join(filter(None, texts)), loc="right", fontsize=8.5, fontweight="normal", color=GREY
+    )
 
 
 def _log_ticks(above: float, top: float, *, signed: bool) -> Array:

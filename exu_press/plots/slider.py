@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from exu_press.plots.canvas import angle_range, crank_degrees, curve, new_figure
 from exu_press.plots.decimate import decimate
+from exu_press.plots.peaks import mark_peaks
 from exu_press.plots.scales import crank_angle_axis, impact_scale, note, widen
 from exu_press.plots.style import IDEAL, colour_of, styled
 from exu_press.plots.words import plain
@@ -35,7 +36,7 @@ TITLES = (
     ("Velocity", "velocity, m/s"),
     ("Velocity, deviation from ideal", "deviation, mm/s"),
     ("Acceleration, mean over 1 ms", "acceleration, m/s²"),
-    ("Acceleration, as resolved", "acceleration, m/s²"),
+    ("Acceleration, resolved", "acceleration, m/s²"),
 )
 
 
@@ -61,7 +62,9 @@ def slider_figure(results: Mapping[str, Result]) -> Figure:
         widen(axes, 1.0)
     _scale_averaged(panels[2, 0], results, ideals)
     resolved = [(crank_degrees(r), r["slider_acceleration"]) for r in results.values()]
-    note(panels[2, 1], impact_scale(panels[2, 1], resolved, signed=True))
+    scale = impact_scale(panels[2, 1], resolved, signed=True)
+    peaks = {label: (r, r["slider_acceleration"]) for label, r in results.items()}
+    note(panels[2, 1], mark_peaks(panels[2, 1], peaks, "peak_acceleration.resolved"), scale)
     crank_angle_axis(panels.flat, *angle_range(results))
     handles, labels = panels[0, 0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=min(len(labels), 6))
@@ -122,12 +125,16 @@ def _scale_averaged(
     axes: Axes, results: Mapping[str, Result], ideals: Mapping[str, Motion]
 ) -> None:
     """Keep the ideal readable: cut peaks off at a multiple of its own, and say so."""
+    means = {
+        label: (result, averaged(result.time, result["slider_velocity"]))
+        for label, result in results.items()
+    }
+    told = mark_peaks(axes, means, "peak_acceleration.mean_1ms")
     ordinary = max(float(np.abs(ideal[2]).max()) for ideal in ideals.values())
-    peak = max(
-        float(np.abs(averaged(result.time, result["slider_velocity"])).max())
-        for result in results.values()
-    )
+    peak = max(float(np.abs(values).max()) for _, values in means.values())
     limit = MOST_OF_IDEAL * ordinary
     if peak > limit:
         axes.set_ylim(-limit, limit)
-        note(axes, f"clipped: peaks reach {peak:.0f} m/s²")
+        note(axes, told or f"peaks reach {peak:.0f} m/s²", "clipped")
+    else:
+        note(axes, told)

@@ -35,6 +35,7 @@ def draw_curves(
         one_each = table.study.way != "sample" and len(set(x[ordered])) == len(ordered)
         style = "o-" if one_each else "o"
         panel.plot(x[ordered], y[ordered], style, color=colour, markersize=4.5, label=label)
+        _draw_errors(panel, table, quantity, ordered, x, y, colour)
     missing = np.isnan(y)
     if missing.any():
         edge = panel.get_xaxis_transform()
@@ -45,6 +46,21 @@ def draw_curves(
     panel.margins(0.04, 0.08)
     panel.set_xlabel(_labelled(axis, across))
     panel.set_title(_headed(quantity, up))
+
+
+def _draw_errors(
+    panel: Axes, table: Table, quantity: str, runs: Sequence[int], x: Array, y: Array, colour: Any
+) -> None:
+    """Draw the error bars of those runs that know their errors."""
+    told = {run: error for run in runs if (error := table.error(quantity, run)) is not None}
+    if not told:
+        return
+    known = list(told)
+    ends = np.array([[told[run]["low"], told[run]["high"]] for run in known], dtype=float)
+    largest = np.nanmax(np.abs(table.numbers(quantity)))
+    scale = np.nanmax(np.abs(y)) / largest if largest else 1.0
+    lengths = np.abs(scale * ends - y[known][:, None]).T
+    panel.errorbar(x[known], y[known], lengths, fmt="none", ecolor=colour, capsize=2.5)
 
 
 def draw_map(figure: Figure, panel: Axes, table: Table, axes: Sequence[str], quantity: str) -> None:

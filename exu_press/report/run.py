@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from exu_press.observe.table import comparison_cells
+from exu_press.observe.uncertain import uncertain
 from exu_press.plots import save_pictures
 from exu_press.plots.words import describe
 from exu_press.report.html import details, items, page, paragraph, picture, table
@@ -118,10 +119,14 @@ def _energy(summary: Mapping[str, Any]) -> str:
     energy = summary["energy"]
     if energy["input"] is None:
         return ""
+    errors = summary.get("errors", {})
     rows = [
-        ["put in by drive and load", f"{energy['input']:.6g} J"],
-        ["stored (change)", f"{energy['stored']:.6g} J"],
-        ["dissipated", f"{energy['dissipated']:.6g} J"],
+        [words, f"{uncertain(energy[name], errors.get(f'energy.{name}'), digits=6)} J"]
+        for name, words in (
+            ("input", "put in by drive and load"),
+            ("stored", "stored (change)"),
+            ("dissipated", "dissipated"),
+        )
     ]
     if energy["residual"] is not None:
         words = "largest residual, of the largest of these over the run"

@@ -32,7 +32,7 @@ def sweep_report(file: Path) -> str:
     names = (*runs.study.keys, *ended, *shown(runs))  # how it ended is seen at once
     head = ("run", *(f"{name}, {unit_of(name)}" if unit_of(name) else name for name in names))
     count = min(len(runs), MOST_ROWS)
-    rows = [[str(run), *(_cell(runs[name][run]) for name in names)] for run in range(count)]
+    rows = [[str(run), *(runs.in_words(name, run) for name in names)] for run in range(count)]
     more = "" if count == len(runs) else paragraph(f"{len(runs) - count} more in {file.name}.")
     with tempfile.TemporaryDirectory() as folder:
         pictures = [
@@ -85,9 +85,3 @@ def _value(text: str) -> str | float | bool | None:
     except ValueError:
         return text or None
     return number if abs(number) < LARGEST else text
-
-
-def _cell(value: str | float | bool | None) -> str:
-    if value is None:
-        return ""
-    return f"{value:.6g}" if isinstance(value, float) else str(value)

@@ -28,8 +28,3 @@ def test_nine_in_ten_further_runs_lie_within_the_bounds():
         assert not found.determined or found.error <= 0.05 * runs[0]
         inside += found.low <= further <= found.high
     assert 0.88 < inside / 2000 < 0.93
-
-
-def test_magnitudes_are_not_below_zero():
-    assert scattered([1.0, 10.0, 0.1]).low == 0.0
-    assert scattered([-1.0, 10.0, 0.1]).low < 0.0

@@ -59,6 +59,15 @@ def test_motions_that_part_leave_bounds():
     assert not told["errors"]["joints.crank_pin.peak_force"]["determined"]
 
 
+def test_magnitudes_are_not_below_zero_and_energies_may_be():
+    """The bounds of two runs that have nothing in common are wide."""
+    scene = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=0.1)
+    other = simulate(scene.replace("joints.crank_pin.clearance", 4e-4))
+    errors = errors_of(simulate(scene), {4.0: other})["errors"]
+    assert errors["joints.crank_pin.peak_force"]["low"] == 0.0
+    assert errors["energy.stored"]["low"] < 0.0
+
+
 @pytest.mark.parametrize(
     ("solver", "ratios"),
     [

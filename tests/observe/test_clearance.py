@@ -38,8 +38,8 @@ def test_two_touches_and_their_share_of_time(dimensions):
     distance[500:901] = CLEARANCE + 5e-6
     entries = observe(distance, dimensions)
     assert entries["impacts"] == 2
-    assert entries["share_contact"] == pytest.approx(0.5, abs=1e-12)
-    assert entries["share_free_flight"] == pytest.approx(0.5, abs=1e-12)
+    assert entries["share_contact"] == pytest.approx(0.5, abs=3e-4)  # jumps take a step
+    assert entries["share_free_flight"] == 1.0 - entries["share_contact"]
     assert entries["peak_penetration"] == pytest.approx(5e-6)
     assert entries["max_eccentricity_ratio"] == pytest.approx(1.05)
     assert entries["min_film"] is None
@@ -66,11 +66,20 @@ def test_touching_begins_at_1e_10():
     assert observe(np.full(1001, CLEARANCE + 2e-10))["impacts"] == 1
 
 
+def test_a_touch_begins_and_ends_within_steps():
+    """Each of 37 coarse steps is ten percent of a swing, whose half is in contact."""
+    time = np.linspace(0.0, 1.0, 38)
+    distance = CLEARANCE + 1e-6 * np.sin(2.0 * np.pi * 3.7 * time - 0.35)
+    fine = np.linspace(0.0, 1.0, 100_001)
+    true = np.mean(np.sin(2.0 * np.pi * 3.7 * fine - 0.35) > 0.0)
+    assert observe(distance, time=time)["share_contact"] == pytest.approx(true, abs=2e-3)
+
+
 def test_shares_are_shares_of_time_not_of_steps():
     time = np.concatenate([np.linspace(0.0, 0.9, 10), np.linspace(0.91, 1.0, 1000)])
     distance = np.where(time > 0.905, CLEARANCE + 1e-6, 0.0)
     entries = observe(distance, time=time)
-    assert entries["share_contact"] == pytest.approx(0.09, abs=1e-9)
+    assert entries["share_contact"] == pytest.approx(0.09, abs=1e-4)
 
 
 def test_film_has_a_thickness_and_no_impacts():
@@ -94,7 +103,7 @@ def test_mixed_film_touches_from_the_asperities_on():
     assert observe(distance, kind="lubricated")["impacts"] == 0
     entries = observe(distance, kind="lubricated", onset=0.05 * CLEARANCE)
     assert entries["impacts"] == 1
-    assert entries["share_contact"] == pytest.approx(0.1, abs=1e-12)
+    assert entries["share_contact"] == pytest.approx(0.1, abs=1e-4)
     assert entries["min_film"] == pytest.approx(0.03 * CLEARANCE)
 
 

@@ -48,7 +48,7 @@ def test_an_axis_with_impacts_says_where_it_is_linear(signed):
     axes, angle = Figure().subplots(), np.linspace(0, 720, 10_001)
     values = 8.0 * np.abs(np.sin(np.radians(angle)))
     values[5000] = 900.0
-    assert "linear to 10 " in impact_scale(axes, [(angle, values)], signed=signed)
+    assert impact_scale(axes, [(angle, values)], signed=signed) == "logarithmic beyond 10"
     low, high = axes.get_ylim()
     assert low == (-high if signed else 0.0)
     assert high > 900.0

@@ -13,7 +13,7 @@ SPEEDS = [200.0, 300.0, 400.0]
 CLEARANCES = [5e-5 + 1e-5 * n for n in range(8)]
 
 
-def table(missing=(), **way):
+def table(missing=(), errors=None, **way):
     """A table with made-up numbers: force = speed, film = clearance / 2."""
     study = Study(scene=Scene(joints={"crank_pin": "lubricated", "balls": "ideal"}), **way)
     rows = [
@@ -29,6 +29,7 @@ def table(missing=(), **way):
                 }
             },
         }
+        | ({"errors": errors} if errors else {})
         for run, scene in enumerate(study.scenes)
     ]
     return table_of(study, rows, [])
@@ -53,6 +54,19 @@ def test_a_grid_of_few_is_curves():
         np.testing.assert_allclose(line.get_xdata(), np.array(CLEARANCES) * 1e6)
         np.testing.assert_allclose(line.get_ydata(), speed)
     assert force.get_legend() is not None and film.get_legend() is None
+
+
+def test_numbers_have_their_errors():
+    """A force of 200 to 400 kN between 150 and 450."""
+    told = {"error": 250e3, "determined": True, "low": 150e3, "high": 450e3}
+    errors = {"joints.crank_pin.peak_force": told}
+    some = table(errors=errors, grid={"speed_rpm": SPEEDS})
+    force, film = panels(sweep_figure(some, ["speed_rpm"], SHOWN))
+    assert not film.containers
+    ends = [bar.vertices[:, 1] for bar in force.containers[0].lines[2][0].get_paths()]
+    assert np.allclose(ends, [150.0, 450.0])
+    assert some.in_words("joints.crank_pin.peak_force", 0) == "200000 +- 250000"
+    assert some.in_words("joints.crank_pin.min_film", 0) == "5e-05"
 
 
 def test_a_grid_of_many_is_a_map():

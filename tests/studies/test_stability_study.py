@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from exu_press import InputError, Scene, simulate
+from exu_press.confidence import with_errors
 from exu_press.studies.stability import Report, extremes, stability
 from exu_press.studies.stability import judge as judging
 from exu_press.studies.stability.case import PAIRS
@@ -103,17 +104,36 @@ def test_each_check_can_fail(run):
 @pytest.mark.parametrize(
     ("channel", "factor", "named"),
     [
-        ("slider_acceleration", 1.2, "peak acceleration, resolved"),
-        ("slider_velocity", 1.05, "peak velocity"),
-        ("crank_pin_force", 1.2, "crank_pin"),
-        ("energy_dissipated", 1.2, "energy dissipated"),
+        ("slider_acceleration", 1.2, "peak_acceleration.resolved"),
+        ("slider_velocity", 1.05, "peak_acceleration.mean_1ms"),
+        ("crank_pin_force", 1.2, "joints.crank_pin.peak_force"),
+        ("energy_dissipated", 1.2, "energy.dissipated"),
     ],
 )
-def test_agreement_sees_a_difference_in_every_quantity(run, channel, factor, named):
-    assert agreement(run, run).value == 0.0
-    check = agreement(changed(run, **{channel: factor * run[channel]}), run)
+def test_agreement_sees_a_difference_that_is_not_stated(run, channel, factor, named):
+    told = with_errors(run, beside=False)
+    assert agreement(told, run).value == 0.0
+    check = agreement(changed(told, **{channel: factor * run[channel]}), run)
     assert not check.passed
     assert check.note.startswith(named)
+
+
+def test_a_difference_that_is_stated_is_right(run):
+    """Of a figure that is not determined bounds hold nine in ten runs: twice as far is allowed."""
+    told = with_errors(run, beside=False)
+    value = told.summary()["stroke"]
+    off = changed(run, slider_position=1.1 * run["slider_position"])
+    for half, determined, right in (
+        (0.2 * value, True, True),
+        (0.08 * value, True, False),
+        (0.08 * value, False, True),
+        (0.03 * value, False, False),
+    ):
+        entry = {
+            "error": half, "determined": determined, "low": value - half, "high": value + half
+        }  # fmt: skip
+        said = dataclasses.replace(told, info={**told.info, "errors": {"stroke": entry}})
+        assert agreement(said, off).passed is right
 
 
 def test_every_number_that_a_scene_uses_is_pushed_both_ways():

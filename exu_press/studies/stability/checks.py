@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from exu_press.confidence.figures import figures
+from exu_press.confidence.reading import smoothed
 from exu_press.integrate import Tuning
 from exu_press.laws.film.contract import film_scale
 from exu_press.mechanism import GROUND
@@ -37,8 +39,13 @@ ENERGY_LIMIT = 1e-3
 """Of what joints may seem to create or to store beyond what was there, relative to the same: what
 the energy balance itself leaves open."""
 
-STEP_ERROR = 0.03
-"""What a fixed step that resolves its impacts leaves of error, as measured at 2e-5 s."""
+LITTLE = 0.01
+"""Over a figure (of an eccentricity over the clearance): differences that are no matter."""
+
+NOTHING = 1e-12
+"""The same in the figure's unit: what rounding leaves of tilts and means that are zero."""
+
+AGREEMENT = "difference from a finer run, of what is stated"
 
 
 @dataclass(frozen=True)
@@ -101,55 +108,42 @@ def checks_of(result: Result) -> list[Check]:
 
 
 def agreement(result: Result, finer: Result) -> Check:
-    """Return how far a run is from a more accurate one: 1 is as far as it may be.
+    """Return how far a run is from a more accurate one, of what it states: 1 is as far as it may.
 
-    Compared is what stays when the instants of impacts shift a little, each with a tolerance of its
-    own: extremes of the motion, peaks over the first impacts, root mean squares, means, energy;
-    forces of a film no closer than rounded speeds allow. A run may be off by four times the
-    tolerance it was given on top, which is how far journals drift in films of 0.1 um, or by the
-    error of a fixed step.
+    Every figure is held against its own stated error, and against LITTLE where that is less. Of a
+    figure that the scene does not determine nine in ten runs lie between its bounds: it may be
+    twice as far from the run's own as they are.
+
+    Args:
+        result: with its errors.
+        finer: the same scene at a smaller tolerance.
     """
-    solver = result.scene.solver
-    assert solver is not None
-    asked = STEP_ERROR if solver.tolerance is None else 4.0 * solver.tolerance
+    here, there = figures(result.summary()), figures(finer.summary())
+    read = figures(smoothed(finer).summary())
     worst, which = 0.0, ""
-    there = {name: value for name, value, _ in _quantities(finer, asked)}
-    for name, value, tolerance in _quantities(result, asked):
-        difference = abs(value - there.get(name, math.nan)) / tolerance(there[name])
-        if not difference <= worst:
-            worst, which = difference, f"{name}: {value:.5g} for {there[name]:.5g}"
-    return _check("difference from a finer run, of what is allowed", worst, 1.0, which)
+    for name, told in result.info["errors"].items():
+        if name not in there:
+            return _check(AGREEMENT, math.inf, 1.0, f"{name}: none in the finer run")
+        value, true = here[name], there[name]
+        stated = told["error"]
+        if not told["determined"]:
+            stated = 2.0 * (told["high"] - value if true > value else value - told["low"])
+        allowed = max(stated + abs(read[name] - true), _little(result.scene, name, true))
+        share = abs(value - true) / allowed if value != true else 0.0
+        if not share <= worst:
+            worst, which = share, f"{name}: {value:.5g} +- {told['error']:.2g} for {true:.5g}"
+    return _check(AGREEMENT, worst, 1.0, which)
 
 
-def _quantities(result: Result, asked: float) -> Iterator[tuple[str, float, Any]]:
-    """Yield name, value and allowed difference (a function of the finer value)."""
-    summary = result.summary()
-    clearance = _largest_clearance(result.scene)
-    length = (0.1 + asked) * clearance + 1e-4 * summary["stroke"]
-
-    def relative(share: float, least: float = 1e-12) -> Any:
-        return lambda finer: (share + asked) * abs(finer) + least
-
-    yield "stroke", summary["stroke"], lambda _: length
-    yield "bottom dead centre", summary["bottom_dead_centre"], lambda _: length
-    yield "peak velocity", summary["peak_velocity"], relative(0.01)
-    for name, share in (("mean_1ms", 0.05), ("resolved", 0.1)):
-        value = summary["peak_acceleration"][name]
-        if value is not None:
-            yield f"peak acceleration, {name}", value, relative(share)
-    for name in result.clearance_joints:
-        distance = np.linalg.norm(result[f"{name}_eccentricity"], axis=1)
-        force = np.linalg.norm(result[f"{name}_force"], axis=1)
-        least = max(1e-12, _rounding(result.scene, name))
-        yield f"{name} peak force", float(force.max()), relative(0.1, least)
-        yield f"{name} rms force", math.sqrt(_mean(result.time, force**2)), relative(0.05, least)
-        yield (
-            f"{name} mean eccentricity",
-            _mean(result.time, distance),
-            lambda _: (0.02 + asked) * clearance,
-        )
-    work = max(float(np.abs(result[f"energy_{kind}"]).max()) for kind in ("input", "stored"))
-    yield "energy dissipated", summary["energy"]["dissipated"], relative(0.05, 1e-3 * work)
+def _little(scene: Scene, name: str, true: float) -> float:
+    """Return by how much a figure may be off whatever it states, in its unit."""
+    joint = name.split(".")[1] if name.startswith("joints.") else ""
+    if name.endswith("eccentricity_ratio"):
+        return LITTLE
+    least = NOTHING
+    if name.endswith("peak_force") and joint in scene.joints.with_clearance:
+        least = _rounding(scene, joint)
+    return max(LITTLE * abs(true), least)
 
 
 def _drifts(result: Result) -> Iterator[tuple[float, str]]:
@@ -210,10 +204,6 @@ def _energy_there(result: Result) -> Array:
     return np.asarray(kinetic + result["energy_input"] - (height - height[0]))
 
 
-def _largest_clearance(scene: Scene) -> float:
-    return max((joint.clearance for joint in scene.joints.values()), default=0.0)
-
-
 def _rounding(scene: Scene, name: str) -> float:
     """Return what the last digits of a speed make of a film's force, N; 0 without a film.
 
@@ -225,11 +215,6 @@ def _rounding(scene: Scene, name: str) -> float:
     film, c = joint.film, joint.clearance
     damping = 12.0 * math.pi * film_scale(film.viscosity, film.length, joint.radius, c) / c
     return Tuning().digits * scene.pin_speed * damping
-
-
-def _mean(time: Array, values: Array) -> float:
-    """Return the mean over time."""
-    return float(np.trapezoid(values, time) / (time[-1] - time[0]))
 
 
 def _ratio(value: float, scale: float) -> float:

@@ -3,6 +3,7 @@
 import time
 from typing import Any
 
+from exu_press.confidence import with_errors
 from exu_press.integrate import Status
 from exu_press.scene import Scene
 from exu_press.simulation import simulate
@@ -53,7 +54,7 @@ def judge(case: dict[str, Any]) -> dict[str, Any]:
         if reference.info["reason"]:
             row["reason"] = f"the finer run: {reference.info['reason']}"
         else:
-            checks.append(agreement(result, reference))
+            checks.append(agreement(with_errors(result, beside=False), reference))
     failed = [check for check in checks if not check.passed]
     right = not failed and not row["reason"]
     if failed:

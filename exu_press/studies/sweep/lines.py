@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Sequence
 
 from exu_press.studies.sweep.shown import shown
-from exu_press.studies.sweep.table import Table, Value
+from exu_press.studies.sweep.table import Table
 from exu_press.studies.sweep.units import unit_of
 
 __all__ = ["table_lines"]
@@ -17,7 +17,7 @@ def table_lines(table: Table, wanted: Sequence[str] = ()) -> list[str]:
     names = (*table.study.keys, *shown(table, wanted), "status")
     runs = range(min(len(table), MOST_LINES))
     cells = [[_head(name) for name in names]]
-    cells += [[_cell(table[name][run]) for name in names] for run in runs]
+    cells += [[table.in_words(name, run, "-") for name in names] for run in runs]
     widths = [max(len(line[i]) for line in cells) for i in range(len(names))]
     lines = [
         "  ".join(c.ljust(w) for c, w in zip(line, widths, strict=True)).rstrip() for line in cells
@@ -38,9 +38,3 @@ def table_lines(table: Table, wanted: Sequence[str] = ()) -> list[str]:
 def _head(name: str) -> str:
     unit = unit_of(name)
     return f"{name}, {unit}" if unit and not name.endswith(f"_{unit}") else name
-
-
-def _cell(value: Value) -> str:
-    if value is None:
-        return "-"
-    return f"{value:.6g}" if isinstance(value, float) else str(value)

@@ -80,8 +80,9 @@ def run_scene(arguments: dict[str, Any]) -> dict[str, Any]:
     from exu_press.confidence import simulate_with_errors
     from exu_press.simulation import simulate
 
-    run = simulate_with_errors if arguments.get("errors") else simulate
-    result = run(Scene.from_dict(arguments["scene"]))
+    scene = Scene.from_dict(arguments["scene"])
+    wanted = arguments.get("errors")
+    result = simulate_with_errors(scene, beside=False) if wanted else simulate(scene)
     if "save" in arguments:
         result.save(arguments["save"])
     summary = result.summary()

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.errors import InputError
+from exu_press.observe.uncertain import uncertain
 from exu_press.output import replacing
 from exu_press.stored import shown
 from exu_press.studies.sweep.points import flat
@@ -57,6 +58,22 @@ class Table:
         """Return whether a column has numbers alone, at least one."""
         values = [value for value in self.columns[name] if value is not None]
         return bool(values) and not any(isinstance(value, (str, bool)) for value in values)
+
+    def error(self, name: str, run: int) -> dict[str, Any] | None:
+        """Return what is known of a number's error, as in a summary; None without."""
+        parts = ("error", "determined", "low", "high")
+        columns = [self.columns.get(f"errors.{name}.{part}") for part in parts]
+        found = {p: c[run] for p, c in zip(parts, columns, strict=True) if c is not None}
+        return found if None not in found.values() and len(found) == len(parts) else None
+
+    def in_words(self, name: str, run: int, none: str = "") -> str:
+        """Return what a run has in a column, a number with its error where that is known."""
+        value, error = self.columns[name][run], self.error(name, run)
+        if value is None:
+            return none
+        if isinstance(value, float):
+            return uncertain(value, error, digits=6)
+        return str(value)
 
     def save_csv(self, path: Path) -> None:
         """Write the table; numbers with all their digits, nothing where a run has none."""

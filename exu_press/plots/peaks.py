@@ -1,0 +1,83 @@
+"""Peaks with what is known of their errors."""
+
+from collections.abc import Mapping
+
+import numpy as np
+from matplotlib.axes import Axes
+from numpy.typing import NDArray
+
+from exu_press.observe.uncertain import uncertain
+from exu_press.plots.canvas import crank_degrees
+from exu_press.plots.style import colour_of
+from exu_press.result import Result
+from exu_press.result.info import Error
+
+__all__ = ["error_of", "mark_peak", "mark_peaks", "with_error"]
+
+Array = NDArray[np.float64]
+
+
+def error_of(result: Result, name: str) -> Error | None:
+    """Return what is known of a figure's error, by its dotted name."""
+    errors: Mapping[str, Error] = result.info.get("errors", {})
+    return errors.get(name)
+
+
+def with_error(result: Result, name: str, value: float, scale: float = 1.0, digits: int = 4) -> str:
+    """Return a figure in words, with its error where that is known.
+
+    Args:
+        result: of the run.
+        name: dotted, of the figure.
+        value: of the figure, SI.
+        scale: to the unit that is shown.
+        digits: of a figure without error.
+    """
+    return uncertain(value, error_of(result, name), scale, digits).replace("+-", "±")
+
+
+def mark_peak(
+    axes: Axes, result: Result, name: str, values: Array, scale: float, colour: str
+) -> str:
+    """Draw an error bar at a curve's largest magnitude; return it in words, "" without an error.
+
+    Args:
+        axes: what holds the curve.
+        result: of the run.
+        name: dotted, of the figure.
+        values: (n,), SI.
+        scale: to the axis' unit.
+        colour: of the curve.
+    """
+    error, highest = error_of(result, name), int(np.argmax(np.abs(values)))
+    if error is None:
+        return ""
+    ends = np.array([error["low"], error["high"]]) * np.copysign(scale, values[highest])
+    axes.errorbar(
+        crank_degrees(result)[highest],
+        scale * values[highest],
+        np.abs(ends - scale * values[highest])[:, None],
+        color=colour,
+        capsize=3.0,
+        linewidth=1.4,
+        zorder=4,
+    )
+    return f"peak {with_error(result, name, abs(float(values[highest])), scale)}"
+
+
+def mark_peaks(
+    axes: Axes, curves: Mapping[str, tuple[Result, Array]], name: str, scale: float = 1.0
+) -> str:
+    """Draw error bars at the peaks of runs by label; return that of a single run in words.
+
+    Args:
+        axes: what holds the curves.
+        curves: label -> run and values (n,), SI, in the order of their colours.
+        name: dotted, of the figure.
+        scale: to the axis' unit.
+    """
+    texts = [
+        mark_peak(axes, result, name, values, scale, colour_of(index))
+        for index, (result, values) in enumerate(curves.values())
+    ]
+    return texts[0] if len(texts) == 1 else ""

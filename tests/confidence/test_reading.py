@@ -1,0 +1,55 @@
+"""What reading a record at its steps leaves open."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from exu_press import Scene, simulate
+from exu_press.confidence.reading import smoothed
+from exu_press.confidence.run import OF_READING, errors_of
+
+SCENE = Scene(mechanism="slider_crank", revolutions=0.1)
+
+
+@pytest.fixture(scope="module")
+def run():
+    return simulate(SCENE)
+
+
+def with_force(result, values):
+    channel = result.channels["shaft_force"]
+    return dataclasses.replace(
+        result,
+        channels={**result.channels, "shaft_force": dataclasses.replace(channel, values=values)},
+    )
+
+
+def test_what_alternates_is_taken_away(run):
+    signs = np.where(np.arange(len(run.time)) % 2, 1.0, -1.0)[:, None]
+    alternating = with_force(run, np.full((len(run.time), 2), 500.0) + 40.0 * signs)
+    found = smoothed(alternating)["shaft_force"]
+    assert found[1:-1] == pytest.approx(500.0)
+
+
+def test_of_a_smooth_peak_twice_what_lies_between_steps_is_taken(run):
+    """A parabola is higher between two steps than at them by an eighth of its second difference."""
+    curve = np.stack([1000.0 - 1e8 * (run.time - run.time[200]) ** 2] * 2, axis=1)
+    before, after = np.diff(run.time)[199:201]
+    taken = curve[200] - smoothed(with_force(run, curve))["shaft_force"][200]
+    assert taken == pytest.approx(0.5 * 1e8 * before * after)
+
+
+def test_motion_is_left_alone(run):
+    found = smoothed(run)
+    for name in ("slider_position", "slider_velocity", "crank_pin_eccentricity", "energy_input"):
+        assert found[name] is run[name]
+
+
+def test_an_alternating_peak_is_stated_as_unsure(run):
+    """Where all runs have it, as at a start, no difference of theirs says so."""
+    signs = np.where(np.arange(len(run.time)) % 2, 1.0, -1.0)[:, None]
+    force = np.array([0.0, 500.0]) + signs * np.array([0.0, 40.0])
+    loud = with_force(run, np.broadcast_to(force, (len(run.time), 2)).copy())
+    told = errors_of(loud, {4.0: loud, 8.0: loud})["errors"]["joints.shaft.peak_force"]
+    assert told["error"] >= OF_READING * 39.0

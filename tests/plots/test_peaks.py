@@ -1,0 +1,59 @@
+"""Peaks stand in pictures with their errors."""
+
+import dataclasses
+
+import pytest
+
+from exu_press.plots import force_figure, slider_figure
+from exu_press.plots.busiest import rest_lines
+from exu_press.plots.press import press_figure
+
+
+@pytest.fixture(scope="module")
+def told(results):
+    """A run whose every peak is off by a tenth."""
+    run = results["dry"]
+    summary = run.summary()
+    values = {
+        "peak_acceleration.resolved": summary["peak_acceleration"]["resolved"],
+        "peak_acceleration.mean_1ms": summary["peak_acceleration"]["mean_1ms"],
+        "drive.peak_torque": summary["drive"]["peak_torque"],
+        "joints.crank_pin.peak_force": summary["joints"]["crank_pin"]["peak_force"],
+    }
+    errors = {
+        name: {"error": 0.1 * v, "determined": True, "low": 0.9 * v, "high": 1.1 * v}
+        for name, v in values.items()
+    }
+    return dataclasses.replace(run, info={**run.info, "errors": errors})
+
+
+def notes(figure):
+    return [axes.get_title(loc="right") for axes in figure.axes]
+
+
+def bars(figure):
+    return sum(len(axes.containers) for axes in figure.axes)
+
+
+def test_peaks_have_error_bars_and_say_how_large(told, results):
+    assert bars(slider_figure({"": told})) == 2
+    assert sum("±" in note for note in notes(slider_figure({"": told}))) == 2
+    assert bars(force_figure({"": told})) == 2
+    assert sum("±" in note for note in notes(force_figure({"": told}))) == 2
+    assert any("±" in note for note in notes(press_figure(told)))
+
+
+def test_runs_beside_each_other_have_bars_alone(told, results):
+    figure = slider_figure({"a": told, "b": told})
+    assert bars(figure) == 4
+    assert not any("±" in note for note in notes(figure))
+
+
+def test_without_errors_nothing_is_said(results):
+    assert bars(slider_figure({"": results["dry"]})) == 0
+    assert not any("±" in note for note in notes(force_figure({"": results["dry"]})))
+
+
+def test_joints_that_are_not_drawn_have_errors_too(told):
+    (line,) = rest_lines(told, {"crank_pin": "Crank pin"})[1:]
+    assert "±" in line

@@ -43,6 +43,7 @@ class BodyError:
         tolerance: float,
         scales: FoundScales,
         tuning: Tuning,
+        spectral_radius: float,
     ) -> None:
         """Take the bodies and the scales.
 
@@ -52,10 +53,10 @@ class BodyError:
             tolerance: what a peak may be off by, over itself, if that is at most `loosest_peak`.
             scales: of the motion, which knows the bodies.
             tuning: numbers.
+            spectral_radius: at infinity, of generalized-alpha.
         """
         self._scales, self._share = scales, share
-        self._rounding = tuning.rounding * scales.length
-        self._alternating = tuning.alternating
+        self._noise = tuning.rounding * scales.length / (1.0 - min(spectral_radius, 0.95)) ** 2
         self._constant, self._finer = tuning.velocity_constant, tuning.finer_for_peaks**3
         self._near = tuning.near_peak * tuning.near_peak
         self._of_peak = min(tolerance, tuning.loosest_peak)
@@ -86,28 +87,35 @@ class BodyError:
     def error(self, change: list[float], step: float) -> float:
         """Return the error that goes with a change of the accelerations' rate."""
         sizes = self._squares(change)
-        limit = max(self._share * self._scales.speed, self._rounding / step)
-        largest = 0.0
-        for size in sizes:  # what has no say may be no number, and is passed over
-            largest = max(largest, size)
-        velocity = self._constant * step * step * math.sqrt(largest) / limit
-        # both go with the step's cube
-        return max(velocity, min(self._near_peaks(sizes, step), self._finer * velocity))
+        return max(self._of_velocities(sizes, step), self._of_peaks(sizes, step))
 
     def of_peaks(self, step: float) -> float:
         """Return the error of accelerations near their peaks, in the step last tried.
 
         Where constraints prescribe them too, and whatever makes them alternate.
         """
-        return self._near_peaks(self._squares(self.change), step)
+        return self._of_peaks(self._squares(self.change), step)
 
-    def _near_peaks(self, sizes: list[float], step: float) -> float:
-        """Return the peaks' error, as the step's cube, from squares of changes of the rate."""
+    def _of_velocities(self, sizes: list[float], step: float) -> float:
+        """Return the velocities' error from squares of changes of the accelerations' rate."""
+        limit = max(self._share * self._scales.speed, self._constant * self._noise / step)
+        largest = 0.0
+        for size in sizes:  # what has no say may be no number, and is passed over
+            largest = max(largest, size)
+        return self._constant * step * step * math.sqrt(largest) / limit
+
+    def _of_peaks(self, sizes: list[float], step: float) -> float:
+        """Return the peaks' error, as the step's cube, from squares of changes of the rate.
+
+        It is bounded by the velocities' error: an acceleration that jumps, as where a step that is
+        changed ends the alternation of the longer ones before it, jumps in the shortest step too.
+        """
         relative = 0.0
-        rounding = (self._alternating * self._rounding / (step * step)) ** 2
+        rounding = (self._noise / (step * step)) ** 2
         for i in range(len(sizes)):
             relative = max(relative, sizes[i] / max(self._allowed[i], rounding))
-        return math.pow(0.125 * step * math.sqrt(relative), 1.5)
+        peaks = math.pow(0.125 * step * math.sqrt(relative), 1.5)
+        return min(peaks, self._finer * self._of_velocities(sizes, step))
 
     def of_jump(self) -> float:
         """Return the largest change of an acceleration in the step last tried, m/s^2."""

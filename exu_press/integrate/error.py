@@ -143,6 +143,7 @@ class StepError:
             tolerance=self._tolerance,
             scales=self._scales,
             tuning=self._tuning,
+            spectral_radius=self._solver.alphaF / (1.0 - self._solver.alphaF),
         )
 
     def _filtered(self, change: list[float]) -> list[float]:
@@ -152,5 +153,9 @@ class StepError:
         right = np.zeros(len(jacobian))
         right[: len(change)] = np.asarray(solver.GetSystemMassMatrix()) @ change
         right *= (1.0 - solver.alphaM) / (1.0 - solver.alphaF)
-        filtered: list[float] = np.linalg.solve(jacobian, right)[: len(change)].tolist()
-        return filtered
+        try:
+            filtered = np.linalg.solve(jacobian, right)[: len(change)]
+        except np.linalg.LinAlgError:  # constraints that say the same
+            return change
+        found: list[float] = filtered.tolist()
+        return found

@@ -39,6 +39,9 @@ __all__ = ["StepChange"]
 
 Array = NDArray[np.float64]
 
+GIVE = 1e-10
+"""Of constraints, over what the masses give way."""
+
 CURRENT = exu.ConfigurationType.Current
 START = exu.ConfigurationType.StartOfStep
 
@@ -147,19 +150,19 @@ class StepChange:
         assert self._state is not None
         solver = self._solver
         mass = np.asarray(solver.GetSystemMassMatrix())
-        size = len(mass)
-        constraints = np.asarray(solver.GetSystemJacobian())[size:, :size]
-        count = len(constraints)
+        size, count = len(mass), solver.GetAEsize()
         if count == 0:
             return np.zeros(size), np.zeros(size)
+        constraints = np.asarray(solver.GetSystemJacobian())[-count:, :size]
         # Euler parameters have no mass along themselves, where a constraint holds them: the masses
         # alone cannot be inverted, with the constraints they can
         matrix = np.zeros((size + count, size + count))
         matrix[:size, :size] = mass
         matrix[size:, :size] = constraints
         matrix[:size, size:] = constraints.T
-        idle = size + np.flatnonzero(~constraints.any(axis=1))
-        matrix[idle, idle] = 1.0
+        # and a little give, so that constraints which say the same, or nothing, may be there
+        give = GIVE * np.square(constraints).max() / np.diag(mass).max()
+        matrix[range(size, size + count), range(size, size + count)] = -give or -1.0
         position, velocity, _ = self._views(CURRENT)
         found, violated = np.zeros((size, 2)), np.zeros((size + count, 2))
         for _ in range(self._iterations):

@@ -32,9 +32,9 @@ class Tuning:
         halvings: how far a fixed step may be halved where Newton's method fails, as a power of 2.
         velocity_constant: of generalized-alpha's local error h^3 times the second derivative of the
             acceleration: 0.083 to 0.077 for spectral radii at infinity of 1 to 0.8, doubled.
-        rounding: of positions, over the largest one: 1e-16 of it, through an iteration.
-        alternating: what rounding makes of second differences of accelerations, whose sign changes
-            from step to step: (1 + 2 + 1) times.
+        rounding: of positions, over the largest one, in each step: times 1 / (1 - spectral
+            radius)^2, over the step's square, it is what alternates in accelerations. Measured at
+            radii of 0.8 and 0.9 and steps of 2 and 10 us on a governor of rods and springs.
         finer_for_peaks: how much shorter than velocities need it a step may become for the peaks of
             accelerations.
         loosest_peak: what a peak may be off by, over itself, where the tolerance is looser. Few
@@ -87,8 +87,7 @@ class Tuning:
     halvings: int = 10
 
     velocity_constant: float = 2.0 / 12.0
-    rounding: float = 1e-14
-    alternating: float = 4.0
+    rounding: float = 4e-15
     finer_for_peaks: float = 4.5
     loosest_peak: float = 1e-2
     near_peak: float = 0.65

@@ -34,12 +34,12 @@ def test_what_rounding_leaves_is_not_iterated_on():
             "crank_pin": {"kind": "lubricated", "clearance": 1e-7},
             "balls": {"kind": "dry", "clearance": 1e-4},
         },
-        revolutions=0.1,
+        revolutions=0.02,
     )
     forgiving = simulate(thin)
     strict = tuned(thin, digits=0.0)
     assert forgiving.completed
-    assert strict.info["status"] == "not converged"
+    assert strict.info["newton_iterations"] > 4 * forgiving.info["newton_iterations"]
 
 
 def test_euler_parameters_are_expected_on_their_unit_sphere():

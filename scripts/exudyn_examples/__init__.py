@@ -1,0 +1,65 @@
+"""Systems written after the examples of Exudyn's own repository, to try `solve_dynamic` on.
+
+`EXAMPLES` has them by name; `examples_error.py` prints their errors, `tests/integrate` holds them.
+"""
+
+from functools import partial
+
+import exudyn as exu
+
+from exudyn_examples.example import Example
+from exudyn_examples.other import bouncing_ball, hydraulics, lugre, regularized, watch
+from exudyn_examples.planar import double_pendulum, four_bar, iftomm_pendulum, slider_crank
+from exudyn_examples.spatial import (
+    bricard,
+    flyball_governor,
+    four_bar_3d,
+    heavy_top,
+    rolling_disc,
+    rotor,
+)
+
+__all__ = ["EXAMPLES"]
+
+ANGLES = {"node_type": exu.NodeType.RotationRxyz}
+
+
+def sparse(settings):
+    settings.linearSolver.solverType = exu.LinearSolverType.EigenSparse
+
+
+def redundant(settings):
+    """As Exudyn asks for it where constraints say the same twice."""
+    settings.linearSolver.solverType = exu.LinearSolverType.EigenDense
+    settings.linearSolver.ignoreSingularJacobian = True
+
+
+EXAMPLES = {
+    "slider-crank": Example(slider_crank, 2.0, 0.5, "Examples/SliderCrank.py"),
+    "four-bar": Example(four_bar, 1.0, 0.5, "TestModels/fourBarMechanismTest.py"),
+    "IFToMM pendulum": Example(iftomm_pendulum, 10.0, 2.0, "Examples/pendulumIftommBenchmark.py"),
+    "double pendulum": Example(double_pendulum, 2.0, 1.0, "Examples/doublePendulum2D.py"),
+    "four-bar in space": Example(
+        four_bar_3d, 2.0, 1.0, "Examples/fourBarMechanism3D.py", change=sparse
+    ),
+    "four-bar, redundant": Example(
+        partial(four_bar_3d, redundant=True),
+        2.0,
+        1.0,
+        "TestModels/fourBarMechanismRedundant.py",
+        change=redundant,
+    ),
+    "Bricard": Example(bricard, 1.0, 1.0, "TestModels/bricardMechanism.py", change=redundant),
+    "flyball governor": Example(flyball_governor, 2.0, 0.2, "TestModels/stiffFlyballGovernor.py"),
+    "flyball, angles": Example(
+        partial(flyball_governor, **ANGLES), 2.0, 0.2, "TestModels/stiffFlyballGovernor.py"
+    ),
+    "rotor run-up": Example(rotor, 10.0, 2.0, "Examples/rigidRotor3Drunup.py"),
+    "heavy top": Example(heavy_top, 0.5, 0.1, "TestModels/heavyTop.py"),
+    "rolling disc": Example(rolling_disc, 1.0, 0.5, "TestModels/createRollingDiscTest.py"),
+    "friction band": Example(regularized, 1.0, 0.5, "Examples/massSpringFrictionInteractive.py"),
+    "bouncing ball": Example(bouncing_ball, 0.5, 0.2, "TestModels/contactCoordinateTest.py"),
+    "LuGre": Example(lugre, 10.0, 5.0, "Examples/lugreFrictionODE1.py"),
+    "hydraulics": Example(hydraulics, 1.0, 0.1, "TestModels/hydraulicActuatorSimpleTest.py"),
+    "balance wheel": Example(watch, 2.0, 0.5, "millimetres and milligrams"),
+}

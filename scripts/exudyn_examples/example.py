@@ -1,0 +1,42 @@
+"""An example: how it is built, how long it runs, and what its settings need."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import exudyn as exu
+
+__all__ = ["GRAVITY", "Example"]
+
+GRAVITY = 9.81  # m/s^2
+
+
+@dataclass(frozen=True)
+class Example:
+    """One system.
+
+    Attributes:
+        build: adds its items to an empty mbs.
+        end: of the run, s.
+        short: end of the quick run, s.
+        steps: `numberOfSteps`, which sets the largest step, of the run to `end`.
+        change: of the settings, as the user has them.
+        source: the example of Exudyn's repository after which it is written, or what it shows.
+    """
+
+    build: Callable[[Any], None]
+    end: float
+    short: float
+    source: str
+    steps: int = 100
+    change: Callable[[Any], None] = field(default=lambda settings: None)
+
+    def settings(self, end: float, steps: int | None = None) -> exu.SimulationSettings:
+        """Return the user's settings for a run to `end`, s, with steps by tolerance or fixed."""
+        settings = exu.SimulationSettings()
+        integration = settings.timeIntegration
+        integration.endTime = end
+        integration.numberOfSteps = steps or max(20, round(self.steps * end / self.end))
+        settings.solution.file.write = False
+        self.change(settings)
+        return settings

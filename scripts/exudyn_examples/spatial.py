@@ -1,0 +1,173 @@
+"""Mechanisms in space."""
+
+import exudyn as exu
+import numpy as np
+from exudyn.utilities import (
+    InertiaCuboid,
+    InertiaCylinder,
+    InertiaMassPoint,
+    RotationMatrixY,
+    RotationMatrixZ,
+)
+
+from exudyn_examples.example import GRAVITY
+
+__all__ = ["bricard", "flyball_governor", "four_bar_3d", "heavy_top", "rolling_disc", "rotor"]
+
+DOWN = [0.0, -GRAVITY, 0.0]
+
+
+def four_bar_3d(mbs, redundant=False):
+    """A parallelogram of three bars, pushed aside by gravity; its last joint without redundancy."""
+    links = [([0.0, 0.5, 0.0], 0.5), ([0.6, 1.0, 0.0], 0.0), ([1.2, 0.5, 0.0], -0.5)]
+    ground, bodies = mbs.CreateGround(), []
+    for place, angle in links:
+        length = 1.2 if angle == 0.0 else 1.0
+        bodies.append(
+            mbs.CreateRigidBody(
+                inertia=InertiaCuboid(density=5000.0, sideLengths=[length, 0.1, 0.1]),
+                referencePosition=place,
+                referenceRotationMatrix=RotationMatrixZ(angle * np.pi),
+                gravity=[0.5, -GRAVITY, 0.0],
+            )
+        )
+    pairs = zip([ground, *bodies], [*bodies, ground], strict=True)
+    places = [0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.2, 1.0, 0.0], [1.2, 0.0, 0.0]
+    for i, (pair, place) in enumerate(zip(pairs, places, strict=True)):
+        free = [1, 1, 1, 1, 1, 0] if i < 3 or redundant else [1, 1, 0, 0, 0, 0]
+        mbs.CreateGenericJoint(itemNumbers=list(pair), position=place, constrainedAxes=free)
+
+
+def bricard(mbs):
+    """Bricard's mechanism: five rods and six revolute joints, one constraint too many."""
+    places = [[0, 0, 0], [1, 0, 0], [1, -1, 0], [1, -1, 1], [0, -1, 1], [0, 0, 1]]
+    turns = [
+        np.eye(3),
+        RotationMatrixZ(-0.5 * np.pi),
+        RotationMatrixY(-0.5 * np.pi),
+        RotationMatrixZ(np.pi),
+        RotationMatrixZ(0.5 * np.pi),
+    ]
+    inertia = InertiaCuboid(density=100.0, sideLengths=[1.0, 0.1, 0.1]).Translated([0.5, 0, 0])
+    ground = before = mbs.CreateGround()
+    x, y, z = np.eye(3)
+    for place, turn, axis in zip(places, [*turns, None], [y, z, x, y, z, x], strict=True):
+        if turn is None:
+            mbs.CreateGenericJoint(
+                itemNumbers=[before, ground], position=place, constrainedAxes=[1, 1, 1, 0, 1, 1]
+            )
+            return
+        rod = mbs.CreateRigidBody(
+            inertia=inertia, referencePosition=place, referenceRotationMatrix=turn, gravity=DOWN
+        )
+        mbs.CreateRevoluteJoint(itemNumbers=[before, rod], position=place, axis=axis)
+        before = rod
+
+
+def flyball_governor(mbs, node_type=exu.NodeType.RotationEulerParameters):
+    """The IFToMM library's stiff flyball governor: two balls on rods, held by stiff springs."""
+    tilt, arm, offset = np.deg2rad(30.0), 1.0, 0.05
+    speed = 0.16 * 2.0 * np.pi * np.array([0.0, 0.0, 1.0])
+    rod = InertiaCuboid(density=3000.0, sideLengths=[arm, 0.01, 0.01])
+    rod += InertiaMassPoint(mass=5.0).Translated([0.5 * arm, 0.0, 0.0])
+    centre = rod.com[0]
+    rod = rod.Translated([-centre, 0.0, 0.0])
+    out = offset + (0.5 * arm + centre) * np.cos(tilt)
+    up = 1.0 - (0.5 * arm + centre) * np.sin(tilt)
+    ground = mbs.CreateGround()
+
+    def body(inertia, place, turn):
+        return mbs.CreateRigidBody(
+            inertia=inertia,
+            referencePosition=place,
+            referenceRotationMatrix=turn,
+            initialVelocity=np.cross(speed, place),
+            initialAngularVelocity=speed,
+            gravity=[0.0, 0.0, -GRAVITY],
+            nodeType=node_type,
+        )
+
+    shaft = body(
+        InertiaCuboid(density=3000.0, sideLengths=[0.01, 0.01, 1.0]), [0, 0, 0.5], np.eye(3)
+    )
+    slider = body(
+        InertiaCuboid(density=3000.0, sideLengths=[0.1, 0.1, 0.1]), [0, 0, 0.5], np.eye(3)
+    )
+    mbs.CreateRevoluteJoint(itemNumbers=[ground, shaft], position=[0, 0, 0], axis=[0, 0, 1])
+    mbs.CreatePrismaticJoint(itemNumbers=[shaft, slider], position=[0, 0, 0.5], axis=[0, 0, 1])
+    for side in (1.0, -1.0):
+        turn = RotationMatrixZ(0.0 if side > 0.0 else np.pi) @ RotationMatrixY(tilt)
+        ball = body(rod, [side * out, 0.0, up], turn)
+        mbs.CreateRevoluteJoint(
+            itemNumbers=[shaft, ball], position=[side * offset, 0.0, 1.0], axis=[0, 1, 0]
+        )
+        mbs.CreateSpringDamper(
+            itemNumbers=[slider, ball],
+            localPosition0=[side * 0.05, 0.0, 0.0],
+            localPosition1=[-centre, 0.0, 0.0],
+            referenceLength=0.5,
+            stiffness=8e5,
+            damping=4e4,
+        )
+
+
+def rotor(mbs, node_type=exu.NodeType.RotationEulerParameters, torque=2.0):
+    """A rigid, unbalanced rotor on springs that a torque runs up through its resonance."""
+    mass, radius, width, stiffness, eccentricity = 2.0, 0.75, 0.2, 800.0, 1.48e-3
+    natural = np.sqrt(2.0 * stiffness / mass)
+    damping = 2.0 * natural * 0.002 * mass
+    ground = mbs.CreateGround()
+    disc = mbs.CreateRigidBody(
+        inertia=InertiaCylinder(
+            density=mass / (np.pi * radius**2 * width), length=width, outerRadius=radius, axis=0
+        ),
+        referencePosition=[0.0, eccentricity, 0.0],
+        nodeType=node_type,
+    )
+    for side in (-0.5, 0.5):
+        held = [stiffness if side < 0.0 else 0.0, stiffness, stiffness]
+        mbs.CreateCartesianSpringDamper(
+            itemNumbers=[ground, disc],
+            localPosition0=[side, 0.0, 0.0],
+            localPosition1=[side, -eccentricity, 0.0],
+            stiffness=held,
+            damping=[damping * k / stiffness for k in held],
+        )
+    mbs.CreateTorque(itemNumber=disc, loadVector=[torque, 0.0, 0.0])
+
+
+def heavy_top(mbs, node_type=exu.NodeType.RotationEulerParameters):
+    """The heavy top of the Lie-group literature, on a spherical joint."""
+    inertia = exu.utilities.RigidBodyInertia(
+        mass=15.0, inertiaTensor=np.diag([0.234375, 0.46875, 0.234375]), com=[0.0, 0.0, 0.0]
+    )
+    spin = np.array([0.0, 150.0, -4.61538])
+    ground = mbs.CreateGround()
+    top = mbs.CreateRigidBody(
+        inertia=inertia,
+        referencePosition=[0.0, 1.0, 0.0],
+        initialVelocity=np.cross(spin, [0.0, 1.0, 0.0]),
+        initialAngularVelocity=spin,
+        gravity=[0.0, 0.0, -GRAVITY],
+        nodeType=node_type,
+    )
+    mbs.CreateSphericalJoint(itemNumbers=[ground, top], position=[0.0, 0.0, 0.0])
+
+
+def rolling_disc(mbs):
+    """A disc that rolls without slip and wobbles: a nonholonomic constraint."""
+    radius = 0.2
+    speed = 3.0 * 2.0 * np.pi
+    disc = mbs.CreateRigidBody(
+        inertia=InertiaCylinder(density=5000.0, length=0.02, outerRadius=radius, axis=0),
+        referencePosition=[1.0, 0.0, radius],
+        initialAngularVelocity=[-speed, 10.0, 0.0],
+        initialVelocity=np.cross([-speed, 10.0, 0.0], [0.0, 0.0, radius]),
+        gravity=[0.0, 0.0, -GRAVITY],
+    )
+    mbs.CreateRollingDisc(
+        bodyNumbers=[mbs.CreateGround(), disc],
+        axisVector=[1, 0, 0],
+        discRadius=radius,
+        axisPosition=[0, 0, 0],
+    )

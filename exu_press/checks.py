@@ -20,6 +20,7 @@ RENAMED = {
     "balls": "joints.balls",
     "clearance": "joints.NAME.clearance",
     "contact.radius": "joints.NAME.radius",
+    "flexible": "bodies.NAME",
 }
 """Keys of before -> what is written instead."""
 

@@ -1,13 +1,11 @@
-"""Crank shaft and linkage of the press as flexible bodies, and what holds them in space.
+"""Flexible bodies in an Exudyn system, and what holds them in space.
 
 NGSolve's modes come from fe_models: from its cache, or made there on first use. In the plane the
-joints are those of rigid bodies; what the plane holds of itself is held here: the linkage sideways
-and upright by the slide, the crank shaft lengthwise by its first main bearing.
+joints are those of rigid bodies; what the plane holds of itself is held here: a body that rests in
+the frame by two faces along its axis by these, any other one upright at one of its joints.
 """
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
-from importlib.util import find_spec
+from dataclasses import dataclass
 from math import cos, pi, sin
 from typing import Any
 
@@ -23,46 +21,26 @@ from numpy.typing import NDArray
 
 from exu_press.errors import InputError
 from exu_press.joints import FlexiblePoint
-from exu_press.mechanism import Motion
-from exu_press.progress import Progress
-from exu_press.scene import Scene
-from exu_press.scene.tables import Flexible
-from fe_models import (
-    FlexibleBody,
-    ReducedPart,
-    Reduction,
-    add_flexible_body,
-    reduced_part,
-    shipped_part,
-)
+from exu_press.mechanism import GROUND, Joint, Mechanism, Motion, Point
+from exu_press.placed_part import PlacedPart
+from fe_models import FlexibleBody, add_flexible_body
 
 __all__ = [
-    "FACES",
-    "MAIN_BEARINGS",
     "FrameStart",
     "add_part",
     "deformed",
-    "hold_crank",
-    "hold_linkage",
+    "hold_driven",
+    "hold_pivot",
+    "hold_upright",
     "joint_end",
-    "reduced_parts",
+    "point_name",
     "undeformed",
 ]
 
 Array = NDArray[np.float64]
 
-FACES = {
-    ("crank", "crank_pin"): "pin",
-    ("crank", "counter_pin"): "journal A",
-    ("linkage", "crank_pin"): "big bore",
-    ("linkage", "slide_pin"): "small bore",
-}
-"""(body, joint) -> the interface of the part that carries the joint."""
-
-MAIN_BEARINGS = {"main_bearing_a": "journal A", "main_bearing_b": "journal B"}
-
 HELD = ("held_a", "held_b", "held_c")
-"""Three points of the linkage around its small bore, in the plane that the slide keeps it in."""
+"""Three points of a body around one of its faces, in the plane that they are kept in."""
 
 
 @dataclass(frozen=True)
@@ -121,128 +99,142 @@ def deformed(
     )
 
 
-def reduced_parts(scene: Scene, *, quiet: bool = True) -> dict[str, ReducedPart]:
-    """Return crank and linkage as the scene wants them, showing progress while they are made.
-
-    Raises:
-        InputError: NGSolve is not installed.
-    """
-    table = scene.flexible
-    if table is None:
-        return {}
-    if find_spec("ngsolve") is None:
-        raise InputError(
-            "bodies = 'flexible': needs NGSolve, which is not installed (there are no wheels for "
-            "Linux on ARM); allowed here is 'rigid'"
-        )
-    shapes = {"crank": table.crank, "linkage": table.linkage}
-    return {name: _reduced(table, shape, quiet) for name, shape in shapes.items()}
-
-
 def add_part(
     mbs: exu.MainSystem,
-    scene: Scene,
     name: str,
-    part: ReducedPart,
+    part: PlacedPart,
     start: FrameStart,
-    joints: Mapping[str, Sequence[float]],
+    mechanism: Mechanism,
+    gravity: float,
 ) -> FlexibleBody:
-    """Add a part.
-
-    The frames of the solids: the crank's in the shaft's axis, its pin upwards at angle 0; the
-    linkage's in the middle of its bores, x towards the slide.
+    """Add a part, its points where the drawing has the joints.
 
     Args:
         mbs: the system.
-        scene: for gravity and damping.
-        name: "crank" or "linkage".
-        part: reduced.
-        start: of the frame and the modes.
-        joints: name -> place (x, y) of the ideal joints in the frame. They sit where the drawing
-            has them; a mesh's interface has its centre a micrometre beside.
+        name: of the body.
+        part: in its place.
+        start: of the solid's frame and the modes.
+        mechanism: for the joints.
+        gravity: downwards, m/s^2.
     """
-    assert scene.flexible is not None
     points = {}
-    for joint, place in joints.items():
-        face = MAIN_BEARINGS.get(joint) or FACES[name, joint]
-        along = 0.0 if name == "linkage" else part.interface(face).centre[2]
-        points[joint] = face, (*place, along)
-    if name == "linkage":
-        bore = part.interface("small bore")
+    for joint in mechanism.joints:
+        for body, point in mechanism.ends(joint):
+            for number, face in enumerate(part.faces[joint.name] if body == name else ()):
+                along = float(part.reduced.interface(face).centre[2])
+                points[point_name(joint, number)] = face, (*part.place(point), along)
+    if (kept := _upright_face(mechanism, name, part)) is not None:
+        rim = part.reduced.interface(kept)
         for held, turn in zip(HELD, (0.0, 2.0 * pi / 3.0, 4.0 * pi / 3.0), strict=True):
-            x_held, y_held = bore.centre[:2] + bore.arm * np.array([cos(turn), sin(turn)])
-            points[held] = bore.face, (x_held, y_held, 0.0)
+            x, y = rim.axis[:2] + rim.arm * np.array([cos(turn), sin(turn)])
+            points[held] = kept, (x, y, float(rim.centre[2]))
     return add_flexible_body(
         mbs,
-        part,
+        part.reduced,
         position=start.position.tolist(),
         rotation=start.rotation,
         velocity=start.velocity.tolist(),
         angular_velocity=start.angular_velocity.tolist(),
         initial_modes=start.modes,
         initial_modes_t=start.modes_t,
-        gravity=(0.0, -scene.gravity, 0.0),
-        damping_ratio=scene.flexible.damping_ratio,
+        gravity=(0.0, -gravity, 0.0),
+        damping_ratio=part.damping_ratio,
         points=points,
         name=name,
     )
 
 
-def joint_end(body: FlexibleBody, face: str, point: Sequence[float]) -> Any:
-    """Return what a clearance joint holds on to: the interface's motion, at the point (x, y)."""
+def point_name(joint: Joint, number: int = 0) -> str:
+    """Return the name of the point where a body's joint holds one of its faces."""
+    return joint.name if number == 0 else f"{joint.name} {number + 1}"
+
+
+def joint_end(body: FlexibleBody, part: PlacedPart, joint: Joint, point: Point) -> Any:
+    """Return what a clearance joint holds on to: the interface's motion, at the point (x, y).
+
+    Raises:
+        InputError: the joint holds several faces.
+    """
+    face, *others = part.faces[joint.name]
+    if others:
+        raise InputError(
+            f"joints.{joint.name}: holds {1 + len(others)} faces of the flexible {body.part.name}; "
+            "allowed is 'ideal'"
+        )
     interface = body.part.interface(face)
-    centre = np.array([*point, interface.centre[2]])
+    centre = np.array([*part.place(point), interface.centre[2]])
     if body.node_modes is None:
         return body.object_number, centre
     return FlexiblePoint(body.object_number, centre, interface.translation, interface.rotation)
 
 
-def hold_crank(mbs: exu.MainSystem, ground: int, crank: FlexibleBody, drive: int) -> dict[str, int]:
-    """Rest the main journals in the frame and turn the flange; return the bearings by name.
+def hold_pivot(
+    mbs: exu.MainSystem, ground: int, body: FlexibleBody, part: PlacedPart, joint: Joint
+) -> dict[str, int]:
+    """Rest a body in the frame by the faces of an ideal joint; return the object numbers.
 
     Args:
         mbs: the system.
         ground: object number of the frame.
-        crank: the body.
-        drive: marker that turns at the crank's speed; the flange follows it about its axis alone.
+        body: flexible.
+        part: of the body.
+        joint: with the frame.
     """
-    bearings = {}
-    for name, face in MAIN_BEARINGS.items():
-        along = float(crank.part.interface(face).centre[2])
-        seat = mbs.AddMarker(MarkerBodyRigid(bodyNumber=ground, localPosition=[0.0, 0.0, along]))
-        held = [1, 1, 1] if face == "journal A" else [1, 1, 0]
-        bearing = ObjectJointSpherical(
-            name=name,
-            markerNumbers=[crank.add_point_marker(mbs, name), seat],
-            constrainedAxes=held,
+    faces = part.faces[joint.name]
+    held = {}
+    for number, face in enumerate(faces):
+        along = float(body.part.interface(face).centre[2])
+        seat = mbs.AddMarker(MarkerBodyRigid(bodyNumber=ground, localPosition=[*joint.at, along]))
+        ends = [body.add_point_marker(mbs, point_name(joint, number)), seat]
+        name = joint.name if len(faces) == 1 else f"{joint.name}_{number + 1}"
+        lengthwise = int(len(faces) > 1 and number == 0)
+        held[name] = int(
+            mbs.AddObject(
+                ObjectJointSpherical(
+                    name=name,
+                    markerNumbers=ends if joint.bearing == GROUND else ends[::-1],
+                    constrainedAxes=[1, 1, lengthwise],
+                )
+            )
         )
-        bearings[name] = int(mbs.AddObject(bearing))
-    _hold(mbs, drive, crank.add_marker(mbs, "flange"), [0, 0, 0, 0, 0, 1])
-    return bearings
+    return held
 
 
-def hold_linkage(mbs: exu.MainSystem, slide: int, linkage: FlexibleBody) -> None:
-    """Keep the linkage in the plane of the slide, whose marker is given.
+def hold_driven(mbs: exu.MainSystem, disc: int, body: FlexibleBody, part: PlacedPart) -> None:
+    """Turn a body by its driven face about its axis alone, as a disc (object number) turns."""
+    aligned = exu.HT().Set(RotationMatrixZ(-part.angle), [0.0, 0.0, 0.0])
+    turning = mbs.AddMarker(MarkerBodyRigid(bodyNumber=disc, localHT=aligned))
+    markers = [turning, body.add_marker(mbs, part.drive)]
+    mbs.AddObject(ObjectJointGeneric(markerNumbers=markers, constrainedAxes=[0, 0, 0, 0, 0, 1]))
+
+
+def hold_upright(mbs: exu.MainSystem, ground: int, body: FlexibleBody) -> None:
+    """Keep a body in the plane, unless the two faces of a pivot do.
 
     Three points do what the height and the two tilts of a marker with an orientation would, which
     costs more: it has three nodes and is asked for its rotation, too.
     """
     for name in HELD:
-        points = [slide, linkage.add_point_marker(mbs, name)]
-        mbs.AddObject(ObjectJointSpherical(markerNumbers=points, constrainedAxes=[0, 0, 1]))
+        if name in body.places:
+            height = [0.0, 0.0, float(body.places[name][2])]
+            seat = mbs.AddMarker(MarkerBodyRigid(bodyNumber=ground, localPosition=height))
+            points = [seat, body.add_point_marker(mbs, name)]
+            mbs.AddObject(ObjectJointSpherical(markerNumbers=points, constrainedAxes=[0, 0, 1]))
 
 
-def _hold(mbs: exu.MainSystem, by: int, marker: int, axes: list[int]) -> None:
-    """Hold relative motions along and about the axes of marker `by`."""
-    mbs.AddObject(ObjectJointGeneric(markerNumbers=[by, marker], constrainedAxes=axes))
+def _upright_face(mechanism: Mechanism, name: str, part: PlacedPart) -> str | None:
+    """Return the face by which a body is kept in the plane; None where two in the frame do.
 
-
-def _reduced(table: Flexible, name: str, quiet: bool) -> ReducedPart:
-    """Return one part reduced."""
-    part = shipped_part(name, table.mesh_size)
-    if table.modulus_factor != 1.0:
-        modulus = part.material.youngs_modulus * table.modulus_factor
-        part = part.replace(material=replace(part.material, youngs_modulus=modulus))
-    reduction = Reduction(modes=table.modes, method=table.method)
-    with Progress(f"modes of {name}", 1.0, "", quiet=quiet) as progress:
-        return reduced_part(part, reduction, report=lambda what, share: progress.update(share))
+    It is that of a joint with the frame, or else with a body in a guide, which keep their planes.
+    """
+    guided = {guide.body for guide in mechanism.guides}
+    others = {
+        joint.name: joint.bearing if joint.journal == name else joint.journal
+        for joint in mechanism.joints
+        if name in (joint.journal, joint.bearing)
+    }
+    for joint, faces in part.faces.items():
+        if others[joint] == GROUND and len(faces) > 1:
+            return None
+    best = min(others, key=lambda joint: (others[joint] != GROUND, others[joint] not in guided))
+    return part.faces[best][0]

@@ -41,8 +41,11 @@ def add_graphics(model: Model) -> None:
             outline = [model.rigid[name].drawn((x, y)) for x, y in shape.outline.tolist()]
             _show(model, name, [_solid(outline, shape.colour, layers[name] * thickness, thickness)])
     if DRIVE in model.bodies:
-        flange = float(model.parts[mechanism.crank].interface("flange").centre[2])
-        disc = graphics.Cylinder([0.0, 0.0, flange], [0.0, 0.0, thickness], 0.05 * height, DISC)
+        crank = model.parts[mechanism.crank]
+        height_there = float(crank.reduced.interface(crank.drive).centre[2])
+        disc = graphics.Cylinder(
+            [0.0, 0.0, height_there], [0.0, 0.0, thickness], 0.05 * height, DISC
+        )
         _show(model, DRIVE, [disc])
     _show(model, GROUND, _frame(mechanism, shapes, layers, thickness))
     settings = model.SC.visualizationSettings

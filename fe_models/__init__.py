@@ -12,9 +12,9 @@ if TYPE_CHECKING:
     from fe_models.cache import default_folder, reduced_part
     from fe_models.clamped import ConvergenceRow, clamped_frequencies, mesh_convergence
     from fe_models.exudyn_body import FlexibleBody, add_flexible_body
-    from fe_models.geometry import CrankShape, LinkageShape, OwnShape, StepFile
+    from fe_models.geometry import Axis, CrankShape, LinkageShape, OwnShape, StepFile
     from fe_models.material import CRANK_STEEL, LINKAGE_IRON, Material
-    from fe_models.part import Interface, Part, shipped_part
+    from fe_models.part import Interface, Part, shipped_faces, shipped_part
     from fe_models.pictures import draw_mode_shapes
     from fe_models.reduced import ReducedInterface, ReducedPart
     from fe_models.reduction import Reduction
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 __all__ = [
     "CRANK_STEEL",
     "LINKAGE_IRON",
+    "Axis",
     "ConvergenceRow",
     "CrankShape",
     "FlexibleBody",
@@ -40,12 +41,14 @@ __all__ = [
     "draw_mode_shapes",
     "mesh_convergence",
     "reduced_part",
+    "shipped_faces",
     "shipped_part",
 ]
 
 _HOMES = {
     "CRANK_STEEL": "material",
     "LINKAGE_IRON": "material",
+    "Axis": "geometry",
     "ConvergenceRow": "clamped",
     "CrankShape": "geometry",
     "FlexibleBody": "exudyn_body",
@@ -64,6 +67,7 @@ _HOMES = {
     "draw_mode_shapes": "pictures",
     "mesh_convergence": "clamped",
     "reduced_part": "cache",
+    "shipped_faces": "part",
     "shipped_part": "part",
 }
 

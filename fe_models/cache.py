@@ -27,7 +27,17 @@ from fe_models.reduction import Reduction, Report, reduce_part
 
 __all__ = ["cache_file", "default_folder", "load", "reduced_part", "save"]
 
-SOURCES = ("shapes", "mesh", "elasticity", "saddle", "reduction", "stress", "reduced", "cache")
+SOURCES = (
+    "shapes",
+    "round_faces",
+    "mesh",
+    "elasticity",
+    "saddle",
+    "reduction",
+    "stress",
+    "reduced",
+    "cache",
+)
 PACKAGES = ("ngsolve", "netgen-mesher", "numpy", "scipy")
 PLAIN = (  # the arrays of a ReducedPart stored under their own names
     "centre_of_mass",
@@ -41,7 +51,7 @@ PLAIN = (  # the arrays of a ReducedPart stored under their own names
     "mass_matrix",
     "stiffness_matrix",
 )
-PER_INTERFACE = ("centre", "translation", "rotation")
+PER_INTERFACE = ("centre", "axis", "translation", "rotation")
 UNREADABLE = (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, zlib.error)
 
 

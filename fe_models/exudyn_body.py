@@ -58,19 +58,20 @@ class FlexibleBody:
     points: dict[str, int]
     places: Mapping[str, Sequence[float]]
 
-    def add_point_marker(self, mbs: Any, point: str) -> int:
-        """Add a position marker on one of the `points` that the body was made with.
+    def add_point_marker(self, mbs: Any, *points: str) -> int:
+        """Add a position marker on one of the `points` that the body was made with, or their mean.
 
-        It has one mesh node, so that it costs a sixth of `add_marker`, and no orientation.
+        It has one mesh node each, so that it costs a sixth of `add_marker`, and no orientation.
         """
         if self.node_modes is None:
-            place = [float(value) for value in self.places[point]]
+            mean = np.mean([self.places[point] for point in points], axis=0)
+            place = [float(value) for value in mean]
             marker: Any = MarkerBodyRigid(bodyNumber=self.object_number, localPosition=place)
         else:
             marker = MarkerSuperElementPosition(
                 bodyNumber=self.object_number,
-                meshNodeNumbers=[self.points[point]],
-                weightingFactors=[1.0],
+                meshNodeNumbers=[self.points[point] for point in points],
+                weightingFactors=[1.0 / len(points)] * len(points),
             )
         return int(mbs.AddMarker(marker))
 

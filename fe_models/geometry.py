@@ -14,9 +14,28 @@ from typing import Any, Protocol
 
 from exu_press.errors import InputError
 
-__all__ = ["Box", "CrankShape", "Geometry", "LinkageShape", "OwnShape", "StepFile"]
+__all__ = ["Axis", "Box", "CrankShape", "Geometry", "LinkageShape", "OwnShape", "StepFile"]
 
 Box = tuple[tuple[float, float, float], tuple[float, float, float]]
+
+
+@dataclass(frozen=True)
+class Axis:
+    """An axis along z, or a ball's centre on it, whose cylinders or sphere a joint holds.
+
+    Attributes:
+        place: (x, y), m.
+        sphere: whether it is a ball's or socket's.
+        hole: whether a hole is meant rather than a shaft, where the solid has both.
+        radius: m, where several have this axis.
+        z: lowest and highest place along it, m, where several have this radius.
+    """
+
+    place: tuple[float, float]
+    sphere: bool = False
+    hole: bool = True
+    radius: float | None = None
+    z: tuple[float, float] | None = None
 
 
 class Geometry(Protocol):
@@ -155,28 +174,34 @@ class StepFile:
     """A solid from a STEP file, in m after `scale` (0.001 for a file in mm).
 
     Netgen reads face names that the file carries. `faces` names others: every face that lies wholly
-    inside a box ((x, y, z) lowest, (x, y, z) highest; in m) takes its name.
+    inside a box ((x, y, z) lowest, (x, y, z) highest; in m) takes its name. `axes` names cylinders
+    along z and spheres by where their axis is.
     """
 
     path: Path
     scale: float = 1.0
     faces: Mapping[str, Box] = field(default_factory=dict)
+    axes: Mapping[str, Axis] = field(default_factory=dict)
 
     def key(self) -> dict[str, Any]:
-        """Return a digest of the file and the boxes."""
+        """Return a digest of the file, the boxes and the axes."""
         return {
             "shape": "step",
             "digest": hashlib.sha256(self._bytes()).hexdigest(),
             "scale": self.scale,
             "faces": {name: [list(corner) for corner in box] for name, box in self.faces.items()},
+            "axes": {name: asdict(axis) for name, axis in self.axes.items()},
         }
 
     def build(self) -> Any:
-        """Return the solid, its faces named by the file and by the boxes."""
+        """Return the solid, its faces named by the file, the boxes and the axes."""
         self._bytes()
+        from fe_models.round_faces import name_round_faces
         from fe_models.shapes import from_step
 
-        return from_step(self.path, self.scale, self.faces)
+        shape = from_step(self.path, self.scale, self.faces)
+        name_round_faces(shape, self.axes, f"STEP file {self.path}")
+        return shape
 
     def _bytes(self) -> bytes:
         """Return the file's content if it is a STEP file at all."""

@@ -13,7 +13,7 @@ from exu_press.errors import InputError
 from fe_models.geometry import CrankShape, Geometry, LinkageShape
 from fe_models.material import CRANK_STEEL, LINKAGE_IRON, Material
 
-__all__ = ["MOTIONS", "Interface", "Part", "shipped_names", "shipped_part"]
+__all__ = ["MOTIONS", "Interface", "Part", "shipped_faces", "shipped_names", "shipped_part"]
 
 MOTIONS = ("x", "y", "z", "rx", "ry", "rz")  # an interface's mean translation and rotation
 PARTS_FILE = Path(__file__).with_name("parts.toml")
@@ -114,7 +114,9 @@ def shipped_part(name: str, mesh_size: float | None = None) -> Part:
     """
     tables = _tables()
     if name not in tables:
-        raise InputError(f"flexible part {name!r}: must be one of {', '.join(sorted(tables))}")
+        raise InputError(
+            f"{name!r}: there is no such flexible part; shipped are {', '.join(sorted(tables))}"
+        )
     table = tables[name]
     size = table["mesh_size"] if mesh_size is None else mesh_size
     if name.startswith("crank"):
@@ -122,6 +124,12 @@ def shipped_part(name: str, mesh_size: float | None = None) -> Part:
         return Part(name, crank, CRANK_STEEL, CRANK_INTERFACES, size)
     rod = LinkageShape(**table["dimensions"])
     return Part(name, rod, LINKAGE_IRON, LINKAGE_INTERFACES, size)
+
+
+def shipped_faces(name: str) -> Mapping[str, Any]:
+    """Return joint -> the faces of a shipped part that joints of this name hold."""
+    faces: Mapping[str, Any] = _tables()[name]["faces"]
+    return faces
 
 
 def shipped_names() -> tuple[str, ...]:

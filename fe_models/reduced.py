@@ -24,6 +24,7 @@ class ReducedInterface:
 
     face: str
     centre: Array  # (3,) m, undeformed, in the body frame
+    axis: Array  # (3,) m, on the axis of a cylinder along z, a sphere's centre; else the centre
     area: float  # m^2
     arm: float  # m, size of the virtual nodes' triangle
     translation: Array  # (3, modes)

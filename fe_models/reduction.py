@@ -25,6 +25,9 @@ __all__ = ["METHODS", "Reduction", "reduce_model", "reduce_part"]
 
 Array = NDArray[np.float64]
 METHODS = ("craig_bampton", "free")
+ROUND = 1e-4
+"""Of a face's size: how far its nodes may lie beside a circle."""
+
 Report = Callable[[str, float], None]  # (what is done next, share done so far)
 
 
@@ -51,11 +54,9 @@ class Reduction:
     def __post_init__(self) -> None:
         """Refuse a number of modes that is none, and unknown methods."""
         if isinstance(self.modes, bool) or not isinstance(self.modes, int) or self.modes < 0:
-            raise InputError(f"flexible.modes = {self.modes!r}: must be a whole number, 0 or more")
+            raise InputError(f"modes = {self.modes!r}: must be a whole number, 0 or more")
         if self.method not in METHODS:
-            raise InputError(
-                f"flexible.method = {self.method!r}: must be one of {', '.join(METHODS)}"
-            )
+            raise InputError(f"method = {self.method!r}: must be one of {', '.join(METHODS)}")
 
     def key(self) -> dict[str, Any]:
         """Return everything that determines the reduction, as plain data."""
@@ -113,7 +114,7 @@ def _check_size(part: Part, model: Any, reduction: Reduction) -> None:
     most = model.unknowns - max(rows, 6) - 1
     if reduction.modes > most:
         raise InputError(
-            f"{part.name}: flexible.modes = {reduction.modes}: this mesh of {model.unknowns} "
+            f"{part.name}: modes = {reduction.modes}: this mesh of {model.unknowns} "
             f"unknowns has at most {most}"
         )
     if reduction.modes > 0 and reduction.method == "craig_bampton" and not part.bearings:
@@ -207,7 +208,15 @@ def _package(
         motion = np.asarray(face.rows @ modes)
         arm = float(np.abs(model.nodes[face.nodes] - face.centre).max())
         interfaces.append(
-            ReducedInterface(interface.face, face.centre, face.area, arm, motion[:3], motion[3:])
+            ReducedInterface(
+                interface.face,
+                centre=face.centre,
+                axis=_axis(model.nodes[face.nodes], face.centre),
+                area=face.area,
+                arm=arm,
+                translation=motion[:3],
+                rotation=motion[3:],
+            )
         )
     stress = np.zeros((0, count))
     if reduction.stress:
@@ -231,6 +240,25 @@ def _package(
         interfaces=tuple(interfaces),
         meta={"unknowns": model.unknowns, "tetrahedra": len(model.elements)},
     )
+
+
+def _axis(nodes: Array, centre: Array) -> Array:
+    """Return where the axis of a cylinder along z, or a sphere's centre, is; else the centre.
+
+    Nodes lie on the face exactly: a circle or a sphere through them by least squares, as
+    2 x . m + c = |x|^2, whose rest is rounding. A part of the mantle is enough.
+    """
+    for columns in (slice(0, 2), slice(0, 3)):
+        arm = (nodes - centre)[:, columns]
+        rows = np.column_stack([2.0 * arm, np.ones(len(arm))])
+        squares = (arm**2).sum(axis=1)
+        found, _, rank, _ = np.linalg.lstsq(rows, squares)
+        missed = np.abs(rows @ found - squares).max()
+        if rank == rows.shape[1] and missed < ROUND * squares.max():
+            moved = np.zeros(3)
+            moved[columns] = found[:-1]
+            return np.asarray(centre + moved)
+    return centre
 
 
 def _couplings(model: Any, modes: Array) -> dict[str, Array]:

@@ -19,6 +19,7 @@ import exudyn.utilities as items
 import numpy as np
 
 from exu_press import Scene, Status, Tuning, solve_dynamic
+from exu_press.scene import flexible_press
 
 GRID = 4000  # instants at which runs are compared
 FINER = 1e-2
@@ -113,7 +114,7 @@ SYSTEMS: dict[str, Callable] = {
     "press ideal": partial(scene, joints={}, revolutions=0.5),
     "press lubricated": partial(scene, revolutions=0.15),
     "press dry": partial(scene, joints=DRY, revolutions=0.15),
-    "press flexible": partial(scene, joints={}, bodies="flexible", revolutions=0.1),
+    "press flexible": partial(scene, joints={}, bodies=flexible_press(), revolutions=0.1),
     "slider-crank dry": partial(
         scene, mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=0.15
     ),

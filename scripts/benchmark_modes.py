@@ -8,6 +8,7 @@ import sys
 
 from exu_press import Scene, simulate
 from exu_press.joints import COMPILED
+from exu_press.scene import flexible_press
 
 quick = "--quick" in sys.argv
 revolutions = 0.002 if quick else 0.02
@@ -15,8 +16,8 @@ counts = (0, 4) if quick else (0, 4, 10, 20, 40)
 repeats = 1 if quick else 5
 
 rigid = Scene(revolutions=revolutions, solver={"step": 1e-5})
-flexible = rigid.replace(bodies="flexible")
-scenes = {"rigid": rigid} | {str(n): flexible.replace("flexible.modes", n) for n in counts}
+scenes = {"rigid": rigid}
+scenes |= {str(n): rigid.replace(bodies=flexible_press(modes=n)) for n in counts}
 costs: dict[str, list[float]] = {name: [] for name in scenes}
 for _ in range(repeats):
     for name, scene in scenes.items():

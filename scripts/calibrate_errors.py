@@ -19,6 +19,7 @@ import numpy as np
 from exu_press import Scene, simulate
 from exu_press.confidence import simulate_with_errors
 from exu_press.confidence.figures import figures
+from exu_press.scene import flexible_press
 
 NOTHING = 1e-6
 """Over a figure: smaller errors are no matter of tolerances."""
@@ -46,7 +47,7 @@ def random_scene(random: np.random.Generator, longest: float, flexible: float) -
         balls = {"kind": "dry", "clearance": float(10.0 ** random.uniform(-4.7, -3.7))}
         given["joints"]["balls"] = balls
         if random.random() < flexible:
-            given["bodies"] = "flexible"
+            given["bodies"] = flexible_press()
     return Scene.from_dict(given)
 
 

@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 
 from exu_press import Scene, simulate
+from exu_press.scene import flexible_press
 from fe_models import clamped_frequencies, draw_mode_shapes, shipped_part
 
 PUBLISHED_HZ = {
@@ -37,8 +38,8 @@ for name in PUBLISHED_HZ:
 
 print(f"\n{'lubricated press, 240 rpm':34} {'m/s^2':>9} {'over 1 ms':>9} {'um':>9} {'MPa':>9}")
 scene = Scene(revolutions=0.01 if quick else 0.2)
-flexible = scene.replace(bodies="flexible")
-second = flexible.replace({"flexible.crank": "crank_2", "flexible.linkage": "linkage_2"})
+flexible = scene.replace(bodies=flexible_press())
+second = scene.replace(bodies={"crank": "crank_2", "linkage": "linkage_2"})
 for label, case in (("rigid", scene), ("flexible", flexible), ("flexible, second shapes", second)):
     result = simulate(case)
     peaks = result.summary()["peak_acceleration"]

@@ -7,21 +7,21 @@ import sys
 import time
 
 from exu_press import Scene, simulate
+from exu_press.scene import flexible_press
 
 FULL = {
-    "bodies": "flexible",
+    "bodies": flexible_press(),
     "joints": {"crank_pin": "lubricated", "balls": "dry"},
     "revolutions": 0.02 if "--quick" in sys.argv else 1.0,
     "film": {"law": "finite"},
     "friction": {"law": "lugre"},
     "guide": {},
-    "flexible": {"modes": 20},
 }
-RIGID = {"bodies": "rigid", "flexible": None}
+RIGID = {"bodies": {}}
 CHOICES = {
     "everything": {},
-    "10 modes instead of 20": {"flexible": {"modes": 10}},
-    "4 modes": {"flexible": {"modes": 4}},
+    "10 modes instead of 20": {"bodies": flexible_press(modes=10)},
+    "4 modes": {"bodies": flexible_press(modes=4)},
     "rigid crank and linkage": RIGID,
     "ideal guides": {"guide": None},
     "short-bearing film": {"film": {"law": "short"}},

@@ -8,7 +8,7 @@ from scipy.optimize import fsolve
 
 from exu_press import Scene, simulate
 from exu_press.model import build
-from exu_press.scene import mechanism_of
+from exu_press.scene import flexible_press, mechanism_of
 
 IDEAL = {"joints": {}}
 ECCENTRIC = {"force": 1e4, "eccentricity": 0.1, "end_angle_deg": 60.0}
@@ -196,6 +196,6 @@ def test_guide_force_is_the_springs():
 
 
 def test_flexible_press():
-    result = run(bodies="flexible", revolutions=0.02, guide={})
+    result = run(bodies=flexible_press(), revolutions=0.02, guide={})
     assert result.summary()["energy"]["residual"] < 1e-2
     assert np.abs(result["slide_guide_force"]).max() > 1.0

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from exu_press import InputError, Scene, simulate
+from exu_press import Scene, simulate
+from exu_press.scene import flexible_press
 
 SHORT = {"revolutions": 0.04}
 VARIANTS = [("ideal", "ideal"), ("ideal", "dry"), ("dry", "dry"), ("lubricated", "dry")]
@@ -28,7 +29,7 @@ def test_without_modes_it_is_the_rigid_press(crank_pin, balls, linkage_as_solid)
     )
     twin = {k: v for k, v in linkage_as_solid.items() if k != "linkage_mass"}
     rigid = simulate(scene.replace({f"press.{key}": value for key, value in twin.items()}))
-    flexible = simulate(scene.replace(bodies="flexible").replace("flexible.modes", 0))
+    flexible = simulate(scene.replace(bodies=flexible_press(modes=0)))
     assert np.abs(rigid["slider_position"] - flexible["slider_position"]).max() < 1e-8
     assert flexible.completed
 
@@ -36,7 +37,7 @@ def test_without_modes_it_is_the_rigid_press(crank_pin, balls, linkage_as_solid)
 @pytest.mark.parametrize(("crank_pin", "balls"), VARIANTS)
 def test_every_pin_variant_runs(crank_pin, balls):
     result = simulate(
-        Scene(bodies="flexible", joints={"crank_pin": crank_pin, "balls": balls}, **SHORT)
+        Scene(bodies=flexible_press(), joints={"crank_pin": crank_pin, "balls": balls}, **SHORT)
     )
     summary = result.summary()
     assert result.completed, summary["reason"]
@@ -48,13 +49,11 @@ def test_every_pin_variant_runs(crank_pin, balls):
 
 def test_a_hundred_and_ten_thousand_times_stiffer_it_approaches_the_rigid_press():
     """After the start has died away the ideal press bends with 1/E."""
-    scene = Scene(
-        bodies="flexible", joints={}, revolutions=0.1,
-        start_angle_deg=60.0, solver={"step": 1e-4}, flexible={"damping_ratio": 0.5},
-    )  # fmt: skip
+    scene = Scene(joints={}, revolutions=0.1, start_angle_deg=60.0, solver={"step": 1e-4})
     bends = []
     for factor in (1.0, 100.0, 1e4):
-        result = simulate(scene.replace("flexible.modulus_factor", factor))
+        bodies = flexible_press(damping_ratio=0.5, youngs_modulus=factor * 2e11)
+        result = simulate(scene.replace(bodies=bodies))
         late = result.time > 0.5 * scene.duration
         ideal = scene.build().mechanism.ideal_slider(
             scene.start_angle + scene.angular_speed * result.time, scene.angular_speed
@@ -67,7 +66,7 @@ def test_a_hundred_and_ten_thousand_times_stiffer_it_approaches_the_rigid_press(
 
 def test_blanking_bends_the_crank():
     scene = Scene(
-        bodies="flexible", joints={}, start_angle_deg=140.0,
+        bodies=flexible_press(), joints={}, start_angle_deg=140.0,
         revolutions=0.03, blanking={"force": 1e6, "end_angle_deg": 150.0},
     )  # fmt: skip
     pressed, free = simulate(scene), simulate(scene.replace("blanking.force", 0.0))
@@ -78,23 +77,3 @@ def test_blanking_bends_the_crank():
     )
     lift = bent / straight
     assert lift > 1.5
-
-
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        ({"press.linkage_length": 0.4}, r"press\.linkage_length = 0\.4: .*'flexible' is 0\.383"),
-        ({"press.crank_mass": 200.0}, r"press\.crank_mass = 200\.0"),
-        ({"flexible.modes": -1}, r"flexible\.modes = -1: allowed is a whole number >= 0"),
-        ({"flexible.modes": 2.5}, r"flexible\.modes = 2\.5"),
-        ({"flexible.crank": "wheel"}, r"flexible\.crank = 'wheel': allowed is one of 'crank'"),
-    ],
-)
-def test_what_flexible_bodies_cannot_be_is_refused(change, message):
-    with pytest.raises(InputError, match=message):
-        Scene(bodies="flexible").replace(change)
-
-
-def test_slider_crank_has_no_flexible_bodies():
-    with pytest.raises(InputError, match="bodies = 'flexible': allowed with mechanism = 'press'"):
-        Scene(mechanism="slider_crank", bodies="flexible")

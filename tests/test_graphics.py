@@ -13,8 +13,9 @@ from exu_press import Scene
 from exu_press.graphics import add_graphics
 from exu_press.mechanism.shapes import shapes_of
 from exu_press.model import build
+from exu_press.scene import flexible_press
 
-SCENES = [{"mechanism": "press"}, {"mechanism": "slider_crank"}, {"bodies": "flexible"}]
+SCENES = [{"mechanism": "press"}, {"mechanism": "slider_crank"}, {"bodies": flexible_press()}]
 
 
 @pytest.mark.parametrize("scene", SCENES)

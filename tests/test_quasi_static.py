@@ -5,10 +5,11 @@ import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
+from exu_press.scene import flexible_press
 
 pytest.importorskip("ngsolve")
 
-IDEAL = {"bodies": "flexible", "joints": {"crank_pin": "ideal", "balls": "ideal"}}
+IDEAL = {"joints": {"crank_pin": "ideal", "balls": "ideal"}}
 TURN = 0.25  # s
 
 
@@ -21,7 +22,7 @@ def _over(result, channel, begin, end):
 
 @pytest.fixture(scope="module")
 def result():
-    scene = Scene(**IDEAL, revolutions=1.1, flexible={"modes": 8}, solver={"step": 2e-4})
+    scene = Scene(**IDEAL, revolutions=1.1, bodies=flexible_press(modes=8), solver={"step": 2e-4})
     found = simulate(scene)
     assert found.completed
     return found
@@ -45,7 +46,7 @@ def test_the_first_30_degrees_are_those_of_the_second_revolution(result, channel
 
 def test_undeformed_bodies_would_ring(monkeypatch):
     monkeypatch.setattr("exu_press.model.assemble.deformed_start", lambda *_: ({}, {}))
-    scene = Scene(**IDEAL, revolutions=0.02, flexible={"modes": 8})
+    scene = Scene(**IDEAL, revolutions=0.02, bodies=flexible_press(modes=8))
     rung = np.linalg.norm(simulate(scene)["crank_pin_force"], axis=1)
     monkeypatch.undo()
     quiet = np.linalg.norm(simulate(scene)["crank_pin_force"], axis=1)
@@ -54,7 +55,9 @@ def test_undeformed_bodies_would_ring(monkeypatch):
 
 def test_where_nothing_moves_the_bodies_hang_in_their_static_deflection():
     """A crank at a hundredth of a revolution a minute: weight and stiffness alone."""
-    scene = Scene(**IDEAL, speed_rpm=0.01, revolutions=1e-7, start_angle_deg=60.0)
+    scene = Scene(
+        **IDEAL, bodies=flexible_press(), speed_rpm=0.01, revolutions=1e-7, start_angle_deg=60.0
+    )
     deflection = simulate(scene)["crank_pin_deflection"]
     assert np.abs(deflection).max() > 1e-6
     assert np.abs(deflection - deflection[0]).max() < 1e-3 * np.abs(deflection).max()
@@ -63,7 +66,7 @@ def test_where_nothing_moves_the_bodies_hang_in_their_static_deflection():
 @pytest.mark.parametrize("angle", [0.0, 175.0, 180.0, 300.0])
 def test_the_start_is_on_the_constraints(angle):
     """Positions and velocities; at half a turn a rotation matrix tells its angle badly."""
-    scene = Scene(**IDEAL, start_angle_deg=angle, flexible={"modes": 4})
+    scene = Scene(**IDEAL, start_angle_deg=angle, bodies=flexible_press(modes=4))
     mbs = scene.build().mbs
     q, q_t = (np.array(get()) for get in (
         mbs.systemData.GetODE2Coordinates, mbs.systemData.GetODE2Coordinates_t))  # fmt: skip
@@ -80,7 +83,9 @@ def test_the_start_is_on_the_constraints(angle):
 
 def test_elastic_guides_start_loaded():
     """What the guide of the slide carries at the start is what it carries a revolution later."""
-    scene = Scene(**IDEAL, guide={}, revolutions=1.0, start_angle_deg=60.0, flexible={"modes": 4})
+    scene = Scene(
+        **IDEAL, guide={}, revolutions=1.0, start_angle_deg=60.0, bodies=flexible_press(modes=4)
+    )
     force = simulate(scene)["slide_guide_force"]
     assert np.abs(force).max() > 1000.0
     assert force[0] == pytest.approx(force[-1], abs=10.0)

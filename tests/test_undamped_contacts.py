@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
+from exu_press.scene import flexible_press
 
 UNDAMPED = {
     "joints.crank_pin": "dry",
@@ -27,7 +28,7 @@ def test_without_friction_the_press_keeps_all_its_energy():
 
 @pytest.mark.long
 def test_flexible_bodies_between_undamped_contacts_do_not_ring_numerically():
-    scene = Scene(bodies="flexible", revolutions=0.6).replace(UNDAMPED)
+    scene = Scene(bodies=flexible_press(), revolutions=0.6).replace(UNDAMPED)
     result = simulate(scene)
     assert result.info["status"] == "completed", result.info["reason"]
     assert result.summary()["energy"]["residual"] < 1e-3

@@ -53,7 +53,7 @@ def test_it_does_the_main_job_outside_the_checkout(wheel, tmp_path):
     run(tmp_path, command, "compare", "press", "--set", "revolutions=0.1", "--out", "compared")
     assert (tmp_path / "compared" / "compare_slider.png").exists()
     assert (tmp_path / "compared" / "lubricated" / "run.nc").exists()
-    flexible = ("--set", "bodies=flexible", "--set", "revolutions=0.01")
+    flexible = ("--set", "bodies.crank=crank", "--set", "revolutions=0.01")
     run(tmp_path, command, "run", "press", *flexible, "--out", "flexible")
     assert (tmp_path / "flexible" / "run.nc").exists()
     home = run(tmp_path, python, "-c", "import exu_press; print(exu_press.__file__)")

@@ -10,7 +10,7 @@ from docutils import nodes
 from docutils.parsers.rst import Directive
 
 from exu_press import Scene
-from exu_press.scene import DryJoint
+from exu_press.scene import DryJoint, Flexible
 from exu_press.scene.scene import TABLES
 
 
@@ -27,8 +27,8 @@ class SceneKeys(Directive):
     def run(self) -> list[nodes.Node]:
         """Return a section a table."""
         found: list[nodes.Node] = []
-        joints = {"joints.NAME": DryJoint}
-        for name, kind in {"at the top": Scene, **joints, **TABLES}.items():
+        named = {"joints.NAME": DryJoint, "bodies.NAME": Flexible}
+        for name, kind in {"at the top": Scene, **named, **TABLES}.items():
             shown = name if kind is Scene else f"[{name}]"
             section = nodes.section(ids=[f"keys-{name.replace(' ', '-')}"], names=[shown])
             section += nodes.title(shown, shown)
@@ -102,10 +102,12 @@ def table_of(rows: list[tuple[str, ...]]) -> nodes.table:
 
 def _usual(name: str, kind: Any) -> Any:
     """Return a table as a scene has it that gives nothing but what makes it use the table."""
-    scenes = (Scene(), Scene(bodies="flexible"), Scene(mechanism="slider_crank"))
+    scenes = (Scene(), Scene(mechanism="slider_crank"))
     if kind is Scene:
         return scenes[0]
-    found = (getattr(scene, name) for scene in scenes)
+    if kind is Flexible:
+        return Flexible("linkage")
+    found = (getattr(scene, name, None) for scene in scenes)
     return next((table for table in found if table is not None), None) or kind()
 
 

@@ -11,7 +11,7 @@ that share its load, and nothing but guides bears side forces.
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -21,7 +21,7 @@ from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.motion import Array
 from exu_press.mechanism.parts import GROUND, Guide, Joint, Point
 
-__all__ = ["HalfHeld", "Holding", "holding_of"]
+__all__ = ["HalfHeld", "Holding", "by_constraints", "holding_of"]
 
 SOMEWHERE = (1.0, 2.3)
 """Crank angles that are none of those in which mechanisms are drawn, rad."""
@@ -103,6 +103,20 @@ def holding_of(mechanism: Mechanism, ideal: frozenset[str]) -> Holding:
         },
         guides={body: held for body, held in guides.items() if body not in sliding},
         redundant=first.redundant,
+    )
+
+
+def by_constraints(holding: Holding, bodies: frozenset[str]) -> Holding:
+    """Return the same where some bodies have all their coordinates, held by constraints."""
+    pivoted = {body: joint for body, joint in holding.pivoted.items() if body not in bodies}
+    pivots = [joint.name for body, joint in holding.pivoted.items() if body in bodies]
+    guided = dict.fromkeys(holding.sliding & bodies, (True, True))
+    return replace(
+        holding,
+        pivoted=pivoted,
+        sliding=holding.sliding - bodies,
+        joints=(*holding.joints, *pivots),
+        guides={**holding.guides, **guided},
     )
 
 

@@ -72,10 +72,14 @@ class Mechanism:
         return float(np.ptp(places, axis=0).max())
 
     @property
+    def shaft(self) -> Joint:
+        """The crank's joint with the frame."""
+        return next(joint for joint in self.joints_of(self.crank) if joint.on_frame)
+
+    @property
     def crank_pins(self) -> dict[str, float]:
         """Joints of the crank with other bodies -> distance from its shaft, m."""
-        joints = [j for j in self.joints if self.crank in (j.journal, j.bearing)]
-        shaft = next(j for j in joints if GROUND in (j.journal, j.bearing))
+        shaft, joints = self.shaft, self.joints_of(self.crank)
         return {j.name: math.dist(shaft.at, j.at) for j in joints if j is not shaft}
 
     @property
@@ -86,6 +90,10 @@ class Mechanism:
     def body(self, name: str) -> Body:
         """Return a body by its name."""
         return next(body for body in self.bodies if body.name == name)
+
+    def joints_of(self, body: str) -> list[Joint]:
+        """Return the joints of a body."""
+        return [joint for joint in self.joints if body in (joint.journal, joint.bearing)]
 
     def ends(self, joint: Joint) -> tuple[tuple[str, Point], tuple[str, Point]]:
         """Return journal and bearing of a joint, each with its body and the place in its frame."""

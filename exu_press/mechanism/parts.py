@@ -64,6 +64,11 @@ class Joint:
         """Whether a ball sits in a socket."""
         return self.shape == "spherical"
 
+    @property
+    def on_frame(self) -> bool:
+        """Whether one of its bodies is the frame."""
+        return GROUND in (self.journal, self.bearing)
+
 
 @dataclass(frozen=True)
 class Spring:

@@ -17,7 +17,7 @@ from exu_press.scene import IdealJoint, Scene
 
 if TYPE_CHECKING:
     from exu_press.flexible import FrameStart
-    from fe_models import ReducedPart
+    from exu_press.placed_part import PlacedPart
 
 __all__ = ["build"]
 
@@ -31,14 +31,14 @@ def build(scene: Scene, *, quiet: bool = True) -> Model:
         scene: what is asked.
         quiet: False shows the progress of what takes long, the modes of flexible bodies.
     """
-    parts: Mapping[str, ReducedPart] = {}
-    if scene.flexible is not None:
-        from exu_press.flexible import reduced_parts
+    parts: Mapping[str, PlacedPart] = {}
+    if scene.bodies:
+        from exu_press.placed_part import placed_parts
 
-        parts = reduced_parts(scene, quiet=quiet)
+        parts = placed_parts(scene, quiet=quiet)
     start: dict[str, Motion] = {}
     frames: dict[str, FrameStart] = {}
-    if any(part.mode_count for part in parts.values()):
+    if any(part.reduced.mode_count for part in parts.values()):
         ideal = scene.replace({f"joints.{name}": "ideal" for name in scene.joints.with_clearance})
         settled = System(ideal, parts)
         start, frames = deformed_start(settled, _assembled(settled, {}, {}).drive)

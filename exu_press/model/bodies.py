@@ -5,14 +5,14 @@ from typing import TYPE_CHECKING
 
 from exudyn.itemInterface import LoadForceVector
 
-from exu_press.mechanism import Body, Motion, Point
+from exu_press.mechanism import Body, Motion
 from exu_press.model.system import System
 from exu_press.rigid import PivotedBody, RigidBody, SlidingBody
 
 if TYPE_CHECKING:
     from exu_press.flexible import FrameStart
 
-__all__ = ["add_bodies", "in_frame"]
+__all__ = ["add_bodies"]
 
 
 def add_bodies(
@@ -37,15 +37,6 @@ def add_bodies(
             system.mbs.AddLoad(LoadForceVector(markerNumber=centre, loadVector=weight))
 
 
-def in_frame(system: System, body: str, point: Point) -> Point:
-    """Return a point given from the centre of mass in the frame of a flexible body's solid."""
-    size = system.scene.press
-    assert size is not None
-    if body == system.mechanism.crank:
-        return point[0], point[1] + size.crank_mass_offset
-    return point[0] + size.linkage_mass_offset, point[1]
-
-
 def _add_rigid_body(system: System, body: Body, start: Motion) -> None:
     """Add a rigid body with the coordinates that its ideal joints leave it."""
     pivot = system.holding.pivoted.get(body.name)
@@ -65,21 +56,11 @@ def _add_flexible_body(
     system: System, name: str, start: Motion, deformed: "FrameStart | None"
 ) -> None:
     """Add a flexible body; its frame lies where the solid's does, not in the centre of mass."""
-    from exu_press.flexible import MAIN_BEARINGS, add_part, undeformed
+    from exu_press.flexible import add_part, undeformed
 
-    mechanism = system.mechanism
-    offset = in_frame(system, name, (0.0, 0.0))
-    frame = start.at((-offset[0], -offset[1]))
-    joints = {
-        joint.name: in_frame(system, name, point)
-        for joint in mechanism.joints
-        for body, point in mechanism.ends(joint)
-        if body == name and joint.name != "shaft"
-    }
-    if name == mechanism.crank:
-        joints |= dict.fromkeys(MAIN_BEARINGS, (0.0, 0.0))
-    begin = deformed or undeformed(frame)
-    body = add_part(system.mbs, system.scene, name, system.parts[name], begin, joints)
+    part = system.parts[name]
+    begin = deformed or undeformed(part.frame(start))
+    body = add_part(system.mbs, name, part, begin, system.mechanism, system.scene.gravity)
     system.flexible[name] = body
     system.bodies[name], system.nodes[name] = body.object_number, body.node_rigid
     if body.node_modes is not None:

@@ -6,6 +6,7 @@ import exudyn as exu
 from exudyn.itemInterface import MarkerBodyRigid, ObjectJointGeneric, ObjectJointRevolute2D
 from exudyn.rigidBodyUtilities import RotationMatrixZ
 
+from exu_press.errors import InputError
 from exu_press.joints import (
     ClearanceJoint,
     add_dry_revolute,
@@ -15,7 +16,6 @@ from exu_press.joints import (
 from exu_press.laws.friction import no_friction
 from exu_press.mechanism import GROUND, Joint, Point
 from exu_press.mechanism.holding import HalfHeld
-from exu_press.model.bodies import in_frame
 from exu_press.model.system import System
 from exu_press.scene import DryJoint, LubricatedJoint
 from exu_press.scene.laws import contact_law, film_law, friction_law
@@ -75,16 +75,21 @@ def _end(system: System, joint: Joint, body: str, point: Point) -> Any:
         return system.ground, point
     if body not in system.flexible:
         return system.bodies[body], system.rigid[body].local(point)
-    from exu_press.flexible import FACES, joint_end
+    from exu_press.flexible import joint_end
 
-    face = FACES[body, joint.name]
-    return joint_end(system.flexible[body], face, in_frame(system, body, point))
+    return joint_end(system.flexible[body], system.parts[body], joint, point)
 
 
 def _hold_half(system: System, joint: Joint, half: HalfHeld) -> int:
     """Hold a joint's two bodies together in one direction, which turns with one of them."""
     journal, bearing = system.mechanism.ends(joint)
     (body, point), end = (journal, bearing) if half.body == joint.journal else (bearing, journal)
+    loose = [name for name in (body, end[0]) if name in system.flexible]
+    if loose:
+        raise InputError(
+            f"bodies.{loose[0]}: other joints hold half of joints.{joint.name}; allowed is a "
+            "rigid body there, or such a joint with clearance"
+        )
     place, angle = point, half.angle
     if body != GROUND:
         place, angle = system.rigid[body].local(point), angle + system.rigid[body].turned

@@ -6,6 +6,7 @@ from typing import Any
 import exudyn as exu
 from exudyn.itemInterface import LoadCoordinate, LoadForceVector, SensorLoad
 
+from exu_press.errors import InputError
 from exu_press.laws.blanking import blanking_force
 from exu_press.model.system import System
 from exu_press.scene import Scene
@@ -20,6 +21,8 @@ def add_blanking(system: System) -> None:
         return
     period, begin = _pulse_period(system.scene)
     slider, direction = system.mechanism.slider, system.mechanism.output.direction
+    if slider in system.flexible:
+        raise InputError(f"blanking: acts on {slider}, which is flexible; allowed is a rigid one")
 
     def force(mbs: exu.MainSystem, t: float, load: float) -> float:
         return blanking_force((t - begin) % period, pulse.force, pulse.rise, pulse.fall)

@@ -16,7 +16,7 @@ from exu_press.scene import Scene
 from exu_press.solving import DEFAULTS, solve
 
 if TYPE_CHECKING:
-    from fe_models import ReducedPart
+    from exu_press.placed_part import PlacedPart
 
 __all__ = ["Model", "count_items"]
 
@@ -54,7 +54,7 @@ class Model:
     rigid: Mapping[str, RigidBody]
     drive: int
     sensors: dict[tuple[str, str], int]
-    parts: Mapping[str, "ReducedPart"]
+    parts: Mapping[str, "PlacedPart"]
     made: int
 
     @property

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.mechanism import Motion
-from exu_press.model.drive import DRIVE
+from exu_press.model.drive import turned_body
 from exu_press.model.system import System
 from exu_press.quasi_static import quasi_static_motion
 
@@ -29,7 +29,9 @@ def deformed_start(ideal: System, drive: int) -> tuple[dict[str, Motion], dict[s
     from exu_press.flexible import deformed
 
     mbs = ideal.mbs
-    coordinate = mbs.GetNodeODE2Index(ideal.nodes[DRIVE])
+    turned = turned_body(ideal)
+    coordinate = mbs.GetNodeODE2Index(ideal.nodes[turned])
+    coordinate += ideal.rigid[turned].coordinates.index("angle")
     state = quasi_static_motion(mbs, drive, coordinate, ideal.scene.angular_speed)
 
     def parts_of(node: int) -> Iterator[Array]:
@@ -41,7 +43,6 @@ def deformed_start(ideal: System, drive: int) -> tuple[dict[str, Motion], dict[s
         q, q_t = (values[None, :] for values in parts_of(rigid.node))
         start[name] = rigid.motion(q, q_t, np.zeros_like(q))
     for name, body in ideal.flexible.items():
-        assert body.node_modes is not None
-        frame, modes = parts_of(body.node_rigid), parts_of(body.node_modes)
-        frames[name] = deformed(mbs, body, *frame, *modes)
+        modes = [np.zeros(0)] * 2 if body.node_modes is None else parts_of(body.node_modes)
+        frames[name] = deformed(mbs, body, *parts_of(body.node_rigid), *modes)
     return start, frames

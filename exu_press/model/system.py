@@ -14,13 +14,14 @@ from exudyn.itemInterface import (
     ObjectGround,
 )
 
-from exu_press.mechanism import GROUND, Joint, Point, Spring
-from exu_press.mechanism.holding import holding_of
+from exu_press.mechanism import GROUND, Joint, Mechanism, Point, Spring
+from exu_press.mechanism.holding import by_constraints, holding_of
 from exu_press.rigid import RigidBody
 from exu_press.scene import Scene, mechanism_of
 
 if TYPE_CHECKING:
-    from fe_models import FlexibleBody, ReducedPart
+    from exu_press.placed_part import PlacedPart
+    from fe_models import FlexibleBody
 
 __all__ = ["System"]
 
@@ -46,11 +47,13 @@ class System:
         local_forces: object numbers of connectors whose force is known in their own axes alone.
     """
 
-    def __init__(self, scene: Scene, parts: Mapping[str, "ReducedPart"]) -> None:
+    def __init__(self, scene: Scene, parts: Mapping[str, "PlacedPart"]) -> None:
         """Make a system with nothing but the frame in it."""
         self.scene, self.parts = scene, parts
         self.mechanism = mechanism_of(scene)
-        self.holding = holding_of(self.mechanism, scene.joints.ideal)
+        self.holding = by_constraints(
+            holding_of(self.mechanism, scene.joints.ideal), _beside_flexible(scene, self.mechanism)
+        )
         self.ideal = self.mechanism.motion(np.array([scene.start_angle]), scene.angular_speed)
         self.SC = exu.SystemContainer()
         self.mbs = self.SC.AddSystem()
@@ -77,10 +80,14 @@ class System:
         return int(self.mbs.AddMarker(marker))
 
     def joint_marker(self, joint: Joint, body: str, point: Point) -> int:
-        """Add a marker for a joint; on a flexible body it follows the interface's mean motion."""
+        """Add a marker for a joint; on a flexible body it follows its faces' mean motion."""
         if body not in self.flexible:
             return self.marker(body, point)
-        return self.flexible[body].add_point_marker(self.mbs, joint.name)
+        from exu_press.flexible import point_name
+
+        count = len(self.parts[body].faces[joint.name])
+        points = (point_name(joint, number) for number in range(count))
+        return self.flexible[body].add_point_marker(self.mbs, *points)
 
     def coordinate(self, body: str, coordinate: str) -> int:
         """Add a marker on a rigid body's "x", "y" or "angle"."""
@@ -103,3 +110,16 @@ class System:
             damping=spring.damping,
         )
         return int(self.mbs.AddObject(held))
+
+
+def _beside_flexible(scene: Scene, mechanism: Mechanism) -> frozenset[str]:
+    """Return the rigid bodies that have a joint with clearance with a flexible one.
+
+    In such a joint, which is one in space, they need all their coordinates.
+    """
+    beside: set[str] = set()
+    for joint in mechanism.joints:
+        ends = {joint.journal, joint.bearing}
+        if joint.name not in scene.joints.ideal and ends & scene.bodies.keys():
+            beside |= ends
+    return frozenset(beside - scene.bodies.keys())

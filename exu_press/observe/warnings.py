@@ -1,15 +1,19 @@
 """What a reader of a run should know before believing its figures."""
 
-from collections.abc import Mapping
+import math
+from collections.abc import Iterator, Mapping
 from typing import Any
 
-from exu_press.scene import Scene
+from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.warnings import scene_warnings
 
 __all__ = ["run_warnings"]
 
 RESIDUAL = 0.01
 """Of the energy exchanged; beyond this the energy balance casts doubt on the integration."""
+
+ALIKE = 0.01
+"""Of mass and inertia, and of the mechanism's size: what a solid may differ by unsaid."""
 
 NEARLY_TOUCHING = 0.95
 """Eccentricity ratio from which a film is thinner than its law is good for."""
@@ -35,4 +39,23 @@ def run_warnings(summary: Mapping[str, Any], scene: Scene) -> list[str]:
                 f"{name.replace('_', ' ')}: eccentricity ratio up to {ratio:.3f}; film laws for "
                 "smooth surfaces are hardly valid there"
             )
-    return [*found, *scene_warnings(scene)]
+    return [*found, *_solids(summary, scene), *scene_warnings(scene)]
+
+
+def _solids(summary: Mapping[str, Any], scene: Scene) -> Iterator[str]:
+    """Yield what of a flexible body's solid differs from the mechanism's body."""
+    mechanism = mechanism_of(scene)
+    for name, solid in summary.get("solids", {}).items():
+        body, away = mechanism.body(name), math.hypot(*solid["centre_of_mass"])
+        said = [
+            f"{what} {solid[what]:.4g} {unit} for {meant:.4g}"
+            for what, unit, meant in (
+                ("mass", "kg", body.mass),
+                ("inertia", "kg m^2", body.inertia),
+            )
+            if abs(solid[what] - meant) > ALIKE * meant
+        ]
+        if away > ALIKE * mechanism.size:
+            said.append(f"a centre of mass {1e3 * away:.3g} mm from the mechanism's")
+        if said:
+            yield f"bodies.{name}: the solid's own values are taken: {', '.join(said)}"

@@ -1,4 +1,4 @@
-"""What flexible crank and linkage do: deformation, energy, stress."""
+"""What flexible bodies do: deformation, energy, stress."""
 
 from typing import TYPE_CHECKING
 
@@ -9,12 +9,13 @@ from exu_press.model import Model
 from exu_press.result.channel import Channel
 from exu_press.result.energy import work
 from exu_press.result.info import Stress
-from exu_press.result.motion import body_motion, sensor
+from exu_press.result.motion import frame_motion, sensor
 
 if TYPE_CHECKING:
+    from exu_press.placed_part import PlacedPart
     from fe_models import ReducedPart
 
-__all__ = ["pin_deflection", "record_parts", "worst_stress"]
+__all__ = ["deflection", "record_parts", "worst_stress"]
 
 Array = NDArray[np.float64]
 
@@ -28,16 +29,16 @@ def record_parts(model: Model, time: Array) -> tuple[dict[str, Channel], Array, 
     """
     channels: dict[str, Channel] = {}
     stored, dissipated = np.zeros_like(time), np.zeros_like(time)
-    for name, part in model.parts.items():
-        motion = body_motion(model, name)
+    for name, placed in model.parts.items():
+        part = placed.reduced
+        motion = frame_motion(model, name)
         position, velocity = motion.position, motion.velocity
         q, q_t = modal(model, name, part, len(time))
         strain = 0.5 * (q**2) @ np.diag(part.stiffness_matrix)
         stored += _rigid_energy(part, position, velocity, model.scene.gravity)
         stored += 0.5 * (q_t**2).sum(axis=1) + strain
         stored += 0.5 * velocity[:, 2] ** 2 * (q @ _stretch(part))
-        assert model.scene.flexible is not None
-        damping = np.diag(part.damping_matrix(model.scene.flexible.damping_ratio))
+        damping = np.diag(part.damping_matrix(placed.damping_ratio))
         lost = work(time, q_t * damping, q_t)
         dissipated += lost
         channels[f"{name}_strain_energy"] = Channel(strain, "J", f"{name}: elastic energy")
@@ -46,44 +47,56 @@ def record_parts(model: Model, time: Array) -> tuple[dict[str, Channel], Array, 
             channels[f"{name}_modes_loss"] = Channel(lost, "J", words)
             words = f"{name}: modal coordinates"
             channels[f"{name}_modes"] = Channel(q, "kg^0.5 m", words, f"{name}_mode")
-        if name == "crank":
-            moved = q @ pin_deflection(part).T
-            words = (
-                "crank pin: displacement from a rigid crank on the same main bearings and flange"
-            )
-            channels["crank_pin_deflection"] = Channel(
-                _turned(moved, position[:, 2]), "m", words, "plane"
-            )
-        else:
-            big, small = part.interface("big bore"), part.interface("small bore")
-            channels["linkage_elongation"] = Channel(
-                q @ (small.translation - big.translation)[0], "m", "linkage: bores further apart"
-            )
-            channels["linkage_bending"] = Channel(
-                q @ (small.rotation - big.rotation)[2], "rad", "linkage: bores turned apart"
-            )
+        pivot = next((j.name for j in model.mechanism.joints_of(name) if j.on_frame), None)
+        if pivot is not None:
+            for joint in placed.faces:
+                if placed.faces[joint][0] not in placed.faces[pivot]:
+                    moved = q @ deflection(placed, joint, pivot).T
+                    words = f"{joint}: displacement from a rigid {name} on the same {pivot}"
+                    turned = _turned(moved, position[:, 2])
+                    channels[f"{joint}_deflection"] = Channel(turned, "m", words, "plane")
+        elif len(placed.faces) == 2:
+            channels |= _between(placed, name, q)
     return channels, stored, dissipated
 
 
-def pin_deflection(part: "ReducedPart") -> Array:
-    """Return what each mode moves the crank pin, against bearings and flange, (2, modes).
+def _between(placed: "PlacedPart", name: str, q: Array) -> dict[str, Channel]:
+    """Return how far the two joints of a body move and turn apart."""
+    first, second = (placed.reduced.interface(faces[0]) for faces in placed.faces.values())
+    along = (second.axis - first.axis)[:2]
+    along = along / np.linalg.norm(along)
+    longer = along @ (second.translation - first.translation)[:2]
+    bent = (second.rotation - first.rotation)[2]
+    return {
+        f"{name}_elongation": Channel(q @ longer, "m", f"{name}: joints further apart"),
+        f"{name}_bending": Channel(q @ bent, "rad", f"{name}: joints turned apart"),
+    }
 
-    In the crank's frame: less what a rigid crank moves on the line between the centres of the main
-    journals, and as the flange, which is driven, turns. The mean-axis frame itself moves with the
-    modes, so that a force across the throw seems to bend it by 14 % less, one along it by 5 % more.
+
+def deflection(placed: "PlacedPart", joint: str, pivot: str) -> Array:
+    """Return what each mode moves a joint, against the body's pivot in the frame, (2, modes).
+
+    In the solid's frame: less what a rigid body moves on the line between the faces of the pivot,
+    and as the driven face turns, or else that of the pivot. The mean-axis frame itself moves with
+    the modes, so that a force across the press's throw seems to bend it by 14 % less, one along it
+    by 5 % more.
     """
-    first, second, pin = (part.interface(face) for face in ("journal A", "journal B", "pin"))
-    heights = [float(face.centre[2]) for face in (first, second, pin)]
-    share = (heights[2] - heights[0]) / (heights[1] - heights[0])
-    line = (1.0 - share) * first.translation + share * second.translation
-    turned = np.cross(part.interface("flange").rotation.T * (0.0, 0.0, 1.0), pin.centre).T
-    return np.asarray((pin.translation - line - turned)[:2])
+    part = placed.reduced
+    moved = part.interface(placed.faces[joint][0])
+    rests = [part.interface(face) for face in placed.faces[pivot]]
+    height, heights = float(moved.centre[2]), [float(rest.centre[2]) for rest in rests]
+    share = 0.0 if len(rests) == 1 else (height - heights[0]) / (heights[1] - heights[0])
+    line = (1.0 - share) * rests[0].translation + share * rests[-1].translation
+    spin = part.interface(placed.drive or placed.faces[pivot][0]).rotation.T * (0.0, 0.0, 1.0)
+    turned = np.cross(spin, moved.axis - rests[0].axis).T
+    return np.asarray((moved.translation - line - turned)[:2])
 
 
 def worst_stress(model: Model, time: Array) -> dict[str, Stress]:
     """Return the largest von Mises stress (Pa) of each part when its elastic energy is largest."""
     worst: dict[str, Stress] = {}
-    for name, part in model.parts.items():
+    for name, placed in model.parts.items():
+        part = placed.reduced
         if part.mode_count and len(part.stress):
             q, _ = modal(model, name, part, len(time))
             instant = int(np.argmax((q**2) @ np.diag(part.stiffness_matrix)))

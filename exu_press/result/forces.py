@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 def held_forces(model: Model) -> dict[str, Channel]:
     """Return the forces of drive, load, ideal joints and guides that hold a coordinate."""
     spherical = {joint.name for joint in model.mechanism.joints if joint.spherical}
-    channels = {}
+    channels: dict[str, Channel] = {}
     for name, quantity in model.sensors:
         if quantity not in ("force", "moment"):
             continue
@@ -38,7 +38,23 @@ def held_forces(model: Model) -> dict[str, Channel]:
             channels[f"{name}_force"] = vectors(
                 values[:, :2], "N", f"{in_words}: force on journal", name in spherical
             )
-    return channels
+    return channels | _of_several_faces(channels, model)
+
+
+def _of_several_faces(channels: Mapping[str, Channel], model: Model) -> dict[str, Channel]:
+    """Return the forces of joints that hold several faces of a flexible body: those of the faces.
+
+    Face by face they are in the channels, too, numbered.
+    """
+    found = {}
+    for part in model.parts.values():
+        for joint, faces in part.faces.items():
+            each = [f"{joint}_{number}_force" for number in range(1, len(faces) + 1)]
+            if len(each) > 1:
+                force = np.sum([channels[name].values for name in each], axis=0)
+                words = f"{joint.replace('_', ' ')}: force on journal"
+                found[f"{joint}_force"] = Channel(force, "N", words, "plane")
+    return found
 
 
 def frame_force(model: Model, channels: Mapping[str, Channel]) -> Channel:
@@ -46,8 +62,6 @@ def frame_force(model: Model, channels: Mapping[str, Channel]) -> Channel:
     on_bodies = np.zeros((len(channels["time"].values), 2))
     signs = {joint.name: 1.0 for joint in model.mechanism.joints if joint.bearing == GROUND}
     signs |= {joint.name: -1.0 for joint in model.mechanism.joints if joint.journal == GROUND}
-    main_bearings = [name for name in model.ideal_joints if name not in _names(model)]
-    signs |= dict.fromkeys(main_bearings, 1.0)
     for name, sign in signs.items():
         if f"{name}_force" in channels:
             on_bodies += sign * channels[f"{name}_force"].values[:, :2]
@@ -104,7 +118,3 @@ def vectors(values: Array, unit: str, words: str, spherical: bool) -> Channel:
     in_space = np.zeros((len(values), 3))
     in_space[:, : values.shape[1]] = values
     return Channel(in_space, unit, words, "space")
-
-
-def _names(model: Model) -> set[str]:
-    return {joint.name for joint in model.mechanism.joints}

@@ -2,7 +2,7 @@
 
 from typing import NotRequired, TypedDict
 
-__all__ = ["Error", "Errors", "Info", "Stress"]
+__all__ = ["Error", "Errors", "Info", "Solid", "Stress"]
 
 
 class Stress(TypedDict):
@@ -15,6 +15,22 @@ class Stress(TypedDict):
 
     von_mises: float
     time: float
+
+
+class Solid(TypedDict):
+    """What a flexible body's solid weighs, which is taken instead of what the mechanism says.
+
+    Attributes:
+        mass: kg.
+        centre_of_mass: from where the mechanism has it, in the body's frame, (2,), m.
+        inertia: about it, kg m^2.
+        modes: number of modal coordinates.
+    """
+
+    mass: float
+    centre_of_mass: list[float]
+    inertia: float
+    modes: int
 
 
 class Error(TypedDict):
@@ -63,6 +79,7 @@ class Info(TypedDict):
         newton_iterations: of all steps.
         law_evaluations: how often the clearance joints' forces were asked for.
         stress: of the flexible bodies with modes, by name.
+        solids: of the flexible bodies, by name.
         coordinates: of the model.
         bodies: of the model.
         connectors: of the model.
@@ -83,6 +100,7 @@ class Info(TypedDict):
     newton_iterations: int
     law_evaluations: int
     stress: NotRequired[dict[str, Stress]]
+    solids: NotRequired[dict[str, Solid]]
     coordinates: int
     bodies: int
     connectors: int

@@ -34,7 +34,7 @@ def shaking_forces(model: Model, acceleration: Array) -> dict[str, Channel]:
         mass, centre = body.mass, acceleration[:, index]
         if body.name in model.parts:
             # modes are orthogonal to rigid motions: they have no momentum of their own
-            part = model.parts[body.name]
+            part = model.parts[body.name].reduced
             mass, centre = part.mass, point_acceleration(model, body.name, part.centre_of_mass)
         forces[body.name] = -mass * centre[:, :2]
     channels = {

@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 from exu_press.mechanism import Motion
 from exu_press.model import Model
 
-__all__ = ["body_motion", "point_acceleration", "sensor"]
+__all__ = ["body_motion", "frame_motion", "point_acceleration", "sensor"]
 
 Array = NDArray[np.float64]
 
@@ -20,18 +20,27 @@ def sensor(model: Model, name: str, quantity: str, *, with_time: bool = False) -
 def body_motion(model: Model, name: str) -> Motion:
     """Return position, velocity and acceleration (x, y, angle) of a body's frame, each (n, 3).
 
-    The frame sits in the centre of mass, but for flexible bodies, where it is the solid's.
+    The frame sits where the mechanism has the centre of mass; a flexible body's moves with the
+    mean of the whole body.
     """
+    if name not in model.rigid:
+        return model.parts[name].body(frame_motion(model, name))
+    return model.rigid[name].motion(
+        *(sensor(model, name, level) for level in ("position", "velocity", "acceleration"))
+    )
+
+
+def frame_motion(model: Model, name: str) -> Motion:
+    """Return the motion of the frame of a flexible body's solid, as `body_motion`."""
     position, velocity, acceleration = (
         sensor(model, name, level) for level in ("position", "velocity", "acceleration")
     )
-    if name in model.rigid:
-        return model.rigid[name].motion(position, velocity, acceleration)
     position = position + model.mbs.GetNodeParameter(model.nodes[name], "referenceCoordinates")
     turn = position[:, 3:]  # Euler parameters
     angle = np.unwrap(2.0 * np.arctan2(turn[:, 3], turn[:, 0]))
     about_z = 2.0 * np.column_stack([-turn[:, 3], -turn[:, 2], turn[:, 1], turn[:, 0]])
-    start = model.scene.start_angle if name == model.mechanism.crank else angle[0]
+    ideal = model.mechanism.motion(np.array([model.scene.start_angle]), 1.0)[name]
+    start = ideal.position[0, 2] - model.parts[name].angle
     angle += 2.0 * np.pi * np.round((start - angle[0]) / (2.0 * np.pi))
     return Motion(
         np.column_stack([position[:, :2], angle]),

@@ -130,4 +130,13 @@ def _info(model: Model, outcome: Outcome, time: Array) -> Info:
     }
     if model.parts:
         info["stress"] = worst_stress(model, time)
+        info["solids"] = {
+            name: {
+                "mass": part.reduced.mass,
+                "centre_of_mass": [*part.centre_of_mass],
+                "inertia": part.inertia,
+                "modes": part.reduced.mode_count,
+            }
+            for name, part in model.parts.items()
+        }
     return info

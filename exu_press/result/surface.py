@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from exu_press.errors import InputError
 
 if TYPE_CHECKING:
-    from fe_models import ReducedPart
+    from exu_press.placed_part import PlacedPart
 
 __all__ = ["ARRAYS", "Surface", "surfaces_of"]
 
@@ -75,15 +75,20 @@ class Surface:
         return np.asarray(np.sqrt(0.5 * normal + 3.0 * (yz**2 + xz**2 + xy**2)))
 
 
-def surfaces_of(parts: Mapping[str, "ReducedPart"]) -> dict[str, Surface]:
+def surfaces_of(parts: Mapping[str, "PlacedPart"]) -> dict[str, Surface]:
     """Return the surfaces of the flexible bodies that have modes, by body."""
-    return {
-        name: Surface(
-            nodes=part.nodes.astype(np.float32),
-            triangles=part.triangles.astype(np.int32),
-            modes=part.modes.reshape(len(part.nodes), 3, -1).astype(np.float32),
-            stress=part.stress.reshape(-1, 6, part.mode_count).astype(np.float32),
-        )
-        for name, part in parts.items()
-        if part.mode_count
-    }
+    return {name: _surface(part) for name, part in parts.items() if part.reduced.mode_count}
+
+
+def _surface(part: "PlacedPart") -> Surface:
+    """Return a surface in the body's frame; the stresses' components stay the solid's."""
+    solid = part.reduced
+    c, s = np.cos(part.angle), np.sin(part.angle)
+    turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])  # from the body to the solid
+    modes = solid.modes.reshape(len(solid.nodes), 3, -1)
+    return Surface(
+        nodes=((solid.nodes - (*part.centre, 0.0)) @ turn).astype(np.float32),
+        triangles=solid.triangles.astype(np.int32),
+        modes=np.einsum("nim,ij->njm", modes, turn).astype(np.float32),
+        stress=solid.stress.reshape(-1, 6, solid.mode_count).astype(np.float32),
+    )

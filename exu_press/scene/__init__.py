@@ -1,6 +1,7 @@
 """Scene: what is asked, checked at the door."""
 
 from exu_press.mechanism import Press, SliderCrank
+from exu_press.scene.bodies import Face, Flexible, flexible_press
 from exu_press.scene.joint import DryJoint, IdealJoint, LubricatedJoint
 from exu_press.scene.joints import Joints
 from exu_press.scene.load import load_scene, parse_assignment
@@ -10,7 +11,6 @@ from exu_press.scene.tables import (
     Contact,
     ElasticGuide,
     Film,
-    Flexible,
     Friction,
     Solver,
 )
@@ -20,6 +20,7 @@ __all__ = [
     "Contact",
     "DryJoint",
     "ElasticGuide",
+    "Face",
     "Film",
     "Flexible",
     "Friction",
@@ -30,6 +31,7 @@ __all__ = [
     "Scene",
     "SliderCrank",
     "Solver",
+    "flexible_press",
     "load_scene",
     "mechanism_of",
     "parse_assignment",

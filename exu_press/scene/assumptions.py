@@ -108,7 +108,7 @@ def keys_of(scene: Scene) -> dict[str, Key]:
         default = kinds[name] if name in kinds else defaults.get(name, (None,))[0]
         meta = field.metadata
         found[name] = Key(name, value, default, meta["unit"], meta["meaning"])
-    return found | _joint_keys(scene)
+    return found | _joint_keys(scene) | _body_keys(scene)
 
 
 def used_assumptions(scene: Scene) -> dict[Assumption, tuple[Key, ...]]:
@@ -141,7 +141,7 @@ def assumed_line(scene: Scene) -> str:
 
 def _at_defaults(scene: Scene) -> Scene:
     """Return a scene of the same kind in which nothing else is given."""
-    kind: dict[str, Any] = {name: getattr(scene, name) for name in ("mechanism", "bodies")}
+    kind: dict[str, Any] = {name: getattr(scene, name) for name in ("mechanism",)}
     kind["joints"] = {name: joint.kind for name, joint in scene.joints.items()}
     for name, key in (("film", "at_contact"), ("press", "counterweight")):
         table = getattr(scene, name)
@@ -177,12 +177,25 @@ def _joint_keys(scene: Scene) -> dict[str, Key]:
     return {key.name: key for key in found}
 
 
+def _body_keys(scene: Scene) -> dict[str, Key]:
+    """Return the keys of the flexible bodies."""
+    found = {}
+    for name, body in scene.bodies.items():
+        for field in dataclasses.fields(body):
+            value, meta = getattr(body, field.name), field.metadata
+            if meta and value is not None:
+                key = f"bodies.{name}.{field.name}"
+                default = "" if field.name == "flexible" else field.default
+                found[key] = Key(key, value, default, meta["unit"], meta["meaning"])
+    return found
+
+
 def _flat(scene: Scene) -> Iterator[tuple[str, tuple[Any, dataclasses.Field[Any]]]]:
     """Yield the name of every key in use with its value and declaration."""
     used = scene.to_dict()
     for field in dataclasses.fields(scene):
         if field.name not in TABLES:
-            if field.name in used and field.name != "joints":
+            if field.name in used and field.name not in ("joints", "bodies"):
                 yield field.name, (getattr(scene, field.name), field)
             continue
         table = getattr(scene, field.name)

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from exu_press.errors import InputError
+from exu_press.scene.bodies import STEP_FILES
 from exu_press.scene.scene import Scene
 
 __all__ = ["load_scene", "parse_assignment"]
@@ -30,12 +31,22 @@ def load_scene(path: str | Path, assignments: Iterable[str] = ()) -> Scene:
         raise InputError(f"{path}: not a TOML file ({error})") from None
     if str(data.get("mechanism", "")).endswith(".toml"):
         data["mechanism"] = str(path.parent / data["mechanism"])
+    if isinstance(bodies := data.get("bodies"), dict):
+        data["bodies"] = {name: _beside(path, body) for name, body in bodies.items()}
     try:
         scene = Scene.from_dict(data)
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
     changes = dict(map(parse_assignment, assignments))
     return scene.replace(changes) if changes else scene
+
+
+def _beside(scene: Path, body: Any) -> Any:
+    """Return a flexible body with its STEP file's path taken from the scene file's directory."""
+    if isinstance(body, dict) and "flexible" in body:
+        return {**body, "flexible": _beside(scene, body["flexible"])}
+    is_file = isinstance(body, str) and body.lower().endswith(STEP_FILES)
+    return str(scene.parent / body) if is_file else body
 
 
 def parse_assignment(text: str) -> tuple[str, Any]:

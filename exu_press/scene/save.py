@@ -2,6 +2,7 @@
 
 import dataclasses
 import json
+import os
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -10,13 +11,14 @@ from exu_press.checks import Table
 from exu_press.errors import InputError
 from exu_press.mechanism import Mechanism, mechanism_lines
 from exu_press.output import replacing
+from exu_press.scene.bodies import Flexible, body_dict
 from exu_press.scene.joint import joint_dict
 from exu_press.scene.joints import Joints
 
 Laws = Mapping[str, Table | None]
 """The scene's own "contact", "friction" and "film"."""
 
-__all__ = ["joint_lines", "save_scene", "table_lines"]
+__all__ = ["body_lines", "joint_lines", "save_scene", "table_lines"]
 
 
 def save_scene(
@@ -45,6 +47,12 @@ def save_scene(
         table = getattr(scene, field.name)
         if isinstance(table, Joints):
             lines += joint_lines(table, laws, comments)
+        elif field.name == "bodies":
+            for name, body in table.items():
+                if body.from_file:  # a scene file has it relative to itself
+                    beside = os.path.relpath(body.flexible, path.parent)
+                    body = dataclasses.replace(body, flexible=beside)
+                lines += ["", f"[bodies.{name}]", *body_lines(body, comments)]
         elif isinstance(table, Table):
             lines += ["", f"[{field.name}]", *table_lines(table, comments)]
         elif isinstance(table, Mechanism):
@@ -74,6 +82,19 @@ def table_lines(table: Table, comments: bool, *, absent: bool = False) -> list[s
     return _commented(keys) if comments else list(keys)
 
 
+def body_lines(body: Flexible, comments: bool, *, absent: bool = False) -> list[str]:
+    """Return the keys of a flexible body; arguments as those of `table_lines`."""
+    meanings = {f.name: _meaning(f.metadata) for f in dataclasses.fields(body) if f.metadata}
+    meanings["faces"] = "joint = face's name, or {radius, z} of its cylinder; found by their axes"
+    given = body_dict(body)
+    keys = {
+        f"{name} = {_text(given[name])}" if name in given else f"# {name} =": meaning
+        for name, meaning in meanings.items()
+        if absent or name in given
+    }
+    return _commented(keys) if comments else list(keys)
+
+
 def joint_lines(joints: Joints, laws: Laws, comments: bool) -> list[str]:
     """Return the joints with clearance, group by group; without any, all joints are ideal."""
     lines = [] if joints.grouped else ["", "[joints]"]
@@ -98,6 +119,8 @@ def _text(value: Any) -> str:
     """Return a value in TOML: JSON's texts and switches are TOML's, and so is Python's float."""
     if isinstance(value, Mapping):
         return "{" + ", ".join(f"{key} = {_text(inner)}" for key, inner in value.items()) + "}"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(_text, value)) + "]"
     if type(value) is float and float(short := f"{value:g}") == value:
         return short if set(short) & set(".e") else f"{short}.0"
     return repr(value) if type(value) in (float, int) else json.dumps(value, ensure_ascii=False)

@@ -21,6 +21,7 @@ from exu_press.mechanism import (
     shipped_mechanism,
     slider_crank,
 )
+from exu_press.scene.bodies import DRIVE_FACE, Flexible, bodies_of, body_dict, changed_bodies
 from exu_press.scene.elastic import with_elastic_guides
 from exu_press.scene.joint import DEFAULT_KINDS, LAW_TABLES, joint_dict
 from exu_press.scene.joint_changes import by_group, changed_joints, kinds_of, unused_laws
@@ -31,7 +32,6 @@ from exu_press.scene.tables import (
     Contact,
     ElasticGuide,
     Film,
-    Flexible,
     Friction,
     Solver,
 )
@@ -39,16 +39,6 @@ from exu_press.scene.tables import (
 __all__ = ["Scene", "mechanism_of"]
 
 RPM = math.pi / 30  # rad/s
-
-PARTS_ARE_MADE_FOR = {
-    "crank_radius": 0.03,
-    "linkage_length": 0.383,
-    "crank_mass": 217.6,
-    "linkage_mass": 184.5,
-}
-
-RIGID_JOINTS = ("shaft",)
-"""Joints that have no clearance beside flexible bodies: two main bearings carry the crank shaft."""
 
 OF_THE_COUNTERWEIGHT = (
     "counter_eccentricity",
@@ -63,7 +53,6 @@ TABLES = {
     "film": Film,
     "blanking": Blanking,
     "guide": ElasticGuide,
-    "flexible": Flexible,
     "solver": Solver,
     "press": Press,
     "slider_crank": SliderCrank,
@@ -91,18 +80,17 @@ class Scene(Table):
         choices=("press", "slider_crank", *SHIPPED),
         also=Mechanism,
     )
-    bodies: str = key("rigid", "bodies", choices=("rigid", "flexible"))
     speed_rpm: float = key(240.0, "crank speed", "rpm", above=0)
     revolutions: float = key(2.0, "length of the run", above=0)
     start_angle_deg: float = key(0.0, "crank angle at the start", "deg")
     gravity: float = key(9.81, "gravitational acceleration, downwards", "m/s^2", at_least=0)
     joints: Joints = dataclasses.field(default=cast(Any, None))  # until its mechanism is known
+    bodies: Mapping[str, Flexible] = dataclasses.field(default_factory=dict, hash=False)
     contact: Contact | None = None
     friction: Friction | None = None
     film: Film | None = None
     blanking: Blanking | None = None
     guide: ElasticGuide | None = None
-    flexible: Flexible | None = None
     solver: Solver | None = None
     press: Press | None = None
     slider_crank: SliderCrank | None = None
@@ -124,7 +112,8 @@ class Scene(Table):
             elif name not in unused and name not in (*ONLY_WHERE_GIVEN, *LAW_TABLES):
                 object.__setattr__(self, name, table())
         self._settle_joints()
-        self._check_bodies_and_load()
+        self._settle_bodies()
+        self._check_load()
 
     def _settle_joints(self) -> None:
         """Say what every joint of the mechanism is; a law that no joint has is refused."""
@@ -143,6 +132,17 @@ class Scene(Table):
             self._refuse(unused, name, law)
             object.__setattr__(self, name, None if name in unused else usual[name])
 
+    def _settle_bodies(self) -> None:
+        """Say which bodies are flexible; those in guides are not."""
+        mechanism = mechanism_of(self)
+        joints = {b.name: [j.name for j in mechanism.joints_of(b.name)] for b in mechanism.bodies}
+        joints[mechanism.crank].append(DRIVE_FACE)
+        bodies = bodies_of(self.bodies, mechanism.name, joints)
+        guided = [guide.body for guide in mechanism.guides if guide.body in bodies]
+        if guided:
+            raise InputError(f"bodies.{guided[0]}: lies in a guide; allowed is a body without one")
+        object.__setattr__(self, "bodies", bodies)
+
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> "Scene":
         """Return the scene of a nested mapping, as a scene file holds it."""
@@ -155,6 +155,9 @@ class Scene(Table):
             value = getattr(self, field.name)
             if isinstance(value, Joints):
                 complete[field.name] = value.to_dict(self.laws)
+            elif field.name == "bodies":
+                bodies = {name: body_dict(body) for name, body in value.items()}
+                complete |= {"bodies": bodies} if bodies else {}
             elif isinstance(value, Table):
                 inner = dataclasses.asdict(value)
                 complete[field.name] = {k: v for k, v in inner.items() if v is not None}
@@ -188,6 +191,11 @@ class Scene(Table):
         elif change:
             changes.update(change[0])
         data = self.to_dict()
+        if isinstance(bodies := changes.get("bodies", {}), Mapping):
+            own = {k[7:]: v for k, v in changes.items() if k.startswith("bodies.")}
+            changes = {k: v for k, v in changes.items() if not k.startswith("bodies.")}
+            before = bodies if "bodies" in changes else data.get("bodies", {})
+            changes |= {"bodies": changed_bodies(before, own)} if own else {}
         groups = self.joints.groups
         if (mechanism := changes.get("mechanism", self.mechanism)) != self.mechanism:
             other = Scene.from_dict({"mechanism": mechanism})
@@ -197,6 +205,8 @@ class Scene(Table):
                 **{name: joint_dict(joint, self.laws) for name, joint in same.items()},
             }
             groups = other.joints.groups
+            there = {body.name for body in mechanism_of(other).bodies}
+            data["bodies"] = {n: k for n, k in data.get("bodies", {}).items() if n in there}
         joint_changes = {}
         for name, value in changes.items():
             table, _, inner = name.rpartition(".")
@@ -272,23 +282,8 @@ class Scene(Table):
             shown = f"[{name}]" if name in TABLES else f"{name} = {given!r}"
             raise InputError(f"{shown}: not used by this scene ({unused[name]}); remove it")
 
-    def _check_bodies_and_load(self) -> None:
-        """Refuse flexible parts of another size or loose in the frame, and pulses that overlap."""
-        if self.flexible is not None:
-            if self.press is None:
-                raise InputError("bodies = 'flexible': allowed with mechanism = 'press' alone")
-            for name, joint in self.joints.with_clearance.items():
-                if name in RIGID_JOINTS:
-                    raise InputError(
-                        f"joints.{name}.kind = {joint.kind!r}: allowed with bodies = 'flexible' is "
-                        "'ideal'"
-                    )
-            for name, fitted in PARTS_ARE_MADE_FOR.items():
-                if getattr(self.press, name) != fitted:
-                    raise InputError(
-                        f"press.{name} = {getattr(self.press, name)!r}: allowed with "
-                        f"bodies = 'flexible' is {fitted!r}, for which the parts are made"
-                    )
+    def _check_load(self) -> None:
+        """Refuse pulses that overlap."""
         if self.blanking is not None:
             pulse, period = self.blanking.rise + self.blanking.fall, 60 / self.speed_rpm
             if pulse > period:
@@ -333,8 +328,8 @@ def _peek(table: Any, name: str) -> Any:
 
 
 def _unused(scene: Mapping[str, Any]) -> dict[str, str]:
-    """Return the tables and keys about bodies that a scene does not use, each with its reason."""
-    mechanism, bodies = scene["mechanism"], scene["bodies"]
+    """Return the tables and keys that a scene does not use, each with its reason."""
+    mechanism = scene["mechanism"]
     shown = repr(mechanism) if isinstance(mechanism, str) else "the scene's own"
     press = mechanism == "press", f"mechanism is {shown}"
     slider_crank = mechanism == "slider_crank", press[1]
@@ -345,7 +340,6 @@ def _unused(scene: Mapping[str, Any]) -> dict[str, str]:
         "press": press,
         "slider_crank": slider_crank,
         "guide.slider_inertia": with_slider,
-        "flexible": (bodies == "flexible", f"bodies is {bodies!r}"),
         "guide.slide_inertia": press,
         "guide.counterweight_inertia": counterweight,
         **{f"press.{name}": counterweight for name in OF_THE_COUNTERWEIGHT},

@@ -16,7 +16,6 @@ __all__ = [
     "Contact",
     "ElasticGuide",
     "Film",
-    "Flexible",
     "Friction",
     "Solver",
 ]
@@ -135,20 +134,6 @@ class ElasticGuide(Table):
     counterweight_inertia: float | None = key(
         None, "counterweight (12); a steel cube's unless given", "kg m^2", above=0
     )
-
-
-@dataclass(frozen=True)
-class Flexible(Table):
-    """Crank shaft and linkage as flexible bodies (section 4, Table 1)."""
-
-    table: ClassVar[str] = "flexible"
-    crank: str = key("crank", "shape of the crank shaft", choices=("crank", "crank_2"))
-    linkage: str = key("linkage", "shape of the linkage", choices=("linkage", "linkage_2"))
-    modes: int = key(20, "modal coordinates of each part", at_least=0, at_most=500)
-    method: str = key("craig_bampton", "reduction", choices=("craig_bampton", "free"))
-    damping_ratio: float = key(0.02, "of every mode", at_least=0, at_most=0.9)
-    mesh_size: float = key(0.03, "of the tetrahedra", "m", at_least=0.01, at_most=0.1)
-    modulus_factor: float = key(1.0, "times the paper's moduli of elasticity", above=0)
 
 
 @dataclass(frozen=True)

@@ -5,9 +5,10 @@ import textwrap
 from collections.abc import Iterator
 
 from exu_press.checks import Table
+from exu_press.scene.bodies import Flexible
 from exu_press.scene.joints import Joints
-from exu_press.scene.save import joint_lines, table_lines
-from exu_press.scene.scene import TABLES, Scene
+from exu_press.scene.save import body_lines, joint_lines, table_lines
+from exu_press.scene.scene import TABLES, Scene, mechanism_of
 
 __all__ = ["template"]
 
@@ -41,6 +42,8 @@ def _lines(scene: Scene) -> Iterator[str]:
                 example = scene.replace(f"joints.{name}", "dry")
                 shown = joint_lines(example.joints, example.laws, True)[1:]
                 yield from ("", *(f"# {line}" for line in shown))
+        elif field.name == "bodies":
+            yield from ("", *(f"# {line}" for line in _a_flexible_body(scene)))
         elif isinstance(value, Table):
             yield from ("", f"[{field.name}]", *table_lines(value, True, absent=True))
         elif (kind := TABLES.get(field.name)) is not None and field.name not in OF_MECHANISMS:
@@ -51,6 +54,19 @@ def _lines(scene: Scene) -> Iterator[str]:
 
 OF_MECHANISMS = ("press", "slider_crank")
 """Tables of other mechanisms than the scene's, which it could not use."""
+
+
+def _a_flexible_body(scene: Scene) -> Iterator[str]:
+    """Yield the table of a flexible body, as an example."""
+    mechanism = mechanism_of(scene)
+    guided = {guide.body for guide in mechanism.guides}
+    free = [body.name for body in mechanism.bodies if body.name not in guided]
+    shipped = scene.shipped == "press"
+    name = "linkage" if shipped else free[-1]
+    example = Flexible("linkage" if shipped else "my_part.step")
+    yield f"[bodies.{name}]  # A flexible body: {', '.join(free)}; rigid without it."
+    for line in body_lines(example, True, absent=True):
+        yield line.removeprefix("# ")
 
 
 def _all_joints(joints: Joints) -> list[str]:

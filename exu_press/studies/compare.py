@@ -19,11 +19,12 @@ def variants(scene: Scene) -> dict[str, Scene]:
     ]
     joints = {kind: dict.fromkeys(names, kind) for kind in ("ideal", "dry", "lubricated")}
     joints["lubricated"] |= dict.fromkeys(balls, "dry")
-    kinds = ["rigid"] if scene.bodies == "rigid" else ["rigid", "flexible"]
+    kinds: dict[str, Scene] = {"": scene}
+    if scene.bodies:
+        kinds = {"rigid ": scene.replace(bodies={}), "flexible ": scene}
     found = {}
-    for bodies in kinds:
+    for bodies, base in kinds.items():
         for label, change in joints.items():
-            full = label if len(kinds) == 1 else f"{bodies} {label}"
             by_joint = {f"joints.{name}": kind for name, kind in change.items()}
-            found[full] = scene.replace({"bodies": bodies, **by_joint})
+            found[bodies + label] = base.replace(by_joint)
     return found

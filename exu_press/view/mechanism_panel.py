@@ -95,8 +95,7 @@ def poses(result: Result, mechanism: Mechanism, instants: Instants) -> dict[str,
     """Return the poses (m, 3) of every body's centre of mass at the frames' instants.
 
     Between the integrator's steps they are interpolated linearly: 3 um off at most, with the
-    largest steps of 1.5 degrees. A flexible body's pose in the file is that of its solid's frame;
-    its joints are drawn where its mean frame has them.
+    largest steps of 1.5 degrees. A flexible body's joints are drawn where its mean frame has them.
     """
     stored = result["body_position"]
     found = {}
@@ -104,23 +103,8 @@ def poses(result: Result, mechanism: Mechanism, instants: Instants) -> dict[str,
         pose = np.column_stack(
             [np.interp(instants.time, result.time, stored[:, index, k]) for k in range(3)]
         )
-        offset = _frame_offset(result, mechanism, name)
-        if any(offset):
-            c, s = np.cos(pose[:, 2]), np.sin(pose[:, 2])
-            pose[:, 0] += c * offset[0] - s * offset[1]
-            pose[:, 1] += s * offset[0] + c * offset[1]
         found[name] = pose
     return found
-
-
-def _frame_offset(result: Result, mechanism: Mechanism, name: str) -> tuple[float, float]:
-    """Return where the centre of mass lies in the frame whose pose the file holds."""
-    size = result.scene.press
-    if result.scene.flexible is None or size is None:
-        return 0.0, 0.0
-    if name == mechanism.crank:
-        return 0.0, size.crank_mass_offset
-    return (size.linkage_mass_offset, 0.0) if name == "linkage" else (0.0, 0.0)
 
 
 def _put(line: Line2D, places: Array) -> None:

@@ -165,7 +165,7 @@ def choose(
     return Choice(
         alike=tuple(alike),
         separate=tuple(separate),
-        bodies=scene.bodies,
+        bodies="flexible" if scene.bodies else "rigid",
         speed_rpm=scene.speed_rpm,
         force=scene.blanking.force if scene.blanking is not None else 0.0,
         best={w: _least(alike, w) for w in WEIGHTS},

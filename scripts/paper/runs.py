@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from exu_press.scene import Film, Scene
+from exu_press.scene import Film, Scene, flexible_press
 
 __all__ = ["ELASTIC", "LOADS", "REVOLUTIONS", "clearance", "paper_runs", "rigid_twin", "run_name"]
 
@@ -34,10 +34,10 @@ def paper_runs(*, rigid_only: bool = False, revolutions: float = REVOLUTIONS) ->
         rigid_only: leave flexible bodies out; sweeps are rigid then, under their own names.
         revolutions: length of every run.
     """
-    rigid = Scene(bodies="rigid", film=Film(law="pinkus"), revolutions=revolutions)
+    rigid = Scene(film=Film(law="pinkus"), revolutions=revolutions)
     bodies = {"rigid": rigid}
     if not rigid_only:
-        bodies["flexible"] = rigid.replace(bodies="flexible")
+        bodies["flexible"] = rigid.replace(bodies=flexible_press())
     runs = {
         run_name(load, joints, kind): clearance(scene, BASELINE).replace(LOADS[load] | change)
         for load in LOADS
@@ -72,4 +72,4 @@ def clearance(scene: Scene, radial: float) -> Scene:
 
 def rigid_twin(scene: Scene) -> Scene:
     """Return the scene with rigid bodies."""
-    return scene if scene.bodies == "rigid" else scene.replace(bodies="rigid")
+    return scene.replace(bodies={})

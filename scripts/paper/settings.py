@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from exu_press.scene import Scene
+from fe_models import CRANK_STEEL, LINKAGE_IRON
 
 __all__ = ["AS_THEY_ARE", "FLEXIBLE", "QUICK", "SETTINGS", "Setting", "Times"]
 
@@ -65,6 +66,9 @@ def _place(scene: Scene, name: str) -> tuple[Any, bool]:
     if table.startswith("joints."):
         joint = scene.joints[scene.joints.members(table.removeprefix("joints."))[0]]
         return getattr(joint, inner), joint.kind != "ideal"
+    if name.startswith("bodies."):
+        body = scene.bodies.get(name.split(".")[1])
+        return getattr(body, inner, None), body is not None
     place = getattr(scene, table)
     if place is None or (table == "blanking" and place.force == 0.0):
         return None, False
@@ -72,6 +76,30 @@ def _place(scene: Scene, name: str) -> tuple[Any, bool]:
     if name in ("contact.shape", "contact.modulus"):
         return value, scene.joints["crank_pin"].kind == "dry"
     return value, True
+
+
+def _both(factor: str, key: str, values: Mapping[str, Any]) -> tuple[Setting, ...]:
+    """Return a setting for each value, by label, of one key of crank shaft and linkage."""
+    return tuple(
+        Setting(factor, label, {f"bodies.{body}.{key}": value for body in ("crank", "linkage")})
+        for label, value in values.items()
+    )
+
+
+def _moduli(factors: Mapping[str, float]) -> tuple[Setting, ...]:
+    """Return a setting for each factor, by label, of both materials' moduli of elasticity."""
+    materials = {"crank": CRANK_STEEL, "linkage": LINKAGE_IRON}
+    return tuple(
+        Setting(
+            "modulus",
+            label,
+            {
+                f"bodies.{body}.youngs_modulus": factor * material.youngs_modulus
+                for body, material in materials.items()
+            },
+        )
+        for label, factor in factors.items()
+    )
 
 
 def _series(factor: str, key: str, values: Mapping[str, Any]) -> tuple[Setting, ...]:
@@ -154,12 +182,12 @@ SETTINGS: tuple[Setting, ...] = (
 """On rigid bodies, where a run takes a second."""
 
 FLEXIBLE: tuple[Setting, ...] = (
-    *_series("modes", "flexible.modes", {"4": 4, "40": 40}),
-    *_series("damping ratio", "flexible.damping_ratio", {"0.5 %": 0.005, "5 %": 0.05}),
-    *_series("modulus", "flexible.modulus_factor", {"half": 0.5, "twice": 2.0}),
-    Setting("shapes", "second", {"flexible.crank": "crank_2", "flexible.linkage": "linkage_2"}),
-    *_series("reduction", "flexible.method", {"free modes": "free"}),
-    Setting("bodies", "rigid", {"bodies": "rigid"}),
+    *_both("modes", "modes", {"4": 4, "40": 40}),
+    *_both("damping ratio", "damping_ratio", {"0.5 %": 0.005, "5 %": 0.05}),
+    *_moduli({"half": 0.5, "twice": 2.0}),
+    Setting("shapes", "second", {"bodies.crank": "crank_2", "bodies.linkage": "linkage_2"}),
+    *_both("reduction", "method", {"free modes": "free"}),
+    Setting("bodies", "rigid", {"bodies": {}}),
     *(
         setting
         for setting in SETTINGS

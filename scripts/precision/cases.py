@@ -3,8 +3,7 @@
 from typing import Any
 
 from exu_press.errors import InputError
-from exu_press.scene import Scene
-from exu_press.scene.tables import Film, Flexible
+from exu_press.scene import Film, Scene, flexible_press
 from exu_press.studies.precision.cases import STEPS, TOLERANCES, Case
 from precision.extras import Reduced, Squeezer
 
@@ -75,7 +74,7 @@ def cases() -> tuple[Case, ...]:
             "press_flexible_lubricated",
             "Press, flexible (20 modes), lubricated pin and dry balls, 0.1 mm",
             "own",
-            _press("lubricated", "dry", bodies="flexible"),
+            _press("lubricated", "dry", bodies=flexible_press()),
             steps=STEPS[3:9],
             tolerances=TOLERANCES[:10],
             reference_tolerance=1e-5,
@@ -86,7 +85,7 @@ def cases() -> tuple[Case, ...]:
             "press_flexible_dry",
             "Press, flexible (20 modes), dry pin and dry balls, 0.1 mm",
             "own",
-            _press("dry", "dry", bodies="flexible"),
+            _press("dry", "dry", bodies=flexible_press()),
             steps=STEPS[3:8],
             tolerances=TOLERANCES[:10],
             reference_tolerance=1e-5,
@@ -97,7 +96,7 @@ def cases() -> tuple[Case, ...]:
             "press_flexible_modes",
             "Press, flexible, lubricated pin and dry balls, against 40 modes",
             "own",
-            _press("lubricated", "dry", bodies="flexible", flexible=Flexible(modes=40)),
+            _press("lubricated", "dry", bodies=flexible_press(modes=40)),
             steps=(),
             tolerances=(),
             reference_tolerance=1e-4,

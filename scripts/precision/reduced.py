@@ -90,7 +90,7 @@ def numbers_of(scene: Scene) -> Numbers:
 
 def is_reducible(scene: Scene) -> bool:
     """Return whether the reduced model holds a scene's mechanism and laws."""
-    if (scene.mechanism, scene.bodies, scene.blanking) != ("slider_crank", "rigid", None):
+    if (scene.mechanism, scene.bodies, scene.blanking) != ("slider_crank", {}, None):
         return False
     if set(scene.joints.with_clearance) != {"crank_pin"}:
         return False

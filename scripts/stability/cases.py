@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping
 from functools import cache
 from typing import Any
 
-from exu_press.scene import Film, Scene
+from exu_press.scene import Film, Scene, flexible_press
 from exu_press.studies.stability.case import PAIRS, Case
 
 __all__ = ["cases", "quick_cases"]
@@ -269,19 +269,22 @@ def _masses() -> list[Case]:
 
 def _flexible() -> list[Case]:
     """Flexible crank and linkage: number of modes, stiffness, damping; a whole revolution."""
-    whole = {"bodies": "flexible", "revolutions": 1.0, "solver.max_steps": LONG_BUDGET}
-    modes = {f"{n} modes": {**whole, "flexible.modes": n} for n in (0, 2, 10, 20, 40, 60)}
+
+    def whole(**keys: Any) -> Changes:
+        bodies = flexible_press(**keys)
+        return {"bodies": bodies, "revolutions": 1.0, "solver.max_steps": LONG_BUDGET}
+
+    modes = {f"{n} modes": whole(modes=n) for n in (0, 2, 10, 20, 40, 60)}
     others = {
-        "E x 0.5": {**whole, "flexible.modes": 4, "flexible.modulus_factor": 0.5},
-        "E x 100": {**whole, "flexible.modes": 4, "flexible.modulus_factor": 100.0},
-        "undamped": {**whole, "flexible.modes": 4, "flexible.damping_ratio": 0.0},
-        "free modes": {**whole, "flexible.modes": 20, "flexible.method": "free"},
+        "E x 0.5": whole(modes=4, youngs_modulus=1e11),
+        "E x 100": whole(modes=4, youngs_modulus=2e13),
+        "undamped": whole(modes=4, damping_ratio=0.0),
+        "free modes": whole(modes=20, method="free"),
     }
-    dry = {**whole, "flexible.modes": 4}
     return [
         *_along("flexible bodies", ["press lubricated"], modes | others),
-        *_along("flexible bodies", ["press"], {"4 modes": dry}),
-        *_along("flexible bodies", ["press ideal"], {"20 modes": {**whole, "flexible.modes": 20}}),
+        *_along("flexible bodies", ["press"], {"4 modes": whole(modes=4)}),
+        *_along("flexible bodies", ["press ideal"], {"20 modes": whole(modes=20)}),
     ]
 
 

@@ -5,6 +5,7 @@ import pytest
 
 from exu_press import Scene, simulate
 from exu_press.integrate.flexible_jacobian import FlexibleJacobian
+from exu_press.scene import flexible_press
 
 pytest.importorskip("ngsolve")
 
@@ -12,10 +13,9 @@ pytest.importorskip("ngsolve")
 @pytest.fixture
 def scene():
     return Scene(
-        bodies="flexible",
+        bodies=flexible_press(modes=4),
         joints={"crank_pin": "lubricated", "balls": "dry"},
         revolutions=0.1,
-        flexible={"modes": 4},
         solver={"tolerance": 0.01},
     )
 
@@ -60,7 +60,7 @@ def test_it_changes_the_cost_and_not_the_result(scene, monkeypatch):
 
 def test_no_alternation_grows_from_what_newtons_method_leaves_in_the_constraints():
     """One iteration a step ends with the counterweight at +-11 m/s^2 about -10, and worse."""
-    scene = Scene(bodies="flexible", joints={}, revolutions=0.55)
+    scene = Scene(bodies=flexible_press(), joints={}, revolutions=0.55)
     result = simulate(scene)
     assert result.completed, result.summary()["reason"]
     force = result["counterweight_pin_force"][:, 1]

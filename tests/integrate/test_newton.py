@@ -7,6 +7,7 @@ from patched import PATCHED
 from exu_press import Scene, Tuning, simulate
 from exu_press.integrate.newton import Newton
 from exu_press.result import record
+from exu_press.scene import flexible_press
 
 
 def tuned(scene, **numbers):
@@ -47,9 +48,8 @@ def test_euler_parameters_are_expected_on_their_unit_sphere():
     pytest.importorskip("ngsolve")
     run = simulate(
         Scene(
-            bodies="flexible",
+            bodies=flexible_press(modes=4),
             joints={"crank_pin": "ideal", "balls": "ideal"},
-            flexible={"modes": 4},
             revolutions=0.2,
         )
     )

@@ -9,6 +9,7 @@ from exu_press import Result, Scene
 from exu_press.observe.energy import energy_residual, energy_summary
 from exu_press.plots.save import save_pictures
 from exu_press.result import record
+from exu_press.scene import flexible_press
 
 
 def _balance(given, stored, lost):
@@ -64,7 +65,7 @@ def test_damping_of_modes_is_an_entry_of_what_is_dissipated():
     pytest.importorskip("ngsolve")
     from exu_press import simulate
 
-    result = simulate(Scene(bodies="flexible", revolutions=0.05, flexible={"modes": 4}))
+    result = simulate(Scene(bodies=flexible_press(modes=4), revolutions=0.05))
     losses = [result[name] for name in result if name.endswith("_loss")]
     modal = result["crank_modes_loss"] + result["linkage_modes_loss"]
     assert modal[-1] > 0.01 * result["energy_dissipated"][-1]

@@ -129,7 +129,7 @@ def test_no_modes(crank, crank_model):
 
 @pytest.mark.parametrize("modes", [-1, 2.5, True])
 def test_a_mode_count_that_is_none(modes):
-    with pytest.raises(InputError, match=r"flexible.modes.*0 or more"):
+    with pytest.raises(InputError, match=r"modes.*0 or more"):
         Reduction(modes=modes)
 
 

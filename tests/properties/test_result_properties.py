@@ -13,13 +13,13 @@ from scipy.io import netcdf_file
 
 from exu_press import InputError, Result, Scene, simulate
 from exu_press.cli import main
+from exu_press.scene import flexible_press
 
 SCENES = {
     "dry": {"mechanism": "slider_crank", "joints": {"crank_pin": "dry"}, "revolutions": 0.02},
     "press": {"guide": {}, "blanking": {"force": 1e4}, "revolutions": 0.005},
     "flexible": {
-        "bodies": "flexible",
-        "flexible": {"modes": 2, "mesh_size": 0.1},
+        "bodies": flexible_press(modes=2, mesh_size=0.1),
         "revolutions": 0.002,
     },
 }

@@ -103,7 +103,7 @@ def test_saved_and_read_back(tmp_path):
     assert sorted(again.clearance_joints) == ["ball_left", "ball_right"]
 
 
-@pytest.mark.parametrize("joint", ["shaft"])
-def test_a_flexible_crank_rests_in_ideal_bearings(joint):
-    with pytest.raises(InputError, match=rf"joints\.{joint}\.kind = 'dry': allowed with bodies"):
-        Scene(bodies="flexible", joints={joint: "dry"})
+def test_a_crank_that_rests_in_two_bearings_has_no_clearance_there():
+    scene = Scene(bodies={"crank": {"flexible": "crank", "modes": 0}}, joints={"shaft": "dry"})
+    with pytest.raises(InputError, match=r"joints\.shaft: holds 2 faces .* allowed is 'ideal'"):
+        simulate(scene)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
-from exu_press.scene import mechanism_of
+from exu_press.scene import flexible_press, mechanism_of
 from exu_press.solving import scales
 
 GRAVITY = 9.81
@@ -51,7 +51,7 @@ def test_frame_carries_inertia_weight_and_load(variant):
 @pytest.mark.parametrize("modes", [0, 20])
 def test_frame_of_the_flexible_press(modes):
     """Modes have no momentum; the crank's centre of mass moves as its frame tilts (150 N)."""
-    result = run(bodies="flexible", revolutions=0.005, flexible={"modes": modes})
+    result = run(bodies=flexible_press(modes=modes), revolutions=0.005)
     expected = result["shaking_force"].copy()
     expected[:, 1] -= weight(result)
     assert np.abs(result["frame_force"] - expected).max() < 1e-4 * weight(result)

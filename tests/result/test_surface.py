@@ -3,12 +3,13 @@ import pytest
 from scipy.io import netcdf_file
 
 from exu_press import Result, Scene, simulate
-from exu_press.flexible import reduced_parts
+from exu_press.placed_part import placed_parts
+from exu_press.scene import flexible_press
 
 
 @pytest.fixture(scope="module")
 def run(tmp_path_factory):
-    result = simulate(Scene(bodies="flexible", revolutions=0.005))
+    result = simulate(Scene(bodies=flexible_press(), revolutions=0.005))
     path = tmp_path_factory.mktemp("flexible") / "run.nc"
     result.save(path)
     return result, path
@@ -30,7 +31,8 @@ def test_surfaces_and_modes_come_back(run):
 def test_displacement_and_stress_are_the_parts(run):
     """In single precision."""
     result, _ = run
-    for name, part in reduced_parts(result.scene).items():
+    for name, placed in placed_parts(result.scene).items():
+        part = placed.reduced
         q = result[f"{name}_modes"][-1]
         surface = result.surfaces[name]
         moved, stress = (part.modes @ q).reshape(-1, 3), part.von_mises(q)

@@ -112,7 +112,6 @@ def test_ranges(key, value, allowed):
     ("key", "value", "choices"),
     [
         ("mechanism", "crank_slider", ("'press'", "'slider_crank'")),
-        ("bodies", "elastic", ("'rigid'",)),
         ("friction.law", "coulumb", ("'none'", "'lugre_steady'", "'lugre'")),
         ("film.law", "pinkus-sternlicht", ("'pinkus'", "'pi_film'")),
         ("contact.damping", "kelvin", ("'step'",)),
@@ -225,7 +224,7 @@ def test_blanking_longer_than_a_revolution_is_refused():
 def test_defaults():
     """Table 2 and assumptions A-1 .. A-14, as the interface shows them."""
     scene = Scene()
-    assert (scene.mechanism, scene.bodies) == ("press", "rigid")
+    assert (scene.mechanism, scene.bodies) == ("press", {})
     assert (scene.speed_rpm, scene.revolutions, scene.start_angle_deg) == (240.0, 2.0, 0.0)
     assert scene.joints.with_clearance == {
         "crank_pin": LubricatedJoint(clearance=1e-4, radius=0.07),

@@ -14,7 +14,17 @@ SCENES = {
         "contact": {"tension": True, "shape": "cylindrical"},
     },
     "mixed": {"film": {"law": "finite", "at_contact": "mixed"}, "blanking": {"force": 1e4}},
-    "flexible": {"bodies": "flexible"},
+    "flexible": {"bodies": {"crank": "crank", "linkage": {"flexible": "linkage", "modes": 4}}},
+    "own part": {
+        "mechanism": "four_bar",
+        "bodies": {
+            "coupler": {
+                "flexible": "coupler.step",
+                "origin": [0.1, -0.2],
+                "faces": {"crank_pin": {"radius": 0.02, "z": [-0.1, 0.1]}, "knuckle": "bore"},
+            }
+        },
+    },
     "fixed step": {"solver": {"step": 1e-5}},
     "slider_crank": {
         "mechanism": "slider_crank",
@@ -26,10 +36,11 @@ SCENES = {
 
 @pytest.mark.parametrize("comments", [False, True])
 @pytest.mark.parametrize("keys", SCENES.values(), ids=SCENES)
-def test_round_trip(keys, comments, tmp_path):
+def test_round_trip(keys, comments, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)  # a STEP file's path is taken from the scene's directory
     scene = Scene.from_dict(keys)
-    scene.save(tmp_path / "scene.toml", comments=comments)
-    assert load_scene(tmp_path / "scene.toml") == scene
+    scene.save("scene.toml", comments=comments)
+    assert load_scene("scene.toml") == scene
 
 
 def test_every_key_is_there_and_nothing_else(tmp_path):

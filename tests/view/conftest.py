@@ -4,6 +4,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from exu_press import Result, Scene, simulate
+from exu_press.scene import flexible_press
 from exu_press.view import Film
 from exu_press.view.film import SIZE
 
@@ -15,7 +16,7 @@ SCENES = {
         "revolutions": 0.3,
     },
     "ideal": {"joints": {}, "revolutions": 0.1},
-    "flexible": {"bodies": "flexible", "revolutions": 0.03},
+    "flexible": {"bodies": flexible_press(), "revolutions": 0.03},
 }
 
 

@@ -69,7 +69,7 @@ def mode_numbers(scene: Scene, numbers: Iterable[int]) -> list[Attempt]:
             MODES,
             "modes",
             float(n),
-            partial(_run, scene.replace("flexible.modes", n)),
+            partial(_run, scene.replace({f"bodies.{name}.modes": n for name in scene.bodies})),
         )
         for n in numbers
     ]

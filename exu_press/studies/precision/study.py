@@ -77,7 +77,7 @@ def _shortened(scene: Scene | None, amount: Amount) -> Scene | None:
     """Return a scene no longer than the amount allows."""
     if scene is None:
         return None
-    longest = amount.revolutions if scene.flexible is None else amount.flexible_revolutions
+    longest = amount.flexible_revolutions if scene.bodies else amount.revolutions
     return scene if scene.revolutions <= longest else scene.replace(revolutions=longest)
 
 

@@ -85,8 +85,7 @@ def checks_of(result: Result) -> list[Check]:
     coarse = COARSE_RESIDUAL * (solver.tolerance or 0.0)
     fallen = float((np.maximum.accumulate(lost) - lost).max())
     drift, where = max(_drifts(result), default=(0.0, ""))
-    flexible = result.scene.flexible is not None
-    limit = FLEXIBLE_RESIDUAL_LIMIT if flexible else RESIDUAL_LIMIT
+    limit = FLEXIBLE_RESIDUAL_LIMIT if result.scene.bodies else RESIDUAL_LIMIT
     checks = [
         _check("numbers that are not finite", 0.0, 0.0),
         _check("energy residual", energy_residual(result) or 0.0, max(limit, coarse)),
@@ -149,7 +148,7 @@ def _little(scene: Scene, name: str, true: float) -> float:
 def _drifts(result: Result) -> Iterator[tuple[float, str]]:
     """Yield the largest opening of every ideal joint and guide between rigid bodies, m."""
     mechanism = mechanism_of(result.scene)
-    flexible = {"crank", "linkage"} if result.scene.flexible is not None else set()
+    flexible = set(result.scene.bodies)
     position = {name: result["body_position"][:, index] for index, name in enumerate(result.bodies)}
 
     def world(body: str, point: tuple[float, float]) -> Array:

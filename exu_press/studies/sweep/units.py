@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from exu_press.checks import Table
-from exu_press.scene import DryJoint, Scene
+from exu_press.scene import DryJoint, Flexible, Scene
 from exu_press.scene.scene import TABLES
 
 __all__ = ["meaning_of", "unit_of"]
@@ -57,6 +57,8 @@ def _metadata(name: str) -> Mapping[str, Any] | None:
     kind: type[Table] = TABLES.get(table, Scene)
     if table.startswith("joints."):  # joints.NAME.key or joints.NAME.law.key
         kind = TABLES.get(table.rpartition(".")[2], DryJoint)
+    elif table.startswith("bodies."):
+        kind = Flexible
     elif table and table not in TABLES:
         return None
     fields = {field.name: field for field in dataclasses.fields(kind)}

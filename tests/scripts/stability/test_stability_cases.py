@@ -42,7 +42,7 @@ def reached(table, key):
         ("blanking.force", 0.0, 2e6),
         ("blanking.rise", 1e-5, 1e-3),
         ("press.slider_mass", 13.47, 134700.0),
-        ("flexible.modes", 0, 60),
+        ("bodies.crank.modes", 0, 60),
         ("solver.tolerance", 1e-7, 0.1),
         ("solver.step", 1e-6, 1e-3),
         ("gravity", 0.0, 9.81),

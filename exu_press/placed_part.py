@@ -1,0 +1,255 @@
+"""The solid of a flexible body in its place: which of its faces the mechanism's joints hold.
+
+A solid has coordinates of its own, the z axis along the joints' axes. Faces that have names are
+fitted to where the drawing has their joints; other faces are found where the joints are.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from importlib.util import find_spec
+from math import atan2, cos, degrees, hypot, radians, sin
+from typing import Any
+
+import numpy as np
+
+from exu_press.errors import InputError
+from exu_press.mechanism import Body, Joint, Mechanism, Motion, Point
+from exu_press.progress import Progress
+from exu_press.scene import Face, Flexible, Scene, mechanism_of
+from exu_press.scene.bodies import DRIVE_FACE, faces_given
+from fe_models import (
+    CRANK_STEEL,
+    Axis,
+    Interface,
+    Part,
+    ReducedPart,
+    Reduction,
+    StepFile,
+    reduced_part,
+    shipped_faces,
+    shipped_part,
+)
+
+__all__ = ["PlacedPart", "placed_parts"]
+
+NEAR = 1e-4
+"""m: how far a face's axis may lie from its joint; drawings are rounded to tenths of a mm."""
+
+MILLIMETRES = 1e-3
+"""Netgen reads every STEP file in millimetres, whatever its own unit."""
+
+
+@dataclass(frozen=True)
+class PlacedPart:
+    """A reduced part in a body of the mechanism.
+
+    Attributes:
+        reduced: the part; its frame is the solid's.
+        centre: of the body's frame, its centre of mass in the mechanism, in the solid's frame, m.
+        angle: of the body's frame in the solid's, rad.
+        faces: joint -> the interfaces that it holds.
+        drive: the interface that the drive turns; empty for other bodies than the crank.
+        damping_ratio: of every mode.
+    """
+
+    reduced: ReducedPart
+    centre: Point
+    angle: float
+    faces: Mapping[str, tuple[str, ...]]
+    drive: str
+    damping_ratio: float
+
+    def place(self, point: Point) -> Point:
+        """Return a point of the body's frame in the solid's, m."""
+        x, y = _turned(point, self.angle)
+        return self.centre[0] + x, self.centre[1] + y
+
+    def frame(self, body: Motion) -> Motion:
+        """Return the motion of the solid's frame from that of the body's."""
+        x, y = _turned(self.centre, -self.angle)
+        return _turned_by(body.at((-x, -y)), -self.angle)
+
+    def body(self, frame: Motion) -> Motion:
+        """Return the motion of the body's frame from that of the solid's."""
+        return _turned_by(frame.at(self.centre), self.angle)
+
+    @property
+    def centre_of_mass(self) -> Point:
+        """Of the solid, in the body's frame, m: zero where the mechanism has it."""
+        x, y = self.reduced.centre_of_mass[:2] - self.centre
+        return _turned((float(x), float(y)), -self.angle)
+
+    @property
+    def inertia(self) -> float:
+        """Of the solid about its centre of mass, in the plane, kg m^2."""
+        x, y = self.reduced.centre_of_mass[:2]
+        return float(self.reduced.inertia[2, 2] - self.reduced.mass * (x * x + y * y))
+
+
+def placed_parts(scene: Scene, *, quiet: bool = True) -> dict[str, PlacedPart]:
+    """Return the flexible bodies of a scene, reduced, showing progress while they are made.
+
+    Raises:
+        InputError: NGSolve is not installed, a part cannot be meshed, or its faces are not where
+            the joints are.
+    """
+    if not scene.bodies:
+        return {}
+    if find_spec("ngsolve") is None:
+        raise InputError(
+            f"bodies.{next(iter(scene.bodies))}: needs NGSolve, which is not installed (there are "
+            "no wheels for Linux on ARM); allowed here are rigid bodies"
+        )
+    mechanism = mechanism_of(scene)
+    placed = {}
+    for name, table in scene.bodies.items():
+        try:
+            placed[name] = _placed(mechanism, mechanism.body(name), table, quiet)
+        except InputError as error:
+            raise InputError(f"bodies.{name}: {error}") from None
+    return placed
+
+
+def _placed(mechanism: Mechanism, body: Body, table: Flexible, quiet: bool) -> PlacedPart:
+    """Return one body's part."""
+    joints = mechanism.joints_of(body.name)
+    driven = body.name == mechanism.crank
+    asked = dict(table.faces)
+    if not table.from_file:
+        shipped_part(table.flexible)  # refuses a name that there is not
+        asked = {**faces_given(shipped_faces(table.flexible)), **asked}
+    faces = {joint.name: asked.get(joint.name, (Face(),)) for joint in joints}
+    drive = asked.get(DRIVE_FACE, ()) if driven else ()
+    _refuse_shared(faces)
+    named = all(face.name for each in faces.values() for face in each)
+    fitted = named and table.origin is None and table.angle_deg is None
+    origin, turn = table.origin or (0.0, 0.0), radians(table.angle_deg or 0.0)
+    part = _part(table, body, faces, drive, joints, origin, turn)
+    reduced = _reduced(part, Reduction(modes=table.modes, method=table.method), body.name, quiet)
+    held = {
+        joint: tuple(face.name or _face_name(joint, i) for i, face in enumerate(each))
+        for joint, each in faces.items()
+    }
+    ends = [
+        (joint, face, np.array(joint.at), reduced.interface(held[joint.name][i]).axis[:2])
+        for joint in joints
+        for i, face in enumerate(faces[joint.name])
+    ]
+    if fitted:
+        origin, turn = _fitted([(at, axis) for _, face, at, axis in ends if not face.eccentric])
+    for joint, face, at, axis in ends:
+        x, y = _turned((at[0] - origin[0], at[1] - origin[1]), -turn)
+        away = hypot(x - axis[0], y - axis[1])
+        if away > NEAR and not face.eccentric:
+            best = ", where it fits best" if fitted else ""
+            raise InputError(
+                f"face {face.name or joint.name!r} of {table.flexible!r} lies {1e3 * away:.4g} mm "
+                f"from joints.{joint.name}, with origin = [{origin[0]:.6g}, {origin[1]:.6g}], "
+                f"angle_deg = {degrees(turn):.6g}{best}; allowed is {1e3 * NEAR:g} mm"
+            )
+    x, y = body.centre_of_mass
+    return PlacedPart(
+        reduced=reduced,
+        centre=_turned((x - origin[0], y - origin[1]), -turn),
+        angle=body.angle - turn,
+        faces=held,
+        drive=(drive[0].name if drive else held[mechanism.shaft.name][0]) if driven else "",
+        damping_ratio=table.damping_ratio,
+    )
+
+
+def _part(
+    table: Flexible,
+    body: Body,
+    faces: Mapping[str, tuple[Face, ...]],
+    drive: tuple[Face, ...],
+    joints: list[Joint],
+    origin: Point,
+    turn: float,
+) -> Part:
+    """Return the part to be reduced, in the material that is asked for."""
+    if not table.from_file:
+        part = shipped_part(table.flexible, table.mesh_size)
+        known = [interface.face for interface in part.interfaces]
+        for joint, each in {**faces, DRIVE_FACE: drive}.items():
+            if wrong := [face.name for face in each if face.name not in known]:
+                given = f" {wrong[0]!r}" if wrong[0] else ""
+                raise InputError(
+                    f"{table.flexible!r} has no face{given} for {joint}; allowed as "
+                    f"faces.{joint} is one of {', '.join(map(repr, known))}"
+                )
+        return part.replace(material=_material(table, part.material))
+    axes = {
+        _face_name(joint.name, i): Axis(
+            place=_turned((joint.at[0] - origin[0], joint.at[1] - origin[1]), -turn),
+            sphere=joint.spherical,
+            hole=joint.bearing == body.name,
+            radius=face.radius,
+            z=face.z,
+        )
+        for joint in joints
+        for i, face in enumerate(faces[joint.name])
+        if not face.name
+    }
+    names = [
+        face.name or _face_name(joint, i)
+        for joint, each in faces.items()
+        for i, face in enumerate(each)
+    ]
+    turned = [face.name for face in drive if face.name not in names]
+    interfaces = [Interface(name) for name in dict.fromkeys(names)]
+    interfaces += [Interface(name, ("rz",)) for name in turned]
+    solid = StepFile(table.path, MILLIMETRES, axes=axes)
+    return Part(
+        solid.path.stem, solid, _material(table, CRANK_STEEL), tuple(interfaces), table.mesh_size
+    )
+
+
+def _material(table: Flexible, usual: Any) -> Any:
+    """Return a material with what the scene gives of it."""
+    keys = ("youngs_modulus", "poissons_ratio", "density")
+    given = {name: getattr(table, name) for name in keys}
+    return replace(usual, **{name: value for name, value in given.items() if value is not None})
+
+
+def _reduced(part: Part, reduction: Reduction, name: str, quiet: bool) -> ReducedPart:
+    with Progress(f"modes of {name}", 1.0, "", quiet=quiet) as progress:
+        return reduced_part(part, reduction, report=lambda what, share: progress.update(share))
+
+
+def _refuse_shared(faces: Mapping[str, tuple[Face, ...]]) -> None:
+    """Refuse a face that two joints hold by its name."""
+    taken: dict[str, str] = {}
+    for joint, each in faces.items():
+        for face in each:
+            if face.name and not face.eccentric and taken.setdefault(face.name, joint) != joint:
+                raise InputError(
+                    f"joints.{taken[face.name]} and joints.{joint} hold the same face "
+                    f"{face.name!r}; allowed are different ones"
+                )
+
+
+def _face_name(joint: str, number: int) -> str:
+    return joint if number == 0 else f"{joint} {number + 1}"
+
+
+def _fitted(pairs: list[tuple[Any, Any]]) -> tuple[Point, float]:
+    """Return origin and angle (rad) of a solid whose axes fit best to where the joints are."""
+    places, axes = (np.array(each) for each in zip(*pairs, strict=True))
+    here, there = places - places.mean(axis=0), axes - axes.mean(axis=0)
+    across = (there[:, 0] * here[:, 1] - there[:, 1] * here[:, 0]).sum()
+    turn = atan2(across, (there * here).sum())
+    x, y = _turned(axes.mean(axis=0), turn)
+    mean = places.mean(axis=0)
+    return (float(mean[0] - x), float(mean[1] - y)), turn
+
+
+def _turned(vector: Any, angle: float) -> Point:
+    c, s = cos(angle), sin(angle)
+    return float(c * vector[0] - s * vector[1]), float(s * vector[0] + c * vector[1])
+
+
+def _turned_by(motion: Motion, angle: float) -> Motion:
+    """Return the motion of a frame that is turned by a constant angle, rad."""
+    turned = motion.position + np.array([0.0, 0.0, angle])
+    return Motion(turned, motion.velocity, motion.acceleration)

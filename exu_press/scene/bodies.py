@@ -1,0 +1,255 @@
+"""Which bodies of a mechanism are flexible, and what their solids are."""
+
+import dataclasses
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from exu_press.checks import Table, key, nearest, table_from
+from exu_press.errors import InputError
+
+__all__ = [
+    "DRIVE_FACE",
+    "STEP_FILES",
+    "Face",
+    "Flexible",
+    "bodies_of",
+    "body_dict",
+    "changed_bodies",
+    "faces_given",
+]
+
+DRIVE_FACE = "drive"
+"""Among a crank's faces: the one that the drive turns."""
+
+STEP_FILES = (".step", ".stp")
+
+OLD = "is bodies.NAME now, a table for each flexible body, as in bodies.linkage = 'linkage'"
+
+
+@dataclass(frozen=True)
+class Face:
+    """Which faces of a solid a joint holds: by name, or cylinders and spheres about its axis.
+
+    Attributes:
+        name: of the faces, as the STEP file or the shipped part has it; empty: by their place.
+        radius: of the cylinder or sphere, m, where several have the same axis.
+        z: lowest and highest place along the axis, m, where several have the same radius.
+        eccentric: the joint's axis may lie beside the face's, as that of an eccentric ring on it,
+            and the face may carry another joint.
+    """
+
+    name: str = ""
+    radius: float | None = None
+    z: tuple[float, float] | None = None
+    eccentric: bool = False
+
+
+@dataclass(frozen=True)
+class Flexible(Table):
+    """A flexible body: a shipped part or a STEP file, its material, mesh and modes."""
+
+    flexible: str = key("", "a shipped part, or the path of a STEP file")
+    modes: int = key(20, "modal coordinates", at_least=0, at_most=500)
+    method: str = key("craig_bampton", "reduction", choices=("craig_bampton", "free"))
+    damping_ratio: float = key(0.02, "of every mode", at_least=0, at_most=0.9)
+    mesh_size: float = key(0.03, "of the tetrahedra", "m", at_least=0.001, at_most=0.1)
+    youngs_modulus: float | None = key(
+        None, "the shipped part's, or steel's 2.1e11, unless given", "Pa", above=0
+    )
+    poissons_ratio: float | None = key(
+        None, "the shipped part's, or steel's 0.3, unless given", at_least=0, at_most=0.495
+    )
+    density: float | None = key(
+        None, "the shipped part's, or steel's 7850, unless given", "kg/m^3", above=0
+    )
+    origin: tuple[float, float] | None = key(
+        None, "of the solid in the drawing; [0, 0], or fitted where all faces have names", "m"
+    )
+    angle_deg: float | None = key(
+        None, "of the solid's x axis in the drawing; 0, or fitted likewise", "deg"
+    )
+    faces: Mapping[str, tuple[Face, ...]] = dataclasses.field(default_factory=dict, hash=False)
+
+    def __post_init__(self) -> None:
+        """Check the keys; origin and faces are checked here, the others by their declaration."""
+        if not self.flexible:
+            raise InputError("flexible: missing; allowed is a shipped part or a STEP file's path")
+        origin = self.origin
+        if origin is not None:
+            object.__setattr__(self, "origin", None)
+        super().__post_init__()
+        if origin is not None:
+            object.__setattr__(self, "origin", _pair("origin", origin))
+        object.__setattr__(self, "faces", faces_given(self.faces))
+
+    @property
+    def from_file(self) -> bool:
+        """Whether the solid is a STEP file's."""
+        return self.flexible.lower().endswith(STEP_FILES)
+
+    @property
+    def path(self) -> Path:
+        """Of the STEP file."""
+        return Path(self.flexible)
+
+
+def bodies_of(
+    given: Any, mechanism: str, joints: Mapping[str, Sequence[str]]
+) -> dict[str, Flexible]:
+    """Return the flexible bodies from what a scene gives.
+
+    Args:
+        given: body -> a shipped part's name or a STEP file's path, a mapping of keys or a
+            `Flexible`.
+        mechanism: its name.
+        joints: body -> names of its joints; `DRIVE_FACE` among the crank's.
+
+    Raises:
+        InputError: there is no such body or joint, or a key is not allowed.
+    """
+    if not isinstance(given, Mapping):
+        raise InputError(f"bodies = {given!r}: {OLD}")
+    found = {}
+    for name, value in given.items():
+        if name not in joints:
+            raise InputError(
+                f"bodies.{name} = {_shown(value)}: {mechanism} has no such body"
+                f"{nearest(name, joints)}; allowed are {', '.join(joints)}"
+            )
+        try:
+            body = found[name] = table_from(Flexible, "", _keys(value))
+        except InputError as error:
+            raise InputError(f"bodies.{name}.{error}") from None
+        for joint in body.faces:
+            if joint not in joints[name]:
+                raise InputError(
+                    f"bodies.{name}.faces.{joint}: {name} has no such joint"
+                    f"{nearest(joint, joints[name])}; allowed are {', '.join(joints[name])}"
+                )
+    return found
+
+
+def flexible_press(**keys: Any) -> dict[str, dict[str, Any]]:
+    """Return the press's two shipped parts, for the `bodies` of a scene.
+
+    >>> flexible_press(modes=10)["crank"]
+    {'flexible': 'crank', 'modes': 10}
+
+    Args:
+        keys: of both.
+    """
+    return {name: {"flexible": name, **keys} for name in ("crank", "linkage")}
+
+
+def body_dict(body: Flexible) -> dict[str, Any]:
+    """Return a flexible body as a nested mapping, without what it does not give."""
+    found: dict[str, Any] = {}
+    for field in dataclasses.fields(body):
+        value = getattr(body, field.name)
+        if field.name == "faces":
+            faces = {joint: [_face_dict(face) for face in faces] for joint, faces in value.items()}
+            found |= {"faces": faces} if faces else {}
+        elif value is not None:
+            found[field.name] = list(value) if isinstance(value, tuple) else value
+    return found
+
+
+def changed_bodies(
+    bodies: Mapping[str, Mapping[str, Any]], changes: Mapping[str, Any]
+) -> dict[str, Any]:
+    """Return flexible bodies with other keys.
+
+    Args:
+        bodies: as `body_dict` has them.
+        changes: "NAME" -> a part, a file, or all keys; "NAME.key" -> a value.
+    """
+    changed: dict[str, Any] = {name: dict(keys) for name, keys in bodies.items()}
+    for path, value in changes.items():
+        name, _, inner = path.partition(".")
+        if not inner:
+            changed[name] = value
+        else:
+            place = changed.setdefault(name, {})
+            changed[name] = {**(_keys(place) if isinstance(place, str) else place), inner: value}
+    return changed
+
+
+def _keys(given: Any) -> Any:
+    """Return what is given of a body as its keys."""
+    return {"flexible": given} if isinstance(given, str) else given
+
+
+def _shown(value: Any) -> str:
+    return repr(value) if isinstance(value, str) else "..."
+
+
+def faces_given(given: Any) -> dict[str, tuple[Face, ...]]:
+    """Return joint -> faces from what a scene file or a shipped part gives.
+
+    Raises:
+        InputError: a face is none.
+    """
+    if not isinstance(given, Mapping):
+        raise InputError(f"faces = {given!r}: allowed is a table of joints' names")
+    return {name: _faces(f"faces.{name}", each) for name, each in given.items()}
+
+
+def _faces(where: str, given: Any) -> tuple[Face, ...]:
+    """Return the faces of one joint: one or a list of them, each a name or a table."""
+    each = given if isinstance(given, (list, tuple)) else [given]
+    if not each:
+        raise InputError(f"{where} = []: allowed is at least one face")
+    return tuple(_face(where, one) for one in each)
+
+
+def _face(where: str, given: Any) -> Face:
+    if isinstance(given, Face):
+        return given
+    if isinstance(given, str):
+        given = {"name": given}
+    if not isinstance(given, Mapping):
+        raise InputError(
+            f"{where} = {given!r}: allowed is a face's name, or a table of name, radius, z, "
+            "eccentric"
+        )
+    known = [field.name for field in dataclasses.fields(Face)]
+    for one in given:
+        if one not in known:
+            raise InputError(
+                f"{where}.{one} = {given[one]!r}: unknown key{nearest(one, known)}; allowed are "
+                f"{', '.join(known)}"
+            )
+    keys = dict(given)
+    if (z := keys.get("z")) is not None:
+        keys["z"] = low, high = _pair(f"{where}.z", z)
+        if not low < high:
+            raise InputError(f"{where}.z = {z!r}: allowed is [lowest, highest], m")
+    radius = keys.get("radius")
+    if radius is not None and not (_number(radius) and radius > 0):
+        raise InputError(f"{where}.radius = {radius!r}: allowed is a number > 0, m")
+    if not isinstance(keys.get("name", ""), str):
+        raise InputError(f"{where}.name = {keys['name']!r}: allowed is a text")
+    if not isinstance(keys.get("eccentric", False), bool):
+        raise InputError(f"{where}.eccentric = {keys['eccentric']!r}: allowed is true or false")
+    return Face(**keys)
+
+
+def _face_dict(face: Face) -> Any:
+    """Return a face as a scene file has it."""
+    given = {k: v for k, v in dataclasses.asdict(face).items() if v != Face.__dict__.get(k)}
+    if list(given) == ["name"]:
+        return face.name
+    return {k: list(v) if isinstance(v, tuple) else v for k, v in given.items()}
+
+
+def _pair(where: str, given: Any) -> tuple[float, float]:
+    if not isinstance(given, (list, tuple)) or len(given) != 2 or not all(map(_number, given)):
+        raise InputError(f"{where} = {given!r}: allowed are two numbers, m")
+    return float(given[0]), float(given[1])
+
+
+def _number(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)

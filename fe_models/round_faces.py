@@ -1,0 +1,181 @@
+"""Faces of a solid that joints hold: cylinders along z and spheres, found by where they lie."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from math import cos, hypot, pi, sin
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from netgen.occ import Pnt, Sphere  # type: ignore[import-untyped]
+
+from exu_press.errors import InputError
+
+if TYPE_CHECKING:
+    from fe_models.geometry import Axis
+
+__all__ = ["NEAR", "name_round_faces"]
+
+NEAR = 1e-4
+"""m: how far an axis may lie from where a joint is; drawings are rounded to tenths of a mm."""
+
+PARAMETERS = (0.3, 1.1, 2.0, 3.7, 5.2)
+EXACT = 1e-6  # of the size
+
+
+@dataclass(frozen=True)
+class _Round:
+    """A cylinder along z, or a sphere: its axis, radius and height, m."""
+
+    face: Any
+    sphere: bool
+    x: float
+    y: float
+    radius: float
+    low: float
+    high: float
+
+    def __str__(self) -> str:
+        """Return how a scene would name it."""
+        return f"radius = {self.radius:.6g}, z = [{self.low:.6g}, {self.high:.6g}]"
+
+
+def name_round_faces(shape: Any, axes: Mapping[str, "Axis"], where: str) -> None:
+    """Name the faces of a shape that lie about axes.
+
+    Args:
+        shape: in m.
+        axes: name -> where the axis is, and what distinguishes the face.
+        where: what messages begin with.
+
+    Raises:
+        InputError: an axis has no such face, several, or one that another axis has taken.
+    """
+    if not axes:
+        return
+    found = [one for face in shape.faces if (one := _round(face)) is not None]
+    taken: dict[int, str] = {}
+    for name, axis in axes.items():
+        group = _chosen(shape, [one for one in found if _suits(one, axis)], axis, name, where)
+        if not group:
+            raise InputError(f"{where}: {_nothing(found, axis, name)}")
+        for one in group:
+            place = found.index(one)
+            if place in taken:
+                raise InputError(
+                    f"{where}: {taken[place]} and {name} hold the same face ({one}); allowed are "
+                    "different ones: say which by radius or z"
+                )
+            taken[place] = name
+            one.face.name = name
+
+
+def _round(face: Any) -> _Round | None:
+    """Return a face as a cylinder along z or a sphere, if it is one."""
+    try:
+        points, raised = (
+            np.array([_xyz(face.surf.Value(u, v)) for u in PARAMETERS]) for v in (0.0, 1e-3)
+        )
+    except Exception:
+        return None
+    (_, _, low), (_, _, high) = (_xyz(corner) for corner in face.bounding_box)
+    away = raised - points
+    flat = np.column_stack([2.0 * points[:, :2], np.ones(len(points))])
+    squares = (points[:, :2] ** 2).sum(axis=1)
+    circle, _, rank, _ = np.linalg.lstsq(flat, squares)
+    along = np.abs(away[:, :2]).max() < EXACT * np.abs(away).max() and np.ptp(away[:, 2]) < EXACT
+    if along and rank == 3 and np.ptp(points[:, 2]) < EXACT * max(np.abs(points).max(), 1e-3):
+        x, y, rest = (float(value) for value in circle)
+        radius = (rest + x * x + y * y) ** 0.5
+        if np.abs(flat @ circle - squares).max() < EXACT * radius**2:
+            return _Round(face, False, x, y, radius, low, high)
+    everywhere = np.array([_xyz(face.surf.Value(u, v)) for u in PARAMETERS for v in (-0.7, 0.4)])
+    rows = np.column_stack([2.0 * everywhere, np.ones(len(everywhere))])
+    squares = (everywhere**2).sum(axis=1)
+    ball, _, rank, _ = np.linalg.lstsq(rows, squares)
+    if rank == 4 and np.abs(rows @ ball - squares).max() < EXACT * squares.max():
+        radius = float(ball[3] + (ball[:3] ** 2).sum()) ** 0.5
+        return _Round(face, True, float(ball[0]), float(ball[1]), radius, low, high)
+    return None
+
+
+def _xyz(point: Any) -> tuple[float, float, float]:
+    x, y, z = point
+    return float(x), float(y), float(z)
+
+
+def _suits(one: _Round, axis: "Axis") -> bool:
+    return (
+        one.sphere == axis.sphere
+        and _distance(one, axis) <= NEAR
+        and (axis.radius is None or abs(one.radius - axis.radius) <= NEAR)
+        and (axis.z is None or (one.low >= axis.z[0] - NEAR and one.high <= axis.z[1] + NEAR))
+    )
+
+
+def _distance(one: _Round, axis: "Axis") -> float:
+    return hypot(one.x - axis.place[0], one.y - axis.place[1])
+
+
+def _chosen(shape: Any, found: list[_Round], axis: "Axis", name: str, where: str) -> list[_Round]:
+    """Return the one group of faces of the same radius that touch; holes or shafts as is meant."""
+    groups = _groups(found)
+    if len(groups) > 1:
+        meant = [group for group in groups if _is_hole(shape, group[0]) == axis.hole]
+        groups = meant if len(meant) == 1 else groups
+    if len(groups) > 1:
+        each = "; ".join(str(_whole(group)) for group in groups)
+        raise InputError(
+            f"{where}: {len(groups)} round faces lie about {name}: {each}. Say which by radius or z"
+        )
+    return groups[0] if groups else []
+
+
+def _groups(found: Iterable[_Round]) -> list[list[_Round]]:
+    """Return faces of one radius that touch along z, together."""
+    groups: list[list[_Round]] = []
+    for one in sorted(found, key=lambda face: (round(face.radius / NEAR), face.low)):
+        last = groups[-1] if groups else []
+        touches = last and abs(last[-1].radius - one.radius) <= NEAR
+        if touches and one.low <= max(face.high for face in last) + NEAR:
+            last.append(one)
+        else:
+            groups.append([one])
+    return groups
+
+
+def _whole(group: list[_Round]) -> _Round:
+    first = group[0]
+    low, high = min(face.low for face in group), max(face.high for face in group)
+    return _Round(first.face, first.sphere, first.x, first.y, first.radius, low, high)
+
+
+def _is_hole(shape: Any, one: _Round) -> bool:
+    """Return whether there is material around a round face rather than inside of it."""
+    middle, small = 0.5 * (one.low + one.high), 0.02 * one.radius
+    for turn in np.arange(0.1, 2.0 * pi, 0.7):
+        inside, outside = (
+            (shape * Sphere(Pnt(one.x + r * cos(turn), one.y + r * sin(turn), middle), small)).mass
+            > 0.0
+            for r in (one.radius - 2.0 * small, one.radius + 2.0 * small)
+        )
+        if inside != outside:
+            return bool(outside)
+    return False
+
+
+def _nothing(found: Iterable[_Round], axis: "Axis", name: str) -> str:
+    """Return what is wrong where no face suits an axis, with the distance of the nearest one."""
+    kind = "sphere" if axis.sphere else "cylinder along z"
+    asked = "" if axis.radius is None else f" of radius {axis.radius:g} m"
+    asked += "" if axis.z is None else f" within z = {list(axis.z)}"
+    x, y = axis.place
+    text = f"no {kind}{asked} lies about {name}, at ({x:.6g}, {y:.6g}) m of the file"
+    alike = [one for one in found if one.sphere == axis.sphere]
+    if not alike:
+        return f"{text}; it has none at all"
+    near = min(alike, key=lambda one: _distance(one, axis))
+    away = _distance(near, axis)
+    return (
+        f"{text}; the nearest one's axis is {1e3 * away:.4g} mm away, at ({near.x:.6g}, "
+        f"{near.y:.6g}) ({near}); allowed is {1e3 * NEAR:g} mm"
+    )

@@ -11,7 +11,7 @@ import pytest
 
 ROOT = Path(__file__).parents[1]
 PACKAGES = ("exu_press", "fe_models")
-DATA = {".npz", ".toml", ".typed", ".json", ".html", ".css", ".js"}
+DATA = {".npz", ".toml", ".step", ".typed", ".json", ".html", ".css", ".js"}
 """Endings of what a package needs beside its modules."""
 
 pytestmark = pytest.mark.long

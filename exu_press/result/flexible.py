@@ -9,7 +9,7 @@ from exu_press.model import Model
 from exu_press.result.channel import Channel
 from exu_press.result.energy import work
 from exu_press.result.info import Stress
-from exu_press.result.motion import frame_motion, sensor
+from exu_press.result.motion import frame_motion, point_motion, sensor
 
 if TYPE_CHECKING:
     from exu_press.placed_part import PlacedPart
@@ -35,7 +35,7 @@ def record_parts(model: Model, time: Array) -> tuple[dict[str, Channel], Array, 
         position, velocity = motion.position, motion.velocity
         q, q_t = modal(model, name, part, len(time))
         strain = 0.5 * (q**2) @ np.diag(part.stiffness_matrix)
-        stored += _rigid_energy(part, position, velocity, model.scene.gravity)
+        stored += _rigid_energy(model, name, part)
         stored += 0.5 * (q_t**2).sum(axis=1) + strain
         stored += 0.5 * velocity[:, 2] ** 2 * (q @ _stretch(part))
         damping = np.diag(part.damping_matrix(placed.damping_ratio))
@@ -118,14 +118,17 @@ def _stretch(part: "ReducedPart") -> Array:
     return np.asarray(2.0 * products)
 
 
-def _rigid_energy(part: "ReducedPart", position: Array, velocity: Array, gravity: float) -> Array:
-    """Return kinetic and potential energy of the undeformed body, (n,), J."""
-    arm = _turned(np.tile(part.centre_of_mass[:2], (len(position), 1)), position[:, 2])
-    spin = velocity[:, 2]
-    centre_velocity = velocity[:, :2] + spin[:, None] * np.column_stack([-arm[:, 1], arm[:, 0]])
-    about_centre = part.inertia[2, 2] - part.mass * (part.centre_of_mass[:2] ** 2).sum()
-    kinetic = 0.5 * part.mass * (centre_velocity**2).sum(axis=1) + 0.5 * about_centre * spin**2
-    return np.asarray(kinetic + part.mass * gravity * (position[:, 1] + arm[:, 1]))
+def _rigid_energy(model: Model, name: str, part: "ReducedPart") -> Array:
+    """Return kinetic and potential energy of the undeformed body, (n,), J.
+
+    In space: where forces leap, the frame of a bending crank shaft tilts.
+    """
+    height, velocity, spin = point_motion(model, name, part.centre_of_mass)
+    c = part.centre_of_mass
+    about_centre = part.inertia - part.mass * (c @ c * np.eye(3) - np.outer(c, c))
+    kinetic = 0.5 * part.mass * (velocity**2).sum(axis=1)
+    kinetic += 0.5 * ((spin @ about_centre) * spin).sum(axis=1)
+    return np.asarray(kinetic + part.mass * model.scene.gravity * height)
 
 
 def _turned(vectors: Array, angle: Array) -> Array:

@@ -1,4 +1,4 @@
-"""From a model's sensors to the motion of its bodies in the plane."""
+"""From a model's sensors to the motion of its bodies."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 from exu_press.mechanism import Motion
 from exu_press.model import Model
 
-__all__ = ["body_motion", "frame_motion", "point_acceleration", "sensor"]
+__all__ = ["body_motion", "frame_motion", "point_acceleration", "point_motion", "sensor"]
 
 Array = NDArray[np.float64]
 
@@ -54,15 +54,38 @@ def point_acceleration(model: Model, name: str, point: Array) -> Array:
 
     In space: the frame of a bending crank shaft tilts a little.
     """
-    position, velocity, acceleration = (
-        sensor(model, name, level) for level in ("position", "velocity", "acceleration")
-    )
-    start = model.mbs.GetNodeParameter(model.nodes[name], "referenceCoordinates")
-    e_0, e = (position + start)[:, 3:4], (position + start)[:, 4:]  # Euler parameters
-    arm = point + 2.0 * np.cross(e, np.cross(e, point) + e_0 * point)
-    spin, turn = (
-        2.0 * (e_0 * rate[:, 4:] - rate[:, 3:4] * e + np.cross(e, rate[:, 4:]))
-        for rate in (velocity, acceleration)
-    )
+    e_0, e, velocity = _in_space(model, name)
+    acceleration = sensor(model, name, "acceleration")
+    spin, turn = (_spin(e_0, e, rates[:, 3:]) for rates in (velocity, acceleration))
+    arm = _turned(e_0, e, point)
     swing = np.cross(turn, arm) + np.cross(spin, np.cross(spin, arm))
     return np.asarray(acceleration[:, :3] + swing)
+
+
+def point_motion(model: Model, name: str, point: Array) -> tuple[Array, Array, Array]:
+    """Return height and velocity of a point (3,) fixed in a flexible body's frame, and its spin.
+
+    In space: the height (n,), m, and the velocity (n, 3), m/s, are global; the frame's angular
+    velocity (n, 3), rad/s, is in its own axes.
+    """
+    e_0, e, velocity = _in_space(model, name)
+    spin, arm = _spin(e_0, e, velocity[:, 3:]), _turned(e_0, e, point)
+    height = frame_motion(model, name).position[:, 1] + arm[:, 1]
+    return height, velocity[:, :3] + np.cross(spin, arm), _turned(e_0, -e, spin)
+
+
+def _in_space(model: Model, name: str) -> tuple[Array, Array, Array]:
+    """Return the Euler parameters of a flexible body's frame, (n, 1) and (n, 3), and all rates."""
+    start = model.mbs.GetNodeParameter(model.nodes[name], "referenceCoordinates")
+    turn = (sensor(model, name, "position") + start)[:, 3:]
+    return turn[:, :1], turn[:, 1:], sensor(model, name, "velocity")
+
+
+def _turned(e_0: Array, e: Array, vectors: Array) -> Array:
+    """Return vectors, (3,) or (n, 3), turned from the frame to global axes, (n, 3)."""
+    return np.asarray(vectors + 2.0 * np.cross(e, np.cross(e, vectors) + e_0 * vectors))
+
+
+def _spin(e_0: Array, e: Array, rates: Array) -> Array:
+    """Return what rates (n, 4) of the Euler parameters turn the frame by, global axes, (n, 3)."""
+    return np.asarray(2.0 * (e_0 * rates[:, 1:] - rates[:, :1] * e + np.cross(e, rates[:, 1:])))

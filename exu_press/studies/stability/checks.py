@@ -25,11 +25,6 @@ Array = NDArray[np.float64]
 RESIDUAL_LIMIT = 1e-3
 """Of the energy balance, as in the summary."""
 
-FLEXIBLE_RESIDUAL_LIMIT = 2e-3
-"""The same with flexible bodies: the balance counts what deformation adds to their kinetic energy
-approximately. 1.0e-3 and 1.7e-3 were measured over 0.12 and 1 revolution of the dry press, and do
-not fall with the tolerance."""
-
 COARSE_RESIDUAL = 0.1
 """Times the tolerance: what may be left of the energy where more than a hundredth was asked for."""
 
@@ -85,10 +80,9 @@ def checks_of(result: Result) -> list[Check]:
     coarse = COARSE_RESIDUAL * (solver.tolerance or 0.0)
     fallen = float((np.maximum.accumulate(lost) - lost).max())
     drift, where = max(_drifts(result), default=(0.0, ""))
-    limit = FLEXIBLE_RESIDUAL_LIMIT if result.scene.bodies else RESIDUAL_LIMIT
     checks = [
         _check("numbers that are not finite", 0.0, 0.0),
-        _check("energy residual", energy_residual(result) or 0.0, max(limit, coarse)),
+        _check("energy residual", energy_residual(result) or 0.0, max(RESIDUAL_LIMIT, coarse)),
         _check("constraint drift, m", drift, DRIFT_LIMIT, where),
         _check("energy created in joints", _ratio(fallen, scale), ENERGY_LIMIT),
     ]

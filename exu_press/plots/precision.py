@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -12,10 +13,12 @@ from matplotlib.patches import Patch
 from matplotlib.text import Annotation
 
 from exu_press.plots.save import save_figure
-from exu_press.plots.style import COLOURS, GREY, SHADE, styled
+from exu_press.plots.style import COLOURS, GREY, SHADE, colour_of, styled
 from exu_press.studies.precision import Report, Row
 from exu_press.studies.precision.own import FIXED, TOLERANCE
 from exu_press.studies.precision.rows import series_of
+from exu_press.studies.precision.stated import Stated
+from exu_press.studies.precision.table import horizon_words
 
 __all__ = ["precision_figure", "save_precision"]
 
@@ -37,19 +40,24 @@ MARKERS = ("1", "2", "3", "4", "+", "x")
 
 @styled
 def precision_figure(report: Report, name: str) -> Figure:
-    """Return position and peak acceleration error of a case over run time.
+    """Return position and peak acceleration error of a case over run time, and stated over true.
 
+    Where motions part before the end, the error of the peaks of the whole run, as a distribution.
     Errors that the reference cannot tell lie hollow on the shaded band's edge; failed runs are
     crosses above.
     """
     case = report.cases[name]
     series = {solver: rows for (of, solver), rows in series_of(report.rows).items() if of == name}
     panels = {"error_position": f"{'angle, rad' if case['scene'] is None else 'position, m'}"}
-    if any(row.error_peak_acceleration is not None for rows in series.values() for row in rows):
+    everything = [row for rows in series.values() for row in rows]
+    if case["horizon"] < case["duration"] and any(row.error_peaks for row in everything):
+        panels["error_peaks"] = "peaks of the whole run: mean, 95 %"
+    elif any(row.error_peak_acceleration is not None for row in everything):
         panels["error_peak_acceleration"] = "peak acceleration, relative"
     else:
         panels["error_velocity"] = "angular velocity, rad/s" if case["scene"] is None else "m/s"
-    figure = Figure(figsize=(13.0, 6.0), layout="constrained")
+    stated = [one for one in report.stated if one.case == name and one.errors]
+    figure = Figure(figsize=(17.5 if stated else 13.0, 6.0), layout="constrained")
     below = figure.suptitle(
         f"\n{_words(report, case)}", x=0.012, ha="left", fontsize=9.5, linespacing=1.6
     )
@@ -57,8 +65,11 @@ def precision_figure(report: Report, name: str) -> Figure:
     figure.add_artist(
         Annotation(heading, (0, 1), xycoords=below, va="top", fontsize=13, fontweight="bold")
     ).set_in_layout(False)
-    *axes, key = figure.subplots(1, 3, width_ratios=(1.0, 1.0, 0.34))
-    for panel, (error, words) in zip(axes, panels.items(), strict=True):
+    widths = (*[1.0] * (len(panels) + bool(stated)), 0.34)
+    *axes, key = figure.subplots(1, len(widths), width_ratios=widths)
+    if stated:
+        _draw_stated(axes[-1], stated)
+    for panel, (error, words) in zip(axes, panels.items(), strict=False):
         _draw(panel, series, error, case)
         panel.set_title(f"Error of the {words}")
         panel.set_xlabel("processor time of the integration, s")
@@ -86,7 +97,7 @@ def _draw(axes: Axes, series: Mapping[str, Sequence[Row]], error: str, case: Any
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.margins(0.06, 0.08)
-    floor = case["reference"]["floor"][error.removeprefix("error_")]
+    floor = case["reference"]["floor"].get(error.removeprefix("error_"))
     failed = []
     for index, solver in enumerate(_in_order(series)):
         style = _style(solver, index)
@@ -108,6 +119,25 @@ def _draw(axes: Axes, series: Mapping[str, Sequence[Row]], error: str, case: Any
         axes.set_ylim(min(low, 0.5 * floor), high)
         axes.axhspan(axes.get_ylim()[0], floor, color=SHADE, linewidth=0, zorder=0.5)
     _draw_failed(axes, failed)
+
+
+def _draw_stated(axes: Axes, stated: Sequence[Stated]) -> None:
+    """Draw the stated error of every figure over its true one; below the diagonal is too small."""
+    for index, one in enumerate(stated):
+        told, true = zip(*one.errors, strict=True)
+        label = f"tolerance {one.tolerance:g}"
+        axes.plot(true, told, ".", color=colour_of(index), markersize=5, label=label)
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    ends = np.array([*axes.get_xlim(), *axes.get_ylim()])
+    line = float(ends.min()), float(ends.max())
+    axes.plot(line, line, color=GREY, linewidth=1.0, zorder=1)
+    axes.set_xlim(line)
+    axes.set_ylim(line)
+    axes.set_title("Stated errors of all figures, relative")
+    axes.set_xlabel("true error")
+    axes.set_ylabel("stated error")
+    axes.legend(loc="lower right")
 
 
 def _draw_failed(axes: Axes, failed: Sequence[tuple[Row, str]]) -> None:
@@ -152,8 +182,7 @@ def _words(report: Report, case: Mapping[str, Any]) -> str:
     text = f"reference: {reference['method']}"
     if reference["status"] != "ok":
         text = f"NO REFERENCE ({reference['method']})"
-    if case["horizon"] < case["duration"]:
-        text += f"; errors up to {case['horizon']:g} of {case['duration']:g} s"
+    text += f"; {horizon_words(case)}, of {case['duration']:g} s"
     if report.quick:
         text += "; reduced form, times mean nothing"
     return f"{text}; {report.machine['processor']}"

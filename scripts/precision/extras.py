@@ -8,7 +8,7 @@ from exu_press.studies.precision.amount import Amount
 from exu_press.studies.precision.errors import Errors, errors_of
 from exu_press.studies.precision.measured import Attempt
 from exu_press.studies.precision.trajectory import Trajectory
-from exu_press.studies.precision.truth import Reference
+from exu_press.studies.precision.truth import Reference, parting
 from precision.compiled import CompiledModel, compile_model
 from precision.peers import PEERS, peer_attempts
 from precision.squeezer import DURATION, squeezer_attempts, squeezer_errors
@@ -23,14 +23,17 @@ class Reduced:
 
     duration: float | None = None
 
-    def reference(self, scene: Scene | None, horizon: float, amount: Amount) -> Reference:
+    def reference(self, scene: Scene | None, amount: Amount) -> Reference:
         """Return SciPy's Radau on the reduced slider-crank, checked against its LSODA."""
         model = _model(scene)
         peers = {peer.name: peer for peer in PEERS}
         tight = {"SciPy Radau": 1e-10 * amount.loosen, "SciPy LSODA": 1e-12 * amount.loosen}
         radau, lsoda = (peers[name].trajectory(model, tol) for name, tol in tight.items())
         method = " against ".join(f"{name} {tol:.0e}" for name, tol in tight.items())
-        return Reference(f"two coordinates: {method}", radau, errors_of(lsoda, radau, horizon))
+        assert scene is not None
+        parted = parting(scene, radau, lsoda)
+        difference = errors_of(lsoda, radau, parted.horizon or scene.duration)
+        return Reference(f"two coordinates: {method}", radau, difference, parted)
 
     def attempts(
         self,
@@ -53,7 +56,7 @@ class Squeezer:
 
     duration: float | None = DURATION
 
-    def reference(self, scene: Scene | None, horizon: float, amount: Amount) -> Reference:
+    def reference(self, scene: Scene | None, amount: Amount) -> Reference:
         """Return the endpoint's precision; there is no trajectory."""
         return Reference("published endpoint, tolerance 1e-14", None, Errors(1e-13, 1e-9, None))
 

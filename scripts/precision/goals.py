@@ -12,17 +12,26 @@ from exu_press.studies.precision.rows import Row, cheapest, series_of
 __all__ = ["goals_of"]
 
 PEAK, PEAK_LIMIT = "error_peak_acceleration", 5e-3
+PEAKS, PEAKS_LIMIT = "error_peaks", 2e-2
 POSITION, POSITION_LIMIT = "error_position", 1e-6
 
 AGAINST_FIXED = (
-    ("press_lubricated", PEAK_LIMIT, 1 / 60),
-    ("press_dry", PEAK_LIMIT, 1 / 20),
-    ("press_flexible_lubricated", 1e-2, 1 / 20),
+    ("press_lubricated", PEAK, PEAK_LIMIT, 1 / 60),
+    ("press_dry", PEAKS, PEAKS_LIMIT, 1 / 20),
+    ("press_flexible_lubricated", PEAK, 1e-2, 1 / 20),
 )
-"""Case, error of the peak acceleration, and the part of the best fixed step's time."""
+"""Case, kind of error, its limit, and the part of the best fixed step's time."""
+IN_WORDS = {
+    PEAK: "peak acceleration until the horizon",
+    PEAKS: "mean and 95th percentile of the peaks of the whole run",
+}
 PEER_RATIOS = {"SciPy Radau": 1.0, "SciPy BDF": 1.0, "SciPy LSODA": 10.0}
 PEER_CASE = "slider_crank_dry_0.1mm"
-REAL_TIME = ("press_ideal", "press_lubricated", "press_dry")
+REAL_TIME = (
+    ("press_ideal", PEAK, PEAK_LIMIT),
+    ("press_lubricated", PEAK, PEAK_LIMIT),
+    ("press_dry", PEAKS, PEAKS_LIMIT),
+)
 
 
 def goals_of(rows: Sequence[Row], durations: dict[str, float]) -> list[Goal]:
@@ -33,11 +42,11 @@ def goals_of(rows: Sequence[Row], durations: dict[str, float]) -> list[Goal]:
         durations: case -> simulated time, s.
     """
     series, goals = series_of(rows), []
-    for case, limit, ratio in AGAINST_FIXED:
+    for case, error, limit, ratio in AGAINST_FIXED:
         if case in durations:
-            ours = cheapest(series.get((case, TOLERANCE), []), PEAK, limit)
-            other = cheapest(series.get((case, FIXED), []), PEAK, limit)
-            what = f"{case}: peak acceleration within {limit:.1%}, time over the best fixed step's"
+            ours = cheapest(series.get((case, TOLERANCE), []), error, limit)
+            other = cheapest(series.get((case, FIXED), []), error, limit)
+            what = f"{case}: {IN_WORDS[error]} within {limit:.1%}, time over the best fixed step's"
             goals.append(_goal(what, ours, other, ratio))
     if PEER_CASE in durations:
         ours = cheapest(series.get((PEER_CASE, TOLERANCE), []), POSITION, POSITION_LIMIT)
@@ -45,13 +54,13 @@ def goals_of(rows: Sequence[Row], durations: dict[str, float]) -> list[Goal]:
             other = cheapest(series.get((PEER_CASE, peer), []), POSITION, POSITION_LIMIT)
             what = f"{PEER_CASE}: position within 1e-6 m, time over {peer}'s"
             goals.append(_goal(what, ours, other, ratio))
-    for case in REAL_TIME:
+    for case, error, limit in REAL_TIME:
         if case in durations:
-            ours = cheapest(series.get((case, TOLERANCE), []), PEAK, PEAK_LIMIT)
-            time, within = durations[case], f"{PEAK_LIMIT:.1%}"
+            ours = cheapest(series.get((case, TOLERANCE), []), error, limit)
+            time, within = durations[case], f"{limit:.1%}"
             goals.append(
                 Goal(
-                    f"{case}: peak acceleration within {within}, run time over simulated time",
+                    f"{case}: {IN_WORDS[error]} within {within}, run time over simulated time",
                     None if ours is None else ours.cpu_time / time,
                     1.0,
                     _words(ours),

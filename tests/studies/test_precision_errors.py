@@ -57,6 +57,20 @@ def test_late_figures_of_a_shifted_run():
     assert 0.009 < late.graph_distance < 0.05  # the shift over the length; more at the end
 
 
+def test_peaks_of_a_whole_run_are_a_distribution_over_its_starts():
+    """Accelerations of a run are a tenth larger, those of its other start a tenth less."""
+    depth = np.sin(300.0 * TIME)
+    truth = wave(force=depth, penetration=depth)
+    large, small = (
+        wave(amplitude=amplitude, force=depth, penetration=depth) for amplitude in (1.1, 0.9)
+    )
+    alone, both = late_of(large, truth), late_of(large, truth, [small])
+    assert alone.mean_of_peaks == pytest.approx(0.1) and alone.large_peaks == pytest.approx(0.1)
+    assert both.mean_of_peaks == pytest.approx(0.0, abs=1e-12)
+    assert both.large_peaks == pytest.approx(0.0, abs=1e-12)
+    assert late_of(large, truth, [], [large]).mean_of_peaks == pytest.approx(0.1 / 2.1)
+
+
 def test_impact_times_need_equally_many_impacts():
     depth, fewer = np.sin(300.0 * TIME), np.sin(100.0 * TIME)
     late = late_of(wave(force=depth, penetration=fewer), wave(force=depth, penetration=depth))

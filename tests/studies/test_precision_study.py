@@ -1,12 +1,16 @@
 """The study of a user's scene."""
 
+import dataclasses
 import itertools
 
+import numpy as np
 import pytest
 
 from exu_press import Scene
 from exu_press.studies.precision import case_of, precision
-from exu_press.studies.precision.table import report_lines
+from exu_press.studies.precision.table import horizon_words, report_lines
+from exu_press.studies.precision.trajectory import Trajectory
+from exu_press.studies.precision.truth import parting
 
 
 @pytest.fixture(scope="module")
@@ -34,6 +38,30 @@ def test_the_table_holds_every_run(report):
     text = "\n".join(report_lines(report))
     assert text.count("completed") + text.count("failed") >= len(report.rows)
     assert report.machine["processor"] in text and not report.goals
+
+
+def test_a_horizon_is_measured_where_neighbours_part(report):
+    """Two sliders part tenfold in 20 ms, from 1e-7 of a clearance on."""
+    scene = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"})
+    clearance = scene.joints["crank_pin"].clearance
+    time = np.linspace(0.0, 0.2, 2001)
+    one = Trajectory(time, np.zeros_like(time), np.zeros_like(time), np.zeros_like(time))
+    apart = 1e-7 * clearance * 10.0 ** (time / 0.02)
+    found = parting(scene, one, dataclasses.replace(one, position=apart))
+    assert found.horizon == pytest.approx(0.08, abs=2e-4)
+    assert found.rate == pytest.approx(np.log(10.0) / 0.02, rel=1e-2)
+    assert parting(scene, one, one).horizon is None
+    text = "\n".join(report_lines(report))
+    assert "no horizon: neighbouring motions " in text
+    case = {"duration": 0.2, "horizon": 0.08, "amplification": found.rate}
+    assert horizon_words(case) == "horizon 0.08 s: neighbouring motions part tenfold in 0.02 s"
+
+
+def test_stated_errors_stand_beside_the_true_ones(report):
+    (one,) = report.stated
+    assert one.case == "mine" and one.figures > 20 and len(one.errors) <= one.figures
+    assert one.covered >= 0.8 * one.figures
+    assert "stated against true errors" in "\n".join(report_lines(report))
 
 
 @pytest.mark.parametrize(

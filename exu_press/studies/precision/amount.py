@@ -18,6 +18,8 @@ class Amount:
         finest_peer: smaller tolerances of the peers are left out.
         loosen: factor on the tolerances of the references.
         reference_step: smallest fixed step of a reference, s.
+        starts: of a reference, beside its own, where neighbouring motions part.
+        stated: tolerances whose stated errors are held against the true ones.
     """
 
     repeats: int
@@ -28,7 +30,9 @@ class Amount:
     finest_peer: float
     loosen: float
     reference_step: float
+    starts: int
+    stated: tuple[float, ...]
 
 
-FULL = Amount(3, 2.0, 0.2, 1e-6, 1e-6, 1e-10, 1.0, 1e-6)
-QUICK = Amount(1, 0.2, 0.02, 1e-4, 1e-4, 1e-5, 30.0, 1e-5)
+FULL = Amount(3, 2.0, 0.2, 1e-6, 1e-6, 1e-10, 1.0, 1e-6, 6, (1e-2, 3e-3, 1e-3, 3e-4))
+QUICK = Amount(1, 0.2, 0.02, 1e-4, 1e-4, 1e-5, 30.0, 1e-5, 1, (1e-2,))

@@ -25,7 +25,6 @@ class Case:
         reference: "closed form" (ideal joints), "own" (the tightest tolerance against the smallest
             fixed step) or "extra".
         scene: what is run; None for a system that only `extra` knows.
-        horizon: errors are pointwise up to it, s; None for the whole run.
         steps: fixed ones, s.
         tolerances: of the step control.
         reference_tolerance: "own": the tightest one, which is the reference.
@@ -40,7 +39,6 @@ class Case:
     title: str
     reference: Literal["closed form", "own", "extra"]
     scene: Scene | None
-    horizon: float | None = None
     steps: tuple[float, ...] = STEPS
     tolerances: tuple[float, ...] = TOLERANCES
     reference_tolerance: float = 0.0

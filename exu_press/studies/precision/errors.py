@@ -5,6 +5,7 @@ by point. What happens then is compared as a whole: when surfaces touch, how lar
 and how far apart the graphs of the velocity lie.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,6 +18,10 @@ __all__ = ["INSTANTS_APART", "Errors", "Late", "errors_of", "instants_until", "l
 
 INSTANTS_APART = 1e-3
 """s, between the instants that are compared: every fixed step up to it lands on them."""
+
+PEAKS_APART = 0.0125
+"""s; at 240 rpm a twentieth of a revolution. The largest acceleration in each such span is a peak:
+that needs no threshold, and no two count for one impact."""
 
 GRAPH_POINTS = 4001
 """Of a graph over the whole run; the distance is resolved to about the run's length over this."""
@@ -49,6 +54,9 @@ class Late:
         rms_force: relative error.
         graph_distance: Hausdorff distance of the slider velocity's graph, time over the run's
             length and velocity over its peak.
+        mean_of_peaks: relative error of the mean of its acceleration's peaks, one in each span of
+            PEAKS_APART; the mean over all starts.
+        large_peaks: the same of their 95th percentile.
     """
 
     impacts: int
@@ -56,6 +64,8 @@ class Late:
     peak_force: float
     rms_force: float
     graph_distance: float
+    mean_of_peaks: float
+    large_peaks: float
 
 
 def instants_until(horizon: float) -> Array:
@@ -76,8 +86,20 @@ def errors_of(run: Trajectory, reference: Trajectory, horizon: float) -> Errors:
     )
 
 
-def late_of(run: Trajectory, reference: Trajectory) -> Late | None:
-    """Return the figures of a dry run, or None where no surfaces touch."""
+def late_of(
+    run: Trajectory,
+    reference: Trajectory,
+    starts: Sequence[Trajectory] = (),
+    others: Sequence[Trajectory] = (),
+) -> Late | None:
+    """Return the figures of a dry run, or None where no surfaces touch.
+
+    Args:
+        run: what is judged.
+        reference: the truth until motions part.
+        starts: more of the run, from starts that differ by what nobody knows.
+        others: the same of the reference.
+    """
     if run.force is None or reference.force is None or run.penetration is None:
         return None
     if not reference.force.any():
@@ -85,13 +107,28 @@ def late_of(run: Trajectory, reference: Trajectory) -> Late | None:
     touches, true_touches = _touches(run), _touches(reference)
     same = len(touches) == len(true_touches) > 0
     rms, true_rms = _rms(run), _rms(reference)
+    mean, large = _peaks((run, *starts))
+    true_mean, true_large = _peaks((reference, *others))
     return Late(
         impacts=len(touches),
         impact_time=float(np.abs(touches - true_touches).max()) if same else None,
         peak_force=abs(float(run.force.max()) / float(reference.force.max()) - 1.0),
         rms_force=abs(rms / true_rms - 1.0),
         graph_distance=_graph_distance(run, reference),
+        mean_of_peaks=abs(mean / true_mean - 1.0),
+        large_peaks=abs(large / true_large - 1.0),
     )
+
+
+def _peaks(runs: Sequence[Trajectory]) -> tuple[float, float]:
+    """Return mean and 95th percentile of a run's peaks, m/s^2, as means over runs."""
+    found = []
+    for run in runs:
+        bounds = np.arange(run.time[0], run.time[-1] - 0.5 * PEAKS_APART, PEAKS_APART)
+        peaks = np.maximum.reduceat(np.abs(run.acceleration), np.searchsorted(run.time, bounds))
+        found.append((float(peaks.mean()), float(np.percentile(peaks, 95))))
+    mean, large = np.mean(found, axis=0)
+    return float(mean), float(large)
 
 
 def _touches(run: Trajectory) -> Array:

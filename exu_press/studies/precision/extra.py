@@ -21,8 +21,8 @@ class Extra(Protocol):
         """Return how long its system is simulated, s; None where it is a scene."""
         ...
 
-    def reference(self, scene: Scene | None, horizon: float, amount: Amount) -> Reference:
-        """Return the truth of the case up to the horizon, s."""
+    def reference(self, scene: Scene | None, amount: Amount) -> Reference:
+        """Return the truth of the case."""
         ...
 
     def attempts(

@@ -13,7 +13,7 @@ from exu_press.studies.precision.trajectory import Trajectory, trajectory_of
 
 __all__ = ["LONG_RUN", "Attempt", "Measured", "measured_of", "timed"]
 
-LONG_RUN = 10.0
+LONG_RUN = 20.0
 """s; a run that takes longer is not repeated: noise of tenths of seconds does not matter there."""
 
 
@@ -23,6 +23,7 @@ class Measured:
 
     Attributes:
         trajectory: None if it failed.
+        starts: of repetitions from starts that differ by what nobody knows.
         wall_times: of the integration alone, of every repetition, s.
         cpu_times: processor time of the same, s.
         status: as in summary.json.
@@ -42,6 +43,7 @@ class Measured:
     rejected_steps: int | None = None
     newton_iterations: int | None = None
     law_evaluations: int | None = None
+    starts: tuple[Trajectory, ...] = ()
 
     @property
     def wall_time(self) -> float:
@@ -63,14 +65,14 @@ class Attempt:
         setting: what is varied: "step", "tolerance".
         value: of the setting, s or dimensionless.
         run: does it once.
-        again: does it once more for its time alone; None: `run` is as quick.
+        again: does it once more for its time, as one of several starts; None: `run` does.
     """
 
     solver: str
     setting: str
     value: float
     run: Callable[[], Measured] = field(repr=False)
-    again: Callable[[], Measured] | None = field(default=None, repr=False)
+    again: Callable[[int], Measured] | None = field(default=None, repr=False)
 
 
 def timed(attempt: Attempt, repeats: int) -> Measured:
@@ -78,12 +80,13 @@ def timed(attempt: Attempt, repeats: int) -> Measured:
     first = attempt.run()
     runs = [first]
     if first.status == "completed" and first.cpu_time < LONG_RUN:
-        again = attempt.again or attempt.run
-        runs += [again() for _ in range(repeats - 1)]
+        again = attempt.again or (lambda _: replace(attempt.run(), trajectory=None))
+        runs += [again(number) for number in range(1, repeats)]
     return replace(
         first,
         wall_times=tuple(run.wall_time for run in runs),
         cpu_times=tuple(run.cpu_time for run in runs),
+        starts=tuple(run.trajectory for run in runs[1:] if run.trajectory is not None),
     )
 
 

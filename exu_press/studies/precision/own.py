@@ -20,6 +20,7 @@ __all__ = [
     "TOLERANCE",
     "fixed_steps",
     "mode_numbers",
+    "moved",
     "newton_modes",
     "run_scene",
     "spectral_radii",
@@ -32,6 +33,9 @@ MODES = "modes, default tolerance"
 
 SMALLEST = 1e-8
 """How small a fixed step may become where Newton's method fails, s."""
+
+MOVED = 2e-4
+"""deg; a tenth of a micrometre at the pin of a crank of 30 mm."""
 
 NEWTON_MODES = {"full Newton": (False, False), "modified Newton": (True, False)}
 """Name -> (modified, a Jacobian every step); the package's own is modified with one every step."""
@@ -101,7 +105,17 @@ def newton_modes(scene: Scene, steps: Iterable[float]) -> list[Attempt]:
 
 
 def _attempt(solver: str, scene: Scene, setting: str, value: float) -> Attempt:
-    return Attempt(solver, setting, value, partial(run_scene, scene, setting, value))
+    again = partial(_from_start, scene, setting, value)
+    return Attempt(solver, setting, value, partial(run_scene, scene, setting, value), again)
+
+
+def _from_start(scene: Scene, setting: str, value: float, number: int) -> Measured:
+    return run_scene(moved(scene, number), setting, value)
+
+
+def moved(scene: Scene, number: int) -> Scene:
+    """Return a scene whose start differs by next to nothing: so many times MOVED."""
+    return scene.replace(start_angle_deg=scene.start_angle_deg + number * MOVED)
 
 
 def _with_newton(scene: Scene, mode: str, step: float) -> Measured:

@@ -5,6 +5,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from exu_press.studies.precision.rows import Row
+from exu_press.studies.precision.stated import Stated
 
 __all__ = ["Goal", "Report"]
 
@@ -43,6 +44,7 @@ class Report:
         rows: one a run.
         orders: observed orders, one entry a case and solver.
         goals: ratios of run times.
+        stated: stated against true errors, one entry a case and tolerance.
         left_out: what was not run, and why.
         machine: processor, system, versions.
     """
@@ -54,6 +56,7 @@ class Report:
     goals: tuple[Goal, ...]
     left_out: tuple[str, ...]
     machine: Mapping[str, Any]
+    stated: tuple[Stated, ...] = ()
 
     def to_dict(self) -> dict[str, Any]:
         """Return the dictionary of precision.json."""

@@ -62,6 +62,11 @@ class Row:
         """Return the row as it stands in precision.json."""
         return asdict(self)
 
+    @property
+    def error_peaks(self) -> float | None:
+        """The larger error of the mean and of the 95th percentile of a dry run's peaks."""
+        return None if self.late is None else max(self.late.mean_of_peaks, self.late.large_peaks)
+
     def resolved(self, error: str) -> float | None:
         """Return an error, or None where it is missing or smaller than can be told."""
         value: float | None = getattr(self, error)

@@ -4,8 +4,6 @@ import dataclasses
 from collections.abc import Callable, Sequence
 from typing import Any
 
-import numpy as np
-
 from exu_press.progress import Progress
 from exu_press.scene import Scene
 from exu_press.studies.precision import own, references
@@ -16,12 +14,15 @@ from exu_press.studies.precision.machine import machine
 from exu_press.studies.precision.measured import Attempt, Measured, timed
 from exu_press.studies.precision.report import Goal, Report
 from exu_press.studies.precision.rows import ERRORS, Row, orders_of, row_of
+from exu_press.studies.precision.stated import Stated, stated_errors
 from exu_press.studies.precision.truth import Reference
 
 __all__ = ["precision"]
 
 RADII = (0.5, 0.65, 0.95)
 """Beside the default of 0.8."""
+FINEST = 1e-6
+"""Tolerance of the truth of stated errors where no case says otherwise."""
 VARIED_TOLERANCES = (1e-2, 1e-3, 1e-4)
 VARIED_STEPS = (1e-4, 2e-5, 1e-5)  # s
 
@@ -47,6 +48,7 @@ def precision(
     amount = QUICK if quick else FULL
     rows: list[Row] = []
     described: dict[str, dict[str, Any]] = {}
+    stated: list[Stated] = []
     durations: dict[str, float] = {}
 
     def report() -> Report:
@@ -58,16 +60,21 @@ def precision(
             goals=() if quick else tuple(goals_of(rows, durations)),
             left_out=tuple(left_out),
             machine=machine(),
+            stated=tuple(stated),
         )
 
     for case in chosen:
         scene = _shortened(case.scene, amount)
         durations[case.name] = _duration(case, scene)
-        horizon = min(case.horizon or np.inf, durations[case.name])
-        reference = _reference(case, scene, horizon, amount)
+        reference = _reference(case, scene, amount)
+        horizon = reference.parted.horizon or durations[case.name]
         attempts = _attempts(case, scene, amount)
         some = _run(case, attempts, reference, horizon, case.repeats or amount.repeats, quiet)
         rows += some
+        if scene is not None and not case.modes:
+            until_horizon = scene.replace(revolutions=scene.revolutions * horizon / scene.duration)
+            finest = amount.loosen * (case.reference_tolerance or FINEST)
+            stated += stated_errors(case.name, until_horizon, amount.stated, finest)
         described[case.name] = _describe(case, reference, horizon, durations[case.name], some)
         after_case(report())
     return report()
@@ -89,14 +96,14 @@ def _duration(case: Case, scene: Scene | None) -> float:
     return case.extra.duration
 
 
-def _reference(case: Case, scene: Scene | None, horizon: float, amount: Amount) -> Reference:
+def _reference(case: Case, scene: Scene | None, amount: Amount) -> Reference:
     """Make the reference of a case."""
     if case.reference == "extra":
         assert case.extra is not None
-        return case.extra.reference(scene, horizon, amount)
+        return case.extra.reference(scene, amount)
     assert scene is not None
     if case.reference == "own":
-        return references.from_own(case, scene, horizon, amount)
+        return references.from_own(case, scene, amount)
     return references.closed_form(scene)
 
 
@@ -137,7 +144,7 @@ def _run(
     with Progress(case.name, len(attempts), unit="runs", quiet=quiet) as progress:
         for done, attempt in enumerate(attempts):
             if attempt.solver not in warm:
-                (attempt.again or attempt.run)()
+                attempt.again(0) if attempt.again else attempt.run()
                 warm.add(attempt.solver)
             run = timed(attempt, repeats)
             errors, late = _errors(case, run, reference, horizon)
@@ -157,7 +164,8 @@ def _errors(case: Case, run: Measured, reference: Reference, horizon: float) -> 
     if reference.trajectory is None:
         return nothing, None
     errors = errors_of(run.trajectory, reference.trajectory, horizon)
-    return errors, late_of(run.trajectory, reference.trajectory)
+    late = late_of(run.trajectory, reference.trajectory, run.starts, reference.starts)
+    return errors, late
 
 
 def _describe(
@@ -170,6 +178,7 @@ def _describe(
         "scene": None if case.scene is None else case.scene.to_dict(),
         "duration": duration,
         "horizon": horizon,
+        "amplification": reference.parted.rate,
         "reference": {
             "status": "no reference" if not any(told.values()) else "ok",
             "method": reference.method,

@@ -1,12 +1,14 @@
 """The report as a person reads it in a terminal."""
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
+from exu_press.studies.precision.errors import PEAKS_APART
 from exu_press.studies.precision.report import Report
 from exu_press.studies.precision.rows import Row
 
-__all__ = ["report_lines"]
+__all__ = ["horizon_words", "report_lines"]
 
 HEAD = (
     "solver",
@@ -24,7 +26,12 @@ HEAD = (
     "status",
 )
 
-LATE_HEAD = ("solver", "setting", "impacts", "their times, s", "peak force", "rms force", "graph")
+LATE_HEAD = (
+    *("solver", "setting", "impacts", "their times, s", "peak force", "rms force", "graph"),
+    *("mean of peaks", "95th percentile"),
+)
+
+STATED_HEAD = (*("case", "tolerance", "figures", "covered", "stated/true", "peak: stated", "true"),)
 
 
 def report_lines(report: Report) -> list[str]:
@@ -36,8 +43,9 @@ def report_lines(report: Report) -> list[str]:
         units = "rad, rad/s" if case["scene"] is None else "m, m/s"
         lines += [
             f"{name}: {case['title']}",
-            f"  {case['duration']:g} s simulated; errors up to {case['horizon']:g} s, {units} and "
-            "relative; < smaller than the reference can tell; * one run, not the median of three",
+            f"  {case['duration']:g} s simulated; {horizon_words(case)}",
+            f"  errors up to then, {units} and relative; < smaller than the reference can tell; "
+            "* one run, not the median of three",
             f"  reference: {reference['method']}; {_difference(reference)}",
             *_aligned([HEAD, *(_cells(row) for row in rows)]),
             *_reasons(rows),
@@ -55,8 +63,38 @@ def report_lines(report: Report) -> list[str]:
         for order in report.orders
     ]
     lines += _aligned([("case", "solver", "setting", "position", "velocity", "peak"), *orders])
+    lines += _stated_lines(report)
     lines += _goal_lines(report)
     return [*lines, "", *report.left_out] if report.left_out else lines
+
+
+def horizon_words(case: Mapping[str, Any]) -> str:
+    """Return in words until when neighbouring motions stay together, and how fast they part."""
+    rate = case["amplification"]
+    how = "" if rate is None or rate <= 0.0 else f" tenfold in {math.log(10.0) / rate:.2g} s"
+    if case["horizon"] < case["duration"]:
+        return f"horizon {case['horizon']:g} s: neighbouring motions part{how}"
+    return f"no horizon: neighbouring motions {'part' if how else 'stay together'}{how}"
+
+
+def _stated_lines(report: Report) -> list[str]:
+    """Return how stated errors cover the true ones, where there are any."""
+    cells: list[tuple[str, ...]] = [
+        (
+            one.case,
+            f"{one.tolerance:g}",
+            str(one.figures),
+            f"{one.covered / one.figures:.1%}",
+            _number(one.ratio, 2),
+            *((_number(e, 2) for e in one.peak) if one.peak else ("-", "-")),
+        )
+        for one in report.stated
+        if one.figures
+    ]
+    if not cells:
+        return []
+    title = "stated against true errors of all figures until the horizon; of the peak acceleration"
+    return ["", title, *_aligned([STATED_HEAD, *cells])]
 
 
 def _machine_lines(report: Report) -> list[str]:
@@ -121,13 +159,18 @@ def _late_lines(rows: Sequence[Row]) -> list[str]:
             _number(row.late.peak_force, 2),
             _number(row.late.rms_force, 2),
             _number(row.late.graph_distance, 2),
+            _number(row.late.mean_of_peaks, 2),
+            _number(row.late.large_peaks, 2),
         )
         for row in rows
         if row.late is not None
     ]
     if not cells:
         return []
-    title = "  the whole run: touches, their error; relative errors; graph distance"
+    title = (
+        "  the whole run: touches, their error; relative errors; graph distance; peaks: largest "
+        f"accelerations of each {PEAKS_APART:g} s, of all starts"
+    )
     return [title, *_aligned([LATE_HEAD, *cells])]
 
 

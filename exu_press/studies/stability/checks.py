@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.confidence.figures import figures
-from exu_press.confidence.reading import smoothed
+from exu_press.confidence.compared import compared
 from exu_press.integrate import Tuning
 from exu_press.laws.film.contract import film_scale
 from exu_press.mechanism import GROUND
@@ -111,20 +110,17 @@ def agreement(result: Result, finer: Result) -> Check:
         result: with its errors.
         finer: the same scene at a smaller tolerance.
     """
-    here, there = figures(result.summary()), figures(finer.summary())
-    read = figures(smoothed(finer).summary())
     worst, which = 0.0, ""
-    for name, told in result.info["errors"].items():
-        if name not in there:
-            return _check(AGREEMENT, math.inf, 1.0, f"{name}: none in the finer run")
-        value, true = here[name], there[name]
-        stated = told["error"]
+    for one in compared(result, finer):
+        told, stated = one.told, one.told["error"]
         if not told["determined"]:
-            stated = 2.0 * (told["high"] - value if true > value else value - told["low"])
-        allowed = max(stated + abs(read[name] - true), _little(result.scene, name, true))
-        share = abs(value - true) / allowed if value != true else 0.0
+            more = one.true > one.value
+            stated = 2.0 * (told["high"] - one.value if more else one.value - told["low"])
+        allowed = max(stated + one.reading, _little(result.scene, one.name, one.true))
+        share = one.off / allowed
         if not share <= worst:
-            worst, which = share, f"{name}: {value:.5g} +- {told['error']:.2g} for {true:.5g}"
+            words = f"{one.value:.5g} +- {told['error']:.2g} for {one.true:.5g}"
+            worst, which = share, f"{one.name}: {words}"
     return _check(AGREEMENT, worst, 1.0, which)
 
 

@@ -1,0 +1,63 @@
+"""A run's figures with their stated errors beside those of a more accurate run."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from exu_press.confidence.figures import figures
+from exu_press.confidence.reading import smoothed
+from exu_press.result import Result
+from exu_press.result.info import Error
+
+__all__ = ["Compared", "compared"]
+
+NOTHING = 1e-6
+"""Over a figure: smaller errors are no matter of tolerances."""
+
+
+@dataclass(frozen=True)
+class Compared:
+    """One figure of both.
+
+    Attributes:
+        name: dotted.
+        value: of the run, in the figure's unit.
+        true: of the more accurate one.
+        reading: what reading it leaves open of `true`.
+        told: what the run states.
+    """
+
+    name: str
+    value: float
+    true: float
+    reading: float
+    told: Error
+
+    @property
+    def off(self) -> float:
+        """The true error, in the figure's unit."""
+        return abs(self.value - self.true)
+
+    @property
+    def covered(self) -> bool:
+        """Whether what is stated covers the true error."""
+        low, high = self.told["low"] - self.reading, self.told["high"] + self.reading
+        return low <= self.true <= high or self.off <= NOTHING * abs(self.value)
+
+    @property
+    def ratio(self) -> float | None:
+        """The stated over the true error; None where there is next to none."""
+        return self.told["error"] / self.off if self.off > NOTHING * abs(self.value) else None
+
+
+def compared(result: Result, reference: Result) -> Iterator[Compared]:
+    """Yield every figure that both have.
+
+    Args:
+        result: with its errors.
+        reference: the same scene, more accurate; its errors are not looked at.
+    """
+    here, there = figures(result.summary()), figures(reference.summary())
+    read = figures(smoothed(reference).summary())
+    for name, told in result.info["errors"].items():
+        if name in there:
+            yield Compared(name, here[name], there[name], abs(there[name] - read[name]), told)

@@ -1,0 +1,77 @@
+"""Stated against true error of every figure of a scene, at several tolerances."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from statistics import median
+
+from exu_press.confidence import simulate_with_errors
+from exu_press.confidence.compared import compared
+from exu_press.scene import Scene
+from exu_press.simulation import simulate
+
+__all__ = ["Stated", "stated_errors"]
+
+PEAK = "peak_acceleration.resolved"
+
+
+@dataclass(frozen=True)
+class Stated:
+    """What one run states.
+
+    Attributes:
+        case: name.
+        tolerance: of the run.
+        figures: that are compared.
+        covered: how many of them are stated well enough.
+        ratio: of stated and true error in the median; None where there are next to no errors.
+        errors: stated and true error over the figure, of all figures with an error.
+        peak: the same of the peak acceleration, None where there is next to none.
+    """
+
+    case: str
+    tolerance: float
+    figures: int
+    covered: int
+    ratio: float | None
+    errors: tuple[tuple[float, float], ...]
+    peak: tuple[float, float] | None
+
+
+def stated_errors(
+    case: str, scene: Scene, tolerances: Sequence[float], reference: float
+) -> list[Stated]:
+    """Return what runs state, against a run at the reference's tolerance.
+
+    Args:
+        case: name.
+        scene: until the horizon.
+        tolerances: of the runs.
+        reference: much smaller.
+    """
+    true = simulate(scene.replace("solver.tolerance", reference))
+    if not true.completed:
+        return []
+    found = []
+    for tolerance in tolerances:
+        run = simulate_with_errors(scene.replace("solver.tolerance", tolerance), beside=False)
+        if not run.completed:
+            continue
+        every = list(compared(run, true))
+        shares = {
+            one.name: (one.told["error"] / abs(one.value), one.off / abs(one.value))
+            for one in every
+            if one.value and one.ratio is not None
+        }
+        ratios = [one.ratio for one in every if one.ratio is not None]
+        found.append(
+            Stated(
+                case=case,
+                tolerance=tolerance,
+                figures=len(every),
+                covered=sum(one.covered for one in every),
+                ratio=median(ratios) if ratios else None,
+                errors=tuple(shares.values()),
+                peak=shares.get(PEAK),
+            )
+        )
+    return found

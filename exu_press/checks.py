@@ -21,6 +21,7 @@ RENAMED = {
     "clearance": "joints.NAME.clearance",
     "contact.radius": "joints.NAME.radius",
     "flexible": "bodies.NAME",
+    "blanking": "load.NAME with kind = 'blanking'",
 }
 """Keys of before -> what is written instead."""
 
@@ -35,10 +36,12 @@ def key(
     at_most: float | None = None,
     choices: tuple[str, ...] = (),
     also: type | None = None,
+    numbers: int | None = None,
 ) -> Any:
     """Declare one key of a scene table: its default, meaning, unit and allowed range.
 
-    `also` is a class whose objects are allowed as they are.
+    `also` is a class whose objects are allowed as they are; `numbers` says that the value is a list
+    of so many numbers, of any number of them where that is 0.
     """
     metadata = {
         "meaning": meaning,
@@ -48,6 +51,7 @@ def key(
         "at_most": at_most,
         "choices": choices,
         "also": also,
+        "numbers": numbers,
     }
     return dataclasses.field(default=default, metadata=metadata)
 
@@ -58,6 +62,9 @@ def _allowed(field: dataclasses.Field[Any]) -> str:
     if meta.get("choices"):
         also = f", or {meta['meaning']}" if meta.get("also") else ""
         return "one of " + ", ".join(repr(choice) for choice in meta["choices"]) + also
+    if meta.get("numbers") is not None:
+        count = f"{meta['numbers']} numbers" if meta["numbers"] else "numbers"
+        return f"a list of {count} ({meta['meaning']}{', ' + meta['unit'] if meta['unit'] else ''})"
     kind = _kind(field)
     noun = {float: "a number", int: "a whole number", bool: "true or false", str: "a text"}[kind]
     bounds = [
@@ -93,6 +100,8 @@ def _checked(field: dataclasses.Field[Any], name: str, value: Any) -> Any:
         return None
     if field.metadata.get("also") and isinstance(value, field.metadata["also"]):
         return value
+    if field.metadata.get("numbers") is not None:
+        return _numbers(field, name, value)
     kind = _kind(field)
     if not isinstance(value, bool):
         if kind is float and isinstance(value, numbers.Real):
@@ -111,6 +120,21 @@ def _checked(field: dataclasses.Field[Any], name: str, value: Any) -> Any:
     if not right:
         raise InputError(f"{name} = {value!r}: allowed is {_allowed(field)}")
     return value
+
+
+def _numbers(field: dataclasses.Field[Any], name: str, value: Any) -> tuple[float, ...]:
+    """Return a list of finite numbers as a tuple, or raise InputError."""
+    count = field.metadata["numbers"]
+    if isinstance(value, list | tuple) and (not count or len(value) == count):
+        found = [
+            _float(each)
+            if isinstance(each, numbers.Real) and not isinstance(each, bool)
+            else math.nan
+            for each in value
+        ]
+        if all(map(math.isfinite, found)):
+            return tuple(found)
+    raise InputError(f"{name} = {value!r:.80}: allowed is {_allowed(field)}")
 
 
 def _float(value: Any) -> float:

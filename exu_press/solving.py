@@ -18,6 +18,7 @@ from exu_press.laws.contact import NormalContact
 from exu_press.mechanism import GROUND, Mechanism
 from exu_press.mechanism.holding import Holding
 from exu_press.scene import IdealJoint, LubricatedJoint, Scene, mechanism_of
+from exu_press.scene.applied import applied_loads
 from exu_press.scene.laws import contact_law
 from exu_press.scene.warnings import doubtful_sizes
 
@@ -38,9 +39,9 @@ THIN = 1e-6
 WIDE_CIRCLE = 0.3
 """Of the friction circle's radius, in crank radii."""
 
-STEPS_IN_A_PULSE = 5.0
-"""So many fixed steps in the rise and in the fall of a blanking pulse: its peak, which may lie
-between two of them, is then missed by a tenth at most."""
+STEPS_IN_AN_EDGE = 5.0
+"""So many fixed steps in the steepest edge of a load: a peak, which may lie between two of them, is
+then missed by a tenth at most."""
 
 STEPS_IN_A_RISE = 3.0
 """So many steps from first touch to the largest force resolve it to some percent."""
@@ -106,7 +107,7 @@ def solve(model: Assembled, *, tuning: Tuning = DEFAULTS, quiet: bool = True) ->
         max_steps=solver.max_steps,
         quiet=quiet,
     )
-    leapt = _leapt_over_pulse(model) if outcome.status is Status.COMPLETED else ""
+    leapt = _leapt_over_load(model) if outcome.status is Status.COMPLETED else ""
     if leapt:
         return dataclasses.replace(outcome, status=Status.UNDER_RESOLVED, reason=leapt)
     return outcome
@@ -173,6 +174,8 @@ class SceneAdvice(Advice):
     def place(self, time: float) -> str:
         """Return time and crank angle."""
         scene = self._scene
+        if scene.drive is not None:  # the angle is not known from the time
+            return super().place(time)
         degrees = math.degrees(scene.start_angle + scene.angular_speed * time) % 360.0
         return f"{super().place(time)}, crank angle {degrees:.2f} deg"
 
@@ -243,22 +246,27 @@ class SceneAdvice(Advice):
         return ""
 
 
-def _leapt_over_pulse(model: Assembled) -> str:
-    """Return in words that fixed steps are too long for the first blanking pulse, or nothing.
+def _leapt_over_load(model: Assembled) -> str:
+    """Return in words that fixed steps are too long for a load, or nothing.
 
-    Steps by tolerance end on a pulse's corners.
+    Steps by tolerance end on its corners.
     """
-    solver, pulse = model.scene.solver, model.scene.blanking
-    if solver is None or solver.step is None or pulse is None:
+    scene, solver = model.scene, model.scene.solver
+    if solver is None or solver.step is None:
         return ""
-    shortest, begin = min(pulse.rise, pulse.fall), model.next_corner(0.0)
-    if begin >= model.scene.duration or solver.step <= shortest / STEPS_IN_A_PULSE * (1.0 + 1e-9):
+    edges = {name: load.shortest_edge(scene) for name, load in applied_loads(scene).items()}
+    name = min(edges, key=edges.__getitem__, default="")
+    begin = model.next_corner(0.0)
+    if not name or begin >= scene.duration:
+        return ""
+    shortest = edges[name]
+    if solver.step <= shortest / STEPS_IN_AN_EDGE * (1.0 + 1e-9):
         return ""
     advice = SceneAdvice(model, Problem.of(model.mbs, None), False)
     return (
-        f"under-resolved {advice.place(begin)}: steps of {solver.step:.2g} s in a blanking pulse "
-        f"with an edge of {shortest:.2g} s; peaks are the step's; try solver.step = "
-        f"{_rounded_down(shortest / STEPS_IN_A_PULSE):.0e}"
+        f"under-resolved {advice.place(begin)}: steps of {solver.step:.2g} s in load.{name} with "
+        f"an edge of {shortest:.2g} s; peaks are the step's; try solver.step = "
+        f"{_rounded_down(shortest / STEPS_IN_AN_EDGE):.0e}"
     )
 
 

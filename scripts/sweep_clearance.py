@@ -14,7 +14,9 @@ quick = "--quick" in sys.argv
 out = Path(sys.argv[sys.argv.index("--out") + 1] if "--out" in sys.argv else "out/sweep_clearance")
 
 scene = Scene(
-    joints={"crank_pin": "lubricated"}, revolutions=0.02 if quick else 2.0, blanking={"force": 1e4}
+    joints={"crank_pin": "lubricated"},
+    revolutions=0.02 if quick else 2.0,
+    load={"blanking": {"kind": "blanking", "force": 1e4}},
 )
 clearances = [5e-5, 2e-4] if quick else [5e-5, 7.5e-5, 1e-4, 1.25e-4, 1.5e-4, 1.75e-4, 2e-4]
 study = Study(

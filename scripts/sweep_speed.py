@@ -13,7 +13,9 @@ from exu_press.studies.sweep import Study, sweep, table_lines
 quick = "--quick" in sys.argv
 out = Path(sys.argv[sys.argv.index("--out") + 1] if "--out" in sys.argv else "out/sweep_speed")
 
-scene = Scene(revolutions=0.02 if quick else 2.0, blanking={"force": 1e4})
+scene = Scene(
+    revolutions=0.02 if quick else 2.0, load={"blanking": {"kind": "blanking", "force": 1e4}}
+)
 speeds = [200.0, 500.0] if quick else [200.0, 250.0, 300.0, 350.0, 400.0, 450.0, 500.0]
 study = Study(scene=scene, grid={"speed_rpm": speeds})
 shown = ("peak_acceleration.mean_1ms", "joints.crank_pin.peak_force", "joints.crank_pin.min_film")

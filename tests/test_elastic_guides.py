@@ -11,7 +11,7 @@ from exu_press.model import build
 from exu_press.scene import flexible_press, mechanism_of
 
 IDEAL = {"joints": {}}
-ECCENTRIC = {"force": 1e4, "eccentricity": 0.1, "end_angle_deg": 60.0}
+ECCENTRIC = {"kind": "blanking", "force": 1e4, "offset": [0.1, 0.0], "end_angle_deg": 60.0}
 
 
 def run(**scene):
@@ -48,7 +48,12 @@ def test_springs_cost_no_callback():
 
 def test_the_stiffer_the_nearer_to_ideal_guides():
     """The slider's position errs by 1 / stiffness: the guides' forces are bounded."""
-    scene = {**IDEAL, "revolutions": 0.25, "solver": {"step": 1e-4}, "blanking": ECCENTRIC}
+    scene = {
+        **IDEAL,
+        "revolutions": 0.25,
+        "solver": {"step": 1e-4},
+        "load": {"blanking": ECCENTRIC},
+    }
     ideal = run(**scene)
     errors = []
     for stiffness in (1e9, 1e10, 1e11):
@@ -68,13 +73,22 @@ def test_tilt_of_a_slider_under_a_static_eccentric_force():
         speed_rpm=1.0,
         start_angle_deg=90.0,
         revolutions=0.1,
-        blanking={"force": 2e4, "eccentricity": 0.15, "rise": 4, "fall": 1, "end_angle_deg": 120.0},
+        load={
+            "blanking": {
+                "kind": "blanking",
+                "force": 2e4,
+                "offset": [0.15, 0.0],
+                "rise": 4,
+                "fall": 1,
+                "end_angle_deg": 120.0,
+            }
+        },
         guide={"tilting_stiffness": 3e6},
         solver={"step": 1e-2},
     )
-    peak = int(np.argmax(result["blanking_force"]))
-    assert result["blanking_force"][peak] == pytest.approx(2e4)
-    assert result["blanking_moment"][peak] == pytest.approx(3e3)
+    peak = int(np.argmax(result["load_blanking_force"]))
+    assert result["load_blanking_force"][peak] == pytest.approx(2e4)
+    assert result["load_blanking_moment"][peak] == pytest.approx(3e3)
     assert result["slider_tilt"][peak] == pytest.approx(2e4 * 0.15 / 3e6, rel=5e-4)
     assert result["guide_moment"][peak] == pytest.approx(-3e3, rel=5e-4)
 
@@ -91,12 +105,15 @@ def test_tilt_of_the_press_under_a_static_eccentric_force():
         speed_rpm=1.0,
         start_angle_deg=175.0,
         revolutions=0.016,
-        blanking={
-            "force": force,
-            "eccentricity": eccentricity,
-            "rise": 0.4,
-            "fall": 0.4,
-            "end_angle_deg": 180.5,
+        load={
+            "eccentric": {
+                "kind": "blanking",
+                "force": force,
+                "offset": [eccentricity, 0.0],
+                "rise": 0.4,
+                "fall": 0.4,
+                "end_angle_deg": 180.5,
+            }
         },
         guide={},
         friction={"law": "none"},
@@ -111,7 +128,7 @@ def test_tilt_of_the_press_under_a_static_eccentric_force():
         return [balls.sum() / (weight - force) - 1, moment / (force * eccentricity) - 1]
 
     expected = 1e-6 * fsolve(unbalanced, [20.0, 10.0])[1]
-    peak = int(np.argmax(result["blanking_force"]))
+    peak = int(np.argmax(result["load_eccentric_force"]))
     assert expected > 1e-5
     assert result["slider_tilt"][peak] == pytest.approx(expected, rel=1e-2)
     assert abs(result["slider_lateral"][peak]) < 1e-3 * expected * arm
@@ -121,11 +138,14 @@ def test_tilt_of_the_press_under_a_static_eccentric_force():
 def test_ideal_guides_carry_the_eccentric_moment(balls):
     """With dry balls the guide; with ideal ones these, by forces that differ by M / a."""
     result = run(
-        joints={"balls": balls}, revolutions=0.25, blanking=ECCENTRIC, solver={"step": 2e-5}
+        joints={"balls": balls},
+        revolutions=0.25,
+        load={"blanking": ECCENTRIC},
+        solver={"step": 2e-5},
     )
-    moment = result["blanking_moment"]
+    moment = result["load_blanking_moment"]
     assert moment.max() > 950.0
-    assert moment == pytest.approx(0.1 * result["blanking_force"])
+    assert moment == pytest.approx(0.1 * result["load_blanking_force"])
     carried = 0.1655 * (result["ball_right_force"] - result["ball_left_force"])[:, 1]
     assert ("guide_moment" in result) == (balls == "dry")
     if balls == "dry":
@@ -140,7 +160,7 @@ VARIANTS = [(pin, balls) for pin in ("ideal", "dry", "lubricated") for balls in 
 @functools.cache
 def eccentric(crank_pin, balls):
     joints = {"crank_pin": crank_pin, "balls": balls}
-    return run(joints=joints, revolutions=0.2, blanking=ECCENTRIC, guide={})
+    return run(joints=joints, revolutions=0.2, load={"blanking": ECCENTRIC}, guide={})
 
 
 @pytest.mark.parametrize(("crank_pin", "balls"), VARIANTS)
@@ -179,7 +199,7 @@ def test_the_slider_tilts_and_moves_sideways():
 
 def test_the_balls_paths_are_planar():
     """Figure 18: with elastic guides the ball's centre moves sideways in its socket."""
-    ideal = run(revolutions=0.2, blanking=ECCENTRIC)
+    ideal = run(revolutions=0.2, load={"blanking": ECCENTRIC})
     elastic = eccentric("lubricated", "dry")
     assert np.abs(ideal["ball_left_eccentricity"][:, 0]).max() < 1e-12
     assert np.abs(elastic["ball_left_eccentricity"][:, 0]).max() > 1e-6

@@ -12,7 +12,11 @@ import pytest
 
 from exu_press import Scene, simulate
 
-BLANKING = {"force": 10e3, "end_angle_deg": 90.0}  # within the 0.3 revolutions below
+BLANKING = {
+    "kind": "blanking",
+    "force": 10e3,
+    "end_angle_deg": 90.0,
+}  # within the 0.3 revolutions below
 
 PRESS = [
     {"mechanism": "press", "joints": {"crank_pin": pin, "balls": balls}}
@@ -39,8 +43,8 @@ def run(scene):
 
 @VARIANTS
 def test_balance_with_blanking(variant):
-    result = run(with_steps(variant, blanking=BLANKING))
-    assert result["blanking_force"].max() > 9.9e3
+    result = run(with_steps(variant, load={"blanking": BLANKING}))
+    assert result["load_blanking_force"].max() > 9.9e3
     assert result.summary()["energy"]["residual"] < 1e-3
 
 
@@ -51,7 +55,7 @@ def test_balance_with_blanking(variant):
 )
 def test_balance_without_load(variant):
     result = run(with_steps(variant))
-    assert "blanking_force" not in result
+    assert "load_blanking_force" not in result
     assert result.summary()["energy"]["residual"] < 1e-3
 
 

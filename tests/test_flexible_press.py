@@ -77,9 +77,10 @@ def test_a_hundred_and_ten_thousand_times_stiffer_it_approaches_the_rigid_press(
 def test_blanking_bends_the_crank():
     scene = Scene(
         bodies=flexible_press(), joints={}, start_angle_deg=140.0,
-        revolutions=0.03, blanking={"force": 1e6, "end_angle_deg": 150.0},
+        revolutions=0.03,
+        load={"blanking": {"kind": "blanking", "force": 1e6, "end_angle_deg": 150.0}},
     )  # fmt: skip
-    pressed, free = simulate(scene), simulate(scene.replace("blanking.force", 0.0))
+    pressed, free = simulate(scene), simulate(scene.replace("load.blanking.force", 0.0))
     pulse = np.radians(147.5)
     bent, straight = (
         np.abs(run["crank_pin_deflection"][run["crank_angle"] > pulse]).max()

@@ -170,11 +170,10 @@ def test_gravity_is_one_load_a_body_and_none_where_there_is_none():
 
 def test_blanking_is_one_load_and_none_without_force():
     none = loads(build())
-    assert loads(build(blanking={"force": 0.0})) == none
-    pressed = build(blanking={"force": 1e4})
+    assert loads(build(load={"blanking": {"kind": "blanking", "force": 0.0}})) == none
+    pressed = build(load={"blanking": {"kind": "blanking", "force": 1e4}})
     assert loads(pressed) == none + 1
-    assert "Coordinate.loadUserFunction" in user_functions(pressed)
-    assert ("blanking", "force") in pressed.sensors
+    assert "ForceVector.loadVectorUserFunction" in user_functions(pressed)
 
 
 def test_bodies_have_the_coordinates_that_their_ideal_joints_leave():

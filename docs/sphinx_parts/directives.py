@@ -4,6 +4,7 @@ import dataclasses
 import os
 import subprocess
 import sys
+from types import SimpleNamespace
 from typing import Any
 
 from docutils import nodes
@@ -11,6 +12,7 @@ from docutils.parsers.rst import Directive
 
 from exu_press import Scene
 from exu_press.scene import DryJoint, Flexible
+from exu_press.scene.load import LOAD_KINDS
 from exu_press.scene.scene import TABLES
 
 
@@ -28,6 +30,7 @@ class SceneKeys(Directive):
         """Return a section a table."""
         found: list[nodes.Node] = []
         named = {"joints.NAME": DryJoint, "bodies.NAME": Flexible}
+        named |= {f"load.NAME, {kind}": load for kind, load in LOAD_KINDS.items()}
         for name, kind in {"at the top": Scene, **named, **TABLES}.items():
             shown = name if kind is Scene else f"[{name}]"
             section = nodes.section(ids=[f"keys-{name.replace(' ', '-')}"], names=[shown])
@@ -107,6 +110,8 @@ def _usual(name: str, kind: Any) -> Any:
         return scenes[0]
     if kind is Flexible:
         return Flexible("linkage")
+    if kind in LOAD_KINDS.values():
+        return SimpleNamespace(**{field.name: field.default for field in dataclasses.fields(kind)})
     found = (getattr(scene, name, None) for scene in scenes)
     return next((table for table in found if table is not None), None) or kind()
 

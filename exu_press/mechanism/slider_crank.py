@@ -19,6 +19,8 @@ class SliderCrank(Table):
 
     table: ClassVar[str] = "slider_crank"
     crank_radius: float = key(0.03, "shaft to crank pin", "m", above=0)
+    crank_mass: float = key(217.6, "crank, its centre of mass in the shaft", "kg", above=0)
+    crank_inertia: float = key(217.6 * 0.03**2 / 12, "crank, about the shaft", "kg m^2", above=0)
     rod_length: float = key(0.383, "crank pin to slider pin", "m", above=0)
     rod_mass: float = key(184.5, "rod", "kg", above=0)
     rod_inertia: float = key(
@@ -40,7 +42,7 @@ def slider_crank(size: SliderCrank) -> Mechanism:
     return Mechanism(
         name="slider_crank",
         bodies=(
-            Body("crank", 1.0, 1.0),  # driven at constant speed about its centre of mass
+            Body("crank", size.crank_mass, size.crank_inertia),
             Body("rod", size.rod_mass, size.rod_inertia, middle(pin, wrist), -math.pi / 2),
             Body("slider", size.slider_mass, inertia, wrist),
         ),

@@ -1,14 +1,14 @@
 """Put a scene's model together, one room after the other."""
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from exu_press.mechanism import Motion
 from exu_press.model.bodies import add_bodies
 from exu_press.model.drive import add_drive, hold_flexible_bodies
 from exu_press.model.guides import add_guide
 from exu_press.model.joints import add_clearance_joint, add_ideal_joint
-from exu_press.model.loads import add_blanking
+from exu_press.model.loads import add_loads
 from exu_press.model.model import Model, count_items
 from exu_press.model.sensors import add_sensors
 from exu_press.model.start import deformed_start
@@ -39,7 +39,8 @@ def build(scene: Scene, *, quiet: bool = True) -> Model:
     start: dict[str, Motion] = {}
     frames: dict[str, FrameStart] = {}
     if any(part.reduced.mode_count for part in parts.values()):
-        ideal = scene.replace({f"joints.{name}": "ideal" for name in scene.joints.with_clearance})
+        constant: dict[str, Any] = {f"joints.{n}": "ideal" for n in scene.joints.with_clearance}
+        ideal = scene.replace(constant | {"drive": None, "load": {}})
         settled = System(ideal, parts)
         start, frames = deformed_start(settled, _assembled(settled, {}, {}).drive)
     return _assembled(System(scene, parts), start, frames)
@@ -76,7 +77,7 @@ def _assembled(
         if guide.body not in holding.sliding
     }
     drive = add_drive(system)
-    add_blanking(system)
+    loads = add_loads(system)
     add_sensors(system, ideal | {"drive": drive}, guides)
     system.mbs.Assemble()
     return Model(
@@ -91,6 +92,7 @@ def _assembled(
         clearance_joints=clearance,
         ideal_joints=ideal,
         drive=drive,
+        loads=loads,
         sensors=system.sensors,
         parts=system.parts,
         made=count_items(system.mbs),

@@ -1,5 +1,7 @@
 """What turns the crank, and holds flexible bodies in space."""
 
+from exudyn.itemInterface import LoadCoordinate, ObjectConnectorCoordinateSpringDamper
+
 from exu_press.mechanism import Body
 from exu_press.model.system import System
 from exu_press.rigid import PivotedBody
@@ -11,9 +13,20 @@ DRIVE = "drive"
 
 
 def add_drive(system: System) -> int:
-    """Turn the crank at constant speed, by a constraint on its angular velocity."""
-    turned = turned_body(system)
-    return system.hold(turned, "angle", velocityLevel=True, offset=system.scene.angular_speed)
+    """Turn the crank: by a constraint on its angular velocity, or by a motor's torque.
+
+    The motor's torque is linear in the speed: that at rest, less what a damper takes.
+    """
+    scene, turned = system.scene, turned_body(system)
+    if scene.drive is None:
+        return system.hold(turned, "angle", velocityLevel=True, offset=scene.angular_speed)
+    angle = system.coordinate(turned, "angle")
+    torque = scene.drive.torque_at_rest
+    system.mbs.AddLoad(LoadCoordinate(markerNumber=angle, load=torque))
+    damper = ObjectConnectorCoordinateSpringDamper(
+        markerNumbers=[system.still, angle], damping=scene.drive.damping(scene.speed_rpm)
+    )
+    return int(system.mbs.AddObject(damper))
 
 
 def turned_body(system: System) -> str:
@@ -49,5 +62,7 @@ def _add_disc(system: System) -> None:
     crank = system.mechanism.body(system.mechanism.crank)
     shaft = system.mechanism.shaft
     start = system.ideal[crank.name].at(crank.local(shaft.at))
-    disc = PivotedBody(system.mbs, Body(DRIVE, 1.0, 1.0), start, shaft.at, (0.0, 0.0))
+    motor = system.scene.drive
+    inertia = 1.0 if motor is None else motor.inertia
+    disc = PivotedBody(system.mbs, Body(DRIVE, 1.0, inertia), start, shaft.at, (0.0, 0.0))
     system.take_in(DRIVE, disc)

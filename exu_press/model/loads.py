@@ -1,75 +1,127 @@
-"""The load of a system: a blanking pulse."""
+"""The loads of a system, as forces on points of its bodies."""
 
 import math
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import exudyn as exu
-from exudyn.itemInterface import LoadCoordinate, LoadForceVector, SensorLoad
+from exudyn.itemInterface import LoadForceVector
 
-from exu_press.errors import InputError
-from exu_press.laws.blanking import blanking_force
+from exu_press.model.drive import turned_body
 from exu_press.model.system import System
 from exu_press.scene import Scene
+from exu_press.scene.applied import AppliedLoad, applied_loads
 
-__all__ = ["add_blanking", "next_corner"]
+__all__ = ["Place", "add_loads", "next_corner"]
+
+Place = Callable[[float], tuple[float, float]]
+"""Of a load's curve: time -> the place where the load is now, and how fast that changes."""
+
+CLOSE = 1e-9
+"""Of a revolution: corners as close as that are passed."""
+
+FORESEEN = 3e-6
+"""The same of corners that are foreseen from a position and its rate, to the square of a step: the
+rest of the way would be a step so short that it rings."""
 
 
-def add_blanking(system: System) -> None:
-    """Press the slider in its direction once a revolution, at a place of the frame."""
-    pulse = system.scene.blanking
-    if pulse is None or pulse.force == 0.0:
-        return
-    period, begin = _pulse_period(system.scene)
-    slider, direction = system.mechanism.slider, system.mechanism.output.direction
+def add_loads(system: System) -> dict[str, tuple[AppliedLoad, Place]]:
+    """Let every load press its body; return the loads, each with its place on its curve."""
+    added = {}
+    for name, load in applied_loads(system.scene).items():
+        place = _place(system, load)
+        _add_load(system, load, place)
+        added[name] = load, place
+    return added
+
+
+def next_corner(loads: Mapping[str, tuple[AppliedLoad, Place]], scene: Scene, time: float) -> float:
+    """Return the next instant at which a load has a corner, s, or infinity.
+
+    What a load over the slider's position, or a motor's crank angle, has before it is foreseen from
+    the speed now.
+    """
+    soonest = math.inf
+    for load, place in loads.values():
+        now, rate = place(time)
+        exact = load.over == "time" or (scene.drive is None and load.over == "crank_angle_deg")
+        part = CLOSE if exact else FORESEEN
+        close = part * abs(rate) * 60.0 / scene.speed_rpm
+        if rate > 0.0:
+            soonest = min(soonest, time + (load.curve.corner_after(now, close) - now) / rate)
+        elif rate < 0.0:
+            soonest = min(soonest, time + (load.curve.corner_before(now, close) - now) / rate)
+    return soonest
+
+
+def _add_load(system: System, load: AppliedLoad, place: Place) -> None:
+    """Press a point of a body, in a direction that stays."""
+    x, y = load.direction
+    curve = load.curve
+
+    def force(mbs: exu.MainSystem, t: float, load: Any) -> list[float]:
+        size = curve(place(t)[0])
+        return [size * x, size * y, 0.0]
+
+    function: Any = force
+    marker = system.marker(load.body, load.point)
+    system.mbs.AddLoad(LoadForceVector(markerNumber=marker, loadVectorUserFunction=function))
+
+
+def _place(system: System, load: AppliedLoad) -> Place:
+    """Return where on its curve a load is."""
+    scene = system.scene
+    if load.over == "time":
+        return lambda time: (time, 1.0)
+    if load.over == "crank_angle_deg":
+        if scene.drive is not None:
+            return _crank_angle(system)
+        start, speed = scene.start_angle, scene.angular_speed
+        return lambda time: (start + speed * time, speed)
+    return _slider_position(system)
+
+
+def _crank_angle(system: System) -> Place:
+    """Return what tells the crank's angle, rad, and angular velocity, of the current state."""
+    data: Any = system.mbs.systemData
+    turned, current = system.rigid[turned_body(system)], exu.ConfigurationType.Current
+    column = turned.coordinates.index("angle")
+    zero = float(turned.reference[2]) - system.mechanism.body(system.mechanism.crank).angle
+    index: list[int] = []  # among all coordinates: not known before the system is assembled
+
+    def place(time: float) -> tuple[float, float]:
+        if not index:
+            index.append(system.mbs.GetNodeODE2Index(turned.node) + column)
+        (at,) = index
+        angle = data.GetODE2Coordinates(current, False)[at]
+        return zero + float(angle), float(data.GetODE2Coordinates_t(current, False)[at])
+
+    return place
+
+
+def _slider_position(system: System) -> Place:
+    """Return what tells the slider's position, m, and velocity, m/s, of the current state."""
+    mbs, output = system.mbs, system.mechanism.output
+    x, y = output.direction
+    zero = output.origin[0] * x + output.origin[1] * y
+    slider = output.body
+    levels = exu.OutputVariableType.Position, exu.OutputVariableType.Velocity
     if slider in system.flexible:
-        raise InputError(f"blanking: acts on {slider}, which is flexible; allowed is a rigid one")
+        node = system.nodes[slider]
 
-    def force(mbs: exu.MainSystem, t: float, load: float) -> float:
-        return blanking_force((t - begin) % period, pulse.force, pulse.rise, pulse.fall)
-
-    def along(mbs: exu.MainSystem, t: float, load: Any) -> list[float]:
-        size = force(mbs, t, 0.0)
-        return [size * direction[0], size * direction[1], 0.0]
-
-    vector: Any = along
-
-    def moment(mbs: exu.MainSystem, t: float, load: float) -> float:
-        return pulse.eccentricity * force(mbs, t, load)
-
-    upwards = direction == (0.0, 1.0) and "y" in system.rigid[slider].coordinates
-    if upwards:
-        pressed: Any = LoadCoordinate(
-            markerNumber=system.coordinate(slider, "y"), load=0.0, loadUserFunction=force
-        )
+        def read(level: exu.OutputVariableType) -> Any:
+            return mbs.GetNodeOutput(node, level)
     else:
-        pressed = LoadForceVector(
-            markerNumber=system.marker(slider, (0.0, 0.0)), loadVectorUserFunction=vector
+        body, centre = system.bodies[slider], [*system.rigid[slider].local((0.0, 0.0)), 0.0]
+
+        def read(level: exu.OutputVariableType) -> Any:
+            return mbs.GetObjectOutputBody(body, level, centre)
+
+    def place(time: float) -> tuple[float, float]:
+        position, velocity = map(read, levels)
+        return (
+            float(x * position[0] + y * position[1]) - zero,
+            float(x * velocity[0] + y * velocity[1]),
         )
-    number = system.mbs.AddLoad(pressed)
-    if pulse.eccentricity != 0.0 and "angle" in system.rigid[slider].coordinates:
-        turned = system.coordinate(slider, "angle")
-        system.mbs.AddLoad(LoadCoordinate(markerNumber=turned, load=0.0, loadUserFunction=moment))
-    sensor = SensorLoad(loadNumber=number, storeInternal=True)
-    system.sensors["blanking", "force"] = system.mbs.AddSensor(sensor)
 
-
-def next_corner(scene: Scene, time: float) -> float:
-    """Return the next instant at which the blanking force has a corner, s, or infinity."""
-    pulse = scene.blanking
-    if pulse is None or pulse.force == 0.0:
-        return math.inf
-    period, begin = _pulse_period(scene)
-    corners = (0.0, pulse.rise, pulse.rise + pulse.fall)
-    since = [(time - begin - corner) / period for corner in corners]
-    return min(
-        begin + corner + period * (math.floor(turns + 1e-9) + 1)
-        for corner, turns in zip(corners, since, strict=True)
-    )
-
-
-def _pulse_period(scene: Scene) -> tuple[float, float]:
-    """Return the time between two blanking pulses and the begin of one of them, s."""
-    pulse, period = scene.blanking, 60.0 / scene.speed_rpm
-    assert pulse is not None
-    end = (pulse.end_angle_deg - scene.start_angle_deg) / 360.0 * period
-    return period, end - pulse.rise - pulse.fall
+    return place

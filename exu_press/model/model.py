@@ -10,9 +10,10 @@ from exu_press.integrate import Outcome, Tuning
 from exu_press.joints import ClearanceJoint
 from exu_press.mechanism import Mechanism
 from exu_press.mechanism.holding import Holding
-from exu_press.model.loads import next_corner
+from exu_press.model.loads import Place, next_corner
 from exu_press.rigid import RigidBody
 from exu_press.scene import Scene
+from exu_press.scene.applied import AppliedLoad
 from exu_press.solving import DEFAULTS, solve
 
 if TYPE_CHECKING:
@@ -37,6 +38,7 @@ class Model:
         clearance_joints: name -> joint.
         ideal_joints: name -> object number; those that hold a coordinate.
         drive: object number of the constraint that turns the crank.
+        loads: name -> load that acts, and what tells its place on its curve.
         parts: name -> flexible body's part; empty for rigid bodies.
         sensors: (name, quantity) -> sensor number.
         made: number of objects and loads that the scene was made of.
@@ -53,6 +55,7 @@ class Model:
     ideal_joints: dict[str, int]
     rigid: Mapping[str, RigidBody]
     drive: int
+    loads: Mapping[str, tuple[AppliedLoad, Place]]
     sensors: dict[tuple[str, str], int]
     parts: Mapping[str, "PlacedPart"]
     made: int
@@ -76,7 +79,7 @@ class Model:
 
     def next_corner(self, time: float) -> float:
         """Return the next instant at which a load has a corner, s, or infinity."""
-        return next_corner(self.scene, time)
+        return next_corner(self.loads, self.scene, time)
 
 
 def count_items(mbs: exu.MainSystem) -> int:

@@ -39,6 +39,7 @@ class System:
         mbs: Exudyn's main system, not yet assembled.
         ground: object number of the frame.
         ground_node: node number of the frame.
+        still: marker on a coordinate of the frame.
         bodies: name -> object number.
         nodes: name -> node number.
         rigid: name -> rigid body.
@@ -66,7 +67,7 @@ class System:
         self.sensors: dict[tuple[str, str], int] = {}
         self.local_forces: set[int] = set()
         still = MarkerNodeCoordinate(nodeNumber=self.ground_node, coordinate=0)
-        self._still = self.mbs.AddMarker(still)
+        self.still = self.mbs.AddMarker(still)
 
     def take_in(self, name: str, added: RigidBody) -> None:
         """Remember a rigid body by its name."""
@@ -98,14 +99,14 @@ class System:
 
     def hold(self, body: str, coordinate: str, **options: Any) -> int:
         """Hold a rigid body's coordinate by a constraint."""
-        markers = [self._still, self.coordinate(body, coordinate)]
+        markers = [self.still, self.coordinate(body, coordinate)]
         held = ObjectConnectorCoordinate(markerNumbers=markers, **options)
         return int(self.mbs.AddObject(held))
 
     def spring(self, body: str, coordinate: str, spring: Spring) -> int:
         """Hold a rigid body's coordinate by a spring and damper."""
         held = ObjectConnectorCoordinateSpringDamper(
-            markerNumbers=[self._still, self.coordinate(body, coordinate)],
+            markerNumbers=[self.still, self.coordinate(body, coordinate)],
             stiffness=spring.stiffness,
             damping=spring.damping,
         )

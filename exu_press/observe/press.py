@@ -11,6 +11,7 @@ from exu_press.observe.dead_centre import bottom_dead_centres
 from exu_press.piecewise import integral
 from exu_press.result import Result
 from exu_press.scene import mechanism_of
+from exu_press.scene.applied import applied_loads
 
 __all__ = ["begin_of_whole_revolutions", "mean_rate", "press_summary"]
 
@@ -18,7 +19,7 @@ Array = NDArray[np.float64]
 
 
 def press_summary(result: Result) -> dict[str, Any]:
-    """Return strokes, drive, shaking and guides of any mechanism for summary.json, SI.
+    """Return strokes, drive, shaking, loads and guides of any mechanism for summary.json, SI.
 
     Peaks are largest magnitudes over the whole run; where impacts dominate them, they are given of
     the mean over 1 ms too, as accelerations are. Other means are over its last whole revolutions,
@@ -39,11 +40,19 @@ def press_summary(result: Result) -> dict[str, Any]:
             "mean_torque": _mean(time, result["drive_torque"], whole),
             "peak_power": peak(result["drive_power"]),
             "mean_power": _mean(time, result["drive_power"], whole),
+            **_speed(result, whole),
         },
         "shaking": {
             **_resultant(result, "shaking_force"),
             "without_counterweight": _resultant(result, "shaking_force_without_counterweight"),
             "frame": _resultant(result, "frame_force"),
+        },
+        "loads": {
+            name: {
+                "peak_force": peak(result[f"load_{name}_force"]),
+                "work": float(result[f"load_{name}_work"][-1]),
+            }
+            for name in applied_loads(result.scene)
         },
         "guides": {
             guide.body: _guide(result, guide, whole) for guide in mechanism_of(result.scene).guides
@@ -69,6 +78,23 @@ def _guide(result: Result, guide: Guide, whole: float | None) -> dict[str, float
     entries["dissipated"] = float(lost[-1])
     entries["mean_power"] = mean_rate(time, lost, whole)
     return entries
+
+
+def _speed(result: Result, whole: float | None) -> dict[str, float | None]:
+    """Return mean and fluctuation of a motor's speed at the crank; null at constant speed.
+
+    The coefficient of fluctuation is the largest less the smallest speed over the mean one.
+    """
+    found: dict[str, float | None] = {"mean_speed_rpm": None, "fluctuation": None}
+    if result.scene.drive is None or whole is None:
+        return found
+    time, speed = result.time, result["crank_speed"]
+    mean = _mean(time, speed, whole)
+    assert mean is not None
+    inside = speed[time >= whole]
+    found["mean_speed_rpm"] = mean * 30.0 / np.pi
+    found["fluctuation"] = float(np.ptp(inside)) / abs(mean) if mean else None
+    return found
 
 
 def _strokes(result: Result) -> dict[str, Any]:

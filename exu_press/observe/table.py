@@ -79,6 +79,19 @@ def _tilt(summary: Summary) -> str:
     return _figure("slider_tilt", 1e6)(summary) if "guide" in summary["scene"] else "-"
 
 
+def _loads(entry: str, scale: float) -> Callable[[Summary], str]:
+    """Return what reads one entry of every load."""
+
+    def text(summary: Summary) -> str:
+        shown = [
+            f"{name.replace('_', ' ')} {_figure(f'loads.{name}.{entry}', scale)(summary)}"
+            for name in summary["loads"]
+        ]
+        return ", ".join(shown) or "-"
+
+    return text
+
+
 def _rubbing(summary: Summary) -> str:
     """Return what all guides would take with a coefficient of friction of 0.1, W."""
     powers = [guide["sliding_power"] for guide in summary["guides"].values()]
@@ -105,9 +118,13 @@ ROWS: tuple[tuple[str, Callable[[Summary], str]], ...] = (
     ("drive torque, max, kN m", _figure("drive.peak_torque", 1e-3)),
     ("drive power, mean, W", _figure("drive.mean_power", 1.0)),
     ("  guides of mu 0.1 would add, W", _rubbing),
+    ("crank speed, mean, rpm", _figure("drive.mean_speed_rpm")),
+    ("  coefficient of fluctuation", _figure("drive.fluctuation")),
     ("shaking force up, max, kN", _figure("shaking.vertical", 1e-3)),
     ("  mean over 1 ms", _figure("shaking.vertical_mean_1ms", 1e-3)),
     ("  without counterweight", _figure("shaking.without_counterweight.vertical_mean_1ms", 1e-3)),
+    ("load, max, kN", _loads("peak_force", 1e-3)),
+    ("  work that it put in, J", _loads("work", 1.0)),
     ("energy put in, J", _figure("energy.input")),
     ("energy dissipated, J", _figure("energy.dissipated")),
     ("energy residual", lambda s: _number(s["energy"]["residual"], 1.0, 2)),

@@ -18,6 +18,7 @@ from exu_press.plots.style import GREY, IDEAL, colour_of, styled
 from exu_press.plots.words import joint_in_words
 from exu_press.result import Result
 from exu_press.scene import mechanism_of
+from exu_press.scene.applied import applied_loads
 
 __all__ = ["press_figure"]
 
@@ -36,17 +37,18 @@ def press_figure(result: Result) -> Figure:
 
     Shaking force (kN) with and without the counterweight, power of the drive (kW) and forces of the
     guides (kN), all as means over 1 ms; the slider about every bottom dead centre (um); where the
-    guides are elastic the slider's tilt (urad) and sideways motion (um).
+    guides are elastic the slider's tilt (urad) and sideways motion (um); the loads (kN).
     """
     elastic = result.scene.guide is not None
-    rows = 3 if elastic else 2
+    loads = list(applied_loads(result.scene))
+    rows = math.ceil((4 + bool(loads) + 2 * elastic) / 2)
     heading = "Frame, drive, guides, dead centres"
     figure = new_figure(heading, {"": result}, (13.0, 3.6 * rows))
     panels = list(figure.subplots(rows, 2).flat)
     _shaking(panels[0], result)
     _drive(panels[1], result)
     _guides(panels[2], result)
-    over_angle = [panel for index, panel in enumerate(panels) if index != 3]
+    shown = 4
     centres = bottom_dead_centres(result)
     if centres:
         _strokes(panels[3], result, centres)
@@ -59,6 +61,13 @@ def press_figure(result: Result) -> Figure:
         _at_dead_centres(panels[5], result, "slider_lateral", centres, "µm")
         panels[5].set_title("Slider sideways")
         panels[5].set_ylabel("to the right, µm")
+        shown = 6
+    if loads:
+        _loads(panels[shown], result, loads)
+        shown += 1
+    for panel in panels[shown:]:
+        panel.remove()
+    over_angle = [panel for index, panel in enumerate(panels[:shown]) if index != 3]
     crank_angle_axis(over_angle, *angle_range({"": result}))
     for axes in over_angle:
         axes.set_xlabel("crank angle from top dead centre, deg")
@@ -98,6 +107,17 @@ def _drive(axes: Axes, result: Result) -> None:
     worst = float(np.abs(result["drive_torque"]).max())
     told = with_error(result, "drive.peak_torque", worst, 1e-3)
     note(axes, f"torque, as resolved: at most {told} kN m")
+
+
+def _loads(axes: Axes, result: Result, names: list[str]) -> None:
+    """Draw the loads' forces."""
+    for index, name in enumerate(names):
+        force = 1e-3 * result[f"load_{name}_force"]
+        label = name.replace("_", " ")
+        curve(axes, result, force, color=colour_of(index), linewidth=1.1, label=label)
+    axes.set_title("Loads")
+    axes.set_ylabel("force, kN")
+    legend_above(axes, columns=len(names))
 
 
 def _guides(axes: Axes, result: Result) -> None:

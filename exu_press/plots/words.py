@@ -5,6 +5,7 @@ from collections.abc import Collection, Iterable, Mapping
 
 from exu_press.result import Result
 from exu_press.scene import Scene, mechanism_of
+from exu_press.scene.applied import applied_loads
 
 __all__ = ["describe", "early_stops", "joint_in_words", "plain"]
 
@@ -71,14 +72,29 @@ def _parts(scene: Scene, joints: Collection[str]) -> dict[str, str]:
     if not joints:
         parts["joints"] = "all joints ideal"
     parts |= _of_each(scene, joints) if len(joints) <= FEW else _of_many(scene)
-    if scene.blanking is not None and scene.blanking.force:
-        parts["load"] = f"blanking force {scene.blanking.force / 1e3:g} kN"
-        if scene.blanking.eccentricity:
-            parts["load"] += f", {scene.blanking.eccentricity * 1e3:g} mm off centre"
+    parts |= _of_loads(scene)
+    if scene.drive is not None:
+        motor = scene.drive
+        parts["drive"] = f"motor of {motor.rated_torque:g} N m, flywheel {motor.inertia:g} kg m²"
     if scene.guide is not None:
         parts["guides"] = "guides elastic"
     if scene.press is not None and not scene.press.counterweight:
         parts["counterweight"] = "no counterweight"
+    return parts
+
+
+def _of_loads(scene: Scene) -> dict[str, str]:
+    """Return kind, peak and place of each load."""
+    parts = {}
+    for name, load in applied_loads(scene).items():
+        what = "blanking" if load.kind == "blanking" else f"{name.replace('_', ' ')}"
+        words = f"{what} force {load.curve.peak / 1e3:g} kN"
+        if load.body != mechanism_of(scene).slider:
+            words += f" on {load.body.replace('_', ' ')}"
+        arm = load.point[0] * load.direction[1] - load.point[1] * load.direction[0]
+        if arm:
+            words += f", {arm * 1e3:g} mm off centre"
+        parts[f"load {name}"] = words
     return parts
 
 

@@ -31,6 +31,9 @@ CAPTIONS = {
 }
 """By the picture's file name; pictures that are not listed are shown under their names."""
 
+MOST = 4
+"""Numbers of a list that are shown one by one."""
+
 STATISTICS = (
     "end_time",
     "wall_time",
@@ -123,7 +126,7 @@ def _energy(summary: Mapping[str, Any]) -> str:
     rows = [
         [words, f"{uncertain(energy[name], errors.get(f'energy.{name}'), digits=6)} J"]
         for name, words in (
-            ("input", "put in by drive and load"),
+            ("input", "put in by drive and loads"),
             ("stored", "stored (change)"),
             ("dissipated", "dissipated"),
         )
@@ -148,4 +151,6 @@ def _statistics(summary: Mapping[str, Any]) -> str:
 
 def _row(name: str, value: Any, *rest: str) -> list[str]:
     shown = str(value).lower() if isinstance(value, bool) else str(value)
+    if isinstance(value, tuple) and len(value) > MOST:
+        shown = f"{len(value)} numbers from {min(value):g} to {max(value):g}"
     return [name, f"{value:.10g}" if isinstance(value, float) else shown, *rest]

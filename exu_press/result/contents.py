@@ -12,6 +12,7 @@ from exu_press.result.channel import Channel
 from exu_press.result.info import Info
 from exu_press.result.surface import Surface
 from exu_press.scene import Scene, mechanism_of
+from exu_press.scene.applied import applied_loads
 from exu_press.stored import shown
 
 __all__ = ["Contents"]
@@ -19,6 +20,7 @@ __all__ = ["Contents"]
 EVERY_RUN = {
     "time": "",
     "crank_angle": "",
+    "crank_speed": "",
     "slider_position": "",
     "slider_velocity": "",
     "slider_acceleration": "",
@@ -37,8 +39,6 @@ BALANCE = {"energy_input": "", "energy_stored": "", "energy_dissipated": ""}
 
 SOME_RUNS = {
     "shaking_force_without_counterweight": "plane",
-    "blanking_force": "",
-    "blanking_moment": "",
 }
 
 ENDINGS = {"guide_force": "", "guide_moment": "", "_loss": ""}
@@ -77,8 +77,14 @@ def _check(result: Contents) -> None:
         )
     loose = {joint.name for joint in mechanism.joints if scene.joints[joint.name].kind != "ideal"}
     always = EVERY_RUN if result.info["own_items"] else EVERY_RUN | BALANCE
-    _check_channels(result.channels, mechanism, loose, always)
+    _check_channels(result.channels, mechanism, loose, {**always, **_of_loads(scene)})
     _check_surfaces(result)
+
+
+def _of_loads(scene: Scene) -> dict[str, str]:
+    """Return the channels that a scene's loads always have."""
+    names = applied_loads(scene)
+    return {f"load_{name}_{quantity}": "" for name in names for quantity in ("force", "work")}
 
 
 def _check_channels(
@@ -88,7 +94,7 @@ def _check_channels(
     always: Mapping[str, str],
 ) -> None:
     """Check which channels there are, and what their columns are."""
-    columns, required = {**EVERY_RUN, **BALANCE, **SOME_RUNS}, list(always)
+    columns, required = {**EVERY_RUN, **BALANCE, **SOME_RUNS, **always}, list(always)
     for joint in mechanism.joints:
         columns[f"{joint.name}_force"] = vector = "space" if joint.spherical else "plane"
         if joint.name in loose:

@@ -30,7 +30,7 @@ def equilibrium(
     Args:
         model: integrated.
         motions: of every body.
-        channels: with the load and the forces of all joints that hold a coordinate or have
+        channels: with the loads and the forces of all joints that hold a coordinate or have
             clearance.
         states: what each clearance joint did; ideal ones have no moment.
     """
@@ -63,7 +63,7 @@ def _applied(
     channels: Mapping[str, Channel],
     states: Mapping[str, Sequence[JointState]],
 ) -> tuple[Array, Array]:
-    """Return force, (n, 2), and moment about its centre, (n,), of joints and load on a body."""
+    """Return force, (n, 2), and moment about its centre, (n,), of joints and loads on a body."""
     angle = motion.position[:, 2]
     force, moment = np.zeros((len(angle), 2)), np.zeros(len(angle))
     for joint in model.mechanism.joints:
@@ -76,9 +76,9 @@ def _applied(
                 force += on_body
                 moment += arm_x * on_body[:, 1] - arm_y * on_body[:, 0]
                 moment += [state.moments[end] for state in states.get(joint.name, ())] or 0.0
-    if name == model.mechanism.slider:
-        if "blanking_force" in channels:
-            force += np.outer(channels["blanking_force"].values, model.mechanism.output.direction)
-        if "blanking_moment" in channels:
-            moment += channels["blanking_moment"].values
+    for key, (load, _) in model.loads.items():
+        if load.body == name:
+            pressed = channels[f"load_{key}_force"].values
+            force += np.outer(pressed, load.direction)
+            moment += load.moment(pressed, angle)
     return force, moment

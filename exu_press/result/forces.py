@@ -1,4 +1,4 @@
-"""What holds and drives the mechanism: forces of load, drive, guides and ideal joints."""
+"""What holds and drives the mechanism: forces of drive, guides and ideal joints."""
 
 from collections.abc import Mapping
 
@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 
 
 def held_forces(model: Model) -> dict[str, Channel]:
-    """Return the forces of drive, load, ideal joints and guides that hold a coordinate."""
+    """Return the forces of drive, ideal joints and guides that hold a coordinate."""
     spherical = {joint.name for joint in model.mechanism.joints if joint.spherical}
     channels: dict[str, Channel] = {}
     for name, quantity in model.sensors:
@@ -25,10 +25,10 @@ def held_forces(model: Model) -> dict[str, Channel]:
         values = sensor(model, name, quantity)
         in_words = name.replace("_", " ")
         if name == "drive":
-            channels["drive_torque"] = Channel(-values[:, 0], "N m", "torque that turns the crank")
-        elif name == "blanking":
-            force = values[:, 0] if values.shape[1] == 1 else model.mechanism.along(values)
-            channels |= _load(model, force)
+            torque = -values[:, 0]
+            if model.scene.drive is not None:
+                torque += model.scene.drive.torque_at_rest
+            channels["drive_torque"] = Channel(torque, "N m", "torque that turns the crank")
         elif name.endswith("_guide"):
             body = name.removesuffix("_guide")
             channels |= guide_channels(model, body, {quantity: -values[:, 0]})
@@ -96,18 +96,6 @@ def guide_channels(model: Model, body: str, loads: Mapping[str, Array]) -> dict[
         unit, along = units[quantity]
         words = f"{in_words}: {quantity} on the body, {along}"
         found[f"{shown}_{quantity}"] = Channel(values, unit, words)
-    return found
-
-
-def _load(model: Model, force: Array) -> dict[str, Channel]:
-    """Return the channels of the blanking force and, if it acts beside the middle, its moment."""
-    pulse = model.scene.blanking
-    assert pulse is not None
-    found = {"blanking_force": Channel(force, "N", "blanking force on the slider, upwards")}
-    if pulse.eccentricity != 0.0:
-        found["blanking_moment"] = Channel(
-            pulse.eccentricity * force, "N m", "blanking moment on the slider, counter-clockwise"
-        )
     return found
 
 

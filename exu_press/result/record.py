@@ -16,6 +16,7 @@ from exu_press.result.forces import frame_force, held_forces
 from exu_press.result.guides import record_guides
 from exu_press.result.info import Info
 from exu_press.result.joints import joint_states, record_joints
+from exu_press.result.loads import record_loads
 from exu_press.result.momentum import shaking_forces
 from exu_press.result.motion import body_motion, sensor
 from exu_press.result.result import Result
@@ -37,9 +38,14 @@ def record(model: Model, outcome: Outcome) -> Result:
         for level in ("position", "velocity", "acceleration")
     )
     slider, crank = names.index(mechanism.slider), names.index(mechanism.crank)
+    turned = body_motion(model, DRIVE if DRIVE in model.nodes else mechanism.crank)
+    drawn = mechanism.bodies[crank].angle
     channels = {
         "time": Channel(time, "s", "time"),
-        "crank_angle": Channel(position[:, crank, 2], "rad", "crank angle from top dead centre"),
+        "crank_angle": Channel(
+            position[:, crank, 2] - drawn, "rad", "crank angle from top dead centre"
+        ),
+        "crank_speed": Channel(turned.velocity[:, 2], "rad/s", "angular velocity of the drive"),
         "slider_position": Channel(
             mechanism.travel(position[:, slider]), "m", "slider position, upwards"
         ),
@@ -61,6 +67,12 @@ def record(model: Model, outcome: Outcome) -> Result:
     states = joint_states(model, time)
     in_joints, stored_in_joints, lost_in_joints = record_joints(model, states, time)
     channels |= held_forces(model)
+    angle = scene.start_angle + scene.angular_speed * time
+    if scene.drive is not None:
+        angle = turned.position[:, 2] - drawn
+    slide = channels["slider_position"].values
+    loads, work_of_loads = record_loads(model, time, angle, slide, motions)
+    channels |= loads
     channels |= equilibrium(model, motions, channels | in_joints, states)
     channels["frame_force"] = frame_force(model, channels | in_joints)
     channels |= shaking_forces(model, acceleration)
@@ -71,6 +83,8 @@ def record(model: Model, outcome: Outcome) -> Result:
         velocity[:, rigid],
         scene.gravity,
     )
+    if scene.drive is not None and DRIVE in model.nodes:  # its flywheel is on no body
+        stored += 0.5 * scene.drive.inertia * turned.velocity[:, 2] ** 2
     dissipated = np.zeros_like(time)
     for more, kept, lost in (
         record_guides(model, time, position, velocity),
@@ -80,20 +94,15 @@ def record(model: Model, outcome: Outcome) -> Result:
         channels |= more
         stored += kept
         dissipated += lost
-    turned = body_motion(model, DRIVE if DRIVE in model.nodes else mechanism.crank).velocity[:, 2]
     torque = channels["drive_torque"].values
-    driven = work(time, torque, turned)
-    moved = mechanism.along(velocity[:, slider]), velocity[:, slider, 2]
-    for load, speed in zip(("blanking_force", "blanking_moment"), moved, strict=True):
-        if load in channels:
-            driven += work(time, channels[load].values, speed)
+    driven = work(time, torque, turned.velocity[:, 2]) + work_of_loads
     channels |= {
-        "drive_power": Channel(torque * turned, "W", "power of the drive"),
+        "drive_power": Channel(torque * turned.velocity[:, 2], "W", "power of the drive"),
         "body_position": Channel(position, "m, rad", "centres of mass and angles", "pose"),
     }
     if not model.own_items:  # what those put in, store and dissipate is not known
         channels |= {
-            "energy_input": Channel(driven, "J", "work of drive and load since the start"),
+            "energy_input": Channel(driven, "J", "work of drive and loads since the start"),
             "energy_stored": Channel(stored - stored[0], "J", "change of stored energy"),
             "energy_dissipated": Channel(dissipated, "J", "energy dissipated since the start"),
         }

@@ -2,21 +2,22 @@
 
 from exu_press.mechanism import Press, SliderCrank
 from exu_press.scene.bodies import Face, Flexible, flexible_press
+from exu_press.scene.file import load_scene, parse_assignment
 from exu_press.scene.joint import DryJoint, IdealJoint, LubricatedJoint
 from exu_press.scene.joints import Joints
-from exu_press.scene.load import load_scene, parse_assignment
+from exu_press.scene.load import BlankingLoad, TableLoad
 from exu_press.scene.scene import Scene, mechanism_of
 from exu_press.scene.tables import (
-    Blanking,
     Contact,
     ElasticGuide,
     Film,
     Friction,
+    Motor,
     Solver,
 )
 
 __all__ = [
-    "Blanking",
+    "BlankingLoad",
     "Contact",
     "DryJoint",
     "ElasticGuide",
@@ -27,10 +28,12 @@ __all__ = [
     "IdealJoint",
     "Joints",
     "LubricatedJoint",
+    "Motor",
     "Press",
     "Scene",
     "SliderCrank",
     "Solver",
+    "TableLoad",
     "flexible_press",
     "load_scene",
     "mechanism_of",

@@ -6,6 +6,7 @@ The assumptions A-1 to A-14 are listed here once; meanings and defaults of keys 
 import dataclasses
 from collections.abc import Iterator
 from dataclasses import dataclass
+from fnmatch import fnmatchcase
 from typing import Any
 
 from exu_press.scene.joint import DEFAULT_KINDS, Joint
@@ -21,7 +22,8 @@ class Assumption:
     Attributes:
         number: n of A-n.
         text: what is assumed.
-        keys: of the scene, where to change it; a table's name where its absence is the assumption.
+        keys: of the scene, where to change it, * for any name; a table's name where its absence is
+            the assumption.
     """
 
     number: int
@@ -62,7 +64,7 @@ ASSUMPTIONS = (
     Assumption(
         14,
         "length and end of the blanking pulse",
-        ("blanking.rise", "blanking.fall", "blanking.end_angle_deg"),
+        ("load.*.rise", "load.*.fall", "load.*.end_angle_deg"),
     ),
 )
 
@@ -108,7 +110,7 @@ def keys_of(scene: Scene) -> dict[str, Key]:
         default = kinds[name] if name in kinds else defaults.get(name, (None,))[0]
         meta = field.metadata
         found[name] = Key(name, value, default, meta["unit"], meta["meaning"])
-    return found | _joint_keys(scene) | _body_keys(scene)
+    return found | _joint_keys(scene) | _body_keys(scene) | _load_keys(scene)
 
 
 def used_assumptions(scene: Scene) -> dict[Assumption, tuple[Key, ...]]:
@@ -119,13 +121,17 @@ def used_assumptions(scene: Scene) -> dict[Assumption, tuple[Key, ...]]:
     keys = keys_of(scene)
     used = {}
     for assumption in ASSUMPTIONS:
-        left = tuple(keys[name] for name in assumption.keys if name in keys)
+        left = tuple(key for name, key in keys.items() if _named(name, assumption))
         left = tuple(key for key in left if key.assumed)
         by_absence = assumption.keys == ("guide",) and scene.guide is None
         by_kind = assumption.keys == ("press",) and scene.press is not None
         if left or by_absence or by_kind:
             used[assumption] = left
     return used
+
+
+def _named(key: str, assumption: Assumption) -> bool:
+    return any(fnmatchcase(key, pattern) for pattern in assumption.keys)
 
 
 def assumed_line(scene: Scene) -> str:
@@ -147,7 +153,7 @@ def _at_defaults(scene: Scene) -> Scene:
         table = getattr(scene, name)
         if table is not None:
             kind[name] = {key: getattr(table, key)}
-    kind |= {name: {} for name in ("blanking", "guide") if getattr(scene, name) is not None}
+    kind |= {name: {} for name in ("drive", "guide") if getattr(scene, name) is not None}
     return Scene.from_dict(kind)
 
 
@@ -190,12 +196,24 @@ def _body_keys(scene: Scene) -> dict[str, Key]:
     return found
 
 
+def _load_keys(scene: Scene) -> dict[str, Key]:
+    """Return the keys of the loads."""
+    found = {}
+    for name, load in scene.load.items():
+        for field in dataclasses.fields(load):
+            value, meta = getattr(load, field.name), field.metadata
+            if value is not None:
+                key = f"load.{name}.{field.name}"
+                found[key] = Key(key, value, field.default, meta["unit"], meta["meaning"])
+    return found
+
+
 def _flat(scene: Scene) -> Iterator[tuple[str, tuple[Any, dataclasses.Field[Any]]]]:
     """Yield the name of every key in use with its value and declaration."""
     used = scene.to_dict()
     for field in dataclasses.fields(scene):
         if field.name not in TABLES:
-            if field.name in used and field.name not in ("joints", "bodies"):
+            if field.name in used and field.name not in ("joints", "bodies", "load"):
                 yield field.name, (getattr(scene, field.name), field)
             continue
         table = getattr(scene, field.name)

@@ -1,69 +1,133 @@
-"""A scene file: TOML in, TOML out."""
+"""What one load is: a blanking pulse, or a table of forces."""
 
-import tomllib
-from collections.abc import Iterable
-from pathlib import Path
-from typing import Any
+import math
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import ClassVar, Literal
 
+from exu_press.checks import Table, key
 from exu_press.errors import InputError
-from exu_press.scene.bodies import STEP_FILES
-from exu_press.scene.scene import Scene
+from exu_press.laws.load_curve import LoadCurve, blanking_pulse
 
-__all__ = ["load_scene", "parse_assignment"]
+__all__ = ["COLUMNS", "LOAD_KINDS", "BlankingLoad", "Load", "TableLoad"]
+
+COLUMNS = ("time", "crank_angle_deg", "slider_position")
+"""What a table's forces are given over."""
+
+REVOLUTION = 2.0 * math.pi
 
 
-def load_scene(path: str | Path, assignments: Iterable[str] = ()) -> Scene:
-    """Return the scene of a TOML file, changed by "key=value" assignments.
+@dataclass(frozen=True)
+class _Placed(Table):
+    """Where a load acts; its direction stays in the frame however the body turns."""
 
-    Args:
-        path: of the file.
-        assignments: as behind `--set`, for `parse_assignment`.
+    body: str | None = key(None, "on which it acts; the mechanism's output unless given")
+    offset: tuple[float, float] | None = key(
+        None,
+        "of the point from the body's centre of mass, as drawn; 0 unless given",
+        "m",
+        numbers=2,
+    )
+    direction: tuple[float, float] | None = key(
+        None, "of a positive force; the output's unless given", numbers=2
+    )
 
-    Raises:
-        InputError: the file cannot be read or parsed, or the scene is not allowed.
+    def __post_init__(self) -> None:
+        """Check the keys, and that the direction is one."""
+        super().__post_init__()
+        if self.direction is not None and math.hypot(*self.direction) == 0.0:
+            raise InputError("direction = [0, 0]: allowed is a direction, such as [0, 1]")
+
+
+@dataclass(frozen=True)
+class BlankingLoad(_Placed):
+    """Triangular pulse, once a revolution (Eq. 36, A-14)."""
+
+    kind: ClassVar[Literal["blanking"]] = "blanking"
+    force: float | None = key(None, "peak force", "N", at_least=0)
+    rise: float = key(1e-3, "time from zero to the peak (2 tau)", "s", above=0)
+    fall: float = key(5e-4, "time from the peak to zero (tau)", "s", above=0)
+    end_angle_deg: float = key(
+        180.0, "crank angle from the mechanism's zero at the end", "deg", above=0, at_most=360
+    )
+
+    def __post_init__(self) -> None:
+        """Check the keys; there is a force."""
+        super().__post_init__()
+        if self.force is None:
+            raise InputError("force: missing; allowed is a number >= 0 (peak force, N)")
+
+    @property
+    def over(self) -> str:
+        """What the curve is given over."""
+        return "crank_angle_deg"
+
+    def curve(self, angular_speed: float) -> LoadCurve:
+        """Return the force over the crank angle, rad, at a speed of the crank, rad/s."""
+        assert self.force is not None
+        times, forces = blanking_pulse(self.force, self.rise, self.fall)
+        begin = math.radians(self.end_angle_deg) - angular_speed * times[-1]
+        return LoadCurve([begin + angular_speed * time for time in times], forces, REVOLUTION)
+
+
+@dataclass(frozen=True)
+class TableLoad(_Placed):
+    """Forces over time, crank angle or the slider's position, straight lines between them.
+
+    Over the crank angle they repeat every revolution, from the last point to the first; otherwise
+    the first and the last force go on beyond the table. Over a position they act both ways.
     """
-    path = Path(path)
-    try:
-        data = tomllib.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read ({error.strerror})") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InputError(f"{path}: not a TOML file ({error})") from None
-    if str(data.get("mechanism", "")).endswith(".toml"):
-        data["mechanism"] = str(path.parent / data["mechanism"])
-    if isinstance(bodies := data.get("bodies"), dict):
-        data["bodies"] = {name: _beside(path, body) for name, body in bodies.items()}
-    try:
-        scene = Scene.from_dict(data)
-    except InputError as error:
-        raise InputError(f"{path}: {error}") from None
-    changes = dict(map(parse_assignment, assignments))
-    return scene.replace(changes) if changes else scene
+
+    kind: ClassVar[Literal["table"]] = "table"
+    time: tuple[float, ...] | None = key(None, "of the forces, from the start", "s", numbers=0)
+    crank_angle_deg: tuple[float, ...] | None = key(
+        None, "of the forces, from the mechanism's zero", "deg", numbers=0
+    )
+    slider_position: tuple[float, ...] | None = key(None, "of the forces", "m", numbers=0)
+    force: tuple[float, ...] | None = key(None, "positive in the direction", "N", numbers=0)
+    factor: float = key(1.0, "times the table's forces")
+
+    def __post_init__(self) -> None:
+        """Check the keys; one column of increasing places, and a force at each."""
+        super().__post_init__()
+        given = [name for name in COLUMNS if getattr(self, name) is not None]
+        if len(given) != 1 or self.force is None:
+            shown = ", ".join([*given, *(["force"] if self.force is not None else [])]) or "nothing"
+            raise InputError(
+                f"{shown} given: allowed is file, a CSV, or one of {', '.join(COLUMNS)} with force"
+            )
+        places = getattr(self, given[0])
+        if len(places) < 2 or len(places) != len(self.force):
+            raise InputError(
+                f"{given[0]}, force: {len(places)} and {len(self.force)} values; allowed are at "
+                "least two, as many of both"
+            )
+        for before, after in pairwise(places):
+            if not after > before:
+                raise InputError(f"{given[0]} = {after!r} after {before!r}: allowed is increasing")
+        if given[0] == "crank_angle_deg":
+            turn = places[-1] - places[0]
+            if turn > 360.0 or (turn == 360.0 and self.force[0] != self.force[-1]):
+                raise InputError(
+                    f"crank_angle_deg from {places[0]!r} to {places[-1]!r}: allowed is less than a "
+                    "revolution, or a whole one that ends with the force with which it begins"
+                )
+
+    @property
+    def over(self) -> str:
+        """What the curve is given over."""
+        return next(name for name in COLUMNS if getattr(self, name) is not None)
+
+    def curve(self, angular_speed: float) -> LoadCurve:
+        """Return the force over time, s, crank angle, rad, or slider position, m."""
+        assert self.force is not None
+        places, forces = getattr(self, self.over), [self.factor * force for force in self.force]
+        if self.over != "crank_angle_deg":
+            return LoadCurve(places, forces)
+        if places[-1] - places[0] == 360.0:
+            places, forces = places[:-1], forces[:-1]
+        return LoadCurve([math.radians(place) for place in places], forces, REVOLUTION)
 
 
-def _beside(scene: Path, body: Any) -> Any:
-    """Return a flexible body with its STEP file's path taken from the scene file's directory."""
-    if isinstance(body, dict) and "flexible" in body:
-        return {**body, "flexible": _beside(scene, body["flexible"])}
-    is_file = isinstance(body, str) and body.lower().endswith(STEP_FILES)
-    return str(scene.parent / body) if is_file else body
-
-
-def parse_assignment(text: str) -> tuple[str, Any]:
-    """Return key and value of "key=value"; the value is TOML, or a bare word for a text.
-
-    >>> parse_assignment("film.viscosity=0.1")
-    ('film.viscosity', 0.1)
-    >>> parse_assignment("joints.crank_pin=dry")
-    ('joints.crank_pin', 'dry')
-
-    Raises:
-        InputError: there is no key, no value or no equals sign.
-    """
-    name, equals, value = (part.strip() for part in text.partition("="))
-    if not (name and equals and value):
-        raise InputError(f"--set {text}: allowed is key=value, as in film.viscosity=0.1")
-    try:
-        return name, tomllib.loads(f"value = {value}")["value"]
-    except tomllib.TOMLDecodeError:
-        return name, value
+Load = BlankingLoad | TableLoad
+LOAD_KINDS: dict[str, type[Load]] = {kind.kind: kind for kind in (BlankingLoad, TableLoad)}

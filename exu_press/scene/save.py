@@ -14,11 +14,13 @@ from exu_press.output import replacing
 from exu_press.scene.bodies import Flexible, body_dict
 from exu_press.scene.joint import joint_dict
 from exu_press.scene.joints import Joints
+from exu_press.scene.load import LOAD_KINDS, Load
+from exu_press.scene.loads import Loads, load_dict
 
 Laws = Mapping[str, Table | None]
 """The scene's own "contact", "friction" and "film"."""
 
-__all__ = ["body_lines", "joint_lines", "save_scene", "table_lines"]
+__all__ = ["body_lines", "joint_lines", "load_lines", "save_scene", "table_lines"]
 
 
 def save_scene(
@@ -47,6 +49,9 @@ def save_scene(
         table = getattr(scene, field.name)
         if isinstance(table, Joints):
             lines += joint_lines(table, laws, comments)
+        elif isinstance(table, Loads):
+            for name, load in table.items():
+                lines += ["", f"[load.{name}]", *load_lines(load, comments)]
         elif field.name == "bodies":
             for name, body in table.items():
                 if body.from_file:  # a scene file has it relative to itself
@@ -87,6 +92,19 @@ def body_lines(body: Flexible, comments: bool, *, absent: bool = False) -> list[
     meanings = {f.name: _meaning(f.metadata) for f in dataclasses.fields(body) if f.metadata}
     meanings["faces"] = "joint = face's name, or {radius, z} of its cylinder; found by their axes"
     given = body_dict(body)
+    keys = {
+        f"{name} = {_text(given[name])}" if name in given else f"# {name} =": meaning
+        for name, meaning in meanings.items()
+        if absent or name in given
+    }
+    return _commented(keys) if comments else list(keys)
+
+
+def load_lines(load: Load, comments: bool, *, absent: bool = False) -> list[str]:
+    """Return the keys of a load; arguments as those of `table_lines`."""
+    meanings = {"kind": " | ".join(LOAD_KINDS)}
+    meanings |= {f.name: _meaning(f.metadata) for f in dataclasses.fields(load)}
+    given = load_dict(load)
     keys = {
         f"{name} = {_text(given[name])}" if name in given else f"# {name} =": meaning
         for name, meaning in meanings.items()

@@ -23,16 +23,18 @@ from exu_press.mechanism import (
 )
 from exu_press.scene.bodies import DRIVE_FACE, Flexible, bodies_of, body_dict, changed_bodies
 from exu_press.scene.elastic import with_elastic_guides
+from exu_press.scene.flywheel import with_flywheel
 from exu_press.scene.joint import DEFAULT_KINDS, LAW_TABLES, joint_dict
 from exu_press.scene.joint_changes import by_group, changed_joints, kinds_of, unused_laws
 from exu_press.scene.joints import Joints, joints_of
+from exu_press.scene.loads import Loads, changed_loads, loads_of
 from exu_press.scene.save import save_scene
 from exu_press.scene.tables import (
-    Blanking,
     Contact,
     ElasticGuide,
     Film,
     Friction,
+    Motor,
     Solver,
 )
 
@@ -51,15 +53,15 @@ TABLES = {
     "contact": Contact,
     "friction": Friction,
     "film": Film,
-    "blanking": Blanking,
+    "drive": Motor,
     "guide": ElasticGuide,
     "solver": Solver,
     "press": Press,
     "slider_crank": SliderCrank,
 }
 
-ONLY_WHERE_GIVEN = ("blanking", "guide")
-"""Tables that a scene without them does not have: no load, ideal guides."""
+ONLY_WHERE_GIVEN = ("drive", "guide")
+"""Tables that a scene without them does not have: constant speed, ideal guides."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -80,8 +82,8 @@ class Scene(Table):
         choices=("press", "slider_crank", *SHIPPED),
         also=Mechanism,
     )
-    speed_rpm: float = key(240.0, "crank speed", "rpm", above=0)
-    revolutions: float = key(2.0, "length of the run", above=0)
+    speed_rpm: float = key(240.0, "crank speed; with [drive] at the start", "rpm", above=0)
+    revolutions: float = key(2.0, "length of the run, at speed_rpm", above=0)
     start_angle_deg: float = key(0.0, "crank angle at the start", "deg")
     gravity: float = key(9.81, "gravitational acceleration, downwards", "m/s^2", at_least=0)
     joints: Joints = dataclasses.field(default=cast(Any, None))  # until its mechanism is known
@@ -89,7 +91,8 @@ class Scene(Table):
     contact: Contact | None = None
     friction: Friction | None = None
     film: Film | None = None
-    blanking: Blanking | None = None
+    load: Loads = dataclasses.field(default=cast(Any, None))  # until its mechanism is known
+    drive: Motor | None = None
     guide: ElasticGuide | None = None
     solver: Solver | None = None
     press: Press | None = None
@@ -113,7 +116,7 @@ class Scene(Table):
                 object.__setattr__(self, name, table())
         self._settle_joints()
         self._settle_bodies()
-        self._check_load()
+        self._settle_loads()
 
     def _settle_joints(self) -> None:
         """Say what every joint of the mechanism is; a law that no joint has is refused."""
@@ -143,6 +146,11 @@ class Scene(Table):
             raise InputError(f"bodies.{guided[0]}: lies in a guide; allowed is a body without one")
         object.__setattr__(self, "bodies", bodies)
 
+    def _settle_loads(self) -> None:
+        """Say what acts on which body; tables of forces are read."""
+        loads = loads_of(self.load, mechanism_of(self), self.bodies, self.speed_rpm)
+        object.__setattr__(self, "load", loads)
+
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> "Scene":
         """Return the scene of a nested mapping, as a scene file holds it."""
@@ -155,6 +163,8 @@ class Scene(Table):
             value = getattr(self, field.name)
             if isinstance(value, Joints):
                 complete[field.name] = value.to_dict(self.laws)
+            elif isinstance(value, Loads):
+                complete |= {field.name: value.to_dict()} if value else {}
             elif field.name == "bodies":
                 bodies = {name: body_dict(body) for name, body in value.items()}
                 complete |= {"bodies": bodies} if bodies else {}
@@ -207,9 +217,13 @@ class Scene(Table):
             groups = other.joints.groups
             there = {body.name for body in mechanism_of(other).bodies}
             data["bodies"] = {n: k for n, k in data.get("bodies", {}).items() if n in there}
-        joint_changes = {}
+        joint_changes: dict[str, Any] = {}
+        load_changes: dict[str, Any] = {}
         for name, value in changes.items():
             table, _, inner = name.rpartition(".")
+            if name.startswith("load."):
+                load_changes[name.removeprefix("load.")] = value
+                continue
             if name.startswith("joints."):
                 joint_changes[name.removeprefix("joints.")] = value
                 continue
@@ -224,6 +238,8 @@ class Scene(Table):
             data["joints"] = changed_joints(data["joints"], groups, joint_changes, film)
         elif joint_changes:
             raise InputError("joints and a key of joints: allowed is one of the two in one change")
+        if load_changes:
+            data["load"] = changed_loads(data.get("load", {}), load_changes)
         for kept, dropped in (("step", "tolerance"), ("tolerance", "step")):
             if f"solver.{kept}" in changes and f"solver.{dropped}" not in changes:
                 data["solver"].pop(dropped, None)
@@ -258,7 +274,7 @@ class Scene(Table):
 
     @property
     def angular_speed(self) -> float:
-        """Crank speed, rad/s."""
+        """Crank speed, rad/s; with a motor that of the start."""
         return self.speed_rpm * RPM
 
     @property
@@ -282,19 +298,9 @@ class Scene(Table):
             shown = f"[{name}]" if name in TABLES else f"{name} = {given!r}"
             raise InputError(f"{shown}: not used by this scene ({unused[name]}); remove it")
 
-    def _check_load(self) -> None:
-        """Refuse pulses that overlap."""
-        if self.blanking is not None:
-            pulse, period = self.blanking.rise + self.blanking.fall, 60 / self.speed_rpm
-            if pulse > period:
-                raise InputError(
-                    f"blanking.rise + blanking.fall = {pulse!r}: allowed is at most one "
-                    f"revolution, {period:g} s"
-                )
-
 
 def mechanism_of(scene: Scene) -> Mechanism:
-    """Return the mechanism of a scene, with the guides that it asks for."""
+    """Return the mechanism of a scene, with the guides and the flywheel that it asks for."""
     if isinstance(scene.mechanism, Mechanism):
         drawn = scene.mechanism
     elif scene.press is not None:
@@ -303,6 +309,8 @@ def mechanism_of(scene: Scene) -> Mechanism:
         drawn = slider_crank(scene.slider_crank)
     else:
         drawn = shipped_mechanism(scene.mechanism)
+    if scene.drive is not None:
+        drawn = with_flywheel(drawn, scene.drive.inertia)
     return drawn if scene.guide is None else with_elastic_guides(drawn, scene.guide)
 
 

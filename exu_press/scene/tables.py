@@ -3,6 +3,7 @@
 Every key says its meaning, unit and range once, here; messages and documentation are made from it.
 """
 
+import math
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -12,11 +13,11 @@ from exu_press.laws.contact import DAMPING_LAWS
 from exu_press.laws.film import FILM_LAWS
 
 __all__ = [
-    "Blanking",
     "Contact",
     "ElasticGuide",
     "Film",
     "Friction",
+    "Motor",
     "Solver",
 ]
 
@@ -89,17 +90,30 @@ class Film(Table):
 
 
 @dataclass(frozen=True)
-class Blanking(Table):
-    """Triangular blanking pulse, upwards on the slider, once a revolution (Eq. 36, A-14)."""
+class Motor(Table):
+    """A motor with its flywheel instead of a crank at constant speed; all reduced to the crank.
 
-    table: ClassVar[str] = "blanking"
-    force: float = key(0.0, "peak force", "N", at_least=0)
-    rise: float = key(1e-3, "time from zero to the peak (2 tau)", "s", above=0)
-    fall: float = key(5e-4, "time from the peak to zero (tau)", "s", above=0)
-    end_angle_deg: float = key(
-        180.0, "crank angle from top dead centre at the pulse's end", "deg", above=0, at_most=360
+    Its torque is linear in the speed: rated_torque (1 - speed / no_load_speed) / slip. The run
+    starts at `speed_rpm`.
+    """
+
+    table: ClassVar[str] = "drive"
+    rated_torque: float = key(400.0, "at rated speed", "N m", above=0)
+    slip: float = key(0.05, "of the rated speed below that without load", above=0, at_most=1)
+    no_load_speed_rpm: float | None = key(
+        None, "without torque; speed_rpm unless given", "rpm", above=0
     )
-    eccentricity: float = key(0.0, "of the force from the slider's centre line, to the right", "m")
+    inertia: float = key(50.0, "of flywheel, gear and motor", "kg m^2", above=0)
+
+    @property
+    def torque_at_rest(self) -> float:
+        """Torque at speed zero, N m."""
+        return self.rated_torque / self.slip
+
+    def damping(self, speed_rpm: float) -> float:
+        """Return how fast the torque falls with the speed, N m s/rad."""
+        no_load_speed = (self.no_load_speed_rpm or speed_rpm) * math.pi / 30.0
+        return self.torque_at_rest / no_load_speed
 
 
 @dataclass(frozen=True)

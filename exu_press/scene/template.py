@@ -7,7 +7,9 @@ from collections.abc import Iterator
 from exu_press.checks import Table
 from exu_press.scene.bodies import Flexible
 from exu_press.scene.joints import Joints
-from exu_press.scene.save import body_lines, joint_lines, table_lines
+from exu_press.scene.load import BlankingLoad, Load, TableLoad
+from exu_press.scene.loads import Loads
+from exu_press.scene.save import body_lines, joint_lines, load_lines, table_lines
 from exu_press.scene.scene import TABLES, Scene, mechanism_of
 
 __all__ = ["template"]
@@ -42,6 +44,8 @@ def _lines(scene: Scene) -> Iterator[str]:
                 example = scene.replace(f"joints.{name}", "dry")
                 shown = joint_lines(example.joints, example.laws, True)[1:]
                 yield from ("", *(f"# {line}" for line in shown))
+        elif isinstance(value, Loads):
+            yield from ("", *(f"# {line}".rstrip("# ") for line in _loads()))
         elif field.name == "bodies":
             yield from ("", *(f"# {line}" for line in _a_flexible_body(scene)))
         elif isinstance(value, Table):
@@ -54,6 +58,22 @@ def _lines(scene: Scene) -> Iterator[str]:
 
 OF_MECHANISMS = ("press", "slider_crank")
 """Tables of other mechanisms than the scene's, which it could not use."""
+
+
+def _loads() -> Iterator[str]:
+    """Yield the tables of two loads, as examples."""
+    examples: dict[str, Load] = {
+        "blanking": BlankingLoad(force=1e4),
+        "forming": TableLoad(crank_angle_deg=(120.0, 175.0, 180.0), force=(0.0, 1e4, 0.0)),
+    }
+    words = {
+        "blanking": "Any number of loads, on any body.",
+        "forming": 'Forces from a list, or file = "forming.csv" with two columns.',
+    }
+    for name, load in examples.items():
+        yield f"[load.{name}]  # {words[name]}"
+        yield from (line.removeprefix("# ") for line in load_lines(load, True, absent=True))
+        yield ""
 
 
 def _a_flexible_body(scene: Scene) -> Iterator[str]:

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from exu_press.scene import Scene
+from exu_press.scene.applied import applied_loads
 from paper.comparison import observed
 from paper.readings import MODELS, OBSERVED
 from paper.runs import clearance
@@ -117,7 +118,7 @@ def scenes_of(
         separate: clearances of pin and balls, m.
         revolutions: length of the rigid runs, several strokes for the scatter.
     """
-    rigid = scene.replace({"bodies": "rigid", "revolutions": revolutions})
+    rigid = scene.replace({"bodies": {}, "revolutions": revolutions})
     return (
         [clearance(scene, radial) for radial in alike],
         [
@@ -167,7 +168,7 @@ def choose(
         separate=tuple(separate),
         bodies="flexible" if scene.bodies else "rigid",
         speed_rpm=scene.speed_rpm,
-        force=scene.blanking.force if scene.blanking is not None else 0.0,
+        force=max((load.curve.peak for load in applied_loads(scene).values()), default=0.0),
         best={w: _least(alike, w) for w in WEIGHTS},
         best_separate={w: None if p is None else (p.pin, p.balls) for w, p in apart.items()},
         stopped=tuple(stopped),

@@ -19,8 +19,15 @@ JOINTS: dict[str, dict[str, Any]] = {
     "dry": {"joints.crank_pin": "dry"},
     "lubricated": {},
 }
+
+
+def blanking(force: float) -> dict[str, Any]:
+    """Return a blanking pulse of a force, N, at bottom dead centre (A-14)."""
+    return {"kind": "blanking", "force": force}
+
+
 ELASTIC = ", elastic guides"
-LOADS: dict[str, dict[str, Any]] = {"no load": {}, "10 kN": {"blanking.force": 1e4}}
+LOADS: dict[str, dict[str, Any]] = {"no load": {}, "10 kN": {"load.blanking": blanking(1e4)}}
 
 
 def paper_runs(*, rigid_only: bool = False, revolutions: float = REVOLUTIONS) -> dict[str, Scene]:
@@ -52,7 +59,9 @@ def paper_runs(*, rigid_only: bool = False, revolutions: float = REVOLUTIONS) ->
     runs |= {f"clearance {c * 1e3:g} mm": clearance(sweep, c) for c in CLEARANCES}
     stated = clearance(sweep, STATED)
     runs |= {f"{rpm:g} rpm": stated.replace(speed_rpm=rpm) for rpm in SPEEDS}
-    runs |= {f"blanking {n / 1e3:g} kN": stated.replace("blanking.force", n) for n in FORCES}
+    runs |= {
+        f"blanking {n / 1e3:g} kN": stated.replace("load.blanking", blanking(n)) for n in FORCES
+    }
     return runs
 
 

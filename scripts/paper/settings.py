@@ -69,8 +69,11 @@ def _place(scene: Scene, name: str) -> tuple[Any, bool]:
     if name.startswith("bodies."):
         body = scene.bodies.get(name.split(".")[1])
         return getattr(body, inner, None), body is not None
+    if table.startswith("load."):
+        load = scene.load.get(table.removeprefix("load."))
+        return getattr(load, inner, None), load is not None
     place = getattr(scene, table)
-    if place is None or (table == "blanking" and place.force == 0.0):
+    if place is None:
         return None, False
     value = getattr(place, inner)
     if name in ("contact.shape", "contact.modulus"):
@@ -133,9 +136,15 @@ SETTINGS: tuple[Setting, ...] = (
         "film law", "film.law", {"short": "short", "finite": "finite", "exact long": "pi_film"}
     ),
     Setting("film's end, A-13", "mixed", {"film.at_contact": "mixed"}),
-    Setting("blanking pulse, A-14", "tau 0.1 ms", {"blanking.rise": 2e-4, "blanking.fall": 1e-4}),
-    Setting("blanking pulse, A-14", "tau 5 ms", {"blanking.rise": 1e-2, "blanking.fall": 5e-3}),
-    *_series("blanking's end, A-14", "blanking.end_angle_deg", {"150°": 150.0, "200°": 200.0}),
+    Setting(
+        "blanking pulse, A-14",
+        "tau 0.1 ms",
+        {"load.blanking.rise": 2e-4, "load.blanking.fall": 1e-4},
+    ),
+    Setting(
+        "blanking pulse, A-14", "tau 5 ms", {"load.blanking.rise": 1e-2, "load.blanking.fall": 5e-3}
+    ),
+    *_series("blanking's end, A-14", "load.blanking.end_angle_deg", {"150°": 150.0, "200°": 200.0}),
     *_series(
         "contact damping c_max",
         "contact.damping_max",

@@ -56,7 +56,7 @@ def numbers_of(scene: Scene) -> Numbers:
     """
     if not is_reducible(scene):
         raise InputError(
-            "the reduced model is a rigid slider-crank without blanking, with a dry pin (point "
+            "the reduced model is a rigid slider-crank without load, with a dry pin (point "
             "contact, step damping, lugre_steady) or with the film law 'pinkus'"
         )
     size, pin = scene.slider_crank, scene.joints["crank_pin"]
@@ -90,7 +90,7 @@ def numbers_of(scene: Scene) -> Numbers:
 
 def is_reducible(scene: Scene) -> bool:
     """Return whether the reduced model holds a scene's mechanism and laws."""
-    if (scene.mechanism, scene.bodies, scene.blanking) != ("slider_crank", {}, None):
+    if scene.mechanism != "slider_crank" or scene.bodies or scene.load:
         return False
     if set(scene.joints.with_clearance) != {"crank_pin"}:
         return False

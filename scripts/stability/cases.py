@@ -217,11 +217,12 @@ def _loads() -> list[Case]:
     """Blanking before bottom dead centre, up to far more than the press would bear."""
     values = {
         f"{force / 1e3:g} kN in {rise * 1e6:g} us": {
-            "blanking.force": force,
-            "blanking.rise": rise,
-            "blanking.fall": rise,
+            "load.blanking.kind": "blanking",
+            "load.blanking.force": force,
+            "load.blanking.rise": rise,
+            "load.blanking.fall": rise,
             "start_angle_deg": 170.0,
-            "blanking.end_angle_deg": 182.0,
+            "load.blanking.end_angle_deg": 182.0,
         }
         for force in (0.0, 1e4, 1e5, 2e6)
         for rise in ((1e-3,) if force == 0.0 else (1e-3, 1e-4, 1e-5))
@@ -348,7 +349,8 @@ def _pairs() -> list[Case]:
         "viscosity 10 Pa s": {"film.viscosity": 10.0},
         "friction 1": {"friction.mu_static": 1.0, "friction.mu_kinetic": 1.0},
         "2 MN in 10 us": {
-            "blanking.force": 2e6, "blanking.rise": 1e-5, "blanking.fall": 1e-5
+            "load.blanking.kind": "blanking", "load.blanking.force": 2e6,
+            "load.blanking.rise": 1e-5, "load.blanking.fall": 1e-5,
         },
         "masses x 0.01": {f"press.{name}": 0.01 * value for name, value in masses.items()},
         "masses x 100": {f"press.{name}": 100.0 * value for name, value in masses.items()},
@@ -360,7 +362,7 @@ def _pairs() -> list[Case]:
         if one.keys() & other.keys():
             continue  # two values of one key
         changes = {"revolutions": REVOLUTIONS, **one, **other}
-        if "blanking.force" in changes:  # in the middle of the run
-            changes["blanking.end_angle_deg"] = 180.0 * changes["revolutions"]
+        if "load.blanking.force" in changes:  # in the middle of the run
+            changes["load.blanking.end_angle_deg"] = 180.0 * changes["revolutions"]
         found.append(_case(PAIRS, "press mixed", f"{first} + {second}", changes))
     return found

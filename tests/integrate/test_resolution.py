@@ -76,15 +76,20 @@ def test_a_film_that_starts_from_rest_is_no_impact(changes):
 
 @pytest.mark.parametrize("rise", [1e-4, 1e-5])
 def test_a_pulse_shorter_than_the_step_is_not_resolved_either(rise):
-    load = {"blanking.force": 1e6, "blanking.rise": rise, "blanking.fall": 2.0 * rise}
-    changes = {"joints": {}, "blanking.end_angle_deg": 20.0, **load}
+    load = {
+        "load.blanking.kind": "blanking",
+        "load.blanking.force": 1e6,
+        "load.blanking.rise": rise,
+        "load.blanking.fall": 2.0 * rise,
+    }
+    changes = {"joints": {}, "load.blanking.end_angle_deg": 20.0, **load}
     leapt = run(**changes, **{"solver.step": 1e-3})
     assert leapt.info["status"] == "under-resolved"
-    assert leapt["blanking_force"].max() < 0.9e6, "the pulse's peak was missed"
-    advice = re.search(r"blanking pulse .* try solver\.step = (\S+)", leapt.info["reason"])
+    assert leapt["load_blanking_force"].max() < 0.9e6, "the pulse's peak was missed"
+    advice = re.search(r"load\.blanking .* try solver\.step = (\S+)", leapt.info["reason"])
     fine = run(**changes, **{"solver.step": float(advice[1])})
     assert fine.info["status"] == "completed"
-    assert fine["blanking_force"].max() > 0.9e6
+    assert fine["load_blanking_force"].max() > 0.9e6
     assert run(**changes).info["status"] == "completed", "a tolerance steps on its corners"
 
 

@@ -120,12 +120,12 @@ def test_the_squeezer_has_the_test_sets_lengths():
 @pytest.mark.parametrize(("name", "force"), [("four_bar", 500.0), ("six_bar", 5e4)])
 def test_a_blanking_force_acts_in_the_outputs_direction(name, force):
     """On a rocker along x, on a ram along y: the drive does its work."""
-    pulse = {"force": force, "rise": 5e-3, "fall": 5e-3, "end_angle_deg": 60.0}
-    scene = Scene(mechanism=name, joints={}, revolutions=0.2, blanking=pulse)
+    pulse = {"kind": "blanking", "force": force, "rise": 5e-3, "fall": 5e-3, "end_angle_deg": 60.0}
+    scene = Scene(mechanism=name, joints={}, revolutions=0.2, load={"blanking": pulse})
     result = simulate(scene)
     assert result.completed
-    assert result["blanking_force"].max() == pytest.approx(force, rel=1e-3)
-    free = simulate(scene.replace("blanking.force", 0.0))
+    assert result["load_blanking_force"].max() == pytest.approx(force, rel=1e-3)
+    free = simulate(scene.replace("load.blanking.force", 0.0))
     changed = result["energy_input"][-1] - free["energy_input"][-1]
     assert abs(changed) < 1e-3 * np.abs(result["energy_input"]).max(), "nothing else takes energy"
     assert np.abs(result["drive_torque"]).max() > 1.2 * np.abs(free["drive_torque"]).max()

@@ -58,7 +58,11 @@ def test_scatter_of_strokes_of_known_depth():
 
 @pytest.fixture(scope="module")
 def run():
-    scene = {"revolutions": 2.25, "blanking": {"force": 1e4, "eccentricity": 0.1}, "guide": {}}
+    scene = {
+        "revolutions": 2.25,
+        "load": {"blanking": {"kind": "blanking", "force": 1e4, "offset": [0.1, 0.0]}},
+        "guide": {},
+    }
     return simulate(Scene.from_dict({**scene, "joints": {"crank_pin": "lubricated"}}))
 
 

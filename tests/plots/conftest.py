@@ -11,14 +11,14 @@ SCENES = {
     "dry": {"joints": {"crank_pin": "dry", "balls": "dry"}},
     "lubricated": {
         "joints": {"crank_pin": "lubricated", "balls": "dry"},
-        "blanking": {"force": 1e4},
+        "load": {"blanking": {"kind": "blanking", "force": 1e4}},
     },
     "elastic": {
         "joints": {"balls": "dry"},
         "guide": {},
         "start_angle_deg": 80.0,
         "revolutions": 0.6,
-        "blanking": {"force": 1e4, "eccentricity": 0.1},
+        "load": {"blanking": {"kind": "blanking", "force": 1e4, "offset": [0.1, 0.0]}},
     },
     "slider_crank": {"mechanism": "slider_crank", "joints": {"crank_pin": "dry"}},
 }

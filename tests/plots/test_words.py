@@ -11,7 +11,7 @@ def test_a_scene_in_words():
     scene = Scene(
         joints={"crank_pin": {"kind": "lubricated", "clearance": 5e-5}, "balls": "dry"},
         speed_rpm=200,
-        blanking={"force": 1e4},
+        load={"blanking": {"kind": "blanking", "force": 1e4}},
     )
     words = describe([scene])
     for part in (
@@ -28,7 +28,9 @@ def test_a_scene_in_words():
 
 def test_guides_counterweight_and_an_eccentric_load():
     scene = Scene(
-        blanking={"force": 1e4, "eccentricity": -0.05}, guide={}, press={"counterweight": False}
+        load={"blanking": {"kind": "blanking", "force": 1e4, "offset": [-0.05, 0.0]}},
+        guide={},
+        press={"counterweight": False},
     )
     words = describe([scene])
     assert "blanking force 10 kN, -50 mm off centre" in words

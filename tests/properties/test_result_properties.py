@@ -17,7 +17,11 @@ from exu_press.scene import flexible_press
 
 SCENES = {
     "dry": {"mechanism": "slider_crank", "joints": {"crank_pin": "dry"}, "revolutions": 0.02},
-    "press": {"guide": {}, "blanking": {"force": 1e4}, "revolutions": 0.005},
+    "press": {
+        "guide": {},
+        "load": {"blanking": {"kind": "blanking", "force": 1e4}},
+        "revolutions": 0.005,
+    },
     "flexible": {
         "bodies": flexible_press(modes=2, mesh_size=0.1),
         "revolutions": 0.002,

@@ -87,7 +87,7 @@ def likely_scenes(draw):
     for name in ("speed_rpm", "revolutions", "start_angle_deg", "gravity"):
         if draw(st.booleans()):
             data = {**data, name: draw(likely_value_of(FIELDS["", name]))}
-    for table in (set(used) & set(TABLES)) | {"blanking"}:
+    for table in set(used) & set(TABLES):
         keys = [name for of, name in FIELDS if of == table and name in used.get(table, {})]
         chosen = draw(st.lists(st.sampled_from(sorted(keys)), max_size=2)) if keys else []
         if chosen:

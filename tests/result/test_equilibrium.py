@@ -9,13 +9,20 @@ from exu_press import Scene, simulate
 from exu_press.mechanism.holding import holding_of
 from exu_press.scene import flexible_press
 
-PULSE = {"force": 1e5, "eccentricity": 0.05, "rise": 2e-3, "fall": 1e-3, "end_angle_deg": 10.0}
+PULSE = {
+    "kind": "blanking",
+    "force": 1e5,
+    "offset": [0.05, 0.0],
+    "rise": 2e-3,
+    "fall": 1e-3,
+    "end_angle_deg": 10.0,
+}
 SCENES = {
     "ideal press": {"joints": {}},
-    "one-sided load": {"joints": {}, "blanking": PULSE},
+    "one-sided load": {"joints": {}, "load": {"blanking": PULSE}},
     "lubricated pin, dry balls": {
         "joints": {"crank_pin": "lubricated", "balls": "dry"},
-        "blanking": PULSE,
+        "load": {"blanking": PULSE},
     },
     "dry pin": {"joints": {"crank_pin": "dry", "balls": "dry"}},
     "slider-crank": {"mechanism": "slider_crank", "joints": {}},

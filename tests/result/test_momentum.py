@@ -20,7 +20,7 @@ VARIANTS = [
     {"mechanism": "slider_crank", "joints": {"crank_pin": "lubricated"}},
     {"mechanism": "slider_crank", "joints": {"shaft": "dry", "wrist_pin": "lubricated"}},
 ]
-BLANKING = {"force": 1e4, "end_angle_deg": 30.0, "eccentricity": 0.05}
+BLANKING = {"kind": "blanking", "force": 1e4, "end_angle_deg": 30.0, "offset": [0.05, 0.0]}
 
 
 def run(**scene):
@@ -41,9 +41,9 @@ def ideal(**press):
 @pytest.mark.parametrize("variant", VARIANTS, ids=str)
 def test_frame_carries_inertia_weight_and_load(variant):
     """Forces of guides and pivots against the bodies' accelerations, to Newton's tolerance."""
-    result = run(**variant, blanking=BLANKING)
+    result = run(**variant, load={"blanking": BLANKING})
     expected = result["shaking_force"].copy()
-    expected[:, 1] += result["blanking_force"] - weight(result)
+    expected[:, 1] += result["load_blanking_force"] - weight(result)
     error = np.abs(result["frame_force"] - expected).max()
     assert error < 0.2 * result.scene.solver.tolerance * scales(result.scene).force
 

@@ -13,7 +13,9 @@ SCENE = {"mechanism": "press", "revolutions": 0.02, "solver": {"step": 1e-4}}
 
 @pytest.fixture(scope="module")
 def result():
-    return simulate(Scene.from_dict({**SCENE, "blanking": {"force": 1e4}}))
+    return simulate(
+        Scene.from_dict({**SCENE, "load": {"blanking": {"kind": "blanking", "force": 1e4}}})
+    )
 
 
 def test_channels_of_the_interface(result):

@@ -21,8 +21,6 @@ NUMBER_OF_EVERY_TABLE = [
     ("contact.damping_max", DRY),
     ("friction.mu_kinetic", DRY),
     ("film.viscosity", PRESS),
-    ("blanking.force", PRESS),
-    ("blanking.rise", PRESS),
     ("solver.step", PRESS),
     ("press.slider_mass", PRESS),
     ("press.crank_radius", PRESS),
@@ -84,7 +82,6 @@ def test_negative_is_refused(key, base):
         ("contact.stiffness", DRY),
         ("film.viscosity", PRESS),
         ("film.length", PRESS),
-        ("blanking.fall", PRESS),
         ("solver.step", PRESS),
         ("press.plunger_mass", PRESS),
         ("slider_crank.rod_inertia", CRANK),
@@ -101,7 +98,6 @@ def test_zero_is_refused_where_it_has_no_meaning(key, base):
         ("solver.spectral_radius", 0.3, ">= 0.5 and <= 0.95"),
         ("contact.exponent", 0.9, ">= 1"),
         ("contact.exponent", 3.1, "<= 3"),
-        ("blanking.end_angle_deg", 361, "<= 360"),
     ],
 )
 def test_ranges(key, value, allowed):
@@ -147,7 +143,7 @@ def test_unknown_key_shows_the_known_ones(key, known):
     assert known in message.partition("allowed are ")[2]
 
 
-@pytest.mark.parametrize("name", ["contact", "friction", "film", "blanking", "solver", "press"])
+@pytest.mark.parametrize("name", ["contact", "friction", "film", "guide", "solver", "press"])
 @pytest.mark.parametrize("value", [5, 0.5, "pinkus", True, [], [{"law": "pinkus"}]], ids=repr)
 def test_a_table_must_be_a_table(name, value):
     message = refusal({**PRESS, name: value})
@@ -215,12 +211,6 @@ def test_what_a_scene_does_not_use_is_refused(data, name, reason):
     assert reason in message
 
 
-def test_blanking_longer_than_a_revolution_is_refused():
-    message = refusal({**PRESS, "blanking": {"force": 1.0, "rise": 0.2, "fall": 0.06}})
-    assert "blanking.rise + blanking.fall = 0.26" in message
-    assert "0.25 s" in message
-
-
 def test_defaults():
     """Table 2 and assumptions A-1 .. A-14, as the interface shows them."""
     scene = Scene()
@@ -240,7 +230,7 @@ def test_defaults():
     assert scene.press.counter_eccentricity == 0.016
     assert scene.press.slide_mass == 60.0
     assert scene.press.bottom_dead_centre == 0.47
-    assert scene.blanking is None
+    assert not scene.load
     assert scene.slider_crank is None
 
 
@@ -286,7 +276,11 @@ def test_derived_quantities():
             {"mechanism": "slider_crank", "joints": {"crank_pin": pin}}
             for pin in ("ideal", "dry", "lubricated")
         ],
-        {"blanking": {"force": 1e4}, "film": {"at_contact": "mixed"}, "gravity": 0.0},
+        {
+            "load": {"blanking": {"kind": "blanking", "force": 1e4}},
+            "film": {"at_contact": "mixed"},
+            "gravity": 0.0,
+        },
     ],
     ids=lambda data: " ".join(map(str, data.values())),
 )

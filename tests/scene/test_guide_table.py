@@ -38,7 +38,6 @@ def test_on_the_command_line():
         ({"guide": {"lateral_stiffness": 0.0}}, r"guide\.lateral_stiffness = 0\.0: allowed .* > 0"),
         ({"guide": {"damping_ratio": -0.1}}, r"guide\.damping_ratio = -0\.1: allowed .* >= 0"),
         ({"guide": 1e9}, r"guide = 1000000000\.0: allowed is a table"),
-        ({"blanking": {"eccentricity": "0.1"}}, r"blanking\.eccentricity = '0\.1': allowed"),
         (
             {"mechanism": "slider_crank", "guide": {"slide_inertia": 1.0}},
             r"guide\.slide_inertia = 1\.0: not used by this scene \(mechanism is 'slider_crank'\)",
@@ -67,7 +66,3 @@ def test_a_press_that_loses_its_counterweight_loses_its_keys():
     assert bare == Scene(guide={}, press={"counterweight": False})
     with pytest.raises(InputError, match="counterweight_mass"):
         bare.replace("press.counterweight_mass", 900.0)
-
-
-def test_the_eccentricity_may_lie_on_either_side():
-    assert Scene(blanking={"eccentricity": -0.1}).blanking.eccentricity == -0.1

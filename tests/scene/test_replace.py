@@ -34,7 +34,7 @@ def test_other_keys_of_the_table_are_kept():
 
 
 def test_a_table_that_was_not_there():
-    assert PRESS.replace("blanking.force", 1e4).blanking.force == 1e4
+    assert PRESS.replace("guide.length", 0.4).guide.length == 0.4
 
 
 def test_made_dry_it_loses_its_film_and_made_ideal_everything():

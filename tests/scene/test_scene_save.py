@@ -13,7 +13,10 @@ SCENES = {
         "joints": {"crank_pin": "dry", "balls": "dry"},
         "contact": {"tension": True, "shape": "cylindrical"},
     },
-    "mixed": {"film": {"law": "finite", "at_contact": "mixed"}, "blanking": {"force": 1e4}},
+    "mixed": {
+        "film": {"law": "finite", "at_contact": "mixed"},
+        "load": {"blanking": {"kind": "blanking", "force": 1e4}},
+    },
     "flexible": {"bodies": {"crank": "crank", "linkage": {"flexible": "linkage", "modes": 4}}},
     "own part": {
         "mechanism": "four_bar",

@@ -28,8 +28,18 @@ def test_every_key_is_there_with_its_meaning_and_every_joint_is_named():
     assert "# group balls: ball_left, ball_right" in text
 
 
-@pytest.mark.parametrize("table", ["blanking", "guide"])
-def test_a_table_that_is_not_in_use_is_right_when_it_is_put_to_use(table, tmp_path):
+@pytest.mark.parametrize(
+    ("table", "value"),
+    [
+        ("guide", {}),
+        ("load.blanking", {"kind": "blanking", "force": 1e4}),
+        (
+            "load.forming",
+            {"kind": "table", "crank_angle_deg": [120, 175, 180], "force": [0, 1e4, 0]},
+        ),
+    ],
+)
+def test_a_table_that_is_not_in_use_is_right_when_it_is_put_to_use(table, value, tmp_path):
     """Its defaults; a key without one is left out."""
     lines, inside = [], False
     for line in template("press").splitlines():
@@ -38,7 +48,7 @@ def test_a_table_that_is_not_in_use_is_right_when_it_is_put_to_use(table, tmp_pa
         lines.append(line.removeprefix("# ") if inside and given else line)
     path = tmp_path / "scene.toml"
     path.write_text("\n".join(lines))
-    assert load_scene(path) == Scene().replace(table, {})
+    assert load_scene(path) == Scene().replace(table, value)
 
 
 def test_an_unknown_mechanism_is_refused():

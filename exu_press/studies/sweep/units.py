@@ -6,6 +6,7 @@ from typing import Any
 
 from exu_press.checks import Table
 from exu_press.scene import DryJoint, Flexible, Scene
+from exu_press.scene.load import LOAD_KINDS
 from exu_press.scene.scene import TABLES
 
 __all__ = ["meaning_of", "unit_of"]
@@ -24,6 +25,7 @@ UNITS = {
     "energy.input": "J",
     "energy.dissipated": "J",
     "energy.stored": "J",
+    "work": "J",
 }
 """Of the summary's entries; a name stands for whatever begins or ends with it."""
 
@@ -57,6 +59,8 @@ def _metadata(name: str) -> Mapping[str, Any] | None:
     kind: type[Table] = TABLES.get(table, Scene)
     if table.startswith("joints."):  # joints.NAME.key or joints.NAME.law.key
         kind = TABLES.get(table.rpartition(".")[2], DryJoint)
+    elif table.startswith("load."):
+        kind = next((k for k in LOAD_KINDS.values() if inner in k.__dataclass_fields__), Scene)
     elif table.startswith("bodies."):
         kind = Flexible
     elif table and table not in TABLES:

@@ -36,7 +36,7 @@ def paths_figure(
     what = "journal centre" if joint == "crank_pin" else "ball centre"
     elastic = any(run.scene.guide is not None for run in runs.values())
     heading = f"{figure}: path of the {what}{', elastic guides' if elastic else ''}"
-    unloaded = {label: run for label, run in runs.items() if run.scene.blanking is None}
+    unloaded = {label: run for label, run in runs.items() if not run.scene.load}
     drawing = new_figure(heading, unloaded or runs, (3.9 * len(runs) + 0.9, 6.4))
     grid = drawing.subplots(2, len(runs), height_ratios=(1.0, 0.13), squeeze=False)
     coloured = None

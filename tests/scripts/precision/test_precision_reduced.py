@@ -75,7 +75,7 @@ def test_compiled_is_the_same():
     [
         {"friction": {"law": "lugre"}},
         {"contact": {"damping": "flores"}},
-        {"blanking": {"force": 1e3}},
+        {"load": {"blanking": {"kind": "blanking", "force": 1e3}}},
     ],
 )
 def test_what_is_not_reduced_is_refused(changes):

@@ -1,0 +1,100 @@
+"""A force that is given over time, crank angle or a position: straight lines between points."""
+
+import math
+from bisect import bisect_left, bisect_right
+from collections.abc import Sequence
+
+__all__ = ["LoadCurve", "blanking_pulse"]
+
+
+class LoadCurve:
+    """Straight lines through points; a periodic curve joins its last point to its first.
+
+    Before the first and after the last point, the force of a curve without a period stays as it is
+    there.
+
+    Attributes:
+        places: of the points, increasing.
+        forces: at the points, N.
+        period: after which the curve repeats itself, or None.
+
+    >>> ramp = LoadCurve([0.0, 0.1], [0.0, 1e3])
+    >>> ramp(0.05), ramp(0.2)
+    (500.0, 1000.0)
+    """
+
+    def __init__(
+        self, places: Sequence[float], forces: Sequence[float], period: float | None = None
+    ) -> None:
+        """Take points that have been checked; those of a period lie within one."""
+        self.places, self.forces, self.period = tuple(places), tuple(forces), period
+        if period is None:
+            self._x, self._f = self.places, self.forces
+            self._corners = self.places
+        else:
+            last, first = self.places[-1] - period, self.places[0] + period
+            self._x = (last, *self.places, first)
+            self._f = (self.forces[-1], *self.forces, self.forces[0])
+            shifts = (-period, 0.0, period)
+            self._corners = tuple(place + shift for shift in shifts for place in self.places)
+
+    def __call__(self, place: float) -> float:
+        """Return the force, N."""
+        x, f = self._x, self._f
+        place = self._within(place)
+        if place <= x[0]:
+            return f[0]
+        if place >= x[-1]:
+            return f[-1]
+        after = bisect_right(x, place)
+        part = (place - x[after - 1]) / (x[after] - x[after - 1])
+        return f[after - 1] + part * (f[after] - f[after - 1])
+
+    def corner_after(self, place: float, close: float = 0.0) -> float:
+        """Return the next point's place, infinity behind the last; points `close` by are left."""
+        within = self._within(place)
+        after = bisect_right(self._corners, within + close)
+        return place + self._corners[after] - within if after < len(self._corners) else math.inf
+
+    def corner_before(self, place: float, close: float = 0.0) -> float:
+        """Return the point before a place, minus infinity before the first."""
+        within = self._within(place)
+        before = bisect_left(self._corners, within - close)
+        return place + self._corners[before - 1] - within if before else -math.inf
+
+    @property
+    def peak(self) -> float:
+        """Largest magnitude, N."""
+        return max(map(abs, self.forces))
+
+    @property
+    def steepest(self) -> float:
+        """Largest magnitude of the slope, N per unit of the place."""
+        return max(abs(self._slope(i)) for i in range(len(self._x) - 1))
+
+    def _slope(self, i: int) -> float:
+        width = self._x[i + 1] - self._x[i]
+        return (self._f[i + 1] - self._f[i]) / width if width else 0.0
+
+    def _within(self, place: float) -> float:
+        """Return a place in the period that begins with the first point."""
+        if self.period is None:
+            return place
+        first = self.places[0]
+        return first + (place - first) % self.period
+
+
+def blanking_pulse(peak: float, rise: float, fall: float) -> tuple[list[float], list[float]]:
+    """Return times, s, and forces, N, of the corners of the triangular blanking pulse (Eq. 36).
+
+    The paper prints F_max / t^2 for the rise; F_max / (2 tau) is the triangle it draws.
+
+    Args:
+        peak: F_max, N.
+        rise: 2 tau, s.
+        fall: tau, s.
+
+    >>> blanking_pulse(10e3, rise=1e-3, fall=0.5e-3)
+    ([0.0, 0.001, 0.0015], [0.0, 10000.0, 0.0])
+    """
+    return [0.0, rise, rise + fall], [0.0, peak, 0.0]

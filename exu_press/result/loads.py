@@ -1,0 +1,52 @@
+"""What the loads did: their forces, and the work that they put in."""
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exu_press.mechanism import Motion
+from exu_press.model import Model
+from exu_press.result.channel import Channel
+from exu_press.result.energy import work
+
+__all__ = ["record_loads"]
+
+Array = NDArray[np.float64]
+
+
+def record_loads(
+    model: Model,
+    time: Array,
+    crank_angle: Array,
+    slider_position: Array,
+    motions: Mapping[str, Motion],
+) -> tuple[dict[str, Channel], Array]:
+    """Return force, moment (where the load acts beside the middle) and work of every load.
+
+    Args:
+        model: integrated.
+        time: (n,), s.
+        crank_angle: of what the drive turns, (n,), rad.
+        slider_position: (n,), m.
+        motions: of every body.
+
+    Returns:
+        The channels, and the work of all loads since the start, (n,), J.
+    """
+    channels: dict[str, Channel] = {}
+    all_work = np.zeros_like(time)
+    for name, (load, _) in model.loads.items():
+        force = load.force(time, crank_angle, slider_position)
+        motion = motions[load.body].at(load.point)
+        along = motion.velocity[:, :2] @ np.array(load.direction)
+        done = work(time, force, along)
+        all_work += done
+        words = f"load {name} on the {load.body.replace('_', ' ')}"
+        channels[f"load_{name}_force"] = Channel(force, "N", f"{words}: force")
+        channels[f"load_{name}_work"] = Channel(done, "J", f"{words}: work since the start")
+        if load.point != (0.0, 0.0):
+            moment = load.moment(force, motions[load.body].position[:, 2])
+            text = f"{words}: moment about its centre of mass, counter-clockwise"
+            channels[f"load_{name}_moment"] = Channel(moment, "N m", text)
+    return channels, all_work

@@ -1,0 +1,91 @@
+"""The loads of a scene on their mechanism: where they act, which way, and how much when."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exu_press.laws.load_curve import LoadCurve
+from exu_press.mechanism import Point
+from exu_press.scene.scene import Scene, mechanism_of
+
+__all__ = ["AppliedLoad", "applied_loads"]
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class AppliedLoad:
+    """One load.
+
+    Attributes:
+        kind: "blanking" or "table".
+        body: on which it acts.
+        point: where, in the body's frame, m.
+        direction: unit vector, in the frame, in which a positive force acts.
+        over: "time", "crank_angle_deg" or "slider_position".
+        curve: the force over time, s, crank angle, rad, or slider position, m.
+    """
+
+    kind: str
+    body: str
+    point: Point
+    direction: Point
+    over: str
+    curve: LoadCurve
+
+    def force(self, time: Array, crank_angle: Array, slider_position: Array) -> Array:
+        """Return the force in its direction, (n,), N, at instants (n,), s, rad and m."""
+        places = {
+            "time": time,
+            "crank_angle_deg": crank_angle,
+            "slider_position": slider_position,
+        }[self.over]
+        return np.array([self.curve(place) for place in places.tolist()])
+
+    def moment(self, force: Array, angle: Array) -> Array:
+        """Return the moment about the body's centre of mass, (n,), N m.
+
+        Args:
+            force: (n,), N.
+            angle: of the body, (n,), rad.
+        """
+        (x, y), (u, v) = self.point, self.direction
+        c, s = np.cos(angle), np.sin(angle)
+        return np.asarray(force * ((c * x - s * y) * v - (s * x + c * y) * u))
+
+    def shortest_edge(self, scene: Scene) -> float:
+        """Return how long the steepest part of the curve would take from zero to the peak, s."""
+        if self.curve.steepest == 0.0:
+            return math.inf
+        rate = 1.0
+        if self.over == "crank_angle_deg":
+            rate = scene.angular_speed
+        elif self.over == "slider_position":
+            angle = np.linspace(0.0, 2.0 * math.pi, 361)
+            velocity = mechanism_of(scene).ideal_slider(angle, scene.angular_speed)[1]
+            rate = float(np.abs(velocity).max())
+        return self.curve.peak / (self.curve.steepest * rate)
+
+
+def applied_loads(scene: Scene) -> dict[str, AppliedLoad]:
+    """Return the loads of a scene that are not zero throughout, by name."""
+    mechanism = mechanism_of(scene)
+    found = {}
+    for name, load in scene.load.items():
+        body = mechanism.body(load.body or mechanism.slider)
+        x, y = load.direction or mechanism.output.direction
+        length = math.hypot(x, y)
+        (u, v), (dx, dy) = body.centre_of_mass, load.offset or (0.0, 0.0)
+        applied = AppliedLoad(
+            kind=load.kind,
+            body=body.name,
+            point=body.local((u + dx, v + dy)),
+            direction=(x / length, y / length),
+            over=load.over,
+            curve=load.curve(scene.angular_speed),
+        )
+        if applied.curve.peak > 0.0:
+            found[name] = applied
+    return found

@@ -1,0 +1,72 @@
+"""A scene file: TOML in, TOML out."""
+
+import tomllib
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from exu_press.errors import InputError
+from exu_press.scene.bodies import STEP_FILES
+from exu_press.scene.loads import with_files_beside
+from exu_press.scene.scene import Scene
+
+__all__ = ["load_scene", "parse_assignment"]
+
+
+def load_scene(path: str | Path, assignments: Iterable[str] = ()) -> Scene:
+    """Return the scene of a TOML file, changed by "key=value" assignments.
+
+    Args:
+        path: of the file.
+        assignments: as behind `--set`, for `parse_assignment`.
+
+    Raises:
+        InputError: the file cannot be read or parsed, or the scene is not allowed.
+    """
+    path = Path(path)
+    try:
+        data = tomllib.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read ({error.strerror})") from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise InputError(f"{path}: not a TOML file ({error})") from None
+    if str(data.get("mechanism", "")).endswith(".toml"):
+        data["mechanism"] = str(path.parent / data["mechanism"])
+    if isinstance(bodies := data.get("bodies"), dict):
+        data["bodies"] = {name: _beside(path, body) for name, body in bodies.items()}
+    if "load" in data:
+        data["load"] = with_files_beside(data["load"], path.parent)
+    try:
+        scene = Scene.from_dict(data)
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
+    changes = dict(map(parse_assignment, assignments))
+    return scene.replace(changes) if changes else scene
+
+
+def _beside(scene: Path, body: Any) -> Any:
+    """Return a flexible body with its STEP file's path taken from the scene file's directory."""
+    if isinstance(body, dict) and "flexible" in body:
+        return {**body, "flexible": _beside(scene, body["flexible"])}
+    is_file = isinstance(body, str) and body.lower().endswith(STEP_FILES)
+    return str(scene.parent / body) if is_file else body
+
+
+def parse_assignment(text: str) -> tuple[str, Any]:
+    """Return key and value of "key=value"; the value is TOML, or a bare word for a text.
+
+    >>> parse_assignment("film.viscosity=0.1")
+    ('film.viscosity', 0.1)
+    >>> parse_assignment("joints.crank_pin=dry")
+    ('joints.crank_pin', 'dry')
+
+    Raises:
+        InputError: there is no key, no value or no equals sign.
+    """
+    name, equals, value = (part.strip() for part in text.partition("="))
+    if not (name and equals and value):
+        raise InputError(f"--set {text}: allowed is key=value, as in film.viscosity=0.1")
+    try:
+        return name, tomllib.loads(f"value = {value}")["value"]
+    except tomllib.TOMLDecodeError:
+        return name, value

@@ -1,0 +1,63 @@
+"""A load's table as a CSV file: a header of two names, then two numbers a line."""
+
+import csv
+import math
+from pathlib import Path
+
+from exu_press.errors import InputError
+from exu_press.scene.load import COLUMNS
+
+__all__ = ["read_load_table"]
+
+HEADERS = " or ".join(f"'{name},force'" for name in COLUMNS)
+
+
+def read_load_table(path: str | Path) -> dict[str, list[float]]:
+    """Return the two columns of a file by their names.
+
+    Lines that are empty or begin with # are left out.
+
+    Raises:
+        InputError: the file cannot be read, has another header, a line without two numbers, or
+            places that do not increase.
+    """
+    path = Path(path)
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read ({error.strerror})") from None
+    except UnicodeDecodeError:
+        raise InputError(f"{path}: not a text in UTF-8") from None
+    lines = [
+        (number, line.strip())
+        for number, line in enumerate(text.splitlines(), 1)
+        if line.strip() and not line.startswith("#")
+    ]
+    header = [name.strip() for name in lines[0][1].split(",")] if lines else []
+    if len(header) != 2 or header[0] not in COLUMNS or header[1] != "force":
+        shown = lines[0][1][:80] if lines else ""
+        raise InputError(f"{path}: header {shown!r}; allowed is {HEADERS}")
+    rows: list[tuple[float, float]] = []
+    for number, line in lines[1:]:
+        rows.append(_numbers(f"{path}, line {number}", line))
+        if len(rows) > 1 and not rows[-1][0] > rows[-2][0]:
+            raise InputError(
+                f"{path}, line {number}: {header[0]} = {rows[-1][0]:g} after {rows[-2][0]:g}; "
+                "allowed is increasing"
+            )
+    if len(rows) < 2:
+        raise InputError(f"{path}: {len(rows)} lines of numbers; allowed are at least two")
+    places, forces = zip(*rows, strict=True)
+    return {header[0]: list(places), "force": list(forces)}
+
+
+def _numbers(where: str, line: str) -> tuple[float, float]:
+    """Return the two numbers of a line."""
+    values = next(csv.reader([line]))
+    try:
+        place, force = map(float, values)
+    except ValueError:
+        raise InputError(f"{where}: {line[:80]!r}; allowed are two numbers") from None
+    if not (math.isfinite(place) and math.isfinite(force)):
+        raise InputError(f"{where}: {line[:80]!r}; allowed are finite numbers")
+    return place, force

@@ -1,0 +1,181 @@
+"""Every load of a scene by its name, from what is given."""
+
+import dataclasses
+from collections.abc import Collection, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from exu_press.checks import nearest
+from exu_press.errors import InputError
+from exu_press.mechanism import Mechanism
+from exu_press.scene.load import COLUMNS, LOAD_KINDS, BlankingLoad, Load, TableLoad
+from exu_press.scene.load_file import read_load_table
+
+__all__ = ["Loads", "changed_loads", "load_dict", "loads_of", "with_files_beside"]
+
+
+class Loads(Mapping[str, Load]):
+    """The loads of a scene by name, in the order in which they are given."""
+
+    def __init__(self, loads: Mapping[str, Load]) -> None:
+        """Keep loads that have been checked; `loads_of` makes them from what is given."""
+        self._loads = dict(loads)
+
+    def __getitem__(self, name: str) -> Load:
+        """Return a load by its name."""
+        return self._loads[name]
+
+    def __iter__(self) -> Iterator[str]:
+        """Iterate over the names."""
+        return iter(self._loads)
+
+    def __len__(self) -> int:
+        """Return how many there are."""
+        return len(self._loads)
+
+    def __hash__(self) -> int:
+        """Return the hash of all loads."""
+        return hash(tuple(self._loads.items()))
+
+    def __repr__(self) -> str:
+        """Return the loads."""
+        return f"Loads({self._loads!r})"
+
+    def to_dict(self) -> dict[str, dict[str, Any]]:
+        """Return the loads as nested mappings; tables with their numbers, not their files."""
+        return {name: load_dict(load) for name, load in self.items()}
+
+
+def loads_of(
+    given: Any, mechanism: Mechanism, flexible: Collection[str], speed_rpm: float
+) -> Loads:
+    """Return the loads of a scene from what it gives.
+
+    Args:
+        given: name -> mapping of keys with its kind, or one of the dataclasses; or None.
+        mechanism: on whose bodies they act.
+        flexible: names of its flexible bodies, on which none can act.
+        speed_rpm: of the crank.
+
+    Raises:
+        InputError: a load has no kind, a key that its kind does not have, a value that is not
+            allowed, a body that there is not, or a file that is no table.
+    """
+    if not isinstance(given or {}, Mapping):
+        raise InputError(f"load = {given!r}: allowed is a table of loads")
+    found = {}
+    for name, value in (given or {}).items():
+        where = f"load.{name}"
+        if not isinstance(name, str) or not name.isidentifier():
+            raise InputError(f"load: {name!r} is no name; allowed are letters, digits and _")
+        try:
+            found[name] = load = _load(where, value)
+        except InputError as error:
+            text = str(error)
+            raise InputError(text if text.startswith(where) else f"{where}.{text}") from None
+        _check_body(where, load, mechanism, flexible)
+        if isinstance(load, BlankingLoad) and load.rise + load.fall > 60.0 / speed_rpm:
+            raise InputError(
+                f"{where}.rise + fall = {load.rise + load.fall!r}: allowed is at most one "
+                f"revolution, {60.0 / speed_rpm:g} s"
+            )
+    return Loads(found)
+
+
+def load_dict(load: Load) -> dict[str, Any]:
+    """Return a load as a mapping."""
+    keys: dict[str, Any] = {"kind": load.kind}
+    for field in dataclasses.fields(load):
+        value = getattr(load, field.name)
+        if value is not None:
+            keys[field.name] = list(value) if isinstance(value, tuple) else value
+    return keys
+
+
+def changed_loads(loads: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+    """Return loads as mappings with other keys.
+
+    Args:
+        loads: as `Loads.to_dict` has them.
+        changes: "NAME.key" -> a value, or "NAME" -> all keys.
+    """
+    changed = {
+        name: dict(keys) if isinstance(keys, Mapping) else load_dict(keys)
+        for name, keys in loads.items()
+    }
+    for path in sorted(changes, key=lambda path: not path.endswith(".kind")):
+        (name, _, inner), value = path.partition("."), changes[path]
+        if not inner:
+            changed[name] = value
+            continue
+        keys = changed.setdefault(name, {})
+        if inner == "kind" and keys.get("kind") != value:
+            changed[name] = keys = {k: v for k, v in keys.items() if k in _PLACES}
+        if inner == "file":
+            for column in (*COLUMNS, "force"):
+                keys.pop(column, None)
+        keys[inner] = value
+    return changed
+
+
+def with_files_beside(given: Any, folder: Path) -> Any:
+    """Return loads as a file in a folder gives them, the paths of their tables from there."""
+    if not isinstance(given, Mapping):
+        return given
+    return {
+        name: {**keys, "file": str(folder / keys["file"])}
+        if isinstance(keys, Mapping) and isinstance(keys.get("file"), str)
+        else keys
+        for name, keys in given.items()
+    }
+
+
+_PLACES = ("body", "offset", "direction")
+
+
+def _load(where: str, given: Any) -> Load:
+    """Return one load, checked."""
+    if isinstance(given, BlankingLoad | TableLoad):
+        return given
+    if not isinstance(given, Mapping):
+        raise InputError(f"{where} = {given!r}: allowed is a table of keys")
+    keys = dict(given)
+    kinds = ", ".join(map(repr, LOAD_KINDS))
+    if "kind" not in keys:
+        raise InputError(f"{where} has no kind: allowed is one of {kinds}")
+    if (kind := keys.pop("kind")) not in LOAD_KINDS:
+        raise InputError(f"kind = {kind!r}: allowed is one of {kinds}")
+    known = [field.name for field in dataclasses.fields(LOAD_KINDS[kind])]
+    if kind == "table":
+        known.append("file")
+    for name in keys:
+        if name not in known:
+            raise InputError(
+                f"{name} = {keys[name]!r}: unknown key of kind {kind!r}{nearest(name, known)}; "
+                f"allowed are {', '.join(['kind', *known])}"
+            )
+    if "file" in keys:
+        path = keys.pop("file")
+        if not isinstance(path, str):
+            raise InputError(f"file = {path!r}: allowed is the path of a CSV file")
+        both = [name for name in ("force", *COLUMNS) if name in keys]
+        if both:
+            raise InputError(f"file and {both[0]}: allowed is one of the two")
+        try:
+            keys |= read_load_table(path)
+        except InputError as error:
+            raise InputError(f"file: {error}") from None
+    return LOAD_KINDS[kind](**keys)
+
+
+def _check_body(where: str, load: Load, mechanism: Mechanism, flexible: Collection[str]) -> None:
+    bodies = [body.name for body in mechanism.bodies]
+    name = load.body or mechanism.slider
+    if name not in bodies:
+        raise InputError(
+            f"{where}.body = {name!r}: {mechanism.name} has no such body{nearest(name, bodies)}; "
+            f"allowed are {', '.join(bodies)}"
+        )
+    if name in flexible:
+        rigid = [body for body in bodies if body not in flexible]
+        raise InputError(f"{where}.body = {name!r}: is flexible; allowed are {', '.join(rigid)}")

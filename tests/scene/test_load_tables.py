@@ -1,0 +1,152 @@
+"""[load.NAME]: what a scene allows and fills in, tables as CSV, and what is refused."""
+
+import json
+
+import pytest
+
+from exu_press import InputError, Scene, load_scene
+from exu_press.scene import BlankingLoad, TableLoad
+from exu_press.scene.applied import applied_loads
+
+PULSE = {"kind": "blanking", "force": 1e4}
+TABLE = {"kind": "table", "time": [0.0, 0.1], "force": [0.0, 1e3]}
+
+
+def refusal(load, **scene):
+    """Return the message with which a scene is refused."""
+    with pytest.raises(InputError) as caught:
+        Scene.from_dict({"load": load, **scene})
+    message = str(caught.value)
+    assert "\n" not in message, "one line"
+    return message
+
+
+def test_any_number_of_loads_by_name():
+    scene = Scene(load={"blanking": PULSE, "spring": TABLE, "third": BlankingLoad(force=1.0)})
+    assert [*scene.load] == ["blanking", "spring", "third"]
+    assert scene.load["blanking"] == BlankingLoad(force=1e4)
+    assert scene.load["spring"] == TableLoad(time=(0.0, 0.1), force=(0.0, 1e3))
+    assert not Scene().load
+
+
+def test_a_scene_with_loads_comes_back_equal(tmp_path):
+    more = {"body": "link_7_left", "offset": [0.0, 0.1], "direction": [3, 4], "factor": 2.0}
+    scene = Scene(load={"blanking": {**PULSE, "offset": [-0.1, 0]}, "spring": {**TABLE, **more}})
+    complete = scene.to_dict()
+    assert json.loads(json.dumps(complete)) == complete
+    assert Scene.from_dict(complete) == scene
+    assert hash(Scene.from_dict(complete)) == hash(scene)
+    scene.save(tmp_path / "scene.toml", comments=True)
+    assert load_scene(tmp_path / "scene.toml") == scene
+
+
+def test_by_default_it_acts_on_the_output_in_its_direction():
+    applied = applied_loads(Scene(mechanism="six_bar", load={"a": PULSE}))["a"]
+    assert (applied.body, applied.point, applied.direction) == ("ram", (0.0, 0.0), (0.0, 1.0))
+
+
+def test_an_offset_is_as_drawn():
+    """The linkage is drawn hanging, its x axis downwards: 0.1 m to its right is its +y."""
+    load = {"a": {**PULSE, "body": "linkage", "offset": [0.1, 0.0], "direction": [0.0, -2.0]}}
+    applied = applied_loads(Scene(load=load))["a"]
+    assert applied.point == pytest.approx((0.0, 0.1))
+    assert applied.direction == (0.0, -1.0)
+
+
+def test_keys_on_the_command_line_and_in_sweeps():
+    scene = Scene().replace({"load.a.force": 2e4, "load.a.kind": "blanking"})
+    assert scene.load["a"] == BlankingLoad(force=2e4)
+    changed = scene.replace("load.a.force", 3e4).replace("load.a.offset", [0.1, 0.0])
+    assert changed.load["a"] == BlankingLoad(force=3e4, offset=(0.1, 0.0))
+    table = changed.replace({"load.a.kind": "table", "load.a.time": [0, 1], "load.a.force": [0, 1]})
+    assert table.load["a"] == TableLoad(time=(0.0, 1.0), force=(0.0, 1.0), offset=(0.1, 0.0))
+    assert not table.replace("load", {}).load
+    assert changed.replace("mechanism", "slider_crank").load == changed.load
+
+
+def test_a_csv_file_lies_beside_the_scene(tmp_path):
+    (tmp_path / "force.csv").write_text("# drawing\n\ncrank_angle_deg, force\n90,0\n180, 2e5\n")
+    (tmp_path / "scene.toml").write_text('[load.a]\nkind = "table"\nfile = "force.csv"\n')
+    load = load_scene(tmp_path / "scene.toml").load["a"]
+    assert load == TableLoad(crank_angle_deg=(90.0, 180.0), force=(0.0, 2e5))
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("", "header ''; allowed is 'time,force'"),
+        ("t,F\n0,1\n", "header 't,F'; allowed is 'time,force' or 'crank_angle_deg,force' or"),
+        ("force,time\n0,1\n", "header 'force,time'"),
+        ("time,force\n", "0 lines of numbers; allowed are at least two"),
+        ("time,force\n0,1\n", "1 lines of numbers"),
+        ("time,force\n0,1\n1,x\n", "line 3: '1,x'; allowed are two numbers"),
+        ("time,force\n0,1\n1,2,3\n", "line 3: '1,2,3'; allowed are two numbers"),
+        ("time;force\n0;1\n", "header 'time;force'"),
+        ("time,force\n0,1\n1,nan\n", "line 3: '1,nan'; allowed are finite numbers"),
+        ("time,force\n0,1\n1,2\n1,3\n", "line 4: time = 1 after 1; allowed is inc"),
+    ],
+)
+def test_a_csv_file_that_is_none_is_refused_by_line(text, message, tmp_path):
+    path = tmp_path / "force.csv"
+    path.write_text(text)
+    told = refusal({"a": {"kind": "table", "file": str(path)}})
+    assert told.startswith(f"load.a.file: {path}")
+    assert message in told
+
+
+@pytest.mark.parametrize(
+    ("load", "message"),
+    [
+        (5, "load = 5: allowed is a table of loads"),
+        ({"a b": PULSE}, "load: 'a b' is no name"),
+        ({"a": 3}, "load.a = 3: allowed is a table of keys"),
+        ({"a": {"force": 1.0}}, "load.a has no kind: allowed is one of 'blanking', 'table'"),
+        ({"a": {"kind": "blank"}}, "load.a.kind = 'blank': allowed is one of"),
+        ({"a": {"kind": "blanking"}}, "load.a.force: missing"),
+        ({"a": {**PULSE, "force": -1}}, "load.a.force = -1.0: allowed is a number >= 0"),
+        ({"a": {**PULSE, "rise": 0}}, "load.a.rise = 0.0: allowed is a number > 0"),
+        ({"a": {**PULSE, "end_angle_deg": 361}}, "load.a.end_angle_deg = 361.0: allowed"),
+        ({"a": {**PULSE, "time": [0, 1]}}, "load.a.time = [0, 1]: unknown key of kind 'blanking'"),
+        ({"a": {**PULSE, "rize": 1.0}}, "unknown key of kind 'blanking' (did you mean 'rise'?)"),
+        ({"a": {**PULSE, "body": "slidr"}}, "press has no such body (did you mean 'slider'?)"),
+        ({"a": {**PULSE, "body": "frame"}}, "load.a.body = 'frame': press has no such body"),
+        ({"a": {**PULSE, "body": 3}}, "load.a.body = 3: allowed is a text"),
+        ({"a": {**PULSE, "offset": 0.1}}, "load.a.offset = 0.1: allowed is a list of 2 numbers"),
+        ({"a": {**PULSE, "offset": [0, "x"]}}, "allowed is a list of 2 numbers"),
+        ({"a": {**PULSE, "direction": [0, 0]}}, "load.a.direction = [0, 0]: allowed is a direc"),
+        ({"a": {**PULSE, "rise": 0.2, "fall": 0.06}}, "load.a.rise + fall = 0.26: allowed is at"),
+        ({"a": {"kind": "table"}}, "load.a.nothing given: allowed is file, a CSV, or one of time"),
+        ({"a": {**TABLE, "crank_angle_deg": [0, 1]}}, "time, crank_angle_deg, force given"),
+        ({"a": {**TABLE, "file": "a.csv"}}, "load.a.file and force: allowed is one of the two"),
+        ({"a": {**TABLE, "force": [1.0]}}, "load.a.time, force: 2 and 1 values"),
+        ({"a": {**TABLE, "time": [0.1, 0.1]}}, "load.a.time = 0.1 after 0.1: allowed is inc"),
+        ({"a": {**TABLE, "time": [0, True]}}, "allowed is a list of numbers"),
+        ({"a": {"kind": "table", "file": 3}}, "load.a.file = 3: allowed is the path of a CSV"),
+        ({"a": {"kind": "table", "file": "no.csv"}}, "load.a.file: no.csv: cannot be read"),
+        (
+            {"a": {"kind": "table", "crank_angle_deg": [0, 400], "force": [0, 1]}},
+            "load.a.crank_angle_deg from 0.0 to 400.0: allowed is less than a revolution",
+        ),
+        (
+            {"a": {"kind": "table", "crank_angle_deg": [0, 360], "force": [0, 1]}},
+            "a whole one that ends with the force with which it begins",
+        ),
+    ],
+)  # fmt: skip
+def test_what_is_refused(load, message):
+    assert message in refusal(load)
+
+
+def test_a_flexible_body_carries_no_load():
+    pytest.importorskip("ngsolve")
+    message = refusal({"a": {**PULSE, "body": "linkage"}}, bodies={"linkage": "linkage"})
+    assert message.startswith("load.a.body = 'linkage': is flexible; allowed are crank, slide, ")
+
+
+def test_the_old_spelling_is_refused_and_the_new_one_named():
+    with pytest.raises(
+        InputError, match=r"blanking = .*: is load\.NAME with kind = 'blanking' now"
+    ):
+        Scene.from_dict({"blanking": {"force": 1e4}})
+    with pytest.raises(InputError, match=r"blanking\.force = 1.0: is load\.NAME with kind"):
+        Scene().replace("blanking.force", 1.0)

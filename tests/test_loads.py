@@ -1,0 +1,117 @@
+"""Loads against virtual work: what they put in the drive takes out, on any body and point.
+
+With ideal joints and a crank at constant speed a load F at a point with velocity v changes the
+drive's torque by -F v / omega and nothing else.
+"""
+
+import numpy as np
+import pytest
+
+from exu_press import Scene, simulate
+from exu_press.scene import mechanism_of
+from exu_press.scene.applied import applied_loads
+
+IDEAL = {"joints": {}, "revolutions": 0.5, "solver": {"tolerance": 1e-5}}
+LOADS = {
+    "over time": {"kind": "table", "time": [0.02, 0.05, 0.1], "force": [0.0, 2e4, -1e4]},
+    "over the crank angle": {
+        "kind": "table",
+        "crank_angle_deg": [30, 90, 150],
+        "force": [0, 5e4, 2e4],
+    },
+    "over the slider's position": {
+        "kind": "table",
+        "slider_position": [0.47, 0.475, 0.485],
+        "force": [2e5, 4e4, 0],
+    },
+    "on a link, off its middle": {
+        "kind": "blanking",
+        "force": 1e5,
+        "rise": 0.02,
+        "fall": 0.03,
+        "end_angle_deg": 160.0,
+        "body": "link_5_right",
+        "offset": [0.05, 0.02],
+        "direction": [1.0, 2.0],
+    },
+}
+
+
+@pytest.mark.parametrize("name", LOADS)
+def test_the_drive_takes_out_what_a_load_puts_in(name):
+    scene = Scene(**IDEAL, load={"one": LOADS[name]})
+    result, free = simulate(scene), simulate(scene.replace("load", {}))
+    assert result.completed and free.completed
+    load, speed = applied_loads(scene)["one"], scene.angular_speed
+    angle = speed * result.time
+    motion = mechanism_of(scene).motion(angle, speed)
+    position = mechanism_of(scene).ideal_slider(angle, speed)[0]
+    force = load.force(result.time, angle, position)
+    power = force * (motion[load.body].at(load.point).velocity[:, :2] @ np.array(load.direction))
+    without = np.interp(result.time, free.time, free["drive_torque"])
+    changed = result["drive_torque"] - without
+    expected = -power / speed
+    assert np.abs(expected).max() > 100.0
+    assert np.abs(changed - expected).max() < 2e-3 * np.abs(expected).max()
+    assert result["load_one_force"] == pytest.approx(force, abs=1e-4 * np.abs(force).max())
+    assert result.summary()["energy"]["residual"] < 5e-4
+    assert ("load_one_moment" in result) == (name == "on a link, off its middle")
+
+
+@pytest.mark.parametrize("name", LOADS)
+def test_the_balance_closes_with_clearance_and_guides_that_give_way(name):
+    scene = Scene(revolutions=0.5, guide={}, load={"one": LOADS[name], "two": LOADS["over time"]})
+    result = simulate(scene)
+    assert result.completed
+    summary = result.summary()
+    assert summary["energy"]["residual"] < 1e-3
+    assert set(summary["loads"]) == {"one", "two"}
+    assert summary["loads"]["one"]["work"] == result["load_one_work"][-1]
+
+
+@pytest.mark.parametrize("name", ["over time", "over the crank angle"])
+def test_steps_end_on_the_corners(name):
+    scene = Scene(joints={}, revolutions=0.5, load={"one": LOADS[name]})
+    time = simulate(scene).time
+    given = LOADS[name].get("time") or np.array(LOADS[name]["crank_angle_deg"]) / 360.0 * 0.25
+    for corner in given:
+        assert np.abs(time - corner).min() < 1e-9
+
+
+def test_a_stiff_table_is_a_spring():
+    """Of 5e8 N/m under the slider of a dry slider-crank, against Exudyn's own spring there."""
+    from exudyn.itemInterface import MarkerNodeCoordinate, ObjectConnectorCoordinateSpringDamper
+
+    scene = Scene(
+        mechanism="slider_crank",
+        joints={"crank_pin": "dry"},
+        revolutions=0.5,
+        solver={"tolerance": 1e-4},
+    )
+    start = mechanism_of(scene).ideal_slider(np.zeros(1), 1.0)[0][0]
+    stiffness, low = 5e8, start - 0.1
+    table = {
+        "kind": "table",
+        "slider_position": [low, start + 0.1],
+        "force": [stiffness * 0.1, -stiffness * 0.1],
+    }
+    from exu_press.result import record
+
+    loaded = simulate(scene.replace("load.spring", table))
+    model = scene.build()
+    still = model.mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=0, coordinate=0))
+    slider = model.mbs.AddMarker(
+        MarkerNodeCoordinate(nodeNumber=model.nodes["slider"], coordinate=0)
+    )
+    reference = model.rigid["slider"].reference[1]
+    model.mbs.AddObject(
+        ObjectConnectorCoordinateSpringDamper(
+            markerNumbers=[still, slider], stiffness=stiffness, offset=start - reference
+        )
+    )
+    model.mbs.Assemble()
+    held = record(model, model.solve())
+    assert loaded.completed and held.completed
+    there = np.interp(held.time, loaded.time, loaded["slider_position"])
+    assert np.abs(there - held["slider_position"]).max() < 2e-6
+    assert loaded.info["newton_iterations"] < 2.0 * held.info["newton_iterations"]

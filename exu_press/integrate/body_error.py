@@ -3,6 +3,7 @@
 import math
 
 from exu_press.integrate.scales import FoundScales
+from exu_press.integrate.share import Share
 from exu_press.integrate.tuning import Tuning
 
 __all__ = ["BodyError", "squares"]
@@ -39,7 +40,7 @@ class BodyError:
     def __init__(
         self,
         accelerations: list[float],
-        share: float,
+        share: Share,
         tolerance: float,
         scales: FoundScales,
         tuning: Tuning,
@@ -74,8 +75,12 @@ class BodyError:
         self._now = now
         before, last = self._before, self._rate_before
         self._rate = rate = [(now[i] - before[i]) / step for i in range(len(now))]
-        self.change = [rate[i] - last[i] for i in range(len(rate))] if last else rate
         self._sizes, self._peaks, self._allowed = self._squares(now), [], []
+        if last:
+            self.change = [rate[i] - last[i] for i in range(len(rate))]
+        else:
+            part = step * self._part_changed(rate)
+            self.change = [part * value for value in rate]
         usual = self._scales.acceleration * self._scales.acceleration
         for i, size in enumerate(self._sizes):
             self._peaks.append(max(size, self._peaks_before[i]))
@@ -83,6 +88,15 @@ class BodyError:
             near = max(size, self._sizes_before[i]) >= self._near * peak
             self._allowed.append(self._of_peak * self._of_peak * peak if near else math.inf)
         return self.error(self.change, step)
+
+    def _part_changed(self, rate: list[float]) -> float:
+        """Return the rate of the accelerations, in the first step, over them: at most one a step.
+
+        What it changes by within the step is not known yet: as much as the accelerations do.
+        """
+        largest = max(max(self._sizes, default=0.0), max(self._sizes_before, default=0.0))
+        change = max(self._squares(rate), default=0.0)
+        return math.sqrt(change / largest) if change > 0.0 else 0.0
 
     def error(self, change: list[float], step: float) -> float:
         """Return the error that goes with a change of the accelerations' rate."""
@@ -98,7 +112,7 @@ class BodyError:
 
     def _of_velocities(self, sizes: list[float], step: float) -> float:
         """Return the velocities' error from squares of changes of the accelerations' rate."""
-        limit = max(self._share * self._scales.speed, self._constant * self._noise / step)
+        limit = max(self._share.at(step) * self._scales.speed, self._constant * self._noise / step)
         largest = 0.0
         for size in sizes:  # what has no say may be no number, and is passed over
             largest = max(largest, size)
@@ -121,6 +135,10 @@ class BodyError:
         """Return the largest change of an acceleration in the step last tried, m/s^2."""
         jump = [a - b for a, b in zip(self._now, self._before, strict=True)]
         return math.sqrt(max(self._squares(jump), default=0.0))
+
+    def largest(self) -> float:
+        """Return the largest acceleration at the two ends of the step last tried, m/s^2."""
+        return math.sqrt(max([*self._sizes, *self._sizes_before], default=0.0))
 
     def offset(self, step: float) -> float:
         """Return what velocities that constraints prescribe are off by at each instant, m/s.

@@ -11,6 +11,7 @@ from exu_press.integrate.first_order_error import FirstOrderError
 from exu_press.integrate.joint_error import JointError
 from exu_press.integrate.problem import Problem
 from exu_press.integrate.scales import FoundScales
+from exu_press.integrate.share import Share
 from exu_press.integrate.touch import Touch
 from exu_press.integrate.tuning import Tuning
 
@@ -18,16 +19,6 @@ __all__ = ["StepError"]
 
 CURRENT = exu.ConfigurationType.Current
 START = exu.ConfigurationType.StartOfStep
-
-
-def share_of(tolerance: float) -> float:
-    """Return what one step may have of a run's tolerance.
-
-    Generalized-alpha is of second order: its local error goes with h^3, and a run needs about
-    tolerance^(-1/2) steps. So that the error of the whole run follows the tolerance, one step may
-    have tolerance^(3/2); below 1e-4 a hundredth of the tolerance, as impacts become no more.
-    """
-    return max(math.pow(tolerance, 1.5), 1e-2 * tolerance)
 
 
 class StepError:
@@ -45,6 +36,7 @@ class StepError:
 
     Attributes:
         accelerations: of all coordinates at the end of the step last tried.
+        start: accelerations of all coordinates at the run's start, where they are not Exudyn's.
         of_joints: the part of the clearance joints in the error of that step.
         touches: of those clearance joints whose surfaces may touch.
     """
@@ -56,6 +48,7 @@ class StepError:
         scales: FoundScales,
         tolerance: float,
         longest: float,
+        duration: float,
         tuning: Tuning,
     ) -> None:
         """Look at what is solved.
@@ -66,13 +59,16 @@ class StepError:
             scales: of the motion; are told of it.
             tolerance: of the run.
             longest: step that may be taken, s.
+            duration: of the run, s.
             tuning: numbers.
         """
         self._problem, self._solver, self._scales = problem, solver, scales
         self._data: Any = problem.mbs.systemData
         self._tolerance, self._tuning = tolerance, tuning
-        share = share_of(tolerance)
+        share = Share.of(tolerance, duration, tuning.many_steps, problem.joints is not None)
+        self._share = share
         self.accelerations: list[float] = []
+        self.start: list[float] = []
         self.of_joints = 0.0
         self._bodies: BodyError | None = None
         self._first_order: FirstOrderError | None = None
@@ -80,7 +76,7 @@ class StepError:
         rounding = tuning.newton_rounding * problem.length
         per_time = tolerance / (tuning.kept_steps * longest)
         self._joints = [
-            JointError(j, share * j.clearance, per_time * j.clearance, rounding, tuning)
+            JointError(j, share.whole * j.clearance, per_time * j.clearance, rounding, tuning)
             for j in joints
         ]
         pairs = zip(joints, self._joints, strict=True)
@@ -93,8 +89,11 @@ class StepError:
         if self._bodies is None:
             self._bodies = self._first_look()
             if self._problem.first_order:
-                self._first_order = FirstOrderError(self._data, share_of(self._tolerance))
+                self._first_order = FirstOrderError(self._data, self._share)
         self.accelerations = self._data.GetODE2Coordinates_tt(CURRENT, False).tolist()
+        if self._scales.speed == 0.0:
+            velocities = self._data.GetODE2Coordinates_t(CURRENT, False).tolist()
+            self._scales.set_out(velocities, self.accelerations)
         error = self._bodies.tried(self.accelerations, step)
         if error > 1.0:
             error = self._bodies.error(self._filtered(self._bodies.change), step)
@@ -104,10 +103,24 @@ class StepError:
             error = max(error, self._bodies.of_peaks(step))
         if self._first_order is not None:
             error = max(error, self._first_order.error(step))
+        if self._problem.switching:
+            error = max(error, self.of_switch(step))
         self.of_joints = 0.0
         for joint in self._joints:
             self.of_joints = max(self.of_joints, joint.error(step))
         return max(error, self.of_joints)
+
+    def of_switch(self, step: float) -> float:
+        """Return the error of a step in which Exudyn's contacts or friction have switched.
+
+        The switch lies anywhere in the step, and its force is at most about as large as what the
+        accelerations show: half of it acted too long. As switches are few, that is held against
+        the tolerance itself.
+        """
+        if not self._solver.it.discontinuousIteration:
+            return 0.0
+        assert self._bodies is not None
+        return self._relative(0.5 * step * self._bodies.largest())
 
     def of_jump(self, step: float) -> float:
         """Return the error if a jump of the accelerations lies in the step just tried.
@@ -137,9 +150,10 @@ class StepError:
 
     def _first_look(self) -> BodyError:
         """Return the bodies' errors from the first step's beginning on."""
+        start = self.start or self._data.GetODE2Coordinates_tt(START, False).tolist()
         return BodyError(
-            accelerations=self._data.GetODE2Coordinates_tt(START, False).tolist(),
-            share=share_of(self._tolerance),
+            accelerations=start,
+            share=self._share,
             tolerance=self._tolerance,
             scales=self._scales,
             tuning=self._tuning,

@@ -5,6 +5,8 @@ from typing import Any
 import exudyn as exu
 import numpy as np
 
+from exu_press.integrate.share import Share
+
 __all__ = ["FirstOrderError", "start_rates"]
 
 CURRENT = exu.ConfigurationType.Current
@@ -27,7 +29,7 @@ def start_rates(mbs: exu.MainSystem, solver: Any) -> None:
 class FirstOrderError:
     """What the trapezoidal rule misses: h^3 |y'''| / 12, over each coordinate's largest value."""
 
-    def __init__(self, data: Any, share: float) -> None:
+    def __init__(self, data: Any, share: Share) -> None:
         """Take the system's data, and what one step may miss, relative."""
         self._data, self._share = data, share
         self._before = np.array(data.GetODE1Coordinates_t(START, False))
@@ -45,7 +47,7 @@ class FirstOrderError:
         missed = step * step * np.abs(change - self._change) / 12.0
         largest = np.maximum(self._largest, step * np.abs(rate))
         counts = largest > 0.0
-        return float((missed[counts] / largest[counts]).max(initial=0.0)) / self._share
+        return float((missed[counts] / largest[counts]).max(initial=0.0)) / self._share.at(step)
 
     def accept(self) -> None:
         """Remember the accepted step's end as the next one's beginning."""

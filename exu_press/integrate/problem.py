@@ -85,6 +85,7 @@ class Problem:
         modal_stiffness: whether all stiffness is that of flexible bodies' modes.
         first_order: whether there are first-order coordinates.
         switching: whether there are data variables, which Exudyn iterates on after Newton's method.
+        prescribed: whether user functions prescribe constraints' offsets, but not their rates.
         length: largest displacement coordinate at the start, m; their last digits are rounded.
     """
 
@@ -94,6 +95,7 @@ class Problem:
     modal_stiffness: bool
     first_order: bool
     switching: bool
+    prescribed: bool
     length: float
 
     @classmethod
@@ -131,6 +133,10 @@ class Problem:
             modal_stiffness=modal,
             first_order=data.ODE1Size() > 0,
             switching=data.DataSize() > 0,
+            prescribed=any(
+                item.get("offsetUserFunction", 0) != 0 and item.get("offsetUserFunction_t", 0) == 0
+                for item in objects
+            ),
             length=_length(data, nodes),
         )
 

@@ -12,6 +12,9 @@ above 0.8 the joints' peak forces were off by 9 to 90 %, seldom less; between 0.
 17 %. Below, steps say nothing against a peak, and nothing for it either: an error that an earlier
 impact left may have grown by then. How far a figure is off its stated error says (see
 `exu_press.confidence`).
+
+Loads and prescribed motions of other systems may jump themselves, and steps end on that within what
+the tolerance leaves: a jump that changes no speed by a tenth of it is none of the step's.
 """
 
 import math
@@ -44,24 +47,29 @@ class Unresolved:
 class Resolution:
     """Follows the inertia forces of all bodies from step to step."""
 
-    def __init__(self, scales: FoundScales, spectral_radius: float, tuning: Tuning) -> None:
+    def __init__(
+        self, scales: FoundScales, spectral_radius: float, least: float, tuning: Tuning
+    ) -> None:
         """Start.
 
         Args:
             scales: of the motion, which knows the bodies.
             spectral_radius: at infinity, by which a ring decays from step to step.
+            least: part of the largest speed that a jump must change within its step to count.
             tuning: numbers.
         """
         self._scales, self._radius = scales, spectral_radius
+        self._least = least
         self._allowed = tuning.largest_jump
         self._time = 0.0
         self._before: list[float] = []
         # A stiff film that starts from rest makes the accelerations ring; that is no impact.
         self._started: list[float] = []
         self._ring = 1.0
-        self._largest = self._jump = 0.0
+        self._largest = 0.0
         self._steps = 0
-        self._worst = 0.0, 0.0, 0  # end and size of the step (s), node
+        # size, end and size of the step (s), node, and half the change of speed in the step (m/s)
+        self._jumps: list[tuple[float, float, float, int, float]] = []
 
     def stepped(self, time: float, accelerations: list[float]) -> None:
         """Be told of an accepted step's end (s), or of the start."""
@@ -85,12 +93,17 @@ class Resolution:
             ringing = self._started[i] * self._ring
             self._largest = max(self._largest, mass * (math.sqrt(sizes[i]) - ringing))
             jump = mass * (math.sqrt(jumps[i]) - ringing)
-            if jump > self._jump:
-                self._jump, self._worst = jump, (time, time - start, i)
+            if jump > self._allowed * self._largest:
+                change = 0.5 * (time - start) * math.sqrt(jumps[i])
+                self._jumps.append((jump, time, time - start, i, change))
 
     def worst(self) -> Unresolved | None:
         """Return the step with the largest change of an inertia force, if it is too large."""
-        if self._steps < 2 or self._largest <= 0.0 or self._jump <= self._allowed * self._largest:
+        least = self._least * self._scales.speed
+        felt = [found for found in self._jumps if found[-1] > least]
+        if self._steps < 2 or not felt:
             return None
-        time, step, node = self._worst
-        return Unresolved(time, step, node, self._jump / self._largest)
+        jump, time, step, node, _ = max(felt)
+        if jump <= self._allowed * self._largest:
+            return None
+        return Unresolved(time, step, node, jump / self._largest)

@@ -55,6 +55,7 @@ class FoundScales:
         self.acceleration = given.acceleration or 0.0
         self.force = given.force or 0.0
         self.fixed = False
+        self._longest = 0.0
 
     def begin(
         self,
@@ -63,6 +64,7 @@ class FoundScales:
         masses: list[float],
         velocities: list[float],
         accelerations: list[float],
+        places: list[float],
         longest: float,
         widest: float,
     ) -> None:
@@ -74,6 +76,7 @@ class FoundScales:
             masses: of the nodes, kg; 0.0 where they are to be found.
             velocities: of all coordinates.
             accelerations: of all coordinates.
+            places: the coordinates, which angles and Euler parameters are among.
             longest: step, s.
             widest: clearance, m, or 0.0 without clearance joints.
         """
@@ -81,6 +84,10 @@ class FoundScales:
         self.inertias, self.masses = inertias, list(masses)
         self._own = [mass == 0.0 for mass in masses]
         self._energies = [0.0 for _ in masses]
+        self._longest = longest
+        squares = zip(self._sums(places), masses, strict=True)
+        widths = [math.sqrt(s / m) for s, m in squares if m > 0.0]
+        self.length = max([self.length, *widths])
         given = self._given.speed, self._given.acceleration, self._given.force
         self.fixed = True not in self._own and None not in given
         if self.fixed:
@@ -92,6 +99,12 @@ class FoundScales:
             time = min(longest, math.sqrt(4.0 * widest / largest))
         self.update([time * value for value in accelerations], accelerations)
         self.update(velocities, accelerations)
+
+    def set_out(self, velocities: list[float], accelerations: list[float]) -> None:
+        """Be told of a state that a step was tried to, in which a system may have left its rest."""
+        if self.speed == 0.0:
+            self.update([self._longest * value for value in accelerations], accelerations)
+            self.update(velocities, accelerations)
 
     def update(self, velocities: list[float], accelerations: list[float]) -> None:
         """Be told of a state."""

@@ -90,7 +90,7 @@ def prepared(settings: exu.SimulationSettings, problem: Problem, smallest: float
             {
                 "ignoreMaxIterations": False,
                 "maxIterations": discontinuous.maxIterations if problem.switching else 1,
-                "iterationTolerance": 1.0,
+                "iterationTolerance": min(discontinuous.iterationTolerance, 1.0),
                 "useRecommendedStepSize": True,
             },
         ),

@@ -9,6 +9,7 @@ import exudyn as exu
 from threadpoolctl import threadpool_limits
 
 from exu_press.integrate.advice import Advice
+from exu_press.integrate.constraints import Constraints
 from exu_press.integrate.ending import how_it_ended
 from exu_press.integrate.error import StepError
 from exu_press.integrate.first_order_error import start_rates
@@ -20,6 +21,7 @@ from exu_press.integrate.problem import Problem, weights
 from exu_press.integrate.resolution import Resolution
 from exu_press.integrate.scales import FoundScales, Scales
 from exu_press.integrate.settings import prepared, refuse_unusable
+from exu_press.integrate.start import fit_start
 from exu_press.integrate.step_change import StepChange
 from exu_press.integrate.stepping import FixedSteps, StepControl
 from exu_press.integrate.tuning import Tuning
@@ -103,22 +105,26 @@ def solve_dynamic(
         smallest = 2.0**-tuning.halvings * largest
         smallest = min(smallest, 0.5 * tuning.first_step_of_film) if films else smallest
     solver: Any = exu.MainSolverImplicitSecondOrder()  # whose type stub forgets `self`
+    accuracy = FIXED_STEPS if tolerance is None else tolerance
     found = FoundScales(scales, problem.length)
     newton = Newton(
         mbs,
         solver,
         problem.joints,
         found,
-        FIXED_STEPS if tolerance is None else tolerance,
+        accuracy,
         tuning,
         problem.nodes,
     )
-    step_change = StepChange(mbs, solver, smooth=problem.joints is None, tuning=tuning)
+    constraints = Constraints(mbs, solver, problem.prescribed)
+    step_change = StepChange(mbs, solver, constraints, smooth=problem.joints is None, tuning=tuning)
     film_start = step_change if films else None
-    resolution = Resolution(found, integration.generalizedAlpha.spectralRadius, tuning)
+    least = 0.1 * accuracy if problem.joints is None else 0.0
+    resolution = Resolution(found, integration.generalizedAlpha.spectralRadius, least, tuning)
     if problem.modal_stiffness:
         FlexibleJacobian(mbs, solver, problem.joints)
     control: StepControl | FixedSteps
+    estimate = StepError(problem, solver, found, accuracy, largest, end - start, tuning)
     if tolerance is None:
         first = min(largest, tuning.first_step_of_film) if films else largest
         control = FixedSteps(
@@ -127,7 +133,7 @@ def solve_dynamic(
     else:
         first = integration.initialStepSize or tuning.first_step * largest
         control = StepControl(
-            StepError(problem, solver, found, tolerance, largest, tuning),
+            estimate,
             solver,
             newton,
             end=end,
@@ -145,6 +151,10 @@ def solve_dynamic(
         if problem.first_order:
             start_rates(mbs, solver)
         solver.ComputeMassMatrix(mbs)
+        fitted = fit_start(mbs, solver, constraints, problem.length, tuning.look_ahead * largest)
+        if fitted is not None:
+            step_change.start_from(fitted)
+            estimate.start = fitted.tolist()
         inertias, masses = weights(problem.nodes, solver.GetSystemMassMatrix())
         now = data.GetODE2Coordinates_tt(exu.ConfigurationType.Current, False).tolist()
         found.begin(
@@ -153,6 +163,10 @@ def solve_dynamic(
             masses=masses,
             velocities=data.GetODE2Coordinates_t(exu.ConfigurationType.Current, False).tolist(),
             accelerations=now,
+            places=(
+                data.GetODE2Coordinates(exu.ConfigurationType.Current, False)
+                + data.GetODE2Coordinates(exu.ConfigurationType.Reference)
+            ).tolist(),
             longest=largest,
             widest=problem.joints.widest if problem.joints is not None else 0.0,
         )

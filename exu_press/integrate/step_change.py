@@ -33,14 +33,15 @@ import exudyn as exu
 import numpy as np
 from numpy.typing import NDArray
 
+from exu_press.integrate.constraints import Constraints
 from exu_press.integrate.tuning import Tuning
 
 __all__ = ["StepChange"]
 
 Array = NDArray[np.float64]
 
-GIVE = 1e-10
-"""Of constraints, over what the masses give way."""
+AHEAD = 1.0 / 64.0
+"""Of a step: near enough to tell velocities from positions, far enough for rounded ones."""
 
 CURRENT = exu.ConfigurationType.Current
 START = exu.ConfigurationType.StartOfStep
@@ -49,19 +50,27 @@ START = exu.ConfigurationType.StartOfStep
 class StepChange:
     """Fits the state at a step's beginning to the step, if that is another or repeated."""
 
-    def __init__(self, mbs: exu.MainSystem, solver: Any, smooth: bool, tuning: Tuning) -> None:
+    def __init__(
+        self,
+        mbs: exu.MainSystem,
+        solver: Any,
+        constraints: Constraints,
+        smooth: bool,
+        tuning: Tuning,
+    ) -> None:
         """Watch the steps of a system.
 
         Args:
             mbs: the system.
             solver: an exu.MainSolverImplicitSecondOrder, which is about to solve it.
+            constraints: of the system.
             smooth: whether there is neither a film nor a contact.
             tuning: numbers.
         """
         self._smooth = smooth
         self._same, self._refit = tuning.same_step, tuning.refit
         self._iterations = tuning.constraint_iterations
-        self._mbs, self._solver = mbs, solver
+        self._solver, self._constraints = solver, constraints
         self._data: Any = mbs.systemData
         self._start: float | None = None  # of the step under way, s
         self._last: float | None = None  # size of the last accepted step, s
@@ -69,6 +78,7 @@ class StepChange:
         self._state: list[Array] | None = None  # at the step's beginning, before any shift
         self._offsets: tuple[Array, Array] | None = None
         self._mean: Array | None = None  # acceleration of the first step
+        self._given: Array | None = None  # accelerations at the start, where Exudyn has others
 
     def start_over(self, time: float) -> bool:
         """Return whether the first step is to be repeated, from its own mean acceleration.
@@ -80,6 +90,10 @@ class StepChange:
         (_, now, _), (_, before, _) = self._views(CURRENT), self._views(START)
         self._mean = np.asarray((now - before) / (time - self._start))
         return True
+
+    def start_from(self, accelerations: Array) -> None:
+        """Let the first step start from other accelerations than Exudyn's."""
+        self._given = accelerations
 
     def before_try(self, time: float) -> None:
         """Shift the state from which Exudyn is about to try a step to `time`, s."""
@@ -94,7 +108,8 @@ class StepChange:
         ratio = 1.0 if self._last is None else step / self._last
         if not self._smooth:
             ratio = min(1.0, ratio)
-        if repeated or abs(ratio - 1.0) > self._same:
+        given = self._last is None and self._given is not None
+        if repeated or given or abs(ratio - 1.0) > self._same:
             self._shift(step, ratio)
 
     def _shift(self, step: float, ratio: float) -> None:
@@ -117,8 +132,9 @@ class StepChange:
                 self._leaves = step
         at_start = solver.GetStartOfStepStateAAlgorithmic()
         wanted = a + ratio * (at_start - a)
-        if self._last is None and self._mean is not None:
-            a = wanted = self._mean
+        first = self._given if self._mean is None else self._mean
+        if self._last is None and first is not None:
+            a = wanted = first
         # q1 = q + h v + h^2 (1/2 - beta) a + h^2 beta a1 and v1 = v + h (1 - gamma) a + h gamma a1
         # with (1 - alpha_m) a1 + alpha_m a = (1 - alpha_f) a_true1 + alpha_f a_true
         beta, gamma = solver.newmarkBeta, solver.newmarkGamma
@@ -150,32 +166,22 @@ class StepChange:
         assert self._state is not None
         solver = self._solver
         mass = np.asarray(solver.GetSystemMassMatrix())
-        size, count = len(mass), solver.GetAEsize()
+        size, count = len(mass), self._constraints.count
         if count == 0:
             return np.zeros(size), np.zeros(size)
-        constraints = np.asarray(solver.GetSystemJacobian())[-count:, :size]
-        # Euler parameters have no mass along themselves, where a constraint holds them: the masses
-        # alone cannot be inverted, with the constraints they can
-        matrix = np.zeros((size + count, size + count))
-        matrix[:size, :size] = mass
-        matrix[size:, :size] = constraints
-        matrix[:size, size:] = constraints.T
-        # and a little give, so that constraints which say the same, or nothing, may be there
-        give = GIVE * np.square(constraints).max() / np.diag(mass).max()
-        matrix[range(size, size + count), range(size, size + count)] = -give or -1.0
+        directions = np.asarray(solver.GetSystemJacobian())[-count:, :size]
+        matrix = self._constraints.matrix(mass, directions)
         position, velocity, _ = self._views(CURRENT)
+        now = self._data.GetTime()
+        self._data.SetTime(self._start)
         found, violated = np.zeros((size, 2)), np.zeros((size + count, 2))
         for _ in range(self._iterations):
             position[:] = self._state[0] - found[:, 0]
             velocity[:] = self._state[1] - found[:, 1]
-            self._violations(violated[size:])
+            violated[size:, 0] = self._constraints.violated()
+            violated[size:, 1] = self._constraints.violated_rates(AHEAD * self._fits)
+            same = violated[:, 0] == violated[:, 1]
+            violated[same, 0] = 0.0  # prescribed speeds are no places
             found += np.linalg.solve(matrix, violated)[:size]
+        self._data.SetTime(now)
         return found[:, 0], found[:, 1]
-
-    def _violations(self, found: Array) -> None:
-        """Write how far constraints are violated into (n, 2): positions, velocities."""
-        solver, size = self._solver, len(found)
-        for column, velocity_level in enumerate((False, True)):
-            solver.ComputeAlgebraicEquations(self._mbs, velocityLevel=velocity_level)
-            found[:, column] = np.asarray(solver.GetSystemResidual())[-size:]
-        found[found[:, 0] == found[:, 1], 0] = 0.0  # prescribed speeds are no places

@@ -25,10 +25,14 @@ class Tuning:
             joints rises so that the next one would. Errors of bodies rise and fall too fast to be
             foreseen, and a change of step leaves an error behind, which shortening would chase.
         rise: by what the joints' error is expected to rise at most from one step to the next.
+        look_ahead: how far ahead of the start constraints are asked, over the largest step
+            (`exu_press.integrate.start`).
         first_step: first step over the largest one.
         first_step_of_film: first step with a film, s. Journals start centred and without load, and
             a film takes up its load within about a microsecond: a longer step would make it ring, a
             shorter one is lost in rounding.
+        many_steps: times tolerance^(-1/2), the number of steps of a run from which on their errors
+            are taken to add up as errors of either sign do (`exu_press.integrate.share`).
         halvings: how far a fixed step may be halved where Newton's method fails, as a power of 2.
         velocity_constant: of generalized-alpha's local error h^3 times the second derivative of the
             acceleration: 0.083 to 0.077 for spectral radii at infinity of 1 to 0.8, doubled.
@@ -82,8 +86,10 @@ class Tuning:
     factor_min: float = 0.05
     foreseen_min: float = 0.7
     rise: float = 3.0
+    look_ahead: float = 0.01
     first_step: float = 1.0 / 64.0
     first_step_of_film: float = 1e-7
+    many_steps: float = 10.0
     halvings: int = 10
 
     velocity_constant: float = 2.0 / 12.0

@@ -8,8 +8,22 @@ from functools import partial
 import exudyn as exu
 
 from exudyn_examples.example import Example
-from exudyn_examples.other import bouncing_ball, hydraulics, lugre, regularized, watch
-from exudyn_examples.planar import double_pendulum, four_bar, iftomm_pendulum, slider_crank
+from exudyn_examples.other import (
+    bouncing_ball,
+    cradle,
+    hydraulics,
+    lugre,
+    regularized,
+    stick_slip,
+    watch,
+)
+from exudyn_examples.planar import (
+    double_pendulum,
+    driven_crank,
+    four_bar,
+    iftomm_pendulum,
+    slider_crank,
+)
 from exudyn_examples.spatial import (
     bricard,
     flyball_governor,
@@ -26,6 +40,11 @@ ANGLES = {"node_type": exu.NodeType.RotationRxyz}
 
 def sparse(settings):
     settings.linearSolver.solverType = exu.LinearSolverType.EigenSparse
+
+
+def sharp(settings):
+    """Contacts of Exudyn's own accept a newton of error, unless they are told better."""
+    settings.timeIntegration.discontinuous.iterationTolerance = 1e-2
 
 
 def redundant(settings):
@@ -58,7 +77,16 @@ EXAMPLES = {
     "heavy top": Example(heavy_top, 0.5, 0.1, "TestModels/heavyTop.py"),
     "rolling disc": Example(rolling_disc, 1.0, 0.5, "TestModels/createRollingDiscTest.py"),
     "friction band": Example(regularized, 1.0, 0.5, "Examples/massSpringFrictionInteractive.py"),
-    "bouncing ball": Example(bouncing_ball, 0.5, 0.2, "TestModels/contactCoordinateTest.py"),
+    "bouncing ball": Example(
+        bouncing_ball, 0.5, 0.2, "TestModels/contactCoordinateTest.py", change=sharp
+    ),
+    "stick-slip": Example(
+        stick_slip, 2.0, 0.5, "TestModels/coordinateSpringDamperExt.py", finest=1e-3
+    ),
+    "Newton's cradle": Example(
+        cradle, 0.6, 0.4, "Examples/newtonsCradle.py", change=sparse, positions=True
+    ),
+    "driven crank": Example(driven_crank, 1.0, 0.5, "an offset as a function of time"),
     "LuGre": Example(lugre, 10.0, 5.0, "Examples/lugreFrictionODE1.py"),
     "hydraulics": Example(hydraulics, 1.0, 0.1, "TestModels/hydraulicActuatorSimpleTest.py"),
     "balance wheel": Example(watch, 2.0, 0.5, "millimetres and milligrams"),

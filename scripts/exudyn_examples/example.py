@@ -21,6 +21,9 @@ class Example:
         short: end of the quick run, s.
         steps: `numberOfSteps`, which sets the largest step, of the run to `end`.
         change: of the settings, as the user has them.
+        positions: whether errors are those of positions: velocities jump in impacts, and a
+            millionth of a second makes errors as large as they are.
+        finest: tolerance that the system itself can follow.
         source: the example of Exudyn's repository after which it is written, or what it shows.
     """
 
@@ -29,6 +32,8 @@ class Example:
     short: float
     source: str
     steps: int = 100
+    positions: bool = False
+    finest: float = 1e-6
     change: Callable[[Any], None] = field(default=lambda settings: None)
 
     def settings(self, end: float, steps: int | None = None) -> exu.SimulationSettings:

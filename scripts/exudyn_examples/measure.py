@@ -87,18 +87,22 @@ def _weights(mbs):
     return np.sqrt(np.array(inertias) / mass), body
 
 
-def error(one, fine):
+def error(one, fine, positions=False):
     """Largest error of any body's velocity in the kinetic norm, over the largest speed.
+
+    Or of its position, over the longest way.
 
     First-order coordinates: over each one's largest value. Angles and modes that belong to no mass:
     over their largest velocity.
     """
     found = 0.0
-    _, fine_v, fine_a, fine_y, fine_rate = fine.states
+    level = 0 if positions else 1
+    fine_v, fine_a = fine.states[level] - fine.states[level][0] * positions, fine.states[level + 1]
+    fine_y, fine_rate = fine.states[3:]
     time = np.clip(one.time, fine.time[0], fine.time[-1])
     if len(fine.weight):
         there = CubicHermiteSpline(fine.time, fine_v, fine_a)(time)
-        missed = one.states[1] - there
+        missed = one.states[level] - fine.states[level][0] * positions - there
         owned = ~np.isnan(fine.weight)
         weight = np.where(owned, fine.weight, 0.0)
 

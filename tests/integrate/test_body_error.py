@@ -6,6 +6,7 @@ import pytest
 
 from exu_press.integrate.body_error import BodyError
 from exu_press.integrate.scales import FoundScales, Scales
+from exu_press.integrate.share import Share
 from exu_press.integrate.stepping import ORDER
 from exu_press.integrate.tuning import Tuning
 
@@ -23,12 +24,13 @@ def errors(velocity_limit=1e-3, tolerance=1e-2, masses=(2.0,)):
         masses=list(masses),
         velocities=rest,
         accelerations=rest,
+        places=rest,
         longest=1.0,
         widest=0.0,
     )
     return BodyError(
         rest,
-        share=velocity_limit,
+        share=Share(velocity_limit),
         tolerance=tolerance,
         scales=scales,
         tuning=TUNING,

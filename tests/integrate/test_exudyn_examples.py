@@ -8,17 +8,32 @@ from exu_press import Status
 from exudyn_examples import EXAMPLES
 from exudyn_examples.measure import error, run
 
-TOLERANCES = (1e-2, 1e-3, 1e-4)
-
 
 @cache
-def fine(name):
-    return run(EXAMPLES[name], tolerance=0.1 * TOLERANCES[-1], end=EXAMPLES[name].short)
+def fine(name, tolerance, end):
+    return run(EXAMPLES[name], tolerance=tolerance, end=end)
 
 
-@pytest.mark.parametrize("tolerance", TOLERANCES)
-@pytest.mark.parametrize("name", EXAMPLES)
+def follows(name, tolerance, finest, end):
+    example = EXAMPLES[name]
+    done = run(example, tolerance=tolerance, end=end)
+    # impacts of hard balls are found, but their peaks are not to be trusted at loose tolerances
+    ends = (Status.COMPLETED, Status.UNDER_RESOLVED)
+    assert done.outcome.status in ends[: 1 + example.positions], done.outcome.reason
+    reference = fine(name, 0.1 * max(finest, example.finest), end)
+    assert 0.01 < error(done, reference, example.positions) / tolerance < 10.0
+
+
+def cases(*tolerances):
+    return [(name, t) for name in EXAMPLES for t in tolerances if t >= EXAMPLES[name].finest]
+
+
+@pytest.mark.parametrize(("name", "tolerance"), cases(1e-2, 1e-3, 1e-4))
 def test_the_error_follows_the_tolerance(name, tolerance):
-    done = run(EXAMPLES[name], tolerance=tolerance, end=EXAMPLES[name].short)
-    assert done.outcome.status is Status.COMPLETED, done.outcome.reason
-    assert 0.01 < error(done, fine(name)) / tolerance < 10.0
+    follows(name, tolerance, 1e-4, EXAMPLES[name].short)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("name", "tolerance"), cases(1e-2, 1e-3, 1e-4, 1e-5, 1e-6))
+def test_the_error_follows_the_tolerance_over_the_whole_run(name, tolerance):
+    follows(name, tolerance, 1e-6, EXAMPLES[name].end)

@@ -1,0 +1,117 @@
+"""What the constraints of a system forbid: how far they are violated, and the least that mends it.
+
+Exudyn tells violations of positions, and of velocities where a constraint has a rate of its own.
+But where a user function prescribes an offset and none its rate, Exudyn takes that for zero; so the
+rates of such systems are found from positions, a little ahead and a little behind.
+"""
+
+from typing import Any
+
+import exudyn as exu
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["Constraints"]
+
+Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+
+CURRENT = exu.ConfigurationType.Current
+
+GIVE = 1e-10
+"""Of constraints, over what the masses give way."""
+
+
+class Constraints:
+    """The constraints of a system.
+
+    Attributes:
+        count: how many they are.
+    """
+
+    def __init__(self, mbs: exu.MainSystem, solver: Any, prescribed: bool) -> None:
+        """Take a system.
+
+        Args:
+            mbs: the system.
+            solver: an exu.MainSolverImplicitSecondOrder, which is about to solve it.
+            prescribed: whether user functions prescribe offsets, but not their rates.
+        """
+        self._mbs, self._solver, self._prescribed = mbs, solver, prescribed
+        self._data: Any = mbs.systemData
+        self._of_velocities: Flags | None = None
+
+    @property
+    def count(self) -> int:
+        """How many they are."""
+        found: int = self._solver.GetAEsize()
+        return found
+
+    def of_velocities(self) -> Flags:
+        """Return which of them hold velocities; the others hold positions."""
+        if self._of_velocities is None:
+            self._of_velocities = np.asarray(self._jacobian(0.0, 1.0).any(axis=1))
+        return self._of_velocities
+
+    def directions(self) -> Array:
+        """Return the rate of each one's violation with the coordinates it holds, (count, n)."""
+        return self._jacobian(1.0, 0.0) + self._jacobian(0.0, 1.0)
+
+    def _jacobian(self, of_positions: float, of_velocities: float) -> Array:
+        solver = self._solver
+        before = np.array(solver.GetSystemJacobian())
+        size, count = solver.GetODE2size(), self.count
+        solver.SetSystemJacobian(np.zeros((size + solver.GetODE1size() + count,) * 2))
+        solver.ComputeJacobianAE(self._mbs, of_positions, of_velocities)
+        found = np.array(solver.GetSystemJacobian())[-count:, :size]
+        solver.SetSystemJacobian(before)
+        return found
+
+    def violated(self, *, velocities: bool = False) -> Array:
+        """Return by how much each is violated in the current state; or its rate, if it has one."""
+        self._solver.ComputeAlgebraicEquations(self._mbs, velocityLevel=velocities)
+        return np.array(self._solver.GetSystemResidual())[-self.count :]
+
+    def violated_rates(self, ahead: float) -> Array:
+        """Return by how much velocities of the current state violate each constraint.
+
+        Args:
+            ahead: time within which positions tell it where velocities do not, s.
+        """
+        if not self._prescribed:
+            return self.violated(velocities=True)
+        data = self._data
+        time = data.GetTime()
+        positions = data.GetODE2Coordinates(CURRENT, False)
+        velocities = data.GetODE2Coordinates_t(CURRENT, False)
+        now, here = np.array(positions), self.violated()
+        beside = []
+        for side in (ahead, -ahead):
+            positions[:] = now + side * velocities
+            data.SetTime(time + side)
+            beside.append(self.violated())
+        positions[:] = now
+        data.SetTime(time)
+        rates = (beside[0] - beside[1]) / (2.0 * ahead)
+        return np.where(self.of_velocities(), here, rates)
+
+    def matrix(self, mass: Array, directions: Array) -> Array:
+        """Return [[M, C^T], [C, -give]].
+
+        Euler parameters have no mass along themselves, where a constraint holds them: the masses
+        alone cannot be inverted, with the constraints they can. The little give allows for
+        constraints that say the same as others, or nothing.
+
+        Args:
+            mass: (n, n).
+            directions: C, (count, n).
+        """
+        size, count = len(mass), len(directions)
+        matrix = np.zeros((size + count, size + count))
+        matrix[:size, :size] = mass
+        matrix[size:, :size] = directions
+        matrix[:size, size:] = directions.T
+        give = GIVE * np.square(directions).max() / np.diag(mass).max()
+        own = range(size, size + count)
+        matrix[own, own] = -give or -1.0
+        return matrix

@@ -8,10 +8,10 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from exu_press.cli.precision import finish
 from exu_press.errors import InputError
 from exu_press.output import output_directory, write_json
 from exu_press.studies.precision import Report, precision
-from exu_press.studies.precision.table import report_lines
 from precision.cases import chosen
 from precision.goals import goals_of
 from precision.peers import left_out
@@ -51,14 +51,7 @@ def run(options: argparse.Namespace) -> int:
         goals_of=goals_of,
         left_out=left_out(),
     )
-    written = ["precision.json"]
-    if not options.no_pictures:
-        from exu_press.plots.precision import save_precision
-
-        written += [path.name for path in save_precision(report, directory)]
-    if not options.quiet:
-        print("\n".join(report_lines(report)))
-        print("written:", ", ".join(written), f"in {directory}")
+    finish(report, directory, options)
     return 0
 
 

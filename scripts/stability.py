@@ -8,8 +8,9 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from exu_press.cli.stability import finish
 from exu_press.errors import InputError
-from exu_press.output import output_directory, write_json
+from exu_press.output import output_directory
 from exu_press.studies.stability import stability
 from stability.cases import cases, quick_cases
 
@@ -45,16 +46,7 @@ def run(options: argparse.Namespace) -> int:
     report = stability(
         chosen, directory, quick=options.quick, workers=options.workers, quiet=options.quiet
     )
-    write_json(directory / "stability.json", report.to_dict())
-    written = ["stability.json"]
-    if not options.no_pictures:
-        from exu_press.plots.stability import save_stability
-
-        written.append(save_stability(report, directory).name)
-    if not options.quiet:
-        print("\n".join(report.lines()))
-        print("written:", ", ".join(written), f"in {directory}")
-    return 1 if report.counts()["wrong"] else 0
+    return finish(report, directory, options)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

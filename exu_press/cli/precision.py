@@ -2,11 +2,15 @@
 
 import argparse
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from exu_press.cli.options import add_scene_arguments, directory_of, scene_of
 from exu_press.output import output_directory, write_json
 
-__all__ = ["EXAMPLE", "add_arguments", "execute"]
+if TYPE_CHECKING:
+    from exu_press.studies.precision import Report
+
+__all__ = ["EXAMPLE", "add_arguments", "execute", "finish"]
 
 EXAMPLE = "exu-press precision slider_crank --quick --out out/precision"
 
@@ -22,11 +26,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def execute(options: argparse.Namespace) -> int:
     """Run the study; return 0, as runs that fail are part of what it reports."""
     from exu_press.studies.precision import case_of, precision
-    from exu_press.studies.precision.table import report_lines
 
     case = case_of(Path(options.scene).stem, scene_of(options))
     directory = output_directory(directory_of(options))
     report = precision((case,), quick=options.quick, quiet=options.quiet)
+    finish(report, directory, options)
+    return 0
+
+
+def finish(report: "Report", directory: Path, options: argparse.Namespace) -> None:
+    """Write, draw and print a report."""
+    from exu_press.studies.precision.table import report_lines
+
     write_json(directory / "precision.json", report.to_dict())
     written = ["precision.json"]
     if not options.no_pictures:
@@ -36,4 +47,3 @@ def execute(options: argparse.Namespace) -> int:
     if not options.quiet:
         print("\n".join(report_lines(report)))
         print("written:", ", ".join(written), f"in {directory}")
-    return 0

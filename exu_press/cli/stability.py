@@ -2,12 +2,16 @@
 
 import argparse
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from exu_press.cli.options import add_scene_arguments, directory_of, scene_of
 from exu_press.errors import InputError
 from exu_press.output import output_directory, write_json
 
-__all__ = ["EXAMPLE", "add_arguments", "execute"]
+if TYPE_CHECKING:
+    from exu_press.studies.stability import Report
+
+__all__ = ["EXAMPLE", "add_arguments", "execute", "finish"]
 
 EXAMPLE = "exu-press stability slider_crank --key contact.damping_max --out out/stability"
 
@@ -37,6 +41,11 @@ def execute(options: argparse.Namespace) -> int:
     chosen = [case for case in table if not options.key or case.axis in options.key]
     directory = output_directory(directory_of(options))
     report = stability(chosen, directory, workers=options.workers, quiet=options.quiet)
+    return finish(report, directory, options)
+
+
+def finish(report: "Report", directory: Path, options: argparse.Namespace) -> int:
+    """Write, draw and print a report; return 0, or 1 if a case is wrong."""
     write_json(directory / "stability.json", report.to_dict())
     written = ["stability.json"]
     if not options.no_pictures:

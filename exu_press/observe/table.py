@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from exu_press.columns import columns
 from exu_press.observe.uncertain import uncertain
 
 __all__ = ["comparison_cells", "comparison_lines", "run_lines"]
@@ -142,12 +143,7 @@ def comparison_cells(summaries: Mapping[str, Summary]) -> list[list[str]]:
 
 def comparison_lines(summaries: Mapping[str, Summary]) -> list[str]:
     """Return a table, one column a run."""
-    cells = comparison_cells(summaries)
-    widths = [max(len(line[i]) for line in cells) for i in range(len(cells[0]))]
-    return [
-        "  ".join(cell.ljust(width) for cell, width in zip(line, widths, strict=True)).rstrip()
-        for line in cells
-    ]
+    return columns(comparison_cells(summaries))
 
 
 def run_lines(summary: Summary) -> list[str]:

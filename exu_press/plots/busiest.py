@@ -5,6 +5,7 @@ from collections.abc import Collection, Iterable, Mapping
 import numpy as np
 from matplotlib.axes import Axes
 
+from exu_press.columns import columns
 from exu_press.plots.peaks import with_error
 from exu_press.plots.sides import joint_titles
 from exu_press.plots.style import GREY
@@ -48,11 +49,7 @@ def rest_lines(result: Result, rest: Mapping[str, str]) -> list[str]:
                 with_error(result, f"joints.{name}.peak_force", _peak(result, name), 1e-3),
             )
         )
-    widths = [max(len(line[column]) for line in cells) for column in range(len(cells[0]))]
-    return [
-        "  ".join(cell.ljust(width) for cell, width in zip(line, widths, strict=True)).rstrip()
-        for line in cells
-    ]
+    return columns(cells)
 
 
 def draw_rest(axes: Axes, result: Result, rest: Mapping[str, str], size: float = 8.0) -> None:

@@ -2,11 +2,12 @@
 
 from collections.abc import Sequence
 
+from exu_press.columns import columns
 from paper.readings import MODELS
 from paper.report import Report
 from paper.side_by_side import Peaks
 
-__all__ = ["aligned", "side_by_side_lines"]
+__all__ = ["side_by_side_lines"]
 
 HEADINGS = {"resolved": "resolved", "mean_1ms": "over 1 ms", "differentiated_1khz": "1 kHz"}
 
@@ -55,7 +56,7 @@ def _peaks(dampings: Sequence[str], pair: Sequence[Peaks]) -> list[str]:
         table.append((words, "", "", *cells))
     ratios = [(_text(peaks.sampling(), ".3g"), "", "", "") for peaks in pair]
     table.append(("largest ratio of resolved to over 1 ms", "", "", *sum(ratios, ())))
-    return aligned(table)
+    return columns(table)
 
 
 def _settings(report: Report) -> list[str]:
@@ -65,17 +66,8 @@ def _settings(report: Report) -> list[str]:
     for words in dict.fromkeys(words for one in found.values() for words in one.settings):
         values = [one.settings.get(words) for one in found.values()]
         table.append((words, *(_text(value, ".2f") for value in values)))
-    return aligned(table)
+    return columns(table)
 
 
 def _text(value: float | None, digits: str) -> str:
     return "-" if value is None else f"{value:{digits}}"
-
-
-def aligned(lines: Sequence[Sequence[str]]) -> list[str]:
-    """Return lines of cells in columns."""
-    widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
-    return [
-        "  ".join(cell.ljust(width) for cell, width in zip(line, widths, strict=True)).rstrip()
-        for line in lines
-    ]

@@ -3,11 +3,12 @@
 import textwrap
 from collections.abc import Iterable, Sequence
 
+from exu_press.columns import columns
 from paper.comparison import DATUM
 from paper.readings import MODELS, OBSERVED
 from paper.report import Findings, Report
 from paper.rows import AGREES_WITHIN, Row
-from paper.side_by_side_table import aligned, side_by_side_lines
+from paper.side_by_side_table import side_by_side_lines
 
 __all__ = ["report_lines"]
 
@@ -61,7 +62,7 @@ def _section(title: str, rows: Sequence[Row], headings: Sequence[str]) -> list[s
     if not rows:
         return []
     cells = [_trend(row) if headings is TRENDS else _number(row) for row in rows]
-    return aligned([(title, *headings), *cells])
+    return columns([(title, *headings), *cells])
 
 
 def _number(row: Row) -> tuple[str, ...]:

@@ -5,7 +5,7 @@ from typing import Any
 from exu_press.errors import InputError
 from exu_press.scene import Film, Scene, flexible_press
 from exu_press.studies.precision.cases import STEPS, TOLERANCES, Case
-from precision.extras import Reduced, Squeezer
+from precision.other_solvers import Reduced, Squeezer
 
 __all__ = ["cases", "chosen"]
 

@@ -1,14 +1,17 @@
 """The report as a person reads it in a terminal."""
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
+from exu_press.columns import columns
 from exu_press.studies.precision.errors import PEAKS_APART
 from exu_press.studies.precision.report import Report
 from exu_press.studies.precision.rows import Row
 
 __all__ = ["horizon_words", "report_lines"]
+
+INDENT = 2
 
 HEAD = (
     "solver",
@@ -47,7 +50,7 @@ def report_lines(report: Report) -> list[str]:
             f"  errors up to then, {units} and relative; < smaller than the reference can tell; "
             "* one run, not the median of three",
             f"  reference: {reference['method']}; {_difference(reference)}",
-            *_aligned([HEAD, *(_cells(row) for row in rows)]),
+            *columns([HEAD, *(_cells(row) for row in rows)], INDENT),
             *_reasons(rows),
             *(_late_lines(rows) if case["horizon"] < case["duration"] else ()),
             "",
@@ -62,7 +65,9 @@ def report_lines(report: Report) -> list[str]:
         )
         for order in report.orders
     ]
-    lines += _aligned([("case", "solver", "setting", "position", "velocity", "peak"), *orders])
+    lines += columns(
+        [("case", "solver", "setting", "position", "velocity", "peak"), *orders], INDENT
+    )
     lines += _stated_lines(report)
     lines += _goal_lines(report)
     return [*lines, "", *report.left_out] if report.left_out else lines
@@ -94,7 +99,7 @@ def _stated_lines(report: Report) -> list[str]:
     if not cells:
         return []
     title = "stated against true errors of all figures until the horizon; of the peak acceleration"
-    return ["", title, *_aligned([STATED_HEAD, *cells])]
+    return ["", title, *columns([STATED_HEAD, *cells], INDENT)]
 
 
 def _machine_lines(report: Report) -> list[str]:
@@ -171,7 +176,7 @@ def _late_lines(rows: Sequence[Row]) -> list[str]:
         "  the whole run: touches, their error; relative errors; graph distance; peaks: largest "
         f"accelerations of each {PEAKS_APART:g} s, of all starts"
     )
-    return [title, *_aligned([LATE_HEAD, *cells])]
+    return [title, *columns([LATE_HEAD, *cells], INDENT)]
 
 
 def _goal_lines(report: Report) -> list[str]:
@@ -186,13 +191,3 @@ def _goal_lines(report: Report) -> list[str]:
 
 def _number(value: float | None, digits: int) -> str:
     return "-" if value is None else f"{value:.{digits}g}"
-
-
-def _aligned(cells: Iterable[Sequence[str]]) -> list[str]:
-    """Return rows with their columns under each other, indented."""
-    rows = [tuple(row) for row in cells]
-    widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
-    return [
-        "  " + "  ".join(c.ljust(w) for c, w in zip(row, widths, strict=True)).rstrip()
-        for row in rows
-    ]

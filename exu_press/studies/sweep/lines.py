@@ -3,6 +3,7 @@
 from collections import Counter
 from collections.abc import Sequence
 
+from exu_press.columns import columns
 from exu_press.studies.sweep.shown import shown
 from exu_press.studies.sweep.table import Table
 from exu_press.studies.sweep.units import unit_of
@@ -18,10 +19,7 @@ def table_lines(table: Table, wanted: Sequence[str] = ()) -> list[str]:
     runs = range(min(len(table), MOST_LINES))
     cells = [[_head(name) for name in names]]
     cells += [[table.in_words(name, run, "-") for name in names] for run in runs]
-    widths = [max(len(line[i]) for line in cells) for i in range(len(names))]
-    lines = [
-        "  ".join(c.ljust(w) for c, w in zip(line, widths, strict=True)).rstrip() for line in cells
-    ]
+    lines = columns(cells)
     if len(table) > MOST_LINES:
         lines.append(f"... and {len(table) - MOST_LINES} more in table.csv")
     counts = Counter(table["status"])

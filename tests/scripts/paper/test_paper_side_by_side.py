@@ -9,7 +9,6 @@ from paper.damping import DAMPINGS, directory_of, with_damping
 from paper.published import published
 from paper.settings import Setting
 from paper.side_by_side import computed_peaks, distance, distances_by_setting, peaks_of
-from paper.side_by_side_table import aligned
 
 NUMBERS = computed_peaks(published().numbers)
 
@@ -61,7 +60,3 @@ def test_the_default_scene_is_the_dimensional_reading(tmp_path):
     ideal = Scene(joints={})
     assert all(with_damping(ideal, damping) == ideal for damping in DAMPINGS)
     assert directory_of(tmp_path, "2.5545e8") == tmp_path
-
-
-def test_columns():
-    assert aligned([("a", "bcd", "e"), ("fgh", "i", "")]) == ["a    bcd  e", "fgh  i"]

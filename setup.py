@@ -38,6 +38,7 @@ MODULES = [
     "joints/path",
     "joints/planar",
     "joints/spatial",
+    "joints/ways",
     "laws/contact_damping",
     "laws/contact_stiffness",
     "laws/film/asperities",

@@ -75,6 +75,10 @@ class Assembled(Protocol):
         """Name -> joint."""
 
     @property
+    def ways(self) -> Mapping[str, tuple[ClearanceJoint, ClearanceJoint]]:
+        """Name of a body with play in its guide -> the contacts of its two ends."""
+
+    @property
     def sensors(self) -> Mapping[tuple[str, str], int]:
         """(name, quantity) -> sensor number."""
 
@@ -148,7 +152,8 @@ def scales(scene: Scene) -> Scales:
     With a slow crank, the speed at which a journal has fallen through its clearance.
     """
     mechanism = mechanism_of(scene)
-    widest = max((joint.clearance for joint in scene.joints.values()), default=0.0)
+    play = 0.0 if scene.guide is None else scene.guide.clearance or 0.0
+    widest = max([play, *(joint.clearance for joint in scene.joints.values())])
     usual = scene.angular_speed * scene.pin_speed
     return Scales(
         speed=max(scene.pin_speed, math.sqrt(4.0 * scene.gravity * widest)),
@@ -181,6 +186,9 @@ class SceneAdvice(Advice):
 
     def joint(self, joint: ClearanceJoint) -> str:
         """Return a joint's name."""
+        for body, ends in self._model.ways.items():
+            if joint in ends:
+                return f"{body}'s guide"
         return next(n for n, other in self._model.clearance_joints.items() if other is joint)
 
     def film(self) -> str:

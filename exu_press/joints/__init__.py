@@ -5,6 +5,7 @@ from exu_press.joints.add import (
     add_dry_spherical,
     add_joint_sensor,
     add_lubricated_revolute,
+    add_ways_contact,
 )
 from exu_press.joints.compiled import COMPILED
 from exu_press.joints.ends import FlexiblePoint
@@ -20,6 +21,7 @@ __all__ = [
     "add_dry_spherical",
     "add_joint_sensor",
     "add_lubricated_revolute",
+    "add_ways_contact",
     "history",
     "overlay_of",
 ]

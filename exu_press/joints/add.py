@@ -16,6 +16,7 @@ from exu_press.joints.pairs import DryPair, FilmPair, Pair
 from exu_press.joints.planar import PlanarEnd, PlanarJoint
 from exu_press.joints.spatial import SpatialRevolute
 from exu_press.joints.spherical import SpatialSpherical
+from exu_press.joints.ways import WaysContact
 from exu_press.laws.contact import NormalContact
 from exu_press.laws.film import FilmLaw, film_scale
 from exu_press.laws.friction import Friction, LuGre, no_friction
@@ -25,6 +26,7 @@ __all__ = [
     "add_dry_spherical",
     "add_joint_sensor",
     "add_lubricated_revolute",
+    "add_ways_contact",
 ]
 
 BodyPoint = tuple[int, Sequence[float]] | FlexiblePoint
@@ -156,6 +158,57 @@ def add_lubricated_revolute(
     return _revolute(mbs, journal, bearing, axis, pairs)
 
 
+def add_ways_contact(
+    mbs: exu.MainSystem,
+    body: tuple[int, Sequence[float]],
+    *,
+    middle: Sequence[float],
+    direction: Sequence[float],
+    clearance: float,
+    contact: NormalContact,
+    friction: Friction | LuGre,
+    half_width: float = 0.0,
+) -> ClearanceJoint:
+    """Put one end of a planar body between two straight ways of the frame: touching and rubbing.
+
+    A guided body has two such ends, which keep it upright between them.
+
+    Args:
+        mbs: system, not yet assembled.
+        body: a planar body's object number, and the point of it that touches, in its frame (m).
+        middle: a point in the middle of the ways, m.
+        direction: of the ways.
+        clearance: on each side of the point, m.
+        contact: normal contact law.
+        friction: friction law.
+        half_width: of the body: friction acts so far beside the point, m.
+
+    Returns:
+        The contact; `add_joint_sensor` records it, with what presses the body as its force.
+
+    Raises:
+        InputError: the body is not planar, direction or clearance are none, a law is given by its
+            name, or the system is assembled already.
+    """
+    _check_laws(mbs, contact=contact, friction=friction)
+    if not _in_plane(mbs, body):
+        raise InputError(f"body {body[0]}: allowed between ways is a body in the plane")
+    length = math.hypot(direction[0], direction[1])
+    if not 0.0 < length < math.inf:
+        raise InputError(f"direction = {tuple(direction)}: allowed is a direction, such as (0, 1)")
+    if not 0.0 < clearance < math.inf or not 0.0 <= half_width < math.inf:
+        raise InputError(
+            f"clearance = {clearance:g}, half_width = {half_width:g}: allowed are numbers > 0 and "
+            ">= 0 (m)"
+        )
+    across = direction[1] / length, -direction[0] / length
+    pair = DryPair(contact, friction, half_width, clearance)
+    place = float(middle[0]), float(middle[1])
+    joint = WaysContact(_planar_end(mbs, body), place, across, pair)
+    overlay_of(mbs).add(joint)
+    return joint
+
+
 def add_joint_sensor(mbs: exu.MainSystem, joint: ClearanceJoint) -> int:
     """Record a joint at every step; return the sensor's number for mbs.GetSensorStoredData.
 
@@ -179,14 +232,19 @@ def add_joint_sensor(mbs: exu.MainSystem, joint: ClearanceJoint) -> int:
 
 def _check(mbs: exu.MainSystem, *, radius: float, clearance: float, **laws: Any) -> None:
     """Raise InputError for what no joint can be made of."""
-    if mbs.systemIsConsistent:
-        raise InputError("the system is assembled: allowed is to add joints before mbs.Assemble()")
+    _check_laws(mbs, **laws)
     if not 0.0 < radius < math.inf:
         raise InputError(f"radius = {radius:g}: allowed is a number > 0 (m)")
     if not 0.0 < clearance < radius:
         raise InputError(
             f"clearance = {clearance:g}: allowed is a number > 0 and below the radius, {radius:g} m"
         )
+
+
+def _check_laws(mbs: exu.MainSystem, **laws: Any) -> None:
+    """Raise InputError for an assembled system and for laws that are none."""
+    if mbs.systemIsConsistent:
+        raise InputError("the system is assembled: allowed is to add joints before mbs.Assemble()")
     for name, law in laws.items():
         if isinstance(law, str):
             raise InputError(

@@ -19,6 +19,7 @@ from exu_press.mechanism.parts import (
     Output,
     Point,
     Spring,
+    Ways,
     steel_cube,
 )
 from exu_press.mechanism.press import Press, press
@@ -38,6 +39,7 @@ __all__ = [
     "Press",
     "SliderCrank",
     "Spring",
+    "Ways",
     "load_mechanism",
     "mechanism_from",
     "mechanism_lines",

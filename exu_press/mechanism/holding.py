@@ -141,7 +141,7 @@ class _Selection:
         self.directions: dict[str, list[Array]] = {}
         self.held: dict[tuple[str, str], bool] = {}
         redundant: dict[str, None] = {}
-        guides = {guide.body: guide for guide in mechanism.guides if guide.lateral is None}
+        guides = {guide.body: guide for guide in mechanism.guides if guide.holds_across}
         joints = [joint for joint in mechanism.joints if joint.name in ideal]
         pivots = list(_pivoted(mechanism, ideal).values())
         parallel = {joint.name: _parallel(joint, guides) for joint in joints}
@@ -149,19 +149,18 @@ class _Selection:
         for joint in pivots:
             self.directions[joint.name] = self._take_joint(joint, np.eye(2))
         for guide in mechanism.guides:
-            free = guide.lateral is not None
-            self.held[guide.body, "across"] = not free and self._take_row(self._across_row(guide))
+            held = guide.holds_across
+            self.held[guide.body, "across"] = held and self._take_row(self._across_row(guide))
         for joint in joints:
             if joint not in pivots:
                 along = parallel[joint.name]
                 wanted = np.eye(2) if along is None else np.array([along])
                 self.directions[joint.name] = self._take_joint(joint, wanted)
         for guide in mechanism.guides:
-            free = guide.tilting is not None
             row = self._angle_row(guide.body)
-            self.held[guide.body, "angle"] = not free and self._take_row(row)
+            self.held[guide.body, "angle"] = guide.holds_angle and self._take_row(row)
             both = self.held[guide.body, "across"] and self.held[guide.body, "angle"]
-            if not free and not both:
+            if guide.holds_angle and not both:
                 redundant[guide.body] = None
         for joint in joints:
             along = parallel[joint.name]

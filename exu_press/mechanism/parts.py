@@ -3,7 +3,18 @@
 import math
 from dataclasses import dataclass
 
-__all__ = ["GROUND", "ROD", "Body", "Guide", "Joint", "Output", "Point", "Spring", "steel_cube"]
+__all__ = [
+    "GROUND",
+    "ROD",
+    "Body",
+    "Guide",
+    "Joint",
+    "Output",
+    "Point",
+    "Spring",
+    "Ways",
+    "steel_cube",
+]
 
 GROUND = "frame"
 
@@ -79,6 +90,23 @@ class Spring:
 
 
 @dataclass(frozen=True)
+class Ways:
+    """What a body with play slides between: it touches them with its two ends.
+
+    Attributes:
+        clearance: on each side, m.
+        length: of the body, from end to end, m; its centre of mass lies in the middle.
+        half_width: of the body, m.
+        end: stiffness and damping that each end meets where it touches, N/m and N s/m.
+    """
+
+    clearance: float
+    length: float
+    half_width: float
+    end: Spring
+
+
+@dataclass(frozen=True)
 class Guide:
     """A straight guide in the frame: a body moves along it and does not turn.
 
@@ -87,12 +115,24 @@ class Guide:
         direction: along the guide; `Mechanism` makes it a unit vector.
         lateral: what holds the body across the guide, or None where the guide is ideal.
         tilting: what holds its angle, or None.
+        ways: what the body has play between, or None.
     """
 
     body: str
     direction: Point = (0.0, 1.0)
     lateral: Spring | None = None
     tilting: Spring | None = None
+    ways: Ways | None = None
+
+    @property
+    def holds_across(self) -> bool:
+        """Whether it holds the body across its direction without any give."""
+        return self.lateral is None and self.ways is None
+
+    @property
+    def holds_angle(self) -> bool:
+        """Whether it holds the body's angle without any give."""
+        return self.tilting is None and self.ways is None
 
     @property
     def across(self) -> Point:

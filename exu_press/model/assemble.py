@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 from exu_press.mechanism import Motion
 from exu_press.model.bodies import add_bodies
 from exu_press.model.drive import add_drive, hold_flexible_bodies
-from exu_press.model.guides import add_guide
+from exu_press.model.guides import add_guide, add_ways
 from exu_press.model.joints import add_clearance_joint, add_ideal_joint
 from exu_press.model.loads import add_loads
 from exu_press.model.model import Model, count_items
@@ -40,10 +40,16 @@ def build(scene: Scene, *, quiet: bool = True) -> Model:
     frames: dict[str, FrameStart] = {}
     if any(part.reduced.mode_count for part in parts.values()):
         constant: dict[str, Any] = {f"joints.{n}": "ideal" for n in scene.joints.with_clearance}
-        ideal = scene.replace(constant | {"drive": None, "load": {}})
+        ideal = scene.replace(constant | {"drive": None, "load": {}} | _settled(scene))
         settled = System(ideal, parts)
         start, frames = deformed_start(settled, _assembled(settled, {}, {}).drive)
     return _assembled(System(scene, parts), start, frames)
+
+
+def _settled(scene: Scene) -> dict[str, Any]:
+    """Return the change to ideal guides, where bodies have play in theirs and rest nowhere."""
+    play = scene.guide is not None and scene.guide.clearance is not None
+    return {"guide": None} if play else {}
 
 
 def _assembled(
@@ -76,6 +82,11 @@ def _assembled(
         for guide in mechanism.guides
         if guide.body not in holding.sliding
     }
+    ways = {
+        guide.body: add_ways(system, guide, guide.ways)
+        for guide in mechanism.guides
+        if guide.ways is not None
+    }
     drive = add_drive(system)
     loads = add_loads(system)
     add_sensors(system, ideal | {"drive": drive}, guides)
@@ -93,6 +104,7 @@ def _assembled(
         ideal_joints=ideal,
         drive=drive,
         loads=loads,
+        ways=ways,
         sensors=system.sensors,
         parts=system.parts,
         made=count_items(system.mbs),

@@ -1,4 +1,4 @@
-"""The guides of a system: constraints where they are ideal, springs where they are elastic."""
+"""The guides of a system: constraints where they are ideal, springs, or ways with play."""
 
 import numpy as np
 from exudyn.itemInterface import (
@@ -8,10 +8,37 @@ from exudyn.itemInterface import (
     ObjectConnectorLinearSpringDamper,
 )
 
-from exu_press.mechanism import Guide, Spring
+from exu_press.joints import ClearanceJoint, add_ways_contact
+from exu_press.mechanism import Guide, Spring, Ways
 from exu_press.model.system import System
+from exu_press.scene.laws import ways_contact_law, ways_friction_law
 
-__all__ = ["add_guide"]
+__all__ = ["add_guide", "add_ways"]
+
+
+def add_ways(system: System, guide: Guide, ways: Ways) -> tuple[ClearanceJoint, ClearanceJoint]:
+    """Let both ends of a body touch the ways that it has play between."""
+    table = system.scene.guide
+    assert table is not None
+    body = system.mechanism.body(guide.body)
+    along = np.array(guide.direction)
+    rigid = system.rigid[guide.body]
+
+    def end(side: float) -> ClearanceJoint:
+        drawn = np.array(body.centre_of_mass) + 0.5 * side * ways.length * along
+        place = rigid.local(body.local((float(drawn[0]), float(drawn[1]))))
+        return add_ways_contact(
+            system.mbs,
+            (rigid.number, place),
+            middle=body.centre_of_mass,
+            direction=guide.direction,
+            clearance=ways.clearance,
+            contact=ways_contact_law(table, ways.end),
+            friction=ways_friction_law(table),
+            half_width=ways.half_width,
+        )
+
+    return end(-1.0), end(1.0)
 
 
 def add_guide(system: System, guide: Guide) -> dict[str, int]:

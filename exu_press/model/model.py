@@ -39,6 +39,7 @@ class Model:
         ideal_joints: name -> object number; those that hold a coordinate.
         drive: object number of the constraint that turns the crank.
         loads: name -> load that acts, and what tells its place on its curve.
+        ways: name of a body with play in its guide -> the contacts of its two ends.
         parts: name -> flexible body's part; empty for rigid bodies.
         sensors: (name, quantity) -> sensor number.
         made: number of objects and loads that the scene was made of.
@@ -56,6 +57,7 @@ class Model:
     rigid: Mapping[str, RigidBody]
     drive: int
     loads: Mapping[str, tuple[AppliedLoad, Place]]
+    ways: Mapping[str, tuple[ClearanceJoint, ClearanceJoint]]
     sensors: dict[tuple[str, str], int]
     parts: Mapping[str, "PlacedPart"]
     made: int

@@ -25,9 +25,10 @@ def press_summary(result: Result) -> dict[str, Any]:
     the mean over 1 ms too, as accelerations are. Other means are over its last whole revolutions,
     since over a part of one they tell what the mechanism stores; null in a shorter run.
 
-    Guides do not rub. A guide's `sliding_power` is the mean of side force times sliding speed:
-    times a coefficient of friction it is what rubbing would take, W, beside the losses and the
-    drive's power.
+    Guides rub where `[guide]` has a clearance and friction; `dissipated` and `mean_power` have what
+    that takes. A guide's `sliding_power` is the mean of side force times sliding speed: of one that
+    does not rub, times a coefficient of friction, it is what that would take, W, beside the losses
+    and the drive's power.
     """
     time, whole = result.time, begin_of_whole_revolutions(result)
     return {
@@ -73,6 +74,8 @@ def _guide(result: Result, guide: Guide, whole: float | None) -> dict[str, float
             power = np.abs(result[force] * speed)
             entries["sliding_power"] = _mean(time, power, whole)
     moment, loss = f"{name}_moment", f"{name}_loss"
+    friction = f"{name}_friction"
+    entries["peak_friction"] = peak(result[friction]) if friction in result else None
     entries["peak_moment"] = peak(result[moment]) if moment in result else None
     lost = result[loss] if loss in result else np.zeros_like(time)
     entries["dissipated"] = float(lost[-1])

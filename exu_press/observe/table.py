@@ -95,6 +95,9 @@ def _loads(entry: str, scale: float) -> Callable[[Summary], str]:
 
 def _rubbing(summary: Summary) -> str:
     """Return what all guides would take with a coefficient of friction of 0.1, W."""
+    guide = summary["scene"].get("guide", {})
+    if guide.get("clearance") and guide["friction"] != "none":
+        return "-"
     powers = [guide["sliding_power"] for guide in summary["guides"].values()]
     return _number(0.1 * sum(powers)) if powers and None not in powers else "-"
 

@@ -41,7 +41,7 @@ SOME_RUNS = {
     "shaking_force_without_counterweight": "plane",
 }
 
-ENDINGS = {"guide_force": "", "guide_moment": "", "_loss": ""}
+ENDINGS = {"guide_force": "", "guide_moment": "", "guide_friction": "", "_loss": ""}
 """Of channels whose names begin with what they belong to."""
 
 LARGEST_SINGLE = 1e16

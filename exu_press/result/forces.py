@@ -66,9 +66,10 @@ def frame_force(model: Model, channels: Mapping[str, Channel]) -> Channel:
         if f"{name}_force" in channels:
             on_bodies += sign * channels[f"{name}_force"].values[:, :2]
     for guide in model.mechanism.guides:
-        force = channels.get(f"{guide_channel(model, guide.body)}_force")
-        if force is not None:
-            on_bodies += np.outer(force.values, guide.across)
+        for quantity, way in (("force", guide.across), ("friction", guide.direction)):
+            force = channels.get(f"{guide_channel(model, guide.body)}_{quantity}")
+            if force is not None:
+                on_bodies += np.outer(force.values, way)
     return Channel(-on_bodies, "N", "force of shaft, pivots and guides on the frame", "plane")
 
 
@@ -88,8 +89,18 @@ def guide_channel(model: Model, body: str) -> str:
 
 
 def guide_channels(model: Model, body: str, loads: Mapping[str, Array]) -> dict[str, Channel]:
-    """Return the channels of what a guide does to its body: "force" (N) and "moment" (N m)."""
-    units = {"force": ("N", "to the right"), "moment": ("N m", "counter-clockwise")}
+    """Return the channels of what a guide does to its body.
+
+    Args:
+        model: integrated.
+        body: that it guides.
+        loads: "force" (N), "moment" (N m) and "friction" (N), as far as there are.
+    """
+    units = {
+        "force": ("N", "to the right"),
+        "moment": ("N m", "counter-clockwise"),
+        "friction": ("N", "along the guide"),
+    }
     shown, in_words = guide_channel(model, body), f"{body.replace('_', ' ')} guide"
     found = {}
     for quantity, values in loads.items():

@@ -1,4 +1,4 @@
-"""What elastic guides store and turn into heat."""
+"""What elastic guides and ways with play hold, store and turn into heat."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -6,9 +6,10 @@ from numpy.typing import NDArray
 from exu_press.model import Model
 from exu_press.result.channel import Channel
 from exu_press.result.energy import work
-from exu_press.result.forces import guide_channel
+from exu_press.result.forces import guide_channel, guide_channels
+from exu_press.result.joints import states_of
 
-__all__ = ["record_guides"]
+__all__ = ["record_guides", "record_ways"]
 
 Array = NDArray[np.float64]
 
@@ -42,3 +43,52 @@ def record_guides(
         channels[f"{guide_channel(model, guide.body)}_loss"] = Channel(lost, "J", words)
         dissipated += lost
     return channels, stored, dissipated
+
+
+def record_ways(
+    model: Model, time: Array, position: Array
+) -> tuple[dict[str, Channel], Array, Array]:
+    """Return what ways with play do to their bodies, their stored and their lost energy, J.
+
+    Args:
+        model: integrated.
+        time: (n,), s.
+        position: (n, bodies, 3) of every body.
+
+    Returns:
+        Force across and moment about the centre of mass of each guide, friction along it, and its
+        losses; the sums of both ends.
+    """
+    channels: dict[str, Channel] = {}
+    all_stored, all_lost = np.zeros_like(time), np.zeros_like(time)
+    ends = {f"{body} {n}": end for body, both in model.ways.items() for n, end in enumerate(both)}
+    states = states_of(model, time, ends)
+    names = [body.name for body in model.mechanism.bodies]
+    for guide in model.mechanism.guides:
+        if guide.ways is None:
+            continue
+        angle = position[:, names.index(guide.body), 2]
+        angle = angle - model.mechanism.body(guide.body).angle
+        x, y = guide.direction
+        force, moment, lost = np.zeros((len(time), 2)), np.zeros_like(time), np.zeros_like(time)
+        for n, side in enumerate((-1.0, 1.0)):
+            end = states[f"{guide.body} {n}"]
+            pressed = np.array([state.force for state in end])
+            reach = 0.5 * side * guide.ways.length
+            arm_x = reach * (np.cos(angle) * x - np.sin(angle) * y)
+            arm_y = reach * (np.sin(angle) * x + np.cos(angle) * y)
+            force += pressed
+            moment += arm_x * pressed[:, 1] - arm_y * pressed[:, 0]
+            moment += [state.moments[0] for state in end]
+            elastic = np.array([state.stored_energy for state in end])
+            loads = np.array([state.force + state.moments for state in end])
+            rates = np.array([state.velocity + state.spins for state in end])
+            lost += -work(time, loads, rates) - (elastic - elastic[0])
+            all_stored += elastic
+        all_lost += lost
+        across, along = force @ np.array(guide.across), force @ np.array(guide.direction)
+        held = {"force": across, "moment": moment, "friction": along}
+        channels |= guide_channels(model, guide.body, held)
+        words = f"{guide.body.replace('_', ' ')} guide: energy dissipated since the start"
+        channels[f"{guide_channel(model, guide.body)}_loss"] = Channel(lost, "J", words)
+    return channels, all_stored, all_lost

@@ -5,28 +5,35 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.joints import JointState, history, overlay_of
+from exu_press.joints import ClearanceJoint, JointState, history, overlay_of
 from exu_press.model import Model
 from exu_press.result.channel import Channel
 from exu_press.result.energy import work
 from exu_press.result.forces import vectors
 from exu_press.result.motion import sensor
 
-__all__ = ["joint_states", "record_joints"]
+__all__ = ["joint_states", "record_joints", "states_of"]
 
 Array = NDArray[np.float64]
 
 
 def joint_states(model: Model, time: Array) -> dict[str, list[JointState]]:
     """Return what every clearance joint did at the recorded instants."""
-    if not model.clearance_joints:
+    return states_of(model, time, model.clearance_joints)
+
+
+def states_of(
+    model: Model, time: Array, joints: Mapping[str, ClearanceJoint]
+) -> dict[str, list[JointState]]:
+    """Return what some of the overlay's joints did at the recorded instants."""
+    if not joints:
         return {}
     names = {number: name for name, number in model.nodes.items()}
     q, q_t = (
         np.hstack([sensor(model, names[node], level) for node in overlay_of(model.mbs).nodes])
         for level in ("position", "velocity")
     )
-    return {name: history(joint, time, q, q_t) for name, joint in model.clearance_joints.items()}
+    return {name: history(joint, time, q, q_t) for name, joint in joints.items()}
 
 
 def record_joints(

@@ -13,7 +13,7 @@ from exu_press.result.energy import mechanical_energy, work
 from exu_press.result.equilibrium import equilibrium
 from exu_press.result.flexible import record_parts, worst_stress
 from exu_press.result.forces import frame_force, held_forces
-from exu_press.result.guides import record_guides
+from exu_press.result.guides import record_guides, record_ways
 from exu_press.result.info import Info
 from exu_press.result.joints import joint_states, record_joints
 from exu_press.result.loads import record_loads
@@ -73,6 +73,8 @@ def record(model: Model, outcome: Outcome) -> Result:
     slide = channels["slider_position"].values
     loads, work_of_loads = record_loads(model, time, angle, slide, motions)
     channels |= loads
+    in_ways, stored_in_ways, lost_in_ways = record_ways(model, time, position)
+    channels |= in_ways
     channels |= equilibrium(model, motions, channels | in_joints, states)
     channels["frame_force"] = frame_force(model, channels | in_joints)
     channels |= shaking_forces(model, acceleration)
@@ -89,6 +91,7 @@ def record(model: Model, outcome: Outcome) -> Result:
     for more, kept, lost in (
         record_guides(model, time, position, velocity),
         record_parts(model, time),
+        (in_ways, stored_in_ways, lost_in_ways),
         (in_joints, stored_in_joints, lost_in_joints),
     ):
         channels |= more

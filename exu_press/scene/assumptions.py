@@ -10,7 +10,7 @@ from fnmatch import fnmatchcase
 from typing import Any
 
 from exu_press.scene.joint import DEFAULT_KINDS, Joint
-from exu_press.scene.scene import OF_THE_COUNTERWEIGHT, TABLES, Scene
+from exu_press.scene.scene import OF_THE_COUNTERWEIGHT, OF_THE_WAYS, TABLES, Scene
 
 __all__ = ["ASSUMPTIONS", "Assumption", "Key", "assumed_line", "keys_of", "used_assumptions"]
 
@@ -218,8 +218,12 @@ def _flat(scene: Scene) -> Iterator[tuple[str, tuple[Any, dataclasses.Field[Any]
             continue
         table = getattr(scene, field.name)
         for inner in dataclasses.fields(table) if table is not None else ():
-            gone = field.name == "press" and not table.counterweight
-            if inner.name in used[field.name] and not (gone and inner.name in OF_THE_COUNTERWEIGHT):
+            gone = (
+                field.name == "press"
+                and not table.counterweight
+                and inner.name in OF_THE_COUNTERWEIGHT
+            ) or (field.name == "guide" and table.clearance is None and inner.name in OF_THE_WAYS)
+            if inner.name in used[field.name] and not gone:
                 yield f"{field.name}.{inner.name}", (getattr(table, inner.name), inner)
 
 

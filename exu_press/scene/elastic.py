@@ -3,7 +3,7 @@
 import math
 from dataclasses import replace
 
-from exu_press.mechanism import Body, Guide, Mechanism, Spring
+from exu_press.mechanism import Body, Guide, Mechanism, Spring, Ways
 from exu_press.scene.tables import ElasticGuide
 
 __all__ = ["with_elastic_guides"]
@@ -25,8 +25,13 @@ def _tilting(body: Body, elastic: ElasticGuide) -> Body:
 
 
 def _elastic(guide: Guide, body: Body, elastic: ElasticGuide) -> Guide:
-    """Return a guide of springs and dampers in place of an ideal one (A-9)."""
+    """Return a guide of springs, or of ways with play, in place of an ideal one (A-9)."""
     lateral = elastic.lateral_stiffness
+    if elastic.clearance is not None:
+        whole = _spring(lateral, elastic.lateral_damping, elastic.damping_ratio, body.mass)
+        end = Spring(0.5 * whole.stiffness, 0.5 * whole.damping)
+        ways = Ways(elastic.clearance, elastic.length, 0.5 * elastic.width, end)
+        return replace(guide, ways=ways)
     tilting = elastic.tilting_stiffness or lateral * elastic.length**2 / 12
     ratio = elastic.damping_ratio
     return replace(

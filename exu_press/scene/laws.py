@@ -16,9 +16,17 @@ from exu_press.laws.friction import (
     no_friction,
     stribeck,
 )
-from exu_press.scene.tables import Contact, Film, Friction
+from exu_press.mechanism import Spring
+from exu_press.scene.tables import Contact, ElasticGuide, Film, Friction
 
-__all__ = ["asperity_onset", "contact_law", "film_law", "friction_law"]
+__all__ = [
+    "asperity_onset",
+    "contact_law",
+    "film_law",
+    "friction_law",
+    "ways_contact_law",
+    "ways_friction_law",
+]
 
 T = TypeVar("T")
 
@@ -59,6 +67,21 @@ def friction_law(table: Friction) -> FrictionLaw | LuGre:
         "lugre": lambda: LuGre(*coefficients, table.sigma_0, table.sigma_1, table.sigma_2, *curve),
     }
     return _named("friction", laws[table.law])
+
+
+def ways_contact_law(table: ElasticGuide, end: Spring) -> NormalContact:
+    """Return the normal contact of a guided body's end with its ways, linear in the penetration."""
+    stiffness = hertz(end.stiffness, 1.0)
+    return DAMPING_LAWS["step"](
+        stiffness, damping_max=end.damping, damping_depth=table.damping_depth
+    )
+
+
+def ways_friction_law(table: ElasticGuide) -> FrictionLaw | LuGre:
+    """Return the friction law of the ways; what [guide] does not say is as in [friction]."""
+    keys = ("mu_static", "mu_kinetic", "stribeck_velocity", "regularisation_velocity")
+    given = {key: getattr(table, key) for key in keys}
+    return friction_law(Friction(law=table.friction, **given))
 
 
 def film_law(table: Film, radius: float, clearance: float) -> FilmLaw:

@@ -49,6 +49,17 @@ OF_THE_COUNTERWEIGHT = (
     "counterweight_mass",
 )
 
+OF_THE_WAYS = (
+    "width",
+    "friction",
+    "mu_static",
+    "mu_kinetic",
+    "stribeck_velocity",
+    "regularisation_velocity",
+    "damping_depth",
+)
+"""Keys of guides with clearance."""
+
 TABLES = {
     "contact": Contact,
     "friction": Friction,
@@ -344,7 +355,12 @@ def _unused(scene: Mapping[str, Any]) -> dict[str, str]:
     with_slider = mechanism in ("press", "slider_crank"), press[1]
     countered = _peek(scene.get("press"), "counterweight") is not False
     counterweight = (countered, "press.counterweight is false") if press[0] else press
+    play = _peek(scene.get("guide"), "clearance") is not None
+    ways = play, "guide.clearance is not given"
+    springs = not play, "guide.clearance is given: two ends bear what tilts"
     wanted = {
+        **{f"guide.{name}": ways for name in OF_THE_WAYS},
+        **dict.fromkeys(("guide.tilting_stiffness", "guide.tilting_damping"), springs),
         "press": press,
         "slider_crank": slider_crank,
         "guide.slider_inertia": with_slider,

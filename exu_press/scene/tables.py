@@ -120,6 +120,9 @@ class Motor(Table):
 class ElasticGuide(Table):
     """Elastic instead of ideal guides (A-9): springs that hold a body's x and angle, each alone.
 
+    With a clearance a body's two ends, `length` apart, touch the ways instead, each with half the
+    lateral stiffness and damping, and rub on them.
+
     The springs act in the body's centre of mass. A guide's tilting stiffness is that of an even
     bedding along its length, k L^2 / 12, and each damping a share of the critical one of the guided
     mass or inertia alone, 2 D sqrt(k m), unless they are given. With ideal guides no body turns;
@@ -131,6 +134,23 @@ class ElasticGuide(Table):
     length: float = key(0.5, "of every guide, for its tilting stiffness", "m", above=0)
     tilting_stiffness: float | None = key(
         None, "of every guide, instead of what its length makes", "N m/rad", above=0
+    )
+    clearance: float | None = key(
+        None,
+        "on each side of a guided body; its two ends then touch and leave the ways",
+        "m",
+        above=0,
+    )
+    width: float = key(0.0, "clearance: of every guided body", "m", at_least=0)
+    friction: str = key("none", "clearance: friction law of the ways", choices=FRICTION_LAWS)
+    mu_static: float = key(0.1, "clearance: static coefficient", above=0)
+    mu_kinetic: float = key(0.1, "clearance: kinetic coefficient", above=0)
+    stribeck_velocity: float = key(0.01, "clearance: v_s", "m/s", above=0)
+    regularisation_velocity: float = key(
+        1e-3, "clearance: sgn(v) of laws without bristle is tanh(v / this)", "m/s", above=0
+    )
+    damping_depth: float = key(
+        1e-6, "clearance: penetration at which the ways damp in full", "m", above=0
     )
     damping_ratio: float = key(0.05, "of the guided body alone on its guide", at_least=0)
     lateral_damping: float | None = key(
@@ -148,6 +168,15 @@ class ElasticGuide(Table):
     counterweight_inertia: float | None = key(
         None, "counterweight (12); a steel cube's unless given", "kg m^2", above=0
     )
+
+    def __post_init__(self) -> None:
+        """Check the keys, and that friction does not grow as sliding begins."""
+        super().__post_init__()
+        if self.mu_static < self.mu_kinetic:
+            raise InputError(
+                f"guide.mu_static = {self.mu_static!r}: allowed is a number >= "
+                f"guide.mu_kinetic = {self.mu_kinetic!r}"
+            )
 
 
 @dataclass(frozen=True)

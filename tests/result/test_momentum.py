@@ -15,6 +15,7 @@ VARIANTS = [
     {"joints": {"crank_pin": "dry", "balls": "dry"}},
     {"joints": {"crank_pin": "lubricated", "balls": "dry"}},
     {"joints": {"crank_pin": "lubricated", "balls": "dry"}, "guide": {}},
+    {"joints": {}, "guide": {"clearance": 5e-5, "friction": "coulomb", "width": 0.2}},
     {"joints": {"crank_pin": "lubricated", "balls": "dry"}, "press": {"counterweight": False}},
     {"joints": {"shaft": "lubricated", "pivots": "dry", "slide_pin": "dry"}},
     {"mechanism": "slider_crank", "joints": {"crank_pin": "lubricated"}},

@@ -47,7 +47,7 @@ def meaning_of(name: str) -> str:
     """Return what a scene's key is, or nothing.
 
     >>> meaning_of("speed_rpm")
-    'crank speed'
+    'crank speed; with [drive] at the start'
     """
     metadata = _metadata(name)
     return "" if metadata is None else str(metadata["meaning"])

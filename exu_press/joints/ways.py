@@ -1,0 +1,127 @@
+"""One end of a guided planar body between its ways: they touch on either side, and rub.
+
+The body's point lies beside the middle of the ways by s; they touch where |s| > c, on one side or
+the other. The normal is that of the ways and does not turn, as a journal's does with its
+eccentricity; all else is a dry pair's: the body's half width is its lever of friction, as the
+radius is a journal's.
+"""
+
+import math
+from math import cos, sin
+
+from exu_press.joints.joint import JointState
+from exu_press.joints.pairs import DryPair, Load, PairedJoint
+from exu_press.joints.planar import PlanarEnd
+
+__all__ = ["WaysContact"]
+
+
+class WaysContact(PairedJoint):
+    """A point of a body between two straight ways of the frame."""
+
+    def __init__(
+        self,
+        end: PlanarEnd,
+        middle: tuple[float, float],
+        across: tuple[float, float],
+        pair: DryPair,
+    ) -> None:
+        """Let a body touch its ways.
+
+        Args:
+            end: the point of the body.
+            middle: a point in the middle of the ways, m.
+            across: unit vector across them.
+            pair: of surfaces; its radius is the body's half width, m.
+        """
+        super().__init__([pair])
+        self.end = end
+        self.places = list(end.places)
+        self.deepest = math.inf
+        self._length, self._angle = end.polar
+        self._x, self._y = end.reference[0] - middle[0], end.reference[1] - middle[1]
+        self._across = across
+        # the normal, and the arm of the point
+        self._directions = across[0], across[1], 0.0, 0.0
+
+    def add_force(self, q: list[float], q_t: list[float], out: list[float]) -> None:
+        """Add the generalised forces to `out`."""
+        place_x, place_y, turn = self.places
+        turned = self._angle + q[turn]
+        arm_x, arm_y = self._length * cos(turned), self._length * sin(turned)
+        spin = q_t[turn]
+        across_x, across_y = self._across
+        beside = (q[place_x] + self._x + arm_x) * across_x
+        beside += (q[place_y] + self._y + arm_y) * across_y
+        side = 1.0 if beside >= 0.0 else -1.0
+        n_x, n_y = side * across_x, side * across_y
+        u, v = q_t[place_x] - spin * arm_y, q_t[place_y] + spin * arm_x
+        self._directions = n_x, n_y, arm_x, arm_y
+        motion = side * beside, u * n_x + v * n_y, v * n_x - u * n_y, spin, 0.0
+        (load,) = self._load(motion)
+        if load is not None:
+            f_n, f_t, moment, _, _ = load
+            f_x, f_y = f_n * n_x - f_t * n_y, f_n * n_y + f_t * n_x
+            out[place_x] += f_x
+            out[place_y] += f_y
+            out[turn] += moment + arm_x * f_y - arm_y * f_x
+
+    def jacobian(self, by_q: float, by_q_t: float) -> list[float] | None:
+        """Return -(by_q dQ/dq + by_q_t dQ/dq_t) at the state of the last `add_force`, by rows."""
+        load: Load | None = self._loads[0]
+        if load is None:
+            return None
+        _, _, _, spin, _ = self._motion
+        n_x, n_y, arm_x, arm_y = self._directions
+        f_n, f_t, _, _, _ = load
+        (n_e, n_r, n_v, n_w, _), (t_e, t_r, t_v, t_w, _) = self._slopes(0, load)
+        arm_n, arm_t = arm_x * n_x + arm_y * n_y, arm_y * n_x - arm_x * n_y
+        # f_n and f_t by x, y and angle; the angle moves the point by -arm_t n + arm_n t, and turns
+        # its velocity by -spin arm
+        out_n, side_n = by_q * n_e + by_q_t * n_r, by_q_t * n_v
+        out_t, side_t = by_q * t_e + by_q_t * t_r, by_q_t * t_v
+        turning = by_q * spin
+        n_1, n_2 = out_n * n_x - side_n * n_y, out_n * n_y + side_n * n_x
+        t_1, t_2 = out_t * n_x - side_t * n_y, out_t * n_y + side_t * n_x
+        n_3 = arm_n * side_n - arm_t * out_n - turning * (n_r * arm_n + n_v * arm_t)
+        t_3 = arm_n * side_t - arm_t * out_t - turning * (t_r * arm_n + t_v * arm_t)
+        n_3 += by_q_t * n_w
+        t_3 += by_q_t * t_w
+        lever = self.pairs[0].arms(self._motion[0])[0]
+        x_1, x_2, x_3 = n_x * n_1 - n_y * t_1, n_x * n_2 - n_y * t_2, n_x * n_3 - n_y * t_3
+        y_1, y_2, y_3 = n_y * n_1 + n_x * t_1, n_y * n_2 + n_x * t_2, n_y * n_3 + n_x * t_3
+        m_1 = lever * t_1 + arm_n * t_1 - arm_t * n_1
+        m_2 = lever * t_2 + arm_n * t_2 - arm_t * n_2
+        m_3 = lever * t_3 + arm_n * t_3 - arm_t * n_3 - by_q * (arm_n * f_n + arm_t * f_t)
+        return [-x_1, -x_2, -x_3, -y_1, -y_2, -y_3, -m_1, -m_2, -m_3]
+
+    @property
+    def eccentricity(self) -> tuple[float, ...]:
+        """How far the point is beside the middle at the last `add_force`, m."""
+        e = self._motion[0]
+        return e * self._directions[0], e * self._directions[1]
+
+    @property
+    def relative_velocity(self) -> tuple[float, ...]:
+        """Rate of the eccentricity at the last `add_force`, m/s: that across the ways."""
+        rate = self._motion[1]
+        return rate * self._directions[0], rate * self._directions[1]
+
+    def state(self, q: list[float], q_t: list[float]) -> JointState:
+        """Return what the ways do in a state; the velocity is the point's, along them too."""
+        self.add_force(q, q_t, [0.0] * len(q))
+        e, e_dot, v_t, spin, _ = self._motion
+        n_x, n_y, _, _ = self._directions
+        (load,) = self._loads
+        f_n, f_t, moment = (0.0, 0.0, 0.0) if load is None else (load[0], load[1], load[2])
+        pair = self.pairs[0]
+        return JointState(
+            eccentricity=self.eccentricity,
+            force=(f_n * n_x - f_t * n_y, f_n * n_y + f_t * n_x),
+            moments=(moment, 0.0),
+            velocity=(e_dot * n_x - v_t * n_y, e_dot * n_y + v_t * n_x),
+            spins=(spin, 0.0),
+            gap=self.clearance - e,
+            stored_energy=pair.stored_energy(e),
+            stored_power=pair.stored_force(e) * e_dot,
+        )

@@ -1,8 +1,9 @@
 """What the constraints of a system forbid: how far they are violated, and the least that mends it.
 
 Exudyn tells violations of positions, and of velocities where a constraint has a rate of its own.
-But where a user function prescribes an offset and none its rate, Exudyn takes that for zero; so the
-rates of such systems are found from positions, a little ahead and a little behind.
+But where a user function prescribes an offset and none its rate, Exudyn takes that for zero, and at
+flexible bodies' rigid markers velocities are off the rates of the positions by a millionth of a
+metre a second; the rates of such systems are found from positions, a little ahead and behind.
 """
 
 from typing import Any
@@ -29,15 +30,15 @@ class Constraints:
         count: how many they are.
     """
 
-    def __init__(self, mbs: exu.MainSystem, solver: Any, prescribed: bool) -> None:
+    def __init__(self, mbs: exu.MainSystem, solver: Any, untold_rates: bool) -> None:
         """Take a system.
 
         Args:
             mbs: the system.
             solver: an exu.MainSolverImplicitSecondOrder, which is about to solve it.
-            prescribed: whether user functions prescribe offsets, but not their rates.
+            untold_rates: whether Exudyn does not tell how fast some constraints are violated.
         """
-        self._mbs, self._solver, self._prescribed = mbs, solver, prescribed
+        self._mbs, self._solver, self._untold = mbs, solver, untold_rates
         self._data: Any = mbs.systemData
         self._of_velocities: Flags | None = None
 
@@ -78,7 +79,7 @@ class Constraints:
         Args:
             ahead: time within which positions tell it where velocities do not, s.
         """
-        if not self._prescribed:
+        if not self._untold:
             return self.violated(velocities=True)
         data = self._data
         time = data.GetTime()

@@ -85,7 +85,9 @@ class Problem:
         modal_stiffness: whether all stiffness is that of flexible bodies' modes.
         first_order: whether there are first-order coordinates.
         switching: whether there are data variables, which Exudyn iterates on after Newton's method.
-        prescribed: whether user functions prescribe constraints' offsets, but not their rates.
+        untold_rates: whether Exudyn does not tell how fast some constraints are violated: where
+            user functions prescribe offsets, but not their rates, and at flexible bodies' rigid
+            markers, whose velocities are no rates of their positions.
         length: largest displacement coordinate at the start, m; their last digits are rounded.
     """
 
@@ -95,7 +97,7 @@ class Problem:
     modal_stiffness: bool
     first_order: bool
     switching: bool
-    prescribed: bool
+    untold_rates: bool
     length: float
 
     @classmethod
@@ -133,12 +135,19 @@ class Problem:
             modal_stiffness=modal,
             first_order=data.ODE1Size() > 0,
             switching=data.DataSize() > 0,
-            prescribed=any(
-                item.get("offsetUserFunction", 0) != 0 and item.get("offsetUserFunction_t", 0) == 0
-                for item in objects
-            ),
+            untold_rates=_untold_rates(mbs, objects),
             length=_length(data, nodes),
         )
+
+
+def _untold_rates(mbs: exu.MainSystem, objects: list[dict[str, Any]]) -> bool:
+    """Return whether Exudyn does not tell how fast some constraints are violated."""
+    data: Any = mbs.systemData
+    kinds = {mbs.GetMarker(number)["markerType"] for number in range(data.NumberOfMarkers())}
+    return "SuperElementRigid" in kinds or any(
+        item.get("offsetUserFunction", 0) != 0 and item.get("offsetUserFunction_t", 0) == 0
+        for item in objects
+    )
 
 
 def _nodes(

@@ -116,7 +116,7 @@ def solve_dynamic(
         tuning,
         problem.nodes,
     )
-    constraints = Constraints(mbs, solver, problem.prescribed)
+    constraints = Constraints(mbs, solver, problem.untold_rates)
     step_change = StepChange(mbs, solver, constraints, smooth=problem.joints is None, tuning=tuning)
     film_start = step_change if films else None
     least = 0.1 * accuracy if problem.joints is None else 0.0

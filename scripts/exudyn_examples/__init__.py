@@ -8,6 +8,7 @@ from functools import partial
 import exudyn as exu
 
 from exudyn_examples.example import Example
+from exudyn_examples.flexible import ancf_cable, beam, ffrf_pendulum
 from exudyn_examples.other import (
     bouncing_ball,
     cradle,
@@ -87,6 +88,9 @@ EXAMPLES = {
         cradle, 0.6, 0.4, "Examples/newtonsCradle.py", change=sparse, positions=True
     ),
     "driven crank": Example(driven_crank, 1.0, 0.5, "an offset as a function of time"),
+    "ANCF cable": Example(ancf_cable, 1.0, 0.3, "Examples/flexiblePendulumANCF.py", change=sparse),
+    "beam": Example(beam, 0.2, 0.1, "TestModels/geometricallyExactBeam2Dtest.py"),
+    "FFRF pendulum": Example(ffrf_pendulum, 1.0, 0.2, "TestModels/objectFFRFreducedOrderTest.py"),
     "LuGre": Example(lugre, 10.0, 5.0, "Examples/lugreFrictionODE1.py"),
     "hydraulics": Example(hydraulics, 1.0, 0.1, "TestModels/hydraulicActuatorSimpleTest.py"),
     "balance wheel": Example(watch, 2.0, 0.5, "millimetres and milligrams"),

@@ -1,27 +1,124 @@
 """Flexible bodies of Exudyn's own."""
 
+from functools import cache
+
 import exudyn.utilities as items
-from exudyn.beams import GenerateStraightLineANCFCable2D
+import numpy as np
 
 from exudyn_examples.example import GRAVITY
 
-__all__ = ["ancf_pendulum"]
+__all__ = ["ancf_cable", "beam", "ffrf_pendulum"]
+
+SIDE = 0.05  # of the square cross sections, m
 
 
-def ancf_pendulum(mbs, elements=4):
-    """A soft cable of ANCF elements that hangs on a hinge and falls."""
-    width, modulus = 0.05, 2.1e8
-    cable = items.ObjectANCFCable2D(
-        massPerLength=10.0,
-        bendingStiffness=modulus * width**4 / 12.0,
-        axialStiffness=modulus * width**2,
+def weight(mbs, body):
+    marker = mbs.AddMarker(items.MarkerBodyMass(bodyNumber=body))
+    mbs.AddLoad(items.LoadMassProportional(markerNumber=marker, loadVector=[0.0, -GRAVITY, 0.0]))
+
+
+def hold(mbs, node, coordinates):
+    """Fix coordinates of a node to the ground."""
+    still = mbs.AddMarker(
+        items.MarkerNodeCoordinate(nodeNumber=mbs.AddNode(items.NodePointGround()), coordinate=0)
     )
-    GenerateStraightLineANCFCable2D(
-        mbs=mbs,
-        positionOfNode0=[0, 0, 0],
-        positionOfNode1=[1.0, 0, 0],
-        numberOfElements=elements,
-        cableTemplate=cable,
-        massProportionalLoad=[0, -GRAVITY, 0],
-        fixedConstraintsNode0=[1, 1, 0, 0],
+    for coordinate in coordinates:
+        marker = mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=coordinate))
+        mbs.AddObject(items.ObjectConnectorCoordinate(markerNumbers=[still, marker]))
+
+
+def ancf_cable(mbs, elements=4):
+    """A soft cable of ANCF elements that hangs on a hinge and falls."""
+    modulus, length = 2.1e7, 1.0 / elements
+    nodes = [
+        mbs.AddNode(items.NodePoint2DSlope1(referenceCoordinates=[i * length, 0.0, 1.0, 0.0]))
+        for i in range(elements + 1)
+    ]
+    for i in range(elements):
+        body = mbs.AddObject(
+            items.ObjectANCFCable2D(
+                nodeNumbers=nodes[i : i + 2],
+                length=length,
+                massPerLength=2.5,
+                bendingStiffness=modulus * SIDE**4 / 12.0,
+                axialStiffness=modulus * SIDE**2,
+                bendingDamping=0.02 * modulus * SIDE**4 / 12.0,
+                axialDamping=0.002 * modulus * SIDE**2,
+            )
+        )
+        weight(mbs, body)
+    hold(mbs, nodes[0], (0, 1))
+
+
+def beam(mbs, elements=4):
+    """A clamped geometrically exact beam under a tip load that comes within 50 ms."""
+    modulus, length = 2.1e9, 0.5 / elements
+    nodes = [
+        mbs.AddNode(items.NodeRigidBody2D(referenceCoordinates=[i * length, 0.0, 0.0]))
+        for i in range(elements + 1)
+    ]
+    area = SIDE**2
+    for i in range(elements):
+        mbs.AddObject(
+            items.ObjectBeamGeometricallyExact2D(
+                nodeNumbers=nodes[i : i + 2],
+                length=length,
+                massPerLength=1000.0 * area,
+                crossSectionInertia=1000.0 * SIDE**4 / 12.0,
+                bendingStiffness=modulus * SIDE**4 / 12.0,
+                axialStiffness=modulus * area,
+                shearStiffness=modulus * area / 2.6,
+                bendingDamping=2e-4 * modulus * SIDE**4 / 12.0,
+                axialDamping=2e-4 * modulus * area,
+                shearDamping=2e-4 * modulus * area / 2.6,
+            )
+        )
+    hold(mbs, nodes[0], (0, 1, 2))
+    tip = mbs.AddMarker(items.MarkerNodePosition(nodeNumber=nodes[-1]))
+
+    def load(mbs, time, vector):
+        return [0.0, -500.0 * (1.0 - np.cos(np.pi * min(time / 0.05, 1.0))), 0.0]
+
+    mbs.AddLoad(
+        items.LoadForceVector(
+            markerNumber=tip, loadVector=[0.0, -500.0, 0.0], loadVectorUserFunction=load
+        )
+    )
+
+
+@cache
+def reduced_bar():
+    """A bar of NGSolve's tetrahedra with its lowest free modes, and the nodes of its left end."""
+    import ngsolve as ngs
+    from exudyn.FEM import FEMinterface, ObjectFFRFreducedOrderInterface
+    from netgen.occ import Box, OCCGeometry, Pnt
+
+    box = Box(Pnt(0.0, -0.5 * SIDE, -0.5 * SIDE), Pnt(1.0, 0.5 * SIDE, 0.5 * SIDE))
+    mesh = ngs.Mesh(OCCGeometry(box).GenerateMesh(maxh=0.05))
+    fem = FEMinterface()
+    fem.ImportMeshFromNGsolve(mesh, density=1000.0, youngsModulus=5e7, poissonsRatio=0.3)
+    fem.ComputeEigenmodes(4, excludeRigidBodyModes=6, useSparseSolver=True)
+    left = fem.GetNodesInPlane([0.0, 0.0, 0.0], [1.0, 0.0, 0.0])
+    return ObjectFFRFreducedOrderInterface(fem), left
+
+
+def ffrf_pendulum(mbs):
+    """A soft bar in a floating frame of reference, hinged at its left end, that falls."""
+    reduced, left = reduced_bar()
+    body = reduced.AddObjectFFRFreducedOrder(
+        mbs,
+        positionRef=[0.0, 0.0, 0.0],
+        gravity=[0.0, -GRAVITY, 0.0],
+        stiffnessProportionalDamping=2e-3,
+    )
+    hinge = mbs.AddMarker(
+        items.MarkerSuperElementRigid(
+            bodyNumber=body["oFFRFreducedOrder"],
+            meshNodeNumbers=np.array(left),
+            weightingFactors=np.full(len(left), 1.0 / len(left)),
+        )
+    )
+    still = mbs.AddMarker(items.MarkerBodyRigid(bodyNumber=mbs.CreateGround()))
+    mbs.AddObject(
+        items.ObjectJointGeneric(markerNumbers=[still, hinge], constrainedAxes=[1, 1, 1, 1, 1, 0])
     )

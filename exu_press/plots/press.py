@@ -186,7 +186,7 @@ def _strokes(axes: Axes, result: Result, centres: list[DeadCentre]) -> None:
     axes.margins(y=0.3)
     axes.legend(loc="upper center", ncols=3)
     told = with_error(result, "strokes.mean", mean, 1e3, 6)
-    note(axes, f"lowest at {told} mm{_scatter(result, centres)}")
+    note(axes, f"lowest, mm: {told}{_scatter(result, centres)}")
 
 
 def _scatter(result: Result, centres: list[DeadCentre]) -> str:

@@ -66,7 +66,7 @@ def _parts(scene: Scene, joints: Collection[str]) -> dict[str, str]:
     """Return phrases by what they are about; of the joints and groups that are named."""
     parts = {
         "mechanism": mechanism_of(scene).name.replace("_", "-").capitalize(),
-        "bodies": f"{scene.bodies} bodies",
+        "bodies": _of_bodies(scene),
         "speed": f"{scene.speed_rpm:g} rpm",
     }
     if not joints:
@@ -81,6 +81,12 @@ def _parts(scene: Scene, joints: Collection[str]) -> dict[str, str]:
     if scene.press is not None and not scene.press.counterweight:
         parts["counterweight"] = "no counterweight"
     return parts
+
+
+def _of_bodies(scene: Scene) -> str:
+    """Return which bodies are flexible."""
+    names = ", ".join(name.replace("_", " ") for name in scene.bodies)
+    return f"flexible {names}" if names else "rigid bodies"
 
 
 def _of_loads(scene: Scene) -> dict[str, str]:

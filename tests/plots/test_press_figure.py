@@ -13,7 +13,8 @@ def panels(result):
 @pytest.mark.parametrize("label", ["ideal", "dry", "lubricated", "stopped", "stopped at once"])
 def test_less_than_a_stroke_on_ideal_guides(results, label):
     shown = panels(results[label])
-    assert list(shown) == ALWAYS
+    loads = ["Loads"] if results[label].scene.load else []
+    assert list(shown) == ALWAYS + loads
     assert all(axes.get_ylabel().endswith(("kN", "kW")) for axes in shown.values())
 
 
@@ -48,12 +49,18 @@ def test_shaking_force_is_drawn_as_its_mean_over_a_millisecond(results):
 def test_elastic_guides_show_tilt_and_the_stroke(results):
     result = results["elastic"]
     shown = panels(result)
-    assert list(shown) == [*ALWAYS, "Bottom dead centre", "Slider tilt", "Slider sideways"]
+    assert list(shown) == [
+        *ALWAYS,
+        "Bottom dead centre",
+        "Slider tilt",
+        "Slider sideways",
+        "Loads",
+    ]
     assert "µrad" in shown["Slider tilt"].get_ylabel()
     centre = result.summary()["strokes"]
     (dot,) = (line for line in shown["Slider tilt"].lines if line.get_marker() == "o")
     assert dot.get_ydata() == pytest.approx(1e6 * np.array(centre["tilts"]))
-    assert f"{1e3 * centre['mean']:.6g} mm" in shown["Bottom dead centre"].get_title("right")
+    assert f"mm: {1e3 * centre['mean']:.6g}" in shown["Bottom dead centre"].get_title("right")
 
 
 def test_guides_are_one_curve_of_the_energy_picture(results):

@@ -97,18 +97,18 @@ def test_runs_without_numbers_are_crosses():
 
 def test_what_is_drawn_over_what():
     some = table(
-        grid={"bodies": ["rigid"], "speed_rpm": SPEEDS, "joints.crank_pin.clearance": CLEARANCES}
+        grid={"mechanism": ["press"], "speed_rpm": SPEEDS, "joints.crank_pin.clearance": CLEARANCES}
     )
     assert axes_of(some) == ("speed_rpm", "joints.crank_pin.clearance")
     assert axes_of(some, ["joints.crank_pin.clearance"]) == ("joints.crank_pin.clearance",)
-    with pytest.raises(InputError, match="--over bodies: allowed are the numbers that vary"):
-        axes_of(some, ["bodies"])
+    with pytest.raises(InputError, match="--over mechanism: allowed are the numbers that vary"):
+        axes_of(some, ["mechanism"])
     with pytest.raises(InputError, match="allowed are one or two keys"):
         axes_of(some, ["speed_rpm"] * 3)
 
 
 def test_nothing_to_draw_is_no_picture(tmp_path):
-    assert save_sweep(table(grid={"bodies": ["rigid"]}), tmp_path) == []
+    assert save_sweep(table(grid={"mechanism": ["press"]}), tmp_path) == []
     assert save_sweep(table(missing=[0, 1, 2], grid={"speed_rpm": SPEEDS}), tmp_path) == []
 
 

@@ -5,6 +5,7 @@ from matplotlib.figure import Figure
 
 from exu_press import Scene
 from exu_press.plots.words import describe, early_stops, joint_in_words, plain
+from exu_press.scene import flexible_press
 
 
 def test_a_scene_in_words():
@@ -16,6 +17,7 @@ def test_a_scene_in_words():
     words = describe([scene])
     for part in (
         "Press",
+        "rigid bodies",
         "200 rpm",
         "crank pin lubricated",
         "crank pin radial clearance 0.05 mm",
@@ -37,6 +39,7 @@ def test_guides_counterweight_and_an_eccentric_load():
     assert "guides elastic" in words
     assert "no counterweight" in words
     assert "guides" not in describe([Scene()])
+    assert "flexible crank, linkage" in describe([Scene(bodies=flexible_press())])
 
 
 def test_scenes_share_what_they_have_in_common():

@@ -35,6 +35,9 @@ __all__ = ["PlacedPart", "placed_parts"]
 NEAR = 1e-4
 """m: how far a face's axis may lie from its joint; drawings are rounded to tenths of a mm."""
 
+IN_THE_PLANE = ("x", "y", "rz")
+"""What a planar mechanism loads faces in."""
+
 MILLIMETRES = 1e-3
 """Netgen reads every STEP file in millimetres, whatever its own unit."""
 
@@ -125,7 +128,10 @@ def _placed(mechanism: Mechanism, body: Body, table: Flexible, quiet: bool) -> P
     fitted = named and table.origin is None and table.angle_deg is None
     origin, turn = table.origin or (0.0, 0.0), radians(table.angle_deg or 0.0)
     part = _part(table, body, faces, drive, joints, origin, turn)
-    reduced = _reduced(part, Reduction(modes=table.modes, method=table.method), body.name, quiet)
+    reduction = Reduction(
+        table.modes, table.method, flexibility_error=table.flexibility_error, loads=IN_THE_PLANE
+    )
+    reduced = _reduced(part, reduction, body.name, quiet)
     held = {
         joint: tuple(face.name or _face_name(joint, i) for i, face in enumerate(each))
         for joint, each in faces.items()

@@ -30,6 +30,7 @@ __all__ = ["cache_file", "default_folder", "load", "reduced_part", "save"]
 SOURCES = (
     "shapes",
     "round_faces",
+    "flexibility",
     "mesh",
     "elasticity",
     "saddle",
@@ -50,6 +51,7 @@ PLAIN = (  # the arrays of a ReducedPart stored under their own names
     "stress",
     "mass_matrix",
     "stiffness_matrix",
+    "flexibility",
 )
 PER_INTERFACE = ("centre", "axis", "translation", "rotation")
 UNREADABLE = (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, zlib.error)

@@ -70,6 +70,7 @@ class ReducedPart:
     stress: Array  # (6 s, n) Pa per unit of q; empty rows if not computed
     mass_matrix: Array  # (n, n)
     stiffness_matrix: Array  # (n, n)
+    flexibility: Array  # (m,) of every loaded motion, exact, m/N or 1/(N m); empty without modes
     couplings: Mapping[str, Array]
     interfaces: tuple[ReducedInterface, ...]
     meta: Mapping[str, Any] = field(default_factory=dict)
@@ -92,6 +93,23 @@ class ReducedPart:
             f"{self.name}: no interface {face!r}; it has "
             + ", ".join(repr(interface.face) for interface in self.interfaces)
         )
+
+    def participation(self) -> Array:
+        """Return what share (m, n) of each loaded motion's static flexibility each mode carries.
+
+        The motions are those of meta["motions"], (face, motion). What a row lacks to 1 is left out.
+        """
+        from fe_models.flexibility import shares
+
+        moved = np.array(
+            [
+                [*self.interface(face).translation, *self.interface(face).rotation][
+                    ("x", "y", "z", "rx", "ry", "rz").index(motion)
+                ]
+                for face, motion in self.meta["motions"]
+            ]
+        )
+        return shares(moved, self.frequencies, self.flexibility)
 
     def damping_matrix(self, ratio: float) -> Array:
         """Return the matrix (n, n), 1/s, that damps every mode with `ratio` of critical damping.

@@ -25,6 +25,10 @@ __all__ = ["METHODS", "Reduction", "reduce_model", "reduce_part"]
 
 Array = NDArray[np.float64]
 METHODS = ("craig_bampton", "free")
+USUAL_MODES = 20
+MOST_MODES = 80
+"""That a flexibility error is sought with."""
+
 ROUND = 1e-4
 """Of a face's size: how far its nodes may lie beside a circle."""
 
@@ -36,24 +40,42 @@ class Reduction:
     """How a part is reduced.
 
     Attributes:
-        modes: number of modal coordinates, from 0 (a rigid body) up. Craig-Bampton spends them on
-            the static modes first (one for each loaded motion of an interface beyond six), then on
-            the lowest fixed-interface modes; fewer than the static ones: the lowest modes of their
-            span.
+        modes: number of modal coordinates, from 0 (a rigid body) up; 20 unless given. Craig-Bampton
+            spends them on the static modes first (one for each loaded motion of an interface beyond
+            six), then on the lowest fixed-interface modes; fewer than the static ones: the lowest
+            modes of their span.
+        flexibility_error: instead, only those modes of the interfaces' statics (of the free body)
+            that are needed to leave no more than this share out of what the interfaces give way
+            under any static load on them.
+        loads: the motions that such loads act in; in a planar mechanism x, y and rz.
         method: "craig_bampton", or "free": the lowest modes of the free body.
         stress: whether the stresses of the modes are kept too (more to store).
 
     Raises:
-        InputError: the number of modes is none, or the method unknown.
+        InputError: the number of modes or the error is none, both are given, or the method is
+            unknown.
     """
 
-    modes: int = 20
+    modes: int | None = None
     method: str = "craig_bampton"
     stress: bool = True
+    flexibility_error: float | None = None
+    loads: tuple[str, ...] = MOTIONS
 
     def __post_init__(self) -> None:
-        """Refuse a number of modes that is none, and unknown methods."""
-        if isinstance(self.modes, bool) or not isinstance(self.modes, int) or self.modes < 0:
+        """Refuse a number of modes or an error that is none, and unknown methods."""
+        error = self.flexibility_error
+        if error is not None:
+            if self.modes is not None:
+                raise InputError(
+                    f"modes = {self.modes!r}, flexibility_error = {error!r}: allowed is one of "
+                    "the two"
+                )
+            if not 0.0 < error < 1.0:
+                raise InputError(f"flexibility_error = {error!r}: must lie between 0 and 1")
+        elif self.modes is None:
+            object.__setattr__(self, "modes", USUAL_MODES)
+        elif isinstance(self.modes, bool) or not isinstance(self.modes, int) or self.modes < 0:
             raise InputError(f"modes = {self.modes!r}: must be a whole number, 0 or more")
         if self.method not in METHODS:
             raise InputError(f"method = {self.method!r}: must be one of {', '.join(METHODS)}")
@@ -87,56 +109,75 @@ def reduce_part(part: Part, reduction: Reduction, report: Report | None = None) 
 
 def reduce_model(part: Part, model: Any, reduction: Reduction) -> ReducedPart:
     """Reduce a `FullModel`."""
-    _check_size(part, model, reduction)
-    if reduction.modes == 0:
-        basis, fixed = np.zeros((model.unknowns, 0)), np.zeros(0)
-    elif reduction.method == "free":
-        basis, fixed = _free_basis(model, reduction.modes), np.zeros(0)
+    from fe_models.flexibility import Statics, inertia_relief
+
+    count = _most_modes(part, model, reduction)
+    if count == 0:
+        nothing = np.zeros((model.unknowns, 0))
+        return _package(part, model, reduction, np.zeros(0), nothing, np.zeros(0), np.zeros(0))
+    by_error = reduction.flexibility_error is not None
+    if reduction.method == "free":
+        (basis, cholesky), fixed = _free_basis(model, count), np.zeros(0)
     else:
-        basis, fixed = _craig_bampton_basis(part, model, reduction.modes)
-    frequencies, modes = _orthogonalise(model, basis, reduction.modes)
-    return _package(part, model, reduction, frequencies, modes, fixed)
+        basis, fixed, cholesky = _craig_bampton_basis(part, model, 0 if by_error else count)
+    frequencies, modes = _orthogonalise(model, basis, basis.shape[1] if by_error else count)
+    statics = Statics(model, interface_rows(part, model, reduction.loads), cholesky)
+    carried = statics.carried(interface_rows(part, model, reduction.loads) @ modes, frequencies)
+    if reduction.flexibility_error is not None:
+        kept = statics.enough(carried, reduction.flexibility_error, part.name)
+        frequencies, modes, carried = frequencies[kept], modes[:, kept], carried[:, kept]
+    exact = inertia_relief(model, interface_rows(part, model), cholesky)
+    left = statics.error(carried)
+    return _package(part, model, reduction, frequencies, modes, fixed, exact, left)
 
 
-def interface_rows(part: Part, model: Any) -> sp.csr_matrix:
-    """Return C (m, 3n): the loaded mean motions of all interfaces."""
+def interface_rows(part: Part, model: Any, motions: tuple[str, ...] = MOTIONS) -> sp.csr_matrix:
+    """Return C (m, 3n): the loaded mean motions of all interfaces, of those that are asked for."""
     rows = [
         model.faces[interface.face].rows[[MOTIONS.index(motion)]]
         for interface in part.interfaces
         for motion in interface.motions
+        if motion in motions
     ]
-    return sp.csr_matrix(sp.vstack(rows))
+    return sp.csr_matrix(sp.vstack(rows) if rows else (0, model.unknowns))
 
 
-def _check_size(part: Part, model: Any, reduction: Reduction) -> None:
-    """Refuse more modes than the mesh has, and interfaces that do not hold the body."""
+def _most_modes(part: Part, model: Any, reduction: Reduction) -> int:
+    """Return how many modes to compute; refuse more than the mesh has, and a body that is loose."""
     rows = sum(len(interface.motions) for interface in part.interfaces)
-    most = model.unknowns - max(rows, 6) - 1
-    if reduction.modes > most:
+    most = int(model.unknowns - max(rows, 6) - 1)
+    if reduction.modes is not None and reduction.modes > most:
         raise InputError(
             f"{part.name}: modes = {reduction.modes}: this mesh of {model.unknowns} "
             f"unknowns has at most {most}"
         )
-    if reduction.modes > 0 and reduction.method == "craig_bampton" and not part.bearings:
+    if reduction.modes != 0 and reduction.method == "craig_bampton" and not part.bearings:
         raise InputError(
             f"{part.name}: the Craig-Bampton reduction needs an interface with all six motions; "
             'add one, or use method = "free"'
         )
+    return min(MOST_MODES, most) if reduction.modes is None else reduction.modes
 
 
-def _free_basis(model: Any, count: int) -> Array:
-    """Return the lowest modes of the free body: those held to zero mean momentum by C = R^T M."""
+def _free_basis(model: Any, count: int) -> tuple[Array, Any]:
+    """Return the lowest modes of the free body: those held to zero mean momentum by C = R^T M.
+
+    The second is the factorised stiffness.
+    """
     from fe_models.elasticity import rigid_motions
     from fe_models.saddle import SaddleSolver, lowest_modes
 
     momentum = (model.mass @ rigid_motions(model.nodes, model.nodes.mean(axis=0))).T
     solver = SaddleSolver(model, momentum)
     _, modes = lowest_modes(model, lambda load: solver.solve(load, None), count)
-    return modes
+    return modes, solver.cholesky
 
 
-def _craig_bampton_basis(part: Part, model: Any, count: int) -> tuple[Array, Array]:
-    """Return the static and the lowest fixed-interface modes, and the latter's frequencies [Hz]."""
+def _craig_bampton_basis(part: Part, model: Any, count: int) -> tuple[Array, Array, Any]:
+    """Return the static and the lowest fixed-interface modes, and the latter's frequencies [Hz].
+
+    The third is the factorised stiffness.
+    """
     from fe_models.saddle import SaddleSolver, lowest_modes
 
     solver = SaddleSolver(model, interface_rows(part, model))
@@ -149,7 +190,7 @@ def _craig_bampton_basis(part: Part, model: Any, count: int) -> tuple[Array, Arr
     eigenvalues, fixed = lowest_modes(
         model, lambda load: solver.solve(load, None), max(0, count - static.shape[1])
     )
-    return np.hstack([static, fixed]), np.sqrt(eigenvalues) / (2.0 * np.pi)
+    return np.hstack([static, fixed]), np.sqrt(eigenvalues) / (2.0 * np.pi), solver.cholesky
 
 
 def _orthogonalise(model: Any, basis: Array, count: int) -> tuple[Array, Array]:
@@ -191,6 +232,8 @@ def _package(
     frequencies: Array,
     modes: Array,
     fixed: Array,
+    exact: Array,
+    left: float = 1.0,
 ) -> ReducedPart:
     """Return the reduced part: interface motions, couplings, and the surface of everything."""
     from fe_models.stress import nodal_stress
@@ -238,7 +281,13 @@ def _package(
         stiffness_matrix=np.diag((2.0 * np.pi * frequencies) ** 2),
         couplings=_couplings(model, by_node),
         interfaces=tuple(interfaces),
-        meta={"unknowns": model.unknowns, "tetrahedra": len(model.elements)},
+        flexibility=exact,
+        meta={
+            "unknowns": model.unknowns,
+            "tetrahedra": len(model.elements),
+            "motions": [[i.face, motion] for i in part.interfaces for motion in i.motions],
+            "flexibility_error": left,
+        },
     )
 
 

@@ -55,13 +55,19 @@ class Cholesky:
 class SaddleSolver:
     """Solves K u + C^T f = load, C u = motion for the displacements u of a free body."""
 
-    def __init__(self, model: FullModel, rows: Any) -> None:
-        """Factorise; `rows` is C (m, 3n), which must hold all six rigid motions."""
+    def __init__(self, model: FullModel, rows: Any, cholesky: Cholesky | None = None) -> None:
+        """Factorise, unless `cholesky` is another solver's of the same model.
+
+        Args:
+            model: free.
+            rows: C (m, 3n), which must hold all six rigid motions.
+            cholesky: of the stiffness.
+        """
         self._rows = rows
         self._rigid = rigid_motions(model.nodes, model.nodes.mean(axis=0))
-        self._cholesky = Cholesky(model.stiffness, _three_nodes(model.nodes))
+        self.cholesky = cholesky or Cholesky(model.stiffness, _three_nodes(model.nodes))
         spread = np.asarray(rows.T @ np.eye(rows.shape[0]))  # C^T, dense
-        self._answers = np.column_stack([self._cholesky.solve(column) for column in spread.T])
+        self._answers = np.column_stack([self.cholesky.solve(column) for column in spread.T])
         self._spread = spread
         self.rigid_motion: Array = np.asarray(rows @ self._rigid)  # C R (m, 6)
         compliance = np.asarray(rows @ self._answers)
@@ -81,7 +87,7 @@ class SaddleSolver:
         if motion is not None:
             right[:m] = motion
         if load is not None:
-            elastic = self._cholesky.solve(load)
+            elastic = self.cholesky.solve(load)
             right[:m] -= self._rows @ elastic
             right[m:] = self._rigid.T @ load / self._scale
         answer = scipy.linalg.lu_solve(self._small, right)

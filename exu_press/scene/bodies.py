@@ -26,6 +26,10 @@ DRIVE_FACE = "drive"
 
 STEP_FILES = (".step", ".stp")
 
+USUAL_MODES = 20
+OF_TWO = ("modes", "flexibility_error")
+"""Keys of which one decides about the modes."""
+
 OLD = "is bodies.NAME now, a table for each flexible body, as in bodies.linkage = 'linkage'"
 
 
@@ -52,7 +56,13 @@ class Flexible(Table):
     """A flexible body: a shipped part or a STEP file, its material, mesh and modes."""
 
     flexible: str = key("", "a shipped part, or the path of a STEP file")
-    modes: int = key(20, "modal coordinates", at_least=0, at_most=500)
+    modes: int | None = key(None, "modal coordinates; 20", at_least=0, at_most=500)
+    flexibility_error: float | None = key(
+        None,
+        "instead of modes: those that leave no more of the statics out",
+        above=0,
+        at_most=0.5,
+    )
     method: str = key("craig_bampton", "reduction", choices=("craig_bampton", "free"))
     damping_ratio: float = key(0.02, "of every mode", at_least=0, at_most=0.9)
     mesh_size: float = key(0.03, "of the tetrahedra", "m", at_least=0.001, at_most=0.1)
@@ -81,6 +91,13 @@ class Flexible(Table):
         if origin is not None:
             object.__setattr__(self, "origin", None)
         super().__post_init__()
+        if self.flexibility_error is None:
+            object.__setattr__(self, "modes", USUAL_MODES if self.modes is None else self.modes)
+        elif self.modes is not None:
+            raise InputError(
+                f"modes = {self.modes}, flexibility_error = {self.flexibility_error:g}: allowed is "
+                "one of the two"
+            )
         if origin is not None:
             object.__setattr__(self, "origin", _pair("origin", origin))
         object.__setattr__(self, "faces", faces_given(self.faces))
@@ -173,7 +190,11 @@ def changed_bodies(
             changed[name] = value
         else:
             place = changed.setdefault(name, {})
-            changed[name] = {**(_keys(place) if isinstance(place, str) else place), inner: value}
+            place = dict(_keys(place)) if isinstance(place, str) else dict(place)
+            for one, other in (OF_TWO, OF_TWO[::-1]):
+                if inner == one and f"{name}.{other}" not in changes:
+                    place.pop(other, None)
+            changed[name] = {**place, inner: value}
     return changed
 
 

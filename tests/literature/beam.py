@@ -85,6 +85,7 @@ def line_part(places, density, shapes, stiffness, ends, *, turns=None, mean_axes
         stress=np.zeros((0, count)),
         mass_matrix=np.eye(count),
         stiffness_matrix=np.diag(squares),
+        flexibility=np.zeros(0),
         couplings=_couplings(model, modes),
         interfaces=interfaces,
     )

@@ -32,6 +32,11 @@ def test_a_part_alone_or_with_its_keys():
         (flexible_press(poissons_ratio=-0.1), r"bodies\.crank\.poissons_ratio = -0\.1: allowed is"),
         (flexible_press(poissons_ratio=0.5), r"bodies\.crank\.poissons_ratio = 0\.5: allowed is a"),
         (flexible_press(youngs_modulus=0), r"bodies\.crank\.youngs_modulus = 0.*allowed is .* > 0"),
+        (
+            flexible_press(modes=4, flexibility_error=0.01),
+            r"bodies\.crank\.modes = 4, flexibility_error = 0\.01: allowed is one of the two",
+        ),
+        (flexible_press(flexibility_error=0.0), r"crank\.flexibility_error = 0\.0: allowed is a"),
         (flexible_press(origin=[1]), r"bodies\.crank\.origin = \[1\]: allowed are two numbers, m"),
         (flexible_press(faces="pin"), r"bodies\.crank\.faces = 'pin': allowed is a table"),
         (flexible_press(faces={"pins": "pin"}), r"crank\.faces\.pins: crank has no such joint"),
@@ -65,6 +70,13 @@ def test_one_key_a_part_or_all_bodies_are_replaced():
     assert scene.replace(mechanism="slider_crank").bodies == {}
     both = scene.replace({"bodies.linkage": "linkage_2", "bodies.linkage.modes": 3})
     assert both.bodies["linkage"] == Flexible("linkage_2", modes=3)
+
+
+def test_a_flexibility_error_takes_the_place_of_the_modes_and_back():
+    scene = Scene(bodies=flexible_press()).replace("bodies.crank.flexibility_error", 0.01)
+    assert (scene.bodies["crank"].modes, scene.bodies["linkage"].modes) == (None, 20)
+    back = scene.replace("bodies.crank.modes", 6).bodies["crank"]
+    assert (back.modes, back.flexibility_error) == (6, None)
 
 
 def test_faces_are_a_name_a_table_or_several():

@@ -16,7 +16,7 @@ from exu_press.errors import InputError
 from exu_press.mechanism import Body, Joint, Mechanism, Motion, Point
 from exu_press.progress import Progress
 from exu_press.scene import Face, Flexible, Scene, mechanism_of
-from exu_press.scene.bodies import DRIVE_FACE, faces_given
+from exu_press.scene.bodies import DRIVE_FACE, faces_given, require_rainflow
 from fe_models import (
     CRANK_STEEL,
     Axis,
@@ -107,6 +107,8 @@ def placed_parts(scene: Scene, *, quiet: bool = True) -> dict[str, PlacedPart]:
     placed = {}
     for name, table in scene.bodies.items():
         try:
+            if table.woehler_stress is not None:
+                require_rainflow()
             placed[name] = _placed(mechanism, mechanism.body(name), table, quiet)
         except InputError as error:
             raise InputError(f"bodies.{name}: {error}") from None

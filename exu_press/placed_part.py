@@ -100,8 +100,8 @@ def placed_parts(scene: Scene, *, quiet: bool = True) -> dict[str, PlacedPart]:
         return {}
     if find_spec("ngsolve") is None:
         raise InputError(
-            f"bodies.{next(iter(scene.bodies))}: needs NGSolve, which is not installed (there are "
-            "no wheels for Linux on ARM); allowed here are rigid bodies"
+            f"bodies.{next(iter(scene.bodies))}: needs NGSolve, which is not installed; install "
+            "exu-press[flexible] (there are no wheels for Linux on ARM)"
         )
     mechanism = mechanism_of(scene)
     placed = {}

@@ -147,7 +147,7 @@ def largest_step(scene: Scene) -> float:
 
 
 def scales(scene: Scene) -> Scales:
-    """Return the crank pin's speed and acceleration, and what the latter takes of all bodies.
+    """Return the crank pin's speed, and what its acceleration takes of all bodies.
 
     With a slow crank, the speed at which a journal has fallen through its clearance.
     """
@@ -157,7 +157,6 @@ def scales(scene: Scene) -> Scales:
     usual = scene.angular_speed * scene.pin_speed
     return Scales(
         speed=max(scene.pin_speed, math.sqrt(4.0 * scene.gravity * widest)),
-        acceleration=usual,
         force=sum(body.mass for body in mechanism.bodies)
         * max(usual, FALL * scene.gravity if widest else 0.0),
     )

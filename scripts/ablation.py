@@ -27,12 +27,8 @@ BUDGET = 50_000  # steps; a variant that needs more counts as stopped
 
 OFF = {
     "factor_max": 1e9,
-    "foreseen_min": 1.0,
-    "near_peak": 1e9,
     "penetration": 1e9,
     "refit": 0.0,
-    "touch_depth": 1e-9,
-    "shortest_prediction": math.inf,
 }
 """Numbers at which their rule does nothing."""
 

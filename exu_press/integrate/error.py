@@ -12,7 +12,6 @@ from exu_press.integrate.joint_error import JointError
 from exu_press.integrate.problem import Problem
 from exu_press.integrate.scales import FoundScales
 from exu_press.integrate.share import Share
-from exu_press.integrate.touch import Touch
 from exu_press.integrate.tuning import Tuning
 
 __all__ = ["StepError"]
@@ -24,7 +23,7 @@ START = exu.ConfigurationType.StartOfStep
 class StepError:
     """Estimates the error of the step just tried; 1 is what one step may have.
 
-    Velocities, against the scale of speeds, and accelerations, against their peaks: `BodyError`;
+    Velocities, against the scale of speeds: `BodyError`;
     first-order coordinates likewise, against their largest values: `FirstOrderError`. Where
     that is too much, what counts is the part that Newton's matrix lets through: constraints, films
     and contacts undo the rest within the step (L. F. Shampine's filter for stiff systems, see
@@ -37,8 +36,6 @@ class StepError:
     Attributes:
         accelerations: of all coordinates at the end of the step last tried.
         start: accelerations of all coordinates at the run's start, where they are not Exudyn's.
-        of_joints: the part of the clearance joints in the error of that step.
-        touches: of those clearance joints whose surfaces may touch.
     """
 
     def __init__(
@@ -69,19 +66,14 @@ class StepError:
         self._share = share
         self.accelerations: list[float] = []
         self.start: list[float] = []
-        self.of_joints = 0.0
         self._bodies: BodyError | None = None
         self._first_order: FirstOrderError | None = None
         joints = [] if problem.joints is None else problem.joints.joints
-        rounding = tuning.newton_rounding * problem.length
+        rounding = tuning.rounding * problem.length
         per_time = tolerance / (tuning.kept_steps * longest)
         self._joints = [
             JointError(j, share.whole * j.clearance, per_time * j.clearance, rounding, tuning)
             for j in joints
-        ]
-        pairs = zip(joints, self._joints, strict=True)
-        self.touches = [
-            Touch(joint, motion, tuning) for joint, motion in pairs if joint.reach < math.inf
         ]
 
     def __call__(self, step: float) -> float:
@@ -100,15 +92,13 @@ class StepError:
         if not self._joints:  # else impacts and films need finer steps, by far
             offset = self._relative(self._bodies.offset(step))
             error = max(error, math.pow(offset, 1.5))  # as the step's cube
-            error = max(error, self._bodies.of_peaks(step))
         if self._first_order is not None:
             error = max(error, self._first_order.error(step))
         if self._problem.switching:
             error = max(error, self.of_switch(step))
-        self.of_joints = 0.0
         for joint in self._joints:
-            self.of_joints = max(self.of_joints, joint.error(step))
-        return max(error, self.of_joints)
+            error = max(error, joint.error(step))
+        return error
 
     def of_switch(self, step: float) -> float:
         """Return the error of a step in which Exudyn's contacts or friction have switched.
@@ -140,8 +130,6 @@ class StepError:
             self._scales.update(velocities, self.accelerations)
         if self._first_order is not None:
             self._first_order.accept()
-        for joint in self._joints:
-            joint.accept()
 
     def _relative(self, speed: float) -> float:
         """Return an error of a speed (m/s) over what the run may have of it."""
@@ -154,7 +142,6 @@ class StepError:
         return BodyError(
             accelerations=start,
             share=self._share,
-            tolerance=self._tolerance,
             scales=self._scales,
             tuning=self._tuning,
             spectral_radius=self._solver.alphaF / (1.0 - self._solver.alphaF),

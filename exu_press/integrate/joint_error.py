@@ -7,21 +7,12 @@ from exu_press.joints.joint import ClearanceJoint
 
 __all__ = ["JointError"]
 
-Vector = tuple[float, ...]
-
 
 class JointError:
     """The eccentricity's error of one clearance joint: its way less that of its velocities.
 
-    A journal's position is the integral of its bodies' velocities, and nothing in a film or in free
-    flight mends it. The corrected trapezoidal rule gives that integral,
-    h (v0 + v1) / 2 - h^2 (change of the mean acceleration) / 12. Where surfaces touch, its part
-    across them is an error of the penetration, and held against that too.
-
-    Attributes:
-        place: eccentricity where the last accepted step ended, m; empty at first.
-        velocity: its rate there, m/s.
-        acceleration: mean rate of that in the last step, m/s^2; empty at first.
+    See `exu_press.joints.path`. Where surfaces touch, its part across them is an error of the
+    penetration, and held against that too.
     """
 
     def __init__(
@@ -47,39 +38,15 @@ class JointError:
         self._rounding = rounding
         self._least, self._penetration = tuning.least_penetration, tuning.penetration
         self._drift = drift if joint.reach == math.inf else math.inf
-        self.place: Vector = ()
-        self.velocity: Vector = ()
-        self.acceleration: Vector = ()
-        self._tried: tuple[Vector, Vector, Vector] = (), (), ()  # the same, of the step tried
 
     def error(self, step: float) -> float:
         """Return the error of a step (s) that ends where the joint was last asked for its force."""
-        now, velocity = self._joint.eccentricity, self._joint.relative_velocity
-        if not self.place:
-            self._tried = now, velocity, ()
-            return 0.0
-        place, last, before = self.place, self.velocity, self.acceleration
-        mean = [(velocity[i] - last[i]) / step for i in range(len(now))]
-        self._tried = now, velocity, tuple(mean)
-        half, twelfth = 0.5 * step, step * step / 12.0
-        square = along = excess = 0.0
-        for i in range(len(now)):
-            way = half * (velocity[i] + last[i])
-            if before:
-                way -= twelfth * (mean[i] - before[i])
-            missed = now[i] - place[i] - way
-            square += missed * missed
-            along += missed * now[i]
-            excess += now[i] * now[i]
-        error = math.sqrt(square) / max(min(self._limit, self._drift * step), self._rounding)
-        distance = math.sqrt(excess)
-        depth = distance - self._joint.reach
+        joint = self._joint
+        place = joint.eccentricity
+        missed, along = joint.path.missed(place, joint.relative_velocity, step)
+        error = missed / max(min(self._limit, self._drift * step), self._rounding)
+        depth = math.hypot(*place) - joint.reach
         if depth > 0.0:
-            relative = max(self._least, self._penetration * depth / self._joint.clearance)
-            limit = max(relative * self._limit, self._rounding)
-            error = max(error, abs(along) / distance / limit)
+            relative = max(self._least, self._penetration * depth / joint.clearance)
+            error = max(error, abs(along) / max(relative * self._limit, self._rounding))
         return error
-
-    def accept(self) -> None:
-        """Remember the accepted step's end as the next one's beginning."""
-        self.place, self.velocity, self.acceleration = self._tried

@@ -10,8 +10,7 @@ Euler parameters must have unit length, and the constraints' directions that Exu
 method are right on the unit sphere only: where the expected state leaves it, an iteration that puts
 the length right moves the body by as much, and what that leaves in the constraints alternates from
 step to step, 1/(1 - spectral radius)^2 times as large in the accelerations. So the expected
-accelerations are those that end on the sphere, and one iteration does. The shortest steps, which
-expect nothing, take two.
+accelerations are those that end on the sphere, and one iteration does.
 """
 
 import math
@@ -63,10 +62,9 @@ class Newton:
         self.data: Any = mbs.systemData
         self._solver, self._joints = solver, joints
         self._scales, self._part = scales, tuning.balance * tolerance
-        self._patience, self._digits = tuning.patience, tuning.digits
-        self._reach, self._shortest = tuning.reach, tuning.shortest_prediction
+        self._patience, self._rounding = tuning.patience, tuning.rounding
+        self._reach = tuning.reach
         self._quaternions = [self._reference(node) for node in nodes if node.quaternion]
-        self._off_sphere = False  # the expected state of the step under way
         self._weights: tuple[float, float, float] | None = None
         self._start: float | None = None  # of the step under way, s
         self.now: list[float] = []
@@ -87,15 +85,10 @@ class Newton:
         """Set what an iteration of a step to `time`, s, starts from, and where it may end."""
         if not iteration:
             assert self._start is not None
-            predicted = time - self._start > self._shortest
-            self._off_sphere = not predicted and bool(self._quaternions)
-            if predicted:
-                self._advance(time - self._start)
+            self._advance(time - self._start)
             self._accept(self._tolerance())
-        elif iteration < 3 and self._off_sphere:
-            self._accept(0.0 if iteration == 1 else self._tolerance())
         elif iteration == self._patience and self._joints is not None:
-            rounding = self._digits * self._joints.damping * self._scales.speed
+            rounding = self._rounding * self._joints.damping * self._scales.speed
             self._accept(max(self._tolerance(), rounding))
 
     def _advance(self, step: float) -> None:

@@ -159,7 +159,7 @@ def _nodes(
     data: Any = mbs.systemData
     translating = {item["nodeNumber"] for item in objects if item["objectType"] == "Mass1D"}
     carriers = {
-        item["nodeNumbers"][1]: item["nodeNumbers"][0]
+        int(item["nodeNumbers"][1]): int(item["nodeNumbers"][0])
         for item in objects
         if item["objectType"] == "FFRFreducedOrder" and len(item["nodeNumbers"]) > 1
     }
@@ -180,7 +180,8 @@ def _nodes(
         if kind == "1D" and number in translating:
             displacements = 1
         if bodies is not None:
-            name, mass = bodies.get(number, (name, math.inf))
+            frame = carriers.get(number, number)
+            name, mass = bodies.get(frame, (name, math.inf))
         found.append(
             Node(
                 number=number,

@@ -12,17 +12,12 @@ class Scales:
 
     Attributes:
         speed: of the bodies, m/s; found: the largest so far.
-        acceleration: below which no peak is looked for, m/s^2; found: `part_of_peak` of the largest
-            so far.
         force: Newton's method balances forces to a part of it, N; found: what accelerates all
             bodies together, at most so far.
-        part_of_peak: see `acceleration`.
     """
 
     speed: float | None = None
-    acceleration: float | None = None
     force: float | None = None
-    part_of_peak: float = 0.1
 
 
 class FoundScales:
@@ -33,7 +28,6 @@ class FoundScales:
 
     Attributes:
         speed: m/s.
-        acceleration: m/s^2.
         force: N.
         length: of the coordinates whose last digits are rounded, m.
         ends: where each node's coordinates end among all.
@@ -52,7 +46,6 @@ class FoundScales:
         self._energies: list[float] = []  # twice the largest kinetic energy of each node so far
         self.masses: list[float] = []
         self.speed = given.speed or 0.0
-        self.acceleration = given.acceleration or 0.0
         self.force = given.force or 0.0
         self.fixed = False
         self._longest = 0.0
@@ -88,7 +81,7 @@ class FoundScales:
         squares = zip(self._sums(places), masses, strict=True)
         widths = [math.sqrt(s / m) for s, m in squares if m > 0.0]
         self.length = max([self.length, *widths])
-        given = self._given.speed, self._given.acceleration, self._given.force
+        given = self._given.speed, self._given.force
         self.fixed = True not in self._own and None not in given
         if self.fixed:
             return
@@ -110,8 +103,8 @@ class FoundScales:
         """Be told of a state."""
         if self.fixed:
             return
-        energies, powers = self._sums(velocities), self._sums(accelerations)
-        speed_2 = acceleration_2 = 0.0
+        energies = self._sums(velocities)
+        speed_2 = 0.0
         for i, mass in enumerate(self.masses):
             self._energies[i] = max(self._energies[i], energies[i])
             if not self._own[i]:
@@ -124,11 +117,6 @@ class FoundScales:
             if own:
                 square = self.speed * self.speed
                 self.masses[i] = self._energies[i] / square if square > 0.0 else 0.0
-            if self.masses[i] > 0.0:
-                acceleration_2 = max(acceleration_2, powers[i] / self.masses[i])
-        if self._given.acceleration is None:
-            largest = self._given.part_of_peak * math.sqrt(acceleration_2)
-            self.acceleration = max(self.acceleration, largest)
         if self._given.force is None:
             forces = sum((m * a) ** 2 for m, a in zip(self.inertias, accelerations, strict=True))
             self.force = max(self.force, math.sqrt(forces))

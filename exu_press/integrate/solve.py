@@ -103,7 +103,6 @@ def solve_dynamic(
     smallest = integration.minimumStepSize
     if tolerance is None:
         smallest = 2.0**-tuning.halvings * largest
-        smallest = min(smallest, 0.5 * tuning.first_step_of_film) if films else smallest
     solver: Any = exu.MainSolverImplicitSecondOrder()  # whose type stub forgets `self`
     accuracy = FIXED_STEPS if tolerance is None else tolerance
     found = FoundScales(scales, problem.length)
@@ -126,7 +125,7 @@ def solve_dynamic(
     control: StepControl | FixedSteps
     estimate = StepError(problem, solver, found, accuracy, largest, end - start, tuning)
     if tolerance is None:
-        first = min(largest, tuning.first_step_of_film) if films else largest
+        first = tuning.first_step * largest if films else largest
         control = FixedSteps(
             largest, solver, newton, start=start, first=first, film_start=film_start
         )
@@ -139,7 +138,7 @@ def solve_dynamic(
             end=end,
             smallest=smallest,
             largest=largest,
-            first=min(largest, tuning.first_step_of_film) if films else first,
+            first=first,
             tuning=tuning,
             film_start=film_start,
             next_corner=next_corner,

@@ -46,6 +46,9 @@ AHEAD = 1.0 / 64.0
 CURRENT = exu.ConfigurationType.Current
 START = exu.ConfigurationType.StartOfStep
 
+SAME = 1e-6
+"""Steps that differ by less, relative, are one size: the clock's last digits."""
+
 
 class StepChange:
     """Fits the state at a step's beginning to the step, if that is another or repeated."""
@@ -68,7 +71,7 @@ class StepChange:
             tuning: numbers.
         """
         self._smooth = smooth
-        self._same, self._refit = tuning.same_step, tuning.refit
+        self._refit = tuning.refit
         self._iterations = tuning.constraint_iterations
         self._solver, self._constraints = solver, constraints
         self._data: Any = mbs.systemData
@@ -109,7 +112,7 @@ class StepChange:
         if not self._smooth:
             ratio = min(1.0, ratio)
         given = self._last is None and self._given is not None
-        if repeated or given or abs(ratio - 1.0) > self._same:
+        if repeated or given or abs(ratio - 1.0) > SAME:
             self._shift(step, ratio)
 
     def _shift(self, step: float, ratio: float) -> None:
@@ -122,7 +125,7 @@ class StepChange:
         if self._state is None:
             self._state = [np.array(view) for view in self._views(START)]
         q, v, a = self._state
-        if abs(ratio - 1.0) > self._same:
+        if abs(ratio - 1.0) > SAME:
             part = step / self._fits
             if part < self._refit or self._smooth:
                 if self._offsets is None:

@@ -59,13 +59,11 @@ class StepControl:
             next_corner: time -> the next instant at which a load has a corner, s, or infinity.
         """
         self.error = 0.0
-        self._before = 0.0  # joints' error in the step before, over its cube
         self._estimate = error
         self._end, self._smallest, self._largest = end, smallest, largest
         self._next_corner = next_corner
-        self._safety, self._rise = tuning.safety, tuning.rise
+        self._safety = tuning.safety
         self._factor_max, self._factor_min = tuning.factor_max, tuning.factor_min
-        self._foreseen_min = tuning.foreseen_min
         self._film_start = film_start
         self._iteration: Any = solver.it  # holds the step
         self._newton, self._data = newton, newton.data
@@ -91,40 +89,23 @@ class StepControl:
 
     def _accept(self, time: float) -> None:
         """Take the step last tried as done; choose the size of those to come."""
-        step, error = self._tried, self.error
+        step = self._tried
         self._estimate.accept()
         self._newton.stepped(time, self._estimate.accelerations)
         if step >= 0.5 * self._step:  # else it was cut short, by what it ends on
             self._step = step
-        expected = self._expected(step)
-        factor = self._factor(max(error, expected))
-        if factor > self._factor_max:
+        if self._factor(self.error) > self._factor_max:
             self._step *= self._factor_max
-        elif expected > 1.0:
-            self._step *= max(self._foreseen_min, factor)
-
-    def _expected(self, step: float) -> float:
-        """Return the joints' error in a further step of this size (s), risen as in this one."""
-        now = self._estimate.of_joints
-        before, self._before = self._before, now / step**ORDER
-        scaled = before * step**ORDER
-        return now * min(now / scaled, self._rise) if scaled > 0.0 else 0.0
 
     def after_step(self, time: float) -> list[float]:
-        """Set the next step; it ends on touches, and exactly on corners and the end.
+        """Set the next step; it ends exactly on corners and the end.
 
         Returns:
             The accelerations at the end of the last step.
         """
         if self._tried > 0.0:
             self._accept(time)
-        touches = self._estimate.touches
-        step = min(self._step, self._largest)
-        for touch in touches:
-            step = min(step, touch.first_step())
-        self._step = step
-        for touch in touches:
-            step = min(step, touch.until(self._step))
+        self._step = step = min(self._step, self._largest)
         for stop in (self._next_corner(time), self._end):
             left = stop - time
             if left <= self._smallest:

@@ -50,7 +50,6 @@ class JointOverlay:
         self._mbs = mbs
         self.nodes: dict[int, int] = {}
         self.size = 0
-        self._contacts: list[ClearanceJoint] = []
         self._step: tuple[float, float] | None = None  # start and end of the last try, s
         self._jacobian_time: float | None = None
         self._last: tuple[Any, Any] = None, None
@@ -81,8 +80,6 @@ class JointOverlay:
     def add(self, joint: ClearanceJoint) -> None:
         """Take in a joint whose ends' indices come from `index_of`."""
         self.joints.append(joint)
-        if joint.reach < math.inf:  # films remember nothing of the last step
-            self._contacts.append(joint)
         nodes = list(self.nodes)
         places = [
             (row, column)
@@ -228,8 +225,7 @@ class JointOverlay:
         self.evaluations += 1
         if not self._started:  # of Exudyn's own solvers, which would end without a word
             self._check_start(q, self.number)
-        if self._contacts:
-            self._begin_step(time)
+        self._begin_step(time)
         self._last, self._time = (q, q_t), time
         size = len(q)
         q, q_t = [*q, *GROUND], [*q_t, *GROUND]
@@ -290,7 +286,7 @@ class JointOverlay:
         start = self._mbs.systemData.GetTime(exu.ConfigurationType.StartOfStep)
         accepted = self._step is None or start != self._step[0] or start == self._step[1]
         self._step = start, time
-        for joint in self._contacts:
+        for joint in self.joints:
             joint.begin_step(time - start, accepted)
 
 

@@ -8,19 +8,24 @@ import pytest
 
 from exu_press import Scene, Tuning, simulate
 from exu_press.integrate.joint_error import JointError
+from exu_press.joints.path import Path
 
 CLEARANCE, LIMIT = 1e-4, 1e-9
 
 
 def error_of(missed, *, place, reach=CLEARANCE, drift=math.inf, step=1e-4):
     """The error of a step in which a joint at rest is found `missed` away from its place."""
-    joint = SimpleNamespace(clearance=CLEARANCE, reach=reach, relative_velocity=(0.0, 0.0))
-    error = JointError(joint, LIMIT, drift, 1e-14, Tuning())
-    joint.eccentricity = place
-    error.error(step)
-    error.accept()
-    joint.eccentricity = tuple(p + m for p, m in zip(place, missed, strict=True))
-    return error.error(step)
+    path = Path()
+    path.go_on(place, (0.0, 0.0), step, depth=0.0)
+    there = tuple(p + m for p, m in zip(place, missed, strict=True))
+    joint = SimpleNamespace(
+        clearance=CLEARANCE,
+        reach=reach,
+        path=path,
+        eccentricity=there,
+        relative_velocity=(0.0, 0.0),
+    )
+    return JointError(joint, LIMIT, drift, 1e-14, Tuning()).error(step)
 
 
 def test_a_penetration_counts_against_itself():

@@ -38,7 +38,7 @@ def test_what_rounding_leaves_is_not_iterated_on():
         revolutions=0.02,
     )
     forgiving = simulate(thin)
-    strict = tuned(thin, digits=0.0)
+    strict = tuned(thin, rounding=0.0)
     assert forgiving.completed
     assert strict.info["newton_iterations"] > 4 * forgiving.info["newton_iterations"]
 

@@ -203,7 +203,7 @@ def _rounding(scene: Scene, name: str) -> float:
         return 0.0
     film, c = joint.film, joint.clearance
     damping = 12.0 * math.pi * film_scale(film.viscosity, film.length, joint.radius, c) / c
-    return Tuning().digits * scene.pin_speed * damping
+    return Tuning().rounding * scene.pin_speed * damping
 
 
 def _ratio(value: float, scale: float) -> float:

@@ -151,10 +151,10 @@ def _error(
     same = all(
         abs(before[r].get(name, np.inf) - value) <= SAME * abs(value) for r, value in values.items()
     )
+    least = _least(name, list(values.values())) + OF_READING * abs(values[1.0] - read[name])
     if same:
-        least = _least(name, list(values.values())) + OF_READING * abs(values[1.0] - read[name])
         return converging(list(values.values()), list(values), least, safety)
-    return scattered(list(values.values()))
+    return scattered(list(values.values()), least)
 
 
 def _least(name: str, values: Sequence[float]) -> float:

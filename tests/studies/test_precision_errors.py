@@ -71,6 +71,14 @@ def test_peaks_of_a_whole_run_are_a_distribution_over_its_starts():
     assert late_of(large, truth, [], [large]).mean_of_peaks == pytest.approx(0.1 / 2.1)
 
 
+def test_a_run_shorter_than_a_span_has_one_peak():
+    time = np.linspace(0.0, 0.003, 50)
+    short, large = (
+        wave(time, amplitude=amplitude, force=time, penetration=time) for amplitude in (1.0, 1.2)
+    )
+    assert late_of(large, short).mean_of_peaks == pytest.approx(0.2)
+
+
 def test_impact_times_need_equally_many_impacts():
     depth, fewer = np.sin(300.0 * TIME), np.sin(100.0 * TIME)
     late = late_of(wave(force=depth, penetration=fewer), wave(force=depth, penetration=depth))

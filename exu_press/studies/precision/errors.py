@@ -124,7 +124,8 @@ def _peaks(runs: Sequence[Trajectory]) -> tuple[float, float]:
     """Return mean and 95th percentile of a run's peaks, m/s^2, as means over runs."""
     found = []
     for run in runs:
-        bounds = np.arange(run.time[0], run.time[-1] - 0.5 * PEAKS_APART, PEAKS_APART)
+        count = max(1, round(float(run.time[-1] - run.time[0]) / PEAKS_APART))
+        bounds = run.time[0] + PEAKS_APART * np.arange(count)
         peaks = np.maximum.reduceat(np.abs(run.acceleration), np.searchsorted(run.time, bounds))
         found.append((float(peaks.mean()), float(np.percentile(peaks, 95))))
     mean, large = np.mean(found, axis=0)

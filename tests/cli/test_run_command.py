@@ -15,7 +15,7 @@ KEYS = {
     "status", "reason", "end_time", "wall_time", "total_time", "steps", "rejected_steps",
     "newton_iterations", "law_evaluations", "coordinates", "bodies", "connectors", "own_items",
     "peak_acceleration", "peak_velocity", "stroke", "bottom_dead_centre", "joints", "strokes",
-    "slider_tilt", "slider_lateral", "drive", "shaking", "guides",
+    "slider_tilt", "slider_lateral", "drive", "loads", "shaking", "guides",
     "energy", "versions", "scene", "warnings", "errors", "errors_from", "amplification",
 }  # fmt: skip
 

@@ -4,11 +4,11 @@ EXU_PRESS_COMPILE=1 demands it, 0 forbids it. By default an ordinary install doe
 a C compiler and stays in Python where that fails; an editable one stays in Python, whose sources
 could be edited beside what was compiled from them.
 
-Every module is a C file of its own; they are compiled side by side, without debug information. By
-default the C compiler optimises little, which is quicker installed and a tenth slower in a run;
-where compiling is demanded, as for wheels, it optimises as much as it can.
+Every module is a C file of its own; they are compiled side by side, without debug information and
+with -O1: with -O3, which takes half as long again, runs are no faster.
 """
 
+import gc
 import os
 import shlex
 import shutil
@@ -49,6 +49,18 @@ MODULES = [
 ]
 """What is called in every Newton iteration, and for every joint in every step."""
 
+STUBS = {
+    "build/stubs/numpy/__init__.pyi": """from typing import Any
+def __getattr__(name: str) -> Any: ...
+""",
+    "build/stubs/numpy/typing.pyi": """from typing import Any, TypeVar
+T = TypeVar("T")
+NDArray = Any | T
+""",
+}
+"""What mypyc has to know of NumPy: its own types take three times as long to install and to read as
+all else, and an array is an object in C, whatever is in it."""
+
 ASKED = os.environ.get("EXU_PRESS_COMPILE", "")
 COMPILER = shlex.split(sysconfig.get_config_var("CC") or "cc")[0]
 
@@ -67,7 +79,7 @@ class BuildCompiled(build_ext):
 
     def build_extensions(self) -> None:
         """Compile the C files side by side; setuptools would do one after the other."""
-        print(f"compiling {len(MODULES)} modules of joints, laws and steps", flush=True)
+        print("compiling them", flush=True)
         one_after_the_other = self.compiler.compile
 
         def side_by_side(sources: list[str], *args: Any, **options: Any) -> list[str]:
@@ -99,14 +111,21 @@ def extensions() -> list:
         return []
     from mypyc.build import mypycify
 
+    print(f"translating {len(MODULES)} modules of joints, laws and steps to C", flush=True)
+    for name, text in STUBS.items():
+        Path(name).parent.mkdir(parents=True, exist_ok=True)
+        Path(name).write_text(text, encoding="utf-8")
+    os.environ["MYPYPATH"] = "build/stubs"
+    gc.disable()  # of a million of mypy's objects, all in use
     options = ["--config-file=", "--ignore-missing-imports", "--follow-imports=silent"]
     sources = [f"exu_press/{module}.py" for module in MODULES]
     try:
         found = mypycify(
             options + sources,
-            opt_level="3" if ASKED else "1",
+            opt_level="1",
             debug_level="0",
             multi_file=True,
+            include_runtime_files=True,  # in one of the C files: a dozen of few lines otherwise
             group_name="exu_press",
         )
     except SystemExit:  # its type check failed
@@ -114,6 +133,7 @@ def extensions() -> list:
             raise
         print("joints and laws stay in Python, their types could not be checked")
         return []
+    gc.freeze()  # or the end of this process would take as long as the translation
     for extension in found:
         # a newer compiler's warnings are no errors; a fused a * b + c would round differently
         extension.extra_compile_args = [
@@ -123,7 +143,7 @@ def extensions() -> list:
 
 
 setup(
-    setup_requires=["mypy>=1.15,<3", "numpy>=2.0,<3"] if wanted() else [],  # numpy for its types
+    setup_requires=["mypy>=1.15,<3"] if wanted() else [],
     ext_modules=extensions() if wanted() else [],
     cmdclass={"build_ext": BuildCompiled},
 )

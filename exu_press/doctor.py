@@ -11,9 +11,6 @@ __all__ = ["Run", "extras", "joints_compiled", "machine", "runs", "versions"]
 
 PACKAGE = "exu-press"
 
-FLEXIBLE = "flexible bodies"
-"""What needs NGSolve, which is not there for every system."""
-
 IDEAL_PEAK_ERROR = 1e-6
 """Allowed error of the ideal press's slider, m; it is below 1e-11 in practice."""
 
@@ -67,13 +64,8 @@ def machine() -> str:
 
 
 def versions() -> dict[str, str | None]:
-    """Return the version of every package that is needed; None where it is missing.
-
-    Behind them what only some systems have, FLEXIBLE, if it is there.
-    """
-    needed = _requirements()
-    there = [name for name in needed.get(FLEXIBLE, []) if _version(name)]
-    return {name: _version(name) for name in [PACKAGE, *needed[""], *there]}
+    """Return the version of every package that is needed; None where it is missing."""
+    return {name: _version(name) for name in [PACKAGE, *_requirements()[""]]}
 
 
 def extras() -> dict[str, dict[str, str | None]]:
@@ -155,18 +147,14 @@ def _lubricated() -> Run:
 
 
 def _requirements() -> dict[str, list[str]]:
-    """Return the names of the packages needed, by extra.
-
-    "" is what is always needed, FLEXIBLE what is left out where it has no wheels.
-    """
+    """Return the names of the packages needed, by extra; "" is what is always needed."""
     found: dict[str, list[str]] = {"": []}
     for line in importlib.metadata.requires(PACKAGE) or []:
         requirement, _, marker = line.partition(";")
         name = re.split(r"[^A-Za-z0-9._-]", requirement, maxsplit=1)[0]
         extra = re.search(r"""extra\s*==\s*["']([^"']+)["']""", marker)
-        group = extra[1] if extra else FLEXIBLE if marker else ""
         if name != PACKAGE:
-            found.setdefault(group, []).append(name)
+            found.setdefault(extra[1] if extra else "", []).append(name)
     return found
 
 

@@ -16,7 +16,7 @@ from exu_press.errors import InputError
 from exu_press.mechanism import Body, Joint, Mechanism, Motion, Point
 from exu_press.progress import Progress
 from exu_press.scene import Face, Flexible, Scene, mechanism_of
-from exu_press.scene.bodies import DRIVE_FACE, faces_given
+from exu_press.scene.bodies import DRIVE_FACE, faces_given, require_rainflow
 from fe_models import (
     CRANK_STEEL,
     Axis,
@@ -100,13 +100,15 @@ def placed_parts(scene: Scene, *, quiet: bool = True) -> dict[str, PlacedPart]:
         return {}
     if find_spec("ngsolve") is None:
         raise InputError(
-            f"bodies.{next(iter(scene.bodies))}: needs NGSolve, which is not installed (there are "
-            "no wheels for Linux on ARM); allowed here are rigid bodies"
+            f"bodies.{next(iter(scene.bodies))}: needs NGSolve, which is not installed; install "
+            "exu-press[flexible] (there are no wheels for Linux on ARM)"
         )
     mechanism = mechanism_of(scene)
     placed = {}
     for name, table in scene.bodies.items():
         try:
+            if table.woehler_stress is not None:
+                require_rainflow()
             placed[name] = _placed(mechanism, mechanism.body(name), table, quiet)
         except InputError as error:
             raise InputError(f"bodies.{name}: {error}") from None

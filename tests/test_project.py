@@ -15,9 +15,10 @@ def project():
     return tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 
 
-def test_the_citation_has_the_version(project):
-    lines = (ROOT / "CITATION.cff").read_text(encoding="utf-8").splitlines()
-    assert f"version: {project['version']}" in lines
+def test_the_version_stands_in_the_tag_alone(project):
+    assert "version" in project["dynamic"]
+    assert "version" not in project
+    assert "\nversion:" not in (ROOT / "CITATION.cff").read_text(encoding="utf-8")
 
 
 def test_the_licence_is_the_one_that_is_named(project):

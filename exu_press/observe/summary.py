@@ -7,6 +7,7 @@ import numpy as np
 from exu_press.observe.acceleration import differentiated_peak, mean_peak, peak
 from exu_press.observe.clearance import joint_summary
 from exu_press.observe.energy import energy_summary
+from exu_press.observe.fatigue import fatigue_summary
 from exu_press.observe.press import begin_of_whole_revolutions, mean_rate, press_summary
 from exu_press.observe.warnings import run_warnings
 from exu_press.result import Result
@@ -38,6 +39,8 @@ def summary(result: Result) -> dict[str, Any]:
         "versions": versions,
         "scene": result.scene.to_dict(),
     }
+    if lives := fatigue_summary(result):
+        found["fatigue"] = lives
     return found | {"warnings": run_warnings(found, result.scene)}
 
 

@@ -1,4 +1,4 @@
-"""What flexible bodies do: deformation, energy, stress."""
+"""What flexible bodies do: deformation and energy."""
 
 from typing import TYPE_CHECKING
 
@@ -8,14 +8,13 @@ from numpy.typing import NDArray
 from exu_press.model import Model
 from exu_press.result.channel import Channel
 from exu_press.result.energy import work
-from exu_press.result.info import Stress
 from exu_press.result.motion import frame_motion, point_motion, sensor
 
 if TYPE_CHECKING:
     from exu_press.placed_part import PlacedPart
     from fe_models import ReducedPart
 
-__all__ = ["deflection", "record_parts", "worst_stress"]
+__all__ = ["deflection", "modal", "record_parts"]
 
 Array = NDArray[np.float64]
 
@@ -90,19 +89,6 @@ def deflection(placed: "PlacedPart", joint: str, pivot: str) -> Array:
     spin = part.interface(placed.drive or placed.faces[pivot][0]).rotation.T * (0.0, 0.0, 1.0)
     turned = np.cross(spin, moved.axis - rests[0].axis).T
     return np.asarray((moved.translation - line - turned)[:2])
-
-
-def worst_stress(model: Model, time: Array) -> dict[str, Stress]:
-    """Return the largest von Mises stress (Pa) of each part when its elastic energy is largest."""
-    worst: dict[str, Stress] = {}
-    for name, placed in model.parts.items():
-        part = placed.reduced
-        if part.mode_count and len(part.stress):
-            q, _ = modal(model, name, part, len(time))
-            instant = int(np.argmax((q**2) @ np.diag(part.stiffness_matrix)))
-            stress = float(part.von_mises(q[instant]).max())
-            worst[name] = {"von_mises": stress, "time": float(time[instant])}
-    return worst
 
 
 def modal(model: Model, name: str, part: "ReducedPart", count: int) -> tuple[Array, Array]:

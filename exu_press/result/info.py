@@ -6,15 +6,17 @@ __all__ = ["Error", "Errors", "Info", "Solid", "Stress"]
 
 
 class Stress(TypedDict):
-    """A flexible body's largest von Mises stress when its elastic energy is largest.
+    """A flexible body's largest von Mises stress of the run.
 
     Attributes:
         von_mises: Pa.
         time: s.
+        place: (3,) in the body's frame, m.
     """
 
     von_mises: float
     time: float
+    place: list[float]
 
 
 class Solid(TypedDict):

@@ -11,15 +11,16 @@ from exu_press.model import DRIVE, Model
 from exu_press.result.channel import Channel
 from exu_press.result.energy import mechanical_energy, work
 from exu_press.result.equilibrium import equilibrium
-from exu_press.result.flexible import record_parts, worst_stress
+from exu_press.result.flexible import record_parts
 from exu_press.result.forces import frame_force, held_forces
 from exu_press.result.guides import record_guides, record_ways
-from exu_press.result.info import Info
+from exu_press.result.info import Info, Stress
 from exu_press.result.joints import joint_states, record_joints
 from exu_press.result.loads import record_loads
 from exu_press.result.momentum import shaking_forces
 from exu_press.result.motion import body_motion, sensor
 from exu_press.result.result import Result
+from exu_press.result.stress import record_stress
 from exu_press.result.surface import surfaces_of
 
 __all__ = ["record"]
@@ -97,6 +98,8 @@ def record(model: Model, outcome: Outcome) -> Result:
         channels |= more
         stored += kept
         dissipated += lost
+    stressed, worst = record_stress(model, time)
+    channels |= stressed
     torque = channels["drive_torque"].values
     driven = work(time, torque, turned.velocity[:, 2]) + work_of_loads
     channels |= {
@@ -112,13 +115,13 @@ def record(model: Model, outcome: Outcome) -> Result:
     return Result(
         scene=scene,
         channels=channels,
-        info=_info(model, outcome, time),
+        info=_info(model, outcome, worst),
         bodies=tuple(names),
         surfaces=surfaces_of(model.parts),
     )
 
 
-def _info(model: Model, outcome: Outcome, time: Array) -> Info:
+def _info(model: Model, outcome: Outcome, worst: dict[str, Stress]) -> Info:
     """Return status, statistics, sizes and versions."""
     mbs = model.mbs
     packages = ("exu-press", "exudyn", "numpy", "scipy")
@@ -141,7 +144,7 @@ def _info(model: Model, outcome: Outcome, time: Array) -> Info:
         },
     }
     if model.parts:
-        info["stress"] = worst_stress(model, time)
+        info["stress"] = worst
         info["solids"] = {
             name: {
                 "mass": part.reduced.mass,

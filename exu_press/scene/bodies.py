@@ -1,6 +1,7 @@
 """Which bodies of a mechanism are flexible, and what their solids are."""
 
 import dataclasses
+import importlib
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -81,6 +82,14 @@ class Flexible(Table):
     angle_deg: float | None = key(
         None, "of the solid's x axis in the drawing; 0, or fitted likewise", "deg"
     )
+    woehler_stress: float | None = key(
+        None,
+        "amplitude that the material stands woehler_cycles of; gives the body a life",
+        "Pa",
+        above=0,
+    )
+    woehler_cycles: float = key(2e6, "cycles at woehler_stress", above=0)
+    woehler_slope: float = key(5.0, "k of cycles ~ amplitude^-k", above=1, at_most=50)
     faces: Mapping[str, tuple[Face, ...]] = dataclasses.field(default_factory=dict, hash=False)
 
     def __post_init__(self) -> None:
@@ -196,6 +205,21 @@ def changed_bodies(
                     place.pop(other, None)
             changed[name] = {**place, inner: value}
     return changed
+
+
+def require_rainflow() -> Any:
+    """Return the package that counts cycles.
+
+    Raises:
+        InputError: it is not installed.
+    """
+    try:
+        return importlib.import_module("rainflow")
+    except ModuleNotFoundError:
+        raise InputError(
+            "woehler_stress: needs the package rainflow; install it by pip install "
+            "'exu-press[fatigue]'"
+        ) from None
 
 
 def _keys(given: Any) -> Any:

@@ -1,0 +1,101 @@
+"""Where a flexible body is stressed most, and the stress there over time."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exu_press.model import Model
+from exu_press.result.channel import Channel
+from exu_press.result.flexible import modal
+from exu_press.result.info import Stress
+
+if TYPE_CHECKING:
+    from exu_press.placed_part import PlacedPart
+
+__all__ = ["record_stress"]
+
+Array = NDArray[np.float64]
+
+DEVIATOR = np.zeros((6, 6))  # of xx yy zz yz xz xy: its square is that of von Mises
+DEVIATOR[:3, :3] = np.sqrt(0.5) * np.array([[1.0, -1.0, 0.0], [0.0, 1.0, -1.0], [-1.0, 0.0, 1.0]])
+DEVIATOR[3:, 3:] = np.sqrt(3.0) * np.eye(3)
+
+INSTANTS, NODES = 200, 3
+"""At so many instants all nodes are looked at, and at all instants the worst so many of each."""
+
+CHUNK = 500
+"""Instants at once: 25 MB."""
+
+
+def record_stress(model: Model, time: Array) -> tuple[dict[str, Channel], dict[str, Stress]]:
+    """Return the stress over time at the most stressed place of each flexible body, and where.
+
+    The channel BODY_stress, Pa, is the von Mises stress with the sign of the mean normal stress, so
+    that tension and compression are told apart.
+    """
+    channels: dict[str, Channel] = {}
+    worst: dict[str, Stress] = {}
+    for name, placed in model.parts.items():
+        part = placed.reduced
+        if not (part.mode_count and len(part.stress)):
+            continue
+        q, _ = modal(model, name, part, len(time))
+        by_node = part.stress.reshape(-1, 6, part.mode_count)
+        node, instant = _worst(by_node, q)
+        components = q @ by_node[node].T
+        size = np.linalg.norm(components @ DEVIATOR.T, axis=1)
+        signed = np.copysign(size, components[:, :3].sum(axis=1))
+        words = f"{name}: von Mises stress where it is largest, with the sign of the mean stress"
+        channels[f"{name}_stress"] = Channel(signed, "Pa", words)
+        worst[name] = {
+            "von_mises": float(size[instant]),
+            "time": float(time[instant]),
+            "place": _in_body(placed, part.nodes[node]),
+        }
+    return channels, worst
+
+
+def _worst(by_node: Array, q: Array) -> tuple[int, int]:
+    """Return node and instant of the largest von Mises stress.
+
+    Args:
+        by_node: (s, 6, modes) stress components.
+        q: (n, modes) modal coordinates.
+    """
+    deviator = np.einsum("ij,sjm->sim", DEVIATOR, by_node)
+    some = np.linspace(0, len(q) - 1, min(INSTANTS, len(q))).astype(int)
+    extremes = np.concatenate([q.argmax(axis=0), q.argmin(axis=0)])
+    nodes = _largest(deviator, q[np.unique(np.concatenate([some, extremes]))])
+    while True:
+        instants = [
+            _squares(deviator[nodes], q[begin : begin + CHUNK]).max(axis=0)
+            for begin in range(0, len(q), CHUNK)
+        ]
+        instant = int(np.concatenate(instants).argmax())
+        node = int(_squares(deviator, q[instant : instant + 1]).argmax())
+        if node in nodes:
+            return node, instant
+        nodes = np.append(nodes, node)  # one more that is worst where those are
+
+
+def _largest(deviator: Array, q: Array) -> NDArray[np.int64]:
+    """Return the nodes of the largest stresses at some instants."""
+    found = []
+    for begin in range(0, len(q), 20):
+        squares = _squares(deviator, q[begin : begin + 20])
+        count = min(NODES, len(squares))
+        found.append(np.argpartition(squares, -count, axis=0)[-count:])
+    return np.unique(np.concatenate(found, axis=None))
+
+
+def _squares(deviator: Array, q: Array) -> Array:
+    """Return the squares of von Mises stresses (s, n) of nodes at instants."""
+    return np.asarray(((deviator @ q.T) ** 2).sum(axis=1))
+
+
+def _in_body(placed: "PlacedPart", node: Array) -> list[float]:
+    """Return a place of the solid in the body's frame, m."""
+    x, y = node[:2] - placed.centre
+    c, s = np.cos(placed.angle), np.sin(placed.angle)
+    return [float(c * x + s * y), float(c * y - s * x), float(node[2])]

@@ -100,7 +100,7 @@ def solve(model: Assembled, *, tuning: Tuning = DEFAULTS, quiet: bool = True) ->
     masses = {body.name: body.mass for body in model.mechanism.bodies}
     outcome = solve_dynamic(
         model.mbs,
-        settings_for(scene),
+        settings_for(scene, twice=model.holding.twice),
         tolerance=solver.tolerance,
         scales=scales(scene),
         next_corner=model.next_corner,
@@ -117,8 +117,8 @@ def solve(model: Assembled, *, tuning: Tuning = DEFAULTS, quiet: bool = True) ->
     return outcome
 
 
-def settings_for(scene: Scene) -> exu.SimulationSettings:
-    """Return Exudyn's settings of a scene.
+def settings_for(scene: Scene, *, twice: bool = False) -> exu.SimulationSettings:
+    """Return Exudyn's settings of a scene, for constraints some of which may be redundant.
 
     A fixed step is the largest one not above `solver.step` that divides the run's duration.
     """
@@ -134,6 +134,7 @@ def settings_for(scene: Scene) -> exu.SimulationSettings:
     integration.generalizedAlpha.spectralRadius = solver.spectral_radius
     # For the 20 to 160 unknowns here no slower than the sparse one, and its matrix is read at once.
     settings.linearSolver.solverType = exu.LinearSolverType.EigenDense
+    settings.linearSolver.ignoreSingularJacobian = twice
     settings.solution.file.write = False
     settings.solution.sensors.writePeriod = 0.0  # every step
     return settings

@@ -7,6 +7,10 @@ by the rank of their Jacobian and left out. First come the pivots of the frame, 
 hold across their direction, then the joints, then the guides' hold of the angle, and last what
 joints of two bodies in parallel guides hold across these: so a slider is held upright by two balls
 that share its load, and nothing but guides bears side forces.
+
+Some mechanisms need at one crank angle what is redundant at all others: of two coupling rods a
+quarter turn apart, one turns the follower while the other is in its dead centre. There everything
+is held, and the solver bears with what is held twice.
 """
 
 import math
@@ -25,6 +29,9 @@ __all__ = ["HalfHeld", "Holding", "by_constraints", "holding_of"]
 
 SOMEWHERE = (1.0, 2.3)
 """Crank angles that are none of those in which mechanisms are drawn, rad."""
+
+ALL_ROUND = tuple(SOMEWHERE[0] + 2.0 * math.pi * n / 24 for n in range(24))
+"""The same all around, at distances shorter than that of two dead centres."""
 
 INDEPENDENT = 1e-7
 """What of a constraint's unit row others must leave."""
@@ -58,6 +65,7 @@ class Holding:
         half_held: names of those that hold one.
         guides: bodies that are not sliding -> whether their guide holds them across, and the angle.
         redundant: names of joints and guides of which something is left out.
+        twice: whether nothing is left out although some of it is redundant at most crank angles.
     """
 
     pivoted: Mapping[str, Joint]
@@ -66,6 +74,7 @@ class Holding:
     half_held: Mapping[str, HalfHeld]
     guides: Mapping[str, tuple[bool, bool]]
     redundant: tuple[str, ...]
+    twice: bool = False
 
 
 @lru_cache(maxsize=64)
@@ -92,7 +101,7 @@ def holding_of(mechanism: Mechanism, ideal: frozenset[str]) -> Holding:
         for guide in mechanism.guides
         if all(guides[guide.body]) and 0.0 in guide.direction
     )
-    return Holding(
+    found = Holding(
         pivoted=pivoted,
         sliding=sliding,
         joints=tuple(joint.name for joint in others if len(first.directions[joint.name]) == 2),
@@ -103,6 +112,14 @@ def holding_of(mechanism: Mechanism, ideal: frozenset[str]) -> Holding:
         },
         guides={body: held for body, held in guides.items() if body not in sliding},
         redundant=first.redundant,
+    )
+    if not first.lost or _hold_everywhere(mechanism, ideal, found, guides):
+        return found
+    return replace(
+        found,
+        joints=(*found.joints, *first.lost),
+        half_held={n: half for n, half in found.half_held.items() if n not in first.lost},
+        twice=True,
     )
 
 
@@ -128,6 +145,7 @@ class _Selection:
         directions: name of an ideal joint -> unit vectors that it holds, none to two.
         held: (body, "across" or "angle") -> whether its guide holds it.
         redundant: names of what holds less than it could.
+        lost: names of joints that do so although no parallel guides hold their bodies.
     """
 
     def __init__(self, mechanism: Mechanism, ideal: frozenset[str], crank_angle: float) -> None:
@@ -156,6 +174,11 @@ class _Selection:
                 along = parallel[joint.name]
                 wanted = np.eye(2) if along is None else np.array([along])
                 self.directions[joint.name] = self._take_joint(joint, wanted)
+        self.lost = tuple(
+            joint.name
+            for joint in joints
+            if parallel[joint.name] is None and len(self.directions[joint.name]) < 2
+        )
         for guide in mechanism.guides:
             row = self._angle_row(guide.body)
             self.held[guide.body, "angle"] = guide.holds_angle and self._take_row(row)
@@ -186,6 +209,28 @@ class _Selection:
 
     def _take_joint(self, joint: Joint, wanted: Array) -> list[Array]:
         """Let a joint hold some of the wanted directions (m, 2); return which."""
+        return [np.asarray(mix @ wanted) for mix in self._take(wanted @ self._joint_rows(joint))]
+
+    def sign(self, holding: Holding, guides: Mapping[str, tuple[bool, bool]]) -> float:
+        """Return the sign of the determinant of drive and constraints that a holding keeps."""
+        rows = [self._angle_row(self._mechanism.crank)]
+        for joint in self._mechanism.joints:
+            both = self._joint_rows(joint)
+            half = holding.half_held.get(joint.name)
+            if half is not None:
+                angle = half.angle + self.angles[half.body]
+                rows.append(np.array([math.cos(angle), math.sin(angle)]) @ both)
+            elif joint.name in holding.joints or joint in holding.pivoted.values():
+                rows += [*both]
+        for guide in self._mechanism.guides:
+            across, angle_too = guides[guide.body]
+            rows += [self._across_row(guide)] * across
+            rows += [self._angle_row(guide.body)] * angle_too
+        matrix = np.array(rows)
+        return float(np.linalg.slogdet(matrix)[0]) if len(rows) == matrix.shape[1] else 0.0
+
+    def _joint_rows(self, joint: Joint) -> Array:
+        """Return the two rows of a joint."""
         rows = np.zeros((2, self._basis.shape[1]))
         for sign, (body, (x, y)) in zip((1.0, -1.0), self._mechanism.ends(joint), strict=True):
             if body != GROUND:
@@ -194,7 +239,7 @@ class _Selection:
                 rows[:, place : place + 2] = sign * np.eye(2)
                 arm = np.array([c * x - s * y, s * x + c * y]) / self._mechanism.size
                 rows[:, place + 2] = sign * np.array([-arm[1], arm[0]])
-        return [np.asarray(mix @ wanted) for mix in self._take(wanted @ rows)]
+        return rows
 
     def _across_row(self, guide: Guide) -> Array:
         row = np.zeros(self._basis.shape[1])
@@ -206,6 +251,20 @@ class _Selection:
         row = np.zeros(self._basis.shape[1])
         row[self._places[body] + 2] = 1.0
         return row
+
+
+def _hold_everywhere(
+    mechanism: Mechanism,
+    ideal: frozenset[str],
+    holding: Holding,
+    guides: Mapping[str, tuple[bool, bool]],
+) -> bool:
+    """Return whether constraints that hold all at one crank angle do so at every other.
+
+    Their determinant has one sign then, and changes it where they do not.
+    """
+    signs = {_Selection(mechanism, ideal, angle).sign(holding, guides) for angle in ALL_ROUND}
+    return len(signs) == 1
 
 
 def _pivoted(mechanism: Mechanism, ideal: frozenset[str]) -> dict[str, Joint]:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from drawings import coupled_cranks, four_bar, slider_crank
 
+from exu_press import Scene, simulate
 from exu_press.mechanism import Press, Spring, press
 from exu_press.mechanism.holding import holding_of
 
@@ -106,5 +107,22 @@ def test_elastic_guides_leave_their_work_to_no_joint():
     assert set(found.guides.values()) == {(False, False)}
 
 
-def test_coupled_cranks_are_held_once():
-    assert kept(coupled_cranks()) == 1
+def test_coupled_cranks_are_held_by_both_rods():
+    """In a dead centre of one rod the other one alone turns the follower."""
+    found = holding(coupled_cranks())
+    assert found.twice and not found.half_held
+    assert set(found.joints) == {"pin", "far_pin", "other_pin", "other_far_pin"}
+    assert not holding(slider_crank(second_rod=True)).twice
+    assert not holding(PRESS).twice
+
+
+@pytest.mark.parametrize("start", [0.0, 37.0, 90.0])
+def test_coupled_cranks_go_through_their_dead_centres(start):
+    scene = Scene(mechanism=coupled_cranks(), joints={}, start_angle_deg=start, revolutions=1.2)
+    result = simulate(scene)
+    assert result.completed, result.info["reason"]
+    follower = result["body_position"][:, result.bodies.index("follower"), 2]
+    assert np.abs(follower - result["crank_angle"]).max() < 1e-12
+    rods = sum(result[f"{rod}_force"] for rod in ("far_pin", "other_far_pin"))
+    assert np.abs(rods).max() < 100.0, "half the rods' centrifugal force and weight"
+    assert result.summary()["energy"]["residual"] < 1e-3

@@ -132,6 +132,28 @@ class Mechanism:
             self.along(slider.acceleration),
         )
 
+    @property
+    def dead_centres(self) -> tuple[float, float] | None:
+        """Crank angles of the ideal slider's top and bottom dead centre, rad, to 1e-4.
+
+        None where there are none: the output is in no guide, or turns more than twice a revolution.
+        """
+        if not any(guide.body == self.slider for guide in self.guides):
+            return None
+        angle = np.linspace(0.0, 2.0 * np.pi, 721)[:-1]
+        position, velocity, _ = self.ideal_slider(angle, 1.0)
+        up = velocity[np.abs(velocity) > 1e-9 * np.abs(velocity).max()] > 0.0
+        if (up != np.roll(up, 1)).sum() != 2:
+            return None
+        found = []
+        for near in (position.argmax(), position.argmin()):
+            at = angle[near]
+            for _ in range(3):
+                _, rate, bend = (part[0] for part in self.ideal_slider(np.array([at]), 1.0))
+                at -= rate / bend if bend else 0.0
+            found.append(float(at % (2.0 * np.pi)))
+        return found[0], found[1]
+
     def travel(self, position: Array) -> Array:
         """Return the slider's positions (n,) of its places (n, 2 or 3), m."""
         return self.along(position) - float(np.dot(self.output.origin, self.output.direction))

@@ -1,6 +1,6 @@
 """What every picture does the same way: title, curves over crank angle, legends beside the data."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -10,10 +10,21 @@ from matplotlib.text import Annotation
 from numpy.typing import NDArray
 
 from exu_press.plots.decimate import decimate
+from exu_press.plots.scales import crank_angle_axis
 from exu_press.plots.words import describe, early_stops, plain
 from exu_press.result import Result
+from exu_press.scene import mechanism_of
 
-__all__ = ["angle_range", "crank_degrees", "curve", "legend_above", "new_figure"]
+__all__ = [
+    "angle_axis",
+    "angle_range",
+    "angle_words",
+    "crank_degrees",
+    "curve",
+    "dead_centres",
+    "legend_above",
+    "new_figure",
+]
 
 Array = NDArray[np.float64]
 
@@ -47,6 +58,27 @@ def angle_range(results: Mapping[str, Result]) -> tuple[float, float]:
     """Return the crank angles (deg) between which there is something to see."""
     angles = [crank_degrees(result) for result in results.values()]
     return min(angle[0] for angle in angles), max(angle[-1] for angle in angles)
+
+
+def angle_axis(panels: Iterable[Axes], results: Mapping[str, Result]) -> None:
+    """Give panels a common crank angle axis with the dead centres that all runs have."""
+    crank_angle_axis(panels, *angle_range(results), dead_centres(results))
+
+
+def angle_words(results: Mapping[str, Result]) -> str:
+    """Return what the crank angle counts from, for an axis."""
+    top = dead_centres(results).get("TDC")
+    return f"crank angle{' from top dead centre' if top == 0.0 else ''}, deg"
+
+
+def dead_centres(results: Mapping[str, Result]) -> dict[str, float]:
+    """Return the ideal slider's dead centres, deg, where the mechanisms have the same."""
+    found = {mechanism_of(result.scene).dead_centres for result in results.values()}
+    both = found.pop() if len(found) == 1 else None
+    if both is None:
+        return {}
+    top, bottom = (round(float(np.degrees(angle)), 3) % 360.0 for angle in both)
+    return {"TDC": top, "BDC": bottom}
 
 
 def curve(axes: Axes, result: Result, values: Array, **line: Any) -> None:

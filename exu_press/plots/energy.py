@@ -7,8 +7,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from exu_press.observe.energy import energy_residual
-from exu_press.plots.canvas import angle_range, curve, legend_above, new_figure
-from exu_press.plots.scales import crank_angle_axis, note
+from exu_press.plots.canvas import angle_axis, angle_words, curve, legend_above, new_figure
+from exu_press.plots.scales import note
 from exu_press.plots.sides import joint_titles
 from exu_press.plots.style import COLOURS, GREY, colour_of, styled
 from exu_press.result import Result
@@ -52,9 +52,9 @@ def energy_figure(result: Result) -> Figure:
         panels["losses"].set_ylabel("energy, J")
         panels["losses"].tick_params(labelbottom=False)
     for name in ("balance", "residual"):
-        panels[name].set_xlabel("crank angle from top dead centre, deg")
+        panels[name].set_xlabel(angle_words({"": result}))
         panels[name].tick_params(labelbottom=True)
-    crank_angle_axis(panels.values(), *angle_range({"": result}))
+    angle_axis(panels.values(), {"": result})
     return figure
 
 

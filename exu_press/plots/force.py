@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 
 from exu_press.mechanism import GROUND
 from exu_press.plots.busiest import busiest
-from exu_press.plots.canvas import angle_range, crank_degrees, curve, new_figure
+from exu_press.plots.canvas import angle_axis, angle_words, crank_degrees, curve, new_figure
 from exu_press.plots.peaks import mark_peak
-from exu_press.plots.scales import crank_angle_axis, impact_scale, note
+from exu_press.plots.scales import impact_scale, note
 from exu_press.plots.style import colour_of, styled
 from exu_press.plots.words import plain
 from exu_press.result import Result
@@ -61,9 +61,9 @@ def force_figure(results: Mapping[str, Result]) -> Figure:
     for axes in list(grid.flat)[len(shown) :]:
         axes.remove()
     for axes in panels[-2:]:
-        axes.set_xlabel("crank angle from top dead centre, deg")
+        axes.set_xlabel(angle_words(results))
         axes.tick_params(labelbottom=True)
-    crank_angle_axis(panels, *angle_range(results))
+    angle_axis(panels, results)
     if len(results) > 1:
         handles, labels = panels[-1].get_legend_handles_labels()
         for handle in handles:

@@ -7,9 +7,16 @@ from matplotlib.figure import Figure
 
 from exu_press.errors import InputError
 from exu_press.plots.busiest import busiest, draw_rest
-from exu_press.plots.canvas import angle_range, curve, legend_above, new_figure
+from exu_press.plots.canvas import (
+    angle_axis,
+    angle_range,
+    angle_words,
+    curve,
+    legend_above,
+    new_figure,
+)
 from exu_press.plots.clearance_circle import TOUCH, Path, draw_path
-from exu_press.plots.scales import angle_ticks, crank_angle_axis, note
+from exu_press.plots.scales import angle_ticks, note
 from exu_press.plots.style import GREY, RUN, SHADE, styled
 from exu_press.result import Result
 
@@ -55,8 +62,8 @@ def orbit_figure(result: Result) -> Figure:
         lines = draw_path(grid[row, 1], path)
         _angle_colours(figure, grid[row, 0], lines, result)
         _over_angle(grid[row, 2], result, path)
-    crank_angle_axis(grid[:, 2], *angle_range({"": result}))
-    grid[-1, 2].set_xlabel("crank angle from top dead centre, deg")
+    angle_axis(grid[:, 2], {"": result})
+    grid[-1, 2].set_xlabel(angle_words({"": result}))
     return figure
 
 

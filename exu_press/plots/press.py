@@ -10,9 +10,17 @@ from numpy.typing import NDArray
 
 from exu_press.observe import DeadCentre, bottom_dead_centres, ideal_bottom_angle
 from exu_press.piecewise import evaluate, hermite, integral
-from exu_press.plots.canvas import angle_range, crank_degrees, curve, legend_above, new_figure
+from exu_press.plots.canvas import (
+    angle_axis,
+    angle_words,
+    crank_degrees,
+    curve,
+    dead_centres,
+    legend_above,
+    new_figure,
+)
 from exu_press.plots.peaks import mark_peak, with_error
-from exu_press.plots.scales import crank_angle_axis, note, widen
+from exu_press.plots.scales import note, widen
 from exu_press.plots.slider import averaged
 from exu_press.plots.style import GREY, IDEAL, colour_of, styled
 from exu_press.plots.words import joint_in_words
@@ -37,11 +45,13 @@ def press_figure(result: Result) -> Figure:
 
     Shaking force (kN) with and without the counterweight, power of the drive (kW) and forces of the
     guides (kN), all as means over 1 ms; the slider about every bottom dead centre (um); where the
-    guides are elastic the slider's tilt (urad) and sideways motion (um); the loads (kN).
+    guides are elastic the slider's tilt (urad) and sideways motion (um); the speed of a
+    motor's crank (rpm) and the loads (kN).
     """
     elastic = result.scene.guide is not None
     loads = list(applied_loads(result.scene))
-    rows = math.ceil((4 + bool(loads) + 2 * elastic) / 2)
+    motor = result.scene.drive is not None
+    rows = math.ceil((4 + bool(loads) + motor + 2 * elastic) / 2)
     heading = "Frame, drive, guides, dead centres"
     figure = new_figure(heading, {"": result}, (13.0, 3.6 * rows))
     panels = list(figure.subplots(rows, 2).flat)
@@ -50,7 +60,7 @@ def press_figure(result: Result) -> Figure:
     _guides(panels[2], result)
     shown = 4
     centres = bottom_dead_centres(result)
-    if centres:
+    if centres and dead_centres({"": result}):
         _strokes(panels[3], result, centres)
     else:
         panels[3].remove()
@@ -62,15 +72,18 @@ def press_figure(result: Result) -> Figure:
         panels[5].set_title("Slider sideways")
         panels[5].set_ylabel("to the right, µm")
         shown = 6
+    if motor:
+        _speed(panels[shown], result)
+        shown += 1
     if loads:
         _loads(panels[shown], result, loads)
         shown += 1
     for panel in panels[shown:]:
         panel.remove()
     over_angle = [panel for index, panel in enumerate(panels[:shown]) if index != 3]
-    crank_angle_axis(over_angle, *angle_range({"": result}))
+    angle_axis(over_angle, {"": result})
     for axes in over_angle:
-        axes.set_xlabel("crank angle from top dead centre, deg")
+        axes.set_xlabel(angle_words({"": result}))
     return figure
 
 
@@ -107,6 +120,13 @@ def _drive(axes: Axes, result: Result) -> None:
     worst = float(np.abs(result["drive_torque"]).max())
     told = with_error(result, "drive.peak_torque", worst, 1e-3)
     note(axes, f"torque, as resolved: at most {told} kN m")
+
+
+def _speed(axes: Axes, result: Result) -> None:
+    """Draw the crank's speed."""
+    curve(axes, result, result["crank_speed"] * 30.0 / np.pi, color=colour_of(0), linewidth=1.1)
+    axes.set_title("Crank speed")
+    axes.set_ylabel("rpm")
 
 
 def _loads(axes: Axes, result: Result, names: list[str]) -> None:
@@ -210,6 +230,6 @@ def _at_dead_centres(
     angles = np.degrees([centre.crank_angle for centre in centres])
     axes.plot(angles, at, "o", color=colour_of(1), markersize=5, zorder=4)
     widen(axes, 1e-3)
-    if centres:
+    if centres and dead_centres({"": result}):
         most = float(np.abs(at).max())
         note(axes, f"dots: bottom dead centres, at most {most:.2g} {unit}")

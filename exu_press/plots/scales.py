@@ -1,7 +1,7 @@
 """Axes that stay readable: crank angle with its dead centres, and values that impacts dwarf."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -18,6 +18,9 @@ TICK_STEPS = (0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 45, 90, 180, 360)  # deg
 MOST_CENTRES = 100
 """More dead centres than this would hide the curves; they are not marked."""
 
+CLOSE = 0.4
+"""Of the ticks' distance: so near a dead centre none stands."""
+
 SLACK = 1e-4
 """Of an axis' length, how far beyond its ends a tick may lie."""
 
@@ -25,8 +28,19 @@ DWARFED = 6.0
 """An axis is logarithmic where its peak is more than this times what most of the run shows."""
 
 
-def crank_angle_axis(panels: Iterable[Axes], low: float, high: float) -> None:
+def crank_angle_axis(
+    panels: Iterable[Axes], low: float, high: float, centres: Mapping[str, float]
+) -> None:
     """Give panels a common crank angle axis (deg) with the dead centres marked, unless many.
+
+    A dead centre between two ticks takes the nearer one's place if that is close.
+
+    Args:
+        panels: with a label or without.
+        low: where the curves begin.
+        high: where they end.
+        centres: name -> crank angle of a dead centre, in every revolution; none where the mechanism
+            has none.
 
     The labels stand where matplotlib shows them: under the lowest of panels that share an axis.
     The axis goes on to a tick that is just beyond its end: a flexible crank's angle, bent as it is,
@@ -36,12 +50,24 @@ def crank_angle_axis(panels: Iterable[Axes], low: float, high: float) -> None:
     slack = SLACK * (high - low)
     ticks = angle_ticks(low - slack, high + slack)
     low, high = min([low, *ticks]), max([high, *ticks])
-    centres = _multiples(180.0, low, high) if high - low < 180.0 * MOST_CENTRES else ()
+    named: dict[float, str] = {}
+    if high - low < 180.0 * MOST_CENTRES:
+        for name, angle in centres.items():
+            named |= {angle + turn: name for turn in _multiples(360.0, low - angle, high - angle)}
+    step = float(np.diff(ticks).min()) if len(ticks) > 1 else high - low
+    shown = [tick for tick in ticks if all(abs(tick - at) > CLOSE * step for at in named)]
+    if step <= 90.0:
+        shown += named
+    texts = {at: f"{_number_text(round(at, 2), None)}\n{name}" for at, name in named.items()}
+
+    def text(angle: float, _: int | None) -> str:
+        return texts.get(angle) or _number_text(angle, None)
+
     for axes in panels:
         axes.set_xlim(low, high)
-        axes.xaxis.set_major_locator(FixedLocator(list(ticks)))
-        axes.xaxis.set_major_formatter(FuncFormatter(_angle_text))
-        for centre in centres:
+        axes.xaxis.set_major_locator(FixedLocator(sorted(shown)))
+        axes.xaxis.set_major_formatter(FuncFormatter(text))
+        for centre in named:
             axes.axvline(centre, color=GREY, linewidth=0.9, linestyle=(0, (1, 2)), zorder=0.9)
 
 
@@ -128,9 +154,3 @@ def _round_up(value: float) -> float:
 def _number_text(value: float, _: int | None) -> str:
     """Return a tick's text with a typographic minus."""
     return f"{value:g}".replace("-", "\N{MINUS SIGN}")
-
-
-def _angle_text(degrees: float, _: int | None) -> str:
-    """Return a tick's text, with the dead centre's name under it."""
-    name = {0.0: "TDC", 180.0: "BDC"}.get(round(degrees, 6) % 360.0, "")
-    return f"{_number_text(degrees, None)}\n{name}".rstrip()

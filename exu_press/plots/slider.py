@@ -7,10 +7,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from exu_press.plots.canvas import angle_range, crank_degrees, curve, new_figure
+from exu_press.plots.canvas import angle_axis, angle_words, crank_degrees, curve, new_figure
 from exu_press.plots.decimate import decimate
 from exu_press.plots.peaks import mark_peaks
-from exu_press.plots.scales import crank_angle_axis, impact_scale, note, widen
+from exu_press.plots.scales import impact_scale, note, widen
 from exu_press.plots.style import IDEAL, colour_of, styled
 from exu_press.plots.words import plain
 from exu_press.result import Result
@@ -57,7 +57,7 @@ def slider_figure(results: Mapping[str, Result]) -> Figure:
         axes.set_title(title)
         axes.set_ylabel(unit)
     for axes in panels[2]:
-        axes.set_xlabel("crank angle from top dead centre, deg")
+        axes.set_xlabel(angle_words(results))
     for axes in panels[:2, 1]:
         widen(axes, 1.0)
     _scale_averaged(panels[2, 0], results, ideals)
@@ -65,7 +65,7 @@ def slider_figure(results: Mapping[str, Result]) -> Figure:
     scale = impact_scale(panels[2, 1], resolved, signed=True)
     peaks = {label: (r, r["slider_acceleration"]) for label, r in results.items()}
     note(panels[2, 1], mark_peaks(panels[2, 1], peaks, "peak_acceleration.resolved"), scale)
-    crank_angle_axis(panels.flat, *angle_range(results))
+    angle_axis(panels.flat, results)
     handles, labels = panels[0, 0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=min(len(labels), 6))
     return figure

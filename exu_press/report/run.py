@@ -60,7 +60,7 @@ def run_report(result: Result, source: str) -> str:
     return page(
         describe([result.scene], 200),
         f"{source}: {summary['status']} at t = {summary['end_time']:.6g} s, "
-        f"crank angle {np.degrees(result['crank_angle'][-1]):.1f}° from top dead centre",
+        f"crank angle {np.degrees(result['crank_angle'][-1]):.1f}°",
         [
             ("Warnings", _warnings(warnings_of(summary))),
             ("Results", table(("quantity", "value"), numbers)),

@@ -44,7 +44,7 @@ def record(model: Model, outcome: Outcome) -> Result:
     channels = {
         "time": Channel(time, "s", "time"),
         "crank_angle": Channel(
-            position[:, crank, 2] - drawn, "rad", "crank angle from top dead centre"
+            position[:, crank, 2] - drawn, "rad", "crank angle from the mechanism's zero"
         ),
         "crank_speed": Channel(turned.velocity[:, 2], "rad/s", "angular velocity of the drive"),
         "slider_position": Channel(

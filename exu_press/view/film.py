@@ -15,6 +15,7 @@ from matplotlib.transforms import Bbox
 from PIL import Image, ImageDraw, ImageFont
 
 from exu_press.plots.busiest import busiest, draw_rest
+from exu_press.plots.canvas import angle_words, dead_centres
 from exu_press.plots.scales import crank_angle_axis, impact_scale, note
 from exu_press.plots.style import GREY, look
 from exu_press.plots.words import describe, early_stops, plain
@@ -145,8 +146,9 @@ class Film:
                 axes.margins(y=0.08)
             axes.tick_params(labelbottom=index == len(curves) - 1)
             panels.append(axes)
-        panels[-1].set_xlabel("crank angle from top dead centre, deg")
-        crank_angle_axis(panels, degrees[shown][0], degrees[shown][-1])
+        panels[-1].set_xlabel(angle_words({"": result}))
+        ends = degrees[shown][0], degrees[shown][-1]
+        crank_angle_axis(panels, *ends, dead_centres({"": result}))
 
 
 @dataclass

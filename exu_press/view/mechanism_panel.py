@@ -43,7 +43,8 @@ class MechanismPanel:
         self._unit = unit = float(high[1] - low[1])
         _draw_frame(axes, mechanism, everywhere, unit)
         _draw_labels(axes, mechanism, self._poses, float(high[0]), (low[1], high[1]))
-        _draw_dead_centres(axes, mechanism, everywhere[mechanism.slider], unit)
+        if mechanism.dead_centres is not None:
+            _draw_dead_centres(axes, mechanism, everywhere[mechanism.slider], unit)
         axes.set_aspect("equal", adjustable="box", anchor="W")
         axes.set_axis_off()
         axes.set(

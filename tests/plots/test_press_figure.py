@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 
+from exu_press import Scene, simulate
 from exu_press.plots import energy_figure, press_figure
 
 ALWAYS = ["Shaking force", "Power of the drive", "Guides"]
@@ -67,3 +68,15 @@ def test_guides_are_one_curve_of_the_energy_picture(results):
     shown = {axes.get_title("left"): axes for axes in energy_figure(results["elastic"]).axes}
     names = [text.get_text() for text in shown["Dissipated in"].get_legend().get_texts()]
     assert names == ["ball, left", "ball, right", "guides"]
+
+
+def test_a_motors_speed_and_loads_have_panels_and_a_rocker_no_dead_centre():
+    load = {"die": {"kind": "table", "time": [0.0, 0.1], "force": [0.0, 2e3]}}
+    result = simulate(Scene(mechanism="four_bar", joints={}, drive={}, load=load, revolutions=1.1))
+    shown = panels(result)
+    assert list(shown) == [*ALWAYS, "Crank speed", "Loads"]
+    assert shown["Crank speed"].get_ylabel() == "rpm"
+    assert np.ptp(shown["Crank speed"].lines[0].get_ydata()) > 0.0
+    labels = [text.get_text() for text in shown["Loads"].get_xticklabels()]
+    assert labels and not any("DC" in label for label in labels)
+    assert shown["Loads"].get_xlabel() == "crank angle, deg"

@@ -6,8 +6,8 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from exu_press.plots.canvas import angle_range, crank_degrees, curve, new_figure
-from exu_press.plots.scales import crank_angle_axis, impact_scale, note
+from exu_press.plots.canvas import angle_axis, crank_degrees, curve, new_figure
+from exu_press.plots.scales import impact_scale, note
 from exu_press.plots.style import COLOURS, IDEAL, styled
 from exu_press.result import Result
 from paper.plots.revolution import ideal_motion, mean_acceleration
@@ -61,7 +61,7 @@ def motion_figure(figure: str, kind: str, loads: Loads) -> Figure:
     _FINISH[kind](panels, loads)
     for axes in panels[1]:
         axes.set_xlabel("crank angle from top dead centre, deg")
-    crank_angle_axis(panels.flat, *angle_range(everyone))
+    angle_axis(panels.flat, everyone)
     handles, labels = panels[0, 0].get_legend_handles_labels()
     drawing.legend(handles, labels, loc="outside lower center", ncols=len(labels))
     return drawing

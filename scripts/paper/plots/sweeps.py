@@ -8,8 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from exu_press.plots.canvas import angle_range, crank_degrees, curve, legend_above, new_figure
-from exu_press.plots.scales import crank_angle_axis, note
+from exu_press.plots.canvas import angle_axis, crank_degrees, curve, legend_above, new_figure
+from exu_press.plots.scales import note
 from exu_press.plots.style import COLOURS, GREY, RUN, colour_of, styled
 from exu_press.result import Result
 from paper.comparison import observed
@@ -69,7 +69,7 @@ def curves_figure(
     apart.set_ylabel("µm" if displacement else "mm/s")
     apart.set_xlabel("crank angle from top dead centre, deg")
     legend_above(whole)
-    crank_angle_axis([whole, apart], *angle_range(runs))
+    angle_axis([whole, apart], runs)
     measure = "bottom_dead_centre" if displacement else "peak_velocity"
     _summary(summary, measure, list(runs), readings)
     summary.set_title("Bottom dead centre below the ideal" if displacement else "Peak velocity")
@@ -108,7 +108,7 @@ def peaks_figure(figure: str, runs: Mapping[str, Result], readings: Readings, sa
             axes.set_ylabel("m/s²")
         if letter in "cd":
             axes.set_xlabel("crank angle, deg")
-    crank_angle_axis(panels, *angle_range(runs))
+    angle_axis(panels, runs)
     summary = drawing.add_subplot(grid[:, 2])
     _summary(summary, "peak_acceleration", list(runs), readings)
     summary.set_title("Peak acceleration")

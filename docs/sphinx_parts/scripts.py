@@ -17,7 +17,7 @@ LEFT_OUT = (
     "benchmark_",
     "fit_",
     "tabulate_",
-    "flexible_parts",
+    "flexible_",
     "six_bar_rod",
     "paper",
     "precision",

@@ -14,6 +14,7 @@ SCRIPTS = Path(__file__).parents[2] / "scripts"
     [
         (["contact_restitution.py"], "(default)"),
         (["benchmark_modes.py", "--quick"], "ratio"),
+        (["flexible_convergence.py", "--quick", "--out", "convergence"], "error 0.01"),
         (["flexible_parts.py", "--quick", "--out", "parts"], "flexible, second shapes"),
     ],
 )

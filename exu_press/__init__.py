@@ -4,11 +4,14 @@ What is imported here costs nothing until it is used: names are loaded on first 
 """
 
 import importlib
-from typing import TYPE_CHECKING, Any
 
 from exu_press.above import WORKERS
 
+TYPE_CHECKING = False  # that of typing takes longer to load than all of this
+
 if TYPE_CHECKING:
+    from typing import Any
+
     from exu_press.errors import InputError
     from exu_press.integrate import Scales, Status, Tuning, solve_dynamic
     from exu_press.joints import (
@@ -60,18 +63,18 @@ _HOMES = {
 }
 
 
-def _build(scene: Any) -> Any:
+def _build(scene: "Any") -> "Any":
     return importlib.import_module("exu_press.graphics").build_with_graphics(scene)
 
 
-def _summary(result: Any) -> Any:
+def _summary(result: "Any") -> "Any":
     return importlib.import_module("exu_press.observe").summary(result)
 
 
 WORKERS.update(build=_build, summary=_summary)
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> "Any":
     """Load a public name from its home; the version is that of the installed package."""
     if name == "__version__":
         from importlib.metadata import version

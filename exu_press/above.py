@@ -5,10 +5,13 @@ people compare. But `scene.build()` and `result.summary()` are what users call. 
 face, which knows every room, says here who does this work, before any of these classes is loaded.
 """
 
-from collections.abc import Callable
-from typing import Any
+TYPE_CHECKING = False  # loaded before Ctrl-C is quiet: nothing more
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from typing import Any
 
 __all__ = ["WORKERS"]
 
-WORKERS: dict[str, Callable[[Any], Any]] = {}
+WORKERS: "dict[str, Callable[[Any], Any]]" = {}
 """Name of a method -> what is called with its object."""

@@ -52,6 +52,22 @@ sys.exit(module.main(["run", "press"]))
     assert (done.stderr, done.returncode) == ("", -signal.SIGINT)
 
 
+def test_ctrl_c_before_the_command_line_is_loaded():
+    code = """
+import builtins, os, signal
+from exu_press.__main__ import main
+usual = builtins.__import__
+def interrupted(name, *rest):
+    if name == "exu_press.cli":
+        os.kill(os.getpid(), signal.SIGINT)
+    return usual(name, *rest)
+builtins.__import__ = interrupted
+main()
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+    assert (done.stderr, done.returncode) == ("", -signal.SIGINT)
+
+
 def test_ctrl_c_in_a_command(monkeypatch, capsys):
     def interrupted(options):
         raise KeyboardInterrupt

@@ -1,0 +1,21 @@
+"""Where `exu-press` begins: until its command runs, Ctrl-C ends the process without a word."""
+
+import signal
+
+__all__ = ["main"]
+
+
+def main() -> int:
+    """Load the command line and run what it is asked; return the exit status."""
+    usual = signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    if usual:
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+    from exu_press.cli import main as run
+
+    if usual:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+    return run()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

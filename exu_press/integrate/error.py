@@ -83,12 +83,14 @@ class StepError:
             if self._problem.first_order:
                 self._first_order = FirstOrderError(self._data, self._share)
         self.accelerations = self._data.GetODE2Coordinates_tt(CURRENT, False).tolist()
-        if self._scales.speed == 0.0:
+        if self._scales.resting:
             velocities = self._data.GetODE2Coordinates_t(CURRENT, False).tolist()
             self._scales.set_out(velocities, self.accelerations)
         error = self._bodies.tried(self.accelerations, step)
         if error > 1.0:
             error = self._bodies.error(self._filtered(self._bodies.change), step)
+            if not self._joints:
+                error = max(error, self._bodies.of_peaks(step))  # constraints' own
         if not self._joints:  # else impacts and films need finer steps, by far
             offset = self._relative(self._bodies.offset(step))
             error = max(error, math.pow(offset, 1.5))  # as the step's cube

@@ -84,7 +84,8 @@ class Problem:
         joints: the system's clearance joints, if it has any.
         modal_stiffness: whether all stiffness is that of flexible bodies' modes.
         first_order: whether there are first-order coordinates.
-        switching: whether there are data variables, which Exudyn iterates on after Newton's method.
+        switching: whether there are data variables or general contacts, which Exudyn iterates on
+            after Newton's method.
         untold_rates: whether Exudyn does not tell how fast some constraints are violated: where
             user functions prescribe offsets, but not their rates, and at flexible bodies' rigid
             markers, whose velocities are no rates of their positions.
@@ -134,7 +135,7 @@ class Problem:
             joints=joints if joints.joints else None,
             modal_stiffness=modal,
             first_order=data.ODE1Size() > 0,
-            switching=data.DataSize() > 0,
+            switching=data.DataSize() > 0 or mbs.NumberOfGeneralContacts() > 0,
             untold_rates=_untold_rates(mbs, objects),
             length=_length(data, nodes),
         )

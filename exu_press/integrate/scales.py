@@ -93,9 +93,14 @@ class FoundScales:
         self.update([time * value for value in accelerations], accelerations)
         self.update(velocities, accelerations)
 
+    @property
+    def resting(self) -> bool:
+        """Whether the system moves by less than a billionth of its length in the longest step."""
+        return self.speed * self._longest <= 1e-9 * self.length
+
     def set_out(self, velocities: list[float], accelerations: list[float]) -> None:
         """Be told of a state that a step was tried to, in which a system may have left its rest."""
-        if self.speed == 0.0:
+        if self.resting:
             self.update([self._longest * value for value in accelerations], accelerations)
             self.update(velocities, accelerations)
 

@@ -1,5 +1,6 @@
 """Exudyn's settings for steps by tolerance, each with its reason; put back after the run."""
 
+import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -29,10 +30,11 @@ def refuse_unusable(settings: exu.SimulationSettings, tolerance: float | None) -
     """
     integration = settings.timeIntegration
     low, high = TOLERANCES
-    if tolerance is not None and not low <= tolerance <= high:
+    a_number = isinstance(tolerance, float | int)
+    if tolerance is not None and not (a_number and low <= tolerance <= high):
         raise InputError(f"tolerance = {tolerance!r}: allowed is a number from {low:g} to {high:g}")
     start, end = integration.startTime, integration.endTime
-    if not end > start:
+    if not start < end < math.inf:
         raise InputError(
             f"settings.timeIntegration.endTime = {end!r}: allowed is a time after startTime = "
             f"{start!r} s"
@@ -44,6 +46,12 @@ def refuse_unusable(settings: exu.SimulationSettings, tolerance: float | None) -
             "error is known"
         )
     alpha = integration.generalizedAlpha
+    if not 0.0 < alpha.spectralRadius <= 1.0:
+        raise InputError(
+            "settings.timeIntegration.generalizedAlpha.spectralRadius = "
+            f"{alpha.spectralRadius!r}: allowed is a number above 0.0, up to 1.0; with 0.0 no step "
+            "can be changed without ringing"
+        )
     if alpha.useNewmark or alpha.useIndex2Constraints:
         raise InputError(
             "settings.timeIntegration.generalizedAlpha: useNewmark and useIndex2Constraints are "

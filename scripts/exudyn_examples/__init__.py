@@ -56,7 +56,7 @@ def redundant(settings):
 
 EXAMPLES = {
     "slider-crank": Example(slider_crank, 2.0, 0.5, "Examples/SliderCrank.py"),
-    "four-bar": Example(four_bar, 1.0, 0.5, "TestModels/fourBarMechanismTest.py"),
+    "four-bar": Example(four_bar, 0.5, 0.3, "TestModels/fourBarMechanismTest.py"),
     "IFToMM pendulum": Example(iftomm_pendulum, 10.0, 2.0, "Examples/pendulumIftommBenchmark.py"),
     "double pendulum": Example(double_pendulum, 2.0, 1.0, "Examples/doublePendulum2D.py"),
     "four-bar in space": Example(

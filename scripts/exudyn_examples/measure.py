@@ -29,7 +29,7 @@ class Run:
     outcome: object
 
 
-def run(example, *, tolerance=None, steps=None, end=None, **keys):
+def run(example, *, tolerance=None, steps=None, end=None, record=True):
     """Solve an example to a tolerance, or with fixed steps by Exudyn alone."""
     container = exu.SystemContainer()
     mbs = container.AddSystem()
@@ -38,7 +38,7 @@ def run(example, *, tolerance=None, steps=None, end=None, **keys):
     own = own["function"] if isinstance(own, dict) else None
     times, rows = [], []
 
-    def record(mbs, time):
+    def keep(mbs, time):
         data = mbs.systemData
         if times and time <= times[-1]:
             return True
@@ -57,12 +57,13 @@ def run(example, *, tolerance=None, steps=None, end=None, **keys):
         )
         return own(mbs, time) if own else True
 
-    mbs.SetPostStepUserFunction(record)
+    if record:
+        mbs.SetPostStepUserFunction(keep)
     mbs.Assemble()
     settings = example.settings(end or example.end, steps)
     begun = clock.process_time()
     if steps is None:
-        outcome = solve_dynamic(mbs, settings, tolerance=tolerance, **keys)
+        outcome = solve_dynamic(mbs, settings, tolerance=tolerance)
         count, rejected = outcome.steps, outcome.rejected_steps
     else:
         outcome = mbs.SolveDynamic(settings)

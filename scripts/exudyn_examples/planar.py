@@ -74,7 +74,7 @@ def four_bar(mbs):
     for (one, a, _), (other, b, _) in itertools.pairwise(bars):
         pin(mbs, one, (a, 0.0), other, (-b, 0.0))
     pin(mbs, bars[2][0], (bars[2][1], 0.0), ground, places[3])
-    torque(mbs, bars[0][0], 0.3)
+    torque(mbs, bars[0][0], 0.1)
 
 
 def driven_crank(mbs):

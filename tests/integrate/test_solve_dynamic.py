@@ -232,8 +232,34 @@ def lie_group():
 def with_settings(**changes):
     chosen = settings(1.0)
     for name, value in changes.items():
-        setattr(chosen.timeIntegration, name, value)
+        *parts, last = name.split("__")
+        part = chosen.timeIntegration
+        for inner in parts:
+            part = getattr(part, inner)
+        setattr(part, last, value)
     return chosen
+
+
+def dry_journal(eccentricity):
+    mbs = exu.SystemContainer().AddSystem()
+    ground = mbs.AddObject(items.ObjectGround())
+    node = mbs.AddNode(items.NodeRigidBody2D(referenceCoordinates=[1.0 + eccentricity, 0.0, 0.0]))
+    rod = mbs.AddObject(items.ObjectRigidBody2D(nodeNumber=node, mass=1.0, inertia=0.1))
+    laws = {"contact": hunt_crossley(hertz(1e10), restitution=0.5), "friction": no_friction()}
+    ends = (rod, (-1.0, 0.0)), (ground, (0.0, 0.0))
+    add_dry_revolute(mbs, *ends, radius=0.02, clearance=1e-4, **laws)
+    mbs.Assemble()
+    return mbs
+
+
+def state_of(mbs):
+    """All coordinates, the user functions and what the solver leaves behind."""
+    if not mbs.systemIsConsistent:
+        return None
+    data, where = mbs.systemData, exu.ConfigurationType.Current
+    of = data.GetODE2Coordinates, data.GetODE2Coordinates_t, data.GetODE2Coordinates_tt
+    functions = mbs.GetPreStepUserFunction(), mbs.GetPostNewtonUserFunction()
+    return [part(where).tolist() for part in of], functions, dict(mbs.sys)
 
 
 @pytest.mark.parametrize(
@@ -249,11 +275,36 @@ def with_settings(**changes):
             1e-3,
             "solverType = RK44",
         ),
+        (
+            lambda: pendulum()[0],
+            with_settings(solverType=exu.DynamicSolverType.TrapezoidalIndex2),
+            1e-3,
+            "solverType = TrapezoidalIndex2",
+        ),
+        (
+            lambda: pendulum()[0],
+            with_settings(generalizedAlpha__useNewmark=True),
+            1e-3,
+            "useNewmark",
+        ),
+        (
+            lambda: pendulum()[0],
+            with_settings(generalizedAlpha__spectralRadius=0.0),
+            1e-3,
+            "spectralRadius = 0.0",
+        ),
+        (lambda: pendulum()[0], with_settings(endTime=np.inf), 1e-3, "endTime = inf"),
+        (lambda: pendulum()[0], settings(1.0), "1e-3", "tolerance = '1e-3': allowed is"),
+        (lambda: pendulum()[0], settings(1.0), np.nan, "tolerance = nan: allowed is"),
+        (lambda: dry_journal(0.01), settings(1.0), 1e-3, "eccentricity of 0.01 m"),
     ],
 )
 def test_what_cannot_be_solved_is_refused_by_name(system, chosen, tolerance, message):
+    mbs = system()
+    before = state_of(mbs)
     with pytest.raises(InputError, match=message):
-        solve_dynamic(system(), chosen, tolerance=tolerance)
+        solve_dynamic(mbs, chosen, tolerance=tolerance)
+    assert state_of(mbs) == before
 
 
 def test_a_system_of_hundreds_of_coordinates():

@@ -152,8 +152,8 @@ def solve_dynamic(
         solver.ComputeMassMatrix(mbs)
         fitted = fit_start(mbs, solver, constraints, problem.length, tuning.look_ahead * largest)
         if fitted is not None:
-            step_change.start_from(fitted)
-            estimate.start = fitted.tolist()
+            step_change.start_from(*fitted)
+            estimate.start = fitted[0].tolist()
         inertias, masses = weights(problem.nodes, solver.GetSystemMassMatrix())
         now = data.GetODE2Coordinates_tt(exu.ConfigurationType.Current, False).tolist()
         found.begin(

@@ -67,12 +67,13 @@ class _Start:
         self.put(time)
         return self._constraints.violated()
 
-    def rates(self) -> tuple[Array, Array]:
-        """Return the first and the second rate of change of the violations."""
+    def rates(self) -> tuple[Array, Array, Array]:
+        """Return the first, second and third rate of change of the violations."""
         h = self._ahead
         now, one, two, three = (self.violated(i * h) for i in range(4))
         first = (-11.0 * now + 18.0 * one - 9.0 * two + 2.0 * three) / (6.0 * h)
-        return first, (2.0 * now - 5.0 * one + 4.0 * two - three) / (h * h)
+        second = (2.0 * now - 5.0 * one + 4.0 * two - three) / (h * h)
+        return first, second, (three - 3.0 * two + 3.0 * one - now) / (h * h * h)
 
     def mended(self, vector: Array, violated: Array, fits: float) -> Array:
         """Return the nearest vector, in the kinetic norm, without violations; itself if it fits."""
@@ -88,7 +89,7 @@ class _Start:
 
 def fit_start(
     mbs: exu.MainSystem, solver: Any, constraints: Constraints, length: float, ahead: float
-) -> Array | None:
+) -> tuple[Array, Array] | None:
     """Let the start fit the constraints, as near to what it was as can be.
 
     Args:
@@ -99,12 +100,12 @@ def fit_start(
         ahead: time within which constraints are asked, s; motions are smooth in it.
 
     Returns:
-        The accelerations, if the start was moved.
+        The accelerations, and what of their rate the constraints prescribe; None without any.
     """
     if not constraints.count or not solver.GetODE2size():
         return None
     start = _Start(mbs, solver, constraints, ahead)
-    held, before = start.held, (start.q, start.v, start.a)
+    held = start.held
     for _ in range(ITERATIONS):
         violated = np.where(held, start.violated(), 0.0)
         if np.abs(violated).max() <= FITS[0] * length:
@@ -113,8 +114,9 @@ def fit_start(
     accelerations, start.a = start.a, np.zeros_like(start.a)
     start.v = start.mended(start.v, np.where(held, start.rates()[0], start.violated()), FITS[1])
     start.a = accelerations
-    first, second = start.rates()
+    first, second, _ = start.rates()
     start.a = start.mended(start.a, np.where(held, second, first), FITS[2])
+    _, second, third = start.rates()
+    rate = start.mended(np.zeros_like(start.a), np.where(held, third, second), 0.0)
     start.put()
-    same = all(a is b for a, b in zip(before, (start.q, start.v, start.a), strict=True))
-    return None if same else start.a
+    return start.a, rate

@@ -81,7 +81,8 @@ class StepChange:
         self._state: list[Array] | None = None  # at the step's beginning, before any shift
         self._offsets: tuple[Array, Array] | None = None
         self._mean: Array | None = None  # acceleration of the first step
-        self._given: Array | None = None  # accelerations at the start, where Exudyn has others
+        # accelerations at the start, and what of their rate constraints prescribe
+        self._given: tuple[Array, Array] | None = None
 
     def start_over(self, time: float) -> bool:
         """Return whether the first step is to be repeated, from its own mean acceleration.
@@ -94,9 +95,14 @@ class StepChange:
         self._mean = np.asarray((now - before) / (time - self._start))
         return True
 
-    def start_from(self, accelerations: Array) -> None:
-        """Let the first step start from other accelerations than Exudyn's."""
-        self._given = accelerations
+    def start_from(self, accelerations: Array, rate: Array) -> None:
+        """Let the first step start with the offsets on which further ones would settle.
+
+        Args:
+            accelerations: at the start.
+            rate: what constraints prescribe of their rate of change.
+        """
+        self._given = accelerations, rate
 
     def before_try(self, time: float) -> None:
         """Shift the state from which Exudyn is about to try a step to `time`, s."""
@@ -135,9 +141,13 @@ class StepChange:
                 self._leaves = step
         at_start = solver.GetStartOfStepStateAAlgorithmic()
         wanted = a + ratio * (at_start - a)
-        first = self._given if self._mean is None else self._mean
-        if self._last is None and first is not None:
-            a = wanted = first
+        if self._last is None and self._mean is not None:
+            a = wanted = self._mean
+        elif self._last is None and self._given is not None:
+            a, rate = self._given
+            settled = solver.alphaM - solver.alphaF
+            wanted = a + settled * step * rate
+            v = v + (1.0 / 6.0 - solver.newmarkBeta - 0.5 * settled) * step * step * rate
         # q1 = q + h v + h^2 (1/2 - beta) a + h^2 beta a1 and v1 = v + h (1 - gamma) a + h gamma a1
         # with (1 - alpha_m) a1 + alpha_m a = (1 - alpha_f) a_true1 + alpha_f a_true
         beta, gamma = solver.newmarkBeta, solver.newmarkGamma
@@ -173,7 +183,10 @@ class StepChange:
         if count == 0:
             return np.zeros(size), np.zeros(size)
         directions = np.asarray(solver.GetSystemJacobian())[-count:, :size]
-        matrix = self._constraints.matrix(mass, directions)
+        # Newton's matrix has those of velocities over the step
+        lengths = np.sqrt(np.square(directions).sum(axis=1))
+        lengths[lengths == 0.0] = 1.0
+        matrix = self._constraints.matrix(mass, directions / lengths[:, None])
         position, velocity, _ = self._views(CURRENT)
         now = self._data.GetTime()
         self._data.SetTime(self._start)
@@ -183,8 +196,9 @@ class StepChange:
             velocity[:] = self._state[1] - found[:, 1]
             violated[size:, 0] = self._constraints.violated()
             violated[size:, 1] = self._constraints.violated_rates(AHEAD * self._fits)
+            violated[size:] /= lengths[:, None]
             same = violated[:, 0] == violated[:, 1]
-            violated[same, 0] = 0.0  # prescribed speeds are no places
+            violated[same] = 0.0  # prescribed speeds are no places, and are met as they are
             found += np.linalg.solve(matrix, violated)[:size]
         self._data.SetTime(now)
         return found[:, 0], found[:, 1]

@@ -146,7 +146,8 @@ def test_from_his_start_the_end_is_his(scene, mean_axes, relative):
     rod = placed(beam)
     result = run(scene, rod, his_start(beam))
     assert result.completed
-    assert simeons(result, rod, 0)[3:] == pytest.approx(START_ALONG, rel=1e-6)
+    start = simeons(result, rod, 0)[3:]  # his, as printed, opens a joint by 2e-10 m
+    assert start == pytest.approx(START_ALONG, abs=1e-9)
     angle, *sines, middle, end = simeons(result, rod, -1)
     assert angle == pytest.approx(ANGLE, abs=1e-7)
     assert result["slider_position"][-1] == pytest.approx(PLACE, abs=1e-7)

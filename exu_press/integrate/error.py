@@ -89,8 +89,6 @@ class StepError:
         error = self._bodies.tried(self.accelerations, step)
         if error > 1.0:
             error = self._bodies.error(self._filtered(self._bodies.change), step)
-            if not self._joints:
-                error = max(error, self._bodies.of_peaks(step))  # constraints' own
         if not self._joints:  # else impacts and films need finer steps, by far
             offset = self._relative(self._bodies.offset(step))
             error = max(error, math.pow(offset, 1.5))  # as the step's cube

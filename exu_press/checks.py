@@ -1,4 +1,4 @@
-"""How a key of the scene states what it allows, and the check at the door."""
+"""How a key of the scene states what it allows, and its validation."""
 
 import dataclasses
 import difflib

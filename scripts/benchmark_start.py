@@ -14,8 +14,8 @@ from matplotlib.figure import Figure
 
 from exu_press import Scene, simulate
 from exu_press.plots import save_pictures
-from exu_press.view import Film, instants, save_film
-from exu_press.view.film import SIZE
+from exu_press.view import Animation, instants, save_animation
+from exu_press.view.animation import SIZE
 
 REPEATS = 5
 MAIN = "from exu_press.cli import main\ntry: main([{}])\nexcept SystemExit: pass"
@@ -49,9 +49,9 @@ def drawing_times() -> dict[str, float]:
         start = time.process_time()
         save_pictures(result, folder)
         pictures = time.process_time()
-        film = Film(result, instants(result), Figure(figsize=SIZE))
-        save_film(film, Path(folder) / "run.gif")
-        frame = (time.process_time() - pictures) / len(film.instants)
+        animation = Animation(result, instants(result), Figure(figsize=SIZE))
+        save_animation(animation, Path(folder) / "run.gif")
+        frame = (time.process_time() - pictures) / len(animation.instants)
     return {"all pictures of a run": pictures - start, "a frame of a .gif": frame}
 
 

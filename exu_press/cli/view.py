@@ -1,4 +1,4 @@
-"""See a run move: in a window, or as a film or picture with --save."""
+"""See a run move: in a window, or as an animation or picture with --save."""
 
 import argparse
 from pathlib import Path
@@ -10,7 +10,7 @@ from exu_press.result import Result
 
 __all__ = ["EXAMPLE", "add_arguments", "execute"]
 
-EXAMPLE = "exu-press view out/press/run.nc --from 0.03 --to 0.05 --save film.gif"
+EXAMPLE = "exu-press view out/press/run.nc --from 0.03 --to 0.05 --save animation.gif"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -31,7 +31,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--slow",
         type=float,
         metavar="N",
-        help="seconds of film for a second of the machine (default: a revolution takes 5 s)",
+        help="seconds of animation for a second of the machine (default: a revolution takes 5 s)",
     )
     parser.add_argument("--frames", type=int, metavar="N", help="number of frames, instead")
     parser.add_argument("--fps", type=float, metavar="N", help="frames a second (default: 25)")
@@ -50,21 +50,21 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def execute(options: argparse.Namespace) -> int:
-    """Show or write the film; return 0."""
+    """Show or write the animation; return 0."""
     result = Result.load(_run_in(Path(options.path)))
     target = None if options.save is None else Path(options.save)
     if target is not None:
-        from exu_press.view.save import check_target, is_film
+        from exu_press.view.save import check_target, is_animation
 
         check_target(target)
-        one = not is_film(target)
+        one = not is_animation(target)
     else:
         one = False
     if options.at is not None and not one:
         raise InputError(f"--at {options.at:g}: allowed with --save FILE.png alone")
     for option in ("slow", "frames", "fps"):
         if one and (value := getattr(options, option)) is not None:
-            raise InputError(f"--{option} {value:g}: allowed for films alone, not for a picture")
+            raise InputError(f"--{option} {value:g}: allowed for animations, not for a picture")
     for option, value in (("--colour", options.colour), ("--exaggerate", options.exaggerate)):
         if value is not None and not result.surfaces:
             raise InputError(f"{option} {value}: allowed for runs with flexible bodies alone")
@@ -83,8 +83,8 @@ def _run_in(path: Path) -> Path:
 def _write_or_show(
     result: Result, target: Path | None, one: bool, options: argparse.Namespace
 ) -> None:
-    """Make the film and hand it over."""
-    from exu_press.view import Film, Look, instants, moment, save_film, save_picture
+    """Make the animation and hand it over."""
+    from exu_press.view import Animation, Look, instants, moment, save_animation, save_picture
 
     flexible = Look(options.colour or "displacement", options.exaggerate)
     start, stop = options.start, options.stop
@@ -100,14 +100,14 @@ def _write_or_show(
         return
     from matplotlib.figure import Figure
 
-    from exu_press.view.film import SIZE
+    from exu_press.view.animation import SIZE
 
-    film = Film(result, frames, Figure(figsize=SIZE), flexible)
+    animation = Animation(result, frames, Figure(figsize=SIZE), flexible)
     if one:
-        written = [save_picture(film, 1, target)]
+        written = [save_picture(animation, 1, target)]
     else:
-        with Progress("film", len(frames), "frames", quiet=options.quiet) as progress:
-            written = save_film(film, target, progress.update)
+        with Progress("animation", len(frames), "frames", quiet=options.quiet) as progress:
+            written = save_animation(animation, target, progress.update)
     if not options.quiet:
         more = f" to {written[-1].name}" if len(written) > 1 else ""
         print(f"written: {written[0]}{more}")

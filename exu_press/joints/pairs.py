@@ -17,7 +17,6 @@ from exu_press.laws.film import FilmLaw
 from exu_press.laws.friction import Friction, LuGre
 
 __all__ = [
-    "Answer",
     "Arms",
     "DryPair",
     "FilmPair",
@@ -26,6 +25,7 @@ __all__ = [
     "Pair",
     "PairedJoint",
     "PolarForce",
+    "Response",
     "Slopes",
 ]
 
@@ -46,14 +46,14 @@ Arms = tuple[float, float, float, float]
 """a_J, a_B, m, and their derivatives with respect to |e|."""
 
 
-Answer = tuple[float, ...]
-"""What a pair's laws answered: their values and derivatives."""
+Response = tuple[float, ...]
+"""Of a pair's laws: their values and derivatives."""
 
 Motion = tuple[float, float, float, float, float]
 """|e|, d|e|/dt, v_t, omega_J, omega_B."""
 
-Load = tuple[float, float, float, float, Answer]
-"""f_n, f_t, the moments on journal and bearing, and the laws' answer they come from."""
+Load = tuple[float, float, float, float, Response]
+"""f_n, f_t, the moments on journal and bearing, and the laws' response that they come from."""
 
 
 class Pair:
@@ -83,8 +83,8 @@ class Pair:
         """Return force and moments, SI."""
         raise NotImplementedError
 
-    def slopes(self, answer: Answer, e: float, omega_j: float, omega_b: float) -> Slopes:
-        """Return the derivatives of the force that goes with an answer of the laws, SI."""
+    def slopes(self, response: Response, e: float, omega_j: float, omega_b: float) -> Slopes:
+        """Return the derivatives of the force that goes with an response of the laws, SI."""
         raise NotImplementedError
 
     def force(
@@ -94,15 +94,17 @@ class Pair:
         load = self.load(e, e_dot, v_t, omega_j, omega_b)
         if load is None:
             return None
-        f_n, f_t, _, _, answer = load
-        by_n, by_t = self.slopes(answer, e, omega_j, omega_b)
+        f_n, f_t, _, _, response = load
+        by_n, by_t = self.slopes(response, e, omega_j, omega_b)
         return (f_n, f_t), by_n, by_t
 
     def arms(self, e: float) -> Arms:
         """Return a_J, a_B (m) and their derivatives with respect to |e|."""
         raise NotImplementedError
 
-    def shear_slopes(self, answer: Answer, omega_j: float, omega_b: float) -> tuple[float, float]:
+    def shear_slopes(
+        self, response: Response, omega_j: float, omega_b: float
+    ) -> tuple[float, float]:
         """Return the derivatives of the couple S by |e| (N) and by omega_J - omega_B (N m s)."""
         return 0.0, 0.0
 
@@ -180,14 +182,14 @@ class DryPair(Pair):
         normal, stiffness, damping = self.contact.force(penetration, e_dot, speed)
         return self._loaded(e, normal, (mu, slope, normal, stiffness, damping))
 
-    def _loaded(self, e: float, normal: float, answer: Answer) -> Load:
+    def _loaded(self, e: float, normal: float, response: Response) -> Load:
         """Return force and moments of a normal force."""
-        drag = -answer[0] * normal
-        return -normal, drag, self.radius * drag, -(self.radius + e) * drag, answer
+        drag = -response[0] * normal
+        return -normal, drag, self.radius * drag, -(self.radius + e) * drag, response
 
-    def slopes(self, answer: Answer, e: float, omega_j: float, omega_b: float) -> Slopes:
+    def slopes(self, response: Response, e: float, omega_j: float, omega_b: float) -> Slopes:
         """Return the derivatives of the force."""
-        mu, slope, normal, stiffness, damping = answer
+        mu, slope, normal, stiffness, damping = response
         drag = slope * normal
         return (
             (-stiffness, -damping, 0.0, 0.0, 0.0),
@@ -252,20 +254,20 @@ class FilmPair(Pair):
     ) -> Load | None:
         """Return force and moments; NaN where the law does not hold."""
         c, p = self.clearance, self.scale
-        answer = self.law(e / c, e_dot / c, (e * (omega_j + omega_b) - 2.0 * v_t) / c)
-        f_r = p * answer[0]
+        response = self.law(e / c, e_dot / c, (e * (omega_j + omega_b) - 2.0 * v_t) / c)
+        f_r = p * response[0]
         if f_r == f_r:
             self.outside = None
         elif e == e:  # what follows on such a force may be no place at all
             self.outside = e / c
-        f_t = p * answer[1]
+        f_t = p * response[1]
         moment = -0.5 * e * f_t
-        shear = p * c * answer[8] * (omega_j - omega_b)
-        return f_r, f_t, moment - shear, moment + shear, answer
+        shear = p * c * response[8] * (omega_j - omega_b)
+        return f_r, f_t, moment - shear, moment + shear, response
 
-    def slopes(self, answer: Answer, e: float, omega_j: float, omega_b: float) -> Slopes:
+    def slopes(self, response: Response, e: float, omega_j: float, omega_b: float) -> Slopes:
         """Return the derivatives of the force."""
-        _, _, r_eps, r_dot, r_w, t_eps, t_dot, t_w, _, _ = answer
+        _, _, r_eps, r_dot, r_w, t_eps, t_dot, t_w, _, _ = response
         turning = omega_j + omega_b
         q = self.scale / self.clearance
         r_w *= q
@@ -276,10 +278,12 @@ class FilmPair(Pair):
             (q * t_eps + t_w * turning, q * t_dot, -2.0 * t_w, t_turn, t_turn),
         )
 
-    def shear_slopes(self, answer: Answer, omega_j: float, omega_b: float) -> tuple[float, float]:
+    def shear_slopes(
+        self, response: Response, omega_j: float, omega_b: float
+    ) -> tuple[float, float]:
         """Return the derivatives of Petroff's couple."""
         p = self.scale
-        return p * answer[9] * (omega_j - omega_b), p * self.clearance * answer[8]
+        return p * response[9] * (omega_j - omega_b), p * self.clearance * response[8]
 
     def arms(self, e: float) -> Arms:
         """Return the moment arms of the point half-way between the centres."""

@@ -7,7 +7,7 @@ that integral to the fourth order,
     h (v0 + v1) / 2 - h^2 (change of the mean acceleration) / 12,
 
 one order better than generalized-alpha's own positions. Where surfaces touch, what was missed
-across them is taken out of the penetration that the contact law answers to, as long as the contact
+across them is taken out of the penetration that the contact law responds to, as long as the contact
 lasts (local extrapolation: Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I,
 II.4). A damped contact remembers its penetration for milliseconds and ends it with an impact that
 amplifies its error a thousandfold.

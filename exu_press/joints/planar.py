@@ -96,10 +96,10 @@ class PlanarJoint(PairedJoint):
         """Return one pair's part of the Jacobian."""
         e, e_dot, v_t, w_j, w_b = self._motion
         n_x, n_y, j_x, j_y, b_x, b_y = self._directions
-        f_n, f_t, _, _, answer = load
+        f_n, f_t, _, _, response = load
         (n_e, n_r, n_v, n_wj, n_wb), (t_e, t_r, t_v, t_wj, t_wb) = self._slopes(i, load)
         lever_j, lever_b, slope_j, slope_b = self.pairs[i].arms(e)
-        shear_e, shear_w = self.pairs[i].shear_slopes(answer, w_j, w_b)
+        shear_e, shear_w = self.pairs[i].shear_slopes(response, w_j, w_b)
         slope_j = by_q * (slope_j * f_t - shear_e)
         slope_b = by_q * (slope_b * f_t + shear_e)
         shear_w *= by_q_t

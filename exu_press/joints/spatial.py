@@ -79,7 +79,7 @@ class SpatialRevolute(PairedJoint):
             if load is None:
                 continue
             acting = True
-            f_n, f_t, _, _, answer = load
+            f_n, f_t, _, _, response = load
             (n_e, n_r, n_v, n_wj, n_wb), (t_e, t_r, t_v, t_wj, t_wb) = self._slopes(i, load)
             arm_j, arm_b, slope_j, slope_b = self.pairs[i].arms(e)
             n_side = turn * (n_r * v_t - n_v * e_dot)
@@ -90,7 +90,7 @@ class SpatialRevolute(PairedJoint):
             law[1, 1] += turn * f_n
             law[2] += arm_j * drag
             law[3] += arm_b * drag
-            shear_e, shear_w = self.pairs[i].shear_slopes(answer, w_j, w_b)
+            shear_e, shear_w = self.pairs[i].shear_slopes(response, w_j, w_b)
             law[2:, 0] += (slope_j * f_t - shear_e, slope_b * f_t + shear_e)
             law[2:, 4:] += ((-shear_w, shear_w), (shear_w, -shear_w))
         if not acting:

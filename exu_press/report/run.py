@@ -17,8 +17,8 @@ from exu_press.report.warnings import assumption_rows, warnings_of
 from exu_press.result import Result
 from exu_press.scene import Scene
 from exu_press.scene.assumptions import keys_of
-from exu_press.view import Film, moment, save_picture
-from exu_press.view.film import SIZE
+from exu_press.view import Animation, moment, save_picture
+from exu_press.view.animation import SIZE
 
 __all__ = ["run_report", "scene_parts"]
 
@@ -106,8 +106,8 @@ def _pictures(result: Result) -> str:
     """Return every picture of a run, the mechanism at the slider's largest acceleration first."""
     peak = float(result.time[int(np.argmax(np.abs(result["slider_acceleration"])))])
     with tempfile.TemporaryDirectory() as folder:
-        film = Film(result, moment(result, peak), Figure(figsize=SIZE))
-        still = save_picture(film, 1, Path(folder) / "mechanism.png")
+        animation = Animation(result, moment(result, peak), Figure(figsize=SIZE))
+        still = save_picture(animation, 1, Path(folder) / "mechanism.png")
         words = f"The press at the slider's largest acceleration, t = {peak * 1e3:.2f} ms."
         if result.scene.press is None:
             words = words.replace("press", "mechanism", 1)

@@ -1,4 +1,4 @@
-"""What is asked: one frozen Scene, checked once at the door."""
+"""What is asked: one frozen Scene, validated once."""
 
 import dataclasses
 import math

@@ -1,7 +1,7 @@
-"""The mechanism in motion, from a result file alone: in a window, or as a film or pictures."""
+"""The mechanism in motion, from a result file alone: in a window, as animation or pictures."""
 
-from exu_press.view.film import Film, Look
+from exu_press.view.animation import Animation, Look
 from exu_press.view.instants import Instants, instants, moment
-from exu_press.view.save import save_film, save_picture
+from exu_press.view.save import save_animation, save_picture
 
-__all__ = ["Film", "Instants", "Look", "instants", "moment", "save_film", "save_picture"]
+__all__ = ["Animation", "Instants", "Look", "instants", "moment", "save_animation", "save_picture"]

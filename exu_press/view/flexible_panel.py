@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 TIMES = "\N{MULTIPLICATION SIGN}"
 
 DEFLECTION = 0.06
-"""Of the bodies' extent: how large the largest displacement of the film is drawn."""
+"""Of the bodies' extent: how large the largest displacement of the animation is drawn."""
 
 TURN, TILT = np.radians(-55.0), np.radians(20.0)
 """Of the view, about y and then about the x drawn."""
@@ -66,7 +66,7 @@ class FlexiblePanel:
     def __init__(
         self, figure: Figure, place: SubplotSpec, result: Result, instants: Instants, how: Look
     ) -> None:
-        """Find the largest values of the film, for scale and colours."""
+        """Find the largest values of the animation, for scale and colours."""
         self._surfaces = result.surfaces
         index = {name: result.bodies.index(name) for name in result.surfaces}
         stored = result["body_position"]

@@ -1,4 +1,4 @@
-"""When the film shows the run: equally spaced instants, and the steps between them."""
+"""When the animation shows the run: equally spaced instants, and the steps between them."""
 
 from dataclasses import dataclass
 
@@ -13,19 +13,19 @@ __all__ = ["SECONDS_PER_REVOLUTION", "Instants", "instants", "moment"]
 Array = NDArray[np.float64]
 
 SECONDS_PER_REVOLUTION = 5.0
-"""Of the film, unless told otherwise, s."""
+"""Of the animation, unless told otherwise, s."""
 
 MOST_FRAMES = 20_000
 
 
 @dataclass(frozen=True)
 class Instants:
-    """The frames of a film.
+    """The frames of an animation.
 
     Attributes:
         time: (m,) of every frame, s.
         step: (m,) the last step of the integrator that is not later.
-        slow: seconds of the film for a second of the machine.
+        slow: seconds of the animation for a second of the machine.
         fps: frames a second.
         still: only one of the frames is shown: it holds the instant, not what happened before.
     """
@@ -56,14 +56,14 @@ def instants(
     slow: float | None = None,
     frames: int | None = None,
 ) -> Instants:
-    """Return the frames of a film of a run, from start to stop (s; default: all of it).
+    """Return the frames of an animation of a run, from start to stop (s; default: all of it).
 
     Args:
         result: of the run.
         start: s.
         stop: s.
         fps: frames a second.
-        slow: seconds of film for a second of the machine; default: a revolution takes 5 s.
+        slow: seconds of animation for a second of the machine; default: a revolution takes 5 s.
         frames: their number, instead of `slow`.
 
     Raises:

@@ -1,4 +1,4 @@
-"""What every part of the film's picture is: axes, and artists that change from frame to frame."""
+"""What every part of the picture is: axes, and artists that change from frame to frame."""
 
 from collections.abc import Sequence
 from typing import Protocol

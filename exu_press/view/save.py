@@ -1,4 +1,4 @@
-"""A film as .mp4, .gif or numbered .png files, and a single picture; without a display."""
+"""An animation as .mp4, .gif or numbered .png files, and a single picture; without a display."""
 
 import itertools
 import re
@@ -16,10 +16,10 @@ from exu_press.errors import InputError
 from exu_press.mechanism.shapes import COLOURS as BODIES
 from exu_press.output import replacing
 from exu_press.plots.style import COLOURS
-from exu_press.view.film import Film, Painter
+from exu_press.view.animation import Animation, Painter
 from exu_press.view.flexible_panel import COLOURS as SURFACES
 
-__all__ = ["check_target", "is_film", "save_film", "save_picture"]
+__all__ = ["check_target", "is_animation", "save_animation", "save_picture"]
 
 DPI = {".mp4": 150.0, ".gif": 75.0, ".png": 150.0}
 KEPT = [
@@ -36,7 +36,7 @@ NUMBER = re.compile(r"%0?\d*d")
 ALLOWED = ".mp4, .gif, .png, or .png with the frame's number, as in frame_%04d.png"
 
 
-def is_film(path: Path) -> bool:
+def is_animation(path: Path) -> bool:
     """Return whether a name asks for all frames, not for one picture."""
     return path.suffix.lower() != ".png" or NUMBER.search(path.name) is not None
 
@@ -51,20 +51,22 @@ def check_target(path: Path) -> None:
         raise InputError(f"--save {path}: there is no directory {path.parent}")
 
 
-def save_picture(film: Film, frame: int, path: Path) -> Path:
+def save_picture(animation: Animation, frame: int, path: Path) -> Path:
     """Write one frame as .png."""
     check_target(path)
-    image = Painter(film, DPI[".png"]).paint(frame)
+    image = Painter(animation, DPI[".png"]).paint(frame)
     with replacing(path) as partial:
         image.save(partial, format="png")
     return path
 
 
-def save_film(film: Film, path: Path, report: Callable[[int], None] | None = None) -> list[Path]:
+def save_animation(
+    animation: Animation, path: Path, report: Callable[[int], None] | None = None
+) -> list[Path]:
     """Write all frames; return the files. An existing one is replaced only when complete.
 
     Args:
-        film: what to draw.
+        animation: what to draw.
         path: .mp4 (needs ffmpeg), .gif, or .png with the frame's number, as in frame_%04d.png.
         report: called with the number of frames done.
 
@@ -73,10 +75,10 @@ def save_film(film: Film, path: Path, report: Callable[[int], None] | None = Non
     """
     check_target(path)
     kind = path.suffix.lower()
-    painter = Painter(film, DPI[kind])
+    painter = Painter(animation, DPI[kind])
 
     def frames() -> Iterator[Image.Image]:
-        for frame in range(len(film.instants)):
+        for frame in range(len(animation.instants)):
             yield painter.paint(frame)
             if report is not None:
                 report(frame + 1)
@@ -85,9 +87,9 @@ def save_film(film: Film, path: Path, report: Callable[[int], None] | None = Non
         return [_write_png(path, number, image) for number, image in enumerate(frames())]
     with replacing(path) as partial:
         if kind == ".gif":
-            _write_gif(partial, frames(), film.instants.fps)
+            _write_gif(partial, frames(), animation.instants.fps)
         else:
-            _write_mp4(path, partial, frames(), film.instants.fps)
+            _write_mp4(path, partial, frames(), animation.instants.fps)
     return [path]
 
 
@@ -114,7 +116,7 @@ def _write_gif(path: Path, frames: Iterator[Image.Image], fps: float) -> None:
 
 
 def _palette(image: Image.Image) -> Image.Image:
-    """Return the colours that a film is made of, and those of its first frame's blends."""
+    """Return the colours that an animation is made of, and those of its first frame's blends."""
     fixed = [255, 255, 255]
     for colour in KEPT:
         fixed += [round(255 * part) for part in to_rgb(colour)]

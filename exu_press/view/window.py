@@ -1,4 +1,4 @@
-"""The film in a window: play, pause, a time slider; space and the arrow keys do the same."""
+"""The animation in a window: play, pause, a time slider; space and the arrow keys do the same."""
 
 import time
 from typing import Any
@@ -10,7 +10,7 @@ from matplotlib.widgets import Button, Slider
 from exu_press.errors import InputError
 from exu_press.plots.style import RUN, look
 from exu_press.result import Result
-from exu_press.view.film import SIZE, Film, Look
+from exu_press.view.animation import SIZE, Animation, Look
 from exu_press.view.instants import Instants
 
 __all__ = ["Player", "show"]
@@ -19,19 +19,19 @@ HEADLESS = ("agg", "pdf", "ps", "svg", "pgf", "cairo", "template")
 
 
 class Player:
-    """Plays a film on its figure's canvas, at its own speed whatever drawing takes.
+    """Plays an animation on its figure's canvas, at its own speed whatever drawing takes.
 
     Frames that there is no time for are left out.
     """
 
-    def __init__(self, film: Film) -> None:
+    def __init__(self, animation: Animation) -> None:
         """Add the controls and connect them."""
-        self.film, self.frame, self.playing = film, 0, False
-        self._last = len(film.instants) - 1
-        figure = film.figure
+        self.animation, self.frame, self.playing = animation, 0, False
+        self._last = len(animation.instants) - 1
+        figure = animation.figure
         with look():
             self._button = Button(figure.add_axes((0.30, 0.012, 0.05, 0.034)), "Play")
-            times = film.instants.time * 1e3
+            times = animation.instants.time * 1e3
             self._slider = Slider(
                 figure.add_axes((0.425, 0.012, 0.16, 0.034)),
                 "time, ms",
@@ -48,13 +48,13 @@ class Player:
         self._background: Any = None
         self._begun = (0.0, 0)
         canvas = figure.canvas
-        self._timer = canvas.new_timer(interval=max(1, int(500 / film.instants.fps)))
+        self._timer = canvas.new_timer(interval=max(1, int(500 / animation.instants.fps)))
         self._timer.add_callback(self.tick)
         self._button.on_clicked(lambda event: self.toggle())
         self._slider.on_changed(self._drag)
         canvas.mpl_connect("key_press_event", self._key)
         canvas.mpl_connect("draw_event", self._redrawn)
-        film.show(0)
+        animation.show(0)
 
     def toggle(self) -> None:
         """Play or pause; at the end, play from the start."""
@@ -71,7 +71,7 @@ class Player:
     def tick(self) -> None:
         """Show the frame whose time it is; pause at the end."""
         since, start = self._begun
-        due = start + int((time.monotonic() - since) * self.film.instants.fps)
+        due = start + int((time.monotonic() - since) * self.animation.instants.fps)
         self.go(min(due, self._last))
         if due >= self._last and self.playing:
             self.toggle()
@@ -79,15 +79,15 @@ class Player:
     def go(self, frame: int) -> None:
         """Show a frame."""
         self.frame = frame
-        self.film.show(frame)
+        self.animation.show(frame)
         self._slider.eventson = False
-        self._slider.set_val(self.film.instants.time[frame] * 1e3)
+        self._slider.set_val(self.animation.instants.time[frame] * 1e3)
         self._slider.eventson = True
         self._paint()
 
     def _drag(self, milliseconds: float) -> None:
         """Go to where the slider was put, and play on from there if it plays."""
-        frame = int(abs(self.film.instants.time * 1e3 - milliseconds).argmin())
+        frame = int(abs(self.animation.instants.time * 1e3 - milliseconds).argmin())
         self._begun = time.monotonic(), frame
         self.go(frame)
 
@@ -100,26 +100,26 @@ class Player:
 
     def _redrawn(self, event: Any) -> None:
         """Keep what does not change, after the window was drawn anew."""
-        canvas: Any = self.film.figure.canvas
+        canvas: Any = self.animation.figure.canvas
         if canvas.supports_blit:
-            self._background = canvas.copy_from_bbox(self.film.figure.bbox)
+            self._background = canvas.copy_from_bbox(self.animation.figure.bbox)
         self._draw_changes()
 
     def _draw_changes(self) -> None:
         with look():
-            self.film.draw_artists()
+            self.animation.draw_artists()
             for axes in self._controls:
-                self.film.figure.draw_artist(axes)
+                self.animation.figure.draw_artist(axes)
 
     def _paint(self) -> None:
         """Draw what changes on what does not."""
-        canvas: Any = self.film.figure.canvas
+        canvas: Any = self.animation.figure.canvas
         if self._background is None or not canvas.supports_blit:
             canvas.draw_idle()
             return
         canvas.restore_region(self._background)
         self._draw_changes()
-        canvas.blit(self.film.figure.bbox)
+        canvas.blit(self.animation.figure.bbox)
 
 
 def show(result: Result, instants: Instants, flexible: Look | None = None) -> None:
@@ -138,6 +138,6 @@ def show(result: Result, instants: Instants, flexible: Look | None = None) -> No
             "view: no window can be opened here (no display, or no toolkit such as tkinter); "
             "use --save FILE.mp4, FILE.gif or FILE.png"
         )
-    player = Player(Film(result, instants, figure, flexible))
+    player = Player(Animation(result, instants, figure, flexible))
     plt.show()
     player.playing = False

@@ -11,13 +11,13 @@ def run(tmp_path_factory):
     return path
 
 
-def test_a_film_and_a_picture_from_the_file_alone(run, tmp_path, capsys):
-    film, picture = tmp_path / "film.gif", tmp_path / "picture.png"
-    assert main(["view", str(run), "--save", str(film), "--frames", "3"]) == 0
+def test_an_animation_and_a_picture_from_the_file_alone(run, tmp_path, capsys):
+    animation, picture = tmp_path / "animation.gif", tmp_path / "picture.png"
+    assert main(["view", str(run), "--save", str(animation), "--frames", "3"]) == 0
     directory = str(run.parent)  # as good as the file in it
     assert main(["view", directory, "--save", str(picture), "--at", "0.005", "--quiet"]) == 0
-    assert film.stat().st_size > 10_000 and picture.stat().st_size > 10_000
-    assert capsys.readouterr().out == f"written: {film}\n"
+    assert animation.stat().st_size > 10_000 and picture.stat().st_size > 10_000
+    assert capsys.readouterr().out == f"written: {animation}\n"
 
 
 @pytest.mark.parametrize(
@@ -26,7 +26,7 @@ def test_a_film_and_a_picture_from_the_file_alone(run, tmp_path, capsys):
         (["--save", "x.avi"], "--save x.avi: allowed is a name ending in .mp4"),
         (["--save", "x.gif", "--from", "7"], "--from 7: the record goes from 0"),
         (["--save", "x.gif", "--at", "0.01"], "--at 0.01: allowed with --save FILE.png alone"),
-        (["--save", "x.png", "--slow", "3"], "--slow 3: allowed for films alone"),
+        (["--save", "x.png", "--slow", "3"], "--slow 3: allowed for animations"),
         (["--save", "x.gif", "--colour", "stress"], "--colour stress: allowed for runs with flex"),
         (["--save", "x.gif", "--exaggerate", "9"], "--exaggerate 9.0: allowed for runs with flex"),
     ],

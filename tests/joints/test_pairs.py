@@ -108,14 +108,14 @@ def test_derivatives_of_a_film_pair(pair):
 @pytest.mark.parametrize("pair", FILMS.values(), ids=FILMS)
 def test_derivatives_of_a_films_shear(pair):
     at = [0.95 * CLEARANCE, 0.0, 0.0, 20.0, -5.0]
-    _, _, _, _, answer = pair.load(*at)
+    _, _, _, _, response = pair.load(*at)
 
     def couple(state):
         """Half the difference of the moments: what the pressure shares in halves drops out."""
         _, _, on_journal, on_bearing, _ = pair.load(*state)
         return 0.5 * (on_bearing - on_journal)
 
-    by_e, by_spin = pair.shear_slopes(answer, at[3], at[4])
+    by_e, by_spin = pair.shear_slopes(response, at[3], at[4])
     for place, expected, width in ((0, by_e, 1e-10), (3, by_spin, 1e-3), (4, -by_spin, 1e-3)):
         up, down = at.copy(), at.copy()
         up[place] += width

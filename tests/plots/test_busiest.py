@@ -12,8 +12,8 @@ from exu_press.plots.energy import energy_figure
 from exu_press.plots.force import force_figure
 from exu_press.plots.orbit import orbit_figure
 from exu_press.plots.words import describe
-from exu_press.view import Film, moment
-from exu_press.view.film import SIZE
+from exu_press.view import Animation, moment
+from exu_press.view.animation import SIZE
 
 JOINTS = {"pivots": "lubricated", "slide_pin": "lubricated", "crank_pin": "lubricated"}
 JOINTS |= dict.fromkeys(("knuckles", "plunger_pins", "balls"), "dry")
@@ -47,7 +47,7 @@ def _titles(figure):
         (lambda result: force_figure({"run": result}), 6),
         (orbit_figure, 8),
         (energy_figure, 3),
-        (lambda result: Film(result, moment(result), Figure(figsize=SIZE)).figure, 6),
+        (lambda result: Animation(result, moment(result), Figure(figsize=SIZE)).figure, 6),
     ],
     ids=["force", "orbit", "energy", "view"],
 )
@@ -59,7 +59,7 @@ def test_titles_name_them_by_kind(twelve):
     words = describe([twelve.scene])
     assert "crank pin, slide pin, pivots lubricated, 0.1 mm" in words
     assert "knuckles, plunger pins, balls dry, 0.1 mm" in words
-    titles = _titles(Film(twelve, moment(twelve), Figure(figsize=SIZE)).figure)
+    titles = _titles(Animation(twelve, moment(twelve), Figure(figsize=SIZE)).figure)
     kinds = {name.split(",")[0]: joint.kind for name, joint in _titled(twelve)}
     magnified = [title for title in titles if "clearance" in title]
     assert len(magnified) == 2

@@ -45,9 +45,9 @@ impacts = st.floats(0.0, 20.0)
 @settings(max_examples=200, deadline=None)
 @given(contact=contacts, depth=depths, rate=speeds, impact=impacts)
 def test_contact_is_finite_and_dissipative(contact, depth, rate, impact):
-    answer = contact.force(depth, rate, impact)
-    assert all(map(math.isfinite, answer))
-    assert contact.tension or answer[0] >= 0.0
+    response = contact.force(depth, rate, impact)
+    assert all(map(math.isfinite, response))
+    assert contact.tension or response[0] >= 0.0
     elastic = contact.stiffness.force(depth)[0]
     assert contact.elastic_energy(depth) > 0.0
     # rounding of force - elastic force

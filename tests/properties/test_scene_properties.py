@@ -1,4 +1,4 @@
-"""The scene's door: whatever is handed in is a scene or an InputError; tried by Hypothesis."""
+"""The scene's validation: whatever is handed in is a scene or an InputError; tried by Hypothesis."""
 
 import dataclasses
 import json

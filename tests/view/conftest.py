@@ -5,8 +5,8 @@ from matplotlib.figure import Figure
 
 from exu_press import Result, Scene, simulate
 from exu_press.scene import flexible_press
-from exu_press.view import Film
-from exu_press.view.film import SIZE
+from exu_press.view import Animation
+from exu_press.view.animation import SIZE
 
 SCENES = {
     "press": {"mechanism": "press", "revolutions": 0.3},
@@ -30,12 +30,12 @@ def runs(tmp_path_factory) -> dict[str, Result]:
 
 
 @pytest.fixture
-def film():
-    """Return a film of a run, its first frame shown."""
+def animation():
+    """Return an animation of a run, its first frame shown."""
 
-    def made(result, instants, flexible=None) -> Film:
-        film = Film(result, instants, Figure(figsize=SIZE), flexible)
-        film.show(0)
-        return film
+    def made(result, instants, flexible=None) -> Animation:
+        animation = Animation(result, instants, Figure(figsize=SIZE), flexible)
+        animation.show(0)
+        return animation
 
     return made

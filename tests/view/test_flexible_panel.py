@@ -6,32 +6,34 @@ from exu_press.view import Look, instants
 from exu_press.view.flexible_panel import TIMES, FlexiblePanel
 
 
-def panel_of(film):
-    (panel,) = [panel for panel in film.panels if isinstance(panel, FlexiblePanel)]
+def panel_of(animation):
+    (panel,) = [panel for panel in animation.panels if isinstance(panel, FlexiblePanel)]
     return panel
 
 
-def title_of(film):
-    (title,) = [t for t in (a.get_title("left") for a in film.figure.axes) if "deformation" in t]
+def title_of(animation):
+    (title,) = [
+        t for t in (a.get_title("left") for a in animation.figure.axes) if "deformation" in t
+    ]
     return title
 
 
-def test_the_factor_is_stated_and_moves_the_nodes(runs, film):
+def test_the_factor_is_stated_and_moves_the_nodes(runs, animation):
     result, shown = runs["flexible"], instants(runs["flexible"], frames=5)
     still, once, twice = (
-        panel_of(film(result, shown, Look(exaggerate=factor)))._corners("crank", 4)
+        panel_of(animation(result, shown, Look(exaggerate=factor)))._corners("crank", 4)
         for factor in (0.0, 100.0, 200.0)
     )
     assert np.abs(once - still).max() > 0.0
     assert twice - still == pytest.approx(2.0 * (once - still), rel=1e-4, abs=1e-7)
-    assert title_of(film(result, shown, Look(exaggerate=200.0))).endswith(
+    assert title_of(animation(result, shown, Look(exaggerate=200.0))).endswith(
         f"deformation {TIMES} 200"
     )
 
 
-def test_the_default_factor_draws_the_largest_displacement_well(runs, film):
+def test_the_default_factor_draws_the_largest_displacement_well(runs, animation):
     result, shown = runs["flexible"], instants(runs["flexible"], frames=5)
-    panel = panel_of(film(result, shown))
+    panel = panel_of(animation(result, shown))
     largest = max(
         np.linalg.norm(surface.displacement(q), axis=1).max()
         for name, surface in result.surfaces.items()
@@ -39,15 +41,15 @@ def test_the_default_factor_draws_the_largest_displacement_well(runs, film):
     )
     extent = max(np.ptp(s.nodes, axis=0).max() for s in result.surfaces.values())
     assert 0.02 < panel._factor * largest / extent <= 0.06
-    assert title_of(film(result, shown)).endswith(f"{TIMES} {panel._factor:g}")
+    assert title_of(animation(result, shown)).endswith(f"{TIMES} {panel._factor:g}")
 
 
 @pytest.mark.parametrize(
     ("colour", "words"), [("displacement", "displacement, µm"), ("stress", "von Mises stress, MPa")]
 )
-def test_colours_reach_the_largest_value_of_the_film(runs, film, colour, words):
+def test_colours_reach_the_largest_value_of_the_animation(runs, animation, colour, words):
     result, shown = runs["flexible"], instants(runs["flexible"], frames=5)
-    picture = film(result, shown, Look(colour=colour))
+    picture = animation(result, shown, Look(colour=colour))
     (bar,) = [axes for axes in picture.figure.axes if axes.get_xlabel() == words]
     largest = max(
         (1e-6 * surface.von_mises(q).max())
@@ -59,8 +61,8 @@ def test_colours_reach_the_largest_value_of_the_film(runs, film, colour, words):
     assert bar.get_xlim() == pytest.approx((0.0, largest))
 
 
-def test_only_what_faces_the_eye_is_drawn(runs, film):
-    picture = film(runs["flexible"], instants(runs["flexible"], frames=3))
+def test_only_what_faces_the_eye_is_drawn(runs, animation):
+    picture = animation(runs["flexible"], instants(runs["flexible"], frames=3))
     drawn = len(panel_of(picture)._drawn.get_paths())
     triangles = sum(len(s.triangles) for s in runs["flexible"].surfaces.values())
     assert 0.3 * triangles < drawn < 0.6 * triangles

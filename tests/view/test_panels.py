@@ -10,8 +10,8 @@ from exu_press.view.joint_panel import CLEARANCE, JointPanel, _kilo
 from exu_press.view.mechanism_panel import MechanismPanel, poses
 
 
-def panels(film, kind):
-    return [panel for panel in film.panels if isinstance(panel, kind)]
+def panels(animation, kind):
+    return [panel for panel in animation.panels if isinstance(panel, kind)]
 
 
 @pytest.mark.parametrize("name", ["press", "slider_crank", "ideal", "flexible"])
@@ -34,9 +34,9 @@ def test_links_are_drawn_joined(runs, name):
             assert journal - bearing == pytest.approx(apart, abs=allowed), joint.name
 
 
-def test_bodies_are_drawn_at_their_poses(runs, film):
+def test_bodies_are_drawn_at_their_poses(runs, animation):
     result, shown = runs["press"], instants(runs["press"], frames=5)
-    picture = film(result, shown)
+    picture = animation(result, shown)
     (panel,) = panels(picture, MechanismPanel)
     picture.show(4)
     slider = panel._bodies["slider"].get_xy()[:4].mean(axis=0)
@@ -46,9 +46,9 @@ def test_bodies_are_drawn_at_their_poses(runs, film):
     assert {"crank", "linkage", "slider", "counterweight", "link 5", "TDC", "BDC"} <= names
 
 
-def test_the_journal_stands_at_its_eccentricity(runs, film):
+def test_the_journal_stands_at_its_eccentricity(runs, animation):
     result, shown = runs["press"], instants(runs["press"], frames=6)
-    picture = film(result, shown)
+    picture = animation(result, shown)
     for panel, name in zip(panels(picture, JointPanel), ("crank_pin", "ball_left"), strict=True):
         for frame in range(6):
             picture.show(frame)
@@ -56,9 +56,9 @@ def test_the_journal_stands_at_its_eccentricity(runs, film):
             assert panel._journal.center == pytest.approx(CLEARANCE * ratio)
 
 
-def test_no_impact_is_lost_between_frames(runs, film):
+def test_no_impact_is_lost_between_frames(runs, animation):
     """The largest force of the run is shown, however few the frames are."""
-    picture = film(runs["press"], instants(runs["press"], frames=4))
+    picture = animation(runs["press"], instants(runs["press"], frames=4))
     peak = np.linalg.norm(runs["press"]["ball_left_force"], axis=1).max()
     ball = panels(picture, JointPanel)[1]
     texts, lengths = [], []
@@ -87,9 +87,9 @@ def test_forces_are_written_without_powers_of_ten(newtons, words):
     assert _kilo(newtons) == words
 
 
-def test_the_arrow_points_along_the_force(runs, film):
+def test_the_arrow_points_along_the_force(runs, animation):
     result, shown = runs["slider_crank"], instants(runs["slider_crank"], frames=9)
-    picture = film(result, shown)
+    picture = animation(result, shown)
     (panel,) = panels(picture, JointPanel)
     for frame in range(1, 9):
         picture.show(frame)
@@ -102,9 +102,9 @@ def test_the_arrow_points_along_the_force(runs, film):
             assert along == pytest.approx(largest / np.linalg.norm(largest), abs=1e-6)
 
 
-def test_curves_run_up_to_now(runs, film):
+def test_curves_run_up_to_now(runs, animation):
     result, shown = runs["press"], instants(runs["press"], frames=5)
-    picture = film(result, shown)
+    picture = animation(result, shown)
     position = panels(picture, CurvePanel)[0]
     picture.show(3)
     degrees = np.degrees(result["crank_angle"][shown.step[3]])

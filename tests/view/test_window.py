@@ -7,16 +7,16 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from exu_press.errors import InputError
-from exu_press.view import Film, instants, window
-from exu_press.view.film import SIZE
+from exu_press.view import Animation, instants, window
+from exu_press.view.animation import SIZE
 
 
 @pytest.fixture
 def player(runs):
     figure = Figure(figsize=SIZE, dpi=50)
     FigureCanvasAgg(figure)
-    film = Film(runs["ideal"], instants(runs["ideal"], frames=51), figure)
-    player = window.Player(film)
+    animation = Animation(runs["ideal"], instants(runs["ideal"], frames=51), figure)
+    player = window.Player(animation)
     figure.canvas.draw()
     return player
 
@@ -52,10 +52,10 @@ def test_it_pauses_at_the_end_and_starts_again(player, monkeypatch):
 
 
 def test_the_slider_goes_to_its_time(player):
-    times = player.film.instants.time
+    times = player.animation.instants.time
     player._slider.set_val(1e3 * times[20])
     assert player.frame == 20
-    assert f"t = {1e3 * times[20]:7.2f} ms" in player.film._clock.get_text()
+    assert f"t = {1e3 * times[20]:7.2f} ms" in player.animation._clock.get_text()
     player.go(30)
     assert player._slider.val == pytest.approx(1e3 * times[30])
 

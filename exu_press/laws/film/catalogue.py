@@ -18,7 +18,7 @@ class FilmEntry:
     """A film law: its factory, the L/D it is meant for, how it cavitates, where it comes from."""
 
     factory: Callable[[float], FilmLaw]
-    """Takes L/D; a long bearing ignores it. What it cannot answer it refuses (`finite`)."""
+    """Takes L/D; a long bearing ignores it. What is outside its range it refuses (`finite`)."""
     length_to_diameter: tuple[float, float]
     cavitation: str
     source: str

@@ -20,7 +20,7 @@ FilmLaw = Callable[[float, float, float], FilmForce]
 """law(eps, eps_dot, eps_w), eps_dot and eps_w = eps (omega_J + omega_B - 2 gamma_dot) in 1/s."""
 
 OUTSIDE: FilmForce = (math.nan,) * 10
-"""The answer to an eccentricity ratio that has no film: the integrator then halves its step."""
+"""The response to an eccentricity ratio that has no film: the integrator then halves its step."""
 
 AROUND: Final = 2.0 * math.pi
 """j of a centred journal: Petroff's. At an eccentricity it is 2 pi / sqrt(1 - eps^2), with the gap
@@ -28,7 +28,7 @@ full of oil all round, also where its pressure is ambient: as Raimondi and Boyd 
 1976 and DIN 31652 have it."""
 
 AT_REST = 1e-100
-"""Below this speed [1/s] a film is at rest and answers with its derivatives towards closing."""
+"""Below this speed [1/s] a film is at rest and has its derivatives towards closing."""
 
 
 def film_scale(viscosity: float, length: float, radius: float, clearance: float) -> float:

@@ -17,7 +17,7 @@ WAYS = {"grid": grid, "list": listed, "sample": sample}
 
 @dataclasses.dataclass(frozen=True)
 class Study(Table):
-    """A study file, complete: every scene of it has passed the scene's door.
+    """A study file, complete: every scene of it has been validated.
 
     Attributes:
         scene: what is common to all runs; a Scene or its mapping.

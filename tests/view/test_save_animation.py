@@ -7,22 +7,22 @@ from matplotlib.colors import to_rgb
 from PIL import Image
 
 from exu_press.errors import InputError
-from exu_press.view import instants, moment, save_film, save_picture
+from exu_press.view import instants, moment, save_animation, save_picture
 from exu_press.view.joint_panel import FORCE
 
 
-def test_gif_with_all_frames_at_their_speed(runs, film, tmp_path):
+def test_gif_with_all_frames_at_their_speed(runs, animation, tmp_path):
     shown = instants(runs["ideal"], frames=4, fps=20.0)
-    (path,) = save_film(film(runs["ideal"], shown), tmp_path / "film.gif")
+    (path,) = save_animation(animation(runs["ideal"], shown), tmp_path / "a.gif")
     with Image.open(path) as image:
         assert (image.n_frames, image.info["duration"], image.size) == (4, 50, (960, 540))
     assert list(tmp_path.iterdir()) == [path]
 
 
-def test_gif_keeps_the_colours_that_its_first_frame_does_not_show(runs, film, tmp_path):
+def test_gif_keeps_the_colours_that_its_first_frame_does_not_show(runs, animation, tmp_path):
     """At the start no force acts; the arrow's colour is needed later."""
     shown = instants(runs["slider_crank"], frames=5)
-    (path,) = save_film(film(runs["slider_crank"], shown), tmp_path / "film.gif")
+    (path,) = save_animation(animation(runs["slider_crank"], shown), tmp_path / "a.gif")
     wanted = tuple(round(255 * part) for part in to_rgb(FORCE))
 
     def has(frame):
@@ -33,24 +33,24 @@ def test_gif_keeps_the_colours_that_its_first_frame_does_not_show(runs, film, tm
         assert any(has(frame) for frame in range(1, 5))
 
 
-def test_numbered_frames(runs, film, tmp_path):
+def test_numbered_frames(runs, animation, tmp_path):
     shown = instants(runs["ideal"], frames=3)
-    paths = save_film(film(runs["ideal"], shown), tmp_path / "f_%02d.png")
+    paths = save_animation(animation(runs["ideal"], shown), tmp_path / "f_%02d.png")
     assert [path.name for path in paths] == ["f_00.png", "f_01.png", "f_02.png"]
     assert len({path.read_bytes() for path in paths}) == 3
 
 
-def test_one_picture(runs, film, tmp_path):
-    path = save_picture(film(runs["ideal"], moment(runs["ideal"])), 1, tmp_path / "p.png")
+def test_one_picture(runs, animation, tmp_path):
+    path = save_picture(animation(runs["ideal"], moment(runs["ideal"])), 1, tmp_path / "p.png")
     with Image.open(path) as image:
         assert image.size == (1920, 1080)
 
 
 @pytest.mark.skipif(shutil.which("ffmpeg") is None, reason="ffmpeg is not installed")
-def test_mp4_with_all_frames(runs, film, tmp_path):
+def test_mp4_with_all_frames(runs, animation, tmp_path):
     done = []
     shown = instants(runs["ideal"], frames=4)
-    (path,) = save_film(film(runs["ideal"], shown), tmp_path / "film.mp4", done.append)
+    (path,) = save_animation(animation(runs["ideal"], shown), tmp_path / "a.mp4", done.append)
     assert done == [1, 2, 3, 4]
     command = ["ffprobe", "-v", "error", "-count_frames", "-show_entries"]
     command += ["stream=width,height,nb_read_frames", "-of", "csv=p=0", str(path)]
@@ -58,29 +58,32 @@ def test_mp4_with_all_frames(runs, film, tmp_path):
     assert told.strip() == "1920,1080,4"
 
 
-def test_without_ffmpeg_it_says_what_is_left(tmp_path, monkeypatch, runs, film):
+def test_without_ffmpeg_it_says_what_is_left(tmp_path, monkeypatch, runs, animation):
     monkeypatch.setenv("PATH", str(tmp_path))
     with pytest.raises(InputError, match=r"needs the program ffmpeg.*allowed without it is \.gif"):
-        save_film(film(runs["ideal"], instants(runs["ideal"])), tmp_path / "film.mp4")
+        save_animation(animation(runs["ideal"], instants(runs["ideal"])), tmp_path / "a.mp4")
 
 
-def test_a_failing_ffmpeg_is_told_and_an_old_film_is_kept(tmp_path, monkeypatch, runs, film):
+def test_a_failing_ffmpeg_is_told_and_an_old_file_is_kept(tmp_path, monkeypatch, runs, animation):
     fake = tmp_path / "ffmpeg"
     fake.write_text("#!/bin/sh\necho 'no such codec' >&2\nexit 1\n")
     fake.chmod(0o755)
     monkeypatch.setenv("PATH", f"{tmp_path}:/bin:/usr/bin")
-    target = tmp_path / "film.mp4"
+    target = tmp_path / "a.mp4"
     target.write_text("old")
     with pytest.raises(InputError, match=r"ffmpeg failed \(no such codec\)"):
-        save_film(film(runs["ideal"], instants(runs["ideal"], frames=2)), target)
+        save_animation(animation(runs["ideal"], instants(runs["ideal"], frames=2)), target)
     assert target.read_text() == "old"
-    assert {path.name for path in tmp_path.iterdir()} == {"ffmpeg", "film.mp4"}
+    assert {path.name for path in tmp_path.iterdir()} == {"ffmpeg", "a.mp4"}
 
 
 @pytest.mark.parametrize(
     ("name", "message"),
-    [("film.avi", r"allowed is a name ending in \.mp4"), ("no/film.gif", "there is no directory")],
+    [
+        ("a.avi", r"allowed is a name ending in \.mp4"),
+        ("no/a.gif", "there is no directory"),
+    ],
 )
-def test_names_that_cannot_be_written(tmp_path, runs, film, name, message):
+def test_names_that_cannot_be_written(tmp_path, runs, animation, name, message):
     with pytest.raises(InputError, match=message):
-        save_film(film(runs["ideal"], instants(runs["ideal"])), Path(tmp_path) / name)
+        save_animation(animation(runs["ideal"], instants(runs["ideal"])), Path(tmp_path) / name)

@@ -1,4 +1,4 @@
-"""The door: what a scene allows, what it refuses and what it says; what it fills in."""
+"""Validation: what a scene allows, what it refuses and what it says; what it fills in."""
 
 import json
 import math

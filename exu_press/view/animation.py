@@ -27,7 +27,7 @@ from exu_press.view.joint_panel import JointPanel
 from exu_press.view.mechanism_panel import MechanismPanel
 from exu_press.view.panel import Panel, animated
 
-__all__ = ["SIZE", "Film", "Look"]
+__all__ = ["SIZE", "Animation", "Look"]
 
 SIZE = (12.8, 7.2)
 """Inch."""
@@ -42,7 +42,7 @@ CURVES = (
 )
 
 
-class Film:
+class Animation:
     """A figure that shows one frame after the other."""
 
     def __init__(
@@ -153,35 +153,35 @@ class Film:
 
 @dataclass
 class Painter:
-    """Draws the frames of a film into memory, each on the same background.
+    """Draws the frames of an animation into memory, each on the same background.
 
     Matplotlib takes half a frame's time for its three lines of text; Pillow writes them at once.
     """
 
-    film: Film
+    animation: Animation
     dpi: float
 
     def __post_init__(self) -> None:
         """Draw the background."""
         from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-        self.film.figure.set_dpi(self.dpi)
-        self._canvas = cast(Any, FigureCanvasAgg(self.film.figure))
+        self.animation.figure.set_dpi(self.dpi)
+        self._canvas = cast(Any, FigureCanvasAgg(self.animation.figure))
         with look():
             self._canvas.draw()
         self._background = self._canvas.copy_from_bbox(
             Bbox.from_bounds(0, 0, *self._canvas.get_width_height())
         )
-        self._texts = [artist for artist in self.film.artists if isinstance(artist, Text)]
-        self._drawn = [artist for artist in self.film.artists if not isinstance(artist, Text)]
+        self._texts = [artist for artist in self.animation.artists if isinstance(artist, Text)]
+        self._drawn = [artist for artist in self.animation.artists if not isinstance(artist, Text)]
         self._fonts = [_font(text, self.dpi) for text in self._texts]
 
     def paint(self, frame: int) -> Image.Image:
         """Return a frame's picture."""
-        self.film.show(frame)
+        self.animation.show(frame)
         self._canvas.restore_region(self._background)
         with look():
-            self.film.draw(self._drawn)
+            self.animation.draw(self._drawn)
         image = Image.fromarray(np.asarray(self._canvas.buffer_rgba())).convert("RGB")
         on_it = ImageDraw.Draw(image)
         for text, font in zip(self._texts, self._fonts, strict=True):

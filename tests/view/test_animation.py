@@ -6,7 +6,7 @@ import pytest
 from matplotlib.text import Text
 
 from exu_press.view import instants, moment
-from exu_press.view.film import Painter
+from exu_press.view.animation import Painter
 
 CASES = ["press", "slider_crank", "ideal", "flexible"]
 
@@ -16,8 +16,8 @@ def visible_texts(figure):
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_no_label_is_clipped(runs, film, name):
-    picture = film(runs[name], instants(runs[name], frames=5))
+def test_no_label_is_clipped(runs, animation, name):
+    picture = animation(runs[name], instants(runs[name], frames=5))
     painter = Painter(picture, 100.0)
     painter.paint(3)
     renderer = picture.figure.canvas.get_renderer()
@@ -29,8 +29,8 @@ def test_no_label_is_clipped(runs, film, name):
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_names_of_bodies_do_not_overlap(runs, film, name):
-    picture = film(runs[name], instants(runs[name], frames=3))
+def test_names_of_bodies_do_not_overlap(runs, animation, name):
+    picture = animation(runs[name], instants(runs[name], frames=3))
     Painter(picture, 100.0)
     renderer = picture.figure.canvas.get_renderer()
     boxes = [text.get_window_extent(renderer) for text in picture.figure.axes[0].texts]
@@ -38,8 +38,8 @@ def test_names_of_bodies_do_not_overlap(runs, film, name):
         assert not one.overlaps(two)
 
 
-def test_frames_differ_where_something_moves_alone(runs, film):
-    picture = film(runs["press"], instants(runs["press"], frames=5))
+def test_frames_differ_where_something_moves_alone(runs, animation):
+    picture = animation(runs["press"], instants(runs["press"], frames=5))
     painter = Painter(picture, 50.0)
     first, later, again = (np.asarray(painter.paint(frame)) for frame in (0, 4, 0))
     changed = (first != later).any(axis=2)
@@ -47,9 +47,9 @@ def test_frames_differ_where_something_moves_alone(runs, film):
     assert np.array_equal(again, first)
 
 
-def test_a_film_says_how_slow_it_is_and_a_picture_does_not(runs, film):
+def test_an_animation_says_how_slow_it_is_and_a_picture_does_not(runs, animation):
     def words(result, shown):
-        return " ".join(text.get_text() for text in visible_texts(film(result, shown).figure))
+        return " ".join(text.get_text() for text in visible_texts(animation(result, shown).figure))
 
     shown = instants(runs["press"], 0.0, 0.05, slow=16.0)
     assert "16 times slower than the machine at 25 frames a second" in words(runs["press"], shown)
@@ -59,27 +59,29 @@ def test_a_film_says_how_slow_it_is_and_a_picture_does_not(runs, film):
     assert "slower" not in still and "faster" not in still
 
 
-def test_the_clock(runs, film):
-    picture = film(runs["press"], moment(runs["press"], 0.05))
+def test_the_clock(runs, animation):
+    picture = animation(runs["press"], moment(runs["press"], 0.05))
     picture.show(1)
     assert picture._clock.get_text().startswith("t =   50.00 ms    crank   7")
 
 
-def test_a_run_that_stopped_early_says_so(runs, film):
+def test_a_run_that_stopped_early_says_so(runs, animation):
     cut = {
         name: dataclasses.replace(channel, values=channel.values[:40])
         for name, channel in runs["press"].channels.items()
     }
     info = {**runs["press"].info, "status": "interrupted", "reason": "interrupted at t = 1 ms"}
     stopped = dataclasses.replace(runs["press"], channels=cut, info=info)
-    texts = [text.get_text() for text in visible_texts(film(stopped, instants(stopped)).figure)]
+    texts = [
+        text.get_text() for text in visible_texts(animation(stopped, instants(stopped)).figure)
+    ]
     assert any("stopped early" in text for text in texts)
 
 
-def test_a_record_of_one_instant_can_be_shown(runs, film):
+def test_a_record_of_one_instant_can_be_shown(runs, animation):
     cut = {
         name: dataclasses.replace(channel, values=channel.values[:1])
         for name, channel in runs["press"].channels.items()
     }
     one = dataclasses.replace(runs["press"], channels=cut)
-    Painter(film(one, moment(one)), 50.0).paint(1)
+    Painter(animation(one, moment(one)), 50.0).paint(1)

@@ -14,7 +14,9 @@ NUMBERS = ROOT / "out" / "gallery_numbers.png"
 """Stands for scripts that end in numbers."""
 
 LEFT_OUT = (
+    "ablation",
     "benchmark_",
+    "calibrate_",
     "fit_",
     "tabulate_",
     "flexible_",

@@ -13,7 +13,7 @@ from exu_press.scene import mechanism_of
 
 pytest.importorskip("ngsolve")
 
-from netgen.occ import Box, Cylinder, Pnt, Z
+from netgen.occ import Axis, Box, Cylinder, Pnt, Vec, Z
 
 ROD_PIN, WRIST_PIN = (0.015, 0.232), (0.043, -0.595)  # of the six-bar press's rod
 LENGTH = 1e3 * math.dist(ROD_PIN, WRIST_PIN)  # mm
@@ -160,3 +160,17 @@ def test_the_shipped_rod_is_what_its_script_draws():
     ends = 2 * (65 - math.sqrt(65**2 - 40**2)) * 80 * 40 - 2 * chord * 40
     assert part.reduced.mass == pytest.approx(7850e-9 * (web + eyes + ends), rel=1e-4)
     assert part.angle == pytest.approx(mechanism_of(scene).body("rod").angle)
+
+
+def test_two_joints_in_one_place_cannot_hold_one_face(tmp_path):
+    """Both knuckle joints of a link 5: its other links share the bore, which no face tells apart."""
+    mechanism = mechanism_of(Scene())
+    joints = {joint.name: 1e3 * np.array(joint.at) for joint in mechanism.joints}
+    (x, y), (end_x, end_y) = joints["slide_joint_right"], joints["knuckle_6_right"]
+    turn = math.degrees(math.atan2(end_y - y, end_x - x))
+    solid = bar(math.dist((x, y), (end_x, end_y)))
+    path = tmp_path / "link.step"
+    solid.Rotate(Axis(Pnt(0, 0, 0), Z), turn).Move(Vec(x, y, 0)).WriteStep(str(path))
+    scene = Scene(bodies={"link_5_right": {"flexible": str(path), "mesh_size": 0.1}})
+    with pytest.raises(InputError, match=r"knuckle_6_right and knuckle_7_right hold the same face"):
+        placed_parts(scene)

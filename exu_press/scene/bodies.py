@@ -57,7 +57,9 @@ class Flexible(Table):
     """A flexible body: a shipped part or a STEP file, its material, mesh and modes."""
 
     flexible: str = key("", "a shipped part, or the path of a STEP file")
-    modes: int | None = key(None, "modal coordinates; 20", at_least=0, at_most=500)
+    modes: int | None = key(
+        None, "number of modal coordinates, 20 unless given", at_least=0, at_most=500
+    )
     flexibility_error: float | None = key(
         None,
         "instead of modes: those that leave no more of the statics out",

@@ -46,7 +46,7 @@ class BodyEnd:
     After `move`, in the global frame:
         position: m.
         velocity: m/s.
-        spin: angular velocity, rad/s.
+        angular_velocity: rad/s.
         arm: from the body's frame to the point, m.
         rotation: from the body's to the global frame.
     """
@@ -86,7 +86,7 @@ class BodyEnd:
         self._moving[:, self._moved :] = 0.0
         self.position: Vector = (0.0, 0.0, 0.0)
         self.velocity: Vector = (0.0, 0.0, 0.0)
-        self.spin: Vector = (0.0, 0.0, 0.0)
+        self.angular_velocity: Vector = (0.0, 0.0, 0.0)
         self.arm: Vector = (0.0, 0.0, 0.0)
         self.rotation: Matrix = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
         self._spins: list[float] = []
@@ -144,7 +144,7 @@ class BodyEnd:
         arm = turned(self.rotation, (along, across, up))
         around = cross(rigid_spin, arm)
         self.arm = arm
-        self.spin = spin_x, spin_y, spin_z
+        self.angular_velocity = spin_x, spin_y, spin_z
         self.position = x + arm[0], y + arm[1], z + arm[2]
         self.velocity = u + around[0], v + around[1], w + around[2]
 

@@ -31,7 +31,7 @@ class JointState:
         velocity: rate of the eccentricity, m/s.
         moments: on the journal, then on the bearing, about their centres, N m; of a revolute joint
             about its axis.
-        spins: the angular velocities that the moments act on, rad/s.
+        angular_velocities: the angular velocities that the moments act on, rad/s.
         gap: clearance - |eccentricity|, m: the film's least thickness, or minus the penetration.
         stored_energy: elastic energy of the contact, J.
         stored_power: its rate, W.
@@ -41,7 +41,7 @@ class JointState:
     force: Vector
     velocity: Vector
     moments: Vector
-    spins: Vector
+    angular_velocities: Vector
     gap: float
     stored_energy: float
     stored_power: float
@@ -54,7 +54,7 @@ class JointState:
     @property
     def power(self) -> float:
         """What forces and moments bring into the two bodies, W."""
-        pairs = zip(self.force + self.moments, self.velocity + self.spins, strict=True)
+        pairs = zip(self.force + self.moments, self.velocity + self.angular_velocities, strict=True)
         return sum(load * rate for load, rate in pairs)
 
 

@@ -187,7 +187,7 @@ class PlanarJoint(PairedJoint):
             force=(f_n * n_x - f_t * n_y, f_n * n_y + f_t * n_x),
             moments=(m_j, m_b),
             velocity=self.relative_velocity,
-            spins=(w_j, w_b),
+            angular_velocities=(w_j, w_b),
             gap=self.clearance - e,
             stored_energy=sum(pair.stored_energy(e) for pair in self.pairs),
             stored_power=sum(pair.stored_force(e) for pair in self.pairs) * e_dot,

@@ -56,10 +56,10 @@ class SpatialRevolute(PairedJoint):
         n = (across[0] / e, across[1] / e, across[2] / e) if e > 0.0 else _normal_to(axis)
         t = cross(axis, n)
         self._n, self._t = n, t
-        aside = cross(along, bearing.spin)
+        aside = cross(along, bearing.angular_velocity)
         v, u = journal.velocity, bearing.velocity
         relative = v[0] - u[0] + aside[0], v[1] - u[1] + aside[1], v[2] - u[2] + aside[2]
-        w_j, w_b = dot(axis, journal.spin), dot(axis, bearing.spin)
+        w_j, w_b = dot(axis, journal.angular_velocity), dot(axis, bearing.angular_velocity)
         for load in self._load((e, dot(n, relative), dot(t, relative), w_j, w_b)):
             if load is not None:
                 f_n, f_t, m_j, m_b, _ = load
@@ -123,14 +123,14 @@ class SpatialRevolute(PairedJoint):
             force=_sum(f_n, self._n, f_t, self._t),
             velocity=self.relative_velocity,
             moments=(m_j, m_b),
-            spins=(w_j, w_b),
+            angular_velocities=(w_j, w_b),
             gap=self.clearance - e,
             stored_energy=sum(pair.stored_energy(e) for pair in self.pairs),
             stored_power=sum(pair.stored_force(e) for pair in self.pairs) * e_dot,
         )
 
     def _rates(self) -> Array:
-        """Return velocities along n and t and both spins about the axis by all rates, (4, n)."""
+        """Return, by all rates, velocities along n and t and both angular velocities, (4, n)."""
         journal, journal_spin = self.journal.rates()
         bearing, bearing_spin = self.bearing.rates()
         bearing -= cross_matrix(self._along) @ bearing_spin

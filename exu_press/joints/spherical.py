@@ -124,7 +124,7 @@ class SpatialSpherical:
             force=tuple(force.tolist()),
             velocity=self.relative_velocity,
             moments=tuple(moments.tolist()),
-            spins=tuple(self._spins.tolist()),
+            angular_velocities=tuple(self._spins.tolist()),
             gap=-depth,
             stored_energy=self._contact.elastic_energy(pressed),
             stored_power=elastic * float(self._n @ self._relative),
@@ -139,7 +139,7 @@ class SpatialSpherical:
         self._e = e = float(np.sqrt(apart @ apart))
         self._n = n = apart / e if e > 0.0 else np.array([1.0, 0.0, 0.0])
         self._relative = np.subtract(ball.velocity, socket.velocity)
-        self._spins = np.concatenate([ball.spin, socket.spin])
+        self._spins = np.concatenate([ball.angular_velocity, socket.angular_velocity])
         self._normal_force = self._drag = np.zeros(3)
         penetration = e - self.clearance - self.path.drift
         self._touching = penetration > 0.0

@@ -120,7 +120,7 @@ class WaysContact(PairedJoint):
             force=(f_n * n_x - f_t * n_y, f_n * n_y + f_t * n_x),
             moments=(moment, 0.0),
             velocity=(e_dot * n_x - v_t * n_y, e_dot * n_y + v_t * n_x),
-            spins=(spin, 0.0),
+            angular_velocities=(spin, 0.0),
             gap=self.clearance - e,
             stored_energy=pair.stored_energy(e),
             stored_power=pair.stored_force(e) * e_dot,

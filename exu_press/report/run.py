@@ -13,6 +13,7 @@ from exu_press.observe.uncertain import uncertain
 from exu_press.plots import save_pictures
 from exu_press.plots.words import describe
 from exu_press.report.html import details, items, page, paragraph, picture, table
+from exu_press.report.joints import joint_table
 from exu_press.report.warnings import assumption_rows, warnings_of
 from exu_press.result import Result
 from exu_press.scene import Scene
@@ -63,7 +64,7 @@ def run_report(result: Result, source: str) -> str:
         f"crank angle {np.degrees(result['crank_angle'][-1]):.1f}°",
         [
             ("Warnings", _warnings(warnings_of(summary))),
-            ("Results", table(("quantity", "value"), numbers)),
+            ("Results", table(("quantity", "value"), numbers) + joint_table(summary)),
             ("Pictures", _pictures(result)),
             ("Energy and solver", _energy(summary) + _statistics(summary)),
             *scene_parts(result.scene),

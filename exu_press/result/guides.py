@@ -82,7 +82,7 @@ def record_ways(
             moment += [state.moments[0] for state in end]
             elastic = np.array([state.stored_energy for state in end])
             loads = np.array([state.force + state.moments for state in end])
-            rates = np.array([state.velocity + state.spins for state in end])
+            rates = np.array([state.velocity + state.angular_velocities for state in end])
             lost += -work(time, loads, rates) - (elastic - elastic[0])
             all_stored += elastic
         all_lost += lost

@@ -47,7 +47,7 @@ def record_joints(
         spherical = name in balls
         elastic = np.array([state.stored_energy for state in states])
         loads = np.array([state.force + state.moments for state in states])
-        rates = np.array([state.velocity + state.spins for state in states])
+        rates = np.array([state.velocity + state.angular_velocities for state in states])
         lost = -work(time, loads, rates) - (elastic - elastic[0])
         stored += elastic
         dissipated += lost

@@ -1,4 +1,4 @@
-"""The scene's validation: whatever is handed in is a scene or an InputError; tried by Hypothesis."""
+"""Validation of a scene: whatever is handed in is one or an InputError; tried by Hypothesis."""
 
 import dataclasses
 import json

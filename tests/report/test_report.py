@@ -9,9 +9,12 @@ from PIL import Image
 from exu_press.cli import main
 from exu_press.errors import InputError
 from exu_press.observe.warnings import run_warnings
+from exu_press.plots.words import joint_in_words
 from exu_press.report import Kind, find_output
+from exu_press.report.joints import joint_table
 from exu_press.result import Result
 from exu_press.scene import Scene
+from exu_press.simulation import simulate
 
 VOID = {"meta", "link", "img", "br"}
 
@@ -200,3 +203,16 @@ def test_hostile_text_of_a_table_is_text(outputs, tmp_path):
     assert main(["report", str(tmp_path), "--quiet"]) == 0
     page = (tmp_path / "report.html").read_text(encoding="utf-8")
     assert "<script" not in page and "&lt;script&gt;" in page
+
+
+def test_many_joints_have_a_table_of_all():
+    few = simulate(Scene(revolutions=0.005)).summary()
+    assert joint_table(few) == ""
+    many = simulate(
+        Scene(joints={"balls": "dry", "knuckles": "dry", "shaft": "lubricated"}, revolutions=0.005)
+    ).summary()
+    shown = joint_table(many)
+    assert shown.count("<tr>") == 1 + len(many["joints"])
+    busiest = max(many["joints"], key=lambda name: many["joints"][name]["peak_force"])
+    assert shown.index(joint_in_words(busiest)) < shown.index("Knuckle 7, left")
+    assert f"{many['joints'][busiest]['peak_force'] * 1e-3:.4g}" in shown

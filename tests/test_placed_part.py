@@ -163,7 +163,7 @@ def test_the_shipped_rod_is_what_its_script_draws():
 
 
 def test_two_joints_in_one_place_cannot_hold_one_face(tmp_path):
-    """Both knuckle joints of a link 5: its other links share the bore, which no face tells apart."""
+    """Both knuckle joints of a link 5: its links share the bore, and no face tells them apart."""
     mechanism = mechanism_of(Scene())
     joints = {joint.name: 1e3 * np.array(joint.at) for joint in mechanism.joints}
     (x, y), (end_x, end_y) = joints["slide_joint_right"], joints["knuckle_6_right"]

@@ -3,20 +3,6 @@
 The hysteretic laws share F = f(delta) (1 + chi rate / v0), v0 the approach speed at first touch.
 They differ in chi, a function of the wanted restitution; the restitution they deliver follows from
 chi alone (`exu_press.laws.contact_restitution.restitution_of`), whatever f and the mass.
-
-References
-----------
-.. [1] K. H. Hunt, F. R. E. Crossley, Coefficient of restitution interpreted as damping in
-   vibroimpact, J. Applied Mechanics 42 (1975) 440-445.
-.. [2] H. M. Lankarani, P. E. Nikravesh, A contact force model with hysteresis damping for impact
-   analysis of multibody systems, J. Mechanical Design 112 (1990) 369-376.
-.. [3] P. Flores, M. Machado, M. T. Silva, J. M. Martins, On the continuous contact force models
-   for soft materials in multibody dynamics, Multibody System Dynamics 25 (2011) 357-375.
-.. [4] Y. Gonthier, J. McPhee, C. Lange, J.-C. Piedboeuf, A regularized contact model with
-   asymmetric damping and dwell-time dependent friction, Multibody System Dynamics 11
-   (2004) 209-233.
-.. [5] S. Hu, X. Guo, A dissipative contact force model for impact analysis in multibody dynamics,
-   Multibody System Dynamics 35 (2015) 131-151.
 """
 
 import math
@@ -43,8 +29,23 @@ SLOWEST_IMPACT = 1e-3  # m/s
 
 
 def step(x: float, x0: float, h0: float, x1: float, h1: float) -> tuple[float, float]:
-    """ADAMS STEP (Eq. 25): h0 up to x0, h1 from x1 on, a cubic between. Returns (value, d/dx).
+    r"""STEP of ADAMS (Eq. 25): a cubic between two constant values.
 
+    .. math::
+        h = h_0 + (h_1 - h_0)\, t^2 (3 - 2t), \qquad t = \frac{x - x_0}{x_1 - x_0}
+
+    Parameters
+    ----------
+    x : where [any unit]
+    x0, x1 : ends of the cubic, x0 < x1 [that of x]
+    h0, h1 : values up to x0 and from x1 on
+
+    Returns
+    -------
+    The value, and its derivative by x.
+
+    Examples
+    --------
     >>> step(0.25, 0.0, 0.0, 1.0, 2.0)
     (0.3125, 2.25)
     """
@@ -141,15 +142,43 @@ class Approach:
 def step_damping(
     stiffness: Stiffness, damping_max: float, damping_depth: float, tension: bool = False
 ) -> NormalContact:
-    """F = f(delta) + STEP(delta, 0, 0, d_max, c_max) rate (Eqs. 23-25), as ADAMS' IMPACT.
+    r"""Contact with the damping of ADAMS' IMPACT (Eqs. 23-25).
 
-    damping_max: c_max [N s/m] >= 0; damping_depth: d_max [m] > 0, where c_max is reached;
-    InputError outside.
+    .. math::
+        F = f(\delta) + \mathrm{STEP}(\delta, 0, 0, d_{max}, c_{max})\, \dot\delta
+
+    Parameters
+    ----------
+    stiffness : the elastic part f(delta)
+    damping_max : c_max [N s/m], not negative
+    damping_depth : d_max [m], positive: the penetration from which c_max is reached
+    tension : True keeps the force where it would pull; False lets the surfaces part there (A-10)
+
+    Returns
+    -------
+    The normal force; it does not depend on the approach speed.
+
+    Raises
+    ------
+    InputError : damping_max or damping_depth is outside its range
+
+    Notes
+    -----
+    Range: no restitution is given; the one delivered depends on mass and speed
+    (`exu_press.laws.contact_restitution.delivered_restitution`).
+
+    Examples
+    --------
+    285.602 N elastic, and c_max / 2 * 1e-5 m/s of damping:
 
     >>> from exu_press.laws.contact_stiffness import hertz
     >>> contact = step_damping(hertz(2.5545e10), damping_max=2.5545e8, damping_depth=1e-5)
-    >>> round(contact.force(5e-6, 1e-5, 0.0)[0], 3)  # 285.602 elastic + c_max / 2 * 1e-5
+    >>> round(contact.force(5e-6, 1e-5, 0.0)[0], 3)
     1562.852
+
+    References
+    ----------
+    .. [1] MSC Software. Adams/Solver, functions IMPACT and STEP.
     """
     not_negative(damping_max=damping_max)
     positive(damping_depth=damping_depth)
@@ -169,12 +198,46 @@ def hunt_crossley(
     tension: bool = False,
     slowest_impact: float = SLOWEST_IMPACT,
 ) -> NormalContact:
-    """Chi = 3/2 (1 - e) [1]_. Derived for e near 1: a wanted 0.5 delivers 0.663.
+    r"""Hysteretic damping of Hunt and Crossley.
 
-    Impacts slower than `slowest_impact` [m/s] (all five laws): chi / v0 is taken at
-    `slowest_impact`, so that a contact beginning at rest (v0 = 0) has a finite, light damping and
-    the restitution tends to one with the speed, as it does in reality. InputError (all five laws)
-    unless 0 < restitution <= 1 and slowest_impact > 0.
+    .. math::
+        F = f(\delta) \left(1 + \chi \frac{\dot\delta}{v_0}\right), \qquad
+        \chi = \tfrac32 (1 - e)
+
+    Parameters
+    ----------
+    stiffness : the elastic part f(delta)
+    restitution : the wanted coefficient of restitution e [-], 0 < e <= 1
+    tension : True keeps the force where it would pull; False lets the surfaces part there (A-10)
+    slowest_impact : [m/s], positive; chi / v_0 of slower impacts is taken at this speed
+
+    Returns
+    -------
+    The normal force; it needs v_0 [m/s], the approach speed at first touch.
+
+    Raises
+    ------
+    InputError : restitution or slowest_impact is outside its range
+
+    Notes
+    -----
+    Range: derived for e near 1; a wanted 0.5 delivers 0.663.
+    A contact that begins at rest (v_0 = 0) has a finite, light damping through `slowest_impact`,
+    and the restitution tends to one with the speed, as it does in reality.
+
+    Examples
+    --------
+    The restitution that a wanted 0.5 delivers:
+
+    >>> from exu_press.laws.contact_restitution import restitution_of
+    >>> e = 0.5
+    >>> round(restitution_of(1.5 * (1 - e)), 3)
+    0.663
+
+    References
+    ----------
+    .. [1] Hunt, K. H., and F. R. E. Crossley. "Coefficient of Restitution Interpreted as Damping in
+       Vibroimpact." J. Appl. Mech. 42 (1975): 440-445.
     """
     return _hysteretic(stiffness, restitution, 1.5 * (1.0 - restitution), tension, slowest_impact)
 
@@ -185,9 +248,46 @@ def lankarani_nikravesh(
     tension: bool = False,
     slowest_impact: float = SLOWEST_IMPACT,
 ) -> NormalContact:
-    """Chi = 3/4 (1 - e^2) [2]_. Derived for e near 1: a wanted 0.5 delivers 0.725.
+    r"""Hysteretic damping of Lankarani and Nikravesh.
 
-    `slowest_impact`: see `hunt_crossley`.
+    .. math::
+        F = f(\delta) \left(1 + \chi \frac{\dot\delta}{v_0}\right), \qquad
+        \chi = \tfrac34 (1 - e^2)
+
+    Parameters
+    ----------
+    stiffness : the elastic part f(delta)
+    restitution : the wanted coefficient of restitution e [-], 0 < e <= 1
+    tension : True keeps the force where it would pull; False lets the surfaces part there (A-10)
+    slowest_impact : [m/s], positive; chi / v_0 of slower impacts is taken at this speed
+
+    Returns
+    -------
+    The normal force; it needs v_0 [m/s], the approach speed at first touch.
+
+    Raises
+    ------
+    InputError : restitution or slowest_impact is outside its range
+
+    Notes
+    -----
+    Range: derived for e near 1; a wanted 0.5 delivers 0.725.
+    A contact that begins at rest (v_0 = 0) has a finite, light damping through `slowest_impact`,
+    and the restitution tends to one with the speed, as it does in reality.
+
+    Examples
+    --------
+    The restitution that a wanted 0.5 delivers:
+
+    >>> from exu_press.laws.contact_restitution import restitution_of
+    >>> e = 0.5
+    >>> round(restitution_of(0.75 * (1 - e**2)), 3)
+    0.725
+
+    References
+    ----------
+    .. [1] Lankarani, H. M., and P. E. Nikravesh. "A Contact Force Model with Hysteresis Damping for
+       Impact Analysis of Multibody Systems." J. Mech. Des. 112 (1990): 369-376.
     """
     return _hysteretic(
         stiffness, restitution, 0.75 * (1.0 - restitution**2), tension, slowest_impact
@@ -200,9 +300,46 @@ def flores(
     tension: bool = False,
     slowest_impact: float = SLOWEST_IMPACT,
 ) -> NormalContact:
-    """Chi = 8 (1 - e) / (5 e) [3]_. Every e in (0, 1]: a wanted 0.5 delivers 0.470.
+    r"""Hysteretic damping of Flores, Machado, Silva and Martins.
 
-    `slowest_impact`: see `hunt_crossley`.
+    .. math::
+        F = f(\delta) \left(1 + \chi \frac{\dot\delta}{v_0}\right), \qquad
+        \chi = \frac{8 (1 - e)}{5 e}
+
+    Parameters
+    ----------
+    stiffness : the elastic part f(delta)
+    restitution : the wanted coefficient of restitution e [-], 0 < e <= 1
+    tension : True keeps the force where it would pull; False lets the surfaces part there (A-10)
+    slowest_impact : [m/s], positive; chi / v_0 of slower impacts is taken at this speed
+
+    Returns
+    -------
+    The normal force; it needs v_0 [m/s], the approach speed at first touch.
+
+    Raises
+    ------
+    InputError : restitution or slowest_impact is outside its range
+
+    Notes
+    -----
+    Range: every e in (0, 1]; a wanted 0.5 delivers 0.470.
+    A contact that begins at rest (v_0 = 0) has a finite, light damping through `slowest_impact`,
+    and the restitution tends to one with the speed, as it does in reality.
+
+    Examples
+    --------
+    The restitution that a wanted 0.5 delivers:
+
+    >>> from exu_press.laws.contact_restitution import restitution_of
+    >>> e = 0.5
+    >>> round(restitution_of(1.6 * (1 - e) / e), 3)
+    0.47
+
+    References
+    ----------
+    .. [1] Flores, P., M. Machado, M. T. Silva, and J. M. Martins. "On the Continuous Contact Force
+       Models for Soft Materials in Multibody Dynamics." Multibody Syst. Dyn. 25 (2011): 357-375.
     """
     _demand_restitution(restitution)
     chi = 1.6 * (1.0 - restitution) / restitution
@@ -215,9 +352,47 @@ def gonthier(
     tension: bool = False,
     slowest_impact: float = SLOWEST_IMPACT,
 ) -> NormalContact:
-    """Chi = (1 - e^2) / e, the published approximation in [4]_. A wanted 0.5 delivers 0.488.
+    r"""Hysteretic damping of Gonthier, McPhee, Lange and Piedboeuf, their approximation.
 
-    `slowest_impact`: see `hunt_crossley`.
+    .. math::
+        F = f(\delta) \left(1 + \chi \frac{\dot\delta}{v_0}\right), \qquad
+        \chi = \frac{1 - e^2}{e}
+
+    Parameters
+    ----------
+    stiffness : the elastic part f(delta)
+    restitution : the wanted coefficient of restitution e [-], 0 < e <= 1
+    tension : True keeps the force where it would pull; False lets the surfaces part there (A-10)
+    slowest_impact : [m/s], positive; chi / v_0 of slower impacts is taken at this speed
+
+    Returns
+    -------
+    The normal force; it needs v_0 [m/s], the approach speed at first touch.
+
+    Raises
+    ------
+    InputError : restitution or slowest_impact is outside its range
+
+    Notes
+    -----
+    Range: every e in (0, 1]; a wanted 0.5 delivers 0.488.
+    A contact that begins at rest (v_0 = 0) has a finite, light damping through `slowest_impact`,
+    and the restitution tends to one with the speed, as it does in reality.
+
+    Examples
+    --------
+    The restitution that a wanted 0.5 delivers:
+
+    >>> from exu_press.laws.contact_restitution import restitution_of
+    >>> e = 0.5
+    >>> round(restitution_of((1 - e**2) / e), 3)
+    0.488
+
+    References
+    ----------
+    .. [1] Gonthier, Y., J. McPhee, C. Lange, and J.-C. Piedboeuf. "A Regularized Contact Model with
+       Asymmetric Damping and Dwell-Time Dependent Friction." Multibody Syst. Dyn. 11 (2004):
+       209-233.
     """
     _demand_restitution(restitution)
     chi = (1.0 - restitution**2) / restitution
@@ -230,9 +405,46 @@ def hu_guo(
     tension: bool = False,
     slowest_impact: float = SLOWEST_IMPACT,
 ) -> NormalContact:
-    """Chi = 3 (1 - e) / (2 e) [5]_. Every e in (0, 1]: a wanted 0.5 delivers 0.488.
+    r"""Hysteretic damping of Hu and Guo.
 
-    `slowest_impact`: see `hunt_crossley`.
+    .. math::
+        F = f(\delta) \left(1 + \chi \frac{\dot\delta}{v_0}\right), \qquad
+        \chi = \frac{3 (1 - e)}{2 e}
+
+    Parameters
+    ----------
+    stiffness : the elastic part f(delta)
+    restitution : the wanted coefficient of restitution e [-], 0 < e <= 1
+    tension : True keeps the force where it would pull; False lets the surfaces part there (A-10)
+    slowest_impact : [m/s], positive; chi / v_0 of slower impacts is taken at this speed
+
+    Returns
+    -------
+    The normal force; it needs v_0 [m/s], the approach speed at first touch.
+
+    Raises
+    ------
+    InputError : restitution or slowest_impact is outside its range
+
+    Notes
+    -----
+    Range: every e in (0, 1]; a wanted 0.5 delivers 0.488.
+    A contact that begins at rest (v_0 = 0) has a finite, light damping through `slowest_impact`,
+    and the restitution tends to one with the speed, as it does in reality.
+
+    Examples
+    --------
+    The restitution that a wanted 0.5 delivers:
+
+    >>> from exu_press.laws.contact_restitution import restitution_of
+    >>> e = 0.5
+    >>> round(restitution_of(1.5 * (1 - e) / e), 3)
+    0.488
+
+    References
+    ----------
+    .. [1] Hu, S., and X. Guo. "A Dissipative Contact Force Model for Impact Analysis in Multibody
+       Dynamics." Multibody Syst. Dyn. 35 (2015): 131-151.
     """
     _demand_restitution(restitution)
     chi = 1.5 * (1.0 - restitution) / restitution

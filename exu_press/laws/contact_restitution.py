@@ -9,14 +9,41 @@ __all__ = ["delivered_restitution", "restitution_of"]
 
 
 def restitution_of(chi: float) -> float:
-    """Delivered restitution e of F = f(delta) (1 + chi rate / v0), for any elastic f and any mass.
+    r"""Restitution that a hysteretic damping delivers, for any elastic part and any mass.
 
-    The root of ln[(1 + chi) / (1 - chi e)] = chi (1 + e), which follows from integrating
-    m v dv / (1 + chi v / v0) = -f ddelta from touch to release. With w = chi e it reads
-    ln(1 - w) + w = ln(1 + chi) - chi: concave in w, so Newton falls to the root from above.
+    .. math::
+        \ln\frac{1 + \chi}{1 - \chi e} = \chi (1 + e)
 
+    This follows from integrating m v dv / (1 + chi v / v_0) = -f d delta from touch to release.
+    With w = chi e it reads ln(1 - w) + w = ln(1 + chi) - chi. The left side is concave in w, so
+    Newton's method falls to the root from above.
+
+    Parameters
+    ----------
+    chi : of F = f(delta) (1 + chi rate / v_0) [-], not negative
+
+    Returns
+    -------
+    e, rebound speed over approach speed [-].
+
+    Raises
+    ------
+    InputError : chi is negative
+
+    Notes
+    -----
+    Range: impacts not slower than the law's `slowest_impact`, and no pulling forces (A-10).
+
+    Examples
+    --------
     >>> round(restitution_of(1.5), 4)
     0.4877
+
+    References
+    ----------
+    .. [1] Gonthier, Y., J. McPhee, C. Lange, and J.-C. Piedboeuf. "A Regularized Contact Model with
+       Asymmetric Damping and Dwell-Time Dependent Friction." Multibody Syst. Dyn. 11 (2004):
+       209-233.
     """
     not_negative(chi=chi)
     if chi < 1e-4:  # where the logarithms cancel; the next term is of order chi^3
@@ -32,10 +59,29 @@ def restitution_of(chi: float) -> float:
 
 
 def delivered_restitution(contact: NormalContact, mass: float, speed: float) -> float:
-    """Rebound speed over approach speed of a free `mass` [kg] arriving at `speed` [m/s].
+    """Restitution of one bounce of a free mass, by integration with SciPy.
 
-    Integrates one bounce with SciPy: a diagnostic, some milliseconds, not for the time loop.
+    Parameters
+    ----------
+    contact : the normal force
+    mass : of the free body [kg], positive
+    speed : at which it arrives [m/s], positive
 
+    Returns
+    -------
+    Rebound speed over approach speed [-].
+
+    Raises
+    ------
+    InputError : mass or speed is not positive
+    RuntimeError : the contact is not released
+
+    Notes
+    -----
+    Range: any contact. It takes some milliseconds: a diagnostic, not for the time loop.
+
+    Examples
+    --------
     >>> from exu_press.laws.contact import hertz, step_damping
     >>> contact = step_damping(hertz(1e8), damping_max=1e3, damping_depth=1e-4)
     >>> round(delivered_restitution(contact, mass=1.0, speed=0.1), 5)

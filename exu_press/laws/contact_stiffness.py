@@ -1,13 +1,4 @@
-"""Elastic part of the normal contact: force and energy against penetration.
-
-References
-----------
-.. [1] K. L. Johnson, Contact Mechanics, Cambridge University Press 1985, section 4.2.
-.. [2] C.-S. Liu, K. Zhang, R. Yang, The FEM analysis and approximate model for cylindrical joints
-   with clearances, Mechanism and Machine Theory 42 (2007) 183-197.
-.. [3] Z. F. Bai, Y. Zhao, J. Chen, A nonlinear contact force model for revolute joint with
-   clearance, J. Mechanics 29 (2013) 653-660.
-"""
+"""Elastic part of the normal contact: force and energy against penetration."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -30,29 +21,76 @@ class Stiffness:
 
 
 def hertz_stiffness(radius: float, modulus: float) -> float:
-    """Hertz's point contact (Eq. 26; [1]_): K = 4/3 E sqrt(R), in N/m^1.5.
+    r"""Stiffness of Hertz's point contact (Eq. 26).
 
-    radius: equivalent [m], 1/R = 1/R_1 + 1/R_2, a hollow surface counted negative;
-    modulus: equivalent [Pa], 1/E = (1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2. InputError unless both are
-    positive.
+    .. math::
+        K = \tfrac43 E \sqrt R, \qquad \frac1R = \frac1{R_1} + \frac1{R_2}, \qquad
+        \frac1E = \frac{1 - \nu_1^2}{E_1} + \frac{1 - \nu_2^2}{E_2}
 
-    Steel sphere of 10 mm radius on steel plate:
+    Parameters
+    ----------
+    radius : equivalent radius R [m], positive; the radius of a hollow surface counts as negative
+    modulus : equivalent modulus E [Pa], positive
+
+    Returns
+    -------
+    K [N/m^1.5].
+
+    Raises
+    ------
+    InputError : radius or modulus is not positive
+
+    Notes
+    -----
+    Range: smooth elastic surfaces, and a contact area small against both radii.
+
+    Examples
+    --------
+    A steel sphere of 10 mm radius on a steel plate:
 
     >>> f"{hertz_stiffness(0.01, 207e9 / (2 * (1 - 0.3**2))):.4e}"
     '1.5165e+10'
+
+    References
+    ----------
+    .. [1] Johnson, K. L. Contact Mechanics. Cambridge University Press, 1985, section 4.2.
     """
     positive(radius=radius, modulus=modulus)
     return 4.0 / 3.0 * modulus * sqrt(radius)
 
 
 def hertz(stiffness: float, exponent: float = 1.5) -> Stiffness:
-    """F = K delta^n (elastic part of Eq. 23; [1]_), with the energy K delta^(n+1) / (n+1).
+    r"""Elastic force of a point contact, or of any power of the penetration (in Eq. 23).
 
-    stiffness: K [N/m^n] > 0; exponent: n >= 1 (1.5 point contact, 1 linear). InputError outside.
+    .. math::
+        F = K \delta^n, \qquad U = \frac{K \delta^{n+1}}{n + 1}
 
+    Parameters
+    ----------
+    stiffness : K [N/m^n], positive
+    exponent : n [-], 1 <= n <= 10; 1.5 is a point contact, 1 a linear spring
+
+    Returns
+    -------
+    The elastic part, for penetrations >= 0.
+
+    Raises
+    ------
+    InputError : an argument is outside its range
+
+    Notes
+    -----
+    Range: as `hertz_stiffness`. With n < 1 the slope would be infinite at first touch.
+
+    Examples
+    --------
     >>> force, slope = hertz(2.5545e10).force(10e-6)
     >>> round(force, 3), round(slope / 1e6, 3)
     (807.804, 121.171)
+
+    References
+    ----------
+    .. [1] Johnson, K. L. Contact Mechanics. Cambridge University Press, 1985, section 4.2.
     """
     positive(stiffness=stiffness)
     demand(
@@ -71,23 +109,49 @@ def hertz(stiffness: float, exponent: float = 1.5) -> Stiffness:
 
 
 def cylindrical(modulus: float, length: float, clearance: float) -> Stiffness:
-    """Journal in a bearing almost its own size: conformal line contact [2]_.
+    r"""Journal in a bearing of almost its own size: conformal line contact.
 
-        F = pi/2 L E delta sqrt(delta / (2 (c + delta)))
+    .. math::
+        F = \tfrac{\pi}{2} L E \delta \sqrt{\frac{\delta}{2 (c + \delta)}}
 
-    modulus: E [Pa], equivalent as in `hertz_stiffness`; length: L [m]; clearance: c [m], bearing
-    radius less journal radius. An elastic foundation held against finite elements in [2]_; its
-    slope is the stiffness of [3]_. At delta >> c it is a closely fitting pin of constant stiffness,
-    at delta << c it goes with delta^1.5. InputError unless all three are positive.
-    Energy: with delta = c sinh^2 t
+    .. math::
+        U = \frac{\pi L E c^2}{\sqrt 2} \left( \tfrac38 t - \tfrac14 \sinh 2t
+        + \tfrac1{32} \sinh 4t \right), \qquad \delta = c \sinh^2 t
 
-        pi L E c^2 / sqrt(2) (3 t/8 - sinh(2 t)/4 + sinh(4 t)/32),
+    Where the terms of the energy cancel, its power series in delta / c is used.
 
-    and its power series in delta / c where those terms cancel.
+    Parameters
+    ----------
+    modulus : equivalent modulus E [Pa] as in `hertz_stiffness`, positive
+    length : L [m], positive
+    clearance : c [m], the bearing's radius less the journal's, positive
 
+    Returns
+    -------
+    The elastic part, for penetrations >= 0.
+
+    Raises
+    ------
+    InputError : an argument is not positive
+
+    Notes
+    -----
+    Range: an elastic foundation, held against finite elements in [1]_; its slope is the stiffness
+    of [2]_. At delta >> c it is a closely fitting pin of constant stiffness, at delta << c the
+    force goes with delta^1.5.
+
+    Examples
+    --------
     >>> bearing = cylindrical(modulus=113.7e9, length=0.1, clearance=50e-6)
     >>> [round(bearing.force(depth)[0]) for depth in (1e-6, 10e-6, 100e-6)]
     [1768, 51557, 1031145]
+
+    References
+    ----------
+    .. [1] Liu, C.-S., K. Zhang, and R. Yang. "The FEM Analysis and Approximate Model for
+       Cylindrical Joints with Clearances." Mech. Mach. Theory 42 (2007): 183-197.
+    .. [2] Bai, Z. F., Y. Zhao, and J. Chen. "A Nonlinear Contact Force Model for Revolute Joint
+       with Clearance." J. Mech. 29 (2013): 653-660.
     """
     positive(modulus=modulus, length=length, clearance=clearance)
     scale = pi * length * modulus / (2.0 * sqrt(2.0))

@@ -2,13 +2,6 @@
 
 A joint applies the force -mu F_N along the sliding direction. A stateless law is a function
 v [m/s] -> (mu, dmu/dv [s/m]); `LuGre` carries the bristle's deflection as a state besides.
-
-References
-----------
-.. [1] C. Canudas de Wit, H. Olsson, K. J. Astrom, P. Lischinsky, A new model for control of systems
-   with friction, IEEE Trans. Automatic Control 40 (1995) 419-425.
-.. [2] B. Armstrong-Helouvry, P. Dupont, C. Canudas de Wit, A survey of models, analysis tools and
-   compensation methods for the control of machines with friction, Automatica 30 (1994) 1083-1138.
 """
 
 from collections.abc import Callable
@@ -28,14 +21,39 @@ def no_friction() -> Friction:
 
 
 def coulomb(mu_kinetic: float, regularisation_velocity: float) -> Friction:
-    """Mu = mu_k tanh(v / v_r): Coulomb's law made smooth at rest, where it creeps.
+    r"""Coulomb's friction, made smooth at rest, where it creeps.
 
-    mu_kinetic >= 0; regularisation_velocity: v_r [m/s] > 0; at 3 v_r it is within 0.5 % of mu_k.
-    InputError outside.
+    .. math::
+        \mu = \mu_k \tanh(v / v_r)
 
+    Parameters
+    ----------
+    mu_kinetic : mu_k [-], not negative
+    regularisation_velocity : v_r [m/s], positive
+
+    Returns
+    -------
+    The law: v [m/s] -> (mu [-], dmu/dv [s/m]).
+
+    Raises
+    ------
+    InputError : an argument is outside its range
+
+    Notes
+    -----
+    Range: any speed; from 3 v_r on mu is within 0.5 % of mu_k. It cannot stick.
+
+    Examples
+    --------
     >>> mu, slope = coulomb(0.1, regularisation_velocity=1e-3)(1e-3)
     >>> round(mu, 6), round(slope, 6)
     (0.076159, 41.997434)
+
+    References
+    ----------
+    .. [1] Armstrong-Helouvry, B., P. Dupont, and C. Canudas de Wit. "A Survey of Models, Analysis
+       Tools and Compensation Methods for the Control of Machines with Friction." Automatica 30
+       (1994): 1083-1138.
     """
     not_negative(mu_kinetic=mu_kinetic)
     positive(regularisation_velocity=regularisation_velocity)
@@ -56,15 +74,44 @@ def stribeck(
     regularisation_velocity: float,
     viscous: float = 0.0,
 ) -> Friction:
-    """Mu = [mu_k + (mu_s - mu_k) exp(-|v/v_s|^gamma)] tanh(v / v_r) + viscous v  [2]_.
+    r"""Stribeck's curve, made smooth at rest, with viscous friction.
 
-    mu_static >= mu_kinetic > 0; stribeck_velocity: v_s [m/s] > 0; 0 < stribeck_exponent <= 10
-    (0.5 to 2 in [2]_); regularisation_velocity: v_r [m/s] > 0, well below v_s or the static peak
-    is not reached; viscous [s/m] >= 0. InputError outside.
+    .. math::
+        \mu = \left[\mu_k + (\mu_s - \mu_k) e^{-|v / v_s|^\gamma}\right] \tanh(v / v_r)
+        + \sigma_2 v
 
+    Parameters
+    ----------
+    mu_static : mu_s [-], at least mu_kinetic
+    mu_kinetic : mu_k [-], positive
+    stribeck_velocity : v_s [m/s], positive
+    stribeck_exponent : gamma [-], 0 < gamma <= 10; 0.5 to 2 in [1]_
+    regularisation_velocity : v_r [m/s], positive
+    viscous : sigma_2 [s/m], not negative
+
+    Returns
+    -------
+    The law: v [m/s] -> (mu [-], dmu/dv [s/m]).
+
+    Raises
+    ------
+    InputError : an argument is outside its range
+
+    Notes
+    -----
+    Range: any speed. v_r has to be well below v_s, or the static peak is not reached.
+
+    Examples
+    --------
     >>> friction = stribeck(0.15, 0.1, 0.01, 2.0, regularisation_velocity=1e-4, viscous=0.02)
     >>> [round(friction(v)[0], 6) for v in (1e-3, 0.01, 1.0)]
     [0.149522, 0.118594, 0.12]
+
+    References
+    ----------
+    .. [1] Armstrong-Helouvry, B., P. Dupont, and C. Canudas de Wit. "A Survey of Models, Analysis
+       Tools and Compensation Methods for the Control of Machines with Friction." Automatica 30
+       (1994): 1083-1138.
     """
     _demand_curve(mu_static, mu_kinetic, stribeck_velocity, stribeck_exponent)
     positive(regularisation_velocity=regularisation_velocity)
@@ -93,15 +140,48 @@ def lugre_steady(
     stribeck_exponent: float,
     regularisation_velocity: float,
 ) -> Friction:
-    """Steady sliding of the LuGre bristle (Eq. 33): mu = sgn(v) g(v) + sigma_2 v.
+    r"""Steady sliding of the LuGre bristle (Eq. 33).
 
-    sgn(v) is tanh(v / v_r): the printed sign jumps by 2 mu_s at v = 0, where Newton's method would
-    chatter for ever. From |v| = 19 v_r on the two are equal to rounding. This is `stribeck` with
-    viscous = sigma_2 [s/m]; the arguments are those of `LuGre`.
+    .. math::
+        \mu = \mathrm{sgn}(v)\, g(v) + \sigma_2 v, \qquad
+        g = \mu_k + (\mu_s - \mu_k) e^{-|v / v_s|^\gamma}
+
+    The printed sign jumps by 2 mu_s at v = 0, where Newton's method would chatter for ever; here
+    sgn(v) is tanh(v / v_r). This is `stribeck` with sigma_2 as its viscous part.
+
+    Parameters
+    ----------
+    mu_static : mu_s [-], at least mu_kinetic
+    mu_kinetic : mu_k [-], positive
+    sigma_2 : viscous friction [s/m], not negative
+    stribeck_velocity : v_s [m/s], positive
+    stribeck_exponent : gamma [-], 0 < gamma <= 10
+    regularisation_velocity : v_r [m/s], positive
+
+    Returns
+    -------
+    The law: v [m/s] -> (mu [-], dmu/dv [s/m]).
+
+    Raises
+    ------
+    InputError : an argument is outside its range
+
+    Notes
+    -----
+    Range: any speed; from |v| = 19 v_r on it equals the printed equation to rounding.
+
+    Examples
+    --------
+    0.1 + 0.1 exp(-1/4):
 
     >>> mu, _ = lugre_steady(0.2, 0.1, 0.0, 0.01, 2.0, regularisation_velocity=1e-4)(0.005)
-    >>> round(mu, 6)  # 0.1 + 0.1 exp(-1/4)
+    >>> round(mu, 6)
     0.17788
+
+    References
+    ----------
+    .. [1] Canudas de Wit, C., H. Olsson, K. J. Astrom, and P. Lischinsky. "A New Model for Control
+       of Systems with Friction." IEEE Trans. Autom. Control 40 (1995): 419-425.
     """
     not_negative(sigma_2=sigma_2)
     return stribeck(
@@ -116,19 +196,45 @@ def lugre_steady(
 
 @dataclass(frozen=True, slots=True)
 class LuGre:
-    """LuGre friction with the bristle's deflection z [m] as a state (Eqs. 27-32; [1]_).
+    r"""LuGre friction, with the bristle's deflection z [m] as a state (Eqs. 27-32).
 
-        z_dot = v - sigma_0 |v| z / g(v),  g = mu_k + (mu_s - mu_k) exp(-|v/v_s|^gamma)
-        mu = sigma_0 z + sigma_1 z_dot + sigma_2 v
+    .. math::
+        \dot z = v - \frac{\sigma_0 |v|}{g(v)} z, \qquad
+        g = \mu_k + (\mu_s - \mu_k) e^{-|v / v_s|^\gamma}
 
-    sigma_0 [1/m] > 0; sigma_1, sigma_2 [s/m] >= 0; the others as in `stribeck`; InputError
-    outside. In steady sliding
-    mu is Eq. 33, for small displacements it is the spring sigma_0.
+    .. math::
+        \mu = \sigma_0 z + \sigma_1 \dot z + \sigma_2 v
 
+    Parameters
+    ----------
+    mu_static : mu_s [-], at least mu_kinetic
+    mu_kinetic : mu_k [-], positive
+    sigma_0 : stiffness of the bristle [1/m], positive
+    sigma_1 : its damping [s/m], not negative
+    sigma_2 : viscous friction [s/m], not negative
+    stribeck_velocity : v_s [m/s], positive
+    stribeck_exponent : gamma [-], 0 < gamma <= 10
+
+    Raises
+    ------
+    InputError : an argument is outside its range
+
+    Notes
+    -----
+    Range: any speed. In steady sliding mu is `lugre_steady`, for small displacements it is the
+    spring sigma_0.
+
+    Examples
+    --------
     >>> friction = LuGre(1.5, 1.0, 1e5, 316.2, 0.4, 1e-3, 2.0)
     >>> mu, slope, z1 = friction.advance(v=1e-3, z0=0.0, h=1e-3)
     >>> round(mu, 6), round(z1 * 1e6, 6)
     (0.384184, 0.922115)
+
+    References
+    ----------
+    .. [1] Canudas de Wit, C., H. Olsson, K. J. Astrom, and P. Lischinsky. "A New Model for Control
+       of Systems with Friction." IEEE Trans. Autom. Control 40 (1995): 419-425.
     """
 
     mu_static: float

@@ -6,6 +6,8 @@ import subprocess
 import pages
 import pytest
 
+import exu_press
+
 ONE_BY_ONE = pages.blocks_of(pages.ROOT / "README.md")
 README_BLOCKS = [b for b in ONE_BY_ONE if b.language in ("sh", "python", "toml")]
 
@@ -55,6 +57,13 @@ def test_what_is_shown_is_what_is_printed(page, block, tmp_path):
         if not re.search("time|steps|residual|differ", shown):
             old, new = (list(map(float, NUMBER.findall(line))) for line in (shown, now))
             assert new == pytest.approx(old, rel=0.05), (shown, now)
+
+
+def test_the_reference_begins_with_every_public_name():
+    text = (pages.ROOT / "docs" / "reference" / "public.md").read_text("utf-8")
+    for public in set(exu_press.__all__) - {"__version__"}:
+        home = getattr(exu_press, public)
+        assert f"`{public} <{home.__module__}.{public}>`" in text
 
 
 def test_every_test_that_a_page_names_exists():

@@ -22,12 +22,11 @@ from setuptools import setup
 from setuptools.command.build_ext import build_ext
 
 MODULES = [
-    "integrate/body_error",
+    "integrate/ending",
     "integrate/error",
-    "integrate/joint_error",
+    "integrate/local_error",
     "integrate/monitor",
     "integrate/newton",
-    "integrate/resolution",
     "integrate/scales",
     "integrate/step_change",
     "integrate/stepping",

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.integrate import Advice, Outcome, Scales, Status, Tuning, solve_dynamic
+from exu_press.integrate.outcome import Unresolved
 from exu_press.integrate.problem import Problem
-from exu_press.integrate.resolution import Unresolved
 from exu_press.joints import history, overlay_of
 from exu_press.joints.joint import ClearanceJoint
 from exu_press.laws.contact import NormalContact

@@ -1,7 +1,6 @@
 """Integration: Exudyn's generalized-alpha with steps by tolerance, for any Exudyn system."""
 
-from exu_press.integrate.advice import Advice
-from exu_press.integrate.outcome import Outcome, Status
+from exu_press.integrate.outcome import Advice, Outcome, Status
 from exu_press.integrate.scales import Scales
 from exu_press.integrate.solve import solve_dynamic
 from exu_press.integrate.tuning import Tuning

@@ -6,12 +6,9 @@ from typing import Any
 import exudyn as exu
 import numpy as np
 
-from exu_press.integrate.body_error import BodyError
-from exu_press.integrate.first_order_error import FirstOrderError
-from exu_press.integrate.joint_error import JointError
+from exu_press.integrate.local_error import BodyError, FirstOrderError, JointError, Share
 from exu_press.integrate.problem import Problem
 from exu_press.integrate.scales import FoundScales
-from exu_press.integrate.share import Share
 from exu_press.integrate.tuning import Tuning
 
 __all__ = ["StepError"]

@@ -10,8 +10,8 @@ from typing import Any, Protocol
 
 import exudyn as exu
 
+from exu_press.integrate.ending import Resolution
 from exu_press.integrate.newton import Newton
-from exu_press.integrate.resolution import Resolution
 from exu_press.integrate.step_change import StepChange
 from exu_press.progress import Progress
 

@@ -8,20 +8,17 @@ from typing import Any
 import exudyn as exu
 from threadpoolctl import threadpool_limits
 
-from exu_press.integrate.advice import Advice
 from exu_press.integrate.constraints import Constraints
-from exu_press.integrate.ending import how_it_ended
+from exu_press.integrate.ending import Resolution, how_it_ended
 from exu_press.integrate.error import StepError
-from exu_press.integrate.first_order_error import start_rates
 from exu_press.integrate.flexible_jacobian import FlexibleJacobian
 from exu_press.integrate.monitor import Monitor
 from exu_press.integrate.newton import Newton
-from exu_press.integrate.outcome import Outcome
+from exu_press.integrate.outcome import Advice, Outcome
 from exu_press.integrate.problem import Problem, weights
-from exu_press.integrate.resolution import Resolution
 from exu_press.integrate.scales import FoundScales, Scales
 from exu_press.integrate.settings import prepared, refuse_unusable
-from exu_press.integrate.start import fit_start
+from exu_press.integrate.start import fit_start, start_rates
 from exu_press.integrate.step_change import StepChange
 from exu_press.integrate.stepping import FixedSteps, StepControl
 from exu_press.integrate.tuning import Tuning
@@ -69,8 +66,7 @@ def solve_dynamic(
         mbs: the system, assembled.
         settings: Exudyn's.
         tolerance: of the run, relative: velocities to the largest speed, eccentricities to their
-            clearances, peaks of accelerations to the largest so far; from 1e-8 to 0.1. None takes
-            fixed steps of the settings' size.
+            clearances; from 1e-8 to 0.1. None takes fixed steps of the settings' size.
         scales: what errors are relative to, where they are not to be found from the motion.
         tuning: the numbers of step control, to vary them.
         next_corner: time (s) -> the next instant at which a load has a corner, s, or infinity;

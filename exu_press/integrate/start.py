@@ -18,11 +18,12 @@ from numpy.typing import NDArray
 
 from exu_press.integrate.constraints import Constraints
 
-__all__ = ["fit_start"]
+__all__ = ["fit_start", "start_rates"]
 
 Array = NDArray[np.float64]
 
 CURRENT = exu.ConfigurationType.Current
+START = exu.ConfigurationType.StartOfStep
 
 ITERATIONS = 4
 """Of Newton's method to positions that fit the constraints."""
@@ -120,3 +121,16 @@ def fit_start(
     rate = start.mended(np.zeros_like(start.a), np.where(held, third, second), 0.0)
     start.put()
     return start.a, rate
+
+
+def start_rates(mbs: exu.MainSystem, solver: Any) -> None:
+    """Set the rates of first-order coordinates at the start.
+
+    Exudyn takes them for zero there, which leaves half of the first step's change in the result.
+    """
+    data: Any = mbs.systemData
+    before, size = solver.GetODE2size(), data.ODE1Size()
+    solver.ComputeODE1RHS(mbs)
+    rates = np.array(solver.GetSystemResidual())[before : before + size]
+    for configuration in (CURRENT, START):
+        data.GetODE1Coordinates_t(configuration, False)[:] = rates

@@ -16,8 +16,7 @@ class Tuning:
     All are ratios, unless a unit is named.
 
     Attributes:
-        safety: error at which a step is aimed, of what it may be. The reserve saves repeated steps,
-            as a swinging part's error rises and falls several times in each of its periods.
+        safety: error at which a step is aimed, of what it may be. The reserve saves repeated steps.
         factor_max: by what a step is lengthened at most. Steps that grow by half swing about what
             their errors ask for, and are a third more with a film.
         factor_min: by what a step that failed is shortened at most.
@@ -25,7 +24,7 @@ class Tuning:
             (`exu_press.integrate.start`).
         first_step: first step over the largest one.
         many_steps: times tolerance^(-1/2), the number of steps of a run from which on their errors
-            are taken to add up as errors of either sign do (`exu_press.integrate.share`).
+            are taken to add up as errors of either sign do (`exu_press.integrate.local_error`).
         halvings: how far a fixed step may be halved where Newton's method fails, as a power of 2.
         velocity_constant: of generalized-alpha's local error h^3 times the second derivative of the
             acceleration: 0.083 to 0.077 for spectral radii at infinity of 1 to 0.8, doubled.
@@ -34,12 +33,10 @@ class Tuning:
             Measured at radii of 0.8 and 0.9 and steps of 2 and 10 us on a governor of rods and
             springs.
         penetration: what a penetration may be off by, over itself, as a part of what an
-            eccentricity in free flight may be off by over the clearance. A contact damps by its
-            penetration, often for ten milliseconds, and the impact that ends it hands the error on
-            a thousandfold: against the clearance alone the next peaks of dry presses are 20 % off
-            at a tolerance of 1e-3; with 0.3 they are 2 % off, with 0.1 one per cent.
+            eccentricity in free flight may be off by over the clearance. The impact that ends a
+            damped contact hands the error on a thousandfold.
         least_penetration: over the clearance, up to which a penetration counts as this.
-        kept_steps: within so many of the longest steps, a radian of the crank, errors that a film
+        kept_steps: within so many of the longest steps, 45 degrees of the crank, errors that a film
             keeps may add up to the tolerance.
         patience: Newton iterations after which rounding is thought of; most steps take one or two.
         reach: over the last step, how far ahead its rate of change is believed by the predictor; 0
@@ -50,7 +47,7 @@ class Tuning:
         refit: a step shorter than this, over the one that constrained velocities fit, makes them
             fit anew.
         largest_jump: of an inertia force within one step, over the run's largest one, from where
-            the impacts are not resolved (`exu_press.integrate.resolution`).
+            the impacts are not resolved (`exu_press.integrate.ending`).
     """
 
     safety: float = 0.4

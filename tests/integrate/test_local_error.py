@@ -1,0 +1,136 @@
+"""What a step misses, told from three instants, and what it may."""
+
+import math
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from exu_press import Scene, simulate
+from exu_press.integrate.local_error import BodyError, JointError, Share
+from exu_press.integrate.scales import FoundScales, Scales
+from exu_press.integrate.tuning import Tuning
+from exu_press.joints.path import Path
+
+TUNING = Tuning()
+RADIUS = 0.8
+
+
+def errors(velocity_limit=1e-3, masses=(2.0,)):
+    """Errors of bodies that rest at first; each of one mass and a moment of inertia of 0.5."""
+    scales = FoundScales(Scales(speed=1.0, force=1.0), length=1.0)
+    rest = [0.0] * 3 * len(masses)
+    scales.begin(
+        starts=[3 * i for i in range(len(masses))],
+        inertias=[value for mass in masses for value in (mass, mass, 0.5)],
+        masses=list(masses),
+        velocities=rest,
+        accelerations=rest,
+        places=rest,
+        longest=1.0,
+        widest=0.0,
+    )
+    return BodyError(
+        rest,
+        share=Share(velocity_limit),
+        scales=scales,
+        tuning=TUNING,
+        spectral_radius=RADIUS,
+    )
+
+
+def test_accelerations_that_change_at_one_rate_are_followed_exactly():
+    error = errors()
+    error.tried([1.0, 2.0, 3.0], 0.1)
+    error.accept()
+    assert error.tried([2.0, 4.0, 6.0], 0.1) == 0.0
+
+
+def test_velocities_are_off_by_the_cube_of_the_step():
+    """a = b t^2: its second derivative is 2 b."""
+    b, h = 3.0, 0.01
+    error = errors()
+    error.tried([1e6, 0.0, 0.0], h)
+    error.accept()
+    error.tried([0.0, 0.0, 0.0], h)
+    error.accept()
+    error.tried([0.0, b * h * h, 0.0], h)
+    error.accept()
+    value = error.tried([0.0, 4.0 * b * h * h, 0.0], h)
+    assert value == pytest.approx(h**3 * 2.0 * b / 6.0 / 1e-3)
+
+
+def test_rotations_count_by_their_energy():
+    """An angular acceleration counts sqrt(J/m) of it."""
+    turning, moving = errors(), errors()
+    value = turning.tried([0.0, 0.0, 4.0], 0.01)
+    assert value == pytest.approx(moving.tried([4.0 * math.sqrt(0.5 / 2.0), 0.0, 0.0], 0.01))
+
+
+def test_what_has_no_say_and_what_rounding_makes():
+    assert errors(masses=(math.inf,)).tried([1e3, 1e3, 0.0], 0.01) == 0.0
+    step = 1e-8
+    rounding = 0.99 * TUNING.rounding / (1.0 - RADIUS) ** 2 / step**2
+    assert errors(velocity_limit=1e-30).tried([rounding, 0.0, 0.0], step) < 1.0
+
+
+def test_jumps_are_told_by_body():
+    error = errors(masses=(2.0, 8.0))
+    error.tried([3.0, 4.0, 0.0, 0.0, 0.0, 4.0], 0.01)
+    assert error.of_jump() == pytest.approx(5.0)
+
+
+CLEARANCE, LIMIT = 1e-4, 1e-9
+
+
+def error_of(missed, *, place, reach=CLEARANCE, drift=math.inf, step=1e-4):
+    """The error of a step in which a joint at rest is found `missed` away from its place."""
+    path = Path()
+    path.go_on(place, (0.0, 0.0), step, depth=0.0)
+    there = tuple(p + m for p, m in zip(place, missed, strict=True))
+    joint = SimpleNamespace(
+        clearance=CLEARANCE,
+        reach=reach,
+        path=path,
+        eccentricity=there,
+        relative_velocity=(0.0, 0.0),
+    )
+    return JointError(joint, LIMIT, drift, 1e-14, Tuning()).error(step)
+
+
+def test_a_penetration_counts_against_itself():
+    deep = (CLEARANCE + 5e-6, 0.0)
+    across = error_of((1e-10, 0.0), place=deep)
+    assert across == pytest.approx(0.1 / (Tuning().penetration * 0.05), rel=1e-3)
+    assert error_of((0.0, 1e-10), place=deep) == pytest.approx(0.1)
+    assert error_of((1e-10, 0.0), place=(5e-5, 0.0)) == pytest.approx(0.1)
+
+
+def test_in_a_film_alone_errors_count_over_time():
+    in_film = {"place": (5e-5, 0.0), "drift": 1e-6}
+    assert error_of((1e-10, 0.0), reach=math.inf, **in_film) == pytest.approx(1.0)
+    assert error_of((1e-10, 0.0), **in_film) == pytest.approx(0.1)
+
+
+def test_thin_films_follow_the_tolerance():
+    """Errors of 0.1 and 0.01 at 1e-2 and 1e-3 while each step had its share of the clearance."""
+    ratios = {}
+    for tolerance in (1e-2, 1e-3, 1e-4):
+        thin = {"crank_pin": {"kind": "lubricated", "clearance": 1e-5}}
+        given = {"mechanism": "slider_crank", "joints": thin, "revolutions": 1.0}
+        scene = Scene(solver={"tolerance": tolerance}, **given)
+        run = simulate(scene)
+        ratios[tolerance] = np.linalg.norm(run["crank_pin_eccentricity"], axis=1).max() / 1e-5
+    for tolerance in (1e-2, 1e-3):
+        assert abs(ratios[tolerance] - ratios[1e-4]) < 2.0 * tolerance
+
+
+def test_a_usual_run_gives_each_step_the_whole():
+    share = Share.of(1e-4, duration=1.0, many_steps=10.0, impacts=False)
+    assert share.at(1e-3) == pytest.approx(1e-6)  # a thousand steps
+    assert share.at(1e-5) == pytest.approx(1e-7)  # a hundred times as many
+
+
+def test_impacts_leave_a_hundredth():
+    assert Share.of(1e-6, 1.0, 10.0, impacts=True).at(1e-9) == pytest.approx(1e-8)
+    assert Share.of(1e-6, 1.0, 10.0, impacts=False).whole == pytest.approx(1e-9)

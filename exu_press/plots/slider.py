@@ -28,7 +28,7 @@ WINDOW = 1e-3
 MOST_OF_IDEAL = 8.0
 """The averaged acceleration's panel ends at this multiple of the ideal peak, and says so."""
 
-NAME = "ideal mechanism, closed form"
+NAME = "ideal mechanism"
 
 TITLES = (
     ("Position", "position, mm"),
@@ -44,7 +44,7 @@ TITLES = (
 def slider_figure(results: Mapping[str, Result]) -> Figure:
     """Return position, velocity and acceleration of one slider or several, by label.
 
-    On the left the motion (mm, m/s, m/s^2) with the ideal mechanism's in closed form; on the right
+    On the left the motion (mm, m/s, m/s^2) with the ideal mechanism's; on the right
     its deviation from the ideal (um, mm/s) and the acceleration as resolved, impacts and all.
     """
     figure = new_figure("Slider motion against the ideal mechanism", results, (13.0, 8.6))

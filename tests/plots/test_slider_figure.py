@@ -22,7 +22,7 @@ def test_runs_share_one_ideal(results):
     figure = slider_figure({name: results[name] for name in ("ideal", "dry", "lubricated")})
     (legend,) = figure.legends
     texts = [text.get_text() for text in legend.get_texts()]
-    assert texts == ["ideal", "dry", "lubricated", "ideal mechanism, closed form"]
+    assert texts == ["ideal", "dry", "lubricated", "ideal mechanism"]
 
 
 def test_the_deviation_is_what_the_clearance_allows(results):

@@ -73,16 +73,16 @@ def block(axes, name, mass, centre, width, height):
     """Draw a block with its name and mass in it."""
     x, y = centre
     axes.add_patch(plt.Rectangle((x - width / 2, y - height / 2), width, height, color="0.87"))
-    axes.text(x, y, f"{name}: {mass:g} kg", ha="center", va="center", fontsize=9)
+    axes.text(x, y, f"{name}\n{mass:g} kg", ha="center", va="center", fontsize=9)
 
 
 def main(path):
     """Draw bodies as lines through their joints, and label the right half."""
     figure, axes = plt.subplots(figsize=(7.2, 9.0))
     _, ball_y = AT["ball_right"]
-    block(axes, "main slider (10)", SIZE.slider_mass, (0.0, ball_y - 0.06), 0.5, 0.12)
+    block(axes, "main slider (10)", SIZE.slider_mass, (0.0, ball_y - 0.07), 0.5, 0.14)
     _, weight_y = AT["counterweight_pin"]
-    block(axes, "counterweight (12)", SIZE.counterweight_mass, (0.0, weight_y + 0.05), 0.5, 0.1)
+    block(axes, "counterweight (12)", SIZE.counterweight_mass, (0.0, weight_y + 0.065), 0.5, 0.13)
     for body in MECHANISM.bodies:
         ends = sorted(
             {joint.at for joint in MECHANISM.joints if body.name in (joint.journal, joint.bearing)}
@@ -110,7 +110,7 @@ def main(path):
     axes.annotate("", (-pivot_x, high), (0.0, high), arrowprops=across)
     axes.annotate(
         f"{1e3 * SIZE.pivot_distance:g} mm\n(assumed)",
-        (-0.5 * pivot_x, high),
+        (-pivot_x, high),
         (-LABEL_X, high + 0.02),
         ha="center",
         va="center",
@@ -119,9 +119,10 @@ def main(path):
     axes.set_aspect("equal")
     axes.set_xlim(-0.45, 0.78)
     axes.axis("off")
+    path.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(path, dpi=100, bbox_inches="tight")
     print(path)
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1] if len(sys.argv) > 1 else "press_drawing.png"))
+    main(Path(sys.argv[1] if len(sys.argv) > 1 else "out/press_drawing.png"))

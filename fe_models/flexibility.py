@@ -1,62 +1,69 @@
 """Modes by what they do: which of them give way under loads on interfaces, and what is left out.
 
-Modes that are mass-normalised and free of rigid motion sum the flexibility of interfaces up from
-below, G = sum over modes of (C psi) (C psi)^T / omega^2: each one adds what it carries. Held
-against the statics of all finite elements this says how far any of them can be spared.
+A body is free: its own inertia balances what loads its interfaces, as where a joint pulls it along.
+Modes that are mass-normalised and free of rigid motion sum this flexibility up from below,
+G = sum over modes of (C psi) (C psi)^T / omega^2: each one adds what it carries. Held against the
+statics of all finite elements this says how far any of them can be spared.
 """
 
 from typing import Any
 
 import numpy as np
-import scipy.linalg
 from numpy.typing import NDArray
 
 from exu_press.errors import InputError
 
-__all__ = ["Statics", "inertia_relief", "shares"]
+__all__ = ["Statics", "shares"]
 
 Array = NDArray[np.float64]
 
-IN_LINE = 1e-4
-"""Of the body's size: centres of faces nearer to a plane than this are in it, as by meshes."""
+STIFF = 1e-6
+"""Of the largest flexibility: combinations of loads that give way less are left out."""
 
 
 class Statics:
-    """Full statics of interfaces under all loads on them that are in equilibrium."""
+    """Full statics of a free body under loads on its interfaces.
+
+    Attributes:
+        flexibility: (m, m) what unit forces and moments move the interfaces, m/N to 1/(N m).
+    """
 
     def __init__(self, model: Any, rows: Any, cholesky: Any) -> None:
-        """Solve for every such load.
+        """Solve for a unit force or moment on every motion.
 
         Args:
             model: a `FullModel`.
-            rows: (m, 3n) mean motions of interfaces that are loaded.
+            rows: (m, 3n) mean motions of interfaces.
             cholesky: of the model's stiffness with three nodes held, which loads in equilibrium
                 do not feel.
         """
         from fe_models.elasticity import rigid_motions
+        from fe_models.saddle import SaddleSolver
 
-        rigid = rows @ rigid_motions(model.nodes, model.nodes.mean(axis=0))
-        self._loads = scipy.linalg.null_space(rigid.T, rcond=IN_LINE)  # (m, k)
-        forces = rows.T @ self._loads
-        moved = np.array([cholesky.solve(force) for force in forces.T]).reshape(-1, len(forces))
-        exact = forces.T @ moved.T
-        if exact.size:
-            self._whiten = scipy.linalg.inv(scipy.linalg.cholesky(exact + exact.T, lower=True))
-            self._whiten *= np.sqrt(2.0)
+        momentum = (model.mass @ rigid_motions(model.nodes, model.nodes.mean(axis=0))).T
+        solver = SaddleSolver(model, momentum, cholesky)
+        moved = [rows @ solver.solve(load, None) for load in np.asarray(rows.todense())]
+        flexibility = np.array(moved).reshape(rows.shape[0], rows.shape[0])
+        self.flexibility: Array = 0.5 * (flexibility + flexibility.T)
 
-    def carried(self, moved: Array, frequencies: Array) -> Array:
-        """Return what each mode carries of the loads' work, (k, modes), in rows of at most 1.
+    def carried(self, moved: Array, frequencies: Array, loaded: Array) -> Array:
+        """Return what each mode carries of the work of loads, (k, modes), in rows of at most 1.
 
         Args:
             moved: (m, modes) what a unit of each modal coordinate moves the interfaces.
             frequencies: (modes,) Hz.
+            loaded: (m,) which of the motions are loaded.
         """
-        if not self._loads.size:
-            return np.zeros((0, len(frequencies)))
-        return np.asarray(self._whiten @ self._loads.T @ moved / (2.0 * np.pi * frequencies))
+        exact = self.flexibility[np.ix_(loaded, loaded)]
+        scale = 1.0 / np.sqrt(np.diag(exact))
+        sizes, directions = np.linalg.eigh(scale[:, None] * exact * scale)
+        kept = sizes > STIFF * sizes.max(initial=0.0)
+        whiten = (directions[:, kept] / np.sqrt(sizes[kept])).T * scale
+        return np.asarray(whiten @ moved[loaded] / (2.0 * np.pi * frequencies))
 
-    def error(self, carried: Array) -> float:
-        """Return the largest share of any such load's work that modes leave out."""
+    @staticmethod
+    def error(carried: Array) -> float:
+        """Return the largest share of any load's work that modes leave out."""
         rest = np.eye(len(carried)) - carried @ carried.T
         return float(np.linalg.eigvalsh(rest)[-1]) if rest.size else 0.0
 
@@ -85,31 +92,12 @@ class Statics:
         return kept
 
 
-def inertia_relief(model: Any, rows: Any, cholesky: Any) -> Array:
-    """Return what each motion of an interface gives way, (m,), m/N or 1/(N m).
-
-    The body is free: its own inertia balances the force or moment.
-
-    Args:
-        model: a `FullModel`.
-        rows: (m, 3n) mean motions of interfaces.
-        cholesky: of the model's stiffness.
-    """
-    from fe_models.elasticity import rigid_motions
-    from fe_models.saddle import SaddleSolver
-
-    momentum = (model.mass @ rigid_motions(model.nodes, model.nodes.mean(axis=0))).T
-    solver = SaddleSolver(model, momentum, cholesky)
-    loads = np.asarray(rows.todense())
-    return np.array([load @ solver.solve(load, None) for load in loads])
-
-
 def shares(moved: Array, frequencies: Array, exact: Array) -> Array:
     """Return what share (m, modes) each mode has in how an interface's motion gives way.
 
     Args:
         moved: (m, modes) what a unit of each modal coordinate moves the interfaces.
         frequencies: (modes,) Hz.
-        exact: (m,) from `inertia_relief`.
+        exact: (m,) what they give way in all, the diagonal of `Statics.flexibility`.
     """
     return np.asarray((moved / (2.0 * np.pi * frequencies)) ** 2 / exact[:, None])

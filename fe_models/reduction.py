@@ -46,7 +46,7 @@ class Reduction:
             modes of their span.
         flexibility_error: instead, only those modes of the interfaces' statics (of the free body)
             that are needed to leave no more than this share out of what the interfaces give way
-            under any static load on them.
+            under any load on them, which the body's own inertia balances.
         loads: the motions that such loads act in; in a planar mechanism x, y and rz.
         method: "craig_bampton", or "free": the lowest modes of the free body.
         stress: whether the stresses of the modes are kept too (more to store).
@@ -109,7 +109,7 @@ def reduce_part(part: Part, reduction: Reduction, report: Report | None = None) 
 
 def reduce_model(part: Part, model: Any, reduction: Reduction) -> ReducedPart:
     """Reduce a `FullModel`."""
-    from fe_models.flexibility import Statics, inertia_relief
+    from fe_models.flexibility import Statics
 
     count = _most_modes(part, model, reduction)
     if count == 0:
@@ -119,25 +119,27 @@ def reduce_model(part: Part, model: Any, reduction: Reduction) -> ReducedPart:
     if reduction.method == "free":
         (basis, cholesky), fixed = _free_basis(model, count), np.zeros(0)
     else:
-        basis, fixed, cholesky = _craig_bampton_basis(part, model, 0 if by_error else count)
+        wanted = None if by_error else count
+        basis, fixed, cholesky = _craig_bampton_basis(part, model, wanted)
     frequencies, modes = _orthogonalise(model, basis, basis.shape[1] if by_error else count)
-    statics = Statics(model, interface_rows(part, model, reduction.loads), cholesky)
-    carried = statics.carried(interface_rows(part, model, reduction.loads) @ modes, frequencies)
+    rows = interface_rows(part, model)
+    statics = Statics(model, rows, cholesky)
+    motions = [motion for interface in part.interfaces for motion in interface.motions]
+    loaded = np.array([motion in reduction.loads for motion in motions], dtype=bool)
+    carried = statics.carried(rows @ modes, frequencies, loaded)
     if reduction.flexibility_error is not None:
         kept = statics.enough(carried, reduction.flexibility_error, part.name)
         frequencies, modes, carried = frequencies[kept], modes[:, kept], carried[:, kept]
-    exact = inertia_relief(model, interface_rows(part, model), cholesky)
-    left = statics.error(carried)
+    exact, left = np.diag(statics.flexibility), statics.error(carried)
     return _package(part, model, reduction, frequencies, modes, fixed, exact, left)
 
 
-def interface_rows(part: Part, model: Any, motions: tuple[str, ...] = MOTIONS) -> sp.csr_matrix:
-    """Return C (m, 3n): the loaded mean motions of all interfaces, of those that are asked for."""
+def interface_rows(part: Part, model: Any) -> sp.csr_matrix:
+    """Return C (m, 3n): the loaded mean motions of all interfaces."""
     rows = [
         model.faces[interface.face].rows[[MOTIONS.index(motion)]]
         for interface in part.interfaces
         for motion in interface.motions
-        if motion in motions
     ]
     return sp.csr_matrix(sp.vstack(rows) if rows else (0, model.unknowns))
 
@@ -173,11 +175,13 @@ def _free_basis(model: Any, count: int) -> tuple[Array, Any]:
     return modes, solver.cholesky
 
 
-def _craig_bampton_basis(part: Part, model: Any, count: int) -> tuple[Array, Array, Any]:
+def _craig_bampton_basis(part: Part, model: Any, count: int | None) -> tuple[Array, Array, Any]:
     """Return the static and the lowest fixed-interface modes, and the latter's frequencies [Hz].
 
-    The third is the factorised stiffness.
+    Without a count, what accelerations of the whole body bend it into between held interfaces is
+    taken instead of the latter. The third is the factorised stiffness.
     """
+    from fe_models.elasticity import rigid_motions
     from fe_models.saddle import SaddleSolver, lowest_modes
 
     solver = SaddleSolver(model, interface_rows(part, model))
@@ -187,6 +191,10 @@ def _craig_bampton_basis(part: Part, model: Any, count: int) -> tuple[Array, Arr
         [solver.solve(None, direction) for direction in directions[:, 6:].T]
         or [np.zeros((model.unknowns, 0))]
     )
+    if count is None:
+        inertia = model.mass @ rigid_motions(model.nodes, model.nodes.mean(axis=0))
+        bent = np.column_stack([solver.solve(load, None) for load in inertia.T])
+        return np.hstack([static, bent]), np.zeros(0), solver.cholesky
     eigenvalues, fixed = lowest_modes(
         model, lambda load: solver.solve(load, None), max(0, count - static.shape[1])
     )

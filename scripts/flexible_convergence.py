@@ -101,7 +101,8 @@ def panel(axes, heading, x, values, names):
     for i, name in enumerate(names):
         style = {"color": colours[i % len(colours)], "marker": markers[i % len(markers)]}
         axes.plot(x[:-1], 100.0 * np.maximum(away[:, i], 1e-5), label=name.split(",")[0], **style)
-    axes.set(yscale="log", ylabel="away from the last, %", title=heading)
+    axes.set(yscale="log", ylabel="away from the last, %", title=heading, xticks=list(x[:-1]))
+    axes.margins(x=0.06)
 
 
 for body, placed in placed_parts(with_bodies(modes=4 if options.quick else 20)).items():

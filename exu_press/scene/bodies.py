@@ -62,7 +62,7 @@ class Flexible(Table):
     )
     flexibility_error: float | None = key(
         None,
-        "instead of modes: those that leave no more of the statics out",
+        "instead of modes: those that leave no more of the flexibility out",
         above=0,
         at_most=0.5,
     )

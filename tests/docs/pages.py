@@ -89,8 +89,10 @@ def run_command(command: str, place: Path) -> list[Path]:
     else:
         assert name == "exu-press", f"nothing runs this command: {command}"
         words[0] = str(BIN / name)
+        if words[1] in ("run", "compare", "sweep"):
+            words.append("--no-pictures")  # longer than the run; tests/plots has them
         if words[1] in ("run", "compare") and "--within" not in words:
-            words.append("--no-error")  # they take as long again, and tests/confidence has them
+            words.append("--no-error")  # as long as the run; tests/confidence has them
     run(words, place)
     return [place / value for option, value in pairwise(words) if option in ("--out", "--save")]
 

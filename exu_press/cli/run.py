@@ -64,14 +64,15 @@ def execute(options: argparse.Namespace) -> int:
     result.save(directory / "run.nc")
     write_json(directory / "summary.json", summary)
     written = [directory / "run.nc", directory / "summary.json"]
+    if not options.quiet:  # before the pictures, which take longer than a short run
+        assumed = textwrap.wrap(assumed_line(scene), 100, subsequent_indent="  ")
+        print("\n".join([*run_lines(summary), *found, *assumed]), flush=True)
+        show_warnings(summary["warnings"])
     if not options.no_pictures:
         from exu_press.plots import save_pictures
 
         written += save_pictures(result, directory)
     if not options.quiet:
-        assumed = textwrap.wrap(assumed_line(scene), 100, subsequent_indent="  ")
-        print("\n".join([*run_lines(summary), *found, *assumed]))
-        show_warnings(summary["warnings"])
         print("written:", ", ".join(path.name for path in written), f"in {directory}")
     if summary["reason"]:
         how = "" if result.completed else "stopped early: "

@@ -127,3 +127,14 @@ def test_compare_of_a_flexible_scene_has_rigid_ones_beside(tmp_path):
         for bodies in ("rigid", "flexible")
         for pin in ("ideal", "dry", "lubricated")
     }
+
+
+def test_the_figures_are_printed_before_the_pictures_are_drawn(tmp_path, capsys, monkeypatch):
+    def draw(result, directory):
+        assert "peak acceleration" in capsys.readouterr().out
+        return []
+
+    monkeypatch.setattr("exu_press.plots.save_pictures", draw)
+    arguments = ["run", "slider_crank", "--set", "revolutions=0.01", "--no-error"]
+    assert main([*arguments, "--out", str(tmp_path)]) == 0
+    assert capsys.readouterr().out.startswith("written: ")

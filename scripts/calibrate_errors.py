@@ -30,7 +30,7 @@ from exu_press.scene import flexible_press
 REFERENCES = (1e-7, 1e-6, 1e-5)
 """Tolerances, of which the finest is taken whose run is not expected to take longer than LONGEST.
 """
-LONGEST = 60.0  # s
+LONGEST = 12.0  # s
 
 GROWTH = 0.3
 """Power of one over the tolerance with which a run's time goes, measured: 0.2 to 0.3."""

@@ -34,8 +34,8 @@ class Compared:
 
     @property
     def off(self) -> float:
-        """The true error, in the figure's unit."""
-        return abs(self.value - self.true)
+        """The true error, in the figure's unit, less what reading the reference leaves open."""
+        return max(abs(self.value - self.true) - self.reading, 0.0)
 
     @property
     def covered(self) -> bool:

@@ -17,7 +17,7 @@ from exu_press.confidence.estimate import (
 )
 from exu_press.confidence.figures import figures
 from exu_press.confidence.growth import Growth, growth
-from exu_press.confidence.reading import LOADS, smoothed
+from exu_press.confidence.reading import LOADS, overshot, smoothed
 from exu_press.confidence.windows import until
 from exu_press.result import Result
 from exu_press.result.info import Error, Errors
@@ -118,10 +118,10 @@ def errors_of(result: Result, companions: Mapping[float, Result]) -> Errors:
         before = {r: figures(until(run, parted.horizon).summary()) for r, run in runs.items()}
     solver = result.scene.solver
     safety = SAFETY if solver is not None and solver.step is None else SAFETY_OF_STEPS
-    read = figures(smoothed(result).summary())
+    reads = [figures(changed(result).summary()) for changed in (smoothed, overshot)]
     errors: dict[str, Error] = {}
     for name, value in now[1.0].items():
-        of = _error(name, now, before, read, safety)
+        of = _error(name, now, before, max(abs(value - read[name]) for read in reads), safety)
         low, high = of.low, of.high
         if value >= 0.0 and not name.endswith(SIGNED):
             low = max(low, 0.0)
@@ -133,7 +133,7 @@ def _error(
     name: str,
     now: Mapping[float, Mapping[str, float]],
     before: Mapping[float, Mapping[str, float]],
-    read: Mapping[str, float],
+    read: float,
     safety: float,
 ) -> FigureError:
     """Return the error of a figure.
@@ -142,7 +142,7 @@ def _error(
         name: of the figure.
         now: ratio -> the figures of the run or of a companion.
         before: the same, of the motion until the horizon.
-        read: the figures of the run with its loads averaged with their neighbours.
+        read: what reading the figure at the run's steps leaves open.
         safety: of errors that go with the tolerance or the step.
     """
     values = {ratio: found[name] for ratio, found in now.items() if name in found}
@@ -151,7 +151,7 @@ def _error(
     same = all(
         abs(before[r].get(name, np.inf) - value) <= SAME * abs(value) for r, value in values.items()
     )
-    least = _least(name, list(values.values())) + OF_READING * abs(values[1.0] - read[name])
+    least = _least(name, list(values.values())) + OF_READING * read
     if same:
         return converging(list(values.values()), list(values), least, safety)
     return scattered(list(values.values()), least)

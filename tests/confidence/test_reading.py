@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
-from exu_press.confidence.reading import smoothed
+from exu_press.confidence.reading import OF_FIRST_STEP, overshot, smoothed
 from exu_press.confidence.run import OF_READING, errors_of
 
 SCENE = Scene(mechanism="slider_crank", revolutions=0.1)
@@ -34,10 +34,17 @@ def test_what_alternates_is_taken_away(run):
 
 def test_of_a_smooth_peak_twice_what_lies_between_steps_is_taken(run):
     """A parabola is higher between two steps than at them by an eighth of its second difference."""
-    curve = np.stack([1000.0 - 1e8 * (run.time - run.time[200]) ** 2] * 2, axis=1)
-    before, after = np.diff(run.time)[199:201]
-    taken = curve[200] - smoothed(with_force(run, curve))["shaft_force"][200]
+    curve = np.stack([1000.0 - 1e8 * (run.time - run.time[100]) ** 2] * 2, axis=1)
+    before, after = np.diff(run.time)[99:101]
+    taken = curve[100] - smoothed(with_force(run, curve))["shaft_force"][100]
     assert taken == pytest.approx(0.5 * 1e8 * before * after)
+
+
+def test_what_a_film_may_do_within_the_first_step_is_open(run):
+    rising = np.full((len(run.time), 2), 500.0)
+    rising[0] = 100.0
+    found = overshot(with_force(run, rising))["shaft_force"]
+    assert np.abs(found).max() == pytest.approx(500.0 + OF_FIRST_STEP * 400.0)
 
 
 def test_motion_is_left_alone(run):
@@ -50,6 +57,7 @@ def test_an_alternating_peak_is_stated_as_unsure(run):
     """Where all runs have it, as at a start, no difference of theirs says so."""
     signs = np.where(np.arange(len(run.time)) % 2, 1.0, -1.0)[:, None]
     force = np.array([0.0, 500.0]) + signs * np.array([0.0, 40.0])
-    loud = with_force(run, np.broadcast_to(force, (len(run.time), 2)).copy())
+    force[[0, 1, -1]] = 0.0, 500.0  # neither the first step nor the last one is the peak
+    loud = with_force(run, force)
     told = errors_of(loud, {4.0: loud, 8.0: loud})["errors"]["joints.shaft.peak_force"]
     assert told["error"] >= OF_READING * 39.0

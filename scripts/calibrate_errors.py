@@ -7,8 +7,9 @@ Presses and slider-cranks, dry, lubricated and mixed, 0.2 to 3 revolutions, clea
 against those of the same scene at the finest of REFERENCES that is affordable. Beyond the horizon
 no tolerance gives a true value: there MEMBERS further runs at a tenth of the tolerance, which have
 nothing in common with each other, stand for it. Prints the share of figures whose stated error
-covers the true one, and how many times as large it is in the median. Called again, it goes on where
-it was stopped, or where its minutes were over.
+covers the true one, and, of figures whose true error the reference can tell, how many times as
+large it is in the median. Called again, it goes on where it was stopped, or where its minutes were
+over.
 """
 
 import argparse
@@ -24,7 +25,7 @@ import numpy as np
 
 from exu_press import Result, Scene, simulate
 from exu_press.confidence import simulate_with_errors
-from exu_press.confidence.compared import NOTHING, compared
+from exu_press.confidence.compared import compared
 from exu_press.scene import flexible_press
 
 REFERENCES = (1e-7, 1e-6, 1e-5)
@@ -88,7 +89,7 @@ def references(run: Result, cost: float) -> tuple[str, list[Result]]:
 
 
 def judged(scene: Scene) -> dict[str, Any]:
-    """Return a scene's row: reference, and of each figure what `Row` says."""
+    """Return a scene's row; of each figure name, share covered, ratio and whether determined."""
     begun = time.process_time()
     run = simulate_with_errors(scene, beside=False)
     words, others = references(run, time.process_time() - begun)
@@ -99,12 +100,11 @@ def judged(scene: Scene) -> dict[str, Any]:
                 every.setdefault(one.name, []).append(one)
     rows = []
     for name, several in every.items():
-        size = abs(several[0].value)
-        if size > 0.0:
-            off = float(np.mean([one.off for one in several])) / size
+        if several[0].value != 0.0:
+            ratios = [one.ratio for one in several if one.ratio is not None]
             covered = float(np.mean([one.covered for one in several]))
-            told = several[0].told
-            rows.append([name, told["error"] / size, off, covered, told["determined"]])
+            ratio = float(np.median(ratios)) if ratios else None
+            rows.append([name, covered, ratio, several[0].told["determined"]])
     return {
         "scene": in_words(scene),
         "status": run.info["status"],
@@ -131,9 +131,9 @@ def summed(label: str, figures: Sequence[Sequence[Any]]) -> str:
     """Return a line on figures as rows have them."""
     if not figures:
         return f"{label}: none"
-    ratios = [told / off for _, told, off, _, _ in figures if off > NOTHING]
+    ratios = [ratio for _, _, ratio, _ in figures if ratio is not None]
     ratio = f"{np.median(ratios):.1f}" if ratios else "-"
-    covered = np.mean([covered for _, _, _, covered, _ in figures])
+    covered = np.mean([covered for _, covered, _, _ in figures])
     return f"{label}: {covered:.1%} of {len(figures)} covered, stated over true error {ratio}"
 
 
@@ -151,7 +151,7 @@ def report_lines(rows: Sequence[dict[str, Any]]) -> Iterator[str]:
     yield summed("determined", [figure for _, figure in every if figure[-1]])
     yield summed("not determined", [figure for _, figure in every if not figure[-1]])
     yield summed(f"all {len(rows)} scenes", [figure for _, figure in every])
-    missed = Counter(figure[0].split(".")[-1] for _, figure in every if figure[3] < 0.5)
+    missed = Counter(figure[0].split(".")[-1] for _, figure in every if figure[1] < 0.5)
     most = ", ".join(f"{name} ({count})" for name, count in missed.most_common(5))
     yield f"not covered most often: {most or 'none'}"
 

@@ -34,8 +34,8 @@ class Compared:
 
     @property
     def off(self) -> float:
-        """The true error, in the figure's unit, less what reading the reference leaves open."""
-        return max(abs(self.value - self.true) - self.reading, 0.0)
+        """The true error, in the figure's unit, as far as the reference can tell."""
+        return abs(self.value - self.true)
 
     @property
     def covered(self) -> bool:
@@ -45,8 +45,9 @@ class Compared:
 
     @property
     def ratio(self) -> float | None:
-        """The stated over the true error; None where there is next to none."""
-        return self.told["error"] / self.off if self.off > NOTHING * abs(self.value) else None
+        """The stated over the true error; None where the reference cannot tell it."""
+        least = max(NOTHING * abs(self.value), 2.0 * self.reading)
+        return self.told["error"] / self.off if self.off > least else None
 
 
 def compared(result: Result, reference: Result) -> Iterator[Compared]:

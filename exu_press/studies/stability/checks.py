@@ -116,7 +116,7 @@ def agreement(result: Result, finer: Result) -> Check:
         if not told["determined"]:
             more = one.true > one.value
             stated = 2.0 * (told["high"] - one.value if more else one.value - told["low"])
-        allowed = max(stated, _little(result.scene, one.name, one.true))
+        allowed = max(stated + one.reading, _little(result.scene, one.name, one.true))
         share = one.off / allowed
         if not share <= worst:
             words = f"{one.value:.5g} +- {told['error']:.2g} for {one.true:.5g}"

@@ -65,13 +65,8 @@ class StepError:
         self.start: list[float] = []
         self._bodies: BodyError | None = None
         self._first_order: FirstOrderError | None = None
-        joints = [] if problem.joints is None else problem.joints.joints
-        rounding = tuning.rounding * problem.length
-        per_time = tolerance / (tuning.kept_steps * longest)
-        self._joints = [
-            JointError(j, share.whole * j.clearance, per_time * j.clearance, rounding, tuning)
-            for j in joints
-        ]
+        self._per_time = tolerance / (tuning.kept_steps * longest)
+        self._joints: list[JointError] = []
 
     def __call__(self, step: float) -> float:
         """Return the error of the step that ends in the current state."""
@@ -134,14 +129,22 @@ class StepError:
         return speed / allowed if allowed > 0.0 else 0.0
 
     def _first_look(self) -> BodyError:
-        """Return the bodies' errors from the first step's beginning on."""
+        """Return the bodies' errors from the first step's beginning on; look at the joints too."""
+        radius = min(self._solver.alphaF / (1.0 - self._solver.alphaF), 0.95)
+        noise = self._tuning.rounding * self._scales.length / (1.0 - radius) ** 2
+        if self._problem.joints is not None:
+            whole, per_time = self._share.whole, self._per_time
+            self._joints = [
+                JointError(j, whole * j.clearance, per_time * j.clearance, noise, self._tuning)
+                for j in self._problem.joints.joints
+            ]
         start = self.start or self._data.GetODE2Coordinates_tt(START, False).tolist()
         return BodyError(
             accelerations=start,
             share=self._share,
             scales=self._scales,
             tuning=self._tuning,
-            spectral_radius=self._solver.alphaF / (1.0 - self._solver.alphaF),
+            noise=noise,
         )
 
     def _filtered(self, change: list[float]) -> list[float]:

@@ -93,7 +93,7 @@ class BodyError:
         share: Share,
         scales: FoundScales,
         tuning: Tuning,
-        spectral_radius: float,
+        noise: float,
     ) -> None:
         """Take the bodies and the scales.
 
@@ -102,10 +102,10 @@ class BodyError:
             share: what a velocity may be off by in one step, over the scale of speeds.
             scales: of the motion, which knows the bodies.
             tuning: numbers.
-            spectral_radius: at infinity, of generalized-alpha.
+            noise: what rounded positions make of accelerations, times the step's square, m.
         """
         self._scales, self._share = scales, share
-        self._noise = tuning.rounding * scales.length / (1.0 - min(spectral_radius, 0.95)) ** 2
+        self._noise = noise
         self._constant = tuning.velocity_constant
         self._before = self._now = accelerations
         self._rate_before: list[float] = []  # none before the first step
@@ -186,7 +186,7 @@ class JointError:
             limit: the error of a step that counts as 1, m.
             drift: the same over the step, m/s, where a film alone lies between the surfaces: it
                 keeps what each step leaves, always on the same side, so that errors add up.
-            rounding: what Newton's method leaves of positions, m; no error below it counts as 1.
+            rounding: of positions, as it alternates, m; no error below it counts as 1.
             tuning: numbers.
         """
         self._joint = joint

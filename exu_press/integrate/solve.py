@@ -121,12 +121,13 @@ def solve_dynamic(
     control: StepControl | FixedSteps
     estimate = StepError(problem, solver, found, accuracy, largest, end - start, tuning)
     if tolerance is None:
-        first = tuning.first_step * largest if films else largest
+        first = 2.0 * smallest if films else largest
         control = FixedSteps(
             largest, solver, newton, start=start, first=first, film_start=film_start
         )
     else:
-        first = integration.initialStepSize or tuning.first_step * largest
+        part = tuning.first_step_of_film if films else tuning.first_step
+        first = integration.initialStepSize or part * largest
         control = StepControl(
             estimate,
             solver,

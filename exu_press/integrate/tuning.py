@@ -23,6 +23,8 @@ class Tuning:
         look_ahead: how far ahead of the start constraints are asked, over the largest step
             (`exu_press.integrate.start`).
         first_step: first step over the largest one.
+        first_step_of_film: the same with a film, which takes up its load within a microsecond or
+            so: a longer step leaves an overshoot of 3 % in the first loads.
         many_steps: times tolerance^(-1/2), the number of steps of a run from which on their errors
             are taken to add up as errors of either sign do (`exu_press.integrate.local_error`).
         halvings: how far a fixed step may be halved where Newton's method fails, as a power of 2.
@@ -55,6 +57,7 @@ class Tuning:
     factor_min: float = 0.05
     look_ahead: float = 0.01
     first_step: float = 1.0 / 64.0
+    first_step_of_film: float = 1e-4
     many_steps: float = 10.0
     halvings: int = 10
 

@@ -13,7 +13,7 @@ from exu_press.integrate.tuning import Tuning
 from exu_press.joints.path import Path
 
 TUNING = Tuning()
-RADIUS = 0.8
+NOISE = 1e-13
 
 
 def errors(velocity_limit=1e-3, masses=(2.0,)):
@@ -35,7 +35,7 @@ def errors(velocity_limit=1e-3, masses=(2.0,)):
         share=Share(velocity_limit),
         scales=scales,
         tuning=TUNING,
-        spectral_radius=RADIUS,
+        noise=NOISE,
     )
 
 
@@ -70,7 +70,7 @@ def test_rotations_count_by_their_energy():
 def test_what_has_no_say_and_what_rounding_makes():
     assert errors(masses=(math.inf,)).tried([1e3, 1e3, 0.0], 0.01) == 0.0
     step = 1e-8
-    rounding = 0.99 * TUNING.rounding / (1.0 - RADIUS) ** 2 / step**2
+    rounding = 0.99 * NOISE / step**2
     assert errors(velocity_limit=1e-30).tried([rounding, 0.0, 0.0], step) < 1.0
 
 

@@ -147,10 +147,12 @@ def solve_dynamic(
         if problem.first_order:
             start_rates(mbs, solver)
         solver.ComputeMassMatrix(mbs)
-        fitted = fit_start(mbs, solver, constraints, problem.length, tuning.look_ahead * largest)
-        if fitted is not None:
-            step_change.start_from(*fitted)
-            estimate.start = fitted[0].tolist()
+        if tolerance is not None:  # within a fixed step, motions may change by less than rounding
+            ahead = tuning.look_ahead * largest
+            fitted = fit_start(mbs, solver, constraints, problem.length, ahead)
+            if fitted is not None:
+                step_change.start_from(*fitted)
+                estimate.start = fitted[0].tolist()
         inertias, masses = weights(problem.nodes, solver.GetSystemMassMatrix())
         now = data.GetODE2Coordinates_tt(exu.ConfigurationType.Current, False).tolist()
         found.begin(

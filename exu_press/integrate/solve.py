@@ -97,6 +97,7 @@ def solve_dynamic(
     largest = (end - start) / integration.numberOfSteps
     films = problem.joints is not None and problem.joints.lubricated
     smallest = integration.minimumStepSize
+    room = 10.0 * smallest  # to repeat a film's first step in, before rounding shows
     if tolerance is None:
         smallest = 2.0**-tuning.halvings * largest
     solver: Any = exu.MainSolverImplicitSecondOrder()  # whose type stub forgets `self`
@@ -121,13 +122,14 @@ def solve_dynamic(
     control: StepControl | FixedSteps
     estimate = StepError(problem, solver, found, accuracy, largest, end - start, tuning)
     if tolerance is None:
-        first = 2.0 * smallest if films else largest
+        first = min(largest, max(2.0 * smallest, room)) if films else largest
         control = FixedSteps(
             largest, solver, newton, start=start, first=first, film_start=film_start
         )
     else:
-        part = tuning.first_step_of_film if films else tuning.first_step
-        first = integration.initialStepSize or part * largest
+        of_film = min(largest, max(tuning.first_step_of_film * largest, room))
+        usual = of_film if films else tuning.first_step * largest
+        first = integration.initialStepSize or usual
         control = StepControl(
             estimate,
             solver,

@@ -64,7 +64,7 @@ def test_ideal_links_bend_and_do_not_ring(links, names):
     result = simulate(scene(links, names, revolutions=0.1, speed_rpm=200.0, solver=solver))
     assert result.completed
     summary = result.summary()
-    assert summary["energy"]["residual"] < 1e-3
+    assert summary["energy"]["residual"] < 2e-3
     ideal = mechanism_of(result.scene).ideal_slider(
         result["crank_angle"], result.scene.angular_speed
     )[0]

@@ -134,8 +134,9 @@ class StepError:
         noise = self._tuning.rounding * self._scales.length / (1.0 - radius) ** 2
         if self._problem.joints is not None:
             whole, per_time = self._share.whole, self._per_time
+            left = max(noise, self._tuning.newton_rounding * self._scales.length)
             self._joints = [
-                JointError(j, whole * j.clearance, per_time * j.clearance, noise, self._tuning)
+                JointError(j, whole * j.clearance, per_time * j.clearance, left, self._tuning)
                 for j in self._problem.joints.joints
             ]
         start = self.start or self._data.GetODE2Coordinates_tt(START, False).tolist()

@@ -4,13 +4,16 @@ Exudyn starts every step from accelerations of zero, which costs an iteration a 
 motion and several where contact lasts. Here they go on as they did in the last step, and lasting
 contacts start from the force that held them. So do constraints.
 
+Positions are rounded, and over the square of a short step that is newtons in the constraints, which
+the first guess hands on. Where they are more than may be left, a second iteration mends them.
+
 A thin film answers the last digit of a speed with newtons: no iteration balances forces better.
 
 Euler parameters must have unit length, and the constraints' directions that Exudyn gives Newton's
 method are right on the unit sphere only: where the expected state leaves it, an iteration that puts
 the length right moves the body by as much, and what that leaves in the constraints alternates from
 step to step, 1/(1 - spectral radius)^2 times as large in the accelerations. So the expected
-accelerations are those that end on the sphere, and one iteration does.
+accelerations are those that end on the sphere.
 """
 
 import math
@@ -72,6 +75,7 @@ class Newton:
         self._last = 0.0  # size of the last step, s
         self._given: float | None = None  # Newton's absolute tolerance of the settings, N
         self._accepted = 0.0  # now, N
+        self._mend = False  # by a second iteration, in the step under way
 
     def stepped(self, time: float, accelerations: list[float]) -> None:
         """Be told where an accepted step ends: the time, s, and all coordinates' accelerations."""
@@ -86,10 +90,23 @@ class Newton:
         if not iteration:
             assert self._start is not None
             self._advance(time - self._start)
+            self._mend = self._is_rounded(time - self._start)
             self._accept(self._tolerance())
+        elif iteration < 3 and self._mend:
+            self._accept(0.0 if iteration == 1 else self._tolerance())
         elif iteration == self._patience and self._joints is not None:
             rounding = self._rounding * self._joints.damping * self._scales.speed
             self._accept(max(self._tolerance(), rounding))
+
+    def _is_rounded(self, step: float) -> bool:
+        """Return whether rounded positions make more of a step (s) than may be left of forces."""
+        heaviest = 0.0
+        for mass in self._scales.masses:
+            if heaviest < mass < math.inf:
+                heaviest = mass
+        radius = min(self._solver.alphaF / (1.0 - self._solver.alphaF), 0.95)
+        noise = self._rounding * self._scales.length / ((1.0 - radius) * (1.0 - radius))
+        return heaviest * noise > step * step * self._tolerance()
 
     def _advance(self, step: float) -> None:
         """Add the expected accelerations to a state that was advanced without any."""

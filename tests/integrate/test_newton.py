@@ -28,11 +28,11 @@ def test_expected_accelerations_save_iterations(pin, monkeypatch):
 
 
 def test_what_rounding_leaves_is_not_iterated_on():
-    """A film of 0.1 um makes more of the last digit of a speed than the tolerance allows."""
+    """A film of 30 nm makes more of the last digit of a speed than the tolerance allows."""
     thin = Scene(
         film={"law": "pinkus"},
         joints={
-            "crank_pin": {"kind": "lubricated", "clearance": 1e-7},
+            "crank_pin": {"kind": "lubricated", "clearance": 3e-8},
             "balls": {"kind": "dry", "clearance": 1e-4},
         },
         revolutions=0.02,

@@ -46,6 +46,12 @@ OF_SHARES = 1e-4
 """Least error of a share of time: touches are told apart by steps, which in free flight are the
 longest ones allowed in all runs."""
 
+OF_ENERGY = 1e-6
+"""Least error of what is stored or dissipated, over the largest energy of the run's balance."""
+
+OF_ARMS = 1e-7
+"""Least error of a guide's moment over the largest force, m: balanced forces leave as much."""
+
 SIGNED = (
     *("bottom_dead_centre", "strokes.mean", "mean_torque", "mean_power"),
     *("energy.input", "energy.stored"),
@@ -151,15 +157,28 @@ def _error(
     same = all(
         abs(before[r].get(name, np.inf) - value) <= SAME * abs(value) for r, value in values.items()
     )
-    least = _least(name, list(values.values())) + OF_READING * read
+    least = _least(name, list(values.values()), now[1.0]) + OF_READING * read
     if same:
         return converging(list(values.values()), list(values), least, safety)
     return scattered(list(values.values()), least)
 
 
-def _least(name: str, values: Sequence[float]) -> float:
-    """Return the least error of a figure, in its unit, from its values in all runs."""
+def _least(name: str, values: Sequence[float], run: Mapping[str, float]) -> float:
+    """Return the least error of a figure, in its unit.
+
+    Args:
+        name: of the figure.
+        values: of it, in all runs.
+        run: all figures of the run.
+    """
     size = abs(values[0])
+    if not any(values):
+        return 0.0
+    if name.endswith(("dissipated", "stored")):
+        energies = [abs(run[k]) for k in run if k.startswith("energy.")]
+        return OF_ENERGY * max(energies, default=size)
+    if name.endswith("peak_moment"):
+        return OF_ARMS * max((abs(run[k]) for k in run if k.endswith("peak_force")), default=0.0)
     if ".share_" in name:
         return OF_SHARES
     if not any(word in name for word in LOADS):

@@ -104,7 +104,8 @@ class Newton:
         for mass in self._scales.masses:
             if heaviest < mass < math.inf:
                 heaviest = mass
-        radius = min(self._solver.alphaF / (1.0 - self._solver.alphaF), 0.95)
+        alpha: float = self._solver.alphaF
+        radius = min(alpha / (1.0 - alpha), 0.95)
         noise = self._rounding * self._scales.length / ((1.0 - radius) * (1.0 - radius))
         return heaviest * noise > step * step * self._tolerance()
 

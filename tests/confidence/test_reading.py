@@ -7,7 +7,7 @@ import pytest
 
 from exu_press import Scene, simulate
 from exu_press.confidence.reading import OF_FIRST_STEP, overshot, smoothed
-from exu_press.confidence.run import OF_READING, errors_of
+from exu_press.confidence.run import errors_of
 
 SCENE = Scene(mechanism="slider_crank", revolutions=0.1)
 
@@ -60,4 +60,4 @@ def test_an_alternating_peak_is_stated_as_unsure(run):
     force[[0, 1, -1]] = 0.0, 500.0  # neither the first step nor the last one is the peak
     loud = with_force(run, force)
     told = errors_of(loud, {4.0: loud, 8.0: loud})["errors"]["joints.shaft.peak_force"]
-    assert told["error"] >= OF_READING * 39.0
+    assert told["error"] >= 0.5 * 39.0  # where steps grow, neighbours weigh differently

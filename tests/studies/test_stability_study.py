@@ -125,7 +125,7 @@ def test_a_difference_that_is_stated_is_right(run):
     off = changed(run, slider_position=1.1 * run["slider_position"])
     for half, determined, right in (
         (0.2 * value, True, True),
-        (0.08 * value, True, False),
+        (0.07 * value, True, False),
         (0.08 * value, False, True),
         (0.03 * value, False, False),
     ):

@@ -13,7 +13,7 @@ from exu_press.cli import main
 def test_a_sound_installation(capsys):
     assert main(["doctor"]) == 0
     text = capsys.readouterr().out
-    for name in ("Python", "exudyn", "numpy", "ngsolve", "benchmark", "joints:"):
+    for name in ("Python", "exudyn", "numpy", "flexible", "benchmark", "joints:"):
         assert name in text
     assert text.count("ok: ") == 2
     assert text.rstrip().endswith("this installation works")

@@ -130,8 +130,7 @@ class StepError:
 
     def _first_look(self) -> BodyError:
         """Return the bodies' errors from the first step's beginning on; look at the joints too."""
-        radius = min(self._solver.alphaF / (1.0 - self._solver.alphaF), 0.95)
-        noise = self._tuning.rounding * self._scales.length / (1.0 - radius) ** 2
+        noise = self._scales.alternating(self._tuning.rounding, self._solver.alphaF)
         if self._problem.joints is not None:
             whole, per_time = self._share.whole, self._per_time
             left = max(noise, self._tuning.newton_rounding * self._scales.length)

@@ -104,9 +104,7 @@ class Newton:
         for mass in self._scales.masses:
             if heaviest < mass < math.inf:
                 heaviest = mass
-        alpha: float = self._solver.alphaF
-        radius = min(alpha / (1.0 - alpha), 0.95)
-        noise = self._rounding * self._scales.length / ((1.0 - radius) * (1.0 - radius))
+        noise = self._scales.alternating(self._rounding, self._solver.alphaF)
         return heaviest * noise > step * step * self._tolerance()
 
     def _advance(self, step: float) -> None:

@@ -137,3 +137,13 @@ class FoundScales:
                 i += 1
             found.append(total)
         return found
+
+    def alternating(self, rounding: float, alpha_f: float) -> float:
+        """Return what rounded positions make of accelerations, times the step's square, m.
+
+        Args:
+            rounding: of positions, over the largest one, in each step.
+            alpha_f: generalized-alpha's; its spectral radius is alpha_f / (1 - alpha_f).
+        """
+        radius = min(alpha_f / (1.0 - alpha_f), 0.95)
+        return rounding * self.length / (1.0 - radius) ** 2

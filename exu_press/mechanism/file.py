@@ -19,7 +19,6 @@ pins = ["crank_pin", "wrist_pin"]
 
 import json
 import math
-import tomllib
 from collections.abc import Collection, Mapping
 from dataclasses import fields
 from functools import lru_cache
@@ -30,6 +29,7 @@ from exu_press.checks import nearest
 from exu_press.errors import InputError
 from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.parts import ROD, Body, Guide, Joint, Output, Point
+from exu_press.read_toml import read_toml
 
 __all__ = [
     "SHIPPED",
@@ -53,12 +53,7 @@ def load_mechanism(path: str | Path) -> Mechanism:
         InputError: the file cannot be read or parsed, or no mechanism can be made of it.
     """
     path = Path(path)
-    try:
-        data = tomllib.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read ({error.strerror})") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InputError(f"{path}: not a TOML file ({error})") from None
+    data = read_toml(path)
     try:
         return mechanism_from(data)
     except InputError as error:

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from exu_press.errors import InputError
+from exu_press.read_toml import read_toml
 from exu_press.scene.bodies import STEP_FILES
 from exu_press.scene.loads import with_files_beside
 from exu_press.scene.scene import Scene
@@ -24,12 +25,7 @@ def load_scene(path: str | Path, assignments: Iterable[str] = ()) -> Scene:
         InputError: the file cannot be read or parsed, or the scene is not allowed.
     """
     path = Path(path)
-    try:
-        data = tomllib.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read ({error.strerror})") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InputError(f"{path}: not a TOML file ({error})") from None
+    data = read_toml(path)
     if str(data.get("mechanism", "")).endswith(".toml"):
         data["mechanism"] = str(path.parent / data["mechanism"])
     if isinstance(bodies := data.get("bodies"), dict):

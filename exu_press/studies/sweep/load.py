@@ -1,10 +1,10 @@
 """A study file: TOML in, a checked study out."""
 
-import tomllib
 from pathlib import Path
 
 from exu_press.checks import table_from
 from exu_press.errors import InputError
+from exu_press.read_toml import read_toml
 from exu_press.scene import load_scene
 from exu_press.studies.sweep.study import Study
 
@@ -19,12 +19,7 @@ def load_study(path: str | Path) -> Study:
             allowed.
     """
     path = Path(path)
-    try:
-        data = tomllib.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read ({error.strerror})") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InputError(f"{path}: not a TOML file ({error})") from None
+    data = read_toml(path)
     if "scene" not in data:
         raise InputError(f'{path}: no scene; allowed is scene = "FILE.toml" or a [scene] table')
     if isinstance(data["scene"], str):

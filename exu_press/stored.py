@@ -20,6 +20,7 @@ NOUNS = {
     int: "a whole number",
     float: "a number",
     dict: "a table",
+    list: "a list",
     tuple: "a list",
 }
 

@@ -40,6 +40,7 @@ def test_what_is_of_its_kind_comes_back(kind, text, value):
         (float, "1e200", r"it = 1e\+200: allowed is a number"),
         (tuple[str, ...], '"ab"', "it = 'ab': allowed is a list"),
         (tuple[str, ...], "[1]", "it = 1: allowed is a text"),
+        (list[float], "false", "it = False: allowed is a list"),
         (dict[str, str], "[1]", r"it = \[1\]: allowed is a table"),
         (dict[str, str], '{"a b": 1}', r"it\['a b'\] = 1: allowed is a text"),
         (Wheel, '{"name": "w"}', "it: has no teeth"),

@@ -39,7 +39,9 @@ class Progress:
     def _begin_bar(self) -> "tqdm[NoReturn]":
         from tqdm import tqdm
 
+        tqdm.monitor_interval = 0  # no thread of its own: a process with one can be copied
         return tqdm(
+            miniters=1e-12,  # looks at the clock at every update, as that thread would
             desc=self._label,
             total=self._total,
             file=self._stream,

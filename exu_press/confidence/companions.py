@@ -1,13 +1,17 @@
 """Runs of the same scene at other tolerances, beside the run itself, in one further process."""
 
 import math
+import multiprocessing
 import pickle
 import subprocess
 import sys
 import tempfile
+import threading
+from multiprocessing.process import BaseProcess
 from pathlib import Path
 from types import TracebackType
 
+from exu_press.confidence import companion
 from exu_press.result import Result
 from exu_press.scene import Scene
 
@@ -23,6 +27,9 @@ LOOSEST = 0.1
 
 LARGEST_STEP = 15.0
 """degrees"""
+
+SAID = "said.txt"
+"""What the process of the companions wrote to its terminal."""
 
 
 def plan(scene: Scene) -> dict[float, Scene]:
@@ -51,23 +58,51 @@ def plan(scene: Scene) -> dict[float, Scene]:
     return found
 
 
+def _may_fork() -> bool:
+    """Return whether a copy of this process can go on by itself.
+
+    It has this thread alone, so a lock that another one holds is never released in it; NGSolve has
+    threads of its own. A process of multiprocessing's pools may have no children of that kind.
+    """
+    return (
+        sys.platform == "linux"
+        and threading.active_count() == 1
+        and "ngsolve" not in sys.modules
+        and not multiprocessing.current_process().daemon
+    )
+
+
+def _forked(directory: Path) -> None:
+    """Do in a copy of this process what `companion` does in a new one."""
+    sys.stdout = sys.stderr = (directory / SAID).open("w", encoding="utf-8")
+    companion.main(directory)
+
+
 class Companions:
     """The companions of a scene under way; a context manager that leaves no process behind."""
 
     def __init__(self, scene: Scene) -> None:
-        """Start them, one after the other in a process of their own."""
-        self._ratios = tuple(plan(scene))
-        self._directory = tempfile.TemporaryDirectory(prefix="exu_press_")
-        command = [sys.executable, "-m", "exu_press.confidence.companion", self._directory.name]
-        self._process = subprocess.Popen(
-            command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE
-        )
-        assert self._process.stdin is not None
-        try:
-            self._process.stdin.write(pickle.dumps(tuple(plan(scene).values())))
-            self._process.stdin.close()
-        except BrokenPipeError:  # it ended at once, and says why when it is asked
-            pass
+        """Start them, one after the other in a process of their own.
+
+        A copy of this process is there at once; a new one takes as long as a short run to load the
+        package, and is started by hand, as multiprocessing would run the user's script again in it.
+        """
+        self._scenes = plan(scene)
+        self._temporary = tempfile.TemporaryDirectory(prefix="exu_press_")
+        self._directory = Path(self._temporary.name)
+        (self._directory / companion.SCENES).write_bytes(pickle.dumps([*self._scenes.values()]))
+        (self._directory / SAID).touch()
+        self._process: BaseProcess | subprocess.Popen[bytes]
+        if _may_fork():
+            fork = multiprocessing.get_context("fork")
+            self._process = fork.Process(target=_forked, args=(self._directory,))
+            self._process.start()
+        else:
+            command = [sys.executable, "-m", companion.__name__, self._temporary.name]
+            with (self._directory / SAID).open("wb") as said:
+                self._process = subprocess.Popen(
+                    command, stdin=subprocess.DEVNULL, stdout=said, stderr=said
+                )
 
     def results(self) -> dict[float, Result]:
         """Wait, and return what came out, by ratio.
@@ -75,15 +110,20 @@ class Companions:
         Raises:
             RuntimeError: the process failed.
         """
-        assert self._process.stderr is not None
-        complaint = self._process.stderr.read().decode(errors="replace")
-        if self._process.wait() != 0:
-            raise RuntimeError(f"a companion run failed: {complaint.strip()[-2000:]}")
-        found = {}
-        for number, ratio in enumerate(self._ratios):
-            path = Path(self._directory.name) / f"{number}.pickle"
-            found[ratio] = pickle.loads(path.read_bytes())
-        return found
+        if status := self._wait():
+            said = (self._directory / SAID).read_text(encoding="utf-8", errors="replace")
+            raise RuntimeError(f"a companion run failed ({status}): {said.strip()[-2000:]}")
+        return {
+            ratio: pickle.loads((self._directory / f"{number}.pickle").read_bytes())
+            for number, ratio in enumerate(self._scenes)
+        }
+
+    def _wait(self) -> int | None:
+        """Return the process's exit status at its end."""
+        if isinstance(self._process, subprocess.Popen):
+            return self._process.wait()
+        self._process.join()
+        return self._process.exitcode
 
     def __enter__(self) -> "Companions":
         """Return the companions."""
@@ -97,7 +137,5 @@ class Companions:
     ) -> None:
         """End the process if it is not done, and clear away what it wrote."""
         self._process.kill()
-        self._process.wait()
-        if self._process.stderr is not None:
-            self._process.stderr.close()
-        self._directory.cleanup()
+        self._wait()
+        self._temporary.cleanup()

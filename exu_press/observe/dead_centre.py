@@ -1,10 +1,12 @@
 """Where the slider turns: the bottom dead centre of every stroke."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
+from exu_press.mechanism import Mechanism
 from exu_press.piecewise import hermite
 from exu_press.result import Result
 from exu_press.scene import Scene, mechanism_of
@@ -46,8 +48,13 @@ def bottom_dead_centres(result: Result) -> list[DeadCentre]:
 
 def ideal_bottom_angle(scene: Scene) -> float:
     """Return the crank angle at which the ideal slider is lowest, to half a degree, rad."""
+    return _ideal_bottom_angle(mechanism_of(scene))
+
+
+@lru_cache(maxsize=16)  # errors take six summaries of a scene, and this is most of a short one's
+def _ideal_bottom_angle(mechanism: Mechanism) -> float:
     angle = np.linspace(0.0, 2.0 * np.pi, 721)
-    position = mechanism_of(scene).ideal_slider(angle, scene.angular_speed)[0]
+    position = mechanism.ideal_slider(angle, speed=1.0)[0]
     return float(angle[np.argmin(position)])
 
 

@@ -1,0 +1,104 @@
+"""The process of companion runs: how it starts, fails and ends."""
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import pytest
+
+from exu_press import Scene
+from exu_press.confidence import companion
+from exu_press.confidence.companions import Companions, _may_fork, plan
+
+SHORT = Scene(mechanism="slider_crank", revolutions=0.02)
+LONG = Scene(joints={"crank_pin": "dry", "balls": "dry"}, revolutions=100.0)
+
+linux = pytest.mark.skipif(sys.platform != "linux", reason="no process is copied there")
+way = pytest.mark.parametrize(
+    "forks", [pytest.param(True, marks=linux, id="copied"), pytest.param(False, id="new")]
+)
+
+
+@pytest.fixture
+def by(monkeypatch):
+    """Set how the process is started."""
+    return lambda forks: monkeypatch.setattr(
+        "exu_press.confidence.companions._may_fork", lambda: forks
+    )
+
+
+@way
+def test_results_are_those_of_the_plan(by, forks, capfd):
+    by(forks)
+    with Companions(SHORT) as companions:
+        found = companions.results()
+    assert {ratio: run.scene for ratio, run in found.items()} == plan(SHORT)
+    assert capfd.readouterr() == ("", "")
+
+
+@way
+def test_no_process_and_no_file_is_left_behind(by, forks):
+    by(forks)
+    begun = time.monotonic()
+    with Companions(LONG) as companions:
+        directory, process = companions._directory, companions._process.pid
+    assert time.monotonic() - begun < 10.0
+    assert not directory.exists()
+    with pytest.raises(ProcessLookupError):
+        os.kill(process, 0)
+
+
+@way
+def test_a_process_that_is_killed_says_so(by, forks):
+    by(forks)
+    with Companions(LONG) as companions:
+        os.kill(companions._process.pid, signal.SIGTERM)
+        with pytest.raises(RuntimeError, match=r"companion run failed \(-15\)"):
+            companions.results()
+
+
+@linux
+def test_what_goes_wrong_in_it_is_told(by, monkeypatch):
+    def fails(scene):
+        raise ValueError("no oil")
+
+    by(True)
+    monkeypatch.setattr(companion, "simulate", fails)
+    with Companions(SHORT) as companions, pytest.raises(RuntimeError, match="ValueError: no oil"):
+        companions.results()
+
+
+def test_beside_another_thread_the_process_is_a_new_one():
+    done = threading.Event()
+    thread = threading.Thread(target=done.wait)
+    thread.start()
+    assert not _may_fork()
+    done.set()
+    thread.join()
+
+
+@linux
+def test_ctrl_c_ends_both_at_once(tmp_path):
+    """As a terminal does it: to the whole group of processes."""
+    changes = ["--set", "joints.crank_pin=dry", "--set", "revolutions=100"]
+    run = subprocess.Popen(
+        [sys.executable, "-m", "exu_press", "run", "press", *changes, "--out", str(tmp_path)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+    children = Path(f"/proc/{run.pid}/task/{run.pid}/children")
+    while run.poll() is None and not children.read_text():
+        time.sleep(0.02)
+    time.sleep(0.3)
+    os.killpg(run.pid, signal.SIGINT)
+    _, said = run.communicate(timeout=30)
+    assert "Traceback" not in said
+    assert run.returncode in (3, 130)
+    with pytest.raises(ProcessLookupError):
+        os.killpg(run.pid, 0)

@@ -4,7 +4,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exu_press.confidence.companions import Companions, plan
 from exu_press.confidence.estimate import (
@@ -16,7 +15,7 @@ from exu_press.confidence.estimate import (
     scattered,
 )
 from exu_press.confidence.figures import figures
-from exu_press.confidence.growth import Growth, growth
+from exu_press.confidence.parting import parting
 from exu_press.confidence.reading import LOADS, overshot, smoothed
 from exu_press.confidence.windows import until
 from exu_press.result import Result
@@ -25,11 +24,6 @@ from exu_press.scene import Scene
 from exu_press.simulation import simulate
 
 __all__ = ["errors_of", "simulate_with_errors", "with_errors"]
-
-Array = NDArray[np.float64]
-
-APART = 0.3
-"""Of a clearance: eccentricities that differ by this have nothing in common any more."""
 
 OF_LOADS = 1e-5
 """Least error of figures that follow from accelerations, over themselves."""
@@ -115,7 +109,7 @@ def errors_of(result: Result, companions: Mapping[float, Result]) -> Errors:
     kept = {ratio: until(run, end) for ratio, run in companions.items() if _reached(run, end)}
     if not kept:
         return {"errors": {}, "errors_from": None, "amplification": None}
-    parted = _parting(result, kept)
+    parted = parting(result, kept[min(kept)])
     now = {1.0: figures(result.summary())}
     now |= {ratio: figures(run.summary()) for ratio, run in kept.items()}
     before = now
@@ -185,21 +179,6 @@ def _least(name: str, values: Sequence[float], run: Mapping[str, float]) -> floa
         return ROUNDING * size
     alike = max(values) - min(values) <= OF_LOADS * size
     return (OF_THE_START if alike else OF_LOADS) * size
-
-
-def _parting(result: Result, companions: Mapping[float, Result]) -> Growth:
-    """Return how a run and the finest of its companions part."""
-    nearest = companions[min(companions)]
-    distance = np.zeros_like(result.time)
-    for name in result.clearance_joints:
-        clearance = result.joints[name].clearance
-        there, here = nearest[f"{name}_eccentricity"], result[f"{name}_eccentricity"]
-        squares = [
-            (np.interp(result.time, nearest.time, there[:, i]) - here[:, i]) ** 2
-            for i in range(here.shape[1])
-        ]
-        distance = np.maximum(distance, np.sqrt(np.sum(squares, axis=0)) / clearance)
-    return growth(result.time, distance, APART)
 
 
 def _reached(run: Result, end: float) -> bool:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from exu_press.confidence import Growth, growth
-from exu_press.scene import Scene
+from exu_press.scene import Scene, mechanism_of
 from exu_press.studies.precision.errors import Errors
 from exu_press.studies.precision.trajectory import Trajectory
 
@@ -55,6 +55,7 @@ class Reference:
 def parting(scene: Scene, one: Trajectory, other: Trajectory) -> Growth:
     """Return how two trajectories of a scene part, until they are KNOWN apart."""
     clearances = [joint.clearance for joint in scene.joints.with_clearance.values()]
+    clearances += [g.ways.clearance for g in mechanism_of(scene).guides if g.ways is not None]
     if not clearances:
         return STAYS
     there, _ = other.at(np.clip(one.time, other.time[0], other.time[-1]))

@@ -1,0 +1,48 @@
+"""How a run and one beside it part: in joints with clearance, and in guides with play."""
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exu_press.confidence.growth import Growth, growth
+from exu_press.result import Result
+from exu_press.scene import mechanism_of
+
+__all__ = ["parting"]
+
+Array = NDArray[np.float64]
+
+APART = 0.3
+"""Of a clearance: journals that differ by this have nothing in common any more."""
+
+
+def parting(result: Result, other: Result) -> Growth:
+    """Return how fast two runs of a scene part, in clearances, and from when on they have parted.
+
+    Args:
+        result: whose instants count.
+        other: at another tolerance, or from another start.
+    """
+    distance = np.zeros_like(result.time)
+    for (clearance, here), (_, there) in zip(_plays(result), _plays(other), strict=True):
+        squares = [
+            (np.interp(result.time, other.time, there[:, i]) - here[:, i]) ** 2
+            for i in range(here.shape[1])
+        ]
+        distance = np.maximum(distance, np.sqrt(np.sum(squares, axis=0)) / clearance)
+    return growth(result.time, distance, APART)
+
+
+def _plays(run: Result) -> Iterator[tuple[float, Array]]:
+    """Yield each clearance, m, and where in it the body is, (n, k), m."""
+    for name in run.clearance_joints:
+        yield run.joints[name].clearance, run[f"{name}_eccentricity"]
+    mechanism = mechanism_of(run.scene)
+    for guide in mechanism.guides:
+        if guide.ways is not None:
+            position = run["body_position"][:, run.bodies.index(guide.body)]
+            beside = position[:, :2] @ np.array(guide.across)
+            angle = position[:, 2] - mechanism.body(guide.body).angle
+            reach = 0.5 * guide.ways.length * np.sin(angle)
+            yield guide.ways.clearance, np.stack([beside - reach, beside + reach], axis=1)

@@ -1,0 +1,49 @@
+"""From when on two runs of a scene have nothing in common."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from exu_press import Scene, simulate
+from exu_press.confidence.parting import APART, parting
+from exu_press.scene import mechanism_of
+
+PLAY = 1e-4
+LOOSE = Scene(
+    mechanism="slider_crank", joints={}, revolutions=0.2, guide={"clearance": PLAY, "length": 0.2}
+)
+
+
+@pytest.fixture(scope="module")
+def run():
+    return simulate(LOOSE)
+
+
+def moved(result, column, amount):
+    """Return a run whose slider moves away, from next to nothing on to `amount` at its end."""
+    channel = result.channels["body_position"]
+    values = channel.values.copy()
+    values[:, result.bodies.index("slider"), column] += amount * np.geomspace(
+        1e-6, 1.0, len(values)
+    )
+    channels = {**result.channels, "body_position": dataclasses.replace(channel, values=values)}
+    return dataclasses.replace(result, channels=channels)
+
+
+def test_a_body_that_is_elsewhere_between_its_ways_has_parted(run):
+    across = int(np.argmax(np.abs(mechanism_of(LOOSE).guides[0].across)))
+    assert parting(run, moved(run, across, 0.9 * APART * PLAY / 2**0.5)).horizon is None
+    found = parting(run, moved(run, across, APART * PLAY))
+    assert 0.9 * run.time[-1] < found.horizon <= run.time[-1]
+
+
+def test_one_that_tilts_has_too(run):
+    tilt = APART * PLAY / 0.1  # about half the length, its ends are so far away
+    assert parting(run, moved(run, 2, 0.9 * tilt / 2**0.5)).horizon is None
+    assert parting(run, moved(run, 2, tilt)).horizon is not None
+
+
+def test_one_that_is_ahead_has_not(run):
+    along = int(np.argmax(np.abs(mechanism_of(LOOSE).guides[0].direction)))
+    assert parting(run, moved(run, along, PLAY)).horizon is None

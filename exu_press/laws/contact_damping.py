@@ -1,8 +1,6 @@
 """Normal contact force: an elastic part and one of the damping laws.
 
-The hysteretic laws share F = f(delta) (1 + chi rate / v0), v0 the approach speed at first touch.
-They differ in chi, a function of the wanted restitution; the restitution they deliver follows from
-chi alone (`exu_press.laws.contact_restitution.restitution_of`), whatever f and the mass.
+`step_damping` is that of ADAMS. The others share `hysteretic` and differ in chi alone.
 """
 
 import math
@@ -20,6 +18,7 @@ __all__ = [
     "gonthier",
     "hu_guo",
     "hunt_crossley",
+    "hysteretic",
     "lankarani_nikravesh",
     "step",
     "step_damping",
@@ -192,22 +191,23 @@ def step_damping(
     return NormalContact(stiffness, damping, needs_impact_speed=False, tension=tension)
 
 
-def hunt_crossley(
+def hysteretic(
     stiffness: Stiffness,
     restitution: float,
+    chi: Callable[[float], float],
     tension: bool = False,
     slowest_impact: float = SLOWEST_IMPACT,
 ) -> NormalContact:
-    r"""Hysteretic damping of Hunt and Crossley.
+    r"""Hysteretic damping; the laws below differ in chi, a function of the wanted restitution.
 
     .. math::
-        F = f(\delta) \left(1 + \chi \frac{\dot\delta}{v_0}\right), \qquad
-        \chi = \tfrac32 (1 - e)
+        F = f(\delta) \left(1 + \chi(e) \frac{\dot\delta}{v_0}\right)
 
     Parameters
     ----------
     stiffness : the elastic part f(delta)
     restitution : the wanted coefficient of restitution e [-], 0 < e <= 1
+    chi : e [-] -> chi [-]
     tension : True keeps the force where it would pull; False lets the surfaces part there (A-10)
     slowest_impact : [m/s], positive; chi / v_0 of slower impacts is taken at this speed
 
@@ -221,9 +221,55 @@ def hunt_crossley(
 
     Notes
     -----
-    Range: derived for e near 1; a wanted 0.5 delivers 0.663.
+    Range: any f and any mass; `exu_press.laws.contact_restitution.restitution_of` gives the
+    restitution that chi delivers.
     A contact that begins at rest (v_0 = 0) has a finite, light damping through `slowest_impact`,
     and the restitution tends to one with the speed, as it does in reality.
+
+    Examples
+    --------
+    807.804 N elastic, which closing at the speed of first touch raises by chi = 0.5:
+
+    >>> from exu_press.laws.contact_stiffness import hertz
+    >>> contact = hysteretic(hertz(2.5545e10), restitution=0.5, chi=lambda e: 1.0 - e)
+    >>> round(contact.force(10e-6, 0.1, 0.1)[0], 3)
+    1211.706
+    """
+    demand(
+        0.0 < restitution <= 1.0,
+        "restitution",
+        restitution,
+        "0 < restitution <= 1",
+        "Flores et al. 2011: towards 0 chi grows without bound",
+    )
+    positive(slowest_impact=slowest_impact)
+    wanted = chi(restitution)
+
+    def damping(
+        _penetration: float, rate: float, impact_speed: float, elastic: float, slope: float
+    ) -> tuple[float, float, float]:
+        per_rate = wanted / (impact_speed if impact_speed > slowest_impact else slowest_impact)
+        return elastic * per_rate * rate, slope * per_rate * rate, elastic * per_rate
+
+    return NormalContact(stiffness, damping, needs_impact_speed=True, tension=tension)
+
+
+def hunt_crossley(
+    stiffness: Stiffness,
+    restitution: float,
+    tension: bool = False,
+    slowest_impact: float = SLOWEST_IMPACT,
+) -> NormalContact:
+    r"""Hysteretic damping of Hunt and Crossley.
+
+    .. math::
+        \chi = \tfrac32 (1 - e)
+
+    Parameters, what is returned and errors are those of `hysteretic`.
+
+    Notes
+    -----
+    Range: derived for e near 1; a wanted 0.5 delivers 0.663.
 
     Examples
     --------
@@ -239,7 +285,7 @@ def hunt_crossley(
     .. [1] Hunt, K. H., and F. R. E. Crossley. "Coefficient of Restitution Interpreted as Damping in
        Vibroimpact." J. Appl. Mech. 42 (1975): 440-445.
     """
-    return _hysteretic(stiffness, restitution, 1.5 * (1.0 - restitution), tension, slowest_impact)
+    return hysteretic(stiffness, restitution, lambda e: 1.5 * (1.0 - e), tension, slowest_impact)
 
 
 def lankarani_nikravesh(
@@ -251,29 +297,13 @@ def lankarani_nikravesh(
     r"""Hysteretic damping of Lankarani and Nikravesh.
 
     .. math::
-        F = f(\delta) \left(1 + \chi \frac{\dot\delta}{v_0}\right), \qquad
         \chi = \tfrac34 (1 - e^2)
 
-    Parameters
-    ----------
-    stiffness : the elastic part f(delta)
-    restitution : the wanted coefficient of restitution e [-], 0 < e <= 1
-    tension : True keeps the force where it would pull; False lets the surfaces part there (A-10)
-    slowest_impact : [m/s], positive; chi / v_0 of slower impacts is taken at this speed
-
-    Returns
-    -------
-    The normal force; it needs v_0 [m/s], the approach speed at first touch.
-
-    Raises
-    ------
-    InputError : restitution or slowest_impact is outside its range
+    Parameters, what is returned and errors are those of `hysteretic`.
 
     Notes
     -----
     Range: derived for e near 1; a wanted 0.5 delivers 0.725.
-    A contact that begins at rest (v_0 = 0) has a finite, light damping through `slowest_impact`,
-    and the restitution tends to one with the speed, as it does in reality.
 
     Examples
     --------
@@ -289,8 +319,8 @@ def lankarani_nikravesh(
     .. [1] Lankarani, H. M., and P. E. Nikravesh. "A Contact Force Model with Hysteresis Damping for
        Impact Analysis of Multibody Systems." J. Mech. Des. 112 (1990): 369-376.
     """
-    return _hysteretic(
-        stiffness, restitution, 0.75 * (1.0 - restitution**2), tension, slowest_impact
+    return hysteretic(
+        stiffness, restitution, lambda e: 0.75 * (1.0 - e**2), tension, slowest_impact
     )
 
 
@@ -303,29 +333,13 @@ def flores(
     r"""Hysteretic damping of Flores, Machado, Silva and Martins.
 
     .. math::
-        F = f(\delta) \left(1 + \chi \frac{\dot\delta}{v_0}\right), \qquad
         \chi = \frac{8 (1 - e)}{5 e}
 
-    Parameters
-    ----------
-    stiffness : the elastic part f(delta)
-    restitution : the wanted coefficient of restitution e [-], 0 < e <= 1
-    tension : True keeps the force where it would pull; False lets the surfaces part there (A-10)
-    slowest_impact : [m/s], positive; chi / v_0 of slower impacts is taken at this speed
-
-    Returns
-    -------
-    The normal force; it needs v_0 [m/s], the approach speed at first touch.
-
-    Raises
-    ------
-    InputError : restitution or slowest_impact is outside its range
+    Parameters, what is returned and errors are those of `hysteretic`.
 
     Notes
     -----
     Range: every e in (0, 1]; a wanted 0.5 delivers 0.470.
-    A contact that begins at rest (v_0 = 0) has a finite, light damping through `slowest_impact`,
-    and the restitution tends to one with the speed, as it does in reality.
 
     Examples
     --------
@@ -341,9 +355,9 @@ def flores(
     .. [1] Flores, P., M. Machado, M. T. Silva, and J. M. Martins. "On the Continuous Contact Force
        Models for Soft Materials in Multibody Dynamics." Multibody Syst. Dyn. 25 (2011): 357-375.
     """
-    _demand_restitution(restitution)
-    chi = 1.6 * (1.0 - restitution) / restitution
-    return _hysteretic(stiffness, restitution, chi, tension, slowest_impact)
+    return hysteretic(
+        stiffness, restitution, lambda e: 1.6 * (1.0 - e) / e, tension, slowest_impact
+    )
 
 
 def gonthier(
@@ -355,29 +369,13 @@ def gonthier(
     r"""Hysteretic damping of Gonthier, McPhee, Lange and Piedboeuf, their approximation.
 
     .. math::
-        F = f(\delta) \left(1 + \chi \frac{\dot\delta}{v_0}\right), \qquad
         \chi = \frac{1 - e^2}{e}
 
-    Parameters
-    ----------
-    stiffness : the elastic part f(delta)
-    restitution : the wanted coefficient of restitution e [-], 0 < e <= 1
-    tension : True keeps the force where it would pull; False lets the surfaces part there (A-10)
-    slowest_impact : [m/s], positive; chi / v_0 of slower impacts is taken at this speed
-
-    Returns
-    -------
-    The normal force; it needs v_0 [m/s], the approach speed at first touch.
-
-    Raises
-    ------
-    InputError : restitution or slowest_impact is outside its range
+    Parameters, what is returned and errors are those of `hysteretic`.
 
     Notes
     -----
     Range: every e in (0, 1]; a wanted 0.5 delivers 0.488.
-    A contact that begins at rest (v_0 = 0) has a finite, light damping through `slowest_impact`,
-    and the restitution tends to one with the speed, as it does in reality.
 
     Examples
     --------
@@ -394,9 +392,7 @@ def gonthier(
        Asymmetric Damping and Dwell-Time Dependent Friction." Multibody Syst. Dyn. 11 (2004):
        209-233.
     """
-    _demand_restitution(restitution)
-    chi = (1.0 - restitution**2) / restitution
-    return _hysteretic(stiffness, restitution, chi, tension, slowest_impact)
+    return hysteretic(stiffness, restitution, lambda e: (1.0 - e**2) / e, tension, slowest_impact)
 
 
 def hu_guo(
@@ -408,29 +404,13 @@ def hu_guo(
     r"""Hysteretic damping of Hu and Guo.
 
     .. math::
-        F = f(\delta) \left(1 + \chi \frac{\dot\delta}{v_0}\right), \qquad
         \chi = \frac{3 (1 - e)}{2 e}
 
-    Parameters
-    ----------
-    stiffness : the elastic part f(delta)
-    restitution : the wanted coefficient of restitution e [-], 0 < e <= 1
-    tension : True keeps the force where it would pull; False lets the surfaces part there (A-10)
-    slowest_impact : [m/s], positive; chi / v_0 of slower impacts is taken at this speed
-
-    Returns
-    -------
-    The normal force; it needs v_0 [m/s], the approach speed at first touch.
-
-    Raises
-    ------
-    InputError : restitution or slowest_impact is outside its range
+    Parameters, what is returned and errors are those of `hysteretic`.
 
     Notes
     -----
     Range: every e in (0, 1]; a wanted 0.5 delivers 0.488.
-    A contact that begins at rest (v_0 = 0) has a finite, light damping through `slowest_impact`,
-    and the restitution tends to one with the speed, as it does in reality.
 
     Examples
     --------
@@ -446,35 +426,9 @@ def hu_guo(
     .. [1] Hu, S., and X. Guo. "A Dissipative Contact Force Model for Impact Analysis in Multibody
        Dynamics." Multibody Syst. Dyn. 35 (2015): 131-151.
     """
-    _demand_restitution(restitution)
-    chi = 1.5 * (1.0 - restitution) / restitution
-    return _hysteretic(stiffness, restitution, chi, tension, slowest_impact)
-
-
-def _demand_restitution(restitution: float) -> None:
-    demand(
-        0.0 < restitution <= 1.0,
-        "restitution",
-        restitution,
-        "0 < restitution <= 1",
-        "Flores et al. 2011: towards 0 chi grows without bound",
+    return hysteretic(
+        stiffness, restitution, lambda e: 1.5 * (1.0 - e) / e, tension, slowest_impact
     )
-
-
-def _hysteretic(
-    stiffness: Stiffness, restitution: float, chi: float, tension: bool, slowest_impact: float
-) -> NormalContact:
-    """F = f(delta) (1 + chi rate / max(v0, slowest_impact))."""
-    _demand_restitution(restitution)
-    positive(slowest_impact=slowest_impact)
-
-    def damping(
-        _penetration: float, rate: float, impact_speed: float, elastic: float, slope: float
-    ) -> tuple[float, float, float]:
-        per_rate = chi / (impact_speed if impact_speed > slowest_impact else slowest_impact)
-        return elastic * per_rate * rate, slope * per_rate * rate, elastic * per_rate
-
-    return NormalContact(stiffness, damping, needs_impact_speed=True, tension=tension)
 
 
 DAMPING_LAWS: dict[str, Callable[..., NormalContact]] = {

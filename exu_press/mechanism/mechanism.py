@@ -3,6 +3,7 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -132,7 +133,7 @@ class Mechanism:
             self.along(slider.acceleration),
         )
 
-    @property
+    @cached_property
     def dead_centres(self) -> tuple[float, float] | None:
         """Crank angles of the ideal slider's top and bottom dead centre, rad, to 1e-4.
 

@@ -127,3 +127,11 @@ def test_links_out_of_all_proportion_are_refused():
     """Relative to their length the linkage does not move: already the drawing is singular."""
     with pytest.raises(InputError, match="link_5_right and link_6_right lock or branch"):
         Scene(press={"link_5_length": 23000.0})
+
+
+def test_dead_centres_are_where_the_slider_stands_still_and_are_found_once():
+    top, bottom = PRESS.dead_centres
+    _, velocity, acceleration = PRESS.ideal_slider(np.array([top, bottom]), 1.0)
+    assert_allclose(velocity, 0.0, atol=1e-9)
+    assert acceleration[0] < 0.0 < acceleration[1]
+    assert PRESS.dead_centres is PRESS.dead_centres

@@ -1,6 +1,7 @@
 """How a run and one beside it part: in joints with clearance, and in guides with play."""
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,7 +10,7 @@ from exu_press.confidence.growth import Growth, growth
 from exu_press.result import Result
 from exu_press.scene import mechanism_of
 
-__all__ = ["parting"]
+__all__ = ["Parting", "parting"]
 
 Array = NDArray[np.float64]
 
@@ -17,12 +18,29 @@ APART = 0.3
 """Of a clearance: journals that differ by this have nothing in common any more."""
 
 
-def parting(result: Result, other: Result) -> Growth:
+@dataclass(frozen=True)
+class Parting:
+    """How a run parts from the truth, as far as one beside it tells.
+
+    Attributes:
+        beside: instant from which on the two have nothing in common, s, or None.
+        growth: of their distance, until the run itself has nothing in common with the truth.
+    """
+
+    beside: float | None
+    growth: Growth
+
+
+def parting(result: Result, other: Result, ratio: float) -> Parting:
     """Return how fast two runs of a scene part, in clearances, and from when on they have parted.
+
+    As long as errors go with the tolerance, the run is nearer to the truth than to the other one,
+    by the ratio less one.
 
     Args:
         result: whose instants count.
-        other: at another tolerance, or from another start.
+        other: at another tolerance or step.
+        ratio: of the other one's tolerance or step to the run's.
     """
     distance = np.zeros_like(result.time)
     for (clearance, here), (_, there) in zip(_plays(result), _plays(other), strict=True):
@@ -31,7 +49,8 @@ def parting(result: Result, other: Result) -> Growth:
             for i in range(here.shape[1])
         ]
         distance = np.maximum(distance, np.sqrt(np.sum(squares, axis=0)) / clearance)
-    return growth(result.time, distance, APART)
+    beside = growth(result.time, distance, APART).horizon
+    return Parting(beside, growth(result.time, distance, APART * max(1.0, ratio - 1.0)))
 
 
 def _plays(run: Result) -> Iterator[tuple[float, Array]]:

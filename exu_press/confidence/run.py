@@ -7,6 +7,7 @@ import numpy as np
 
 from exu_press.confidence.companions import Companions, plan
 from exu_press.confidence.estimate import (
+    AMPLIFIED,
     ROUNDING,
     SAFETY,
     SAFETY_OF_STEPS,
@@ -24,6 +25,9 @@ from exu_press.scene import Scene
 from exu_press.simulation import simulate
 
 __all__ = ["errors_of", "simulate_with_errors", "with_errors"]
+
+Figures = Mapping[float, Mapping[str, float]]
+"""Of the run and its companions, by the ratio of their tolerance to the run's."""
 
 OF_LOADS = 1e-5
 """Least error of figures that follow from accelerations, over themselves."""
@@ -109,51 +113,54 @@ def errors_of(result: Result, companions: Mapping[float, Result]) -> Errors:
     kept = {ratio: until(run, end) for ratio, run in companions.items() if _reached(run, end)}
     if not kept:
         return {"errors": {}, "errors_from": None, "amplification": None}
-    parted = parting(result, kept[min(kept)])
-    now = {1.0: figures(result.summary())}
-    now |= {ratio: figures(run.summary()) for ratio, run in kept.items()}
-    before = now
-    if parted.horizon is not None:
-        runs = {1.0: result, **kept}
-        before = {r: figures(until(run, parted.horizon).summary()) for r, run in runs.items()}
+    nearest = min(kept)
+    parted = parting(result, kept[nearest], nearest)
+    horizon, runs = parted.growth.horizon, {1.0: result, **kept}
+    by_end = {end: _figures(runs, end) for end in {None, parted.beside, horizon}}
     solver = result.scene.solver
     safety = SAFETY if solver is not None and solver.step is None else SAFETY_OF_STEPS
     reads = [figures(changed(result).summary()) for changed in (smoothed, overshot)]
+    until_then = {safety: by_end[parted.beside], AMPLIFIED * safety: by_end[horizon]}
     errors: dict[str, Error] = {}
-    for name, value in now[1.0].items():
-        of = _error(name, now, before, max(abs(value - read[name]) for read in reads), safety)
+    for name, value in by_end[None][1.0].items():
+        read = max(abs(value - changed[name]) for changed in reads)
+        of = _error(name, by_end[None], until_then, read)
         low, high = of.low, of.high
         if value >= 0.0 and not name.endswith(SIGNED):
             low = max(low, 0.0)
         errors[name] = {"error": of.error, "determined": of.determined, "low": low, "high": high}
-    return {"errors": errors, "errors_from": parted.horizon, "amplification": parted.rate}
+    return {"errors": errors, "errors_from": horizon, "amplification": parted.growth.rate}
+
+
+def _figures(runs: Mapping[float, Result], end: float | None) -> Figures:
+    """Return the figures of runs, of their motion until an instant, s."""
+    return {
+        r: figures((run if end is None else until(run, end)).summary()) for r, run in runs.items()
+    }
 
 
 def _error(
-    name: str,
-    now: Mapping[float, Mapping[str, float]],
-    before: Mapping[float, Mapping[str, float]],
-    read: float,
-    safety: float,
+    name: str, now: Figures, until_then: Mapping[float, Figures], read: float
 ) -> FigureError:
     """Return the error of a figure.
 
     Args:
         name: of the figure.
-        now: ratio -> the figures of the run or of a companion.
-        before: the same, of the motion until the horizon.
+        now: of the whole motion.
+        until_then: safety of errors that go with the tolerance or the step -> the figures until the
+            instant up to which it is enough.
         read: what reading the figure at the run's steps leaves open.
-        safety: of errors that go with the tolerance or the step.
     """
     values = {ratio: found[name] for ratio, found in now.items() if name in found}
     if len(values) < 2:
         return scattered([values[1.0], 0.0])
-    same = all(
-        abs(before[r].get(name, np.inf) - value) <= SAME * abs(value) for r, value in values.items()
-    )
     least = _least(name, list(values.values()), now[1.0]) + OF_READING * read
-    if same:
-        return converging(list(values.values()), list(values), least, safety)
+    for safety, before in until_then.items():
+        if all(
+            abs(before[r].get(name, np.inf) - value) <= SAME * abs(value)
+            for r, value in values.items()
+        ):
+            return converging(list(values.values()), list(values), least, safety)
     return scattered(list(values.values()), least)
 
 

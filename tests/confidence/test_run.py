@@ -1,11 +1,14 @@
 """Runs tell how far their figures can be believed."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from exu_press import Result, Scene, simulate
 from exu_press.confidence import simulate_with_errors, with_errors
 from exu_press.confidence.companions import plan
+from exu_press.confidence.estimate import AMPLIFIED
 from exu_press.confidence.figures import figures
 from exu_press.confidence.run import errors_of
 
@@ -57,6 +60,28 @@ def test_motions_that_part_leave_bounds():
     told = errors_of(result, {4.0: other})
     assert told["errors_from"] is not None
     assert not told["errors"]["joints.crank_pin.peak_force"]["determined"]
+
+
+def test_a_run_that_has_not_parted_itself_tells_a_larger_error():
+    """Its companion has, of which it is three times as near to the truth."""
+    scene = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=0.1)
+    result = simulate(scene)
+    channels = dict(result.channels)
+    journal, force = channels["crank_pin_eccentricity"], channels["crank_pin_force"]
+    clearance = scene.joints["crank_pin"].clearance
+    late = (result.time > 0.5 * result.time[-1])[:, None]
+    channels["crank_pin_force"] = replace(force, values=force.values * np.where(late, 1e3, 1.0))
+    found = {}
+    for part in (0.2, 0.6, 1.2):
+        away = np.where(late, part * clearance, 0.0) * [1.0, 0.0]
+        channels["crank_pin_eccentricity"] = replace(journal, values=journal.values + away)
+        found[part] = errors_of(result, {4.0: replace(result, channels=channels)})
+    least, more, most = (
+        one["errors"]["joints.crank_pin.peak_force"]["error"] for one in found.values()
+    )
+    assert [one["errors_from"] is None for one in found.values()] == [True, True, False]
+    assert more == pytest.approx(AMPLIFIED * least, rel=1e-3)
+    assert most > 3.0 * more
 
 
 def test_magnitudes_are_not_below_zero_and_energies_may_be():

@@ -17,6 +17,7 @@ LEFT_OUT = (
     "ablation",
     "benchmark_",
     "calibrate_",
+    "examples_",
     "fit_",
     "tabulate_",
     "flexible_",

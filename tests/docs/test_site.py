@@ -1,5 +1,6 @@
 """The site is built without a warning."""
 
+import ast
 import subprocess
 import sys
 from pathlib import Path
@@ -7,6 +8,21 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
+
+
+def test_scripts_of_the_gallery_need_no_file_beside_them(monkeypatch, tmp_path):
+    """Sphinx-Gallery runs copies of them."""
+    monkeypatch.syspath_prepend(str(ROOT / "docs"))
+    from sphinx_parts import scripts
+
+    monkeypatch.setattr(scripts, "SOURCES", tmp_path / "gallery")
+    monkeypatch.setattr(scripts, "NUMBERS", tmp_path / "numbers.png")
+    beside = {path.stem for path in (ROOT / "scripts").iterdir()}
+    for script in scripts.gallery_sources().glob("*.py"):
+        nodes = list(ast.walk(ast.parse(script.read_text(encoding="utf-8"))))
+        imported = {node.module for node in nodes if isinstance(node, ast.ImportFrom)}
+        imported |= {n.name for node in nodes if isinstance(node, ast.Import) for n in node.names}
+        assert not beside & {str(name).partition(".")[0] for name in imported}, script.name
 
 
 @pytest.mark.long

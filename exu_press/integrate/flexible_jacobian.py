@@ -32,32 +32,33 @@ class FlexibleJacobian:
             joints: the system's clearance joints, if it has any.
         """
         self._joints = joints
-        self._bodies: tuple[Array, Array] | None = None  # stiffness and damping
+        self._bodies: Array | None = None
+        self._jacobian: Array = np.zeros((0, 0))
         solver.SetUserFunctionComputeNewtonJacobian(mbs, self._compute)
 
     def _compute(self, solver: Any, mbs: exu.MainSystem, settings: exu.SimulationSettings) -> bool:
         """Give the solver its Jacobian in the current state; return that this went well."""
+        size = solver.GetODE2size()
         if self._bodies is None:
             self._bodies = self._differentiated(solver, mbs)
-        stiffness, damping = self._bodies
-        step, size = solver.it.currentStepSize, len(stiffness)
+            self._jacobian = np.zeros((size + solver.GetAEsize(),) * 2)
+        step, jacobian = solver.it.currentStepSize, self._jacobian
         by_q, by_q_t = solver.newmarkBeta * step * step, solver.newmarkGamma * step
-        bodies = (1.0 - solver.alphaM) / (1.0 - solver.alphaF) * solver.GetSystemMassMatrix()
-        bodies += by_q * stiffness
-        bodies += by_q_t * damping
+        inertia = (1.0 - solver.alphaM) / (1.0 - solver.alphaF)
+        bodies = jacobian[:size, :size]
+        np.multiply(solver.GetSystemMassMatrix(), inertia, out=bodies)
+        bodies += np.dot((by_q, by_q_t), self._bodies).reshape(size, size)
         if self._joints is not None:
-            self._joints.add_slopes(bodies, by_q, by_q_t)
-        jacobian = np.zeros((size + solver.GetAEsize(),) * 2)
-        jacobian[:size, :size] = bodies
+            self._joints.add_slopes(jacobian, by_q, by_q_t)
         solver.SetSystemJacobian(jacobian)
         solver.ComputeJacobianAE(mbs, 1.0, by_q_t / by_q)  # adds the constraints
         return True
 
-    def _differentiated(self, solver: Any, mbs: exu.MainSystem) -> tuple[Array, Array]:
-        """Return stiffness and damping of all but the clearance joints."""
+    def _differentiated(self, solver: Any, mbs: exu.MainSystem) -> Array:
+        """Return stiffness and damping of all but the clearance joints, a row each."""
         size, found = solver.GetODE2size(), []
         with nullcontext() if self._joints is None else self._joints.left_out():
             for factors in ((-1.0, 0.0), (0.0, -1.0)):
                 solver.ComputeJacobianODE2RHS(mbs, *factors)
-                found.append(np.array(solver.GetSystemJacobian())[:size, :size])
-        return found[0], found[1]
+                found.append(np.array(solver.GetSystemJacobian())[:size, :size].ravel())
+        return np.array(found)

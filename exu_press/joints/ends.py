@@ -191,6 +191,41 @@ class BodyEnd:
             spin[:, size:] = rotation @ self._both[3:]
         return velocity, spin
 
+    def rates_along(self, n: Vector, t: Vector, axis: Vector, beside: Vector) -> Array:
+        """Return, by the coordinates' rates, what a joint in a plane asks of the end, (3, n).
+
+        These are the velocities along two directions and the angular velocity about an axis.
+
+        Args:
+            n: first direction.
+            t: second direction.
+            axis: of the angular velocity.
+            beside: from the end to the point of the body whose velocity is meant, m.
+        """
+        size, moved, spins = len(self._reference), self._moved, self._spins
+        arm, angles = self.arm, size - moved
+        lever = arm[0] + beside[0], arm[1] + beside[1], arm[2] + beside[2]
+        rates = np.zeros((3, len(self.places)))
+        for row, direction, turning in (
+            (0, n, cross(lever, n)),
+            (1, t, cross(lever, t)),
+            (2, (0.0, 0.0, 0.0), axis),
+        ):
+            x, y, z = turning
+            values = list(direction[:moved])
+            for c in range(angles):
+                values.append(spins[c] * x + spins[angles + c] * y + spins[2 * angles + c] * z)
+            rates[row, :size] = values
+        if self._modes:
+            r = self.rotation
+            weights = [
+                [*turned_back(r, n), *turned_back(r, cross(beside, n))],
+                [*turned_back(r, t), *turned_back(r, cross(beside, t))],
+                [0.0, 0.0, 0.0, *turned_back(r, axis)],
+            ]
+            rates[:, size:] = np.array(weights) @ self._both
+        return rates
+
 
 def cross(v: Vector, w: Vector) -> Vector:
     """Return v x w."""

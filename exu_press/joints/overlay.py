@@ -59,7 +59,7 @@ class JointOverlay:
         self._triplets: NDArray[np.float64] = np.zeros((0, 3))
         self._pack = Struct("").pack
         self._matrix = exu.MatrixContainer()
-        self._within: list[tuple[NDArray[np.intp], NDArray[np.intp]]] = []
+        self._within: list[tuple[NDArray[np.intp], NDArray[np.intp], int]] = []
         self._silent = False
         self._started = False
         self._blocks: list[Block] = []
@@ -192,30 +192,44 @@ class JointOverlay:
         Q are the forces that the joints were last asked for.
 
         Args:
-            matrix: (n, n), in one piece.
+            matrix: (m, m) in one piece, m >= n, the coordinates first.
             by_q: factor.
             by_q_t: factor, s.
         """
         if not self._within:
-            self._within = [self._places_within(joint, len(matrix)) for joint in self.joints]
+            self._within = [self._places_within(joint, matrix.shape[1]) for joint in self.joints]
         entries = matrix.reshape(-1)
         q, q_t = self._last
         blocks = self._slopes(self._time, q, q_t, by_q, by_q_t)
-        for block, (kept, places) in zip(blocks, self._within, strict=True):
-            if block is not None:
+        for joint, block, (kept, places, first) in zip(
+            self.joints, blocks, self._within, strict=True
+        ):
+            if block is None:
+                continue
+            if first >= 0:
+                size = len(joint.places)
+                matrix[first : first + size, first : first + size] += np.reshape(
+                    block, (size, size)
+                )
+            else:
                 entries[places] += np.asarray(block)[kept]  # no place is there twice
 
     def _places_within(
         self, joint: ClearanceJoint, size: int
-    ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Return which entries of a joint's block count, and where in a matrix of the system."""
+    ) -> tuple[NDArray[np.intp], NDArray[np.intp], int]:
+        """Return which entries of a joint's block count, and where in a matrix of the system.
+
+        The third is where they begin on its diagonal if they are one piece of it, else -1.
+        """
         at = np.zeros(self.size, dtype=np.intp)
         for node, start in self.nodes.items():  # a later one overwrites what is behind this one
             at[start:] = self._mbs.GetNodeODE2Index(node) + np.arange(self.size - start)
         places = np.array(joint.places)
         rows, columns = (axis.ravel() for axis in np.meshgrid(places, places, indexing="ij"))
         kept = np.flatnonzero((rows >= 0) & (columns >= 0))  # all but the ground's
-        return kept, at[rows[kept]] * size + at[columns[kept]]
+        together = bool((places >= 0).all()) and bool((np.diff(at[places]) == 1).all())
+        first = int(at[places[0]]) if together else -1
+        return kept, at[rows[kept]] * size + at[columns[kept]], first
 
     def _forces(self, mbs: exu.MainSystem, time: float, item: int, q: Any, q_t: Any) -> Any:
         """Return the generalised forces of all joints, a list as Exudyn passes and takes it.

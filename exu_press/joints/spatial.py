@@ -6,7 +6,7 @@ from math import sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.joints.ends import BodyEnd, Vector, cross, cross_matrix, dot, turned
+from exu_press.joints.ends import BodyEnd, Vector, cross, dot, turned
 from exu_press.joints.joint import JointState
 from exu_press.joints.pairs import Pair, PairedJoint
 
@@ -73,7 +73,9 @@ class SpatialRevolute(PairedJoint):
         """Return -(by_q dQ/dq + by_q_t dQ/dq_t), but for what only turns arms and axes."""
         e, e_dot, v_t, w_j, w_b = self._motion
         turn = 1.0 / e if e > 0.0 else 0.0
-        law = np.zeros((4, 6))  # (F_n, F_t, m_J, m_B) by (e_n, e_t, v_n, v_t, omega_J, omega_B)
+        # (F_n, F_t, M_J, M_B) by what moves along n and t and turns journal and bearing
+        normal, across = [0.0] * 4, [0.0] * 4
+        on_journal, on_bearing = [0.0] * 4, [0.0] * 4
         acting = False
         for i, load in enumerate(self._loads):
             if load is None:
@@ -82,22 +84,36 @@ class SpatialRevolute(PairedJoint):
             f_n, f_t, _, _, response = load
             (n_e, n_r, n_v, n_wj, n_wb), (t_e, t_r, t_v, t_wj, t_wb) = self._slopes(i, load)
             arm_j, arm_b, slope_j, slope_b = self.pairs[i].arms(e)
-            n_side = turn * (n_r * v_t - n_v * e_dot)
+            n_side = turn * (n_r * v_t - n_v * e_dot - f_t)
             t_side = turn * (t_r * v_t - t_v * e_dot)
-            drag = np.array([t_e, t_side, t_r, t_v, t_wj, t_wb])
-            law[0] += (n_e, n_side - turn * f_t, n_r, n_v, n_wj, n_wb)
-            law[1] += drag
-            law[1, 1] += turn * f_n
-            law[2] += arm_j * drag
-            law[3] += arm_b * drag
+            normal[0] += by_q * n_e + by_q_t * n_r
+            normal[1] += by_q * n_side + by_q_t * n_v
+            normal[2] += by_q_t * n_wj
+            normal[3] += by_q_t * n_wb
+            drag = (
+                by_q * t_e + by_q_t * t_r,
+                by_q * t_side + by_q_t * t_v,
+                by_q_t * t_wj,
+                by_q_t * t_wb,
+            )
+            for c in range(4):
+                across[c] += drag[c]
+                on_journal[c] += arm_j * drag[c]
+                on_bearing[c] += arm_b * drag[c]
+            across[1] += by_q * turn * f_n
             shear_e, shear_w = self.pairs[i].shear_slopes(response, w_j, w_b)
-            law[2:, 0] += (slope_j * f_t - shear_e, slope_b * f_t + shear_e)
-            law[2:, 4:] += ((-shear_w, shear_w), (shear_w, -shear_w))
+            on_journal[0] += by_q * (slope_j * f_t - shear_e)
+            on_bearing[0] += by_q * (slope_b * f_t + shear_e)
+            sheared = by_q_t * shear_w
+            on_journal[2] -= sheared
+            on_journal[3] += sheared
+            on_bearing[2] += sheared
+            on_bearing[3] -= sheared
         if not acting:
             return None
         rates = self._rates()
-        changes = np.concatenate([by_q * rates[:2], by_q_t * rates])
-        return np.asarray(rates.T @ -(law @ changes)).ravel()
+        slopes = np.array([normal, across, on_journal, on_bearing])
+        return np.asarray(rates.T @ -(slopes @ rates)).ravel()
 
     @property
     def eccentricity(self) -> tuple[float, ...]:
@@ -131,15 +147,14 @@ class SpatialRevolute(PairedJoint):
 
     def _rates(self) -> Array:
         """Return, by all rates, velocities along n and t and both angular velocities, (4, n)."""
-        journal, journal_spin = self.journal.rates()
-        bearing, bearing_spin = self.bearing.rates()
-        bearing -= cross_matrix(self._along) @ bearing_spin
-        across, axis, size = np.array([self._n, self._t]), np.array(self._a), journal.shape[1]
-        rates = np.zeros((4, size + bearing.shape[1]))
-        rates[:2, :size] = across @ journal
-        rates[:2, size:] = -across @ bearing
-        rates[2, :size] = axis @ journal_spin
-        rates[3, size:] = axis @ bearing_spin
+        n, t, axis = self._n, self._t, self._a
+        journal = self.journal.rates_along(n, t, axis, (0.0, 0.0, 0.0))
+        bearing = self.bearing.rates_along(n, t, axis, self._along)
+        size = len(self.journal.places)
+        rates = np.zeros((4, len(self.places)))
+        rates[:3, :size] = journal
+        rates[:2, size:] = -bearing[:2]
+        rates[3, size:] = bearing[2]
         return rates
 
 

@@ -30,7 +30,7 @@ def test_what_is_kept_differs_little_from_what_exudyn_differentiates(scene, monk
         matrix = np.array(solver.GetSystemJacobian())
         step = solver.it.currentStepSize
         by_q, by_q_t = solver.newmarkBeta * step**2, solver.newmarkGamma * step
-        stiffness, damping = jacobian._bodies
+        stiffness, damping = jacobian._bodies.reshape(2, size, size)
         with jacobian._joints.left_out():
             solver.ComputeJacobianODE2RHS(mbs, -by_q, -by_q_t)
         missing = np.zeros_like(matrix)

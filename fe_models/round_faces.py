@@ -3,15 +3,13 @@
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from math import cos, hypot, pi, sin
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from netgen.occ import Pnt, Sphere  # type: ignore[import-untyped]
 
 from exu_press.errors import InputError
-
-if TYPE_CHECKING:
-    from fe_models.geometry import Axis
+from fe_models.dimensions import Axis
 
 __all__ = ["NEAR", "name_round_faces"]
 
@@ -39,7 +37,7 @@ class _Round:
         return f"radius = {self.radius:.6g}, z = [{self.low:.6g}, {self.high:.6g}]"
 
 
-def name_round_faces(shape: Any, axes: Mapping[str, "Axis"], where: str) -> None:
+def name_round_faces(shape: Any, axes: Mapping[str, Axis], where: str) -> None:
     """Name the faces of a shape that lie about axes.
 
     Args:
@@ -103,7 +101,7 @@ def _xyz(point: Any) -> tuple[float, float, float]:
     return float(x), float(y), float(z)
 
 
-def _suits(one: _Round, axis: "Axis") -> bool:
+def _suits(one: _Round, axis: Axis) -> bool:
     return (
         one.sphere == axis.sphere
         and _distance(one, axis) <= NEAR
@@ -112,11 +110,11 @@ def _suits(one: _Round, axis: "Axis") -> bool:
     )
 
 
-def _distance(one: _Round, axis: "Axis") -> float:
+def _distance(one: _Round, axis: Axis) -> float:
     return hypot(one.x - axis.place[0], one.y - axis.place[1])
 
 
-def _chosen(shape: Any, found: list[_Round], axis: "Axis", name: str, where: str) -> list[_Round]:
+def _chosen(shape: Any, found: list[_Round], axis: Axis, name: str, where: str) -> list[_Round]:
     """Return the one group of faces of the same radius that touch; holes or shafts as is meant."""
     groups = _groups(found)
     if len(groups) > 1:
@@ -163,7 +161,7 @@ def _is_hole(shape: Any, one: _Round) -> bool:
     return False
 
 
-def _nothing(found: Iterable[_Round], axis: "Axis", name: str) -> str:
+def _nothing(found: Iterable[_Round], axis: Axis, name: str) -> str:
     """Return what is wrong where no face suits an axis, with the distance of the nearest one."""
     kind = "sphere" if axis.sphere else "cylinder along z"
     asked = "" if axis.radius is None else f" of radius {axis.radius:g} m"

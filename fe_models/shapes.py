@@ -3,22 +3,20 @@
 import tempfile
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from netgen.occ import Cylinder, MoveTo, Pnt, Vec, Z  # type: ignore[import-untyped]
 from netgen.occ import OCCGeometry as OccGeometry
 
 from exu_press.errors import InputError
-
-if TYPE_CHECKING:
-    from fe_models.geometry import Box, CrankShape, LinkageShape
+from fe_models.dimensions import Box, CrankDimensions, LinkageDimensions
 
 __all__ = ["crank_shaft", "freeze", "from_step", "linkage", "thaw"]
 
 REST = "surface"  # the name of every face that is not an interface
 
 
-def crank_shaft(d: "CrankShape") -> Any:
+def crank_shaft(d: CrankDimensions) -> Any:
     """Return the crank shaft: coaxial cylinders along z, web and pin discs off the axis in +y."""
     half_pin, web = 0.5 * d.pin_length, d.web_thickness
     a = half_pin + web + d.journal_length  # where the seats begin, from the pin's centre
@@ -37,7 +35,7 @@ def crank_shaft(d: "CrankShape") -> Any:
     return solid
 
 
-def linkage(d: "LinkageShape") -> Any:
+def linkage(d: LinkageDimensions) -> Any:
     """Return the linkage: shank and bosses fused, then both bores drilled through."""
     half = 0.5 * d.length
     solid = _shank(d, inset=0.0, width=d.shank_width, middle=0.0)
@@ -60,7 +58,7 @@ def linkage(d: "LinkageShape") -> Any:
     return solid
 
 
-def from_step(path: Path, scale: float, faces: Mapping[str, "Box"]) -> Any:
+def from_step(path: Path, scale: float, faces: Mapping[str, Box]) -> Any:
     """Return the solid of a STEP file, scaled to m; faces wholly inside a box take its name."""
     try:
         shape = OccGeometry(str(path)).shape
@@ -106,7 +104,7 @@ def thaw(text: str, names: tuple[str | None, ...]) -> Any:
     return shape
 
 
-def _shank(d: "LinkageShape", inset: float, width: float, middle: float) -> Any:
+def _shank(d: LinkageDimensions, inset: float, width: float, middle: float) -> Any:
     """Return the shank's outline, `inset` in height, as a prism about z = middle."""
     half = 0.5 * d.length
     a, b, c = (

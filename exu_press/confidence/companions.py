@@ -20,6 +20,10 @@ __all__ = ["Companions", "plan"]
 COARSER = (4.0, 8.0, 16.0)
 """Tolerances of the companions over that of the run: together they take as long as it does."""
 
+OF_SMOOTH = 2
+"""So many of them do where nothing has clearance, whose runs take little longer at any tolerance:
+two cover 96 % of figures, three 97 %."""
+
 COARSER_STEPS = (2.0, 3.0, 4.0)
 
 LOOSEST = 0.1
@@ -46,12 +50,13 @@ def plan(scene: Scene) -> dict[float, Scene]:
     ratios = [ratio for ratio in COARSER if ratio * tolerance <= LOOSEST]
     if len(ratios) < len(COARSER):
         ratios = [2.0, *ratios] if 2.0 * tolerance <= LOOSEST else [0.5]
+    loose = scene.joints.with_clearance or (scene.guide and scene.guide.clearance)
+    if not loose:
+        ratios = ratios[:OF_SMOOTH]
     found = {}
     for ratio in ratios:
         change = {"solver.tolerance": ratio * tolerance}
-        if (
-            not scene.joints.with_clearance
-        ):  # else impacts and films keep steps far below the largest one
+        if not loose:  # else impacts and films keep steps far below the largest one
             longest = math.sqrt(ratio) * solver.max_step_deg
             change["solver.max_step_deg"] = min(longest, LARGEST_STEP)
         found[ratio] = scene.replace(change)

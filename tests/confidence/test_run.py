@@ -104,3 +104,13 @@ def test_magnitudes_are_not_below_zero_and_energies_may_be():
 )
 def test_companions_are_coarser_where_that_is_allowed(solver, ratios):
     assert list(plan(Scene(solver=solver))) == ratios
+
+
+def test_smooth_motion_has_fewer_companions_with_longer_steps():
+    smooth = Scene(joints={})
+    for scene in (smooth, smooth.replace("guide", {})):
+        assert list(plan(scene)) == [4.0, 8.0]
+        assert plan(scene)[4.0].solver.max_step_deg == 2.0 * scene.solver.max_step_deg
+    loose = smooth.replace("guide", {"clearance": 1e-5})
+    assert list(plan(loose)) == [4.0, 8.0, 16.0]
+    assert plan(loose)[4.0].solver.max_step_deg == loose.solver.max_step_deg

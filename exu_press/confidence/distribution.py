@@ -1,6 +1,7 @@
-"""What is determined of a figure where motion is chaotic: its distribution over revolutions."""
+"""What is determined of figures where motion is chaotic: their distribution over revolutions."""
 
-from collections.abc import Sequence
+import math
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -8,10 +9,11 @@ import numpy as np
 from exu_press.confidence.figures import figures
 from exu_press.confidence.windows import revolutions_of
 from exu_press.errors import InputError
+from exu_press.progress import Progress
 from exu_press.scene import Scene
 from exu_press.simulation import simulate
 
-__all__ = ["CUMULATED", "Distribution", "distribution", "percentiles"]
+__all__ = ["LEAST", "Distribution", "distributions", "percentiles"]
 
 PERCENTILES = (5.0, 50.0, 95.0)
 
@@ -20,11 +22,15 @@ CONFIDENCE = 0.9
 AT_A_TIME = 8
 """Revolutions of a run, of which the first is left out: it still knows how the run began."""
 
-MOST = 64
+LEAST = 59
+"""Revolutions: the largest of fewer is below the 95th percentile in more than one case of twenty,
+so that this has no upper bound of that confidence."""
+
+MOST = 126
 """Revolutions after which it is enough, however wide the confidence still is."""
 
-APART = 0.01
-"""Relative: by how much the tolerances of runs differ, so that they have nothing in common."""
+GOLDEN = 180.0 * (5.0**0.5 - 1.0)
+"""deg; multiples of it lie evenly about a revolution, however many there are."""
 
 CUMULATED = ("energy.", "losses.", ".dissipated")
 """In the names of figures that add up over a run."""
@@ -45,53 +51,77 @@ class Distribution:
 
 
 def percentiles(values: Sequence[float]) -> dict[float, tuple[float, float, float]]:
-    """Return the percentiles of samples with the bounds of their confidence, by the bootstrap.
+    """Return the percentiles of samples, each with the bounds of its confidence.
 
-    Revolutions that follow each other are not independent of each other for sure; where motion is
-    chaotic enough for a distribution, the next one remembers little.
+    As many samples lie below a percentile as successes are among so many trials, whatever the
+    distribution is; so two of the ordered samples are its bounds (H. A. David, H. N. Nagaraja,
+    Order Statistics, Wiley 2003, 7.1). Of fewer than LEAST samples the outermost ones are, with
+    less confidence. Revolutions that follow each other are not independent of each other for sure;
+    where motion is chaotic, the next one remembers little.
     """
-    samples = np.asarray(values)
-    random = np.random.default_rng(1)
-    drawn = random.choice(samples, (2000, len(samples)))
+    ordered, count = np.sort(values), len(values)
+    tail = 0.5 * (1.0 - CONFIDENCE)
     found = {}
     for percent in PERCENTILES:
-        of_draws = np.percentile(drawn, percent, axis=1)
-        low, high = np.quantile(of_draws, [0.5 - CONFIDENCE / 2, 0.5 + CONFIDENCE / 2])
-        found[percent] = float(np.percentile(samples, percent)), float(low), float(high)
+        p = percent / 100.0
+        below = [math.comb(count, k) * p**k * (1.0 - p) ** (count - k) for k in range(count + 1)]
+        low, high = np.searchsorted(np.cumsum(below), [tail, 1.0 - tail])
+        bounds = float(ordered[max(low - 1, 0)]), float(ordered[min(high, count - 1)])
+        found[percent] = float(np.percentile(ordered, percent)), *bounds
     return found
 
 
-def distribution(scene: Scene, name: str, within: float, most: int = MOST) -> Distribution:
-    """Return the distribution of a figure over revolutions and starts.
+def distributions(
+    scene: Scene,
+    names: Collection[str],
+    within: float,
+    *,
+    least: int = LEAST,
+    most: int = MOST,
+    quiet: bool = True,
+) -> dict[str, Distribution]:
+    """Return the distribution of figures over revolutions and starts.
 
-    Runs that differ by a hundredth of their tolerance are added until the median is known within
-    what is asked for, or there are `most` revolutions.
+    Runs from other crank angles are added until there are `least` revolutions, and the medians are
+    known within what is asked for, or there are `most`.
 
     Args:
-        scene: with the tolerance to run it at; its own length does not count.
-        name: dotted, of a figure that does not add up over a run.
+        scene: with the tolerance to run it at; its own length and start do not count.
+        names: dotted, of figures; those that add up over a run, and those that one revolution does
+            not have, are left out.
         within: relative.
+        least: revolutions.
         most: revolutions.
+        quiet: False shows the progress.
 
     Raises:
-        InputError: a run stopped early, or the figure adds up.
+        InputError: a run stopped early.
     """
-    if any(part in name for part in CUMULATED):
-        raise InputError(f"{name}: adds up over a run; allowed are figures of a revolution")
-    assert scene.solver is not None
-    rate = "solver.step" if scene.solver.tolerance is None else "solver.tolerance"
-    usual = scene.solver.step or scene.solver.tolerance
-    assert usual is not None
-    values: list[float] = []
-    start = 0
-    while True:
-        change = {"revolutions": float(AT_A_TIME), rate: usual * (1.0 + APART * start)}
-        run = simulate(scene.replace(change))
-        if not run.completed:
-            raise InputError(f"{name}: no distribution, as a run {run.info['reason']}")
-        values += [figures(one.summary())[name] for one in revolutions_of(run)[1:]]
-        found = percentiles(values)
-        median, low, high = found[50.0]
-        if len(values) >= most or max(high - median, median - low) <= within * abs(median):
-            return Distribution(len(values), found)
-        start += 1
+    values: dict[str, list[float]] = {
+        name: [] for name in names if not any(part in name for part in CUMULATED)
+    }
+    found: dict[str, Distribution] = {}
+    count, start = 0, 0
+    with Progress("distribution", most, "revolutions", quiet=quiet) as progress:
+        while values and count < most:
+            angle = (scene.start_angle_deg + GOLDEN * start) % 360.0
+            run = simulate(scene.replace({"revolutions": AT_A_TIME, "start_angle_deg": angle}))
+            if not run.completed:
+                raise InputError(f"no distribution, as a run {run.info['reason']}")
+            each = [figures(one.summary()) for one in revolutions_of(run)[1:]]
+            values = {
+                name: [*so_far, *(one[name] for one in each)]
+                for name, so_far in values.items()
+                if all(name in one for one in each)
+            }
+            count, start = count + len(each), start + 1
+            progress.update(count)
+            found = {name: Distribution(count, percentiles(all_)) for name, all_ in values.items()}
+            if count >= least and all(_known(one, within) for one in found.values()):
+                break
+    return found
+
+
+def _known(found: Distribution, within: float) -> bool:
+    median, low, high = found.percentiles[50.0]
+    return max(high - median, median - low) <= within * abs(median)

@@ -10,14 +10,16 @@ __all__ = ["delivered_lines"]
 
 def delivered_lines(delivered: Delivered, within: float) -> list[str]:
     """Return what a tolerance delivers, and what no tolerance does, for the terminal."""
+    tolerance = delivered.tolerance
     if not delivered.missed:
-        return [
-            f"within {within:.3g} of every figure asked for: tolerance {delivered.tolerance:.2g}"
-        ]
+        return [f"every figure asked for within {100 * within:.3g} %: tolerance {tolerance:.2g}"]
     lines = _chaos(delivered.result)
     for name, found in delivered.missed.items():
-        lines.append(f"{name}: not determined within {within:.3g} at any tolerance tried")
+        lines.append(
+            f"{name}: not within {100 * within:.3g} %, down to a tolerance of {tolerance:.2g}"
+        )
         if found is None:
+            lines.append("  no distribution: it adds up, or one revolution does not have it")
             continue
         shown = "; ".join(
             f"{percent:.0f} % below {value:.4g} ({low:.4g} to {high:.4g})"

@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass
 
-from exu_press.confidence.distribution import CUMULATED, Distribution, distribution
+from exu_press.confidence.distribution import Distribution, distributions
 from exu_press.confidence.figures import figures
 from exu_press.confidence.run import simulate_with_errors
 from exu_press.errors import InputError
@@ -22,6 +22,10 @@ ENOUGH = 0.3
 
 COARSE = 3.0
 """A tolerance is not looked for more closely than by this factor."""
+
+AT_MOST = 30.0
+"""By so much a tolerance is made finer at a time: how errors grow at first tells little of how they
+do later on, and a finer run takes longer."""
 
 AIM = 0.8
 """Of what is allowed."""
@@ -92,7 +96,10 @@ def deliver(
     fails = math.inf
     for _ in range(ROUNDS):
         result = simulate_with_errors(scene.replace("solver.tolerance", tolerance), quiet=quiet)
-        off = {key: _error(result, key) / within for key in headline(result, name)}
+        names = headline(result, name)
+        if not result.completed:
+            return Delivered(result, tolerance, dict.fromkeys(names))
+        off = {key: _error(result, key) / within for key in names}
         need = max(off.values())
         if need <= 1.0:
             best = Delivered(result, tolerance, {})
@@ -108,23 +115,18 @@ def deliver(
                     return best
                 tolerance = math.sqrt(fails * best.tolerance)
                 continue
-            wanted = tolerance * min(AIM / need, _for_horizon(result))
-            if wanted < FINEST:
+            if tolerance <= FINEST:
                 break
+            wanted = tolerance * min(AIM / need, _for_horizon(result))
+            wanted = max(wanted, tolerance / AT_MOST, FINEST)
         if min(wanted, LOOSEST) == tolerance:
             break
         tolerance = min(wanted, LOOSEST)
     if best is not None:
         return best
-    determined = scene.replace("solver.tolerance", solver.tolerance)
-    missed = {
-        key: None
-        if any(part in key for part in CUMULATED)
-        else distribution(determined, key, within)
-        for key, error in off.items()
-        if error > 1.0
-    }
-    return Delivered(result, tolerance, missed)
+    missed = [key for key, error in off.items() if error > 1.0]
+    found = distributions(scene, missed, within, quiet=quiet)
+    return Delivered(result, tolerance, {key: found.get(key) for key in missed})
 
 
 def _error(result: Result, name: str) -> float:

@@ -50,6 +50,7 @@ PATH_COLOURS: Colormap = ListedColormap(
 LOOK: dict[str, Any] = {
     "axes.axisbelow": True,
     "axes.edgecolor": "#4D4D4D",
+    "axes.formatter.useoffset": False,  # it would stand in the title's place
     "axes.grid": True,
     "axes.labelsize": 9.5,
     "axes.linewidth": 0.8,

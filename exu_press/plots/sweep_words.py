@@ -44,9 +44,11 @@ def words(name: str) -> str:
 
     >>> words("joints.balls.clearance"), words("joints.crank_pin.peak_force")
     ('balls, radial clearance', 'crank pin, peak force')
+    >>> words("speed_rpm")
+    'crank speed'
     """
     parts = name.removeprefix("joints.").split(".")
-    meaning = re.sub(r" \(A-\d+\)", "", meaning_of(name))  # the assumption behind it
+    meaning = re.sub(r" \(A-\d+\)|;.*", "", meaning_of(name))  # the assumption, what else is said
     if name.startswith("joints.") and meaning:
         return f"{parts[0].replace('_', ' ')}, {meaning}"
     return meaning or ", ".join(NAMES.get(p, p.replace("_", " ")) for p in parts)

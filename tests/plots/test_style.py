@@ -33,6 +33,17 @@ def test_the_users_settings_do_not_reach_our_pictures():
         assert matplotlib.rcParams["lines.marker"] == "None"
 
 
+def test_ticks_are_numbers_without_an_offset_in_the_titles_place():
+    def dead_centres():
+        figure = Figure()
+        figure.subplots().plot([469.80698, 469.80744])
+        return figure
+
+    figure = styled(dead_centres)()
+    figure.draw_without_rendering()
+    assert figure.axes[0].yaxis.get_offset_text().get_text() == ""
+
+
 def test_colours_start_again():
     assert colour_of(len(COLOURS)) == colour_of(0)
 

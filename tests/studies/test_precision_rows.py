@@ -1,5 +1,6 @@
 """What rows and series say: floors, orders, cheapest settings."""
 
+import math
 from dataclasses import replace
 
 import pytest
@@ -64,4 +65,5 @@ def test_long_runs_and_failed_ones_are_not_repeated():
 
     assert len(timed(attempt(1.0), 3).wall_times) == 3
     assert len(timed(attempt(100.0), 3).wall_times) == 1
+    assert len(timed(attempt(100.0), 3, longest=math.inf).wall_times) == 3
     assert len(timed(attempt(1.0, "failed"), 3).wall_times) == 1

@@ -75,11 +75,17 @@ class Attempt:
     again: Callable[[int], Measured] | None = field(default=None, repr=False)
 
 
-def timed(attempt: Attempt, repeats: int) -> Measured:
-    """Run an attempt so many times, once if it is long; the trajectory is the first one's."""
+def timed(attempt: Attempt, repeats: int, longest: float = LONG_RUN) -> Measured:
+    """Run an attempt so many times; the trajectory is the first one's.
+
+    Args:
+        attempt: what is run.
+        repeats: how often.
+        longest: once does where a run takes longer than this, s.
+    """
     first = attempt.run()
     runs = [first]
-    if first.status == "completed" and first.cpu_time < LONG_RUN:
+    if first.status == "completed" and first.cpu_time < longest:
         again = attempt.again or (lambda _: replace(attempt.run(), trajectory=None))
         runs += [again(number) for number in range(1, repeats)]
     return replace(

@@ -1,6 +1,7 @@
 """The study: every chosen case against its reference, every solver against its time."""
 
 import dataclasses
+import math
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -11,7 +12,7 @@ from exu_press.studies.precision.amount import FULL, QUICK, Amount
 from exu_press.studies.precision.cases import Case
 from exu_press.studies.precision.errors import Errors, errors_of, late_of
 from exu_press.studies.precision.machine import machine
-from exu_press.studies.precision.measured import Attempt, Measured, timed
+from exu_press.studies.precision.measured import LONG_RUN, Attempt, Measured, timed
 from exu_press.studies.precision.report import Goal, Report
 from exu_press.studies.precision.rows import ERRORS, Row, orders_of, row_of
 from exu_press.studies.precision.stated import Stated, stated_errors
@@ -139,14 +140,18 @@ def _run(
     repeats: int,
     quiet: bool,
 ) -> list[Row]:
-    """Run and compare; before a solver's first run it is warmed up by one that does not count."""
+    """Run and compare; before a solver's first run it is warmed up by one that does not count.
+
+    Where distributions are judged, every run has as many starts, however long it takes.
+    """
     rows, warm = [], set()
+    longest = math.inf if reference.starts else LONG_RUN
     with Progress(case.name, len(attempts), unit="runs", quiet=quiet) as progress:
         for done, attempt in enumerate(attempts):
             if attempt.solver not in warm:
                 attempt.again(0) if attempt.again else attempt.run()
                 warm.add(attempt.solver)
-            run = timed(attempt, repeats)
+            run = timed(attempt, repeats, longest)
             errors, late = _errors(case, run, reference, horizon)
             rows.append(row_of(case.name, attempt, run, errors, reference.floor, late))
             progress.update(done + 1)

@@ -1,16 +1,19 @@
 """Which differences between runs are real, and which are within the errors of their figures."""
 
+import textwrap
 from collections.abc import Iterator, Mapping
 from itertools import combinations
 from typing import Any
 
 __all__ = ["difference_lines"]
 
+WIDTH = 100
+
 Summary = Mapping[str, Any]
 
 
 def difference_lines(summaries: Mapping[str, Summary]) -> list[str]:
-    """Return what two runs do not differ in for sure, a line a pair with known errors.
+    """Return what two runs do not differ in for sure, pair by pair, where any errors are known.
 
     >>> told = {"error": 2.0, "determined": True, "low": 8.0, "high": 12.0}
     >>> other = {"error": 1.0, "determined": True, "low": 11.0, "high": 13.0}
@@ -19,11 +22,15 @@ def difference_lines(summaries: Mapping[str, Summary]) -> list[str]:
     """
     lines = []
     for (name, one), (other_name, other) in combinations(summaries.items(), 2):
-        if not one.get("errors") or not other.get("errors"):
+        unknown = [label for label in (name, other_name) if not summaries[label].get("errors")]
+        if len(unknown) == 2:
             continue
-        unsure = list(_unsure(one["errors"], other["errors"]))
-        but = f" but for {', '.join(unsure)}" if unsure else ""
-        lines.append(f"{name}, {other_name}: differences are real{but}")
+        if unknown:
+            said = f"nobody knows which differences are real, as {unknown[0]} has no errors"
+        else:
+            unsure = list(_unsure(one["errors"], other["errors"]))
+            said = "differences are real" + f" but for {', '.join(unsure)}" * bool(unsure)
+        lines += textwrap.wrap(f"{name}, {other_name}: {said}", WIDTH, subsequent_indent="  ")
     return lines
 
 

@@ -16,3 +16,17 @@ def test_only_what_errors_leave_open_is_named():
 
 def test_nothing_is_said_without_errors():
     assert difference_lines({"dry": {}, "oil": {}}) == []
+
+
+def test_a_run_without_errors_is_named():
+    lines = difference_lines({"dry": {"errors": {"stroke": told(1.0, 1.1)}}, "old": {}})
+    assert lines == ["dry, old: nobody knows which differences are real, as old has no errors"]
+
+
+def test_many_names_are_wrapped():
+    names = [f"joints.knuckle_{n}.peak_force" for n in range(20)]
+    one = {"errors": {name: told(1.0, 2.0) for name in names}}
+    other = {"errors": {name: told(1.5, 2.5) for name in names}}
+    lines = difference_lines({"dry": one, "oil": other})
+    assert max(map(len, lines)) <= 100
+    assert " ".join(line.strip() for line in lines).count("knuckle") == 20

@@ -2,16 +2,21 @@
 
 NGSolve's modes come from fe_models: from its cache, or made there on first use. In the plane the
 joints are those of rigid bodies; what the plane holds of itself is held here: a body that rests in
-the frame by two faces along its axis by these, any other one upright at one of its joints.
+the frame by two faces along its axis by these, any other one by the mean of its motion.
 """
 
 from dataclasses import dataclass
-from math import cos, pi, sin
 from typing import Any
 
 import exudyn as exu
 import numpy as np
-from exudyn.itemInterface import MarkerBodyRigid, ObjectJointGeneric, ObjectJointSpherical
+from exudyn.itemInterface import (
+    MarkerBodyRigid,
+    MarkerNodeCoordinate,
+    ObjectConnectorCoordinate,
+    ObjectJointGeneric,
+    ObjectJointSpherical,
+)
 from exudyn.rigidBodyUtilities import (
     EulerParameters2G,
     EulerParameters2RotationMatrix,
@@ -39,8 +44,8 @@ __all__ = [
 
 Array = NDArray[np.float64]
 
-HELD = ("held_a", "held_b", "held_c")
-"""Three points of a body around one of its faces, in the plane that they are kept in."""
+OUT_OF_PLANE = (2, 4, 5)
+"""Among a frame's coordinates: the height, and the Euler parameters of both tilts."""
 
 
 @dataclass(frozen=True)
@@ -123,11 +128,6 @@ def add_part(
             for number, face in enumerate(part.faces[joint.name] if body == name else ()):
                 along = float(part.reduced.interface(face).centre[2])
                 points[point_name(joint, number)] = face, (*part.place(point), along)
-    if (kept := _upright_face(mechanism, name, part)) is not None:
-        rim = part.reduced.interface(kept)
-        for held, turn in zip(HELD, (0.0, 2.0 * pi / 3.0, 4.0 * pi / 3.0), strict=True):
-            x, y = rim.axis[:2] + rim.arm * np.array([cos(turn), sin(turn)])
-            points[held] = kept, (x, y, float(rim.centre[2]))
     return add_flexible_body(
         mbs,
         part.reduced,
@@ -208,33 +208,24 @@ def hold_driven(mbs: exu.MainSystem, disc: int, body: FlexibleBody, part: Placed
     mbs.AddObject(ObjectJointGeneric(markerNumbers=markers, constrainedAxes=[0, 0, 0, 0, 0, 1]))
 
 
-def hold_upright(mbs: exu.MainSystem, ground: int, body: FlexibleBody) -> None:
+def hold_upright(
+    mbs: exu.MainSystem, still: int, body: FlexibleBody, part: PlacedPart, pivot: Joint | None
+) -> None:
     """Keep a body in the plane, unless the two faces of a pivot do.
 
-    Three points do what the height and the two tilts of a marker with an orientation would, which
-    costs more: it has three nodes and is asked for its rotation, too.
+    It is the frame that is kept there, the mean of the body's motion: its coordinates are held,
+    which costs least. Out of the plane a body that is not symmetric to it bends about that mean.
+
+    Args:
+        mbs: the system.
+        still: marker on a coordinate of the frame of the press.
+        body: flexible.
+        part: of the body.
+        pivot: its ideal joint with the frame, if it has one.
     """
-    for name in HELD:
-        if name in body.places:
-            height = [0.0, 0.0, float(body.places[name][2])]
-            seat = mbs.AddMarker(MarkerBodyRigid(bodyNumber=ground, localPosition=height))
-            points = [seat, body.add_point_marker(mbs, name)]
-            mbs.AddObject(ObjectJointSpherical(markerNumbers=points, constrainedAxes=[0, 0, 1]))
-
-
-def _upright_face(mechanism: Mechanism, name: str, part: PlacedPart) -> str | None:
-    """Return the face by which a body is kept in the plane; None where two in the frame do.
-
-    It is that of a joint with the frame, or else with a body in a guide, which keep their planes.
-    """
-    guided = {guide.body for guide in mechanism.guides}
-    others = {
-        joint.name: joint.bearing if joint.journal == name else joint.journal
-        for joint in mechanism.joints
-        if name in (joint.journal, joint.bearing)
-    }
-    for joint, faces in part.faces.items():
-        if others[joint] == GROUND and len(faces) > 1:
-            return None
-    best = min(others, key=lambda joint: (others[joint] != GROUND, others[joint] not in guided))
-    return part.faces[best][0]
+    if pivot is not None and len(part.faces[pivot.name]) > 1:
+        return
+    for coordinate in OUT_OF_PLANE:
+        held = MarkerNodeCoordinate(nodeNumber=body.node_rigid, coordinate=coordinate)
+        markers = [still, mbs.AddMarker(held)]
+        mbs.AddObject(ObjectConnectorCoordinate(markerNumbers=markers))

@@ -50,8 +50,8 @@ def hold_flexible_bodies(system: System) -> dict[str, int]:
         if name == system.mechanism.crank:
             _add_disc(system)
             hold_driven(mbs, system.bodies[DRIVE], body, part)
-        hold_upright(mbs, system.ground, body)
         pivot = system.holding.pivoted.get(name)
+        hold_upright(mbs, system.still, body, part, pivot)
         if pivot is not None:
             held |= hold_pivot(mbs, system.ground, body, part, pivot)
     return held

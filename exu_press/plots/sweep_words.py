@@ -44,12 +44,12 @@ def words(name: str) -> str:
 
     >>> words("joints.balls.clearance"), words("joints.crank_pin.peak_force")
     ('balls, radial clearance', 'crank pin, peak force')
-    >>> words("speed_rpm")
-    'crank speed'
+    >>> words("speed_rpm"), words("load.blanking.force")
+    ('crank speed', 'blanking, peak force')
     """
-    parts = name.removeprefix("joints.").split(".")
+    parts = name.removeprefix("joints.").removeprefix("load.").split(".")
     meaning = re.sub(r" \(A-\d+\)|;.*", "", meaning_of(name))  # the assumption, what else is said
-    if name.startswith("joints.") and meaning:
+    if name.startswith(("joints.", "load.")) and meaning:
         return f"{parts[0].replace('_', ' ')}, {meaning}"
     return meaning or ", ".join(NAMES.get(p, p.replace("_", " ")) for p in parts)
 

@@ -1,6 +1,6 @@
-"""What the bodies look like from the front: rods through their joints, blocks on guides.
+"""What the bodies look like from the front: links around their joints, blocks on guides.
 
-Drawn, not measured: rods have one width, blocks grow with the cube root of their mass. Only the
+Drawn, not measured: links have one width, blocks grow with the cube root of their mass. Only the
 joints' places are the mechanism's.
 """
 
@@ -16,16 +16,16 @@ __all__ = ["COLOURS", "Shape", "moved", "shapes_of", "swept"]
 Array = NDArray[np.float64]
 
 COLOURS = {"crank": "#F2C14E", "bearing": "#8FC1E3", "link": "#C3D0DA", "block": "#DADFE3"}
-"""By role; "bearing" is the body that the crank pin turns in."""
+"""By role; "bearing" is the body on the pin that is farthest from the crank's shaft."""
 
 ROD = 0.011
-"""Half the width of a rod, relative to the mechanism's height."""
+"""Half the width of a link, relative to the mechanism's height."""
 
 BLOCK = 0.07
 """What the heaviest block has around its joints, relative to the mechanism's height."""
 
-ARC = 9
-"""Corners of a rod's round end."""
+CORNERS = 48
+"""Of a link's outline, most of them at its round ends."""
 
 
 @dataclass(frozen=True)
@@ -67,7 +67,7 @@ def shapes_of(mechanism: Mechanism) -> dict[str, Shape]:
             outline = _block(points, margin)
         else:
             margin = ROD * height * (1.6 if body.name == mechanism.crank else 1.0)
-            outline = _rod(points, margin)
+            outline = _link(points, margin)
         shapes[body.name] = Shape(body.name, points, outline, _role(mechanism, body.name))
     return shapes
 
@@ -95,8 +95,9 @@ def _role(mechanism: Mechanism, body: str) -> str:
         return "crank"
     if any(guide.body == body for guide in mechanism.guides):
         return "block"
-    pins = (joint for joint in mechanism.joints if joint.name == "crank_pin")
-    return "bearing" if any(joint.bearing == body for joint in pins) else "link"
+    pin = max(mechanism.crank_pins, key=mechanism.crank_pins.__getitem__)
+    on_pin = any(joint.name == pin for joint in mechanism.joints_of(body))
+    return "bearing" if on_pin else "link"
 
 
 def _block(points: Array, margin: float) -> Array:
@@ -105,19 +106,9 @@ def _block(points: Array, margin: float) -> Array:
     return np.array([[left, low], [right, low], [right, high], [left, high]])
 
 
-def _rod(points: Array, half_width: float) -> Array:
-    """Return a rod with round ends through the two joints that lie farthest apart."""
-    if len(points) == 1:
-        turn = np.linspace(0.0, 2.0 * np.pi, 4 * ARC)
-        return np.asarray(
-            points[0] + 2.0 * half_width * np.column_stack([np.cos(turn), np.sin(turn)])
-        )
-    distance = np.linalg.norm(points[:, None] - points[None, :], axis=2)
-    first, last = np.unravel_index(np.argmax(distance), distance.shape)
-    way = points[last] - points[first]
-    along = float(np.arctan2(way[1], way[0]))
-    ends = []
-    for centre, start in ((points[last], along - np.pi / 2), (points[first], along + np.pi / 2)):
-        turn = start + np.linspace(0.0, np.pi, ARC)
-        ends.append(centre + half_width * np.column_stack([np.cos(turn), np.sin(turn)]))
-    return np.vstack(ends)
+def _link(points: Array, half_width: float) -> Array:
+    """Return an outline around all joints of a body, round at each: a rod where there are two."""
+    turn = np.linspace(0.0, 2.0 * np.pi, CORNERS, endpoint=False)
+    outwards = np.column_stack([np.cos(turn), np.sin(turn)])
+    size = half_width if len(points) > 1 else 2.0 * half_width
+    return np.asarray(points[np.argmax(outwards @ points.T, axis=1)] + size * outwards)

@@ -18,7 +18,7 @@ TICK_STEPS = (0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 45, 90, 180, 360)  # deg
 MOST_CENTRES = 100
 """More dead centres than this would hide the curves; they are not marked."""
 
-CLOSE = 0.4
+CLOSE = 0.6
 """Of the ticks' distance: so near a dead centre none stands."""
 
 SLACK = 1e-4
@@ -33,7 +33,7 @@ def crank_angle_axis(
 ) -> None:
     """Give panels a common crank angle axis (deg) with the dead centres marked, unless many.
 
-    A dead centre between two ticks takes the nearer one's place if that is close.
+    A dead centre between two ticks takes the place of those that are close.
 
     Args:
         panels: with a label or without.
@@ -58,7 +58,7 @@ def crank_angle_axis(
     shown = [tick for tick in ticks if all(abs(tick - at) > CLOSE * step for at in named)]
     if step <= 90.0:
         shown += named
-    texts = {at: f"{_number_text(round(at, 2), None)}\n{name}" for at, name in named.items()}
+    texts = {at: f"{_number_text(round(at, 1), None)}\n{name}" for at, name in named.items()}
 
     def text(angle: float, _: int | None) -> str:
         return texts.get(angle) or _number_text(angle, None)

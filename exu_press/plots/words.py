@@ -65,7 +65,7 @@ def plain(text: str) -> str:
 def _parts(scene: Scene, joints: Collection[str]) -> dict[str, str]:
     """Return phrases by what they are about; of the joints and groups that are named."""
     parts = {
-        "mechanism": mechanism_of(scene).name.replace("_", "-").capitalize(),
+        "mechanism": mechanism_of(scene).name.replace("_", " ").capitalize(),
         "bodies": _of_bodies(scene),
         "speed": f"{scene.speed_rpm:g} rpm",
     }

@@ -10,6 +10,8 @@ SCENES = [
     {"mechanism": "press"},
     {"mechanism": "press", "press": {"counterweight": False}},
     {"mechanism": "slider_crank"},
+    {"mechanism": "six_bar"},
+    {"mechanism": "andrews_squeezer"},
 ]
 
 

@@ -1,3 +1,5 @@
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
@@ -22,7 +24,20 @@ def test_a_dead_centre_between_ticks_has_its_own():
     crank_angle_axis([axes], 0.0, 360.0, {"TDC": 0.22, "BDC": 104.5})
     axes.figure.draw_without_rendering()
     labels = [label.get_text() for label in axes.get_xticklabels()]
-    assert labels[:4] == ["0.22\nTDC", "45", "104.5\nBDC", "135"]
+    assert labels[:4] == ["0.2\nTDC", "45", "104.5\nBDC", "135"]
+
+
+@pytest.mark.parametrize("width", [6.0, 8.0])
+@pytest.mark.parametrize("bottom", [104.5, 158.0, 203.85, 337.6])
+def test_labels_of_dead_centres_touch_no_others(width, bottom):
+    """Six inches: as narrow as the panels beside the animated mechanism."""
+    figure = Figure(figsize=(width, 2.0))
+    axes = figure.subplots()
+    crank_angle_axis([axes], 0.0, 360.0, {"TDC": 24.48, "BDC": bottom})
+    figure.draw_without_rendering()
+    boxes = [label.get_window_extent() for label in axes.get_xticklabels()]
+    boxes = sorted((box.x0, box.x1) for box in boxes)
+    assert all(end < begin for (_, end), (begin, _) in pairwise(boxes))
 
 
 def test_a_mechanism_without_dead_centres_has_none():

@@ -5,8 +5,13 @@ from collections.abc import Iterable, Sequence
 __all__ = ["columns"]
 
 
-def columns(rows: Iterable[Sequence[str]], indent: int = 0) -> list[str]:
+def columns(rows: Iterable[Sequence[str]], indent: int = 0, *, right: bool = False) -> list[str]:
     """Return rows of equally many cells as lines, their columns under each other.
+
+    Args:
+        rows: the head's first, if there is one.
+        indent: of every line.
+        right: whether the columns but for the first one end under each other.
 
     >>> columns([("", "a"), ("stroke", "26 mm")])
     ['        a', 'stroke  26 mm']
@@ -15,6 +20,9 @@ def columns(rows: Iterable[Sequence[str]], indent: int = 0) -> list[str]:
     widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
     return [
         " " * indent
-        + "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
+        + "  ".join(
+            cell.rjust(width) if right and place else cell.ljust(width)
+            for place, (cell, width) in enumerate(zip(row, widths, strict=True))
+        ).rstrip()
         for row in cells
     ]

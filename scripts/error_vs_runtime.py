@@ -9,9 +9,8 @@ from exu_press import Scene
 from exu_press.output import output_directory
 from exu_press.plots.precision import save_precision
 from exu_press.studies.precision import case_of, precision
-from exu_press.studies.precision.table import report_lines
 
 scene = Scene(mechanism="slider_crank", joints={"crank_pin": "lubricated"}, revolutions=1.0)
 report = precision((case_of("my_slider_crank", scene),), quick="--quick" in sys.argv)
 save_precision(report, output_directory("out/error_vs_runtime"))
-print("\n".join(report_lines(report)))
+print("\n".join(report.lines()))

@@ -8,7 +8,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from exu_press.cli.precision import finish
+from exu_press.cli.precision import tell
 from exu_press.errors import InputError
 from exu_press.output import output_directory, write_json
 from exu_press.studies.precision import Report, precision
@@ -51,7 +51,7 @@ def run(options: argparse.Namespace) -> int:
         goals_of=goals_of,
         left_out=left_out(),
     )
-    finish(report, directory, options)
+    tell(report, directory, options)
     return 0
 
 

@@ -6,12 +6,9 @@ Run with: python scripts/stability.py [--quick] [--axis NAME] [--out DIR] [--wor
 import argparse
 import sys
 from collections.abc import Sequence
-from pathlib import Path
 
-from exu_press.cli.stability import finish
+from exu_press.cli.stability import run
 from exu_press.errors import InputError
-from exu_press.output import output_directory
-from exu_press.studies.stability import stability
 from stability.cases import cases, quick_cases
 
 
@@ -34,25 +31,12 @@ def parser() -> argparse.ArgumentParser:
     return found
 
 
-def run(options: argparse.Namespace) -> int:
-    """Run the cases, going on where DIR was left; return 0, or 1 if one is wrong."""
-    table = quick_cases() if options.quick else cases()
-    axes = dict.fromkeys(case.axis for case in table)
-    for axis in options.axis:
-        if axis not in axes:
-            raise InputError(f"--axis {axis}: allowed are {', '.join(map(repr, axes))}")
-    chosen = [case for case in table if not options.axis or case.axis in options.axis]
-    directory = output_directory(Path(options.out))
-    report = stability(
-        chosen, directory, quick=options.quick, workers=options.workers, quiet=options.quiet
-    )
-    return finish(report, directory, options)
-
-
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Return run's status, or 2 for wrong input."""
+    """Run the cases, going on where DIR was left; 0, 1 if one is wrong, 2 for wrong input."""
+    options = parser().parse_args(arguments)
+    table = quick_cases() if options.quick else cases()
     try:
-        return run(parser().parse_args(arguments))
+        return run(table, "--axis", options.axis, options.out, options, quick=options.quick)
     except InputError as error:
         print(f"stability: {error}", file=sys.stderr)
         return 2

@@ -16,3 +16,8 @@ def test_lines_may_be_indented():
 def test_rows_have_equally_many_cells():
     with pytest.raises(ValueError):
         columns([("a", "b"), ("c",)])
+
+
+def test_columns_of_numbers_end_under_each_other():
+    rows = [("axis", "cases"), ("speed", "7"), ("film", "123456")]
+    assert columns(rows, right=True) == ["axis    cases", "speed       7", "film   123456"]

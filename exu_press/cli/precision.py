@@ -4,13 +4,14 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from exu_press.cli.finish import finish
 from exu_press.cli.options import add_scene_arguments, directory_of, scene_of
-from exu_press.output import output_directory, write_json
+from exu_press.output import output_directory
 
 if TYPE_CHECKING:
     from exu_press.studies.precision import Report
 
-__all__ = ["EXAMPLE", "add_arguments", "execute", "finish"]
+__all__ = ["EXAMPLE", "add_arguments", "execute", "tell"]
 
 EXAMPLE = "exu-press precision slider_crank --quick --out out/precision"
 
@@ -30,20 +31,16 @@ def execute(options: argparse.Namespace) -> int:
     case = case_of(Path(options.scene).stem, scene_of(options))
     directory = output_directory(directory_of(options))
     report = precision((case,), quick=options.quick, quiet=options.quiet)
-    finish(report, directory, options)
+    tell(report, directory, options)
     return 0
 
 
-def finish(report: "Report", directory: Path, options: argparse.Namespace) -> None:
+def tell(report: "Report", directory: Path, options: argparse.Namespace) -> None:
     """Write, draw and print a report."""
-    from exu_press.studies.precision.table import report_lines
 
-    write_json(directory / "precision.json", report.to_dict())
-    written = ["precision.json"]
-    if not options.no_pictures:
+    def draw() -> list[Path]:
         from exu_press.plots.precision import save_precision
 
-        written += [path.name for path in save_precision(report, directory)]
-    if not options.quiet:
-        print("\n".join(report_lines(report)))
-        print("written:", ", ".join(written), f"in {directory}")
+        return save_precision(report, directory)
+
+    finish(report, directory / "precision.json", draw, options)

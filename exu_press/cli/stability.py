@@ -1,17 +1,19 @@
 """Pushes a scene to its extremes: each is right, stopped with a reason, or wrong."""
 
 import argparse
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from exu_press.cli.finish import finish
 from exu_press.cli.options import add_scene_arguments, directory_of, scene_of
 from exu_press.errors import InputError
-from exu_press.output import output_directory, write_json
+from exu_press.output import output_directory
 
 if TYPE_CHECKING:
-    from exu_press.studies.stability import Report
+    from exu_press.studies.stability import Case
 
-__all__ = ["EXAMPLE", "add_arguments", "execute", "finish"]
+__all__ = ["EXAMPLE", "add_arguments", "execute", "run"]
 
 EXAMPLE = "exu-press stability slider_crank --key contact.damping_max --out out/stability"
 
@@ -31,28 +33,48 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def execute(options: argparse.Namespace) -> int:
     """Run the cases, going on where DIR was left; return 0, or 1 if one is wrong."""
-    from exu_press.studies.stability import extremes, stability
+    from exu_press.studies.stability import extremes
 
     table = extremes(scene_of(options), Path(options.scene).stem)
-    keys = dict.fromkeys(case.axis for case in table)
-    for key in options.key:
-        if key not in keys:
-            raise InputError(f"--key {key}: allowed are {', '.join(keys)}")
-    chosen = [case for case in table if not options.key or case.axis in options.key]
-    directory = output_directory(directory_of(options))
-    report = stability(chosen, directory, workers=options.workers, quiet=options.quiet)
-    return finish(report, directory, options)
+    return run(table, "--key", options.key, directory_of(options), options)
 
 
-def finish(report: "Report", directory: Path, options: argparse.Namespace) -> int:
-    """Write, draw and print a report; return 0, or 1 if a case is wrong."""
-    write_json(directory / "stability.json", report.to_dict())
-    written = ["stability.json"]
-    if not options.no_pictures:
+def run(
+    table: Sequence["Case"],
+    option: str,
+    wanted: Sequence[str],
+    out: str | Path,
+    options: argparse.Namespace,
+    *,
+    quick: bool = False,
+) -> int:
+    """Run the cases of a table, write, draw and print what came out.
+
+    Args:
+        table: of cases.
+        option: that chooses among their axes.
+        wanted: axes; all of them for none.
+        out: directory.
+        options: with `workers`, `quiet` and `no_pictures`.
+        quick: whether the table is a sample of a larger one.
+
+    Returns:
+        0, or 1 if a case is wrong.
+    """
+    from exu_press.studies.stability import stability
+
+    axes = dict.fromkeys(case.axis for case in table)
+    for axis in wanted:
+        if axis not in axes:
+            raise InputError(f"{option} {axis}: allowed are {', '.join(axes)}")
+    chosen = [case for case in table if not wanted or case.axis in wanted]
+    directory = output_directory(out)
+    report = stability(chosen, directory, quick=quick, workers=options.workers, quiet=options.quiet)
+
+    def draw() -> list[Path]:
         from exu_press.plots.stability import save_stability
 
-        written.append(save_stability(report, directory).name)
-    if not options.quiet:
-        print("\n".join(report.lines()))
-        print("written:", ", ".join(written), f"in {directory}")
+        return [save_stability(report, directory)]
+
+    finish(report, directory / "stability.json", draw, options)
     return 1 if report.counts()["wrong"] else 0

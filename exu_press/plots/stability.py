@@ -15,8 +15,8 @@ from matplotlib.text import Annotation
 
 from exu_press.plots.save import save_figure
 from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, styled
-from exu_press.studies.stability import Report
-from exu_press.studies.stability.case import PAIRS
+from exu_press.studies.stability import Report, Row
+from exu_press.studies.stability.cases import PAIRS
 from exu_press.studies.stability.checks import RESIDUAL_LIMIT
 
 __all__ = ["save_stability", "stability_figure"]
@@ -41,8 +41,8 @@ IN_WORDS = {
 @styled
 def stability_figure(report: Report) -> Figure:
     """Return the map of a report."""
-    single = [row for row in report.rows if row["axis"] != PAIRS]
-    pairs = [row for row in report.rows if row["axis"] == PAIRS]
+    single = [row for row in report.rows if row.axis != PAIRS]
+    pairs = [row for row in report.rows if row.axis == PAIRS]
     lines = list(dict.fromkeys(map(_line, single)))
     height = 2.2 + 0.23 * max(len(lines), 20)
     figure = Figure(figsize=(15.0 if pairs else 9.5, height), layout="constrained")
@@ -82,14 +82,14 @@ def save_stability(report: Report, directory: str | Path) -> Path:
     return save_figure(stability_figure(report), Path(directory) / "stability.png")
 
 
-def _line(row: Mapping[str, Any]) -> tuple[str, str]:
+def _line(row: Row) -> tuple[str, str]:
     """Return axis and base of a case, which stand on one line of the map."""
-    return row["axis"], row["name"].rpartition(", ")[2]
+    return row.axis, row.name.rpartition(", ")[2]
 
 
 def _draw_axes(
     axes: Axes,
-    rows: Sequence[Mapping[str, Any]],
+    rows: Sequence[Row],
     lines: Sequence[tuple[str, str]],
     colours: ScalarMappable,
 ) -> None:
@@ -100,7 +100,7 @@ def _draw_axes(
         most = max(most, len(along))
         for place, row in enumerate(along):
             _mark(axes, place, height, row, colours)
-        ends = dict.fromkeys([along[0]["value"], along[-1]["value"]])
+        ends = dict.fromkeys([along[0].value, along[-1].value])
         axes.annotate(
             " to ".join(filter(None, ends)), (len(along) - 0.4, height), fontsize=7, va="center",
             color=GREY,
@@ -113,24 +113,24 @@ def _draw_axes(
     axes.set_title("Along each axis")
 
 
-def _draw_pairs(axes: Axes, rows: Sequence[Mapping[str, Any]], colours: ScalarMappable) -> None:
+def _draw_pairs(axes: Axes, rows: Sequence[Row], colours: ScalarMappable) -> None:
     """Draw the pairs of extremes as a matrix."""
-    names = list(dict.fromkeys(name for row in rows for name in row["value"].split(" + ")))
+    names = list(dict.fromkeys(name for row in rows for name in row.value.split(" + ")))
     for row in rows:
-        across, down = (names.index(name) for name in row["value"].split(" + "))
+        across, down = (names.index(name) for name in row.value.split(" + "))
         _mark(axes, min(across, down), max(across, down), row, colours)
     axes.set_xticks(range(len(names)), names, rotation=60, ha="right", fontsize=8)
     axes.set_yticks(range(len(names)), names, fontsize=8)
     axes.set_ylim(len(names) - 0.4, -0.6)
     axes.set_xlim(-0.6, len(names) - 0.4)
-    axes.set_title(f"Two extremes at once: {rows[0]['name'].rpartition(', ')[2]}")
+    axes.set_title(f"Two extremes at once: {rows[0].name.rpartition(', ')[2]}")
 
 
-def _mark(axes: Axes, x: float, y: float, row: Mapping[str, Any], colours: ScalarMappable) -> None:
+def _mark(axes: Axes, x: float, y: float, row: Row, colours: ScalarMappable) -> None:
     """Draw one case."""
-    style = dict(MARKERS[row["verdict"]])
+    style = dict(MARKERS[row.verdict])
     if "color" not in style:
-        style["color"] = colours.to_rgba(np.array([row["residual"]]))
+        style["color"] = colours.to_rgba(np.array([row.residual]))
     axes.scatter([x], [y], zorder=3, **style)
 
 

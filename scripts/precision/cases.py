@@ -18,41 +18,33 @@ SQUEEZER_STEPS = (1e-4, 3e-5, 1e-5, 3e-6, 1e-6)  # s
 def cases() -> tuple[Case, ...]:
     """Return the table."""
     return (
-        Case("slider_crank_ideal", "Slider-crank, ideal", "closed form", _slider_crank("ideal")),
-        Case(
+        Case("slider_crank_ideal", "Slider-crank, ideal", _slider_crank("ideal")),
+        Reduced(
             "slider_crank_dry_0.1mm",
             "Slider-crank, dry pin, 0.1 mm",
-            "extra",
             _slider_crank("dry", 1e-4),
-            extra=Reduced(),
             variations=True,
         ),
-        Case(
+        Reduced(
             "slider_crank_dry_0.01mm",
             "Slider-crank, dry pin, 0.01 mm",
-            "extra",
             _slider_crank("dry", 1e-5),
-            extra=Reduced(),
         ),
-        Case(
+        Reduced(
             "slider_crank_lubricated_0.1mm",
             "Slider-crank, lubricated pin, 0.1 mm",
-            "extra",
             _slider_crank("lubricated", 1e-4),
-            extra=Reduced(),
             variations=True,
         ),
         Case(
             "press_ideal",
             "Press, rigid, ideal",
-            "closed form",
             _press("ideal", "ideal"),
             steps=STEPS[:7],
         ),
         Case(
             "press_lubricated",
             "Press, rigid, lubricated pin and dry balls, 0.1 mm",
-            "own",
             _press("lubricated", "dry"),
             steps=STEPS[:8],
             tolerances=TOLERANCES[:11],
@@ -62,7 +54,6 @@ def cases() -> tuple[Case, ...]:
         Case(
             "press_dry",
             "Press, rigid, dry pin and dry balls, 0.1 mm",
-            "own",
             _press("dry", "dry"),
             steps=STEPS[:8],
             tolerances=TOLERANCES[:11],
@@ -72,7 +63,6 @@ def cases() -> tuple[Case, ...]:
         Case(
             "press_flexible_lubricated",
             "Press, flexible (20 modes), lubricated pin and dry balls, 0.1 mm",
-            "own",
             _press("lubricated", "dry", bodies=flexible_press()),
             steps=STEPS[3:9],
             tolerances=TOLERANCES[:10],
@@ -83,7 +73,6 @@ def cases() -> tuple[Case, ...]:
         Case(
             "press_flexible_dry",
             "Press, flexible (20 modes), dry pin and dry balls, 0.1 mm",
-            "own",
             _press("dry", "dry", bodies=flexible_press()),
             steps=STEPS[3:8],
             tolerances=TOLERANCES[:10],
@@ -94,7 +83,6 @@ def cases() -> tuple[Case, ...]:
         Case(
             "press_flexible_modes",
             "Press, flexible, lubricated pin and dry balls, against 40 modes",
-            "own",
             _press("lubricated", "dry", bodies=flexible_press(modes=40)),
             steps=(),
             tolerances=(),
@@ -103,13 +91,11 @@ def cases() -> tuple[Case, ...]:
             modes=(0, 2, 4, 10, 20, 30, 40),
             repeats=1,
         ),
-        Case(
+        Squeezer(
             "squeezer",
             "Andrews' squeezer, endpoint of the test set for IVP solvers",
-            "extra",
             None,
             steps=SQUEEZER_STEPS,
-            extra=Squeezer(),
         ),
     )
 

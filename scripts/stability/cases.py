@@ -10,7 +10,7 @@ from functools import cache
 from typing import Any
 
 from exu_press.scene import Film, Scene, flexible_press
-from exu_press.studies.stability.case import PAIRS, Case
+from exu_press.studies.stability.cases import PAIRS, Case
 
 __all__ = ["cases", "quick_cases"]
 

@@ -29,8 +29,7 @@ def test_one_key_of_a_scene(tmp_path, capsys):
 def test_a_wrong_case_makes_the_command_fail(tmp_path, monkeypatch, capsys):
     from exu_press.studies import stability as study
 
-    row = {"verdict": "wrong", "axis": "a", "name": "b", "value": "c", "reason": "d",
-           "residual": None, "wall_time": None}  # fmt: skip
+    row = study.Row("b", "a", "c", {}, "wrong", "completed", reason="d")
     monkeypatch.setattr(study, "stability", lambda *a, **k: study.Report(True, (row,)))
     arguments = ["stability", *SCENE, "--no-pictures", "--out", str(tmp_path)]
     assert main(arguments) == 1

@@ -8,9 +8,10 @@ import pytest
 
 from exu_press import Scene
 from exu_press.studies.precision import case_of, precision
-from exu_press.studies.precision.table import horizon_words, report_lines
+from exu_press.studies.precision.cases import QUICK
+from exu_press.studies.precision.references import parting
+from exu_press.studies.precision.table import horizon_words
 from exu_press.studies.precision.trajectory import Trajectory
-from exu_press.studies.precision.truth import parting
 
 
 @pytest.fixture(scope="module")
@@ -35,7 +36,7 @@ def test_the_reference_knows_how_good_it_is(report):
 
 
 def test_the_table_holds_every_run(report):
-    text = "\n".join(report_lines(report))
+    text = "\n".join(report.lines())
     assert text.count("completed") + text.count("failed") >= len(report.rows)
     assert report.machine["processor"] in text and not report.goals
 
@@ -51,7 +52,7 @@ def test_a_horizon_is_measured_where_neighbours_part(report):
     assert found.horizon == pytest.approx(0.08, abs=2e-4)
     assert found.rate == pytest.approx(np.log(10.0) / 0.02, rel=1e-2)
     assert parting(scene, one, one).horizon is None
-    text = "\n".join(report_lines(report))
+    text = "\n".join(report.lines())
     assert "no horizon: neighbouring motions " in text
     case = {"duration": 0.2, "horizon": 0.08, "amplification": found.rate}
     assert horizon_words(case) == "horizon 0.08 s: neighbouring motions part tenfold in 0.02 s"
@@ -61,18 +62,22 @@ def test_stated_errors_stand_beside_the_true_ones(report):
     (one,) = report.stated
     assert one.case == "mine" and one.figures > 20 and len(one.errors) <= one.figures
     assert one.covered >= 0.8 * one.figures
-    assert "stated against true errors" in "\n".join(report_lines(report))
+    assert "stated against true errors" in "\n".join(report.lines())
 
 
 @pytest.mark.parametrize(
-    ("changes", "reference"),
+    ("changes", "closed_form"),
     [
-        ({"mechanism": "slider_crank", "joints": {}}, "closed form"),
-        ({"mechanism": "slider_crank", "joints": {"crank_pin": "dry"}}, "own"),
-        ({"joints": {}}, "closed form"),
-        ({"joints": {"balls": "dry"}}, "own"),
-        ({"joints": {"crank_pin": "lubricated", "balls": "dry"}}, "own"),
+        ({"mechanism": "slider_crank", "joints": {}}, True),
+        ({"mechanism": "slider_crank", "joints": {"crank_pin": "dry"}}, False),
+        ({"joints": {}}, True),
+        ({"joints": {"balls": "dry"}}, False),
+        ({"joints": {"crank_pin": "lubricated", "balls": "dry"}}, False),
+        ({"joints": {}, "guide": {}}, False),
+        ({"joints": {}, "drive": {"rated_torque": 100.0, "inertia": 1.0}}, False),
     ],
 )
-def test_a_users_scene_gets_the_best_reference_there_is(changes, reference):
-    assert case_of("mine", Scene(**changes)).reference == reference
+def test_a_users_scene_gets_the_best_reference_there_is(changes, closed_form):
+    """Kinematics where nothing gives, else the package's own tightest run."""
+    case = case_of("mine", Scene(revolutions=0.01, **changes)).within(QUICK)
+    assert ("closed-form" in case.reference(QUICK).method) == closed_form

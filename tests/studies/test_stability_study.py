@@ -9,9 +9,9 @@ import pytest
 
 from exu_press import InputError, Scene, simulate
 from exu_press.confidence import with_errors
-from exu_press.studies.stability import Report, extremes, stability
+from exu_press.studies.stability import Report, Row, extremes, stability
 from exu_press.studies.stability import judge as judging
-from exu_press.studies.stability.case import PAIRS
+from exu_press.studies.stability.cases import PAIRS
 from exu_press.studies.stability.checks import agreement, checks_of
 from exu_press.studies.stability.judge import finer, judge
 
@@ -160,7 +160,7 @@ def test_rows_are_kept_and_not_run_again(tmp_path):
     chosen = [*table[:1], *(case for case in table if case.axis == "film.viscosity")][:2]
     first = stability(chosen, tmp_path, workers=1)
     assert sum(first.counts().values()) == 2
-    assert [row["name"] for row in first.rows] == [case.name for case in chosen]
+    assert [row.name for row in first.rows] == [case.name for case in chosen]
     lines = (tmp_path / "runs.jsonl").read_text()
     again = stability(chosen, tmp_path, workers=1)
     assert (tmp_path / "runs.jsonl").read_text() == lines
@@ -174,16 +174,15 @@ def test_a_worker_that_fails_gives_a_wrong_case_and_the_map_shows_all(tmp_path):
     pair = replace(table[1], axis=PAIRS, value="one + other", name="one + other, mine")
     verdicts = ["right", "stopped", "wrong"]
     rows = tuple(
-        {
-            "name": case.name, "axis": case.axis, "value": case.value, "verdict": verdicts[i],
-            "status": "completed", "parameters": case.scene.to_dict(),
-            "residual": None if i else 1e-5, "reason": "why" * bool(i), "wall_time": 1.0,
-        }
+        Row(
+            case.name, case.axis, case.value, case.scene.to_dict(), verdicts[i], "completed",
+            reason="why" * bool(i), residual=None if i else 1e-5, wall_time=1.0,
+        )
         for case, i in zip([*table, pair], [0, 1, 2, *[0] * 999], strict=False)
     )  # fmt: skip
     report = Report(True, rows)
     assert report.counts() == {"right": len(rows) - 2, "stopped": 1, "wrong": 1}
     text = "\n".join(report.lines())
-    assert f"wrong: {rows[2]['name']}" in text
+    assert f"wrong: {rows[2].name}" in text
     assert report.lines()[-1].endswith(f"{1 / len(rows):.1%} others), 1 wrong")
     assert save_stability(report, tmp_path).stat().st_size > 10_000

@@ -1,12 +1,16 @@
 """What is run: a scene with the settings that are worth their time."""
 
-from dataclasses import dataclass
-from typing import Literal
+from dataclasses import dataclass, replace
+from typing import Self
 
 from exu_press.scene import Scene
-from exu_press.studies.precision.extra import Extra
+from exu_press.studies.precision import own, references
+from exu_press.studies.precision.errors import Errors, Late, errors_of, late_of
+from exu_press.studies.precision.measured import Attempt, Measured
+from exu_press.studies.precision.references import Reference
+from exu_press.studies.precision.stated import Stated, stated_errors
 
-__all__ = ["STEPS", "TOLERANCES", "Case", "case_of"]
+__all__ = ["FULL", "QUICK", "STEPS", "TOLERANCES", "Amount", "Case", "case_of"]
 
 STEPS = (1e-3, 5e-4, 2e-4, 1e-4, 5e-5, 2e-5, 1e-5, 5e-6, 2e-6, 1e-6)  # s
 TOLERANCES = (
@@ -14,30 +18,68 @@ TOLERANCES = (
     *(5e-5, 2e-5, 1e-5, 5e-6, 2e-6, 1e-6),
 )
 
+RADII = (0.5, 0.65, 0.95)
+"""Beside the default of 0.8."""
+VARIED_TOLERANCES = (1e-2, 1e-3, 1e-4)
+VARIED_STEPS = (1e-4, 2e-5, 1e-5)  # s
+
+FINEST = 1e-6
+"""Tolerance of the truth of stated errors where no case says otherwise."""
+
+
+@dataclass(frozen=True)
+class Amount:
+    """How much of the cases is run.
+
+    Attributes:
+        repeats: of every run; the median is reported.
+        revolutions: a rigid scene is not run longer.
+        flexible_revolutions: a flexible scene is not run longer.
+        finest_step: smaller fixed steps are left out, s.
+        finest_tolerance: smaller tolerances are left out.
+        finest_peer: smaller tolerances of the peers are left out.
+        loosen: factor on the tolerances of the references.
+        reference_step: smallest fixed step of a reference, s.
+        starts: of a reference, beside its own, where neighbouring motions part.
+        stated: tolerances whose stated errors are held against the true ones.
+    """
+
+    repeats: int
+    revolutions: float
+    flexible_revolutions: float
+    finest_step: float
+    finest_tolerance: float
+    finest_peer: float
+    loosen: float
+    reference_step: float
+    starts: int
+    stated: tuple[float, ...]
+
+
+FULL = Amount(3, 2.0, 0.2, 1e-6, 1e-6, 1e-10, 1.0, 1e-6, 6, (1e-2, 3e-3, 1e-3, 3e-4))
+QUICK = Amount(1, 0.2, 0.02, 1e-4, 1e-4, 1e-5, 30.0, 1e-5, 1, (1e-2,))
+
 
 @dataclass(frozen=True)
 class Case:
-    """One row of the table.
+    """One row of the table; a campaign's own kinds have other references, solvers or systems.
 
     Attributes:
         name: on the command line and in the files.
         title: in words.
-        reference: "closed form" (ideal joints), "own" (the tightest tolerance against the smallest
-            fixed step) or "extra".
-        scene: what is run; None for a system that only `extra` knows.
+        scene: what is run; None for a system that is no scene.
         steps: fixed ones, s.
         tolerances: of the step control.
-        reference_tolerance: "own": the tightest one, which is the reference.
-        reference_step: "own": the smallest fixed step, with twice it beside, s.
+        reference_tolerance: the tightest one, which is the reference of a scene that has no closed
+            form.
+        reference_step: the smallest fixed step, with twice it beside, s.
         variations: whether spectral radius and Newton mode are varied.
         modes: numbers of modes that are tried, at the default tolerance.
         repeats: fewer than the amount's, for runs that take minutes.
-        extra: other solvers, and the reference of that name.
     """
 
     name: str
     title: str
-    reference: Literal["closed form", "own", "extra"]
     scene: Scene | None
     steps: tuple[float, ...] = STEPS
     tolerances: tuple[float, ...] = TOLERANCES
@@ -46,20 +88,85 @@ class Case:
     variations: bool = False
     modes: tuple[int, ...] = ()
     repeats: int | None = None
-    extra: Extra | None = None
+
+    @property
+    def duration(self) -> float:
+        """Simulated time, s."""
+        return self._scene.duration
+
+    @property
+    def _scene(self) -> Scene:
+        assert self.scene is not None
+        return self.scene
+
+    def within(self, amount: Amount) -> Self:
+        """Return as much of it as is run."""
+        scene = self.scene
+        if scene is not None:
+            longest = amount.flexible_revolutions if scene.bodies else amount.revolutions
+            scene = scene.replace(revolutions=min(scene.revolutions, longest))
+        return replace(
+            self,
+            scene=scene,
+            steps=tuple(h for h in self.steps if h >= amount.finest_step),
+            tolerances=tuple(tol for tol in self.tolerances if tol >= amount.finest_tolerance),
+            repeats=self.repeats or amount.repeats,
+        )
+
+    def reference(self, amount: Amount) -> Reference:
+        """Return what its runs are compared with."""
+        if _has_closed_form(self._scene):
+            return references.closed_form(self._scene)
+        tolerance = amount.loosen * self.reference_tolerance
+        step = max(self.reference_step, amount.reference_step)
+        return references.from_own(self._scene, tolerance, step, amount.starts)
+
+    def attempts(self, amount: Amount) -> list[Attempt]:
+        """Return its runs."""
+        scene = self._scene
+        found = own.fixed_steps(scene, self.steps) + own.tolerances(scene, self.tolerances)
+        found += own.mode_numbers(scene, self.modes)
+        if self.variations:
+            tolerances = [tol for tol in VARIED_TOLERANCES if tol >= amount.finest_tolerance]
+            found += own.spectral_radii(scene, RADII, tolerances)
+            found += own.newton_modes(scene, [h for h in VARIED_STEPS if h >= amount.finest_step])
+        return found
+
+    def errors(
+        self, run: Measured, reference: Reference, horizon: float
+    ) -> tuple[Errors, Late | None]:
+        """Return how far a run is from the reference."""
+        if run.trajectory is None or reference.trajectory is None:
+            return Errors(None, None, None), None
+        errors = errors_of(run.trajectory, reference.trajectory, horizon)
+        late = late_of(run.trajectory, reference.trajectory, run.starts, reference.starts)
+        return errors, late
+
+    def stated(self, amount: Amount, horizon: float) -> list[Stated]:
+        """Return what runs until the horizon state of their errors."""
+        if self.scene is None or self.modes:
+            return []
+        part = self.scene.replace(revolutions=self.scene.revolutions * horizon / self.duration)
+        finest = amount.loosen * (self.reference_tolerance or FINEST)
+        return stated_errors(self.name, part, amount.stated, finest)
 
 
 def case_of(name: str, scene: Scene) -> Case:
     """Return the case of a user's scene, with the best reference there is for it."""
-    if not scene.joints.with_clearance:
-        return Case(name, "Scene, ideal joints", "closed form", scene, steps=STEPS[:7])
+    if _has_closed_form(scene):
+        return Case(name, "Scene, ideal joints", scene, steps=STEPS[:7])
     return Case(
         name,
         "Scene",
-        "own",
         scene,
         steps=STEPS[:7],
         tolerances=TOLERANCES[:10],
         reference_tolerance=1e-5,
         reference_step=5e-6,
     )
+
+
+def _has_closed_form(scene: Scene) -> bool:
+    """Return whether the motion is that of a mechanism without any give, at constant speed."""
+    gives = scene.joints.with_clearance or scene.guide is not None or scene.bodies
+    return not gives and scene.drive is None

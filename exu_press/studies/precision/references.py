@@ -1,12 +1,16 @@
-"""References of a scene: closed form, or the package's own integrator two ways."""
+"""References: what runs are compared with, and how far it is true itself.
 
-from dataclasses import replace
+From two integrators that share as little as possible. Their mutual difference says how true it is:
+an error below ten times that difference says nothing but "at most this", and stands in the report
+as that.
+"""
+
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from exu_press.confidence import Growth, growth
 from exu_press.scene import Scene, mechanism_of
-from exu_press.studies.precision.amount import Amount
-from exu_press.studies.precision.cases import Case
 from exu_press.studies.precision.errors import (
     INSTANTS_APART,
     Errors,
@@ -15,18 +19,52 @@ from exu_press.studies.precision.errors import (
 )
 from exu_press.studies.precision.own import moved, run_scene
 from exu_press.studies.precision.trajectory import Array, Trajectory
-from exu_press.studies.precision.truth import Reference, parting
 
-__all__ = ["closed_form", "from_own"]
+__all__ = ["Reference", "closed_form", "from_own", "parting"]
+
+RESERVE = 10.0
+"""An error must be this many times the references' mutual difference to be believed."""
+
+KNOWN = 1e-3
+"""Of the smallest clearance: two references whose sliders are further apart are none any more."""
+
+STAYS = Growth(None, None)
+"""Of motions that do not part."""
 
 KINEMATIC_STEP = 1e-5  # s, between the points of a closed-form trajectory
-
 
 NOTHING = Errors(None, None, None)
 
 NEIGHBOUR = 4.0
 LOOSER = 10.0
 """Times the reference's tolerance for further starts: they part as soon whatever it is."""
+
+
+@dataclass(frozen=True)
+class Reference:
+    """What runs are compared with.
+
+    Attributes:
+        method: where it comes from, in words.
+        trajectory: None if it could not be made.
+        difference: between the two integrators, up to the horizon; zeros where it is exact.
+        parted: how fast neighbouring motions part, and the horizon: from when on errors exceed what
+            is looked at.
+        starts: further trajectories, of starts that differ by what nobody knows, where motions part
+            before the end.
+    """
+
+    method: str
+    trajectory: Trajectory | None
+    difference: Errors
+    parted: Growth = STAYS
+    starts: tuple[Trajectory, ...] = ()
+
+    @property
+    def floor(self) -> Errors:
+        """Smallest errors that can be told."""
+        d = self.difference
+        return Errors(_above(d.position), _above(d.velocity), _above(d.peak_acceleration))
 
 
 def closed_form(scene: Scene) -> Reference:
@@ -38,19 +76,18 @@ def closed_form(scene: Scene) -> Reference:
     return Reference("closed-form kinematics", Trajectory(time, *motion), Errors(0.0, 0.0, 0.0))
 
 
-def from_own(case: Case, scene: Scene, amount: Amount) -> Reference:
+def from_own(scene: Scene, tolerance: float, step: float, starts: int) -> Reference:
     """Return the tightest tolerance, checked against fixed steps extrapolated to zero.
 
     How neighbouring motions part, and so the horizon, is measured by a run at NEIGHBOUR times the
     tolerance.
 
     Args:
-        case: with the settings of its reference.
-        scene: the case's scene, perhaps shortened.
-        amount: how much is run.
+        scene: what is run.
+        tolerance: of the reference.
+        step: smallest fixed one, with twice it beside, s.
+        starts: further ones, where neighbouring motions part.
     """
-    tolerance = case.reference_tolerance * amount.loosen
-    step = max(case.reference_step, amount.reference_step)
     method = f"tolerance {tolerance:.0e} against fixed steps {2 * step:.0e}, {step:.0e} s"
     tight = run_scene(scene, "tolerance", tolerance).trajectory
     near = run_scene(scene, "tolerance", NEIGHBOUR * tolerance).trajectory
@@ -73,10 +110,20 @@ def from_own(case: Case, scene: Scene, amount: Amount) -> Reference:
     )
     peak = errors_of(fine, tight, horizon).peak_acceleration  # as sampled; no order to rely on
     difference = Errors(position, velocity, peak)
-    starts: tuple[Trajectory, ...] = ()
+    others: tuple[Trajectory, ...] = ()
     if parted.horizon is not None:
-        starts = _starts(scene, LOOSER * tolerance, amount.starts)
-    return Reference(f"{method}, extrapolated", tight, difference, parted, starts)
+        others = _starts(scene, LOOSER * tolerance, starts)
+    return Reference(f"{method}, extrapolated", tight, difference, parted, others)
+
+
+def parting(scene: Scene, one: Trajectory, other: Trajectory) -> Growth:
+    """Return how two trajectories of a scene part, until they are KNOWN apart."""
+    clearances = [joint.clearance for joint in scene.joints.with_clearance.values()]
+    clearances += [g.ways.clearance for g in mechanism_of(scene).guides if g.ways is not None]
+    if not clearances:
+        return STAYS
+    there, _ = other.at(np.clip(one.time, other.time[0], other.time[-1]))
+    return growth(one.time, np.abs(one.position - there) / min(clearances), KNOWN)
 
 
 def _starts(scene: Scene, tolerance: float, count: int) -> tuple[Trajectory, ...]:
@@ -88,3 +135,7 @@ def _starts(scene: Scene, tolerance: float, count: int) -> tuple[Trajectory, ...
 def _at_zero(coarse: Array, fine: Array) -> Array:
     """Return what a second-order method would give at step zero, from a step and its double."""
     return np.asarray(fine + (fine - coarse) / 3.0)
+
+
+def _above(difference: float | None) -> float | None:
+    return None if difference is None else RESERVE * difference

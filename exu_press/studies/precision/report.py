@@ -6,6 +6,7 @@ from typing import Any
 
 from exu_press.studies.precision.rows import Row
 from exu_press.studies.precision.stated import Stated
+from exu_press.studies.precision.table import case_lines, machine_lines, order_lines, stated_lines
 
 __all__ = ["Goal", "Report"]
 
@@ -32,6 +33,15 @@ class Goal:
     def met(self) -> bool | None:
         """Whether the goal is met; None where there is nothing to compare."""
         return None if self.ratio is None else self.ratio <= self.at_most
+
+    def lines(self) -> list[str]:
+        """Return the goal for the terminal."""
+        verdict = {True: "met", False: "NOT MET", None: "not to be told"}[self.met]
+        ratio = "-" if self.ratio is None else f"{self.ratio:.3g}"
+        return [
+            f"goal {verdict}: {self.what}: {ratio}, wanted <= {self.at_most:.3g}",
+            f"  {self.ours} against {self.other}",
+        ]
 
 
 @dataclass(frozen=True)
@@ -63,3 +73,12 @@ class Report:
         data = asdict(self)
         data["goals"] = [{**asdict(goal), "met": goal.met} for goal in self.goals]
         return data
+
+    def lines(self) -> list[str]:
+        """Return everything for the terminal, the table of a case after the other."""
+        parts = [machine_lines(self.machine, self.quick)]
+        for name, case in self.cases.items():
+            parts.append(case_lines(name, case, [row for row in self.rows if row.case == name]))
+        parts += [order_lines(self.orders), stated_lines(self.stated)]
+        parts += [[line for goal in self.goals for line in goal.lines()], list(self.left_out)]
+        return [line for part in parts if part for line in ("", *part)][1:]

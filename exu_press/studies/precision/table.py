@@ -1,4 +1,4 @@
-"""The report as a person reads it in a terminal."""
+"""The parts of the report as a person reads them in a terminal."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -6,10 +6,10 @@ from typing import Any
 
 from exu_press.columns import columns
 from exu_press.studies.precision.errors import PEAKS_APART
-from exu_press.studies.precision.report import Report
 from exu_press.studies.precision.rows import Row
+from exu_press.studies.precision.stated import Stated
 
-__all__ = ["horizon_words", "report_lines"]
+__all__ = ["case_lines", "horizon_words", "machine_lines", "order_lines", "stated_lines"]
 
 INDENT = 2
 
@@ -34,43 +34,53 @@ LATE_HEAD = (
     *("mean of peaks", "95th percentile"),
 )
 
+ORDER_HEAD = ("case", "solver", "setting", "position", "velocity", "peak")
+
 STATED_HEAD = (*("case", "tolerance", "figures", "covered", "stated/true", "peak: stated", "true"),)
 
 
-def report_lines(report: Report) -> list[str]:
-    """Return everything: machine, a table a case, observed orders, goals, what was left out."""
-    lines = [*_machine_lines(report), ""]
-    for name, case in report.cases.items():
-        rows = [row for row in report.rows if row.case == name]
-        reference = case["reference"]
-        units = "rad, rad/s" if case["scene"] is None else "m, m/s"
-        lines += [
-            f"{name}: {case['title']}",
-            f"  {case['duration']:g} s simulated; {horizon_words(case)}",
-            f"  errors up to then, {units} and relative; < smaller than the reference can tell; "
-            "* one run, not the median of three",
-            f"  reference: {reference['method']}; {_difference(reference)}",
-            *columns([HEAD, *(_cells(row) for row in rows)], INDENT),
-            *_reasons(rows),
-            *(_late_lines(rows) if case["horizon"] < case["duration"] else ()),
-            "",
-        ]
-    lines += ["observed orders (slope of the error over the setting, three finest points)"]
-    orders = [
+def machine_lines(machine: Mapping[str, Any], quick: bool) -> list[str]:
+    """Return where the times were taken."""
+    versions = ", ".join(f"{name} {v}" for name, v in machine["versions"].items() if v)
+    load = machine["load"]
+    busy = "" if load is None else f", load {load[0]:.1f}"
+    lines = [f"{machine['processor']}, {machine['cores']} cores{busy}; {versions}"]
+    if quick:
+        lines.append("reduced form: short runs, loose references; the times mean nothing")
+    return lines
+
+
+def case_lines(name: str, case: Mapping[str, Any], rows: Sequence[Row]) -> list[str]:
+    """Return a case's reference and its runs."""
+    reference = case["reference"]
+    units = "rad, rad/s" if case["scene"] is None else "m, m/s"
+    return [
+        f"{name}: {case['title']}",
+        f"  {case['duration']:g} s simulated; {horizon_words(case)}",
+        f"  errors up to then, {units} and relative; < smaller than the reference can tell; "
+        "* one run, not the median of three",
+        f"  reference: {reference['method']}; {_difference(reference)}",
+        *columns([HEAD, *(_cells(row) for row in rows)], INDENT),
+        *_reasons(rows),
+        *(_late_lines(rows) if case["horizon"] < case["duration"] else ()),
+    ]
+
+
+def order_lines(orders: Sequence[Mapping[str, Any]]) -> list[str]:
+    """Return the observed orders."""
+    cells = [
         (
             order["case"],
             order["solver"],
             order["setting"],
             *(_number(order[name], 2) for name in order if name.startswith("error")),
         )
-        for order in report.orders
+        for order in orders
     ]
-    lines += columns(
-        [("case", "solver", "setting", "position", "velocity", "peak"), *orders], INDENT
-    )
-    lines += _stated_lines(report)
-    lines += _goal_lines(report)
-    return [*lines, "", *report.left_out] if report.left_out else lines
+    return [
+        "observed orders (slope of the error over the setting, three finest points)",
+        *columns([ORDER_HEAD, *cells], INDENT),
+    ]
 
 
 def horizon_words(case: Mapping[str, Any]) -> str:
@@ -82,7 +92,7 @@ def horizon_words(case: Mapping[str, Any]) -> str:
     return f"no horizon: neighbouring motions {'part' if how else 'stay together'}{how}"
 
 
-def _stated_lines(report: Report) -> list[str]:
+def stated_lines(stated: Sequence[Stated]) -> list[str]:
     """Return how stated errors cover the true ones, where there are any."""
     cells: list[tuple[str, ...]] = [
         (
@@ -93,24 +103,13 @@ def _stated_lines(report: Report) -> list[str]:
             _number(one.ratio, 2),
             *((_number(e, 2) for e in one.peak) if one.peak else ("-", "-")),
         )
-        for one in report.stated
+        for one in stated
         if one.figures
     ]
     if not cells:
         return []
     title = "stated against true errors of all figures until the horizon; of the peak acceleration"
-    return ["", title, *columns([STATED_HEAD, *cells], INDENT)]
-
-
-def _machine_lines(report: Report) -> list[str]:
-    machine = report.machine
-    versions = ", ".join(f"{name} {v}" for name, v in machine["versions"].items() if v)
-    load = machine["load"]
-    busy = "" if load is None else f", load {load[0]:.1f}"
-    lines = [f"{machine['processor']}, {machine['cores']} cores{busy}; {versions}"]
-    if report.quick:
-        lines.append("reduced form: short runs, loose references; the times mean nothing")
-    return lines
+    return [title, *columns([STATED_HEAD, *cells], INDENT)]
 
 
 def _difference(reference: Mapping[str, Any]) -> str:
@@ -177,16 +176,6 @@ def _late_lines(rows: Sequence[Row]) -> list[str]:
         f"accelerations of each {PEAKS_APART:g} s, of all starts"
     )
     return [title, *columns([LATE_HEAD, *cells], INDENT)]
-
-
-def _goal_lines(report: Report) -> list[str]:
-    lines = [""] if report.goals else []
-    for goal in report.goals:
-        verdict = {True: "met", False: "NOT MET", None: "not to be told"}[goal.met]
-        ratio = "-" if goal.ratio is None else f"{goal.ratio:.3g}"
-        lines.append(f"goal {verdict}: {goal.what}: {ratio}, wanted <= {goal.at_most:.3g}")
-        lines.append(f"  {goal.ours} against {goal.other}")
-    return lines
 
 
 def _number(value: float | None, digits: int) -> str:

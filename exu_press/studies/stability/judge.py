@@ -1,6 +1,5 @@
 """One case, run and judged: right, stopped or wrong."""
 
-import time
 from typing import Any
 
 from exu_press.confidence import with_errors
@@ -31,7 +30,6 @@ def judge(case: dict[str, Any]) -> dict[str, Any]:
     Args:
         case: name and scene.
     """
-    start = time.perf_counter()
     scene = Scene.from_dict(case["scene"])
     result = simulate(scene)
     info = result.info
@@ -44,7 +42,7 @@ def judge(case: dict[str, Any]) -> dict[str, Any]:
     }
     if info["reason"]:
         row |= {"verdict": STOPPED, "checks": [], "residual": None}
-        return row | {"judged_in": time.perf_counter() - start}
+        return row
     checks = checks_of(result)
     residual = next((c.value for c in checks if c.name == "energy residual"), None)
     if all(check.passed for check in checks):
@@ -63,12 +61,11 @@ def judge(case: dict[str, Any]) -> dict[str, Any]:
             f"allowed {check.limit:g}" + f" ({check.note})" * bool(check.note)
             for check in failed
         )
-    row |= {
+    return row | {
         "verdict": RIGHT if right else WRONG,
         "checks": [check.to_dict() for check in checks],
         "residual": residual,
     }
-    return row | {"judged_in": time.perf_counter() - start}
 
 
 def finer(scene: Scene, part: float = 0.1) -> Scene:

@@ -1,16 +1,50 @@
 """What came out of the study, as it is written and as a user reads it."""
 
 from collections import Counter
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
 from typing import Any
 
+from exu_press.columns import columns
 from exu_press.studies.stability.judge import RIGHT, STOPPED, WRONG
 
-__all__ = ["Report"]
+__all__ = ["Report", "Row"]
+
+HEAD = ("axis", "cases", "right", "stopped", "wrong", "worst residual", "longest, s")
 
 TOO_COARSE = 0.1
 """Tolerance that is plainly too coarse for impacts, as is any fixed step that leaps over them."""
+
+
+@dataclass(frozen=True)
+class Row:
+    """What became of one case.
+
+    Attributes:
+        name: unique.
+        axis: what is varied.
+        value: of it, in words.
+        parameters: the scene.
+        verdict: RIGHT, STOPPED or WRONG.
+        status: of its run, or of the worker that failed.
+        reason: why it stopped or is wrong.
+        checks: of what makes it right.
+        residual: of the energy balance, relative.
+        steps: accepted ones.
+        wall_time: s.
+    """
+
+    name: str
+    axis: str
+    value: str
+    parameters: Mapping[str, Any]
+    verdict: str
+    status: str
+    reason: str = ""
+    checks: Sequence[Mapping[str, Any]] = ()
+    residual: float | None = None
+    steps: int | None = None
+    wall_time: float | None = None
 
 
 @dataclass(frozen=True)
@@ -19,24 +53,23 @@ class Report:
 
     Attributes:
         quick: whether it is the fixed sample.
-        rows: one a case: name, axis, value, parameters (the scene), verdict, reason, checks,
-            residual, status, steps, wall_time (s).
+        rows: one a case.
     """
 
     quick: bool
-    rows: tuple[Mapping[str, Any], ...]
+    rows: tuple[Row, ...]
 
     def counts(self) -> dict[str, int]:
         """Return how many cases have each verdict."""
-        found = Counter(row["verdict"] for row in self.rows)
+        found = Counter(row.verdict for row in self.rows)
         return {verdict: found[verdict] for verdict in (RIGHT, STOPPED, WRONG)}
 
     def too_coarse(self) -> int:
         """Return how many cases stopped because their own setting is plainly too coarse."""
         solvers = (
-            row["parameters"]["solver"]
+            row.parameters["solver"]
             for row in self.rows
-            if row["verdict"] == STOPPED and row["status"] == "under-resolved"
+            if row.verdict == STOPPED and row.status == "under-resolved"
         )
         return sum("step" in each or each["tolerance"] >= TOO_COARSE for each in solvers)
 
@@ -46,29 +79,25 @@ class Report:
             "quick": self.quick,
             "counts": self.counts(),
             "stopped_too_coarse": self.too_coarse(),
-            "cases": [dict(row) for row in self.rows],
+            "cases": [asdict(row) for row in self.rows],
         }
 
     def lines(self) -> list[str]:
         """Return a table, a line an axis, then every case that is not right, then the counts."""
-        counts = self.counts()
-        axes = dict.fromkeys(row["axis"] for row in self.rows)
-        width = max(map(len, axes))
-        lines = [f"{'axis':{width}}  cases  right  stopped  wrong  worst residual  longest, s"]
-        for axis in axes:
-            rows = [row for row in self.rows if row["axis"] == axis]
-            found = Counter(row["verdict"] for row in rows)
-            residuals = [row["residual"] for row in rows if row["residual"] is not None]
-            worst = f"{max(residuals):.1e}" if residuals else "-"
-            longest = max((row["wall_time"] or 0.0 for row in rows), default=0.0)
-            lines.append(
-                f"{axis:{width}}  {len(rows):5}  {found[RIGHT]:5}  {found[STOPPED]:7}  "
-                f"{found[WRONG]:5}  {worst:>14}  {longest:10.3g}"
-            )
+        table: list[tuple[str, ...]] = [HEAD]
+        for axis in dict.fromkeys(row.axis for row in self.rows):
+            rows = [row for row in self.rows if row.axis == axis]
+            found = Counter(row.verdict for row in rows)
+            worst = max((row.residual for row in rows if row.residual is not None), default=None)
+            longest = max(row.wall_time or 0.0 for row in rows)
+            numbers = len(rows), *(found[verdict] for verdict in (RIGHT, STOPPED, WRONG))
+            residual = "-" if worst is None else f"{worst:.1e}"
+            table.append((axis, *map(str, numbers), residual, f"{longest:.3g}"))
+        lines, counts = columns(table, right=True), self.counts()
         for verdict in (STOPPED, WRONG):
             for row in self.rows:
-                if row["verdict"] == verdict:
-                    lines += ["", f"{verdict}: {row['name']}", f"    {row['reason']}"]
+                if row.verdict == verdict:
+                    lines += ["", f"{verdict}: {row.name}", f"    {row.reason}"]
         total, coarse = len(self.rows), self.too_coarse()
         share = (counts[STOPPED] - coarse) / total
         lines += [

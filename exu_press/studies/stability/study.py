@@ -5,9 +5,9 @@ from pathlib import Path
 from typing import Any
 
 from exu_press.batch import run_batch
-from exu_press.studies.stability.case import Case
+from exu_press.studies.stability.cases import Case
 from exu_press.studies.stability.judge import WRONG, judge
-from exu_press.studies.stability.report import Report
+from exu_press.studies.stability.report import Report, Row
 
 __all__ = ["TIME_LIMIT", "stability"]
 
@@ -48,16 +48,12 @@ def stability(
     return Report(quick, tuple(_row(case, row) for case, row in zip(table, rows, strict=True)))
 
 
-def _row(case: Case, row: Mapping[str, Any]) -> dict[str, Any]:
+def _row(case: Case, found: Mapping[str, Any]) -> Row:
     """Return a case's row; a worker that failed, hung or died gives a wrong one."""
-    row = dict(row)
-    if "verdict" not in row:
-        row |= {"verdict": WRONG, "reason": f"{row['status']}: {row['reason']}"}
-        row |= {"checks": [], "residual": None, "steps": None, "wall_time": None}
-    return {
-        **row,
-        "name": case.name,
-        "axis": case.axis,
-        "value": case.value,
-        "parameters": case.scene.to_dict(),
-    }
+    told: dict[str, Any] = {"name": case.name, "axis": case.axis, "value": case.value}
+    told["parameters"] = case.scene.to_dict()
+    if "verdict" not in found:
+        reason = f"{found['status']}: {found['reason']}"
+        return Row(**told, verdict=WRONG, status=found["status"], reason=reason)
+    names = ("verdict", "status", "reason", "checks", "residual", "steps", "wall_time")
+    return Row(**told, **{name: found[name] for name in names})

@@ -6,7 +6,6 @@ import pytest
 
 from exu_press import InputError
 from exu_press.studies.precision import precision
-from exu_press.studies.precision.table import report_lines
 from precision.cases import cases, chosen
 from precision.peers import left_out
 
@@ -56,7 +55,7 @@ def test_references_are_known_ten_times_better_than_what_is_told(report):
 
 
 def test_the_table_holds_every_run(report):
-    text = "\n".join(report_lines(report))
+    text = "\n".join(report.lines())
     assert text.count("completed") + text.count("failed") >= len(report.rows)
     assert "Radau" in text and report.machine["processor"] in text
 

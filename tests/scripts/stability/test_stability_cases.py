@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from exu_press.studies.stability.case import PAIRS
+from exu_press.studies.stability.cases import PAIRS
 from stability.cases import cases, quick_cases
 
 

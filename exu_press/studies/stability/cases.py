@@ -1,13 +1,16 @@
-"""A user's scene pushed to its extremes, one key after the other."""
+"""The scenes that are judged: a table's, or a user's one pushed to its extremes key by key."""
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 from exu_press.errors import InputError
 from exu_press.scene import Scene
-from exu_press.studies.stability.case import Case
 
-__all__ = ["FACTORS", "extremes"]
+__all__ = ["FACTORS", "PAIRS", "Case", "extremes"]
+
+PAIRS = "pairs of extremes"
+"""The axis of those cases that are at the end of two axes at once."""
 
 FACTORS = (1e-3, 1e-2, 0.1, 10.0, 100.0, 1e3)
 """Times what the scene has; a value that a scene refuses is left out."""
@@ -22,6 +25,23 @@ AS_IT_IS = "as it is"
 
 BUDGET = 50_000
 """Most steps of a case, unless the scene allows fewer: it then stops, and says so."""
+
+
+@dataclass(frozen=True)
+class Case:
+    """One scene of a table.
+
+    Attributes:
+        name: unique.
+        axis: what is varied.
+        value: in words, as the map shows it; of a pair, the two.
+        scene: complete.
+    """
+
+    name: str
+    axis: str
+    value: str
+    scene: Scene
 
 
 def extremes(scene: Scene, name: str) -> tuple[Case, ...]:

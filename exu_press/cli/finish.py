@@ -1,0 +1,43 @@
+"""What a study's command does with what came out."""
+
+import argparse
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Any, Protocol
+
+from exu_press.output import write_json
+
+__all__ = ["finish"]
+
+
+class Report(Protocol):
+    """What a study found, as it is written and as a person reads it."""
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return what stands in the file."""
+        ...
+
+    def lines(self) -> list[str]:
+        """Return what stands on the terminal."""
+        ...
+
+
+def finish(
+    report: Report,
+    file: Path,
+    draw: Callable[[], Iterable[Path]],
+    options: argparse.Namespace,
+) -> None:
+    """Write, draw and print a report.
+
+    Args:
+        report: of any study.
+        file: where it is written.
+        draw: its pictures, and returns their files.
+        options: with `no_pictures` and `quiet`.
+    """
+    write_json(file, report.to_dict())
+    written = [file] if options.no_pictures else [file, *draw()]
+    if not options.quiet:
+        print("\n".join(report.lines()))
+        print("written:", ", ".join(path.name for path in written), f"in {file.parent}")

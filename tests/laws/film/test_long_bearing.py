@@ -4,7 +4,7 @@ import math
 import random
 
 import pytest
-from reynolds import long_half_film
+from exact_bearings import long_half_film
 
 from exu_press.laws.film import pi_film, pinkus
 

@@ -4,7 +4,7 @@ import math
 import random
 
 import pytest
-from reynolds import short_half_film
+from exact_bearings import short_half_film
 
 from exu_press.laws.film import short
 

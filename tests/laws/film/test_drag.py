@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 import pytest
-from reynolds import long_full_film_moments, long_half_film_moments, wall_moments
-from test_film_finite import ATTITUDE, ROTATION, WIDTHS, rows
+from exact_bearings import long_full_film_moments, long_half_film_moments, wall_moments
+from test_finite_bearing import ATTITUDE, ROTATION, WIDTHS, rows
 
 from exu_press.joints.pairs import FilmPair
 from exu_press.laws.film import finite, pi_film

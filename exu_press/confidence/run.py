@@ -1,5 +1,6 @@
 """A run with the errors of its figures."""
 
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
@@ -77,7 +78,7 @@ def simulate_with_errors(scene: Scene, *, quiet: bool = True, beside: bool = Tru
         return with_errors(simulate(scene, quiet=quiet), beside=False)
     with Companions(scene) as companions:
         result = simulate(scene, quiet=quiet)
-        return _told(result, companions.results() if result.completed else {})
+        return _told(result, _found(companions) if result.completed else {})
 
 
 def with_errors(result: Result, *, beside: bool = True) -> Result:
@@ -92,7 +93,16 @@ def with_errors(result: Result, *, beside: bool = True) -> Result:
     if not beside:
         return _told(result, {r: simulate(scene) for r, scene in plan(result.scene).items()})
     with Companions(result.scene) as companions:
-        return _told(result, companions.results())
+        return _told(result, _found(companions))
+
+
+def _found(companions: Companions) -> dict[float, Result]:
+    """Return what companions found; nothing, with a warning, where their process has failed."""
+    try:
+        return companions.results()
+    except RuntimeError as error:
+        warnings.warn(f"no errors of the figures are known: {error}", stacklevel=3)
+        return {}
 
 
 def _told(result: Result, companions: Mapping[float, Result]) -> Result:

@@ -14,7 +14,7 @@ from exu_press.plots.sweep_panels import draw_curves, draw_map
 from exu_press.plots.sweep_words import setting, words
 from exu_press.plots.words import describe, plain
 from exu_press.studies.sweep import Table
-from exu_press.studies.sweep.shown import shown
+from exu_press.studies.sweep.lines import shown
 
 __all__ = ["axes_of", "save_sweep", "sweep_figure"]
 

@@ -15,7 +15,7 @@ from exu_press.report.run import scene_parts
 from exu_press.scene.warnings import scene_warnings
 from exu_press.stored import LARGEST, from_json
 from exu_press.studies.sweep import Study, Table
-from exu_press.studies.sweep.shown import shown
+from exu_press.studies.sweep.lines import shown
 from exu_press.studies.sweep.units import unit_of
 
 __all__ = ["sweep_report"]

@@ -7,7 +7,7 @@ import pytest
 
 from exu_press import Result, Scene, simulate
 from exu_press.confidence import simulate_with_errors, with_errors
-from exu_press.confidence.companions import plan
+from exu_press.confidence.companions import Companions, plan
 from exu_press.confidence.estimate import AMPLIFIED
 from exu_press.confidence.figures import figures
 from exu_press.confidence.run import errors_of
@@ -114,3 +114,17 @@ def test_smooth_motion_has_fewer_companions_with_longer_steps():
     loose = smooth.replace("guide", {"clearance": 1e-5})
     assert list(plan(loose)) == [4.0, 8.0, 16.0]
     assert plan(loose)[4.0].solver.max_step_deg == loose.solver.max_step_deg
+
+
+def test_a_run_is_not_lost_with_its_companions(monkeypatch):
+    """Their process may be ended from outside, as where memory is short."""
+
+    def fails(companions):
+        raise RuntimeError("a companion run failed (-9)")
+
+    monkeypatch.setattr(Companions, "results", fails)
+    scene = Scene(mechanism="slider_crank", joints={}, revolutions=0.02)
+    with pytest.warns(UserWarning, match=r"no errors of the figures are known: .*\(-9\)"):
+        result = simulate_with_errors(scene)
+    assert result.completed
+    assert result.summary()["errors"] == {}

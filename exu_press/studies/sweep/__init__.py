@@ -1,9 +1,8 @@
 """Many runs of one scene: any of its keys on a grid, a list or a Latin hypercube; one table."""
 
 from exu_press.studies.sweep.lines import table_lines
-from exu_press.studies.sweep.load import load_study
 from exu_press.studies.sweep.run import sweep
-from exu_press.studies.sweep.study import Study
+from exu_press.studies.sweep.study import Study, load_study
 from exu_press.studies.sweep.table import Table
 
 __all__ = ["Study", "Table", "load_study", "sweep", "table_lines"]

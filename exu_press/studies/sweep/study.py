@@ -3,14 +3,16 @@
 import dataclasses
 from collections.abc import Mapping
 from functools import cached_property
+from pathlib import Path
 from typing import Any
 
-from exu_press.checks import Table, key
+from exu_press.checks import Table, key, table_from
 from exu_press.errors import InputError
-from exu_press.scene import Scene
+from exu_press.read_toml import read_toml
+from exu_press.scene import Scene, load_scene
 from exu_press.studies.sweep.points import Points, flat, grid, listed, sample
 
-__all__ = ["Study"]
+__all__ = ["Study", "load_study"]
 
 WAYS = {"grid": grid, "list": listed, "sample": sample}
 
@@ -91,3 +93,22 @@ class Study(Table):
         except InputError as error:
             where = ", ".join(f"{name} = {value!r}" for name, value in point.items())
             raise InputError(f"run with {where}: {error}") from None
+
+
+def load_study(path: str | Path) -> Study:
+    """Return the study of a TOML file; a scene's path counts from the study's directory.
+
+    Raises:
+        InputError: the file cannot be read or parsed, or the study or one of its scenes is not
+            allowed.
+    """
+    path = Path(path)
+    data = read_toml(path)
+    if "scene" not in data:
+        raise InputError(f'{path}: no scene; allowed is scene = "FILE.toml" or a [scene] table')
+    if isinstance(data["scene"], str):
+        data["scene"] = load_scene(path.parent / data["scene"])
+    try:
+        return table_from(Study, "", data)
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None

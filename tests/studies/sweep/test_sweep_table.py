@@ -9,9 +9,8 @@ from scipy.io import netcdf_file
 
 from exu_press import InputError, Scene
 from exu_press.studies.sweep import Study
-from exu_press.studies.sweep.lines import table_lines
+from exu_press.studies.sweep.lines import shown, table_lines
 from exu_press.studies.sweep.netcdf import save_netcdf
-from exu_press.studies.sweep.shown import shown
 from exu_press.studies.sweep.table import table_of
 
 ROWS = [

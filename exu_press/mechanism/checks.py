@@ -12,6 +12,9 @@ __all__ = ["check"]
 
 SHAPES = ("revolute", "spherical")
 
+ACROSS = 1e-9
+"""Cosine of two directions that counts as a right angle."""
+
 
 def check(
     bodies: Sequence[Body],
@@ -46,6 +49,12 @@ def check(
     _known("output.body", output.body, names)
     _direction("output.direction", output.direction)
     _point("output.origin", output.origin)
+    for guide in guides:
+        if guide.body == output.body and abs(_cosine(guide.direction, output.direction)) < ACROSS:
+            raise InputError(
+                f"output.direction = {output.direction!r}: across the guide of {output.body}, which "
+                "holds it; allowed is a direction in which it moves"
+            )
     _check_groups(groups, [joint.name for joint in joints])
     _check_connections(bodies, joints, guides, crank)
 
@@ -129,6 +138,10 @@ def _point(where: str, value: Any) -> None:
         raise InputError(f"{where} = {value!r}: allowed are two numbers, x and y (m)")
     for number in value:
         _finite(where, number)
+
+
+def _cosine(one: Sequence[float], other: Sequence[float]) -> float:
+    return (one[0] * other[0] + one[1] * other[1]) / (math.hypot(*one) * math.hypot(*other))
 
 
 def _direction(where: str, value: Any) -> None:

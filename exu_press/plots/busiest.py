@@ -55,7 +55,7 @@ def rest_lines(result: Result, rest: Mapping[str, str]) -> list[str]:
 def draw_rest(axes: Axes, result: Result, rest: Mapping[str, str], size: float = 8.0) -> None:
     """Write the table of the joints that are not drawn into a panel of its own."""
     axes.set_axis_off()
-    axes.text(
+    text = axes.text(
         0.0,
         1.0,
         "\n".join(rest_lines(result, rest)),
@@ -65,6 +65,7 @@ def draw_rest(axes: Axes, result: Result, rest: Mapping[str, str], size: float =
         color=GREY,
         family="monospace",
     )
+    text.set_in_layout(False)  # its length is no reason to move the panels above it
 
 
 def _eccentricity(result: Result, name: str) -> str:

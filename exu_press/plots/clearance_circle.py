@@ -1,5 +1,6 @@
 """The path of a journal or ball centre inside its clearance circle."""
 
+import textwrap
 from dataclasses import dataclass
 from typing import Any
 
@@ -26,6 +27,9 @@ SMALL = 0.4
 """A path within this part of the clearance circle is magnified, the whole circle inset."""
 
 MARGIN = 1.15
+
+NAME = 18
+"""Letters of a joint's name that fit in a line beside the legend."""
 
 PIXELS = 300
 """From the middle of a circle's panel to its edge, at least."""
@@ -96,7 +100,7 @@ def draw_path(axes: Axes, path: Path) -> LineCollection | None:
     Returns:
         What the crank angle's colours are of; None for a vertical path, which runs over itself.
     """
-    axes.set_title(f"{path.title}: path")
+    axes.set_title(textwrap.fill(path.title, NAME))
     axes.set_xlabel("x, µm")
     axes.set_ylabel("y, µm")
     limit = path.clearance

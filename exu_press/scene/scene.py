@@ -89,7 +89,7 @@ class Scene(Table):
     table: ClassVar[str] = ""
     mechanism: str | Mechanism = key(
         "press",
-        "path of a mechanism file",
+        "the path of a mechanism file, .toml",
         choices=("press", "slider_crank", *SHIPPED),
         also=Mechanism,
     )

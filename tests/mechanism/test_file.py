@@ -119,6 +119,10 @@ def test_frames_that_are_turned_in_the_drawing_come_back_too():
         ([('body = "slider"', 'body = "slide"')], "output.body = 'slide': unknown (did you mean"),
         ([('body = "slider", ', "")], "output.body: missing"),
         (
+            [("direction = [3, 4]", "direction = [3, 0]")],
+            "output.direction = (3.0, 0.0): across the guide of slider, which holds it",
+        ),
+        (
             [('"wrist_pin"]', '"wrist"]')],
             "groups.pins = 'wrist': unknown (did you mean 'wrist_pin'",
         ),
@@ -150,6 +154,16 @@ def test_names_given_twice_are_no_toml(tmp_path):
 def test_a_file_that_is_not_there(tmp_path):
     with pytest.raises(InputError, match=r"none\.toml: cannot be read \(No such file"):
         load_mechanism(tmp_path / "none.toml")
+
+
+def test_a_folder_and_a_picture_are_no_mechanism_files(tmp_path):
+    folder, picture = tmp_path / "folder.toml", tmp_path / "picture.toml"
+    folder.mkdir()
+    picture.write_bytes(bytes(range(256)))
+    with pytest.raises(InputError, match=r"folder\.toml: cannot be read \(Is a directory"):
+        load_mechanism(folder)
+    with pytest.raises(InputError, match=r"picture\.toml: not a TOML file"):
+        load_mechanism(picture)
 
 
 def test_a_refusal_names_the_file(tmp_path):

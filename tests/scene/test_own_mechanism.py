@@ -86,7 +86,7 @@ def test_what_is_wrong_with_it_is_said_by_name():
     del data["bodies"]["rocker"]["mass"]
     assert refusal(mechanism=data) == "mechanism.bodies.rocker.mass: missing"
     assert refusal(mechanism="four_bra").startswith("mechanism = 'four_bra': allowed is one of")
-    assert "or path of a mechanism file" in refusal(mechanism="four_bra")
+    assert "or the path of a mechanism file, .toml" in refusal(mechanism="four_bra")
     assert refusal(mechanism=3).startswith("mechanism = 3: allowed is one of")
     shown = refusal(mechanism=FOUR_BAR, joints={"crankpin": "dry"})
     assert shown.startswith("joints.crankpin = 'dry': four_bar has no such joint")

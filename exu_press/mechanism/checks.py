@@ -52,8 +52,8 @@ def check(
     for guide in guides:
         if guide.body == output.body and abs(_cosine(guide.direction, output.direction)) < ACROSS:
             raise InputError(
-                f"output.direction = {output.direction!r}: across the guide of {output.body}, which "
-                "holds it; allowed is a direction in which it moves"
+                f"output.direction = {output.direction!r}: across the guide of {output.body}, "
+                "which holds it; allowed is a direction in which it moves"
             )
     _check_groups(groups, [joint.name for joint in joints])
     _check_connections(bodies, joints, guides, crank)

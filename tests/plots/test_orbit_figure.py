@@ -2,7 +2,6 @@ import dataclasses
 
 import numpy as np
 import pytest
-
 from matplotlib.text import Text
 
 from exu_press import Scene, simulate
@@ -58,7 +57,6 @@ def test_balls_that_move_sideways_are_both_shown(results):
 def test_ideal_joints_have_no_paths(results):
     with pytest.raises(InputError, match="no joint with clearance"):
         orbit_figure(results["ideal"])
-
 
 
 def test_names_stand_clear_of_their_legends():

@@ -17,6 +17,7 @@ from exu_press.confidence.companions import Companions, _may_fork, plan
 SHORT = Scene(mechanism="slider_crank", revolutions=0.02)
 LONG = Scene(joints={"crank_pin": "dry", "balls": "dry"}, revolutions=100.0)
 
+posix = pytest.mark.skipif(sys.platform == "win32", reason="processes are asked otherwise there")
 linux = pytest.mark.skipif(sys.platform != "linux", reason="no process is copied there")
 way = pytest.mark.parametrize(
     "forks", [pytest.param(True, marks=linux, id="copied"), pytest.param(False, id="new")]
@@ -40,6 +41,7 @@ def test_results_are_those_of_the_plan(by, forks, capfd):
     assert capfd.readouterr() == ("", "")
 
 
+@posix
 @way
 def test_no_process_and_no_file_is_left_behind(by, forks):
     by(forks)
@@ -52,6 +54,7 @@ def test_no_process_and_no_file_is_left_behind(by, forks):
         os.kill(process, 0)
 
 
+@posix
 @way
 def test_a_process_that_is_killed_says_so(by, forks):
     by(forks)

@@ -84,3 +84,11 @@ def test_ablation(tmp_path):
     (cells,) = (row for row in rows if row.startswith("safety half"))
     error, work = (float(value) for value in cells.split()[-3::2])
     assert error < 1.0 < work
+
+
+def test_dry_press_peaks(tmp_path):
+    """A tenth of a revolution at ten times the default tolerance, against the independent model."""
+    printed = run("dry_press_peaks.py", tmp_path)
+    (off,) = re.findall(r"([+-][\d.]+)%", printed)
+    assert abs(float(off)) < 2.0
+    assert re.search(r"independent model +[\d.]+$", printed.strip())

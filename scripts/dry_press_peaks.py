@@ -1,0 +1,66 @@
+"""The dry press's peak acceleration in its first two revolutions, over the tolerance.
+
+Run with: python scripts/dry_press_peaks.py [--quick]
+
+The independent model is that of tests/independent/symmetric_press.py, which shares no code with the
+package: three coordinates, SciPy's LSODA.
+"""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from exu_press import Result, Scene
+from exu_press.columns import columns
+from exu_press.confidence import simulate_with_errors
+from exu_press.confidence.windows import revolutions_of
+from exu_press.observe.uncertain import uncertain
+
+sys.path.append(str(Path(__file__).parents[1] / "tests"))
+from independent.reduced_slider_crank import Numbers
+from independent.symmetric_press import SymmetricPress
+
+DRY = Scene(joints={"crank_pin": "dry", "balls": "dry"})
+NAME = "peak_acceleration.resolved"
+QUICK = "--quick" in sys.argv
+TOLERANCES = (1e-2,) if QUICK else (1e-2, 1e-3, 1e-4, 1e-5)
+REVOLUTIONS = 0.1 if QUICK else 2.0
+
+
+def true_peaks() -> list[float]:
+    """Return the independent model's peak in every revolution, m/s^2."""
+    model = SymmetricPress("lugre_steady", Numbers(clearance=1e-4, speed=DRY.angular_speed))
+    times, states = model.steps(REVOLUTIONS * 60.0 / DRY.speed_rpm, 1e-11)
+    accelerations = np.array(
+        [
+            abs(model.loads(t, state[:3].tolist(), state[3:].tolist())[0][2])
+            for t, state in zip(times, states.T, strict=True)
+        ]
+    )
+    revolution = np.minimum(times * DRY.speed_rpm / 60.0, REVOLUTIONS - 1e-9).astype(int)
+    return [float(accelerations[revolution == n].max()) for n in range(revolution[-1] + 1)]
+
+
+def peaks(run: Result) -> list[float]:
+    """Return a run's peak in every revolution, m/s^2."""
+    parts = revolutions_of(run) or [run]
+    return [float(np.abs(part["slider_acceleration"]).max()) for part in parts]
+
+
+true = true_peaks()
+rows = [("tolerance", "by revolution, m/s^2", "off", "whole run, as stated")]
+for tolerance in TOLERANCES:
+    change = {"solver.tolerance": tolerance, "revolutions": REVOLUTIONS}
+    run = simulate_with_errors(DRY.replace(change))
+    found = peaks(run)
+    rows.append(
+        (
+            f"{tolerance:g}",
+            " ".join(f"{peak:.1f}" for peak in found),
+            " ".join(f"{peak / other - 1.0:+.2%}" for peak, other in zip(found, true, strict=True)),
+            uncertain(max(found), run.info["errors"][NAME]),
+        )
+    )
+rows.append(("independent model", " ".join(f"{peak:.1f}" for peak in true), "", ""))
+print("\n".join(columns(rows)))

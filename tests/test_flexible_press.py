@@ -57,12 +57,14 @@ def test_the_balance_knows_that_the_frame_of_a_bending_crank_tilts():
     assert simulate(scene).summary()["energy"]["residual"] < 3e-5
 
 
-def test_a_hundred_and_ten_thousand_times_stiffer_it_approaches_the_rigid_press():
+def test_ten_thousand_times_stiffer_it_approaches_the_rigid_press():
     """After the start has died away the ideal press bends with 1/E."""
     scene = Scene(joints={}, revolutions=0.1, start_angle_deg=60.0, solver={"step": 1e-4})
     bends = []
-    for factor in (1.0, 100.0, 1e4):
-        bodies = flexible_press(damping_ratio=0.5, youngs_modulus=factor * 2e11)
+    for factor in (1.0, 1e4):
+        bodies = flexible_press(
+            modes=8, mesh_size=0.06, damping_ratio=0.5, youngs_modulus=factor * 2e11
+        )
         result = simulate(scene.replace(bodies=bodies))
         late = result.time > 0.5 * scene.duration
         ideal = scene.build().mechanism.ideal_slider(
@@ -70,8 +72,7 @@ def test_a_hundred_and_ten_thousand_times_stiffer_it_approaches_the_rigid_press(
         )[0]
         bends.append(np.abs(result["slider_position"] - ideal)[late].max())
     assert bends[0] > 1e-7
-    assert bends[1] < 0.02 * bends[0]
-    assert bends[2] < 0.02 * bends[1] + 1e-11
+    assert bends[1] == pytest.approx(1e-4 * bends[0], rel=0.01)
 
 
 def test_blanking_bends_the_crank():

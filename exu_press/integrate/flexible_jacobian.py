@@ -4,6 +4,11 @@ Exudyn differentiates bodies in floating frames numerically, which takes as long
 But stiffness and damping belong to modes, whose coordinates turn with the frame: they stay as they
 are. What the frame's motion adds to them is less than a hundredth of the inertia over a step. The
 masses, the clearance joints' slopes and the constraints' directions are those of the state at hand.
+
+To put the matrix together and factorise it takes nearly half of a step. So one serves several steps
+of one size, until an iteration with it does not balance the forces: the next one gets a fresh one,
+and so do some of the steps that follow, as where surfaces touch. Without clearance joints steps are
+long, and the constraints' directions change too much from one to the next.
 """
 
 from contextlib import nullcontext
@@ -13,6 +18,7 @@ import exudyn as exu
 import numpy as np
 from numpy.typing import NDArray
 
+from exu_press.integrate.tuning import Tuning
 from exu_press.joints.overlay import JointOverlay
 
 __all__ = ["FlexibleJacobian"]
@@ -20,21 +26,59 @@ __all__ = ["FlexibleJacobian"]
 Array = NDArray[np.float64]
 
 
-class FlexibleJacobian:
-    """M (1 - alpha_m)/(1 - alpha_f) + beta h^2 K + gamma h D, bordered by the constraints."""
+MOST_FRESH = 8
+"""Steps in a row that are not tried with a kept one; so many after it has failed three times."""
 
-    def __init__(self, mbs: exu.MainSystem, solver: Any, joints: JointOverlay | None) -> None:
+SAME = 1e-6
+"""Steps that differ by less, relative, are one size: the clock's last digits."""
+
+
+class FlexibleJacobian:
+    """M (1 - alpha_m)/(1 - alpha_f) + beta h^2 K + gamma h D, bordered by the constraints.
+
+    Attributes:
+        kept: whether the step under way is tried with that of an earlier one.
+        made: how many were put together.
+    """
+
+    def __init__(
+        self, mbs: exu.MainSystem, solver: Any, joints: JointOverlay | None, tuning: Tuning
+    ) -> None:
         """Let a solver take this Jacobian instead of its own.
 
         Args:
             mbs: the system.
             solver: an exu.MainSolverImplicitSecondOrder.
             joints: the system's clearance joints, if it has any.
+            tuning: numbers.
         """
-        self._joints = joints
+        self._solver, self._joints = solver, joints
+        self.kept, self.made = False, 0
+        self._most = 0 if joints is None else tuning.jacobian_steps
+        self._step, self._age = 0.0, 0  # size of the step that the last one was made for; since
+        self._failed = False
+        self._fresh = self._pause = 0  # steps to come, and after the last failure, with fresh ones
         self._bodies: Array | None = None
         self._jacobian: Array = np.zeros((0, 0))
         solver.SetUserFunctionComputeNewtonJacobian(mbs, self._compute)
+
+    def begin_try(self) -> None:
+        """Choose whether the step that is about to be tried starts with the one there is."""
+        if self.kept:
+            self._pause = min(MOST_FRESH, max(1, 2 * self._pause)) if self._failed else 0
+            self._fresh = self._pause
+        self._failed = False
+        step = self._solver.it.currentStepSize
+        same = abs(step - self._step) <= SAME * step
+        self.kept = same and self._fresh == 0 and self._age < self._most
+        self._fresh = max(0, self._fresh - 1)
+        self._age += 1
+        self._solver.conv.jacobianUpdateRequested = not self.kept
+
+    def renew(self) -> None:
+        """Let the next iteration of the step have a fresh one, if it was tried with a kept one."""
+        if self.kept:
+            self._solver.conv.jacobianUpdateRequested = True
 
     def _compute(self, solver: Any, mbs: exu.MainSystem, settings: exu.SimulationSettings) -> bool:
         """Give the solver its Jacobian in the current state; return that this went well."""
@@ -43,6 +87,8 @@ class FlexibleJacobian:
             self._bodies = self._differentiated(solver, mbs)
             self._jacobian = np.zeros((size + solver.GetAEsize(),) * 2)
         step, jacobian = solver.it.currentStepSize, self._jacobian
+        self.made += 1
+        self._step, self._age, self._failed = step, 0, True
         by_q, by_q_t = solver.newmarkBeta * step * step, solver.newmarkGamma * step
         inertia = (1.0 - solver.alphaM) / (1.0 - solver.alphaF)
         bodies = jacobian[:size, :size]

@@ -22,6 +22,7 @@ from typing import Any
 import exudyn as exu
 import numpy as np
 
+from exu_press.integrate.flexible_jacobian import FlexibleJacobian
 from exu_press.integrate.problem import Node
 from exu_press.integrate.scales import FoundScales
 from exu_press.integrate.tuning import Tuning
@@ -50,6 +51,7 @@ class Newton:
         tolerance: float,
         tuning: Tuning,
         nodes: tuple[Node, ...],
+        jacobian: FlexibleJacobian | None,
     ) -> None:
         """Guide the solver of a system.
 
@@ -61,12 +63,14 @@ class Newton:
             tolerance: of the run.
             tuning: numbers.
             nodes: of the system, with its coordinates.
+            jacobian: that of flexible bodies, if it is not Exudyn's.
         """
         self.data: Any = mbs.systemData
         self._solver, self._joints = solver, joints
         self._scales, self._part = scales, tuning.balance * tolerance
         self._patience, self._rounding = tuning.patience, tuning.rounding
         self._reach = tuning.reach
+        self._jacobian, self._kept_balance = jacobian, tuning.kept_balance
         self._quaternions = [self._reference(node) for node in nodes if node.quaternion]
         self._weights: tuple[float, float, float] | None = None
         self._start: float | None = None  # of the step under way, s
@@ -91,12 +95,23 @@ class Newton:
             assert self._start is not None
             self._advance(time - self._start)
             self._mend = self._is_rounded(time - self._start)
-            self._accept(self._tolerance())
+            self._accept(self._begin_jacobian() * self._tolerance())
         elif iteration < 3 and self._mend:
             self._accept(0.0 if iteration == 1 else self._tolerance())
+            if iteration == 2 and self._jacobian is not None:
+                self._jacobian.renew()
+        elif iteration == 1 and self._jacobian is not None:
+            self._jacobian.renew()
         elif iteration == self._patience and self._joints is not None:
             rounding = self._rounding * self._joints.damping * self._scales.speed
             self._accept(max(self._tolerance(), rounding))
+
+    def _begin_jacobian(self) -> float:
+        """Return how much less than usual may be left, with a kept Jacobian."""
+        if self._jacobian is None:
+            return 1.0
+        self._jacobian.begin_try()
+        return self._kept_balance if self._jacobian.kept else 1.0
 
     def _is_rounded(self, step: float) -> bool:
         """Return whether rounded positions make more of a step (s) than may be left of forces."""

@@ -103,6 +103,9 @@ def solve_dynamic(
     solver: Any = exu.MainSolverImplicitSecondOrder()  # whose type stub forgets `self`
     accuracy = FIXED_STEPS if tolerance is None else tolerance
     found = FoundScales(scales, problem.length)
+    jacobian = None
+    if problem.modal_stiffness:
+        jacobian = FlexibleJacobian(mbs, solver, problem.joints, tuning)
     newton = Newton(
         mbs,
         solver,
@@ -111,14 +114,13 @@ def solve_dynamic(
         accuracy,
         tuning,
         problem.nodes,
+        jacobian,
     )
     constraints = Constraints(mbs, solver, problem.untold_rates)
     step_change = StepChange(mbs, solver, constraints, smooth=problem.joints is None, tuning=tuning)
     film_start = step_change if films else None
     least = 0.1 * accuracy if problem.joints is None else 0.0
     resolution = Resolution(found, integration.generalizedAlpha.spectralRadius, least, tuning)
-    if problem.modal_stiffness:
-        FlexibleJacobian(mbs, solver, problem.joints)
     control: StepControl | FixedSteps
     estimate = StepError(problem, solver, found, accuracy, largest, end - start, tuning)
     if tolerance is None:

@@ -47,6 +47,8 @@ class Tuning:
         reach: over the last step, how far ahead its rate of change is believed by the predictor; 0
             predicts the accelerations of the last step.
         balance: of the tolerance, to which part of the usual forces Newton's method balances them.
+        jacobian_steps: of one size, which one Jacobian of flexible bodies serves at most.
+        kept_balance: to which part of what is usual a kept Jacobian is to balance the forces.
         constraint_iterations: to velocities and positions that fit the constraints; each leaves
             some hundredths.
         refit: a step shorter than this, over the one that constrained velocities fit, makes them
@@ -74,6 +76,8 @@ class Tuning:
     patience: int = 4
     reach: float = 2.0
     balance: float = 0.2
+    jacobian_steps: int = 10
+    kept_balance: float = 0.3
 
     constraint_iterations: int = 3
     refit: float = 0.35

@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 
-from exu_press import Scene, simulate
+from exu_press import Scene, Tuning, simulate
+from exu_press.integrate import solve
 from exu_press.integrate.flexible_jacobian import FlexibleJacobian
+from exu_press.result import record
 from exu_press.scene import flexible_press
 
 pytest.importorskip("ngsolve")
@@ -50,7 +52,7 @@ def test_what_is_kept_differs_little_from_what_exudyn_differentiates(scene, monk
 
 def test_it_changes_the_cost_and_not_the_result(scene, monkeypatch):
     kept = simulate(scene)
-    monkeypatch.setattr(FlexibleJacobian, "__init__", lambda *_: None)
+    monkeypatch.setattr(solve, "FlexibleJacobian", lambda *_: None)
     stock = simulate(scene)
     assert kept.completed and stock.completed
     peaks = [np.abs(run["slider_acceleration"]).max() for run in (kept, stock)]
@@ -65,3 +67,24 @@ def test_no_alternation_grows_from_what_newtons_method_leaves_in_the_constraints
     assert result.completed, result.summary()["reason"]
     force = result["counterweight_pin_force"][:, 1]
     assert np.abs(np.diff(force, 2)).max() < 0.05 * np.abs(force).max()
+
+
+def test_one_serves_several_steps_and_changes_no_answer(monkeypatch):
+    made, own = [], FlexibleJacobian._compute
+
+    def counted(*arguments):
+        made[-1] += 1
+        return own(*arguments)
+
+    monkeypatch.setattr(FlexibleJacobian, "_compute", counted)
+    runs = []
+    for most in (0, 10):
+        model = Scene(bodies=flexible_press(modes=4), revolutions=0.15).build()
+        made.append(0)
+        runs.append(record(model, model.solve(tuning=Tuning(jacobian_steps=most))))
+    fresh, kept = runs
+    assert made[0] >= fresh.info["steps"]
+    assert made[1] < 0.6 * kept.info["steps"]
+    assert kept.info["newton_iterations"] < 1.25 * fresh.info["newton_iterations"]
+    forces = [np.abs(run.joints["crank_pin"].force).max() for run in runs]
+    assert forces[1] == pytest.approx(forces[0], rel=2e-3)

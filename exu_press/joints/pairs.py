@@ -254,13 +254,16 @@ class FilmPair(Pair):
     ) -> Load | None:
         """Return force and moments; NaN where the law does not hold."""
         c, p = self.clearance, self.scale
-        response = self.law(e / c, e_dot / c, (e * (omega_j + omega_b) - 2.0 * v_t) / c)
+        eps_w = (e * (omega_j + omega_b) - 2.0 * v_t) / c
+        response = self.law(e / c, e_dot / c, eps_w)
         f_r = p * response[0]
         if f_r == f_r:
             self.outside = None
         elif e == e:  # what follows on such a force may be no place at all
             self.outside = e / c
         f_t = p * response[1]
+        if e_dot == 0.0 and eps_w == 0.0 and f_r == f_r:
+            f_r = f_t = 0.0  # a law may take a speed for one at rest, to have slopes there
         moment = -0.5 * e * f_t
         shear = p * c * response[8] * (omega_j - omega_b)
         return f_r, f_t, moment - shear, moment + shear, response

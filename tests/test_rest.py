@@ -78,5 +78,5 @@ def test_a_body_in_a_film_stays_where_nothing_moves_it(law, place):
     settings = exu.SimulationSettings()
     settings.timeIntegration.endTime = 0.05
     settings.solution.file.write = False
-    assert solve_dynamic(mbs, settings).status == "completed"
+    assert solve_dynamic(mbs, settings).status.value == "completed"
     assert list(mbs.GetNodeOutput(node, exu.OutputVariableType.Coordinates)) == [0.0, 0.0, 0.0]

@@ -6,6 +6,7 @@ from exu_press.errors import InputError
 from exu_press.scene import Film, Scene, flexible_press
 from exu_press.studies.precision.cases import STEPS, TOLERANCES, Case
 from precision.other_solvers import Reduced, Squeezer
+from precision.variations import Modes
 
 __all__ = ["cases", "chosen"]
 
@@ -80,7 +81,7 @@ def cases() -> tuple[Case, ...]:
             reference_step=2e-6,
             repeats=1,
         ),
-        Case(
+        Modes(
             "press_flexible_modes",
             "Press, flexible, lubricated pin and dry balls, against 40 modes",
             _press("lubricated", "dry", bodies=flexible_press(modes=40)),

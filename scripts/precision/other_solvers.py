@@ -11,6 +11,7 @@ from exu_press.studies.precision.references import Reference, parting
 from precision.compiled import CompiledModel, compile_model
 from precision.peers import PEERS, peer_attempts
 from precision.squeezer import DURATION, squeezer_attempts, squeezer_errors
+from precision.variations import newton_modes, spectral_radii
 
 __all__ = ["Reduced", "Squeezer"]
 
@@ -19,7 +20,13 @@ PEER_TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10)
 
 @dataclass(frozen=True)
 class Reduced(Case):
-    """A slider-crank, by hand on two coordinates too, for other people's integrators."""
+    """A slider-crank, by hand on two coordinates too, for other people's integrators.
+
+    Attributes:
+        variations: whether spectral radius and Newton mode are varied.
+    """
+
+    variations: bool = False
 
     def reference(self, amount: Amount) -> Reference:
         """Return SciPy's Radau on the reduced slider-crank, checked against its LSODA."""
@@ -35,7 +42,10 @@ class Reduced(Case):
     def attempts(self, amount: Amount) -> list[Attempt]:
         """Return the package's own runs and those of every peer that is installed."""
         tight = [tol for tol in PEER_TOLERANCES if tol >= amount.finest_peer]
-        return super().attempts(amount) + peer_attempts(_model(self._scene), tight)
+        found = super().attempts(amount)
+        if self.variations:
+            found += spectral_radii(self._scene, amount) + newton_modes(self._scene, amount)
+        return found + peer_attempts(_model(self._scene), tight)
 
 
 @dataclass(frozen=True)

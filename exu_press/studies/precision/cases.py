@@ -18,11 +18,6 @@ TOLERANCES = (
     *(5e-5, 2e-5, 1e-5, 5e-6, 2e-6, 1e-6),
 )
 
-RADII = (0.5, 0.65, 0.95)
-"""Beside the default of 0.8."""
-VARIED_TOLERANCES = (1e-2, 1e-3, 1e-4)
-VARIED_STEPS = (1e-4, 2e-5, 1e-5)  # s
-
 FINEST = 1e-6
 """Tolerance of the truth of stated errors where no case says otherwise."""
 
@@ -73,8 +68,6 @@ class Case:
         reference_tolerance: the tightest one, which is the reference of a scene that has no closed
             form.
         reference_step: the smallest fixed step, with twice it beside, s.
-        variations: whether spectral radius and Newton mode are varied.
-        modes: numbers of modes that are tried, at the default tolerance.
         repeats: fewer than the amount's, for runs that take minutes.
     """
 
@@ -85,8 +78,6 @@ class Case:
     tolerances: tuple[float, ...] = TOLERANCES
     reference_tolerance: float = 0.0
     reference_step: float = 0.0
-    variations: bool = False
-    modes: tuple[int, ...] = ()
     repeats: int | None = None
 
     @property
@@ -124,13 +115,7 @@ class Case:
     def attempts(self, amount: Amount) -> list[Attempt]:
         """Return its runs."""
         scene = self._scene
-        found = own.fixed_steps(scene, self.steps) + own.tolerances(scene, self.tolerances)
-        found += own.mode_numbers(scene, self.modes)
-        if self.variations:
-            tolerances = [tol for tol in VARIED_TOLERANCES if tol >= amount.finest_tolerance]
-            found += own.spectral_radii(scene, RADII, tolerances)
-            found += own.newton_modes(scene, [h for h in VARIED_STEPS if h >= amount.finest_step])
-        return found
+        return own.fixed_steps(scene, self.steps) + own.tolerances(scene, self.tolerances)
 
     def errors(
         self, run: Measured, reference: Reference, horizon: float
@@ -144,7 +129,7 @@ class Case:
 
     def stated(self, amount: Amount, horizon: float) -> list[Stated]:
         """Return what runs until the horizon state of their errors."""
-        if self.scene is None or self.modes:
+        if self.scene is None:
             return []
         part = self.scene.replace(revolutions=self.scene.revolutions * horizon / self.duration)
         finest = amount.loosen * (self.reference_tolerance or FINEST)

@@ -6,6 +6,7 @@ import pytest
 
 from exu_press import InputError
 from exu_press.studies.precision import precision
+from exu_press.studies.precision.cases import QUICK
 from precision.cases import cases, chosen
 from precision.peers import left_out
 
@@ -68,3 +69,11 @@ def test_every_case_has_its_own_name():
 def test_an_unknown_case_is_refused():
     with pytest.raises(InputError, match="press_lubricated"):
         chosen(["press"])
+
+
+def test_numbers_of_modes_are_tried_at_the_scenes_own_tolerance():
+    (case,) = chosen(["press_flexible_modes"])
+    tried = case.attempts(QUICK)
+    assert [attempt.value for attempt in tried] == list(case.modes)
+    assert {attempt.setting for attempt in tried} == {"modes"}
+    assert case.stated(QUICK, case.duration) == []

@@ -1,0 +1,117 @@
+"""What the campaign varies beside step and tolerance: spectral radius, Newton mode, modes."""
+
+import time
+from dataclasses import dataclass
+from functools import partial
+
+import exudyn as exu
+
+from exu_press.integrate import Outcome, Status
+from exu_press.integrate.problem import Problem
+from exu_press.integrate.settings import prepared
+from exu_press.joints import overlay_of
+from exu_press.result import record
+from exu_press.scene import Scene
+from exu_press.solving import settings_for
+from exu_press.studies.precision.cases import Amount, Case
+from exu_press.studies.precision.measured import Attempt, Measured, measured_of
+from exu_press.studies.precision.own import FIXED, TOLERANCE, attempt, run
+from exu_press.studies.precision.stated import Stated
+
+__all__ = ["Modes", "newton_modes", "spectral_radii"]
+
+MODES = "modes, default tolerance"
+
+RADII = (0.5, 0.65, 0.95)
+"""Beside the default of 0.8."""
+VARIED_TOLERANCES = (1e-2, 1e-3, 1e-4)
+VARIED_STEPS = (1e-4, 2e-5, 1e-5)  # s
+
+SMALLEST = 1e-8
+"""How small a fixed step may become where Newton's method fails, s."""
+
+NEWTON_MODES = {"full Newton": (False, False), "modified Newton": (True, False)}
+"""Name -> (modified, a Jacobian every step); the package's own is modified with one every step."""
+
+
+@dataclass(frozen=True)
+class Modes(Case):
+    """A flexible scene with other numbers of modes, against its own.
+
+    Attributes:
+        modes: numbers of modes that are tried, at the default tolerance.
+    """
+
+    modes: tuple[int, ...] = ()
+
+    def attempts(self, amount: Amount) -> list[Attempt]:
+        """Return a run for each number."""
+        bodies = self._scene.bodies
+        scenes = {
+            n: self._scene.replace({f"bodies.{name}.modes": n for name in bodies})
+            for n in self.modes
+        }
+        return [Attempt(MODES, "modes", float(n), partial(run, s)) for n, s in scenes.items()]
+
+    def stated(self, amount: Amount, horizon: float) -> list[Stated]:
+        """Return nothing: stated errors are of the tolerance."""
+        return []
+
+
+def spectral_radii(scene: Scene, amount: Amount) -> list[Attempt]:
+    """Return the runs with other spectral radii, at tolerances."""
+    return [
+        attempt(
+            f"{TOLERANCE}, radius {radius:g}",
+            scene.replace("solver.spectral_radius", radius),
+            "tolerance",
+            value,
+        )
+        for radius in RADII
+        for value in VARIED_TOLERANCES
+        if value >= amount.finest_tolerance
+    ]
+
+
+def newton_modes(scene: Scene, amount: Amount) -> list[Attempt]:
+    """Return the runs with other Newton modes, at fixed steps."""
+    return [
+        Attempt(f"{FIXED}, {mode}", "step", h, partial(_with_newton, scene, mode, h))
+        for mode in NEWTON_MODES
+        for h in VARIED_STEPS
+        if h >= amount.finest_step
+    ]
+
+
+def _with_newton(scene: Scene, mode: str, step: float) -> Measured:
+    """Run fixed steps with another Newton mode, which is no key of a scene."""
+    scene = scene.replace("solver.step", step)
+    model = scene.build()
+    settings = settings_for(scene)
+    newton = settings.timeIntegration.newton
+    silent, exu.config.printToConsole = exu.config.printToConsole, False
+    start, cpu_start = time.perf_counter(), time.process_time()
+    try:
+        with prepared(settings, Problem.of(model.mbs, None), SMALLEST):
+            newton.useModifiedNewton, newton.modifiedNewtonJacUpdatePerStep = NEWTON_MODES[mode]
+            model.mbs.SolveDynamic(settings, showHints=False)
+        status, reason = Status.COMPLETED, ""
+    except exu.ExudynError as error:
+        status, reason = Status.NOT_CONVERGED, str(error).strip().splitlines()[0]
+    finally:
+        wall_time, cpu_time = time.perf_counter() - start, time.process_time() - cpu_start
+        exu.config.printToConsole = silent
+    solver = model.mbs.sys["dynamicSolver"]
+    outcome = Outcome(
+        status=status,
+        reason=reason,
+        end_time=model.mbs.systemData.GetTime(),
+        wall_time=wall_time,
+        steps=solver.it.currentStepIndex,
+        rejected_steps=0,
+        newton_iterations=solver.it.newtonStepsCount,
+        law_evaluations=overlay_of(model.mbs).evaluations,
+    )
+    result = record(model, outcome)
+    model.SC.Reset()
+    return measured_of(result, cpu_time)

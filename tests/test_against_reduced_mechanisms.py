@@ -207,10 +207,10 @@ def test_dry_press_at_a_tenth_of_the_default_tolerance(clearance):
 def test_dry_press_at_the_default_tolerance(clearance, peak):
     """20 % off while penetrations were held against the clearance, always 2 % while they drifted.
 
-    Impacts amplify what is left: within 7 % of this tolerance the peak at 0.1 mm is 0.7 % off in
-    the mean square, 1.7 % at most.
+    Impacts amplify what is left: of fifteen neighbouring clearances, speeds and tolerances the
+    peaks are 0.4 % off in the mean square, 1 % at most.
     """
     _, _, expected = press("lugre_steady", clearance, 240, 1.0, 1e-11)
     assert expected[0] == pytest.approx(peak, rel=1e-3)
     result = exudyn_press("lugre_steady", clearance, 240, 1.0)
-    assert peaks_of(result, 240) == pytest.approx(expected, rel=2e-2)
+    assert peaks_of(result, 240) == pytest.approx(expected, rel=1e-2)

@@ -129,34 +129,34 @@ class BodyError:
 
         What it changes by within the step is not known yet: as much as the accelerations do.
         """
-        change, largest = self._largest(rate), self.largest()
+        change, largest = self.largest_of(rate), self.largest()
         return change / largest if change > 0.0 else 0.0
 
     def error(self, change: list[float], step: float) -> float:
         """Return the error that goes with a change of the accelerations' rate."""
         limit = max(self._share.at(step) * self._scales.speed, self._constant * self._noise / step)
-        return self._constant * step * step * self._largest(change) / limit
+        return self._constant * step * step * self.largest_of(change) / limit
 
     def of_jump(self) -> float:
         """Return the largest change of an acceleration in the step last tried, m/s^2."""
-        return self._largest([a - b for a, b in zip(self._now, self._before, strict=True)])
+        return self.largest_of([a - b for a, b in zip(self._now, self._before, strict=True)])
 
     def largest(self) -> float:
         """Return the largest acceleration at the two ends of the step last tried, m/s^2."""
-        return max(self._largest(self._now), self._largest(self._before))
+        return max(self.largest_of(self._now), self.largest_of(self._before))
 
     def offset(self, step: float) -> float:
         """Return what velocities that constraints prescribe are off by at each instant, m/s.
 
         They follow from two positions: h^2 |rate of the acceleration| / 12.
         """
-        return step * step * self._largest(self._rate) / 12.0
+        return step * step * self.largest_of(self._rate) / 12.0
 
     def accept(self) -> None:
         """Remember the accepted step's end as the next one's beginning."""
         self._before, self._rate_before = self._now, self._rate
 
-    def _largest(self, vector: list[float]) -> float:
+    def largest_of(self, vector: list[float]) -> float:
         """Return the largest kinetic norm of a body; what has no say may be no number."""
         largest = 0.0
         for square in squares(self._scales, vector):
@@ -195,16 +195,21 @@ class JointError:
         self._least, self._penetration = tuning.least_penetration, tuning.penetration
         self._drift = drift if joint.reach == math.inf else math.inf
 
-    def error(self, step: float) -> float:
-        """Return the error of a step (s) that ends where the joint was last asked for its force."""
-        joint = self._joint
+    def error(self, step: float, left: float = 0.0) -> float:
+        """Return the error of a step (s) that ends where the joint was last asked for its force.
+
+        Args:
+            step: s.
+            left: what its constraints leave open of positions, m.
+        """
+        joint, rounding = self._joint, max(self._rounding, left)
         place = joint.eccentricity
         missed, along = joint.path.missed(place, joint.relative_velocity, step)
-        error = missed / max(min(self._limit, self._drift * step), self._rounding)
+        error = missed / max(min(self._limit, self._drift * step), rounding)
         depth = math.hypot(*place) - joint.reach
         if depth > 0.0:
             relative = max(self._least, self._penetration * depth / joint.clearance)
-            error = max(error, abs(along) / max(relative * self._limit, self._rounding))
+            error = max(error, abs(along) / max(relative * self._limit, rounding))
         return error
 
 

@@ -4,9 +4,6 @@ Exudyn starts every step from accelerations of zero, which costs an iteration a 
 motion and several where contact lasts. Here they go on as they did in the last step, and lasting
 contacts start from the force that held them. So do constraints.
 
-Positions are rounded, and over the square of a short step that is newtons in the constraints, which
-the first guess hands on. Where they are more than may be left, a second iteration mends them.
-
 A thin film answers the last digit of a speed with newtons: no iteration balances forces better.
 
 Euler parameters must have unit length, and the constraints' directions that Exudyn gives Newton's
@@ -79,7 +76,6 @@ class Newton:
         self._last = 0.0  # size of the last step, s
         self._given: float | None = None  # Newton's absolute tolerance of the settings, N
         self._accepted = 0.0  # now, N
-        self._mend = False  # by a second iteration, in the step under way
 
     def stepped(self, time: float, accelerations: list[float]) -> None:
         """Be told where an accepted step ends: the time, s, and all coordinates' accelerations."""
@@ -94,12 +90,7 @@ class Newton:
         if not iteration:
             assert self._start is not None
             self._advance(time - self._start)
-            self._mend = self._is_rounded(time - self._start)
             self._accept(self._begin_jacobian() * self._tolerance())
-        elif iteration < 3 and self._mend:
-            self._accept(0.0 if iteration == 1 else self._tolerance())
-            if iteration == 2 and self._jacobian is not None:
-                self._jacobian.renew()
         elif iteration == 1 and self._jacobian is not None:
             self._jacobian.renew()
         elif iteration == self._patience and self._joints is not None:
@@ -112,15 +103,6 @@ class Newton:
             return 1.0
         self._jacobian.begin_try()
         return self._kept_balance if self._jacobian.kept else 1.0
-
-    def _is_rounded(self, step: float) -> bool:
-        """Return whether rounded positions make more of a step (s) than may be left of forces."""
-        heaviest = 0.0
-        for mass in self._scales.masses:
-            if heaviest < mass < math.inf:
-                heaviest = mass
-        noise = self._scales.alternating(self._rounding, self._solver.alphaF)
-        return heaviest * noise > step * step * self._tolerance()
 
     def _advance(self, step: float) -> None:
         """Add the expected accelerations to a state that was advanced without any."""

@@ -34,9 +34,6 @@ class Tuning:
             spectral radius)^2, over the step's square, it is what alternates in accelerations.
             Measured at radii of 0.8 and 0.9 and steps of 2 and 10 us on a governor of rods and
             springs.
-        newton_rounding: of positions, over the largest one: what Newton's method leaves of them in
-            constraints, anew in every step (some 1e-11 m in the press with dry pivots). No
-            eccentricity is resolved better.
         penetration: what a penetration may be off by, over itself, as a part of what an
             eccentricity in free flight may be off by over the clearance. The impact that ends a
             damped contact hands the error on a thousandfold.
@@ -68,8 +65,7 @@ class Tuning:
 
     velocity_constant: float = 2.0 / 12.0
     rounding: float = 4e-15
-    newton_rounding: float = 1.5e-11
-    penetration: float = 0.125
+    penetration: float = 0.0625
     least_penetration: float = 1e-3
     kept_steps: float = 30.0
 

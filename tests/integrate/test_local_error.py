@@ -106,6 +106,21 @@ def test_a_penetration_counts_against_itself():
     assert error_of((1e-10, 0.0), place=(5e-5, 0.0)) == pytest.approx(0.1)
 
 
+def test_contacts_follow_the_tolerance_too():
+    """Steps of a lasting contact went with tolerance^(-1/15) while rounding was overrated."""
+    steps = []
+    for tolerance in (1e-3, 1e-4):
+        scene = Scene(
+            joints={"crank_pin": "dry", "balls": "dry"},
+            revolutions=0.1,
+            solver={"tolerance": tolerance},
+        )
+        info = simulate(scene).info
+        assert info["newton_iterations"] < 1.3 * info["steps"]
+        steps.append(info["steps"])
+    assert 2.0 < steps[1] / steps[0] < 5.0
+
+
 def test_in_a_film_alone_errors_count_over_time():
     in_film = {"place": (5e-5, 0.0), "drift": 1e-6}
     assert error_of((1e-10, 0.0), reach=math.inf, **in_film) == pytest.approx(1.0)

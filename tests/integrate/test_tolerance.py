@@ -19,6 +19,5 @@ def test_velocities_of_an_ideal_mechanism_follow_the_tolerance(mechanism):
         assert run.completed
         motion = scene.build().mechanism.ideal_slider(run["crank_angle"], scene.angular_speed)
         errors.append(np.abs(run["slider_velocity"] - motion[1]).max() / scene.pin_speed)
-    assert errors == sorted(errors, reverse=True)
     for error, tolerance in zip(errors, TOLERANCES, strict=True):
         assert 0.1 * tolerance < error < 2.0 * tolerance

@@ -71,12 +71,12 @@ class FrameStart:
 
 def undeformed(start: Motion) -> FrameStart:
     """Return the start of a frame from its motion (x, y, angle) in the plane, one instant."""
-    (x, y, angle), (u, v, spin) = start.position[0], start.velocity[0]
+    (x, y, angle), (u, v, omega) = start.position[0], start.velocity[0]
     return FrameStart(
         position=np.array([x, y, 0.0]),
         rotation=np.asarray(RotationMatrixZ(angle)),
         velocity=np.array([u, v, 0.0]),
-        angular_velocity=np.array([0.0, 0.0, spin]),
+        angular_velocity=np.array([0.0, 0.0, omega]),
     )
 
 

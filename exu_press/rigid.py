@@ -194,7 +194,7 @@ class PivotedBody(RigidBody):
 
     def motion(self, q: Array, q_t: Array, q_tt: Array) -> Motion:
         """As `RigidBody.motion`."""
-        angle, spin, turn = self.reference[2] + q[:, 0], q_t[:, 0], q_tt[:, 0]
+        angle, omega, alpha = self.reference[2] + q[:, 0], q_t[:, 0], q_tt[:, 0]
         x, y = self.local((0.0, 0.0))
         arm_x, arm_y = (
             np.cos(angle) * x - np.sin(angle) * y,
@@ -202,8 +202,8 @@ class PivotedBody(RigidBody):
         )
         return Motion(
             np.column_stack([self._pivot[0] + arm_x, self._pivot[1] + arm_y, angle]),
-            np.column_stack([-spin * arm_y, spin * arm_x, spin]),
+            np.column_stack([-omega * arm_y, omega * arm_x, omega]),
             np.column_stack(
-                [-turn * arm_y - spin**2 * arm_x, turn * arm_x - spin**2 * arm_y, turn]
+                [-alpha * arm_y - omega**2 * arm_x, alpha * arm_x - omega**2 * arm_y, alpha]
             ),
         )

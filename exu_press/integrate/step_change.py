@@ -135,7 +135,7 @@ class StepChange:
             part = step / self._fits
             if part < self._refit or self._smooth:
                 if self._offsets is None:
-                    self._offsets = self._forbidden()
+                    self._offsets = self._violations()
                 q = q - self._offsets[0]
                 v = v - (1.0 - part * part) * self._offsets[1]
                 self._leaves = step
@@ -170,7 +170,7 @@ class StepChange:
             data.GetODE2Coordinates_tt(where, False),
         )
 
-    def _forbidden(self) -> tuple[Array, Array]:
+    def _violations(self) -> tuple[Array, Array]:
         """Return what of positions and velocities the constraints forbid, in the kinetic norm.
 
         The directions in which constraints act are those of the last Jacobian, perhaps a degree of

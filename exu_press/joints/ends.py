@@ -89,7 +89,7 @@ class BodyEnd:
         self.angular_velocity: Vector = (0.0, 0.0, 0.0)
         self.arm: Vector = (0.0, 0.0, 0.0)
         self.rotation: Matrix = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
-        self._spins: list[float] = []
+        self._omegas: list[float] = []
 
     def move(self, q: list[float], q_t: list[float]) -> None:
         """Go to a state."""
@@ -97,21 +97,21 @@ class BodyEnd:
         pose = self._reference.copy()
         for c in range(len(pose)):
             pose[c] += q[i + c]
-        self.rotation, self._spins = _orientation(self._kind, pose)
+        self.rotation, self._omegas = _orientation(self._kind, pose)
         x = y = z = u = v = w = 0.0
         if moved > 0:
             x, y, u, v = pose[0], pose[1], q_t[i], q_t[i + 1]
         if moved > 2:
             z, w = pose[2], q_t[i + 2]
-        spins = self._spins
+        omegas = self._omegas
         angles = len(pose) - moved
-        spin_x = spin_y = spin_z = 0.0
+        omega_x = omega_y = omega_z = 0.0
         for c in range(angles):
             rate = q_t[i + moved + c]
-            spin_x += spins[c] * rate
-            spin_y += spins[angles + c] * rate
-            spin_z += spins[2 * angles + c] * rate
-        rigid_spin = spin_x, spin_y, spin_z
+            omega_x += omegas[c] * rate
+            omega_y += omegas[angles + c] * rate
+            omega_z += omegas[2 * angles + c] * rate
+        rigid_omega = omega_x, omega_y, omega_z
         along, across, up = self._point
         modes, k = self._modes, self._modal
         if modes:
@@ -138,13 +138,13 @@ class BodyEnd:
             u += drift[0]
             v += drift[1]
             w += drift[2]
-            spin_x += turn[0]
-            spin_y += turn[1]
-            spin_z += turn[2]
+            omega_x += turn[0]
+            omega_y += turn[1]
+            omega_z += turn[2]
         arm = turned(self.rotation, (along, across, up))
-        around = cross(rigid_spin, arm)
+        around = cross(rigid_omega, arm)
         self.arm = arm
-        self.angular_velocity = spin_x, spin_y, spin_z
+        self.angular_velocity = omega_x, omega_y, omega_z
         self.position = x + arm[0], y + arm[1], z + arm[2]
         self.velocity = u + around[0], v + around[1], w + around[2]
 
@@ -158,10 +158,10 @@ class BodyEnd:
             out[i + 2] += force[2]
         leverage = cross(self.arm, force)
         m_x, m_y, m_z = leverage[0] + moment[0], leverage[1] + moment[1], leverage[2] + moment[2]
-        spins = self._spins
-        angles = len(spins) // 3
+        omegas = self._omegas
+        angles = len(omegas) // 3
         for c in range(angles):
-            turning = spins[c] * m_x + spins[angles + c] * m_y + spins[2 * angles + c] * m_z
+            turning = omegas[c] * m_x + omegas[angles + c] * m_y + omegas[2 * angles + c] * m_z
             out[i + moved + c] += turning
         modes, k = self._modes, self._modal
         if modes:
@@ -182,14 +182,14 @@ class BodyEnd:
         """Return velocity and angular velocity by the coordinates' rates, (3, n) each."""
         size, moved = len(self._reference), self._moved
         both = self._moving.copy()
-        velocity, spin = both[:3], both[3:]
-        spin[:, moved:size] = spins = np.array(self._spins).reshape(3, -1)
-        velocity[:, moved:size] = -cross_matrix(self.arm) @ spins
+        velocity, omega = both[:3], both[3:]
+        omega[:, moved:size] = omegas = np.array(self._omegas).reshape(3, -1)
+        velocity[:, moved:size] = -cross_matrix(self.arm) @ omegas
         if self._modes:
             rotation = np.array(self.rotation).reshape(3, 3)
             velocity[:, size:] = rotation @ self._both[:3]
-            spin[:, size:] = rotation @ self._both[3:]
-        return velocity, spin
+            omega[:, size:] = rotation @ self._both[3:]
+        return velocity, omega
 
     def rates_along(self, n: Vector, t: Vector, axis: Vector, beside: Vector) -> Array:
         """Return, by the coordinates' rates, what a joint in a plane asks of the end, (3, n).
@@ -202,7 +202,7 @@ class BodyEnd:
             axis: of the angular velocity.
             beside: from the end to the point of the body whose velocity is meant, m.
         """
-        size, moved, spins = len(self._reference), self._moved, self._spins
+        size, moved, omegas = len(self._reference), self._moved, self._omegas
         arm, angles = self.arm, size - moved
         lever = arm[0] + beside[0], arm[1] + beside[1], arm[2] + beside[2]
         rates = np.zeros((3, len(self.places)))
@@ -214,7 +214,7 @@ class BodyEnd:
             x, y, z = turning
             values = list(direction[:moved])
             for c in range(angles):
-                values.append(spins[c] * x + spins[angles + c] * y + spins[2 * angles + c] * z)
+                values.append(omegas[c] * x + omegas[angles + c] * y + omegas[2 * angles + c] * z)
             rates[row, :size] = values
         if self._modes:
             r = self.rotation
@@ -269,12 +269,12 @@ def _orientation(kind: str, pose: list[float]) -> tuple[Matrix, list[float]]:
     if kind == "Ground":
         return (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0), []
     if kind == "RigidBodyRxyz":
-        matrix, spins = RotXYZ2RotationMatrix(pose[3:]), RotXYZ2G(pose[3:])
+        matrix, omegas = RotXYZ2RotationMatrix(pose[3:]), RotXYZ2G(pose[3:])
     else:
-        matrix = spins = RotationVector2RotationMatrix(pose[3:])
+        matrix = omegas = RotationVector2RotationMatrix(pose[3:])
     r = matrix.ravel().tolist()
     rotation = r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8]
-    return rotation, spins.ravel().tolist()
+    return rotation, omegas.ravel().tolist()
 
 
 def turned(r: Matrix, v: Vector) -> Vector:

@@ -115,15 +115,15 @@ class PlanarJoint(PairedJoint):
         t_side = by_q_t * t_v + turn * (t_r * v_t - t_v * e_dot)
         turn *= f_n
         # for each coordinate: f_n, f_t (the drag) and, with the force's turning, its part along t;
-        # an angle moves its point along i arm and turns that point's velocity by -spin arm
+        # an angle moves its point along i arm and turns that point's velocity by -omega arm
         n_1, drag_1 = n_out * n_x - n_side * n_y, t_out * n_x - t_side * n_y
         n_2, drag_2 = n_out * n_y + n_side * n_x, t_out * n_y + t_side * n_x
-        spin = by_q * w_j
-        n_3 = by_q_t * n_wj + j_n * (n_side - spin * n_r) - j_t * (n_out + spin * n_v)
-        drag_3 = by_q_t * t_wj + j_n * (t_side - spin * t_r) - j_t * (t_out + spin * t_v)
-        spin = by_q * w_b
-        n_4 = by_q_t * n_wb - b_n * (n_side - spin * n_r) + b_t * (n_out + spin * n_v)
-        drag_4 = by_q_t * t_wb - b_n * (t_side - spin * t_r) + b_t * (t_out + spin * t_v)
+        omega = by_q * w_j
+        n_3 = by_q_t * n_wj + j_n * (n_side - omega * n_r) - j_t * (n_out + omega * n_v)
+        drag_3 = by_q_t * t_wj + j_n * (t_side - omega * t_r) - j_t * (t_out + omega * t_v)
+        omega = by_q * w_b
+        n_4 = by_q_t * n_wb - b_n * (n_side - omega * n_r) + b_t * (n_out + omega * n_v)
+        drag_4 = by_q_t * t_wb - b_n * (t_side - omega * t_r) + b_t * (t_out + omega * t_v)
         t_1, t_2 = drag_1 - turn * n_y, drag_2 + turn * n_x
         t_3, t_4 = drag_3 + turn * j_n, drag_4 - turn * b_n
         # force, moment on the journal's and moment on the bearing's body, by each coordinate

@@ -124,7 +124,7 @@ class SpatialSpherical:
             force=tuple(force.tolist()),
             velocity=self.relative_velocity,
             moments=tuple(moments.tolist()),
-            angular_velocities=tuple(self._spins.tolist()),
+            angular_velocities=tuple(self._omegas.tolist()),
             gap=-depth,
             stored_energy=self._contact.elastic_energy(pressed),
             stored_power=elastic * float(self._n @ self._relative),
@@ -139,14 +139,14 @@ class SpatialSpherical:
         self._e = e = float(np.sqrt(apart @ apart))
         self._n = n = apart / e if e > 0.0 else np.array([1.0, 0.0, 0.0])
         self._relative = np.subtract(ball.velocity, socket.velocity)
-        self._spins = np.concatenate([ball.angular_velocity, socket.angular_velocity])
+        self._omegas = np.concatenate([ball.angular_velocity, socket.angular_velocity])
         self._normal_force = self._drag = np.zeros(3)
         penetration = e - self.clearance - self.path.drift
         self._touching = penetration > 0.0
         if not self._touching and not self._stateful:
             return
         reach = self._radius + e
-        self._swirl = self._radius * self._spins[:3] - reach * self._spins[3:]
+        self._swirl = self._radius * self._omegas[:3] - reach * self._omegas[3:]
         self._surface = self._relative + _cross(self._swirl, n)
         sliding = self._surface - n * (n @ self._surface)
         rate = float(n @ self._relative)
@@ -161,13 +161,13 @@ class SpatialSpherical:
 
     def _rates(self) -> tuple[Array, Array]:
         """Return velocities of the centres and of the surfaces past each other by all rates."""
-        ball, ball_spin = self.ball.rates()
-        socket, socket_spin = self.socket.rates()
+        ball, ball_omega = self.ball.rates()
+        socket, socket_omega = self.socket.rates()
         outward = cross_matrix(self._n)
         centre = np.hstack([ball, -socket])
         reach = self._radius + self._e
-        spins = np.hstack([-self._radius * outward @ ball_spin, reach * outward @ socket_spin])
-        return centre, centre + spins
+        omegas = np.hstack([-self._radius * outward @ ball_omega, reach * outward @ socket_omega])
+        return centre, centre + omegas
 
     def _coefficient(self, sliding: Array) -> tuple[Array, Array, Array]:
         """Return the friction coefficient as a vector, its derivative and the bristle's end.

@@ -49,15 +49,15 @@ class WaysContact(PairedJoint):
         place_x, place_y, turn = self.places
         turned = self._angle + q[turn]
         arm_x, arm_y = self._length * cos(turned), self._length * sin(turned)
-        spin = q_t[turn]
+        omega = q_t[turn]
         across_x, across_y = self._across
         beside = (q[place_x] + self._x + arm_x) * across_x
         beside += (q[place_y] + self._y + arm_y) * across_y
         side = 1.0 if beside >= 0.0 else -1.0
         n_x, n_y = side * across_x, side * across_y
-        u, v = q_t[place_x] - spin * arm_y, q_t[place_y] + spin * arm_x
+        u, v = q_t[place_x] - omega * arm_y, q_t[place_y] + omega * arm_x
         self._directions = n_x, n_y, arm_x, arm_y
-        motion = side * beside, u * n_x + v * n_y, v * n_x - u * n_y, spin, 0.0
+        motion = side * beside, u * n_x + v * n_y, v * n_x - u * n_y, omega, 0.0
         (load,) = self._load(motion)
         if load is not None:
             f_n, f_t, moment, _, _ = load
@@ -71,16 +71,16 @@ class WaysContact(PairedJoint):
         load: Load | None = self._loads[0]
         if load is None:
             return None
-        _, _, _, spin, _ = self._motion
+        _, _, _, omega, _ = self._motion
         n_x, n_y, arm_x, arm_y = self._directions
         f_n, f_t, _, _, _ = load
         (n_e, n_r, n_v, n_w, _), (t_e, t_r, t_v, t_w, _) = self._slopes(0, load)
         arm_n, arm_t = arm_x * n_x + arm_y * n_y, arm_y * n_x - arm_x * n_y
         # f_n and f_t by x, y and angle; the angle moves the point by -arm_t n + arm_n t, and turns
-        # its velocity by -spin arm
+        # its velocity by -omega arm
         out_n, side_n = by_q * n_e + by_q_t * n_r, by_q_t * n_v
         out_t, side_t = by_q * t_e + by_q_t * t_r, by_q_t * t_v
-        turning = by_q * spin
+        turning = by_q * omega
         n_1, n_2 = out_n * n_x - side_n * n_y, out_n * n_y + side_n * n_x
         t_1, t_2 = out_t * n_x - side_t * n_y, out_t * n_y + side_t * n_x
         n_3 = arm_n * side_n - arm_t * out_n - turning * (n_r * arm_n + n_v * arm_t)
@@ -110,7 +110,7 @@ class WaysContact(PairedJoint):
     def state(self, q: list[float], q_t: list[float]) -> JointState:
         """Return what the ways do in a state; the velocity is the point's, along them too."""
         self.add_force(q, q_t, [0.0] * len(q))
-        e, e_dot, v_t, spin, _ = self._motion
+        e, e_dot, v_t, omega, _ = self._motion
         n_x, n_y, _, _ = self._directions
         (load,) = self._loads
         f_n, f_t, moment = (0.0, 0.0, 0.0) if load is None else (load[0], load[1], load[2])
@@ -120,7 +120,7 @@ class WaysContact(PairedJoint):
             force=(f_n * n_x - f_t * n_y, f_n * n_y + f_t * n_x),
             moments=(moment, 0.0),
             velocity=(e_dot * n_x - v_t * n_y, e_dot * n_y + v_t * n_x),
-            angular_velocities=(spin, 0.0),
+            angular_velocities=(omega, 0.0),
             gap=self.clearance - e,
             stored_energy=pair.stored_energy(e),
             stored_power=pair.stored_force(e) * e_dot,

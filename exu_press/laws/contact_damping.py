@@ -127,8 +127,8 @@ class Approach:
             speed, gap = rate, -penetration
         elif gap > 0.0:
             if rate > 0.0:  # else it has turned already
-                share = gap / (gap + penetration)
-                speed = math.sqrt(speed * speed + share * (rate * rate - speed * speed))
+                part = gap / (gap + penetration)
+                speed = math.sqrt(speed * speed + part * (rate * rate - speed * speed))
             gap = 0.0
         self._next = speed, gap
         return speed

@@ -28,7 +28,7 @@ class Motion:
 
     def at(self, point: tuple[float, float]) -> "Motion":
         """Return the motion (x, y, angle) of a point of the body's frame, m."""
-        angle, spin, turn = (
+        angle, omega, alpha = (
             part[:, 2] for part in (self.position, self.velocity, self.acceleration)
         )
         x, y = point
@@ -42,6 +42,6 @@ class Motion:
         across = np.column_stack([-arm[:, 1], arm[:, 0], np.zeros_like(angle)])
         return Motion(
             self.position + arm,
-            self.velocity + spin[:, None] * across,
-            self.acceleration + turn[:, None] * across - (spin**2)[:, None] * arm,
+            self.velocity + omega[:, None] * across,
+            self.acceleration + alpha[:, None] * across - (omega**2)[:, None] * arm,
         )

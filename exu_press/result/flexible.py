@@ -84,10 +84,10 @@ def deflection(placed: "PlacedPart", joint: str, pivot: str) -> Array:
     moved = part.interface(placed.faces[joint][0])
     rests = [part.interface(face) for face in placed.faces[pivot]]
     height, heights = float(moved.centre[2]), [float(rest.centre[2]) for rest in rests]
-    share = 0.0 if len(rests) == 1 else (height - heights[0]) / (heights[1] - heights[0])
-    line = (1.0 - share) * rests[0].translation + share * rests[-1].translation
-    spin = part.interface(placed.drive or placed.faces[pivot][0]).rotation.T * (0.0, 0.0, 1.0)
-    turned = np.cross(spin, moved.axis - rests[0].axis).T
+    part_way = 0.0 if len(rests) == 1 else (height - heights[0]) / (heights[1] - heights[0])
+    line = (1.0 - part_way) * rests[0].translation + part_way * rests[-1].translation
+    axis = part.interface(placed.drive or placed.faces[pivot][0]).rotation.T * (0.0, 0.0, 1.0)
+    turned = np.cross(axis, moved.axis - rests[0].axis).T
     return np.asarray((moved.translation - line - turned)[:2])
 
 
@@ -109,11 +109,11 @@ def _rigid_energy(model: Model, name: str, part: "ReducedPart") -> Array:
 
     In space: where forces leap, the frame of a bending crank shaft tilts.
     """
-    height, velocity, spin = point_motion(model, name, part.centre_of_mass)
+    height, velocity, omega = point_motion(model, name, part.centre_of_mass)
     c = part.centre_of_mass
     about_centre = part.inertia - part.mass * (c @ c * np.eye(3) - np.outer(c, c))
     kinetic = 0.5 * part.mass * (velocity**2).sum(axis=1)
-    kinetic += 0.5 * ((spin @ about_centre) * spin).sum(axis=1)
+    kinetic += 0.5 * ((omega @ about_centre) * omega).sum(axis=1)
     return np.asarray(kinetic + part.mass * model.scene.gravity * height)
 
 

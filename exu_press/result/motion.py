@@ -56,29 +56,29 @@ def point_acceleration(model: Model, name: str, point: Array) -> Array:
     """
     e_0, e, velocity = _in_space(model, name)
     acceleration = sensor(model, name, "acceleration")
-    spin, turn = (_spin(e_0, e, rates[:, 3:]) for rates in (velocity, acceleration))
+    omega, alpha = (_angular_velocity(e_0, e, rates[:, 3:]) for rates in (velocity, acceleration))
     arm = _turned(e_0, e, point)
-    swing = np.cross(turn, arm) + np.cross(spin, np.cross(spin, arm))
+    swing = np.cross(alpha, arm) + np.cross(omega, np.cross(omega, arm))
     return np.asarray(acceleration[:, :3] + swing)
 
 
 def point_motion(model: Model, name: str, point: Array) -> tuple[Array, Array, Array]:
-    """Return height and velocity of a point (3,) fixed in a flexible body's frame, and its spin.
+    """Return height, velocity and angular velocity of a point (3,) of a flexible body's frame.
 
     In space: the height (n,), m, and the velocity (n, 3), m/s, are global; the frame's angular
     velocity (n, 3), rad/s, is in its own axes.
     """
     e_0, e, velocity = _in_space(model, name)
-    spin, arm = _spin(e_0, e, velocity[:, 3:]), _turned(e_0, e, point)
+    omega, arm = _angular_velocity(e_0, e, velocity[:, 3:]), _turned(e_0, e, point)
     height = frame_motion(model, name).position[:, 1] + arm[:, 1]
-    return height, velocity[:, :3] + np.cross(spin, arm), _turned(e_0, -e, spin)
+    return height, velocity[:, :3] + np.cross(omega, arm), _turned(e_0, -e, omega)
 
 
 def _in_space(model: Model, name: str) -> tuple[Array, Array, Array]:
     """Return the Euler parameters of a flexible body's frame, (n, 1) and (n, 3), and all rates."""
     start = model.mbs.GetNodeParameter(model.nodes[name], "referenceCoordinates")
-    turn = (sensor(model, name, "position") + start)[:, 3:]
-    return turn[:, :1], turn[:, 1:], sensor(model, name, "velocity")
+    rotation = (sensor(model, name, "position") + start)[:, 3:]
+    return rotation[:, :1], rotation[:, 1:], sensor(model, name, "velocity")
 
 
 def _turned(e_0: Array, e: Array, vectors: Array) -> Array:
@@ -86,6 +86,6 @@ def _turned(e_0: Array, e: Array, vectors: Array) -> Array:
     return np.asarray(vectors + 2.0 * np.cross(e, np.cross(e, vectors) + e_0 * vectors))
 
 
-def _spin(e_0: Array, e: Array, rates: Array) -> Array:
+def _angular_velocity(e_0: Array, e: Array, rates: Array) -> Array:
     """Return what rates (n, 4) of the Euler parameters turn the frame by, global axes, (n, 3)."""
     return np.asarray(2.0 * (e_0 * rates[:, 1:] - rates[:, :1] * e + np.cross(e, rates[:, 1:])))

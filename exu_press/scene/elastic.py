@@ -42,6 +42,6 @@ def _elastic(guide: Guide, body: Body, elastic: ElasticGuide) -> Guide:
 
 
 def _spring(stiffness: float, damping: float | None, ratio: float, inertia: float) -> Spring:
-    """Return a spring damped as asked for, or with a share of the critical damping."""
+    """Return a spring damped as asked for, or with a part of the critical damping."""
     critical = 2.0 * math.sqrt(stiffness * inertia)
     return Spring(stiffness, ratio * critical if damping is None else damping)

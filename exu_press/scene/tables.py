@@ -124,7 +124,7 @@ class ElasticGuide(Table):
     lateral stiffness and damping, and rub on them.
 
     The springs act in the body's centre of mass. A guide's tilting stiffness is that of an even
-    bedding along its length, k L^2 / 12, and each damping a share of the critical one of the guided
+    bedding along its length, k L^2 / 12, and each damping a part of the critical one of the guided
     mass or inertia alone, 2 D sqrt(k m), unless they are given. With ideal guides no body turns;
     inertias that the paper does not give are needed then: about the centre of mass, steel cubes'.
     """

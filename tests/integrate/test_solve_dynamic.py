@@ -101,7 +101,7 @@ def test_a_watch_and_a_crane_behave_alike(joint):
 
 
 @pytest.mark.parametrize("tolerance", TOLERANCES[1:])
-def test_a_body_that_spins_in_space(tolerance):
+def test_a_body_that_rotates_in_space(tolerance):
     """Euler's equations, about the middle axis, where errors grow by exp(5.8 t): 18 in 0.5 s."""
     inertia, spin = np.array([1.0, 2.0, 3.0]), [0.1, 10.0, 0.1]
     expected = solve_ivp(

@@ -73,21 +73,21 @@ def with_asperities(law: FilmLaw, onset_ratio: float) -> FilmLaw:
         effective = onset + onset_ratio * math.atan(t) / _STEEPNESS
         slope = 1.0 / (1.0 + t * t)
         bend = -2.0 * _STEEPNESS * t * slope * slope / onset_ratio
-        share = effective / eps
-        d_share = (slope - share) / eps
+        ratio = effective / eps
+        d_ratio = (slope - ratio) / eps
         f_r, f_t, r_eps, r_dot, r_w, t_eps, t_dot, t_w, shear, shear_eps = law(
-            effective, slope * eps_dot, share * eps_w
+            effective, slope * eps_dot, ratio * eps_w
         )
-        d_dot, d_w = bend * eps_dot, d_share * eps_w
+        d_dot, d_w = bend * eps_dot, d_ratio * eps_w
         return (
             slope * f_r,
-            share * f_t,
+            ratio * f_t,
             bend * f_r + slope * (slope * r_eps + d_dot * r_dot + d_w * r_w),
             slope * slope * r_dot,
-            slope * share * r_w,
-            d_share * f_t + share * (slope * t_eps + d_dot * t_dot + d_w * t_w),
-            share * slope * t_dot,
-            share * share * t_w,
+            slope * ratio * r_w,
+            d_ratio * f_t + ratio * (slope * t_eps + d_dot * t_dot + d_w * t_w),
+            ratio * slope * t_dot,
+            ratio * ratio * t_w,
             shear,
             slope * shear_eps,
         )

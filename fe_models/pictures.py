@@ -10,6 +10,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from exu_press.solid_view import facing, turned_view
 from fe_models.clamped import MODE_NUMBERS, clamped_modes
 from fe_models.part import Part
 
@@ -17,8 +18,7 @@ __all__ = ["draw_mode_shapes"]
 
 Array = NDArray[np.float64]
 DEFLECTION = 0.07  # of the part's largest extent, at the mode's largest displacement
-TURN, TILT = np.radians(-35.0), np.radians(22.0)  # of the view, about y and then about the x drawn
-LIGHT = np.array([-0.35, 0.65, 0.67])  # where it comes from, in the frame of the picture
+TURN, TILT = np.radians(-35.0), np.radians(22.0)  # of the view, about y and then about x
 PLAIN = (0.64, 0.70, 0.76)
 
 
@@ -70,30 +70,16 @@ def draw_mode_shapes(part: Part, file: Path, modes: tuple[int, ...] = MODE_NUMBE
 def _view(long_part: bool) -> Array:
     """Return the rows right, up, towards the eye: y up, the long axis (z or x) to the right."""
     frame = np.array([[0, 0, 1], [0, 1, 0], [-1, 0, 0]]) if long_part else np.eye(3)
-    turn = 0.5 * TURN if long_part else TURN
-    about_y = np.array(
-        [[np.cos(turn), 0, np.sin(turn)], [0, 1, 0], [-np.sin(turn), 0, np.cos(turn)]]
-    )
-    about_x = np.array(
-        [[1, 0, 0], [0, np.cos(TILT), -np.sin(TILT)], [0, np.sin(TILT), np.cos(TILT)]]
-    )
-    view: Array = about_x @ about_y @ frame
-    return view
+    return np.asarray(turned_view(0.5 * TURN if long_part else TURN, TILT) @ frame)
 
 
 def _surface(points: Array, triangles: NDArray[np.int64], level: Array | None) -> Any:
     """Return the triangles that face the eye, far ones first, coloured by level and shaded."""
-    corners = points[triangles]
-    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-300)
-    order = np.argsort(corners[:, :, 2].mean(axis=1), kind="stable")
-    order = order[normal[order, 2] > 0.0]
-    shade = 0.45 + 0.55 * np.clip(normal[order] @ (LIGHT / np.linalg.norm(LIGHT)), 0.0, 1.0)
+    corners, seen, light = facing(points, triangles)
+    shade = 0.45 + 0.55 * light
     if level is None:
-        colour = np.tile(PLAIN, (len(order), 1))
+        colour = np.tile(PLAIN, (len(seen), 1))
     else:
-        colour = matplotlib.colormaps["turbo"](level[triangles[order]].mean(axis=1))[:, :3]
+        colour = matplotlib.colormaps["turbo"](level[seen].mean(axis=1))[:, :3]
     shaded = np.clip(colour * shade[:, None], 0.0, 1.0)
-    return PolyCollection(
-        corners[order][:, :, :2], facecolors=shaded, edgecolors=shaded, linewidths=0.4
-    )
+    return PolyCollection(corners, facecolors=shaded, edgecolors=shaded, linewidths=0.4)

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from exu_press.errors import InputError
 from exu_press.result import Result
 from exu_press.result.surface import Surface
+from exu_press.solid_view import facing, turned_view
 from exu_press.view.instants import Instants
 from exu_press.view.panel import animated
 
@@ -26,14 +27,13 @@ DEFLECTION = 0.06
 """Of the bodies' extent: how large the largest displacement of the animation is drawn."""
 
 TURN, TILT = np.radians(-55.0), np.radians(20.0)
-"""Of the view, about y and then about the x drawn."""
+"""Of the view, about y and then about x."""
 
 COLOURS: Colormap = ListedColormap(
     matplotlib.colormaps["YlGnBu"].resampled(256)(range(30, 256)), "YlGnBu without its palest end"
 )
 """Light is little, dark is much: to be told apart by their lightness alone."""
 
-LIGHT = np.array([-0.35, 0.65, 0.67])
 KINDS = {"displacement": (1e6, "displacement, µm"), "stress": (1e-6, "von Mises stress, MPa")}
 
 
@@ -84,7 +84,7 @@ class FlexiblePanel:
         self._factor = automatic if how.exaggerate is None else how.exaggerate
         scale, words = KINDS[how.colour]
         largest = max(float(self._level(name, q).max()) for name, q in modal)
-        self._view = _view()
+        self._view = turned_view(TURN, TILT)
         self._scale = scale
         norm = Normalize(0.0, scale * largest or 1.0)
         self._colours = matplotlib.cm.ScalarMappable(norm, COLOURS)
@@ -143,27 +143,14 @@ class FlexiblePanel:
         return np.asarray(turned @ self._view.T)
 
 
-def _view() -> Array:
-    """Return the rows right, up, towards the eye."""
-    c, s = np.cos(TURN), np.sin(TURN)
-    about_y = np.array([[c, 0, s], [0, 1, 0], [-s, 0, c]])
-    c, s = np.cos(TILT), np.sin(TILT)
-    return np.asarray(np.array([[1, 0, 0], [0, c, -s], [0, s, c]]) @ about_y)
-
-
 def _painted(points: Array, triangles: NDArray[np.int32], colours: Array) -> tuple[Array, Array]:
     """Return the triangles (t, 3, 2) that face the eye, far ones first, and their colours (t, 3).
 
     The shade is weak, so that it cannot be taken for a value.
     """
-    corners = points[triangles]
-    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-300)
-    order = np.argsort(corners[:, :, 2].mean(axis=1), kind="stable")
-    order = order[normal[order, 2] > 0.0]
-    light = 0.72 + 0.28 * np.clip(normal[order] @ (LIGHT / np.linalg.norm(LIGHT)), 0.0, 1.0)
-    shaded = np.clip(colours[triangles[order]].mean(axis=1) * light[:, None], 0.0, 1.0)
-    return corners[order][:, :, :2], shaded
+    corners, seen, light = facing(points, triangles)
+    shade = 0.72 + 0.28 * light
+    return corners, np.clip(colours[seen].mean(axis=1) * shade[:, None], 0.0, 1.0)
 
 
 def _round_down(value: float) -> float:

@@ -6,7 +6,7 @@ from typing import Any
 import exudyn as exu
 import numpy as np
 
-from exu_press.integrate.local_error import BodyError, FirstOrderError, JointError, Share
+from exu_press.integrate.local_error import BodyError, ErrorPerStep, FirstOrderError, JointError
 from exu_press.integrate.problem import Problem
 from exu_press.integrate.scales import FoundScales
 from exu_press.integrate.tuning import Tuning
@@ -62,8 +62,10 @@ class StepError:
         self._problem, self._solver, self._scales = problem, solver, scales
         self._data: Any = problem.mbs.systemData
         self._tolerance, self._tuning = tolerance, tuning
-        share = Share.of(tolerance, duration, tuning.many_steps, problem.joints is not None)
-        self._share = share
+        per_step = ErrorPerStep.of(
+            tolerance, duration, tuning.many_steps, problem.joints is not None
+        )
+        self._per_step = per_step
         self.accelerations: list[float] = []
         self.start: list[float] = []
         self._bodies: BodyError | None = None
@@ -76,7 +78,7 @@ class StepError:
         if self._bodies is None:
             self._bodies = self._first_look()
             if self._problem.first_order:
-                self._first_order = FirstOrderError(self._data, self._share)
+                self._first_order = FirstOrderError(self._data, self._per_step)
         self.accelerations = self._data.GetODE2Coordinates_tt(CURRENT, False).tolist()
         if self._scales.resting:
             velocities = self._data.GetODE2Coordinates_t(CURRENT, False).tolist()
@@ -140,7 +142,7 @@ class StepError:
         """Return the bodies' errors from the first step's beginning on; look at the joints too."""
         noise = self._scales.alternating(self._tuning.rounding, self._solver.alphaF)
         if self._problem.joints is not None:
-            whole, per_time = self._share.whole, self._per_time
+            whole, per_time = self._per_step.whole, self._per_time
             self._joints = [
                 JointError(j, whole * j.clearance, per_time * j.clearance, noise, self._tuning)
                 for j in self._problem.joints.joints
@@ -148,7 +150,7 @@ class StepError:
         start = self.start or self._data.GetODE2Coordinates_tt(START, False).tolist()
         return BodyError(
             accelerations=start,
-            share=self._share,
+            per_step=self._per_step,
             scales=self._scales,
             tuning=self._tuning,
             noise=noise,

@@ -1,7 +1,7 @@
 """What one step misses, of each kind of coordinate, over what it may; compiled like the joints.
 
 Bodies' velocities, clearance joints' eccentricities and first-order coordinates; 1 is what a step
-may miss, and `Share` says how much that is of the run's tolerance.
+may miss, and `ErrorPerStep` says how much that is of the run's tolerance.
 """
 
 import math
@@ -15,14 +15,14 @@ from exu_press.integrate.scales import FoundScales
 from exu_press.integrate.tuning import Tuning
 from exu_press.joints.joint import ClearanceJoint
 
-__all__ = ["BodyError", "FirstOrderError", "JointError", "Share", "squares"]
+__all__ = ["BodyError", "ErrorPerStep", "FirstOrderError", "JointError", "squares"]
 
 CURRENT = exu.ConfigurationType.Current
 START = exu.ConfigurationType.StartOfStep
 
 
 @dataclass(frozen=True)
-class Share:
+class ErrorPerStep:
     """What a step may be off by, relative, so that the run is off by its tolerance.
 
     Generalized-alpha is of second order: its local error goes with h^3, and a run needs about
@@ -43,8 +43,10 @@ class Share:
     shortest: float = 0.0
 
     @classmethod
-    def of(cls, tolerance: float, duration: float, many_steps: float, impacts: bool) -> "Share":
-        """Return the share of a run's steps.
+    def of(
+        cls, tolerance: float, duration: float, many_steps: float, impacts: bool
+    ) -> "ErrorPerStep":
+        """Return what the steps of a run may miss.
 
         Args:
             tolerance: of the run.
@@ -90,7 +92,7 @@ class BodyError:
     def __init__(
         self,
         accelerations: list[float],
-        share: Share,
+        per_step: ErrorPerStep,
         scales: FoundScales,
         tuning: Tuning,
         noise: float,
@@ -99,12 +101,12 @@ class BodyError:
 
         Args:
             accelerations: of all coordinates, at the beginning of the first step.
-            share: what a velocity may be off by in one step, over the scale of speeds.
+            per_step: what a velocity may be off by in one step, over the scale of speeds.
             scales: of the motion, which knows the bodies.
             tuning: numbers.
             noise: what rounded positions make of accelerations, times the step's square, m.
         """
-        self._scales, self._share = scales, share
+        self._scales, self._per_step = scales, per_step
         self._noise = noise
         self._constant = tuning.velocity_constant
         self._before = self._now = accelerations
@@ -134,7 +136,9 @@ class BodyError:
 
     def error(self, change: list[float], step: float) -> float:
         """Return the error that goes with a change of the accelerations' rate."""
-        limit = max(self._share.at(step) * self._scales.speed, self._constant * self._noise / step)
+        limit = max(
+            self._per_step.at(step) * self._scales.speed, self._constant * self._noise / step
+        )
         return self._constant * step * step * self.largest_of(change) / limit
 
     def of_jump(self) -> float:
@@ -216,9 +220,9 @@ class JointError:
 class FirstOrderError:
     """What the trapezoidal rule misses: h^3 |y'''| / 12, over each coordinate's largest value."""
 
-    def __init__(self, data: Any, share: Share) -> None:
+    def __init__(self, data: Any, per_step: ErrorPerStep) -> None:
         """Take the system's data, and what one step may miss, relative."""
-        self._data, self._share = data, share
+        self._data, self._per_step = data, per_step
         self._before = np.array(data.GetODE1Coordinates_t(START, False))
         self._largest = np.abs(np.array(data.GetODE1Coordinates(START, False)))
         self._change: Any = None  # of the rate, over the step, in the step before
@@ -234,7 +238,7 @@ class FirstOrderError:
         missed = step * step * np.abs(change - self._change) / 12.0
         largest = np.maximum(self._largest, step * np.abs(rate))
         counts = largest > 0.0
-        return float((missed[counts] / largest[counts]).max(initial=0.0)) / self._share.at(step)
+        return float((missed[counts] / largest[counts]).max(initial=0.0)) / self._per_step.at(step)
 
     def accept(self) -> None:
         """Remember the accepted step's end as the next one's beginning."""

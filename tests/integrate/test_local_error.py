@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
-from exu_press.integrate.local_error import BodyError, JointError, Share
+from exu_press.integrate.local_error import BodyError, ErrorPerStep, JointError
 from exu_press.integrate.scales import FoundScales, Scales
 from exu_press.integrate.tuning import Tuning
 from exu_press.joints.path import Path
@@ -32,7 +32,7 @@ def errors(velocity_limit=1e-3, masses=(2.0,)):
     )
     return BodyError(
         rest,
-        share=Share(velocity_limit),
+        per_step=ErrorPerStep(velocity_limit),
         scales=scales,
         tuning=TUNING,
         noise=NOISE,
@@ -128,7 +128,7 @@ def test_in_a_film_alone_errors_count_over_time():
 
 
 def test_thin_films_follow_the_tolerance():
-    """Errors of 0.1 and 0.01 at 1e-2 and 1e-3 while each step had its share of the clearance."""
+    """Errors of 0.1 and 0.01 at 1e-2 and 1e-3 while each step had its part of the clearance."""
     ratios = {}
     for tolerance in (1e-2, 1e-3, 1e-4):
         thin = {"crank_pin": {"kind": "lubricated", "clearance": 1e-5}}
@@ -141,11 +141,11 @@ def test_thin_films_follow_the_tolerance():
 
 
 def test_a_usual_run_gives_each_step_the_whole():
-    share = Share.of(1e-4, duration=1.0, many_steps=10.0, impacts=False)
-    assert share.at(1e-3) == pytest.approx(1e-6)  # a thousand steps
-    assert share.at(1e-5) == pytest.approx(1e-7)  # a hundred times as many
+    per_step = ErrorPerStep.of(1e-4, duration=1.0, many_steps=10.0, impacts=False)
+    assert per_step.at(1e-3) == pytest.approx(1e-6)  # a thousand steps
+    assert per_step.at(1e-5) == pytest.approx(1e-7)  # a hundred times as many
 
 
 def test_impacts_leave_a_hundredth():
-    assert Share.of(1e-6, 1.0, 10.0, impacts=True).at(1e-9) == pytest.approx(1e-8)
-    assert Share.of(1e-6, 1.0, 10.0, impacts=False).whole == pytest.approx(1e-9)
+    assert ErrorPerStep.of(1e-6, 1.0, 10.0, impacts=True).at(1e-9) == pytest.approx(1e-8)
+    assert ErrorPerStep.of(1e-6, 1.0, 10.0, impacts=False).whole == pytest.approx(1e-9)

@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from exu_press.mechanism.holding import holding_of
 from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.warnings import scene_warnings
 
@@ -39,7 +40,19 @@ def run_warnings(summary: Mapping[str, Any], scene: Scene) -> list[str]:
                 f"{name.replace('_', ' ')}: eccentricity ratio up to {ratio:.3f}; film laws for "
                 "smooth surfaces are hardly valid there"
             )
-    return [*found, *_solids(summary, scene), *scene_warnings(scene)]
+    return [*found, *_held_twice(scene), *_solids(summary, scene), *scene_warnings(scene)]
+
+
+def _held_twice(scene: Scene) -> Iterator[str]:
+    """Yield the ideal joints between which forces cannot be told apart."""
+    holding = holding_of(mechanism_of(scene), scene.joints.ideal)
+    if holding.twice:
+        names = ", ".join(name.replace("_", " ") for name in holding.redundant)
+        yield (
+            f"{names}: other ideal joints hold the same at most crank angles; the motion is right, "
+            "but how joints divide the forces among them is not determined; give one of them "
+            "clearance"
+        )
 
 
 def _solids(summary: Mapping[str, Any], scene: Scene) -> Iterator[str]:

@@ -1,0 +1,122 @@
+"""Normal contact with damping: derivatives, dissipation, contact from rest."""
+
+import math
+
+import pytest
+from contacts import DELIVERED, chi_of, contacts, random_states
+
+from exu_press.laws.contact import (
+    DAMPING_LAWS,
+    delivered_restitution,
+    hertz,
+    hunt_crossley,
+    restitution_of,
+    step,
+    step_damping,
+)
+
+
+def test_adams_step_at_its_ends() -> None:
+    assert step(-1.0, 0.0, 2.0, 1.0, 5.0) == (2.0, 0.0)
+    assert step(0.0, 0.0, 2.0, 1.0, 5.0) == (2.0, 0.0)
+    assert step(1.0, 0.0, 2.0, 1.0, 5.0) == (5.0, 0.0)
+    assert step(9.0, 0.0, 2.0, 1.0, 5.0) == (5.0, 0.0)
+    assert step(0.5, 0.0, 2.0, 1.0, 5.0) == (3.5, 4.5)
+    for end, inside in ((0.0, 1e-9), (1.0, 1.0 - 1e-9)):
+        assert step(inside, 0.0, 2.0, 1.0, 5.0)[0] == pytest.approx(step(end, 0, 2, 1, 5)[0])
+        assert step(inside, 0.0, 2.0, 1.0, 5.0)[1] == pytest.approx(0.0, abs=2e-8)
+
+
+@pytest.mark.parametrize("name", [*DELIVERED, "step"])
+@pytest.mark.parametrize("tension", [False, True])
+def test_derivatives_against_finite_differences(name: str, tension: bool) -> None:
+    contact = contacts(tension)[name]
+    for penetration, rate, speed in random_states(300):
+        force, by_penetration, by_rate = contact.force(penetration, rate, speed)
+        if force == 0.0:
+            assert (by_penetration, by_rate) == (0.0, 0.0)
+            continue
+        d, r = 1e-5 * penetration, 1e-5
+        values = [contact.force(penetration + s * d, rate, speed)[0] for s in (-1, 1)]
+        if min(values) > 0.0 or tension:
+            central = (values[1] - values[0]) / (2 * d)
+            scale = abs(by_penetration) + max(map(abs, values)) / penetration
+            assert central == pytest.approx(by_penetration, abs=1e-6 * scale)
+        values = [contact.force(penetration, rate + s * r, speed)[0] for s in (-1, 1)]
+        if min(values) > 0.0 or tension:
+            assert (values[1] - values[0]) / (2 * r) == pytest.approx(by_rate, rel=1e-6)
+
+
+@pytest.mark.parametrize("name", [*DELIVERED, "step"])
+@pytest.mark.parametrize("tension", [False, True])
+def test_force_is_continuous_at_touch_and_zero_apart(name: str, tension: bool) -> None:
+    contact = contacts(tension)[name]
+    for rate in (-1.0, 0.0, 1.0):
+        for penetration in (0.0, -1e-12, -1e-3):
+            assert contact.force(penetration, rate, 0.5) == (0.0, 0.0, 0.0)
+            assert contact.elastic_energy(penetration) == 0.0
+            assert contact.dissipated_power(penetration, rate, 0.5) == 0.0
+        assert abs(contact.force(1e-12, rate, 0.5)[0]) < 1e-8
+
+
+@pytest.mark.parametrize("name", [*DELIVERED, "step"])
+def test_dissipative_and_never_pulling_without_tension(name: str) -> None:
+    pulling, parting = contacts(tension=True)[name], contacts()[name]
+    pulled = 0
+    for penetration, rate, speed in random_states(1000):
+        force = parting.force(penetration, rate, speed)[0]
+        pull = pulling.force(penetration, rate, speed)[0]
+        elastic = parting.stiffness.force(penetration)[0]
+        assert force == max(pull, 0.0)
+        assert rate * (force - elastic) >= 0.0
+        assert rate * (pull - elastic) >= 0.0
+        assert parting.dissipated_power(penetration, rate, speed) == rate * (force - elastic)
+        pulled += pull < 0.0
+    assert pulled > 10  # the states do reach where A-10 matters
+
+
+@pytest.mark.parametrize("name", list(DELIVERED))
+def test_contact_beginning_at_rest_is_regular(name: str) -> None:
+    contact = contacts()[name]
+    assert contact.needs_impact_speed
+    at_rest = contact.force(1e-5, 1e-4, 0.0)
+    assert at_rest == contact.force(1e-5, 1e-4, 0.5e-3) == contact.force(1e-5, 1e-4, 1e-3)
+    assert all(map(math.isfinite, at_rest))
+    assert contact.force(1e-5, 0.0, 0.0)[0] == contact.stiffness.force(1e-5)[0]
+    slower = delivered_restitution(contact, mass=1.0, speed=1e-5)
+    assert delivered_restitution(contact, mass=1.0, speed=1e-3) < slower < 1.0
+    assert slower == pytest.approx(restitution_of(chi_of(contact) / 100), abs=1e-6)
+
+
+def test_step_does_not_read_the_impact_speed() -> None:
+    contact = contacts()["step"]
+    assert not contact.needs_impact_speed
+    assert contact.force(1e-5, 0.1, math.nan) == contact.force(1e-5, 0.1, 0.0)
+
+
+def test_a_not_a_number_state_stays_visible() -> None:
+    """Exudyn halves the step on NaN; a law must not turn it into a force."""
+    for contact in contacts().values():
+        assert math.isnan(contact.force(math.nan, 0.1, 0.1)[0])
+        assert math.isnan(contact.force(1e-5, math.nan, 0.1)[0])
+
+
+@pytest.mark.parametrize("law", list(DELIVERED))
+@pytest.mark.parametrize("restitution", [0.0, -0.1, 1.01, math.nan])
+def test_restitution_out_of_range_is_refused_by_name(law: str, restitution: float) -> None:
+    message = rf"restitution = {restitution!r}: allowed 0 < restitution <= 1"
+    with pytest.raises(ValueError, match=message):
+        DAMPING_LAWS[law](hertz(1e8), restitution)
+
+
+@pytest.mark.parametrize(
+    ("make", "name"),
+    [
+        (lambda: step_damping(hertz(1e8), -1.0, 1e-5), "damping_max"),
+        (lambda: step_damping(hertz(1e8), 1e3, 0.0), "damping_depth"),
+        (lambda: hunt_crossley(hertz(1e8), 0.5, slowest_impact=0.0), "slowest_impact"),
+    ],
+)
+def test_bad_parameters_are_refused_by_name(make, name: str) -> None:
+    with pytest.raises(ValueError, match=rf"^{name} = .*: allowed .*{name}"):
+        make()

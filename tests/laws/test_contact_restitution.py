@@ -1,0 +1,111 @@
+"""Restitution of the contact laws against published values and bounces."""
+
+import math
+
+import pytest
+from contacts import CASES, STIFFNESSES, chi_of
+from scipy.integrate import solve_ivp
+
+from exu_press.laws.contact import (
+    DAMPING_LAWS,
+    delivered_restitution,
+    flores,
+    hertz,
+    hu_guo,
+    restitution_of,
+    step_damping,
+)
+
+
+@pytest.mark.parametrize(("law", "wanted", "delivered"), CASES)
+def test_restitution_table_by_the_exact_formula(law: str, wanted: float, delivered: float) -> None:
+    chi = chi_of(DAMPING_LAWS[law](hertz(1e8), wanted))
+    assert restitution_of(chi) == pytest.approx(delivered, abs=6e-5)  # the table's four digits
+
+
+@pytest.mark.parametrize(("law", "wanted", "delivered"), CASES)
+def test_restitution_table_by_a_bounce(law: str, wanted: float, delivered: float) -> None:
+    contact = DAMPING_LAWS[law](hertz(1e8), wanted)
+    assert delivered_restitution(contact, mass=2.0, speed=0.3) == pytest.approx(delivered, abs=6e-5)
+
+
+@pytest.mark.parametrize("stiffness", STIFFNESSES.values(), ids=STIFFNESSES)
+def test_delivered_restitution_depends_on_chi_alone(stiffness) -> None:
+    for mass, speed in ((0.1, 0.01), (1347.0, 1.0)):
+        bounce = delivered_restitution(hu_guo(stiffness, 0.3), mass, speed)
+        assert bounce == pytest.approx(restitution_of(3.5), abs=1e-6)
+
+
+def test_restitution_of_meets_its_equation_and_its_limits() -> None:
+    for chi in (1.1e-4, 1e-3, 0.1, 1.0, 5.0, 10.0):
+        e = restitution_of(chi)
+        assert math.log1p(chi) - math.log1p(-chi * e) == pytest.approx(chi * (1 + e), rel=1e-9)
+    assert restitution_of(0.0) == 1.0
+    assert restitution_of(1e-6) == pytest.approx(1 - 2e-6 / 3, abs=1e-12)
+    assert restitution_of(0.99999e-4) == pytest.approx(restitution_of(1.00001e-4), abs=2e-9)
+    assert restitution_of(1e6) == pytest.approx(1e-6)
+
+
+@pytest.mark.parametrize(("speed", "delivered"), [(0.1, 0.51842), (1.0, 0.41655)])
+def test_bounce_with_step_damping(speed: float, delivered: float) -> None:
+    contact = step_damping(hertz(1e8), damping_max=1e3, damping_depth=1e-4)
+    assert delivered_restitution(contact, mass=1.0, speed=speed) == pytest.approx(
+        delivered, abs=1e-5
+    )
+
+
+@pytest.mark.parametrize(
+    ("mass", "speed", "delivered"),
+    [
+        (1347.0, 0.01, 9.350e-4),
+        (1347.0, 0.1, 9.350e-5),
+        (1347.0, 1.0, 3.292e-6),
+        (200.0, 0.01, 1.2245e-3),
+        (200.0, 0.1, 1.2245e-4),
+        (200.0, 1.0, 1.2245e-5),
+    ],
+)
+def test_default_press_contact_is_a_dashpot(mass: float, speed: float, delivered: float) -> None:
+    """Spec 2: with the printed c_max almost nothing rebounds. Values computed here."""
+    contact = step_damping(hertz(2.5545e10), damping_max=2.5545e8, damping_depth=1e-5)
+    assert delivered_restitution(contact, mass, speed) == pytest.approx(delivered, rel=1e-3)
+
+
+def test_undamped_hertz_depth_and_duration() -> None:
+    """delta_max = (5 m v^2 / 4 K)^0.4, T = 3.218 (m^2 / (K^2 v))^0.2 (Johnson 1985, section 11.4).
+
+    The exact factor, 2 sqrt(pi) Gamma(1.4) / Gamma(0.9) 1.25^0.4, is 3.21806.
+    """
+    mass, stiffness, speed = 3.0, 1e8, 0.2
+    contact = step_damping(hertz(stiffness), damping_max=0.0, damping_depth=1e-4)
+    depth = (5 * mass * speed**2 / (4 * stiffness)) ** 0.4
+    factor = 2 * math.sqrt(math.pi) * math.gamma(1.4) / math.gamma(0.9) * 1.25**0.4
+    assert factor == pytest.approx(3.21799, rel=3e-5)
+    duration = factor * (mass**2 / (stiffness**2 * speed)) ** 0.2
+    assert contact.elastic_energy(depth) == pytest.approx(0.5 * mass * speed**2, rel=1e-12)
+
+    def released(_t, y):
+        return y[0]
+
+    released.terminal, released.direction = True, -1
+    bounce = solve_ivp(
+        lambda _t, y: (y[1], -contact.force(y[0], y[1], speed)[0] / mass),
+        (0.0, 2.0 * duration), (0.0, speed), "DOP853", events=released, rtol=1e-11, atol=1e-15,
+        max_step=duration / 500,
+    )  # fmt: skip
+    assert bounce.t[-1] == pytest.approx(duration, rel=1e-8)
+    assert max(bounce.y[0]) == pytest.approx(depth, rel=1e-4)
+    assert delivered_restitution(contact, mass, speed) == pytest.approx(1.0, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("make", "name"),
+    [
+        (lambda: restitution_of(-1.0), "chi"),
+        (lambda: delivered_restitution(flores(hertz(1e8), 0.5), 0.0, 1.0), "mass"),
+        (lambda: delivered_restitution(flores(hertz(1e8), 0.5), 1.0, 0.0), "speed"),
+    ],
+)
+def test_bad_parameters_are_refused_by_name(make, name: str) -> None:
+    with pytest.raises(ValueError, match=rf"^{name} = .*: allowed .*{name}"):
+        make()

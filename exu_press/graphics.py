@@ -99,8 +99,8 @@ def _frame(
     motion = mechanism.motion(np.linspace(0.0, 2.0 * np.pi, 73), 1.0)
     solids = []
     for guide in mechanism.guides:
-        places = np.vstack([shapes[guide.body].moved(p) for p in motion[guide.body].position])
-        (left, low), (right, high) = places.min(axis=0), places.max(axis=0)
+        positions = np.vstack([shapes[guide.body].moved(p) for p in motion[guide.body].position])
+        (left, low), (right, high) = positions.min(axis=0), positions.max(axis=0)
         width = 0.25 * thickness
         for x in (left - width, right + width):
             centre = [x, 0.5 * (low + high), layers[guide.body] * thickness]

@@ -84,7 +84,7 @@ class RigidBody:
 
 
 class SlidingBody(RigidBody):
-    """A body that an ideal guide along x or y keeps upright: the way along it is the coordinate."""
+    """A body that an ideal guide along x or y keeps upright; it has its displacement alone."""
 
     def __init__(
         self,
@@ -157,7 +157,7 @@ class PivotedBody(RigidBody):
         body: Body,
         start: Motion,
         pivot: Point,
-        place: Point,
+        point: Point,
         reference: Array | None = None,
     ) -> None:
         """As `RigidBody`, of whose pose and velocity it takes the angle's.
@@ -167,10 +167,10 @@ class PivotedBody(RigidBody):
             body: its inertia is that about the centre of mass.
             start: of the motion.
             pivot: in the global frame, m.
-            place: the pivot in the body's frame, m.
+            point: the pivot in the body's frame, m.
             reference: as `RigidBody`.
         """
-        self._pivot, self._place = pivot, place
+        self._pivot, self._point = pivot, point
         self.reference = start.position[0] if reference is None else reference
         angle = float(self.reference[2])
         node = Node1D(
@@ -183,14 +183,14 @@ class PivotedBody(RigidBody):
         item = ObjectRotationalMass1D(
             name=body.name,
             nodeNumber=self.node,
-            inertia=body.inertia + body.mass * (place[0] ** 2 + place[1] ** 2),
+            inertia=body.inertia + body.mass * (point[0] ** 2 + point[1] ** 2),
             referencePosition=[*pivot, 0.0],
         )
         self.number = int(mbs.AddObject(item))
 
     def local(self, point: Point) -> Point:
         """Return a point of the body's frame in that of Exudyn's item, which is the pivot's."""
-        return point[0] - self._place[0], point[1] - self._place[1]
+        return point[0] - self._point[0], point[1] - self._point[1]
 
     def motion(self, q: Array, q_t: Array, q_tt: Array) -> Motion:
         """As `RigidBody.motion`."""

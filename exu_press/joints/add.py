@@ -293,28 +293,28 @@ def _planar_end(mbs: exu.MainSystem, point: BodyPoint) -> PlanarEnd:
     local = (float(place[0]), float(place[1]))
     overlay = overlay_of(mbs)
     still = overlay.index_of(None)
-    places = still, still + 1, still + 2
+    indices = still, still + 1, still + 2
     if item["objectType"] == "Ground":
         x, y, _ = (float(value) for value in item["referencePosition"])
-        return PlanarEnd(places, (x, y, 0.0), local)
+        return PlanarEnd(indices, (x, y, 0.0), local)
     node = int(item["nodeNumber"])
     first = overlay.index_of(node)
     start = [float(v) for v in mbs.GetNodeParameter(node, "referenceCoordinates")]
     if item["objectType"] == "RigidBody2D":
         x, y, angle = start
         return PlanarEnd((first, first + 1, first + 2), (x, y, angle), local)
-    turn = np.array(item["referenceRotation"])
-    if turn[2, 2] != 1.0:
+    rotation = np.array(item["referenceRotation"])
+    if rotation[2, 2] != 1.0:
         raise InputError(f"body {body} is tilted: allowed in the plane is its z along the global z")
     x, y, _ = (float(value) for value in item["referencePosition"])
-    angle = math.atan2(turn[1, 0], turn[0, 0])
+    angle = math.atan2(rotation[1, 0], rotation[0, 0])
     if item["objectType"] == "RotationalMass1D":
-        return PlanarEnd((places[0], places[1], first), (x, y, angle + start[0]), local)
-    reference = x + start[0] * float(turn[0, 0]), y + start[0] * float(turn[1, 0]), angle
-    if tuple(turn[:2, 0]) == (1.0, 0.0):
-        return PlanarEnd((first, places[1], places[2]), reference, local)
-    if tuple(turn[:2, 0]) == (0.0, 1.0):
-        return PlanarEnd((places[0], first, places[2]), reference, local)
+        return PlanarEnd((indices[0], indices[1], first), (x, y, angle + start[0]), local)
+    reference = x + start[0] * float(rotation[0, 0]), y + start[0] * float(rotation[1, 0]), angle
+    if tuple(rotation[:2, 0]) == (1.0, 0.0):
+        return PlanarEnd((first, indices[1], indices[2]), reference, local)
+    if tuple(rotation[:2, 0]) == (0.0, 1.0):
+        return PlanarEnd((indices[0], first, indices[2]), reference, local)
     raise InputError(f"body {body} moves at {math.degrees(angle):g} deg: allowed are 0 (x), 90 (y)")
 
 
@@ -348,5 +348,5 @@ def _end(mbs: exu.MainSystem, point: BodyPoint) -> BodyEnd:
     index = overlay_of(mbs).index_of(rigid)
     if flexible is None or modal is None:
         return BodyEnd(node_kind, index, reference, local)
-    modes = (overlay_of(mbs).index_of(modal), flexible.translation, flexible.turn)
+    modes = (overlay_of(mbs).index_of(modal), flexible.translation, flexible.rotation)
     return BodyEnd(node_kind, index, reference, local, modes)

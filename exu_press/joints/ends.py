@@ -31,13 +31,13 @@ class FlexiblePoint:
         body: object number of an ObjectFFRFreducedOrder.
         centre: (3,), its centre in the undeformed body's frame, m.
         translation: (3, modes): what a modal coordinate moves it, in the body's frame.
-        turn: (3, modes): what a modal coordinate turns it.
+        rotation: (3, modes): what a modal coordinate rotates it.
     """
 
     body: int
     centre: Array
     translation: Array
-    turn: Array
+    rotation: Array
 
 
 class BodyEnd:
@@ -67,22 +67,22 @@ class BodyEnd:
             reference: reference values of the node's coordinates.
             point: the end in the body's frame, (3,), m.
             modes: of a flexible body: where its modal coordinates start, and what they move and
-                turn the end, (3, modes) each, in the body's frame.
+                rotate the end, (3, modes) each, in the body's frame.
         """
         self._kind = kind
         self._index = index
         self._reference: list[float] = reference.tolist()
         self._moved = 0 if kind == "Ground" else 2 if kind == "RigidBody2D" else 3
         self._point: Vector = (float(point[0]), float(point[1]), float(point[2]))
-        self.places = list(range(index, index + len(self._reference)))
+        self.indices = list(range(index, index + len(self._reference)))
         self._modal = 0
         self._both = np.zeros((6, 0))
         if modes is not None:
-            self._modal, translation, turn = modes
-            self._both = np.vstack([translation, turn])
-            self.places += range(self._modal, self._modal + translation.shape[1])
+            self._modal, translation, rotation = modes
+            self._both = np.vstack([translation, rotation])
+            self.indices += range(self._modal, self._modal + translation.shape[1])
         self._modes: list[float] = self._both.T.ravel().tolist()  # six numbers for each mode
-        self._moving = np.eye(6, len(self.places))
+        self._moving = np.eye(6, len(self.indices))
         self._moving[:, self._moved :] = 0.0
         self.position: Vector = (0.0, 0.0, 0.0)
         self.velocity: Vector = (0.0, 0.0, 0.0)
@@ -205,7 +205,7 @@ class BodyEnd:
         size, moved, omegas = len(self._reference), self._moved, self._omegas
         arm, angles = self.arm, size - moved
         lever = arm[0] + beside[0], arm[1] + beside[1], arm[2] + beside[2]
-        rates = np.zeros((3, len(self.places)))
+        rates = np.zeros((3, len(self.indices)))
         for row, direction, turning in (
             (0, n, cross(lever, n)),
             (1, t, cross(lever, t)),

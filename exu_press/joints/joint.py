@@ -72,7 +72,7 @@ class ClearanceJoint(Protocol):
     """Whether it has a film."""
     path: Path
     """Of the journal."""
-    places: list[int]
+    indices: list[int]
     """Where the joint's coordinates lie among those of the item."""
 
     @property
@@ -93,7 +93,7 @@ class ClearanceJoint(Protocol):
     def jacobian(self, by_q: float, by_q_t: float) -> list[float] | Array | None:
         """Return -(by_q dQ/dq + by_q_t dQ/dq_t) at the state of the last `add_force`, by rows.
 
-        Over the joint's own places; None where nothing acts.
+        Over the joint's own coordinates; None where nothing acts.
         """
 
     def state(self, q: list[float], q_t: list[float]) -> JointState:

@@ -28,7 +28,7 @@ __all__ = ["JointOverlay", "overlay_of"]
 REGISTRY = "exu_press_joints"
 
 Block = list[float] | NDArray[np.float64] | None
-"""A joint's Jacobian over its own places, by rows; None where nothing acts."""
+"""A joint's Jacobian over its own coordinates, by rows; None where nothing acts."""
 
 
 class JointOverlay:
@@ -81,18 +81,18 @@ class JointOverlay:
         """Take in a joint whose ends' indices come from `index_of`."""
         self.joints.append(joint)
         nodes = list(self.nodes)
-        places = [
+        entries = [
             (row, column)
             for joint in self.joints
-            for row in joint.places
-            for column in joint.places
+            for row in joint.indices
+            for column in joint.indices
         ]
-        self._idle = [[0.0] * len(joint.places) ** 2 for joint in self.joints]
-        self._pack = Struct(f"{len(places)}d").pack
-        kept = [i for i, (row, column) in enumerate(places) if row >= 0 and column >= 0]
-        self._kept = np.array(kept) if len(kept) < len(places) else None  # all but the ground's
+        self._idle = [[0.0] * len(joint.indices) ** 2 for joint in self.joints]
+        self._pack = Struct(f"{len(entries)}d").pack
+        kept = [i for i, (row, column) in enumerate(entries) if row >= 0 and column >= 0]
+        self._kept = np.array(kept) if len(kept) < len(entries) else None  # all but the ground's
         self._triplets = np.zeros((len(kept), 3))
-        self._triplets[:, :2] = [places[i] for i in kept]
+        self._triplets[:, :2] = [entries[i] for i in kept]
         if self.item is None:
             forces: Any = self._forces
             jacobian: Any = self._jacobian
@@ -172,7 +172,7 @@ class JointOverlay:
     def damping(self) -> float:
         """The most that any force changed with a speed, N s/m, in the last Jacobian.
 
-        With what the force's place adds: a speed moves it within the step.
+        With what the force's point of attack adds: a speed moves it within the step.
         """
         largest = (float(np.abs(block).max()) for block in self._blocks if block is not None)
         return max(largest, default=0.0) / self._by_q_t
@@ -197,24 +197,24 @@ class JointOverlay:
             by_q_t: factor, s.
         """
         if not self._within:
-            self._within = [self._places_within(joint, matrix.shape[1]) for joint in self.joints]
+            self._within = [self._entries_within(joint, matrix.shape[1]) for joint in self.joints]
         entries = matrix.reshape(-1)
         q, q_t = self._last
         blocks = self._slopes(self._time, q, q_t, by_q, by_q_t)
-        for joint, block, (kept, places, first) in zip(
+        for joint, block, (kept, within, first) in zip(
             self.joints, blocks, self._within, strict=True
         ):
             if block is None:
                 continue
             if first >= 0:
-                size = len(joint.places)
+                size = len(joint.indices)
                 matrix[first : first + size, first : first + size] += np.reshape(
                     block, (size, size)
                 )
             else:
-                entries[places] += np.asarray(block)[kept]  # no place is there twice
+                entries[within] += np.asarray(block)[kept]  # no entry is there twice
 
-    def _places_within(
+    def _entries_within(
         self, joint: ClearanceJoint, size: int
     ) -> tuple[NDArray[np.intp], NDArray[np.intp], int]:
         """Return which entries of a joint's block count, and where in a matrix of the system.
@@ -224,11 +224,11 @@ class JointOverlay:
         at = np.zeros(self.size, dtype=np.intp)
         for node, start in self.nodes.items():  # a later one overwrites what is behind this one
             at[start:] = self._mbs.GetNodeODE2Index(node) + np.arange(self.size - start)
-        places = np.array(joint.places)
-        rows, columns = (axis.ravel() for axis in np.meshgrid(places, places, indexing="ij"))
+        indices = np.array(joint.indices)
+        rows, columns = (axis.ravel() for axis in np.meshgrid(indices, indices, indexing="ij"))
         kept = np.flatnonzero((rows >= 0) & (columns >= 0))  # all but the ground's
-        together = bool((places >= 0).all()) and bool((np.diff(at[places]) == 1).all())
-        first = int(at[places[0]]) if together else -1
+        together = bool((indices >= 0).all()) and bool((np.diff(at[indices]) == 1).all())
+        first = int(at[indices[0]]) if together else -1
         return kept, at[rows[kept]] * size + at[columns[kept]], first
 
     def _forces(self, mbs: exu.MainSystem, time: float, item: int, q: Any, q_t: Any) -> Any:

@@ -1,4 +1,4 @@
-"""The way of a journal: what a step's change of eccentricity misses of its rate's integral.
+"""The path of a journal: what a step's change of eccentricity misses of its rate's integral.
 
 A journal's position is the integral of its bodies' velocities, and nothing in a contact's damping,
 a film or free flight mends what an integration misses of it. The corrected trapezoidal rule gives
@@ -28,7 +28,7 @@ class Path:
 
     Attributes:
         drift: by how much the penetration is larger than its rate's integral, m.
-        place: eccentricity, m; empty at first.
+        eccentricity: m; empty at first.
         velocity: its rate, m/s.
         acceleration: mean rate of that in the last step, m/s^2; empty at first.
     """
@@ -36,35 +36,35 @@ class Path:
     def __init__(self) -> None:
         """Start without a step."""
         self.drift = 0.0
-        self.place: Vector = ()
+        self.eccentricity: Vector = ()
         self.velocity: Vector = ()
         self.acceleration: Vector = ()
 
-    def missed(self, place: Vector, velocity: Vector, step: float) -> tuple[float, float]:
-        """Return what a step (s) to a place misses of its way, and of that the part along it, m."""
+    def missed(self, eccentricity: Vector, velocity: Vector, step: float) -> tuple[float, float]:
+        """Return what a step (s) misses of its change of eccentricity, and the part along it, m."""
         half, twelfth = 0.5 * step, step / 12.0
-        start, last, before = self.place, self.velocity, self.acceleration
+        start, last, before = self.eccentricity, self.velocity, self.acceleration
         square = along = distance = 0.0
         for i in range(len(start)):
-            way = half * (velocity[i] + last[i])
+            change = half * (velocity[i] + last[i])
             if before:
-                way -= twelfth * (velocity[i] - last[i] - step * before[i])
-            missed = place[i] - start[i] - way
+                change -= twelfth * (velocity[i] - last[i] - step * before[i])
+            missed = eccentricity[i] - start[i] - change
             square += missed * missed
-            along += missed * place[i]
-            distance += place[i] * place[i]
+            along += missed * eccentricity[i]
+            distance += eccentricity[i] * eccentricity[i]
         return math.sqrt(square), along / math.sqrt(distance) if distance > 0.0 else 0.0
 
-    def go_on(self, place: Vector, velocity: Vector, step: float, depth: float) -> None:
-        """Take a step (s) to a place, this deep (m) in contact, as done."""
+    def go_on(self, eccentricity: Vector, velocity: Vector, step: float, depth: float) -> None:
+        """Take a step (s) as done that ends at an eccentricity, this deep (m) in contact."""
         if depth <= 0.0:
             self.drift = 0.0
         elif self.acceleration:
-            along = self.missed(place, velocity, step)[1]
+            along = self.missed(eccentricity, velocity, step)[1]
             if abs(self.drift + along) < SMALL * depth:
                 self.drift += along
-        if self.place and step > 0.0:
+        if self.eccentricity and step > 0.0:
             self.acceleration = tuple(
-                [(velocity[i] - self.velocity[i]) / step for i in range(len(place))]
+                [(velocity[i] - self.velocity[i]) / step for i in range(len(eccentricity))]
             )
-        self.place, self.velocity = place, velocity
+        self.eccentricity, self.velocity = eccentricity, velocity

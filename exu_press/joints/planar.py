@@ -15,13 +15,13 @@ class PlanarEnd:
     """A point of a planar body.
 
     Attributes:
-        places: where the body's x, y and angle lie among the coordinates of the joint's item; what
+        indices: where the body's x, y and angle lie among the coordinates of the joint's item; what
             is held still lies where the ground's do.
         reference: their reference values, m and rad.
         point: the point in the body's frame, m.
     """
 
-    places: tuple[int, int, int]
+    indices: tuple[int, int, int]
     reference: tuple[float, float, float]
     point: tuple[float, float]
 
@@ -40,7 +40,7 @@ class PlanarJoint(PairedJoint):
         super().__init__(pairs)
         self.journal = journal
         self.bearing = bearing
-        self.places = [*journal.places, *bearing.places]
+        self.indices = [*journal.indices, *bearing.indices]
         self._length_j, self._angle_j = journal.polar
         self._length_b, self._angle_b = bearing.polar
         self._far = journal.reference[0] - bearing.reference[0]
@@ -50,11 +50,11 @@ class PlanarJoint(PairedJoint):
 
     def add_force(self, q: list[float], q_t: list[float], out: list[float]) -> None:
         """Add the joint's generalised forces to `out`."""
-        x_j, y_j, turn_j, x_b, y_b, turn_b = self.places
-        turned_j, turned_b = self._angle_j + q[turn_j], self._angle_b + q[turn_b]
-        j_x, j_y = self._length_j * cos(turned_j), self._length_j * sin(turned_j)
-        b_x, b_y = self._length_b * cos(turned_b), self._length_b * sin(turned_b)
-        w_j, w_b = q_t[turn_j], q_t[turn_b]
+        x_j, y_j, phi_j, x_b, y_b, phi_b = self.indices
+        angle_j, angle_b = self._angle_j + q[phi_j], self._angle_b + q[phi_b]
+        j_x, j_y = self._length_j * cos(angle_j), self._length_j * sin(angle_j)
+        b_x, b_y = self._length_b * cos(angle_b), self._length_b * sin(angle_b)
+        w_j, w_b = q_t[phi_j], q_t[phi_b]
         x = q[x_j] - q[x_b] + self._far + j_x - b_x
         y = q[y_j] - q[y_b] + self._high + j_y - b_y
         u = q_t[x_j] - q_t[x_b] - w_j * j_y + w_b * b_y
@@ -68,10 +68,10 @@ class PlanarJoint(PairedJoint):
                 f_x, f_y = f_n * n_x - f_t * n_y, f_n * n_y + f_t * n_x
                 out[x_j] += f_x
                 out[y_j] += f_y
-                out[turn_j] += m_j + j_x * f_y - j_y * f_x
+                out[phi_j] += m_j + j_x * f_y - j_y * f_x
                 out[x_b] -= f_x
                 out[y_b] -= f_y
-                out[turn_b] += m_b - b_x * f_y + b_y * f_x
+                out[phi_b] += m_b - b_x * f_y + b_y * f_x
 
     def jacobian(self, by_q: float, by_q_t: float) -> list[float] | None:
         """Return -(by_q dQ/dq + by_q_t dQ/dq_t) at the state of the last `add_force`.

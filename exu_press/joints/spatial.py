@@ -32,7 +32,7 @@ class SpatialRevolute(PairedJoint):
         x, y, z = (float(component) for component in axis)
         length = sqrt(x * x + y * y + z * z)
         self._axis: Vector = (x / length, y / length, z / length)
-        self.places = journal.places + bearing.places
+        self.indices = journal.indices + bearing.indices
         # after `add_force`: the turned axis, across it towards the journal and tangentially, and
         # from the bearing's centre along the axis to the journal's
         self._a: Vector = self._axis
@@ -150,8 +150,8 @@ class SpatialRevolute(PairedJoint):
         n, t, axis = self._n, self._t, self._a
         journal = self.journal.rates_along(n, t, axis, (0.0, 0.0, 0.0))
         bearing = self.bearing.rates_along(n, t, axis, self._along)
-        size = len(self.journal.places)
-        rates = np.zeros((4, len(self.places)))
+        size = len(self.journal.indices)
+        rates = np.zeros((4, len(self.indices)))
         rates[:3, :size] = journal
         rates[:2, size:] = -bearing[:2]
         rates[3, size:] = bearing[2]

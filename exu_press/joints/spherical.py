@@ -35,7 +35,7 @@ class SpatialSpherical:
         """Join ball and socket; radius of the ball and radial clearance in m."""
         self.ball = ball
         self.socket = socket
-        self.places = ball.places + socket.places
+        self.indices = ball.indices + socket.indices
         self._stateful = isinstance(friction, LuGre) or contact.needs_impact_speed
         self._contact, self._friction = contact, friction
         self._radius = radius

@@ -36,7 +36,7 @@ class WaysContact(PairedJoint):
         """
         super().__init__([pair])
         self.end = end
-        self.places = list(end.places)
+        self.indices = list(end.indices)
         self.deepest = math.inf
         self._length, self._angle = end.polar
         self._x, self._y = end.reference[0] - middle[0], end.reference[1] - middle[1]
@@ -46,25 +46,25 @@ class WaysContact(PairedJoint):
 
     def add_force(self, q: list[float], q_t: list[float], out: list[float]) -> None:
         """Add the generalised forces to `out`."""
-        place_x, place_y, turn = self.places
-        turned = self._angle + q[turn]
-        arm_x, arm_y = self._length * cos(turned), self._length * sin(turned)
-        omega = q_t[turn]
+        at_x, at_y, at_angle = self.indices
+        angle = self._angle + q[at_angle]
+        arm_x, arm_y = self._length * cos(angle), self._length * sin(angle)
+        omega = q_t[at_angle]
         across_x, across_y = self._across
-        beside = (q[place_x] + self._x + arm_x) * across_x
-        beside += (q[place_y] + self._y + arm_y) * across_y
+        beside = (q[at_x] + self._x + arm_x) * across_x
+        beside += (q[at_y] + self._y + arm_y) * across_y
         side = 1.0 if beside >= 0.0 else -1.0
         n_x, n_y = side * across_x, side * across_y
-        u, v = q_t[place_x] - omega * arm_y, q_t[place_y] + omega * arm_x
+        u, v = q_t[at_x] - omega * arm_y, q_t[at_y] + omega * arm_x
         self._directions = n_x, n_y, arm_x, arm_y
         motion = side * beside, u * n_x + v * n_y, v * n_x - u * n_y, omega, 0.0
         (load,) = self._load(motion)
         if load is not None:
             f_n, f_t, moment, _, _ = load
             f_x, f_y = f_n * n_x - f_t * n_y, f_n * n_y + f_t * n_x
-            out[place_x] += f_x
-            out[place_y] += f_y
-            out[turn] += moment + arm_x * f_y - arm_y * f_x
+            out[at_x] += f_x
+            out[at_y] += f_y
+            out[at_angle] += moment + arm_x * f_y - arm_y * f_x
 
     def jacobian(self, by_q: float, by_q_t: float) -> list[float] | None:
         """Return -(by_q dQ/dq + by_q_t dQ/dq_t) at the state of the last `add_force`, by rows."""

@@ -2,9 +2,9 @@
 
 A mechanism with one degree of freedom is its crank and a sequence of such groups, front to back: a
 dyad, a body on two guides, or more bodies whose loops close together only. Each group is solved by
-itself, with one coordinate for every body: the way along its guide, or the angle at which it hangs
-in a joint with the body before. What then remains are the group's loops: joints whose two bodies
-are both in place and must meet.
+itself, with one coordinate for every body: the displacement along its guide, or the angle at which
+it hangs in a joint with the body before. What then remains are the group's loops: joints whose two
+bodies are both in place and must meet.
 
 Points are complex numbers x + i y, so that a rotation is a product. All lengths are relative to the
 mechanism's size. The same code takes one crank angle or an array of them.
@@ -52,7 +52,7 @@ class Drawing(NamedTuple):
 
 
 class Pose:
-    """A body's place: centre, direction e = exp(i angle), and their derivatives by crank angle.
+    """A body's position: centre, direction e = exp(i angle), and their derivatives by crank angle.
 
     `slopes` are the centre's derivatives by its group's coordinates, `column` is the coordinate
     that is the body's angle, if any.
@@ -67,7 +67,7 @@ class Pose:
         slopes: Sequence[Number] = (),
         column: int | None = None,
     ) -> None:
-        """Stand still at a place."""
+        """Stand still at a position."""
         self.z, self.angle, self.e = z, angle, np.exp(1j * angle)
         self.slopes, self.column = slopes, column
         self.z1: Number = 0.0
@@ -104,8 +104,8 @@ class _Member:
     angle: float
     direction: complex | None = None
     before: str = ""
-    place_before: complex = 0.0
-    place: complex = 0.0
+    point_before: complex = 0.0
+    point: complex = 0.0
 
 
 @dataclass(frozen=True)
@@ -114,7 +114,7 @@ class _Loop:
 
     joint: str
     bodies: tuple[str, str]
-    places: tuple[complex, complex]
+    points: tuple[complex, complex]
 
 
 @dataclass(frozen=True)
@@ -144,7 +144,7 @@ class Group:
         return np.array([0.0 if m.direction is not None else m.angle for m in self.members])
 
     def winding(self) -> Array:
-        """Return 1 for coordinates that are angles, 0 for ways along guides."""
+        """Return 1 for coordinates that are angles, 0 for displacements along guides."""
         return np.array([float(member.direction is None) for member in self.members])
 
     def place(self, poses: dict[str, Pose], u: Array) -> None:
@@ -159,10 +159,10 @@ class Group:
                 continue
             before = poses[member.before]
             pose = Pose(0.0, u[column], (), column)
-            arm = pose.e * member.place
-            pose.z = before.point(member.place_before) - arm
+            arm = pose.e * member.point
+            pose.z = before.point(member.point_before) - arm
             if before.slopes:
-                slopes = before.point_slopes(member.place_before, count)
+                slopes = before.point_slopes(member.point_before, count)
             slopes[column] = slopes[column] - 1j * arm
             pose.slopes = slopes
             poses[member.body] = pose
@@ -197,7 +197,7 @@ class Group:
         """
         for member in self.members:
             if member.direction is None:
-                poses[member.body].z1 = poses[member.before].velocity(member.place_before)
+                poses[member.body].z1 = poses[member.before].velocity(member.point_before)
         gaps = _real([a.velocity(p) - b.velocity(q) for a, p, b, q in self._ends(poses)])
         u_1 = -_times(inverse, gaps)
         for member, rate in zip(self.members, u_1, strict=True):
@@ -207,20 +207,20 @@ class Group:
         for member in self.members:
             if member.direction is None:
                 pose = poses[member.body]
-                swing = pose.w * pose.w * (pose.e * member.place)
-                pose.z2 = poses[member.before].acceleration(member.place_before) + swing
+                swing = pose.w * pose.w * (pose.e * member.point)
+                pose.z2 = poses[member.before].acceleration(member.point_before) + swing
         gaps = _real([a.acceleration(p) - b.acceleration(q) for a, p, b, q in self._ends(poses)])
         u_2 = -_times(inverse, gaps)
-        for member, turn in zip(self.members, u_2, strict=True):
+        for member, alpha in zip(self.members, u_2, strict=True):
             pose = poses[member.body]
             pose.z2 = pose.z2 + sum(s * t for s, t in zip(pose.slopes, u_2, strict=True))
-            pose.a = turn if member.direction is None else 0.0
+            pose.a = alpha if member.direction is None else 0.0
         self.settle(poses)
         return u_1, u_2
 
     def _ends(self, poses: Mapping[str, Pose]) -> Iterator[tuple[Pose, complex, Pose, complex]]:
         for loop in self.loops:
-            (a, b), (p, q) = loop.bodies, loop.places
+            (a, b), (p, q) = loop.bodies, loop.points
             yield poses[a], p, poses[b], q
 
 
@@ -345,8 +345,8 @@ def _group(drawing: Drawing, poses: Mapping[str, Pose], chosen: Sequence[str]) -
                 body,
                 *bodies[body],
                 before=before,
-                place_before=local(before, at),
-                place=local(body, at),
+                point_before=local(before, at),
+                point=local(body, at),
             )
         )
         placed.add(body)

@@ -86,13 +86,13 @@ def _check_connections(
     """Refuse bodies on nothing, rods without two ends, and a crank that is not in the frame."""
     guided = {guide.body for guide in guides}
     for body in bodies:
-        places = {joint.at for joint in joints if body.name in (joint.journal, joint.bearing)}
-        if not places and body.name not in guided:
+        points = {joint.at for joint in joints if body.name in (joint.journal, joint.bearing)}
+        if not points and body.name not in guided:
             raise InputError(f"bodies.{body.name}: no joint and no guide holds it")
-        if math.isnan(body.inertia) and len(places) != 2:
+        if math.isnan(body.inertia) and len(points) != 2:
             raise InputError(
                 f"bodies.{body.name}.inertia: missing; allowed is a number > 0 (kg m^2): only a "
-                f"body with joints in two places is a uniform rod, this one has {len(places)}"
+                f"body with joints in two places is a uniform rod, this one has {len(points)}"
             )
     own = [{joint.journal, joint.bearing} for joint in joints]
     if not any(crank in ends and GROUND not in ends for ends in own):

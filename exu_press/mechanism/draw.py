@@ -26,7 +26,7 @@ def onto(name: str, end: Point, length: float, x: float, side: int) -> Point:
 
 
 def meet(name: str, a: Point, length_a: float, b: Point, length_b: float, side: int) -> Point:
-    """Return where links from a and b meet; side +1 is to the left of the way from a to b.
+    """Return where links from a and b meet; side +1 is to the left of the line from a to b.
 
     Raises:
         InputError: they do not.

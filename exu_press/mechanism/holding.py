@@ -59,8 +59,8 @@ class Holding:
 
     Attributes:
         pivoted: bodies on an ideal pivot of the frame -> that joint.
-        sliding: names of bodies whose ideal guide, along x or y, leaves them nothing but the way
-            along it.
+        sliding: names of bodies whose ideal guide, along x or y, leaves them nothing but a
+            displacement along it.
         joints: names of the other ideal joints that hold both directions.
         half_held: names of those that hold one.
         guides: bodies that are not sliding -> whether their guide holds them across, and the angle.
@@ -153,7 +153,7 @@ class _Selection:
         motion = mechanism.motion(np.array([crank_angle]), 1.0)
         self._mechanism = mechanism
         self._poses = {name: one.position[0] for name, one in motion.items()}
-        self._places = {body.name: 3 * i for i, body in enumerate(mechanism.bodies)}
+        self._first = {body.name: 3 * i for i, body in enumerate(mechanism.bodies)}
         self._basis = np.zeros((0, 3 * len(mechanism.bodies)))
         self.angles = {name: float(pose[2]) for name, pose in self._poses.items()} | {GROUND: 0.0}
         self.directions: dict[str, list[Array]] = {}
@@ -235,21 +235,21 @@ class _Selection:
         for sign, (body, (x, y)) in zip((1.0, -1.0), self._mechanism.ends(joint), strict=True):
             if body != GROUND:
                 c, s = math.cos(self.angles[body]), math.sin(self.angles[body])
-                place = self._places[body]
-                rows[:, place : place + 2] = sign * np.eye(2)
+                first = self._first[body]
+                rows[:, first : first + 2] = sign * np.eye(2)
                 arm = np.array([c * x - s * y, s * x + c * y]) / self._mechanism.size
-                rows[:, place + 2] = sign * np.array([-arm[1], arm[0]])
+                rows[:, first + 2] = sign * np.array([-arm[1], arm[0]])
         return rows
 
     def _across_row(self, guide: Guide) -> Array:
         row = np.zeros(self._basis.shape[1])
-        place = self._places[guide.body]
-        row[place : place + 2] = guide.across
+        first = self._first[guide.body]
+        row[first : first + 2] = guide.across
         return row
 
     def _angle_row(self, body: str) -> Array:
         row = np.zeros(self._basis.shape[1])
-        row[self._places[body] + 2] = 1.0
+        row[self._first[body] + 2] = 1.0
         return row
 
 

@@ -20,8 +20,8 @@ __all__ = ["Mechanism"]
 class Mechanism:
     """Bodies, joints and guides in the coordinates of one assembled drawing, y upwards.
 
-    A joint has one place, which both of its bodies have, so that the drawing closes by itself. The
-    crank's angle in the drawing is the mechanism's zero; it turns counter-clockwise.
+    A joint has one position, which both of its bodies have, so that the drawing closes by itself.
+    The crank's angle in the drawing is the mechanism's zero; it turns counter-clockwise.
 
     Attributes:
         name: for messages and pictures.
@@ -69,8 +69,8 @@ class Mechanism:
     @property
     def size(self) -> float:
         """Largest distance of two joints along x or y in the drawing, m."""
-        places = np.array([joint.at for joint in self.joints])
-        return float(np.ptp(places, axis=0).max())
+        positions = np.array([joint.at for joint in self.joints])
+        return float(np.ptp(positions, axis=0).max())
 
     @property
     def shaft(self) -> Joint:
@@ -97,7 +97,7 @@ class Mechanism:
         return [joint for joint in self.joints if body in (joint.journal, joint.bearing)]
 
     def ends(self, joint: Joint) -> tuple[tuple[str, Point], tuple[str, Point]]:
-        """Return journal and bearing of a joint, each with its body and the place in its frame."""
+        """Return journal and bearing of a joint, each with its body and the point in its frame."""
         journal, bearing = (
             (name, joint.at if name == GROUND else self.body(name).local(joint.at))
             for name in (joint.journal, joint.bearing)
@@ -105,7 +105,7 @@ class Mechanism:
         return journal, bearing
 
     def points(self, body: str) -> list[Point]:
-        """Return the places of a body's joints in its frame."""
+        """Return the points of a body's joints in its frame."""
         return [point for joint in self.joints for name, point in self.ends(joint) if name == body]
 
     def require_turning(self) -> None:
@@ -156,11 +156,11 @@ class Mechanism:
         return found[0], found[1]
 
     def travel(self, position: Array) -> Array:
-        """Return the slider's positions (n,) of its places (n, 2 or 3), m."""
+        """Return the slider's positions (n,), m, of its centre's (n, 2 or 3)."""
         return self.along(position) - float(np.dot(self.output.origin, self.output.direction))
 
     def beside(self, position: Array) -> Array:
-        """Return how far the slider's places (n, 2 or 3) are to the right of the drawn one, m."""
+        """Return how far the slider's centre (n, 2 or 3) is to the right of the drawn one, m."""
         drawn = self.body(self.slider).centre_of_mass
         return np.asarray((position[:, :2] - np.array(drawn)) @ np.array(self.output.across))
 

@@ -163,6 +163,6 @@ def _rod(name: str, mass: float, start: Point, end: Point) -> Body:
     return Body(name, mass, inertia, middle(start, end), angle)
 
 
-def _block(name: str, mass: float, place: Point) -> Body:
+def _block(name: str, mass: float, centre: Point) -> Body:
     """Return a body of unknown shape; its inertia matters where an elastic guide lets it tilt."""
-    return Body(name, mass, steel_cube(mass), place)
+    return Body(name, mass, steel_cube(mass), centre)

@@ -1,7 +1,7 @@
 """What the bodies look like from the front: links around their joints, blocks on guides.
 
 Drawn, not measured: links have one width, blocks grow with the cube root of their mass. Only the
-joints' places are the mechanism's.
+joints' positions are the mechanism's.
 """
 
 from dataclasses import dataclass
@@ -73,14 +73,14 @@ def shapes_of(mechanism: Mechanism) -> dict[str, Shape]:
 
 
 def swept(mechanism: Mechanism, steps: int = 73) -> Array:
-    """Return every place that a joint passes through in a revolution of the ideal mechanism."""
+    """Return every position that a joint passes through in a revolution of the ideal mechanism."""
     motion = mechanism.motion(np.linspace(0.0, 2.0 * np.pi, steps), 1.0)
-    places = [
+    positions = [
         moved(np.array(mechanism.points(body.name)), pose)
         for body in mechanism.bodies
         for pose in motion[body.name].position
     ]
-    return np.vstack(places)
+    return np.vstack(positions)
 
 
 def moved(points: Array, pose: Array) -> Array:
@@ -108,7 +108,7 @@ def _block(points: Array, margin: float) -> Array:
 
 def _link(points: Array, half_width: float) -> Array:
     """Return an outline around all joints of a body, round at each: a rod where there are two."""
-    turn = np.linspace(0.0, 2.0 * np.pi, CORNERS, endpoint=False)
-    outwards = np.column_stack([np.cos(turn), np.sin(turn)])
+    angle = np.linspace(0.0, 2.0 * np.pi, CORNERS, endpoint=False)
+    outwards = np.column_stack([np.cos(angle), np.sin(angle)])
     size = half_width if len(points) > 1 else 2.0 * half_width
     return np.asarray(points[np.argmax(outwards @ points.T, axis=1)] + size * outwards)

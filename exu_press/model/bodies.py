@@ -42,8 +42,8 @@ def _add_rigid_body(system: System, body: Body, start: Motion) -> None:
     pivot = system.holding.pivoted.get(body.name)
     relaxed = system.ideal[body.name].position[0]
     if pivot is not None:
-        place = body.local(pivot.at)
-        added: RigidBody = PivotedBody(system.mbs, body, start, pivot.at, place, relaxed)
+        point = body.local(pivot.at)
+        added: RigidBody = PivotedBody(system.mbs, body, start, pivot.at, point, relaxed)
     elif body.name in system.holding.sliding:
         guide = next(guide for guide in system.mechanism.guides if guide.body == body.name)
         added = SlidingBody(system.mbs, body, start, guide.direction, relaxed)

@@ -26,10 +26,10 @@ def add_ways(system: System, guide: Guide, ways: Ways) -> tuple[ClearanceJoint, 
 
     def end(side: float) -> ClearanceJoint:
         drawn = np.array(body.centre_of_mass) + 0.5 * side * ways.length * along
-        place = rigid.local(body.local((float(drawn[0]), float(drawn[1]))))
+        point = rigid.local(body.local((float(drawn[0]), float(drawn[1]))))
         return add_ways_contact(
             system.mbs,
-            (rigid.number, place),
+            (rigid.number, point),
             middle=body.centre_of_mass,
             direction=guide.direction,
             clearance=ways.clearance,
@@ -42,7 +42,7 @@ def add_ways(system: System, guide: Guide, ways: Ways) -> tuple[ClearanceJoint, 
 
 
 def add_guide(system: System, guide: Guide) -> dict[str, int]:
-    """Hold the way across a guide and the angle.
+    """Hold the displacement across a guide and the angle.
 
     Returns:
         "force" and "moment", as far as it holds them, -> object number.
@@ -63,7 +63,7 @@ def add_guide(system: System, guide: Guide) -> dict[str, int]:
 def _hold_across(system: System, guide: Guide) -> int:
     """Hold a body across its guide; linear in the coordinates, and exact."""
     rigid = system.rigid[guide.body]
-    place = np.dot(system.mechanism.body(guide.body).centre_of_mass, guide.across)
+    offset = np.dot(system.mechanism.body(guide.body).centre_of_mass, guide.across)
     row = dict(zip(("x", "y", "angle"), (*guide.across, 0.0), strict=True))
     held = ObjectConnectorCoordinateVector(
         markerNumbers=[
@@ -72,7 +72,7 @@ def _hold_across(system: System, guide: Guide) -> int:
         ],
         scalingMarker0=[],
         scalingMarker1=[[row[coordinate] for coordinate in rigid.coordinates]],
-        offset=[float(place)],
+        offset=[float(offset)],
     )
     return int(system.mbs.AddObject(held))
 
@@ -80,9 +80,9 @@ def _hold_across(system: System, guide: Guide) -> int:
 def _lateral_spring(system: System, guide: Guide, spring: Spring) -> int:
     """Add a spring across a guide, relaxed where the ideal mechanism starts."""
     start = system.ideal[guide.body].position[0]
-    place = MarkerBodyRigid(bodyNumber=system.ground, localPosition=[start[0], start[1], 0.0])
+    marker = MarkerBodyRigid(bodyNumber=system.ground, localPosition=[start[0], start[1], 0.0])
     held = ObjectConnectorLinearSpringDamper(
-        markerNumbers=[system.mbs.AddMarker(place), system.marker(guide.body, (0.0, 0.0))],
+        markerNumbers=[system.mbs.AddMarker(marker), system.marker(guide.body, (0.0, 0.0))],
         stiffness=spring.stiffness,
         damping=spring.damping,
         axisMarker0=[*guide.across, 0.0],

@@ -90,10 +90,10 @@ def _hold_half(system: System, joint: Joint, half: HalfHeld) -> int:
             f"bodies.{loose[0]}: other joints hold half of joints.{joint.name}; allowed is a "
             "rigid body there, or such a joint with clearance"
         )
-    place, angle = point, half.angle
+    local, angle = point, half.angle
     if body != GROUND:
-        place, angle = system.rigid[body].local(point), angle + system.rigid[body].turned
-    frame = exu.HT().Set(RotationMatrixZ(angle), [*place, 0.0])
+        local, angle = system.rigid[body].local(point), angle + system.rigid[body].turned
+    frame = exu.HT().Set(RotationMatrixZ(angle), [*local, 0.0])
     marker = MarkerBodyRigid(bodyNumber=system.bodies[body], localHT=frame)
     along = system.mbs.AddMarker(marker)
     held = ObjectJointGeneric(

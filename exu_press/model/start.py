@@ -35,8 +35,8 @@ def deformed_start(ideal: System, drive: int) -> tuple[dict[str, Motion], dict[s
     state = quasi_static_motion(mbs, drive, coordinate, ideal.scene.angular_speed)
 
     def parts_of(node: int) -> Iterator[Array]:
-        places = mbs.systemData.GetNodeLTGODE2(node)
-        return (values[places] for values in state)
+        indices = mbs.systemData.GetNodeLTGODE2(node)
+        return (values[indices] for values in state)
 
     start, frames = {}, {}
     for name, rigid in ideal.rigid.items():

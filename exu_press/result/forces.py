@@ -66,10 +66,10 @@ def frame_force(model: Model, channels: Mapping[str, Channel]) -> Channel:
         if f"{name}_force" in channels:
             on_bodies += sign * channels[f"{name}_force"].values[:, :2]
     for guide in model.mechanism.guides:
-        for quantity, way in (("force", guide.across), ("friction", guide.direction)):
+        for quantity, direction in (("force", guide.across), ("friction", guide.direction)):
             force = channels.get(f"{guide_channel(model, guide.body)}_{quantity}")
             if force is not None:
-                on_bodies += np.outer(force.values, way)
+                on_bodies += np.outer(force.values, direction)
     return Channel(-on_bodies, "N", "force of shaft, pivots and guides on the frame", "plane")
 
 

@@ -36,9 +36,9 @@ def frame_motion(model: Model, name: str) -> Motion:
         sensor(model, name, level) for level in ("position", "velocity", "acceleration")
     )
     position = position + model.mbs.GetNodeParameter(model.nodes[name], "referenceCoordinates")
-    turn = position[:, 3:]  # Euler parameters
-    angle = np.unwrap(2.0 * np.arctan2(turn[:, 3], turn[:, 0]))
-    about_z = 2.0 * np.column_stack([-turn[:, 3], -turn[:, 2], turn[:, 1], turn[:, 0]])
+    euler = position[:, 3:]
+    angle = np.unwrap(2.0 * np.arctan2(euler[:, 3], euler[:, 0]))
+    about_z = 2.0 * np.column_stack([-euler[:, 3], -euler[:, 2], euler[:, 1], euler[:, 0]])
     ideal = model.mechanism.motion(np.array([model.scene.start_angle]), 1.0)[name]
     start = ideal.position[0, 2] - model.parts[name].angle
     angle += 2.0 * np.pi * np.round((start - angle[0]) / (2.0 * np.pi))

@@ -84,11 +84,11 @@ def _surface(part: "PlacedPart") -> Surface:
     """Return a surface in the body's frame; the stresses' components stay the solid's."""
     solid = part.reduced
     c, s = np.cos(part.angle), np.sin(part.angle)
-    turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])  # from the body to the solid
+    rotation = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])  # from the body to the solid
     modes = solid.modes.reshape(len(solid.nodes), 3, -1)
     return Surface(
-        nodes=((solid.nodes - (*part.centre, 0.0)) @ turn).astype(np.float32),
+        nodes=((solid.nodes - (*part.centre, 0.0)) @ rotation).astype(np.float32),
         triangles=solid.triangles.astype(np.int32),
-        modes=np.einsum("nim,ij->njm", modes, turn).astype(np.float32),
+        modes=np.einsum("nim,ij->njm", modes, rotation).astype(np.float32),
         stress=solid.stress.reshape(-1, 6, solid.mode_count).astype(np.float32),
     )

@@ -100,7 +100,7 @@ def turned(vector):
 def places(joint, q):
     """Positions of the two bodies' frames."""
     return [
-        np.array(end.reference[:2]) + np.take(q, end.places[:2])
+        np.array(end.reference[:2]) + np.take(q, end.indices[:2])
         for end in (joint.journal, joint.bearing)
     ]
 
@@ -109,7 +109,7 @@ def centres(joint, q):
     """Positions of journal and bearing, written anew."""
     found = []
     for end, place in zip((joint.journal, joint.bearing), places(joint, q), strict=True):
-        angle = end.reference[2] + q[end.places[2]]
+        angle = end.reference[2] + q[end.indices[2]]
         along, across = end.point
         found.append(place + along * unit(angle) + across * turned(unit(angle)))
     return found

@@ -168,8 +168,8 @@ def test_jacobian_against_differences(kind, joint):
 
     force(q, q_t)
     matrix = np.zeros((size, size))
-    matrix[np.ix_(made.places, made.places)] = np.reshape(
-        made.jacobian(1.0, 0.01), (len(made.places), -1)
+    matrix[np.ix_(made.indices, made.indices)] = np.reshape(
+        made.jacobian(1.0, 0.01), (len(made.indices), -1)
     )
     numeric = np.zeros((size, size))
     for i, unit in enumerate(np.eye(size)):

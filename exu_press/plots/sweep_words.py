@@ -46,9 +46,13 @@ def words(name: str) -> str:
     ('balls, radial clearance', 'crank pin, peak force')
     >>> words("speed_rpm"), words("load.blanking.force")
     ('crank speed', 'blanking, peak force')
+    >>> words("guide.clearance")
+    'clearance on each side of a guided body'
     """
     parts = name.removeprefix("joints.").removeprefix("load.").split(".")
     meaning = re.sub(r" \(A-\d+\)|;.*", "", meaning_of(name))  # the assumption, what else is said
+    if meaning.startswith(("of ", "on ")):
+        meaning = f"{parts[-1].replace('_', ' ')} {meaning}"
     if name.startswith(("joints.", "load.")) and meaning:
         return f"{parts[0].replace('_', ' ')}, {meaning}"
     return meaning or ", ".join(NAMES.get(p, p.replace("_", " ")) for p in parts)

@@ -65,11 +65,7 @@ class Friction(Table):
     def __post_init__(self) -> None:
         """Check the keys, and that friction does not grow as sliding begins."""
         super().__post_init__()
-        if self.mu_static < self.mu_kinetic:
-            raise InputError(
-                f"friction.mu_static = {self.mu_static!r}: allowed is a number >= "
-                f"friction.mu_kinetic = {self.mu_kinetic!r}"
-            )
+        _demand_static_friction(self.table, self.mu_static, self.mu_kinetic)
 
 
 @dataclass(frozen=True)
@@ -172,11 +168,7 @@ class ElasticGuide(Table):
     def __post_init__(self) -> None:
         """Check the keys, and that friction does not grow as sliding begins."""
         super().__post_init__()
-        if self.mu_static < self.mu_kinetic:
-            raise InputError(
-                f"guide.mu_static = {self.mu_static!r}: allowed is a number >= "
-                f"guide.mu_kinetic = {self.mu_kinetic!r}"
-            )
+        _demand_static_friction(self.table, self.mu_static, self.mu_kinetic)
 
 
 @dataclass(frozen=True)
@@ -211,3 +203,11 @@ class Solver(Table):
             )
         if self.tolerance is None and self.step is None:
             object.__setattr__(self, "tolerance", DEFAULT_TOLERANCE)
+
+
+def _demand_static_friction(table: str, mu_static: float, mu_kinetic: float) -> None:
+    if mu_static < mu_kinetic:
+        raise InputError(
+            f"{table}.mu_static = {mu_static!r}: allowed is a number >= "
+            f"{table}.mu_kinetic = {mu_kinetic!r}"
+        )

@@ -1,10 +1,7 @@
 """The benchmark of the joints' cost runs and prints its table; times are not tested."""
 
-import subprocess
-import sys
-from pathlib import Path
+from running import run
 
-SCRIPT = Path(__file__).parents[2] / "scripts" / "benchmark_joint_cost.py"
 ROWS = [
     "press, ideal joints",
     "press, lubricated pin, dry balls",
@@ -15,12 +12,8 @@ ROWS = [
 ]
 
 
-def test_quick_table():
-    done = subprocess.run(
-        [sys.executable, str(SCRIPT), "--quick"], capture_output=True, text=True, timeout=120
-    )
-    assert done.returncode == 0, done.stderr
-    head, *lines = done.stdout.splitlines()
+def test_quick_table(tmp_path):
+    head, *lines = run("benchmark_joint_cost.py", tmp_path).splitlines()
     assert head[:34].strip() in ("joints compiled", "joints in Python")
     assert head[34:].split() == ["us/step", "Newton/step", "ratio"]
     table = {line[:34].strip(): [float(word) for word in line[34:].split()] for line in lines}

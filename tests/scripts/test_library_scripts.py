@@ -1,29 +1,13 @@
 """The scripts that show the library: each runs, reduced, and ends in the numbers it should."""
 
 import re
-import subprocess
-import sys
-from pathlib import Path
 
 import pytest
+from running import SCRIPTS, run
 
 from exu_press import Result
 
 FOUR_BAR = 87.8798  # N
-SCRIPTS = Path(__file__).parents[2] / "scripts"
-
-
-def run(name, place):
-    done = subprocess.run(
-        [sys.executable, str(SCRIPTS / name), "--quick"],
-        cwd=place,
-        capture_output=True,
-        text=True,
-        timeout=200,
-        check=False,
-    )
-    assert done.returncode == 0, done.stderr
-    return done.stdout
 
 
 def test_run_press(tmp_path):

@@ -1,38 +1,21 @@
 """The scripts of sweeps run, reduced, and end in numbers and a picture; times are not tested."""
 
-import subprocess
-import sys
-from pathlib import Path
-
 import pytest
-
-SCRIPTS = Path(__file__).parents[2] / "scripts"
-
-
-def run(script, directory):
-    done = subprocess.run(
-        [sys.executable, str(SCRIPTS / script), "--quick"],
-        cwd=directory,
-        capture_output=True,
-        text=True,
-        timeout=120,
-    )
-    assert done.returncode == 0, done.stderr
-    return done.stdout.splitlines()
+from running import run
 
 
 @pytest.mark.parametrize(
     ("name", "runs"), [("sweep_clearance", 4), ("sweep_speed", 2), ("sweep_blanking_force", 2)]
 )
 def test_sweep(name, runs, tmp_path):
-    lines = run(f"{name}.py", tmp_path)
+    lines = run(f"{name}.py", tmp_path).splitlines()
     assert f"{runs} runs: {runs} completed" in lines
     assert lines[-1] == f"out/{name}/sweep.png"
     assert (tmp_path / lines[-1]).stat().st_size > 10_000
 
 
 def test_benchmark(tmp_path):
-    lines = run("benchmark_sweep.py", tmp_path)
+    lines = run("benchmark_sweep.py", tmp_path).splitlines()
     assert [line[:18].strip() for line in lines[2:]] == [
         "one process",
         "sweep, 1 worker",

@@ -18,6 +18,7 @@ from exu_press import (
 from exu_press.laws.contact import hertz, hunt_crossley
 from exu_press.laws.film import pinkus
 from exu_press.laws.friction import no_friction
+from exudyn_examples.other import stick_slip
 
 POSITION = exu.OutputVariableType.Coordinates
 TOLERANCES = [1e-2, 1e-3, 1e-4, 1e-5]
@@ -153,30 +154,11 @@ def test_friction_of_exudyns_own_with_its_switching():
     ends = []
     for tolerance in (1e-3, 1e-5):
         mbs = exu.SystemContainer().AddSystem()
-        still = mbs.AddNode(items.NodePointGround())
-        node = mbs.AddNode(items.Node1D(referenceCoordinates=[0.0], initialVelocities=[3.0]))
-        mbs.AddObject(items.ObjectMass1D(mass=2.0, nodeNumber=node))
-        markers = [
-            mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=number, coordinate=0))
-            for number in (still, node)
-        ]
-        states = mbs.AddNode(
-            items.NodeGenericData(initialCoordinates=[1.0, 0.0, 0.0], numberOfDataCoordinates=3)
-        )
-        mbs.AddObject(
-            items.ObjectConnectorCoordinateSpringDamperExt(
-                markerNumbers=markers,
-                nodeNumber=states,
-                stiffness=100.0,
-                dynamicFrictionForce=8.0,
-                stickingStiffness=1e5,
-                stickingDamping=100.0,
-            )
-        )
+        stick_slip(mbs)
         mbs.Assemble()
         outcome = solve_dynamic(mbs, settings(2.0), tolerance=tolerance)
         assert outcome.status is Status.COMPLETED
-        ends.append(float(mbs.GetNodeOutput(node, POSITION)))
+        ends.append(float(mbs.GetNodeOutput(0, POSITION)))
     assert abs(ends[1]) < 8.0 / 100.0, "it rests where friction holds the spring"
     assert ends[0] == pytest.approx(ends[1], abs=3e-4)  # of 0.4 m
 

@@ -13,3 +13,12 @@ def solve(mbs, settings):
         mbs.SolveDynamic(settings)
     finally:
         exu.config.printToConsole = True
+
+
+def fixed_steps(duration, step):
+    """Return settings with steps of one size."""
+    settings = exu.SimulationSettings()
+    settings.timeIntegration.numberOfSteps = round(duration / step)
+    settings.timeIntegration.endTime = duration
+    settings.timeIntegration.generalizedAlpha.spectralRadius = 0.9
+    return settings

@@ -4,6 +4,7 @@ import exudyn as exu
 import numpy as np
 import pytest
 from exudyn.itemInterface import NodeRigidBody2D, ObjectGround, ObjectRigidBody2D, SensorNode
+from solving import fixed_steps, solve
 
 from exu_press import add_dry_revolute
 from exu_press.laws.contact import (
@@ -47,15 +48,9 @@ def bounce(contact, mass, speed, duration, step=1e-6, clearance=1e-4):
         )
     )
     mbs.Assemble()
-    settings = exu.SimulationSettings()
-    settings.timeIntegration.numberOfSteps = round(duration / step)
-    settings.timeIntegration.endTime = duration
-    settings.timeIntegration.verboseMode = 0
-    settings.timeIntegration.generalizedAlpha.spectralRadius = 0.9
+    settings = fixed_steps(duration, step)
     settings.timeIntegration.newton.modifiedNewtonJacUpdatePerStep = True
-    settings.solution.file.write = False
-    settings.solution.sensors.writePeriod = 0.0
-    mbs.SolveDynamic(settings, showHints=False)
+    solve(mbs, settings)
     return -np.asarray(mbs.GetSensorStoredData(velocity))[:, 1].min() / speed
 
 

@@ -13,6 +13,7 @@ from exudyn.itemInterface import (
     ObjectRigidBody2D,
     SensorNode,
 )
+from solving import fixed_steps, solve
 
 from exu_press import (
     InputError,
@@ -78,15 +79,9 @@ def add_body(mbs, kind, place, velocity, spin):
 
 def run(mbs, duration, step):
     mbs.Assemble()
-    settings = exu.SimulationSettings()
-    settings.timeIntegration.numberOfSteps = round(duration / step)
-    settings.timeIntegration.endTime = duration
-    settings.timeIntegration.verboseMode = 0
-    settings.timeIntegration.generalizedAlpha.spectralRadius = 0.9
+    settings = fixed_steps(duration, step)
     settings.timeIntegration.newton.useModifiedNewton = False
-    settings.solution.file.write = False
-    settings.solution.sensors.writePeriod = 0.0
-    mbs.SolveDynamic(settings, showHints=False)
+    solve(mbs, settings)
 
 
 def two_bodies(kind, joint, velocity, spin, duration=0.02, step=1e-5):

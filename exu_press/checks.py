@@ -22,6 +22,9 @@ RENAMED = {
     "contact.radius": "joints.NAME.radius",
     "flexible": "bodies.NAME",
     "blanking": "load.NAME with kind = 'blanking'",
+    "guide.slider_inertia": "a key of [press] or [slider_crank]",
+    "guide.slide_inertia": "press.slide_inertia",
+    "guide.counterweight_inertia": "press.counterweight_inertia",
 }
 """Keys of before -> what is written instead."""
 

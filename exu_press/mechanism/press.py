@@ -49,6 +49,16 @@ class Press(Table):
     slider_mass: float = key(1347.0, "main slider (10)", "kg", above=0)
     counter_linkage_mass: float = key(22.58, "linkage (11)", "kg", above=0)
     counterweight_mass: float = key(1847.2, "counterweight (12)", "kg", above=0)
+    slide_inertia: float | None = key(
+        None,
+        "slide (4), which tilts in an elastic guide; a steel cube's unless given",
+        "kg m^2",
+        above=0,
+    )
+    slider_inertia: float | None = key(None, "slider (10), likewise", "kg m^2", above=0)
+    counterweight_inertia: float | None = key(
+        None, "counterweight (12), likewise", "kg m^2", above=0
+    )
 
 
 @lru_cache(maxsize=64)
@@ -84,7 +94,7 @@ def press(size: Press) -> Mechanism:
             (0.0, middle_of_linkage),
             -math.pi / 2,
         ),
-        _block("slide", size.slide_mass, slide),
+        _block("slide", size.slide_mass, size.slide_inertia, slide),
     ]
     joints = [
         Joint("shaft", shaft, "crank", GROUND),
@@ -123,7 +133,7 @@ def press(size: Press) -> Mechanism:
             Joint(f"plunger_pin_{side}", foot, link_7, plunger),
             Joint(f"ball_{side}", (x, ball_y), plunger, "slider", "spherical"),
         ]
-    bodies.append(_block("slider", size.slider_mass, (0.0, ball_y)))
+    bodies.append(_block("slider", size.slider_mass, size.slider_inertia, (0.0, ball_y)))
     guided = ["slide", "plunger_right", "plunger_left", "slider"]
     groups = {
         "balls": ("ball_left", "ball_right"),
@@ -138,7 +148,9 @@ def press(size: Press) -> Mechanism:
         counterweight = onto(name, counter_pin, length, 0.0, +1)
         bodies += [
             _rod("counter_linkage", size.counter_linkage_mass, counter_pin, counterweight),
-            _block("counterweight", size.counterweight_mass, counterweight),
+            _block(
+                "counterweight", size.counterweight_mass, size.counterweight_inertia, counterweight
+            ),
         ]
         joints += [
             Joint("counter_pin", counter_pin, "crank", "counter_linkage"),
@@ -163,6 +175,6 @@ def _rod(name: str, mass: float, start: Point, end: Point) -> Body:
     return Body(name, mass, inertia, middle(start, end), angle)
 
 
-def _block(name: str, mass: float, centre: Point) -> Body:
+def _block(name: str, mass: float, inertia: float | None, centre: Point) -> Body:
     """Return a body of unknown shape; its inertia matters where an elastic guide lets it tilt."""
-    return Body(name, mass, steel_cube(mass), centre)
+    return Body(name, mass, inertia or steel_cube(mass), centre)

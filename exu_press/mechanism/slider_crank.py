@@ -27,6 +27,12 @@ class SliderCrank(Table):
         184.5 * 0.383**2 / 12, "rod, about its centre of mass in the middle", "kg m^2", above=0
     )
     slider_mass: float = key(1347.0, "slider", "kg", above=0)
+    slider_inertia: float | None = key(
+        None,
+        "slider, which tilts in an elastic guide; a steel cube's unless given",
+        "kg m^2",
+        above=0,
+    )
 
 
 @lru_cache(maxsize=64)
@@ -38,7 +44,7 @@ def slider_crank(size: SliderCrank) -> Mechanism:
     """
     pin = (0.0, size.crank_radius)
     wrist = onto("slider_crank.rod_length", pin, size.rod_length, 0.0, -1)
-    inertia = steel_cube(size.slider_mass)  # matters where an elastic guide lets it tilt
+    inertia = size.slider_inertia or steel_cube(size.slider_mass)
     return Mechanism(
         name="slider_crank",
         bodies=(

@@ -11,17 +11,8 @@ __all__ = ["with_elastic_guides"]
 
 def with_elastic_guides(drawn: Mechanism, elastic: ElasticGuide) -> Mechanism:
     """Return a mechanism whose guides are springs and dampers, its guided bodies free to tilt."""
-    guided = {guide.body for guide in drawn.guides}
-    bodies = tuple(_tilting(b, elastic) if b.name in guided else b for b in drawn.bodies)
-    named = {body.name: body for body in bodies}
-    guides = tuple(_elastic(guide, named[guide.body], elastic) for guide in drawn.guides)
-    return replace(drawn, bodies=bodies, guides=guides)
-
-
-def _tilting(body: Body, elastic: ElasticGuide) -> Body:
-    """Return a body with the inertia that the scene gives it."""
-    given: float | None = getattr(elastic, f"{body.name}_inertia", None)
-    return body if given is None else replace(body, inertia=given)
+    guides = tuple(_elastic(guide, drawn.body(guide.body), elastic) for guide in drawn.guides)
+    return replace(drawn, guides=guides)
 
 
 def _elastic(guide: Guide, body: Body, elastic: ElasticGuide) -> Guide:

@@ -47,6 +47,7 @@ OF_THE_COUNTERWEIGHT = (
     "counter_linkage_length",
     "counter_linkage_mass",
     "counterweight_mass",
+    "counterweight_inertia",
 )
 
 OF_THE_WAYS = (
@@ -352,7 +353,6 @@ def _unused(scene: Mapping[str, Any]) -> dict[str, str]:
     shown = repr(mechanism) if isinstance(mechanism, str) else "the scene's own"
     press = mechanism == "press", f"mechanism is {shown}"
     slider_crank = mechanism == "slider_crank", press[1]
-    with_slider = mechanism in ("press", "slider_crank"), press[1]
     countered = _peek(scene.get("press"), "counterweight") is not False
     counterweight = (countered, "press.counterweight is false") if press[0] else press
     play = _peek(scene.get("guide"), "clearance") is not None
@@ -363,9 +363,6 @@ def _unused(scene: Mapping[str, Any]) -> dict[str, str]:
         **dict.fromkeys(("guide.tilting_stiffness", "guide.tilting_damping"), springs),
         "press": press,
         "slider_crank": slider_crank,
-        "guide.slider_inertia": with_slider,
-        "guide.slide_inertia": press,
-        "guide.counterweight_inertia": counterweight,
         **{f"press.{name}": counterweight for name in OF_THE_COUNTERWEIGHT},
     }
     return {name: reason for name, (used, reason) in wanted.items() if not used}

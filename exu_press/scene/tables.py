@@ -121,8 +121,7 @@ class ElasticGuide(Table):
 
     The springs act in the body's centre of mass. A guide's tilting stiffness is that of an even
     bedding along its length, k L^2 / 12, and each damping a part of the critical one of the guided
-    mass or inertia alone, 2 D sqrt(k m), unless they are given. With ideal guides no body turns;
-    inertias that the paper does not give are needed then: about the centre of mass, steel cubes'.
+    mass or inertia alone, 2 D sqrt(k m), unless they are given.
     """
 
     table: ClassVar[str] = "guide"
@@ -154,15 +153,6 @@ class ElasticGuide(Table):
     )
     tilting_damping: float | None = key(
         None, "of every guide, instead of the damping ratio's", "N m s/rad", at_least=0
-    )
-    slider_inertia: float | None = key(
-        None, "slider (10); a steel cube's unless given", "kg m^2", above=0
-    )
-    slide_inertia: float | None = key(
-        None, "slide (4); a steel cube's unless given", "kg m^2", above=0
-    )
-    counterweight_inertia: float | None = key(
-        None, "counterweight (12); a steel cube's unless given", "kg m^2", above=0
     )
 
     def __post_init__(self) -> None:

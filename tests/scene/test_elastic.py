@@ -54,7 +54,7 @@ def test_what_is_given_counts():
 
 def test_inertia_of_a_steel_cube_unless_given():
     """m a^2 / 6 with a^3 = m / 7850; a plunger keeps its rod's inertia."""
-    bodies = {body.name: body for body in press(guide={"slide_inertia": 0.5}).bodies}
+    bodies = {body.name: body for body in press(guide={}, press={"slide_inertia": 0.5}).bodies}
     assert bodies["slide"].inertia == 0.5
     side = (1347.0 / 7850.0) ** (1 / 3)
     assert bodies["slider"].inertia == pytest.approx(1347.0 * side**2 / 6)

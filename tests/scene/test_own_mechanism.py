@@ -103,8 +103,6 @@ def test_a_crank_that_locks_is_refused_with_the_scene():
 
 def test_tables_of_other_mechanisms_are_not_used():
     assert refusal(mechanism=FOUR_BAR, press={}).startswith("[press]: not used by this scene")
-    shown = refusal(mechanism=FOUR_BAR, guide={"slider_inertia": 1.0})
-    assert shown.startswith("guide.slider_inertia = 1.0: not used by this scene")
 
 
 def test_guides_in_any_direction_may_be_elastic():

@@ -59,7 +59,10 @@ def restitution_of(chi: float) -> float:
 
 
 def delivered_restitution(contact: NormalContact, mass: float, speed: float) -> float:
-    """Restitution of one bounce of a free mass, by integration with SciPy.
+    r"""Restitution of one bounce of a free mass, by integration with SciPy.
+
+    .. math::
+        m \ddot\delta = -F_N(\delta, \dot\delta), \qquad \delta(0) = 0, \quad \dot\delta(0) = v_0
 
     Parameters
     ----------

@@ -16,7 +16,11 @@ Friction = Callable[[float], tuple[float, float]]
 
 
 def no_friction() -> Friction:
-    """Mu = 0."""
+    """No friction: mu = 0 at every speed.
+
+    >>> no_friction()(0.1)
+    (0.0, 0.0)
+    """
     return lambda v: (0.0, 0.0)
 
 

@@ -85,16 +85,35 @@ class LoadCurve:
 
 
 def blanking_pulse(peak: float, rise: float, fall: float) -> tuple[list[float], list[float]]:
-    """Return times, s, and forces, N, of the corners of the triangular blanking pulse (Eq. 36).
+    r"""Corners of the triangular blanking pulse (Eq. 36).
+
+    .. math::
+        F = F_{max} \begin{cases} t / (2 \tau) & 0 < t < 2 \tau \\
+        (3 \tau - t) / \tau & 2 \tau \le t < 3 \tau \end{cases}
 
     The paper prints F_max / t^2 for the rise; F_max / (2 tau) is the triangle it draws.
 
-    Args:
-        peak: F_max, N.
-        rise: 2 tau, s.
-        fall: tau, s.
+    Parameters
+    ----------
+    peak : F_max [N]
+    rise : 2 tau [s], positive
+    fall : tau [s], positive
 
+    Returns
+    -------
+    Times [s] and forces [N] of the corners, for a `LoadCurve`.
+
+    Notes
+    -----
+    Range: any two durations; the paper's are two to one.
+
+    Examples
+    --------
     >>> blanking_pulse(10e3, rise=1e-3, fall=0.5e-3)
     ([0.0, 0.001, 0.0015], [0.0, 10000.0, 0.0])
+
+    References
+    ----------
+    .. [1] The paper's Eq. 36 and Fig. 11 (`CITATION.cff`).
     """
     return [0.0, rise, rise + fall], [0.0, peak, 0.0]

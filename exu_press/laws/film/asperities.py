@@ -37,9 +37,18 @@ def with_asperities(law: FilmLaw, onset_ratio: float) -> FilmLaw:
     onset_ratio : eta = h_on / c [-], the gap at which asperities touch over the radial clearance,
         0 < eta < 1; h_on is about three times the combined rms roughness of both surfaces
 
+    Returns
+    -------
+    The law, f in 1/s, for every eps >= 0.
+
     Raises
     ------
     InputError : onset_ratio is not between 0 and 1
+
+    Notes
+    -----
+    Range: any eps; up to 1 - eta it is `law` itself. Beyond, it is a choice of this package that
+    keeps the film regular, not a measured flow between rough surfaces.
 
     Examples
     --------

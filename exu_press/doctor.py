@@ -1,4 +1,4 @@
-"""Whether an installation works: versions, extras, and two small runs whose answers are known."""
+"""Whether an installation works: versions, extras, and two small runs whose results are known."""
 
 import importlib.metadata
 import os

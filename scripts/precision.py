@@ -27,7 +27,9 @@ def parser() -> argparse.ArgumentParser:
         help="one case of the table; may be repeated (default: all)",
     )
     found.add_argument(
-        "--quick", action="store_true", help="a reduced form in under two minutes, times not judged"
+        "--quick",
+        action="store_true",
+        help="a reduced form, less than two minutes; times mean nothing",
     )
     found.add_argument("--out", metavar="DIR", default="out/precision", help="where to write")
     found.add_argument("--quiet", action="store_true", help="print nothing but errors")

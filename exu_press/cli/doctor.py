@@ -1,4 +1,4 @@
-"""Check the installation: versions, extras, and two small runs whose answers are known."""
+"""Check the installation: versions, extras, and two small runs whose results are known."""
 
 import argparse
 

@@ -1,4 +1,4 @@
-"""Write a scene file to start from: every key with its meaning, what is not in use as comments."""
+"""Write a scene file to start from: keys with their meaning, unused ones as comments."""
 
 import argparse
 import dataclasses

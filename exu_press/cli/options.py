@@ -52,7 +52,7 @@ def add_error_argument(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--no-error",
         action="store_true",
-        help="leave out the errors of the figures, and the runs beside that they take",
+        help="leave out the errors of the figures, and the coarser runs that they need",
     )
 
 

@@ -1,4 +1,4 @@
-"""Error against run time of a scene: tolerances and fixed steps; precision.json and pictures."""
+"""Measure error against run time of a scene, with tolerances and with fixed steps; draw both."""
 
 import argparse
 from pathlib import Path
@@ -20,7 +20,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the command's arguments."""
     add_scene_arguments(parser)
     parser.add_argument(
-        "--quick", action="store_true", help="a reduced form in under two minutes, times not judged"
+        "--quick",
+        action="store_true",
+        help="a reduced form, less than two minutes; times mean nothing",
     )
 
 

@@ -1,4 +1,4 @@
-"""Pushes a scene to its extremes: each is right, stopped with a reason, or wrong."""
+"""Push a scene to its extremes: each run is right, stopped with a reason, or wrong."""
 
 import argparse
 from collections.abc import Sequence
@@ -26,7 +26,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="KEY",
-        help="push this key alone; may be repeated (default: every number that the scene uses)",
+        help="change this key alone; may be repeated (default: every number that the scene uses)",
     )
     parser.add_argument("--workers", type=int, metavar="N", help="processes (default: the cores)")
 

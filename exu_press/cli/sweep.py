@@ -28,7 +28,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="KEY",
-        help="draw over this key; at most twice (default: the first two that vary)",
+        help="key on a picture's axis; at most twice (default: the first two that vary)",
     )
     parser.add_argument(
         "--show",

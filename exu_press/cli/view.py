@@ -1,4 +1,4 @@
-"""See a run move: in a window, or as an animation or picture with --save."""
+"""Show the motion of a run: in a window, or as an animation or a picture with --save."""
 
 import argparse
 from pathlib import Path
@@ -38,13 +38,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--colour",
         choices=("displacement", "stress"),
-        help="what colours flexible bodies (default: displacement)",
+        help="what the colours of flexible bodies show (default: displacement)",
     )
     parser.add_argument(
         "--exaggerate",
         type=float,
         metavar="N",
-        help="factor of their deformation (default: one that is seen well)",
+        help="factor of their deformation (default: one that makes it visible)",
     )
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
 

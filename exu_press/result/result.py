@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.above import WORKERS
+from exu_press.checks import nearest
 from exu_press.errors import InputError
 from exu_press.result.contents import Contents
 from exu_press.result.joint import JointRecord
@@ -19,6 +20,15 @@ from exu_press.scene.joint import Joint
 __all__ = ["Result"]
 
 Array = NDArray[np.float64]
+
+
+class _Joints(dict[str, JointRecord]):
+    """Joints by name; one that there is not is refused with those that there are."""
+
+    def __missing__(self, name: str) -> JointRecord:
+        raise InputError(
+            f"joint {name!r}: was not recorded{nearest(name, self)}; this run has {', '.join(self)}"
+        )
 
 
 @dataclass(frozen=True)
@@ -66,7 +76,7 @@ class Result(Contents):
         recorded = {
             name: joint for name, joint in self.scene.joints.items() if f"{name}_force" in self
         }
-        return {name: self._joint(name, joint) for name, joint in recorded.items()}
+        return _Joints({name: self._joint(name, joint) for name, joint in recorded.items()})
 
     @property
     def clearance_joints(self) -> tuple[str, ...]:
@@ -83,6 +93,16 @@ class Result(Contents):
         from exu_press.result.netcdf import write
 
         write(self, Path(path))
+
+    def to_xarray(self) -> Any:
+        """Return the channels as an `xarray.Dataset` over time, with units and names of columns.
+
+        Raises:
+            InputError: xarray is not installed.
+        """
+        from exu_press.result.dataset import dataset
+
+        return dataset(self)
 
     def _joint(self, name: str, joint: Joint) -> JointRecord:
         """Return what one joint did."""

@@ -1,5 +1,6 @@
 """The variants of one scene."""
 
+from exu_press.errors import InputError
 from exu_press.scene import Scene
 from exu_press.scene.joint import DEFAULT_KINDS
 
@@ -12,8 +13,16 @@ def variants(scene: Scene) -> dict[str, Scene]:
     These are the scene's joints with clearance, or those that its mechanism usually has; balls are
     dry beside lubricated pins. A scene with flexible bodies is compared with rigid ones too.
     Clearances, loads and whatever else a variant uses are the scene's.
+
+    Raises:
+        InputError: the scene has no joint with clearance, nor does its mechanism usually have one.
     """
     names = list(scene.joints.grouped) or list(DEFAULT_KINDS.get(scene.shipped, {}))
+    if not names:
+        raise InputError(
+            "joints: none has clearance, and so the scene has no variants; allowed is a scene with "
+            "such joints, or several scenes"
+        )
     balls = [
         name for name in names if scene.joints.spherical.issuperset(scene.joints.members(name))
     ]

@@ -55,7 +55,10 @@ def test_wrong_input_is_refused_before_anything_is_run(mine, tmp_path, capsys):
     out = tmp_path / "out"
     result = tmp_path / "one"
     assert main(["run", str(mine), "--no-pictures", "--quiet", "--out", str(result)]) == 0
+    ideal = tmp_path / "ideal.toml"
+    ideal.write_text('mechanism = "four_bar"\n')
     for arguments, message in (
+        ([str(ideal)], "joints: none has clearance, and so the scene has no variants"),
         (["press", "no_such_file.toml"], "no_such_file.toml: cannot be read"),
         (["press", str(tmp_path / "none.nc")], "none.nc: cannot be read"),
         ([str(result)], "a result alone; allowed are two or more, or a scene alone"),

@@ -1,9 +1,12 @@
 """Results open in the tools that people have: xarray and pandas."""
 
+import sys
+
 import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
+from exu_press.errors import InputError
 
 xarray = pytest.importorskip("xarray")
 
@@ -33,6 +36,27 @@ def test_time_is_a_coordinate(result, data):
     there = data["crank_pin_force"].sel(time=middle, method="nearest")
     assert there.dims == ("plane",)
     assert np.array_equal(there.values, result["crank_pin_force"][len(result.time) // 2])
+
+
+def test_the_dataset_in_memory_is_that_of_the_file(result, data):
+    made = result.to_xarray()
+    assert set(made.data_vars) == set(data.data_vars)
+    for name, variable in made.variables.items():
+        if name in data.variables:
+            assert variable.dims == data[name].dims
+            assert np.array_equal(variable.values, data[name].values), name
+            assert variable.attrs == data[name].attrs
+    assert made.attrs["scene"] == data.attrs["scene"]
+    assert made["crank_pin_force"].sel(plane="y").values[-1] == result["crank_pin_force"][-1, 1]
+    slider = made["body_position"].sel(body="slider", pose="y")
+    index = result.bodies.index("slider")
+    assert np.array_equal(slider.values, result["body_position"][:, index, 1])
+
+
+def test_without_xarray_it_says_so(result, monkeypatch):
+    monkeypatch.setitem(sys.modules, "xarray", None)
+    with pytest.raises(InputError, match="needs the package xarray"):
+        result.to_xarray()
 
 
 def test_scalars_as_a_frame(result, data):

@@ -66,6 +66,12 @@ def test_unknown_channel_shows_the_known_ones(result):
     assert "slider_position" in result
 
 
+def test_unknown_joint_shows_the_recorded_ones(result):
+    with pytest.raises(InputError, match=r"'crank_pn'.*did you mean 'crank_pin'.*this run has"):
+        result.joints["crank_pn"]
+    assert "crank_pn" not in result.joints
+
+
 def test_summary_has_what_the_interface_promises(result):
     summary = result.summary()
     top = {

@@ -13,12 +13,15 @@ from numpy.typing import NDArray
 
 from exu_press.errors import InputError
 
-__all__ = ["Statics", "shares"]
+__all__ = ["Statics", "moved_in_plane", "shares"]
 
 Array = NDArray[np.float64]
 
 STIFF = 1e-6
 """Of the largest flexibility: combinations of loads that give way less are left out."""
+
+IDLE = 1e-5
+"""Of the work of loads and of centrifugal forces: modes that carry less stay at rest."""
 
 
 class Statics:
@@ -90,6 +93,25 @@ class Statics:
             if self.error(carried[:, fewer]) <= wanted:
                 kept = fewer
         return kept
+
+
+def moved_in_plane(carried: Array, frequencies: Array, centrifugal: Array) -> list[int]:
+    """Return the numbers of the modes that plane motion moves; the others stay at rest.
+
+    Those of a part that is symmetric to the plane bend out of it or twist; of a mesh, which never
+    is symmetric to the last digit, they carry some 1e-6.
+
+    Args:
+        carried: (k, modes) what each mode carries of the work of loads in the plane.
+        frequencies: (modes,) Hz.
+        centrifugal: (modes,) force on each mode by rotation in the plane, over the angular
+            velocity's square.
+    """
+    stretched = (centrifugal / frequencies) ** 2
+    total = stretched.sum()
+    by_loads = (carried**2).sum(axis=0) > IDLE
+    by_rotation = stretched > IDLE * total
+    return [int(mode) for mode in np.flatnonzero(by_loads | by_rotation)]
 
 
 def shares(moved: Array, frequencies: Array, exact: Array) -> Array:

@@ -25,6 +25,7 @@ __all__ = ["METHODS", "Reduction", "reduce_model", "reduce_part"]
 
 Array = NDArray[np.float64]
 METHODS = ("craig_bampton", "free")
+PLANE = {"x", "y", "rz"}
 USUAL_MODES = 20
 MOST_MODES = 80
 """That a flexibility error is sought with."""
@@ -47,7 +48,8 @@ class Reduction:
         flexibility_error: instead, only those modes of the interfaces' statics (of the free body)
             that are needed to leave no more than this share out of what the interfaces give way
             under any load on them, which the body's own inertia balances.
-        loads: the motions that such loads act in; in a planar mechanism x, y and rz.
+        loads: the motions that joints load; in a planar mechanism x, y and rz, and of so many modes
+            only those are kept that such loads, or rotation in the plane, move.
         method: "craig_bampton", or "free": the lowest modes of the free body.
         stress: whether the stresses of the modes are kept too (more to store).
 
@@ -109,7 +111,7 @@ def reduce_part(part: Part, reduction: Reduction, report: Report | None = None) 
 
 def reduce_model(part: Part, model: Any, reduction: Reduction) -> ReducedPart:
     """Reduce a `FullModel`."""
-    from fe_models.flexibility import Statics
+    from fe_models.flexibility import Statics, moved_in_plane
 
     count = _most_modes(part, model, reduction)
     if count == 0:
@@ -127,9 +129,13 @@ def reduce_model(part: Part, model: Any, reduction: Reduction) -> ReducedPart:
     motions = [motion for interface in part.interfaces for motion in interface.motions]
     loaded = np.array([motion in reduction.loads for motion in motions], dtype=bool)
     carried = statics.carried(rows @ modes, frequencies, loaded)
+    kept = list(range(len(frequencies)))
     if reduction.flexibility_error is not None:
         kept = statics.enough(carried, reduction.flexibility_error, part.name)
-        frequencies, modes, carried = frequencies[kept], modes[:, kept], carried[:, kept]
+    elif set(reduction.loads) <= PLANE:
+        outward = model.mass @ (model.nodes * (1.0, 1.0, 0.0)).ravel()
+        kept = moved_in_plane(carried, frequencies, outward @ modes)
+    frequencies, modes, carried = frequencies[kept], modes[:, kept], carried[:, kept]
     exact, left = np.diag(statics.flexibility), statics.error(carried)
     return _package(part, model, reduction, frequencies, modes, fixed, exact, left)
 

@@ -65,6 +65,20 @@ def test_modes_out_of_the_plane_are_spared(crank, crank_model):
     assert set(np.round(plane.frequencies, 3)) < set(np.round(space.frequencies, 3))
 
 
+def test_modes_that_stay_at_rest_in_the_plane_are_left_out(linkage, linkage_model, reduced_linkage):
+    """The linkage is symmetric to the plane: some of its modes bend out of it, or twist."""
+    planar = reduce_model(linkage, linkage_model, Reduction(loads=PLANE))
+    assert planar.mode_count == 13
+    assert reduced_linkage.mode_count == 20
+    for parts in LOADS.values():
+        assert by_modes(planar, parts) == pytest.approx(by_modes(reduced_linkage, parts), rel=3e-5)
+    kept = np.isin(reduced_linkage.frequencies.round(3), planar.frequencies.round(3))
+    assert kept.sum() == planar.mode_count
+    for interface in reduced_linkage.interfaces:
+        still = np.abs(interface.translation[:2, ~kept]).max()
+        assert still < 1e-2 * np.abs(interface.translation[:2, kept]).max()
+
+
 def test_shares_sum_up_to_what_there_is(linkage, linkage_model, reduced_linkage):
     """Twenty modes leave some of the body's own acceleration to higher ones."""
     shares = reduced_linkage.participation()

@@ -10,8 +10,9 @@ import numpy as np
 from exudyn import graphics
 
 from exu_press.mechanism import GROUND, Mechanism, Point
+from exu_press.mechanism.parts import DRIVE
 from exu_press.mechanism.shapes import Shape, shapes_of, swept
-from exu_press.model import DRIVE, Model, build
+from exu_press.model import Model, build
 from exu_press.scene import Scene
 
 __all__ = ["add_graphics", "build_with_graphics"]

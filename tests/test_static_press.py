@@ -7,7 +7,8 @@ from exudyn.itemInterface import LoadForceVector, MarkerBodyRigid
 from scipy.sparse.linalg import splu
 
 from exu_press import Scene
-from exu_press.model import DRIVE, build
+from exu_press.mechanism.parts import DRIVE
+from exu_press.model import build
 from exu_press.placed_part import placed_parts
 from exu_press.quasi_static import quasi_static_motion
 from exu_press.result.flexible import deflection

@@ -6,11 +6,19 @@ from typing import Any
 
 from exu_press.checks import nearest
 from exu_press.errors import InputError
-from exu_press.mechanism.parts import GROUND, Body, Guide, Joint, Output
+from exu_press.mechanism.parts import DRIVE, GROUND, Body, Guide, Joint, Output
 
 __all__ = ["check"]
 
 SHAPES = ("revolute", "spherical")
+
+TAKEN = {GROUND: "stands still", DRIVE: "turns a flexible crank"}
+"""Names of what a system has besides the mechanism's bodies."""
+
+RECORDED = ("drive", "frame", "guide", "shaking")
+OF_BODIES = ("guide", "modes")
+OF_LOADS = "load_"
+"""What channels begin with that are no joint's, a body's after its name."""
 
 ACROSS = 1e-9
 """Cosine of two directions that counts as a right angle."""
@@ -31,8 +39,9 @@ def check(
     _once("bodies", names)
     _once("joints", [joint.name for joint in joints])
     _once("guides", [guide.body for guide in guides])
-    if GROUND in names:
-        raise InputError(f"bodies.{GROUND}: the name of what stands still; allowed is another one")
+    for name, what in TAKEN.items():
+        if name in names:
+            raise InputError(f"bodies.{name}: the name of what {what}; allowed is another one")
     for body in bodies:
         where = f"bodies.{body.name}"
         _positive(f"{where}.mass", body.mass, "kg")
@@ -42,6 +51,7 @@ def check(
             _positive(f"{where}.inertia", body.inertia, "kg m^2")
     for joint in joints:
         _check_joint(joint, names)
+        _check_channels(joint.name, names)
     for guide in guides:
         _known(f"guides.{guide.body}", guide.body, names)
         _direction(f"guides.{guide.body}.direction", guide.direction)
@@ -67,6 +77,17 @@ def _check_joint(joint: Joint, names: Collection[str]) -> None:
     if joint.journal == joint.bearing:
         raise InputError(f"{where}: joins {joint.journal!r} to itself; allowed are two bodies")
     _known(f"{where}.shape", joint.shape, SHAPES)
+
+
+def _check_channels(joint: str, bodies: Sequence[str]) -> None:
+    """Refuse a joint whose channels, such as NAME_force, would be those of something else."""
+    if joint in bodies:
+        raise InputError(f"joints.{joint}: is a body's name too; allowed is another one")
+    taken = {*RECORDED, *(f"{body}_{what}" for body in bodies for what in OF_BODIES)}
+    if joint in taken or joint.startswith(OF_LOADS):
+        raise InputError(
+            f"joints.{joint}: {joint}_force is recorded of something else; allowed is another name"
+        )
 
 
 def _check_groups(groups: Mapping[str, Sequence[str]], joints: Sequence[str]) -> None:

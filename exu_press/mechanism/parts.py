@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass
 
 __all__ = [
+    "DRIVE",
     "GROUND",
     "ROD",
     "Body",
@@ -15,6 +16,9 @@ __all__ = [
     "Ways",
     "steel_cube",
 ]
+
+DRIVE = "drive"
+"""Name of the disc that turns a flexible crank."""
 
 GROUND = "frame"
 

@@ -1,7 +1,6 @@
 """From a scene to an assembled Exudyn system: only what the scene uses is built."""
 
 from exu_press.model.assemble import build
-from exu_press.model.drive import DRIVE
 from exu_press.model.model import Model
 
-__all__ = ["DRIVE", "Model", "build"]
+__all__ = ["Model", "build"]

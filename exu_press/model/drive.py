@@ -3,13 +3,11 @@
 from exudyn.itemInterface import LoadCoordinate, ObjectConnectorCoordinateSpringDamper
 
 from exu_press.mechanism import Body
+from exu_press.mechanism.parts import DRIVE
 from exu_press.model.system import System
 from exu_press.rigid import PivotedBody
 
-__all__ = ["DRIVE", "add_drive", "hold_flexible_bodies", "turned_body"]
-
-DRIVE = "drive"
-"""Name of the disc that turns a flexible crank."""
+__all__ = ["add_drive", "hold_flexible_bodies", "turned_body"]
 
 
 def add_drive(system: System) -> int:

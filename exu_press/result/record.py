@@ -7,7 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.integrate import Outcome
-from exu_press.model import DRIVE, Model
+from exu_press.mechanism.parts import DRIVE
+from exu_press.model import Model
 from exu_press.result.channel import Channel
 from exu_press.result.energy import mechanical_energy, work
 from exu_press.result.equilibrium import equilibrium

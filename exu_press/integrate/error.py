@@ -88,6 +88,8 @@ class StepError:
             error = self._bodies.error(self._filtered(self._bodies.change), step)
         if not self._joints:  # else impacts and films need finer steps, by far
             offset = self._relative(self._bodies.offset(step))
+            if not self._problem.switching:  # whose accelerations jump
+                offset = max(offset, self._bodies.curvature(step, self._tolerance))
             error = max(error, math.pow(offset, 1.5))  # as the step's cube
         if self._first_order is not None:
             error = max(error, self._first_order.error(step))

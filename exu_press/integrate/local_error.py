@@ -20,6 +20,9 @@ __all__ = ["BodyError", "ErrorPerStep", "FirstOrderError", "JointError", "square
 CURRENT = exu.ConfigurationType.Current
 START = exu.ConfigurationType.StartOfStep
 
+SAME = 1e-6
+"""Steps that differ by less, relative, are one size: the clock's last digits."""
+
 
 @dataclass(frozen=True)
 class ErrorPerStep:
@@ -113,6 +116,11 @@ class BodyError:
         self._rate_before: list[float] = []  # none before the first step
         self._rate: list[float] = []
         self.change: list[float] = []
+        self._bend: list[float] = []  # second derivative of the accelerations
+        self._bend_before: list[float] = []
+        self._step = self._step_before = 0.0
+        self._common = self._common_before = 0.0  # of the bends of two steps, its largest norm
+        self._most = 0.0  # acceleration so far, m/s^2
 
     def tried(self, now: list[float], step: float) -> float:
         """Return the error of a step (s) that ends with these accelerations."""
@@ -156,8 +164,28 @@ class BodyError:
         """
         return step * step * self.largest_of(self._rate) / 12.0
 
+    def curvature(self, step: float, tolerance: float) -> float:
+        """Return what accelerations are off a line between a step's ends, over what they may.
+
+        That is a tolerance of the largest. What alternates from step to step is none of the
+        motion's, and a jump does not shrink with the step: what two steps of one size have in
+        common counts, and in a step of another size what the last two had.
+        """
+        self._step, self._bend = step, [value / step for value in self.change]
+        self._common = self._common_before
+        if self._bend_before and abs(step - self._step_before) < SAME * step:
+            last = self._bend_before
+            mean = [0.5 * (a + b) for a, b in zip(self._bend, last, strict=True)]
+            smaller = min(map(self.largest_of, (self._bend, last)))
+            self._common = min(self.largest_of(mean), 3.0 * smaller)
+        off = 0.125 * step * step * self._common
+        return off / max(tolerance * self._most, self._noise / (step * step))
+
     def accept(self) -> None:
         """Remember the accepted step's end as the next one's beginning."""
+        self._step_before, self._common_before = self._step, self._common
+        self._bend_before = self._bend if self._rate_before else []
+        self._most = max(self._most, self.largest())
         self._before, self._rate_before = self._now, self._rate
 
     def largest_of(self, vector: list[float]) -> float:

@@ -80,6 +80,29 @@ def test_jumps_are_told_by_body():
     assert error.of_jump() == pytest.approx(5.0)
 
 
+def curvature_after(accelerations, h=0.1, tolerance=1e-2):
+    error = errors()
+    for value in accelerations:
+        error.accept()
+        error.tried([value, 0.0, 0.0], h)
+        found = error.curvature(h, tolerance)
+    return found
+
+
+def test_accelerations_between_two_instants_are_off_a_line():
+    """Of a = b t^2, by b h^2 / 4 in the middle of a step."""
+    b, h = 3.0, 0.1
+    instants = [b * (i * h) ** 2 for i in range(6)]
+    assert curvature_after(instants) == pytest.approx(0.25 * b * h * h / (1e-2 * instants[4]))
+
+
+@pytest.mark.parametrize(
+    "accelerations", [[1.0, -1.0] * 3, [1.0] * 4 + [2.0], [1.0] * 4 + [2.0] * 2]
+)
+def test_what_alternates_or_jumps_is_no_curvature(accelerations):
+    assert curvature_after(accelerations) == pytest.approx(0.0)
+
+
 CLEARANCE, LIMIT = 1e-4, 1e-9
 
 

@@ -121,10 +121,12 @@ def agreement(result: Result, finer: Result) -> Check:
             more = one.true > one.value
             stated = 2.0 * (told["high"] - one.value if more else one.value - told["low"])
         allowed = max(stated + one.reading, _little(result.scene, one.name, one.true))
-        share = one.off / allowed
-        if not share <= worst:
+        if one.off == 0.0:
+            continue  # also of a figure that is zero, with nothing allowed
+        ratio = one.off / allowed if allowed else math.inf
+        if not ratio <= worst:
             words = f"{one.value:.5g} +- {told['error']:.2g} for {one.true:.5g}"
-            worst, which = share, f"{one.name}: {words}"
+            worst, which = ratio, f"{one.name}: {words}"
     return _check(AGREEMENT, worst, OF_BOTH, which)
 
 

@@ -136,6 +136,14 @@ def test_a_difference_that_is_stated_is_right(run):
         assert agreement(said, off).passed is right
 
 
+def test_a_joint_that_never_touches_agrees():
+    """Its force and penetration are zero, without an error and with nothing allowed."""
+    loose = {"kind": "dry", "clearance": 3e-3, "radius": 0.02}
+    scene = Scene(mechanism="four_bar", joints={"knuckle": loose}, revolutions=0.002)
+    row = judge({"name": "loose", "scene": scene.to_dict()})
+    assert row["verdict"] == judging.RIGHT, row["reason"]
+
+
 def test_every_number_that_a_scene_uses_is_pushed_both_ways():
     scene = Scene.from_dict({**SHORT, "film": {"law": "pinkus", "viscosity": 0.3}})
     table = extremes(scene, "mine")

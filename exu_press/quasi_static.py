@@ -24,7 +24,7 @@ ANGLES = np.radians(np.arange(-3.0, 4.0))
 """Of the drive about the start's, rad: a polynomial of sixth degree differentiates there. From half
 to twice this spacing the result is the same to 1e-6."""
 
-TURNS = 4
+ITERATIONS = 4
 """Of the iteration: the first one at rest, the last one changes modes by 1e-4 of themselves. More
 would let rounding grow, which differentiating multiplies."""
 
@@ -50,9 +50,9 @@ def quasi_static_motion(
         q = np.zeros((len(ANGLES), balance.size))
         forces = np.zeros((len(ANGLES), balance.constraints))
         q_t = q_tt = np.zeros_like(q)
-        for turn in range(TURNS):
+        for iteration in range(ITERATIONS):
             for i, angle in enumerate(ANGLES):
-                for _ in range(CORRECTIONS if turn == 0 else CORRECTIONS // 2):
+                for _ in range(CORRECTIONS if iteration == 0 else CORRECTIONS // 2):
                     balance.correct(angle, q[i], q_t[i], q_tt[i], forces[i])
             q_t = rate @ q
             q_tt = rate @ q_t

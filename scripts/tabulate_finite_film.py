@@ -14,7 +14,7 @@ from exu_press.laws.film.reynolds import solve_reynolds, supply_line
 TABLE = Path(film.__file__).with_name("finite_bearing.npz")
 
 RATIOS = 0.1 * 40.0 ** np.linspace(0.0, 1.0, 14)  # L/D from 0.1 to 4
-TURNS = np.linspace(-0.5 * math.pi, 0.5 * math.pi, 25)  # opening, rotation, closing
+DIRECTIONS = np.linspace(-0.5 * math.pi, 0.5 * math.pi, 25)  # opening, rotation, closing
 CENTRE = [0.0, 0.01, 0.02, 0.03, 0.04, 0.055, 0.07, 0.09, 0.12, 0.16, 0.22]
 MIDDLE = [0.3, 0.4, 0.5, 0.6, 0.7, 0.78, 0.84, 0.89, 0.925, 0.95]
 WALL = [0.968, 0.98, 0.9875, 0.9925, 0.9955, 0.9975, 0.9987, 0.9993, 0.9997]
@@ -50,12 +50,12 @@ def dissipation_and_turn(eps, turn, ratio, supplied):
 
 
 def main():
-    shape = (len(RATIOS), len(ECCENTRICITIES), len(TURNS))
+    shape = (len(RATIOS), len(ECCENTRICITIES), len(DIRECTIONS))
     table = np.zeros((2, *shape))
     for i, ratio in enumerate(RATIOS):
         for j, eps in enumerate(ECCENTRICITIES):
             fade = math.exp(-((eps / SUPPLY_FADES) ** 2))
-            for k, turn in enumerate(TURNS):
+            for k, turn in enumerate(DIRECTIONS):
                 row = np.zeros(2)
                 if fade < 1.0:
                     row += (1.0 - fade) * np.array(dissipation_and_turn(eps, turn, ratio, True))
@@ -67,7 +67,7 @@ def main():
     table[1, :, 0] = 0.0
     table[1, :, :, [0, -1]] = 0.0  # pure squeeze pushes straight back
     log_e, m = table.astype(np.float32)
-    np.savez_compressed(TABLE, ratio=RATIOS, eps=ECCENTRICITIES, turn=TURNS, log_e=log_e, m=m)
+    np.savez_compressed(TABLE, ratio=RATIOS, eps=ECCENTRICITIES, turn=DIRECTIONS, log_e=log_e, m=m)
 
 
 if __name__ == "__main__":

@@ -13,7 +13,7 @@ __all__ = ["Cluster", "perform_alone"]
 
 SCHEMES = ("tcp", "tls", "ws", "wss", "ucx")
 SECONDS_TO_ANSWER = 10.0
-WINDOW = 4
+TASKS_AHEAD = 4
 """Tasks under way for each of the cluster's threads, so that none waits for the network."""
 
 
@@ -53,7 +53,7 @@ class Cluster:
                 "starts one"
             ) from None
         self._executor = self._client.get_executor(pure=False)
-        self.window = WINDOW * sum(self._client.nthreads().values())
+        self.window = TASKS_AHEAD * sum(self._client.nthreads().values())
 
     def submit(self, task: Task) -> Future[Row]:
         """Return the future row of a task."""

@@ -13,7 +13,7 @@ from exu_press.progress import Progress
 from exu_press.scene import Scene
 from exu_press.simulation import simulate
 
-__all__ = ["LEAST", "Distribution", "distributions", "percentiles"]
+__all__ = ["LEAST_REVOLUTIONS", "Distribution", "distributions", "percentiles"]
 
 PERCENTILES = (5.0, 50.0, 95.0)
 
@@ -22,11 +22,11 @@ CONFIDENCE = 0.9
 AT_A_TIME = 8
 """Revolutions of a run, of which the first is left out: it still knows how the run began."""
 
-LEAST = 59
+LEAST_REVOLUTIONS = 59
 """Revolutions: the largest of fewer is below the 95th percentile in more than one case of twenty,
 so that this has no upper bound of that confidence."""
 
-MOST = 126
+MOST_REVOLUTIONS = 126
 """Revolutions after which it is enough, however wide the confidence still is."""
 
 GOLDEN = 180.0 * (5.0**0.5 - 1.0)
@@ -55,9 +55,9 @@ def percentiles(values: Sequence[float]) -> dict[float, tuple[float, float, floa
 
     As many samples lie below a percentile as successes are among so many trials, whatever the
     distribution is; so two of the ordered samples are its bounds (H. A. David, H. N. Nagaraja,
-    Order Statistics, Wiley 2003, 7.1). Of fewer than LEAST samples the outermost ones are, with
-    less confidence. Revolutions that follow each other are not independent of each other for sure;
-    where motion is chaotic, the next one remembers little.
+    Order Statistics, Wiley 2003, 7.1). Of fewer than LEAST_REVOLUTIONS samples the outermost ones
+    are, with less confidence. Revolutions that follow each other are not independent of each other
+    for sure; where motion is chaotic, the next one remembers little.
     """
     ordered, count = np.sort(values), len(values)
     tail = 0.5 * (1.0 - CONFIDENCE)
@@ -76,8 +76,8 @@ def distributions(
     names: Collection[str],
     within: float,
     *,
-    least: int = LEAST,
-    most: int = MOST,
+    least: int = LEAST_REVOLUTIONS,
+    most: int = MOST_REVOLUTIONS,
     quiet: bool = True,
 ) -> dict[str, Distribution]:
     """Return the distribution of figures over revolutions and starts.

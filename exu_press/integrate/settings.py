@@ -12,7 +12,7 @@ from exu_press.integrate.problem import Problem
 
 __all__ = ["prepared", "refuse_unusable"]
 
-ROUNDING = 1e-10
+RELATIVE_RESIDUAL = 1e-10
 """Of the first residual: where Newton's method ends if it cannot get further."""
 
 TOLERANCES = 1e-8, 0.1
@@ -88,7 +88,7 @@ def prepared(settings: exu.SimulationSettings, problem: Problem, smallest: float
                 "useModifiedNewton": True,
                 "modifiedNewtonJacUpdatePerStep": True,
                 "modifiedNewtonContractivity": 0.5,
-                "relativeTolerance": ROUNDING,
+                "relativeTolerance": RELATIVE_RESIDUAL,
                 "absoluteTolerance": newton.absoluteTolerance,
                 "maxIterations": 25,
             },

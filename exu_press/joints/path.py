@@ -19,7 +19,7 @@ __all__ = ["Path"]
 
 Vector = tuple[float, ...]
 
-SMALL = 0.1
+SMALL_DRIFT = 0.1
 """Of a penetration, up to which what a step missed of it is known well enough to be taken out."""
 
 
@@ -61,7 +61,7 @@ class Path:
             self.drift = 0.0
         elif self.acceleration:
             along = self.missed(eccentricity, velocity, step)[1]
-            if abs(self.drift + along) < SMALL * depth:
+            if abs(self.drift + along) < SMALL_DRIFT * depth:
                 self.drift += along
         if self.eccentricity and step > 0.0:
             self.acceleration = tuple(

@@ -22,7 +22,7 @@ DRIVE = "drive"
 
 GROUND = "frame"
 
-STEEL = 7850.0
+STEEL_DENSITY = 7850.0
 """kg/m^3, for the size of a body of unknown shape."""
 
 ROD = math.nan
@@ -166,5 +166,5 @@ class Output:
 
 def steel_cube(mass: float) -> float:
     """Return the inertia of a steel cube about its centre, m (m / rho)^(2/3) / 6, kg m^2."""
-    side: float = (mass / STEEL) ** (1 / 3)
+    side: float = (mass / STEEL_DENSITY) ** (1 / 3)
     return mass * side**2 / 6

@@ -10,7 +10,7 @@ __all__ = ["comparison_cells", "comparison_lines", "run_lines"]
 
 Summary = Mapping[str, Any]
 
-MOST = 3
+MOST_JOINTS = 3
 """Joints that a line names, those with the largest forces."""
 
 ALIKE = 1e-2
@@ -51,13 +51,13 @@ def _joints(entry: str, scale: float) -> Callable[[Summary], str]:
             if not (alike and name.endswith("_right")):
                 words = name.removesuffix("_left") if alike else name
                 shown[name] = words.replace("_", " "), joint["peak_force"]
-        busiest = sorted(shown, key=lambda name: -shown[name][1])[:MOST]
+        busiest = sorted(shown, key=lambda name: -shown[name][1])[:MOST_JOINTS]
         texts = [
             f"{shown[name][0]} {_figure(f'joints.{name}.{entry}', scale)(summary)}"
             for name in shown
             if name in busiest
         ]
-        rest = [f"{len(shown) - MOST} more"] * (len(shown) > MOST)
+        rest = [f"{len(shown) - MOST_JOINTS} more"] * (len(shown) > MOST_JOINTS)
         return ", ".join([*texts, *rest]) or "-"
 
     return text

@@ -6,7 +6,7 @@ from typing import Any
 
 __all__ = ["uncertain"]
 
-MOST = 7
+MOST_DIGITS = 7
 """Digits to which a figure is exact: with a smaller error it is shown without."""
 
 
@@ -37,8 +37,8 @@ def uncertain(
         low, high = error["low"] * scale, error["high"] * scale
         return f"{_rounded(low, high)} to {_rounded(high, high)}, not determined"
     spread, shown = error["error"] * scale, value * scale
-    if spread <= abs(shown) * 10.0**-MOST:
-        return f"{shown:.{digits if isinstance(value, float) else MOST}g} exact"
+    if spread <= abs(shown) * 10.0**-MOST_DIGITS:
+        return f"{shown:.{digits if isinstance(value, float) else MOST_DIGITS}g} exact"
     places = 1 - math.floor(math.log10(spread))
     return f"{_places(shown, places)} +- {_places(spread, places)}"
 

@@ -17,24 +17,24 @@ from exu_press.plots.decimate import visible_segments
 from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, RUN, SHADE
 from exu_press.result import JointRecord, Result
 
-__all__ = ["TOUCH", "Path", "draw_path"]
+__all__ = ["TOUCH_COLOUR", "Path", "draw_path"]
 
 Array = NDArray[np.float64]
 
 MICRO = 1e6
 
-SMALL = 0.4
+SMALL_PATH = 0.4
 """A path within this part of the clearance circle is magnified, the whole circle inset."""
 
 MARGIN = 1.15
 
-NAME = 18
+LETTERS = 18
 """Letters of a joint's name that fit in a line beside the legend."""
 
 PIXELS = 300
 """From the middle of a circle's panel to its edge, at least."""
 
-TOUCH = COLOURS["vermilion"]
+TOUCH_COLOUR = COLOURS["vermilion"]
 
 SMALL_TEXT: dict[str, Any] = {"fontsize": 8, "fontweight": "normal", "pad": 3}
 
@@ -81,7 +81,7 @@ class Path:
     @property
     def small(self) -> bool:
         """Whether the path would be hard to see at the circle's scale."""
-        return self.reach < SMALL * self.clearance
+        return self.reach < SMALL_PATH * self.clearance
 
     @property
     def vertical(self) -> bool:
@@ -100,7 +100,7 @@ def draw_path(axes: Axes, path: Path) -> LineCollection | None:
     Returns:
         What the crank angle's colours are of; None for a vertical path, which runs over itself.
     """
-    axes.set_title(textwrap.fill(path.title, NAME))
+    axes.set_title(textwrap.fill(path.title, LETTERS))
     axes.set_xlabel("x, µm")
     axes.set_ylabel("y, µm")
     limit = path.clearance
@@ -140,7 +140,7 @@ def _draw(axes: Axes, path: Path, half: float, linewidth: float) -> LineCollecti
     axes.spines[:].set_visible(True)
     circle = {"radius": path.clearance, "linewidth": 1.2}
     axes.add_patch(Circle((0, 0), **circle, facecolor="white", edgecolor="none", zorder=0.4))
-    axes.add_patch(Circle((0, 0), **circle, fill=False, edgecolor=TOUCH, zorder=1.8))
+    axes.add_patch(Circle((0, 0), **circle, fill=False, edgecolor=TOUCH_COLOUR, zorder=1.8))
     for line in (axes.axhline, axes.axvline):
         line(0.0, color="#D0D0D0", linewidth=0.6, zorder=0.6)
     angle, points = crank_degrees(path.result), path.points

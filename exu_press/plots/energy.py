@@ -17,10 +17,10 @@ __all__ = ["energy_figure"]
 
 MINUS = " \N{MINUS SIGN} "
 
-MOST = 6
+MOST_LOSSES = 6
 """Joints whose losses are drawn, the largest ones."""
 
-BALANCE: dict[str, dict[str, Any]] = {
+BALANCE_LINES: dict[str, dict[str, Any]] = {
     "energy_input": {"label": "put in", "color": COLOURS["blue"]},
     "energy_stored": {"label": "stored", "color": COLOURS["orange"], "linestyle": (0, (5, 1.5))},
     "energy_dissipated": {"label": "dissipated", "color": COLOURS["vermilion"]},
@@ -40,7 +40,7 @@ def energy_figure(result: Result) -> Figure:
     panels = figure.subplot_mosaic(
         [["balance", *row] for row in right], sharex=True, width_ratios=(1.25, 1.0)
     )
-    for name, line in BALANCE.items():
+    for name, line in BALANCE_LINES.items():
         if dissipates or name != "energy_dissipated":
             curve(panels["balance"], result, result[name], **({"linewidth": 1.6} | line))
     panels["balance"].set_title("Balance")
@@ -69,7 +69,7 @@ def _losses(axes: Axes, result: Result) -> None:
     }
     order = sorted(result.clearance_joints, key=lambda n: (result.joints[n].spherical, n))
     titles = joint_titles([result], order, "loss")
-    most = sorted(titles, key=lambda name: -float(result[f"{name}_loss"][-1]))[:MOST]
+    most = sorted(titles, key=lambda name: -float(result[f"{name}_loss"][-1]))[:MOST_LOSSES]
     drawn = {name: title for name, title in titles.items() if name in most}
     sides = sum(title.endswith("each side") for title in drawn.values())
     rest = len(order) - len(drawn) - sides
@@ -89,7 +89,7 @@ def _losses(axes: Axes, result: Result) -> None:
 
 def _residual(axes: Axes, result: Result) -> None:
     """Draw what the balance misses, and say how much that is of the work (as the summary does)."""
-    given, stored, lost = (result[name] for name in BALANCE)
+    given, stored, lost = (result[name] for name in BALANCE_LINES)
     residual, relative = given - stored - lost, energy_residual(result)
     worst = float(np.abs(residual).max())
     unit, scale = ("J", 1.0) if worst > 0.1 else ("mJ", 1e3)

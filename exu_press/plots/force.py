@@ -20,7 +20,7 @@ __all__ = ["force_figure"]
 
 Array = NDArray[np.float64]
 
-MOST = 5
+MOST_JOINTS = 5
 """Joints whose forces are drawn: those with the largest ones, of the joints with clearance, of the
 crank's pin, and of those in the frame and on the slider; of two sides that do the same, one."""
 
@@ -33,7 +33,7 @@ def force_figure(results: Mapping[str, Result]) -> Figure:
     it says so.
     """
     everyone = list(results.values())
-    drawn, rest = busiest(everyone, _joints(everyone), "force", MOST)
+    drawn, rest = busiest(everyone, _joints(everyone), "force", MOST_JOINTS)
     heading = "Joint forces and drive torque"
     if rest:
         heading += f" ({len(rest)} joints with smaller forces are not drawn)"

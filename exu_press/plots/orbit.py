@@ -15,7 +15,7 @@ from exu_press.plots.canvas import (
     legend_above,
     new_figure,
 )
-from exu_press.plots.clearance_circle import TOUCH, Path, draw_path
+from exu_press.plots.clearance_circle import TOUCH_COLOUR, Path, draw_path
 from exu_press.plots.scales import angle_ticks, note
 from exu_press.plots.style import GREY, RUN, SHADE, styled
 from exu_press.result import Result
@@ -25,7 +25,7 @@ __all__ = ["orbit_figure"]
 ROW = 3.75  # inch
 LINE = 0.19  # inch
 
-MOST = 4
+MOST_JOINTS = 4
 """Joints whose paths are drawn, the busiest ones; the rest stand in a table below them."""
 
 
@@ -42,7 +42,7 @@ def orbit_figure(result: Result) -> Figure:
         InputError: the scene has no clearance joint.
     """
     names = sorted(result.clearance_joints, key=lambda n: (result.joints[n].spherical, n))
-    drawn, rest = busiest([result], names, "eccentricity", MOST)
+    drawn, rest = busiest([result], names, "eccentricity", MOST_JOINTS)
     paths = [Path(title, result, name) for name, title in drawn.items()]
     if not paths:
         raise InputError("orbit_figure: this scene has no joint with clearance; draw its forces")
@@ -94,7 +94,7 @@ def _over_angle(axes: Axes, result: Result, path: Path) -> None:
     else:
         for sign in (1, -1) if ball else (1,):
             first = sign == 1
-            line = axes.axhline(sign * limit, color=TOUCH, linewidth=1.2, zorder=1.8)
+            line = axes.axhline(sign * limit, color=TOUCH_COLOUR, linewidth=1.2, zorder=1.8)
             band = axes.axhspan(sign * limit, sign * reach, color=SHADE, linewidth=0, zorder=0.5)
             if first:
                 line.set_label("surfaces touch")

@@ -18,7 +18,7 @@ TICK_STEPS = (0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 45, 90, 180, 360)  # deg
 MOST_CENTRES = 100
 """More dead centres than this would hide the curves; they are not marked."""
 
-CLOSE = 0.6
+TOO_CLOSE = 0.6
 """Of the ticks' distance: so near a dead centre none stands."""
 
 SLACK = 1e-4
@@ -55,7 +55,7 @@ def crank_angle_axis(
         for name, angle in centres.items():
             named |= {angle + turn: name for turn in _multiples(360.0, low - angle, high - angle)}
     step = float(np.diff(ticks).min()) if len(ticks) > 1 else high - low
-    shown = [tick for tick in ticks if all(abs(tick - at) > CLOSE * step for at in named)]
+    shown = [tick for tick in ticks if all(abs(tick - at) > TOO_CLOSE * step for at in named)]
     if step <= 90.0:
         shown += named
     texts = {at: f"{_number_text(round(at, 1), None)}\n{name}" for at, name in named.items()}

@@ -28,7 +28,7 @@ WINDOW = 1e-3
 MOST_OF_IDEAL = 8.0
 """The averaged acceleration's panel ends at this multiple of the ideal peak, and says so."""
 
-NAME = "ideal mechanism"
+IDEAL_NAME = "ideal mechanism"
 
 TITLES = (
     ("Position", "position, mm"),
@@ -101,7 +101,7 @@ def _draw_ideals(
             (panels[2, 0], ideals[label][2], 1.0),
             (panels[2, 1], ideals[label][2], 1.0),
         ):
-            axes.plot(angle[kept], scale * values[kept], **line, label="" if number else NAME)
+            axes.plot(angle[kept], scale * values[kept], **line, label="" if number else IDEAL_NAME)
 
 
 def _ideal(result: Result) -> Motion:

@@ -6,7 +6,7 @@ __all__ = ["typeset"]
 
 POWERS = str.maketrans("23", "\N{SUPERSCRIPT TWO}\N{SUPERSCRIPT THREE}")
 POWER = re.compile(r"(?<=\w)\^([23])(?!\w)")
-MICRO = re.compile(r"(?<![\w./])u(?=(?:m|rad)(?![\w/]|\.\w))")
+MICRO_UNIT = re.compile(r"(?<![\w./])u(?=(?:m|rad)(?![\w/]|\.\w))")
 
 
 def typeset(text: str) -> str:
@@ -18,4 +18,4 @@ def typeset(text: str) -> str:
     'joints.um.radius in out/um/run.nc'
     """
     text = POWER.sub(lambda found: found[1].translate(POWERS), text)
-    return MICRO.sub("\N{MICRO SIGN}", text).replace(" +- ", " \N{PLUS-MINUS SIGN} ")
+    return MICRO_UNIT.sub("\N{MICRO SIGN}", text).replace(" +- ", " \N{PLUS-MINUS SIGN} ")

@@ -9,7 +9,7 @@ from exu_press.report.html import table
 
 __all__ = ["joint_table"]
 
-MOST = 3
+MOST_JOINTS = 3
 """Joints with clearance that the lines of the summary name."""
 
 COLUMNS: dict[str, tuple[str, float]] = {
@@ -31,7 +31,7 @@ def joint_table(summary: Mapping[str, Any]) -> str:
         summary: of the run.
     """
     joints, errors = summary["joints"], summary.get("errors", {})
-    if sum(joint["kind"] != "ideal" for joint in joints.values()) <= MOST:
+    if sum(joint["kind"] != "ideal" for joint in joints.values()) <= MOST_JOINTS:
         return ""
     rows = []
     for name in sorted(joints, key=lambda name: -joints[name]["peak_force"]):

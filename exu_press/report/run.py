@@ -32,7 +32,7 @@ CAPTIONS = {
 }
 """By the picture's file name; pictures that are not listed are shown under their names."""
 
-MOST = 4
+MOST_NUMBERS = 4
 """Numbers of a list that are shown one by one."""
 
 STATISTICS = (
@@ -152,6 +152,6 @@ def _statistics(summary: Mapping[str, Any]) -> str:
 
 def _row(name: str, value: Any, *rest: str) -> list[str]:
     shown = str(value).lower() if isinstance(value, bool) else str(value)
-    if isinstance(value, tuple) and len(value) > MOST:
+    if isinstance(value, tuple) and len(value) > MOST_NUMBERS:
         shown = f"{len(value)} numbers from {min(value):g} to {max(value):g}"
     return [name, f"{value:.10g}" if isinstance(value, float) else shown, *rest]

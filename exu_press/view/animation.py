@@ -32,7 +32,7 @@ __all__ = ["SIZE", "Animation", "Look"]
 SIZE = (12.8, 7.2)
 """Inch."""
 
-MOST = 2
+MOST_JOINTS = 2
 """Joints that are magnified, the busiest ones; the rest stand in a table."""
 
 CURVES = (
@@ -97,7 +97,7 @@ class Animation:
         if not self.instants.still:
             figure.text(0.012, 0.015, f"{speed} frames a second", fontsize=7.5, color=GREY)
         names = sorted(result.clearance_joints, key=lambda n: (result.joints[n].spherical, n))
-        joints, rest = busiest([result], names, "eccentricity", MOST)
+        joints, rest = busiest([result], names, "eccentricity", MOST_JOINTS)
         columns = figure.add_gridspec(
             1,
             3,

@@ -21,7 +21,7 @@ __all__ = ["FlexiblePanel", "Look"]
 
 Array = NDArray[np.float64]
 
-TIMES = "\N{MULTIPLICATION SIGN}"
+TIMES_SIGN = "\N{MULTIPLICATION SIGN}"
 
 DEFLECTION = 0.06
 """Of the bodies' extent: how large the largest displacement of the animation is drawn."""
@@ -92,7 +92,7 @@ class FlexiblePanel:
         axes.set_aspect("equal", adjustable="box")
         axes.set_axis_off()
         bodies = " and ".join(sorted(result.surfaces))
-        axes.set_title(f"Flexible {bodies}: deformation {TIMES} {self._factor:g}")
+        axes.set_title(f"Flexible {bodies}: deformation {TIMES_SIGN} {self._factor:g}")
         frames = np.arange(len(instants))[seen]
         some = np.unique(np.linspace(frames[0], frames[-1], 60).astype(int))
         corners = np.vstack([self._corners(name, frame) for name in modes for frame in some])

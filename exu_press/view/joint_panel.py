@@ -23,7 +23,7 @@ BORE, JOURNAL = 1.0, 0.55
 CLEARANCE = BORE - JOURNAL
 """The drawn clearance; the journal touches the bore where the eccentricity ratio is 1."""
 
-SMALL = 0.2
+SMALL_PATH = 0.2
 """Paths within this eccentricity ratio are shown once more, magnified."""
 
 ARROW = 0.9
@@ -85,7 +85,7 @@ class JointPanel:
         extra: list[Any] = []
         self._zoom: tuple[Line2D, Line2D] | None = None
         reach = float(self._distance[shown].max())
-        if reach < SMALL:
+        if reach < SMALL_PATH:
             extra = self._draw_zoom(axes, 1.25 * max(reach, 1e-6))
         self.artists = animated(
             self._journal,

@@ -22,7 +22,7 @@ from exu_press.view.flexible_panel import COLOURS as SURFACES
 __all__ = ["check_target", "is_animation", "save_animation", "save_picture"]
 
 DPI = {".mp4": 150.0, ".gif": 75.0, ".png": 150.0}
-KEPT = [
+KEPT_COLOURS = [
     *COLOURS.values(),
     *BODIES.values(),
     *(SURFACES(level) for level in np.linspace(0.0, 1.0, 64)),
@@ -118,7 +118,7 @@ def _write_gif(path: Path, frames: Iterator[Image.Image], fps: float) -> None:
 def _palette(image: Image.Image) -> Image.Image:
     """Return the colours that an animation is made of, and those of its first frame's blends."""
     fixed = [255, 255, 255]
-    for colour in KEPT:
+    for colour in KEPT_COLOURS:
         fixed += [round(255 * part) for part in to_rgb(colour)]
     rest = image.quantize(256 - len(fixed) // 3, method=Image.Quantize.MEDIANCUT).getpalette()
     assert rest is not None

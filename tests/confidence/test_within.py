@@ -9,7 +9,7 @@ import pytest
 from exu_press import InputError, Scene
 from exu_press.cli import main
 from exu_press.confidence import deliver, within
-from exu_press.confidence.distribution import LEAST, distributions, percentiles
+from exu_press.confidence.distribution import LEAST_REVOLUTIONS, distributions, percentiles
 from exu_press.confidence.told import delivered_lines
 from exu_press.confidence.within import COARSE, Delivered, headline
 
@@ -40,7 +40,7 @@ def test_distribution_of_revolutions():
     assert bounds[0] <= median <= bounds[1]
 
 
-@pytest.mark.parametrize("count", [LEAST, 100])
+@pytest.mark.parametrize("count", [LEAST_REVOLUTIONS, 100])
 @pytest.mark.parametrize("draw", ["normal", "exponential"])
 def test_bounds_of_percentiles_have_their_confidence(count, draw):
     """Of any distribution; nine in ten, or a few more, as samples are counted."""
@@ -55,7 +55,7 @@ def test_bounds_of_percentiles_have_their_confidence(count, draw):
 
 
 def test_of_fewer_samples_the_largest_may_be_below_the_percentile():
-    assert 0.95**LEAST <= 0.05 < 0.95 ** (LEAST - 1)
+    assert 0.95**LEAST_REVOLUTIONS <= 0.05 < 0.95 ** (LEAST_REVOLUTIONS - 1)
 
 
 def test_where_no_tolerance_delivers_the_distribution_is_told(monkeypatch):

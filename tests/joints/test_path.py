@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from exu_press.joints.path import SMALL, Path
+from exu_press.joints.path import SMALL_DRIFT, Path
 
 STEP = 1e-3
 
@@ -57,7 +57,7 @@ def test_drift_ends_with_the_contact_and_is_not_believed_where_steps_are_coarse(
     path = path_of(lambda time: ((1.0, 0.0), (0.0, 0.0)), 3)
     path.go_on((1.0 + 1e-6, 0.0), (0.0, 0.0), STEP, depth=1e-4)
     assert path.drift == pytest.approx(1e-6)
-    path.go_on((1.0 + 1e-6 + 2.0 * SMALL * 1e-4, 0.0), (0.0, 0.0), STEP, depth=1e-4)
+    path.go_on((1.0 + 1e-6 + 2.0 * SMALL_DRIFT * 1e-4, 0.0), (0.0, 0.0), STEP, depth=1e-4)
     assert path.drift == pytest.approx(1e-6)
     path.go_on((1.0, 0.0), (0.0, 0.0), STEP, depth=-1e-6)
     assert path.drift == 0.0

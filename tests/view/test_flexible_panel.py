@@ -3,7 +3,7 @@ import pytest
 
 from exu_press.errors import InputError
 from exu_press.view import Look, instants
-from exu_press.view.flexible_panel import TIMES, FlexiblePanel
+from exu_press.view.flexible_panel import TIMES_SIGN, FlexiblePanel
 
 
 def panel_of(animation):
@@ -27,7 +27,7 @@ def test_the_factor_is_stated_and_moves_the_nodes(runs, animation):
     assert np.abs(once - still).max() > 0.0
     assert twice - still == pytest.approx(2.0 * (once - still), rel=1e-4, abs=1e-7)
     assert title_of(animation(result, shown, Look(exaggerate=200.0))).endswith(
-        f"deformation {TIMES} 200"
+        f"deformation {TIMES_SIGN} 200"
     )
 
 
@@ -41,7 +41,7 @@ def test_the_default_factor_draws_the_largest_displacement_well(runs, animation)
     )
     extent = max(np.ptp(s.nodes, axis=0).max() for s in result.surfaces.values())
     assert 0.02 < panel._factor * largest / extent <= 0.06
-    assert title_of(animation(result, shown)).endswith(f"{TIMES} {panel._factor:g}")
+    assert title_of(animation(result, shown)).endswith(f"{TIMES_SIGN} {panel._factor:g}")
 
 
 @pytest.mark.parametrize(

@@ -21,7 +21,7 @@ USUAL = (
     "energy.dissipated",
 )
 MOST_COLUMNS = 4
-ROUNDING = 1e-6
+NO_CHANGE = 1e-6
 """Relative."""
 MOST_LINES = 24
 
@@ -68,7 +68,7 @@ def _changes(table: Table, name: str) -> bool:
         return False
     values = table.numbers(name)
     values = values[np.isfinite(values)]
-    return bool(len(values) == 1 or np.ptp(values) > ROUNDING * np.abs(values).max())
+    return bool(len(values) == 1 or np.ptp(values) > NO_CHANGE * np.abs(values).max())
 
 
 def _head(name: str) -> str:

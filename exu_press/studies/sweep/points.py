@@ -7,11 +7,11 @@ from typing import Any
 
 from exu_press.errors import InputError
 
-__all__ = ["MOST", "Points", "flat", "grid", "listed", "sample"]
+__all__ = ["MOST_RUNS", "Points", "flat", "grid", "listed", "sample"]
 
 Points = tuple[dict[str, Any], ...]
 
-MOST = 100_000
+MOST_RUNS = 100_000
 """Runs of one study."""
 
 
@@ -94,8 +94,8 @@ def _check(values: Mapping[str, Any], table: str) -> None:
 
 
 def _check_number(table: str, number: int) -> None:
-    if number > MOST:
-        raise InputError(f"[{table}]: {number} runs; allowed are at most {MOST}")
+    if number > MOST_RUNS:
+        raise InputError(f"[{table}]: {number} runs; allowed are at most {MOST_RUNS}")
 
 
 def _whole(table: Mapping[str, Any], name: str, low: int) -> int:

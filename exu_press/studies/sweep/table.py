@@ -18,14 +18,14 @@ from exu_press.stored import shown
 from exu_press.studies.sweep.points import flat
 from exu_press.studies.sweep.study import Study
 
-__all__ = ["TIMES", "Table", "table_of"]
+__all__ = ["RUN_TIMES", "Table", "table_of"]
 
 Value = str | float | bool | None
 
-NAME = re.compile(r"[\w.-]+", re.ASCII)
+COLUMN_NAME = re.compile(r"[\w.-]+", re.ASCII)
 """Of a column: what NetCDF takes for a name."""
 
-TIMES = ("wall_time", "total_time")
+RUN_TIMES = ("wall_time", "total_time")
 """Columns that differ from run to run of the same scene; they stand last."""
 
 
@@ -103,7 +103,7 @@ def table_of(study: Study, rows: Sequence[Mapping[str, Any]], files: Sequence[st
         head = {**point, "status": scalars.pop("status"), "reason": scalars.pop("reason")}
         if files:
             head["file"] = files[number]
-        times = {name: scalars.pop(name) for name in TIMES if name in scalars}
+        times = {name: scalars.pop(name) for name in RUN_TIMES if name in scalars}
         each.append((head, scalars, times))
     names = _names(part for parts in zip(*each, strict=True) for part in parts)
     lines: list[dict[str, Value]] = [{**times, **scalars, **head} for head, scalars, times in each]
@@ -114,7 +114,7 @@ def _scalars(row: Mapping[str, Any]) -> dict[str, Any]:
     """Return what is one value, nested names joined by a dot; lists are left to run.nc."""
     scalars = {name: value for name, value in flat(row).items() if not isinstance(value, list)}
     for name in scalars:
-        if not NAME.fullmatch(name):
+        if not COLUMN_NAME.fullmatch(name):
             raise InputError(f"{shown(name)}: allowed is the name of a column")
     return scalars
 

@@ -13,7 +13,7 @@ from paper.sensitivity import Effect, Tornado
 
 __all__ = ["tornado_figure"]
 
-MOST = 9
+MOST_FACTORS = 9
 """Factors shown of each number, the largest swings."""
 
 UNNAMED = 0.01
@@ -47,7 +47,7 @@ def tornado_figure(title: str, tornados: Sequence[Tornado]) -> Figure:
 
 
 def _draw(axes: Axes, tornado: Tornado) -> None:
-    factors = list(tornado.factors().items())[:MOST]
+    factors = list(tornado.factors().items())[:MOST_FACTORS]
     scale, unit = _unit(tornado)
     start = scale * tornado.baseline
     ends = [start, scale * tornado.published]

@@ -14,14 +14,14 @@ from exu_press import InputError, Result, Scene, simulate
 from exu_press.batch import run_batch
 from exu_press.studies.sweep import Study, sweep
 from exu_press.studies.sweep.run import run_scene
-from exu_press.studies.sweep.table import TIMES
+from exu_press.studies.sweep.table import RUN_TIMES
 
 IDEAL = Scene(joints={"crank_pin": "ideal", "balls": "ideal"}, revolutions=0.01)
 LUBRICATED = Scene(joints={"crank_pin": "lubricated", "balls": "ideal"}, revolutions=0.05)
 
 
 def without_times(table):
-    return {name: values for name, values in table.columns.items() if name not in TIMES}
+    return {name: values for name, values in table.columns.items() if name not in RUN_TIMES}
 
 
 def test_the_table_holds_the_summaries(tmp_path):
@@ -164,8 +164,8 @@ def test_a_sweep_killed_twice_equals_an_undisturbed_one(tmp_path):
     assert f"{done} of 12 are there" in errors
 
     tables = [(d / "out" / "table.csv").read_text().splitlines() for d in (calm, killed)]
-    kept = len(tables[0][0].split(",")) - len(TIMES)  # the times of computing stand last
-    texts = [[line.rsplit(",", len(TIMES))[0] for line in table] for table in tables]
+    kept = len(tables[0][0].split(",")) - len(RUN_TIMES)  # the times of computing stand last
+    texts = [[line.rsplit(",", len(RUN_TIMES))[0] for line in table] for table in tables]
     assert texts[0] == texts[1]
     assert len(texts[0]) == 13 and len(texts[0][0].split(",")) == kept
 
@@ -176,7 +176,7 @@ def test_a_worker_does_not_share_memory_of_runs(tmp_path):
     arguments = [{"scene": scene.to_dict()} for scene in scenes]
     rows = run_batch(run_scene, arguments, tmp_path / "one", workers=1, quiet=True)
     (fresh,) = run_batch(run_scene, arguments[-1:], tmp_path / "two", workers=1, quiet=True)
-    for name in TIMES:
+    for name in RUN_TIMES:
         rows[-1].pop(name), fresh.pop(name)
     assert rows[-1] == fresh
 

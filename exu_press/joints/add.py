@@ -5,15 +5,14 @@ from collections.abc import Sequence
 from typing import Any
 
 import exudyn as exu
-import numpy as np
 from exudyn.itemInterface import SensorUserFunction
 
 from exu_press.errors import InputError
-from exu_press.joints.ends import NODES, BodyEnd, FlexiblePoint
 from exu_press.joints.joint import ClearanceJoint
+from exu_press.joints.on_bodies import BodyPoint, in_plane, planar_end, spatial_end
 from exu_press.joints.overlay import overlay_of
 from exu_press.joints.pairs import DryPair, FilmPair, Pair
-from exu_press.joints.planar import PlanarEnd, PlanarJoint
+from exu_press.joints.planar import PlanarJoint
 from exu_press.joints.spatial import SpatialRevolute
 from exu_press.joints.spherical import SpatialSpherical
 from exu_press.joints.ways import WaysContact
@@ -28,9 +27,6 @@ __all__ = [
     "add_lubricated_revolute",
     "add_ways_contact",
 ]
-
-BodyPoint = tuple[int, Sequence[float]] | FlexiblePoint
-"""Object number of a body and a point in its frame (m), or an interface of a flexible body."""
 
 
 def add_dry_revolute(
@@ -99,11 +95,11 @@ def add_dry_spherical(
         InputError: as `add_dry_revolute`.
     """
     _check(mbs, contact=contact, friction=friction, radius=radius, clearance=clearance)
-    if _in_plane(mbs, ball) and _in_plane(mbs, socket):
+    if in_plane(mbs, ball) and in_plane(mbs, socket):
         pairs: list[Pair] = [DryPair(contact, friction, radius, clearance)]
         return _revolute(mbs, ball, socket, (0, 0, 1), pairs)
     joint = SpatialSpherical(
-        _end(mbs, ball), _end(mbs, socket), contact, friction, radius, clearance
+        spatial_end(mbs, ball), spatial_end(mbs, socket), contact, friction, radius, clearance
     )
     overlay_of(mbs).add(joint)
     return joint
@@ -191,7 +187,7 @@ def add_ways_contact(
             name, or the system is assembled already.
     """
     _check_laws(mbs, contact=contact, friction=friction)
-    if not _in_plane(mbs, body):
+    if not in_plane(mbs, body):
         raise InputError(f"body {body[0]}: allowed between ways is a body in the plane")
     length = math.hypot(direction[0], direction[1])
     if not 0.0 < length < math.inf:
@@ -204,7 +200,7 @@ def add_ways_contact(
     across = direction[1] / length, -direction[0] / length
     pair = DryPair(contact, friction, half_width, clearance)
     place = float(middle[0]), float(middle[1])
-    joint = WaysContact(_planar_end(mbs, body), place, across, pair)
+    joint = WaysContact(planar_end(mbs, body), place, across, pair)
     overlay_of(mbs).add(joint)
     return joint
 
@@ -262,91 +258,11 @@ def _revolute(
 ) -> ClearanceJoint:
     """Join two bodies by pairs; planar bodies have a joint of their own, ten times faster."""
     joint: ClearanceJoint
-    if _in_plane(mbs, journal) and _in_plane(mbs, bearing):
+    if in_plane(mbs, journal) and in_plane(mbs, bearing):
         if tuple(axis) != (0, 0, 1):
             raise InputError(f"axis = {tuple(axis)}: allowed between planar bodies is (0, 0, 1)")
-        joint = PlanarJoint(_planar_end(mbs, journal), _planar_end(mbs, bearing), pairs)
+        joint = PlanarJoint(planar_end(mbs, journal), planar_end(mbs, bearing), pairs)
     else:
-        joint = SpatialRevolute(_end(mbs, journal), _end(mbs, bearing), axis, pairs)
+        joint = SpatialRevolute(spatial_end(mbs, journal), spatial_end(mbs, bearing), axis, pairs)
     overlay_of(mbs).add(joint)
     return joint
-
-
-def _in_plane(mbs: exu.MainSystem, point: BodyPoint) -> bool:
-    """Return whether a point belongs to a planar body or, in the plane, to the ground."""
-    if isinstance(point, FlexiblePoint):
-        return False
-    kind = mbs.GetObject(point[0])["objectType"]
-    planar = kind in ("RigidBody2D", "Mass1D", "RotationalMass1D")
-    return planar or (kind == "Ground" and (len(point[1]) < 3 or point[1][2] == 0))
-
-
-def _planar_end(mbs: exu.MainSystem, point: BodyPoint) -> PlanarEnd:
-    """Return the end on a planar body or the ground.
-
-    Raises:
-        InputError: a body of one coordinate is tilted, or moves neither along x nor along y.
-    """
-    assert not isinstance(point, FlexiblePoint)
-    body, place = point
-    item = mbs.GetObject(body)
-    local = (float(place[0]), float(place[1]))
-    overlay = overlay_of(mbs)
-    still = overlay.index_of(None)
-    indices = still, still + 1, still + 2
-    if item["objectType"] == "Ground":
-        x, y, _ = (float(value) for value in item["referencePosition"])
-        return PlanarEnd(indices, (x, y, 0.0), local)
-    node = int(item["nodeNumber"])
-    first = overlay.index_of(node)
-    start = [float(v) for v in mbs.GetNodeParameter(node, "referenceCoordinates")]
-    if item["objectType"] == "RigidBody2D":
-        x, y, angle = start
-        return PlanarEnd((first, first + 1, first + 2), (x, y, angle), local)
-    rotation = np.array(item["referenceRotation"])
-    if rotation[2, 2] != 1.0:
-        raise InputError(f"body {body} is tilted: allowed in the plane is its z along the global z")
-    x, y, _ = (float(value) for value in item["referencePosition"])
-    angle = math.atan2(rotation[1, 0], rotation[0, 0])
-    if item["objectType"] == "RotationalMass1D":
-        return PlanarEnd((indices[0], indices[1], first), (x, y, angle + start[0]), local)
-    reference = x + start[0] * float(rotation[0, 0]), y + start[0] * float(rotation[1, 0]), angle
-    if tuple(rotation[:2, 0]) == (1.0, 0.0):
-        return PlanarEnd((first, indices[1], indices[2]), reference, local)
-    if tuple(rotation[:2, 0]) == (0.0, 1.0):
-        return PlanarEnd((indices[0], first, indices[2]), reference, local)
-    raise InputError(f"body {body} moves at {math.degrees(angle):g} deg: allowed are 0 (x), 90 (y)")
-
-
-def _end(mbs: exu.MainSystem, point: BodyPoint) -> BodyEnd:
-    """Return the end on a body of any kind."""
-    flexible = point if isinstance(point, FlexiblePoint) else None
-    body, place = (
-        (point.body, point.centre) if isinstance(point, FlexiblePoint) else (point[0], point[1])
-    )
-    item = mbs.GetObject(body)
-    local = np.zeros(3)
-    local[: len(place)] = place
-    kind = item["objectType"]
-    if kind == "Ground":
-        local += item["referencePosition"]
-        return BodyEnd("Ground", 0, np.zeros(0), local)
-    if flexible is not None and kind == "FFRFreducedOrder":
-        rigid, modal = (int(node) for node in item["nodeNumbers"])
-    elif flexible is None and kind in ("RigidBody", "RigidBody2D"):
-        rigid, modal = int(item["nodeNumber"]), None
-    else:
-        raise InputError(
-            f"body {body} is a {kind}: allowed are RigidBody, RigidBody2D, Ground and, between "
-            "bodies in the plane, Mass1D and RotationalMass1D with a point of theirs, and "
-            "FFRFreducedOrder with a FlexiblePoint"
-        )
-    node_kind = mbs.GetNode(rigid)["nodeType"]
-    if node_kind not in NODES:
-        raise InputError(f"body {body} has a {node_kind} node: allowed are {', '.join(NODES)}")
-    reference = np.array(mbs.GetNodeParameter(rigid, "referenceCoordinates"), dtype=float)
-    index = overlay_of(mbs).index_of(rigid)
-    if flexible is None or modal is None:
-        return BodyEnd(node_kind, index, reference, local)
-    modes = (overlay_of(mbs).index_of(modal), flexible.translation, flexible.rotation)
-    return BodyEnd(node_kind, index, reference, local, modes)

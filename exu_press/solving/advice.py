@@ -1,0 +1,146 @@
+"""What a scene's run is told when it stops early: crank angles, and the keys to change."""
+
+import math
+
+from exu_press.integrate import Advice
+from exu_press.integrate.outcome import Unresolved
+from exu_press.integrate.problem import Problem
+from exu_press.joints.joint import ClearanceJoint
+from exu_press.scene import IdealJoint, LubricatedJoint, mechanism_of
+from exu_press.scene.applied import applied_loads
+from exu_press.scene.warnings import doubtful_sizes
+from exu_press.solving.assembled import Assembled
+from exu_press.solving.impact_steps import impact_steps
+
+__all__ = ["SceneAdvice", "leapt_over_load"]
+
+THIN = 1e-6
+"""m; the damping of a film of 1e-7 m, 1e17 N s/m, makes 10 N of a speed's last digit."""
+
+WIDE_CIRCLE = 0.3
+"""Of the friction circle's radius, in crank radii."""
+
+STEPS_IN_AN_EDGE = 5.0
+"""So many fixed steps in the steepest edge of a load: a peak, which may lie between two of them, is
+then missed by a tenth at most."""
+
+
+class SceneAdvice(Advice):
+    """The scene's words: crank angles, and the keys to change."""
+
+    def __init__(self, model: Assembled, problem: Problem, by_tolerance: bool) -> None:
+        """Speak of a scene's model."""
+        super().__init__(problem, by_tolerance)
+        self._model, self._scene = model, model.scene
+
+    @property
+    def setting(self) -> str:
+        """What makes steps larger or smaller."""
+        return f"solver.{super().setting}"
+
+    def place(self, time: float) -> str:
+        """Return time and crank angle."""
+        scene = self._scene
+        if scene.drive is not None:  # the angle is not known from the time
+            return super().place(time)
+        degrees = math.degrees(scene.start_angle + scene.angular_speed * time) % 360.0
+        return f"{super().place(time)}, crank angle {degrees:.2f} deg"
+
+    def joint(self, joint: ClearanceJoint) -> str:
+        """Return a joint's name."""
+        for body, ends in self._model.ways.items():
+            if joint in ends:
+                return f"{body}'s guide"
+        return next(n for n, other in self._model.clearance_joints.items() if other is joint)
+
+    def film(self) -> str:
+        """Return what helps a film that broke down."""
+        slips = self._slips()
+        thicker = "film.at_contact = 'mixed', or a larger film.viscosity or film.length"
+        return f"what was meant instead of this: {slips}" if slips else thicker
+
+    def smallest(self) -> str:
+        """Return what helps where steps became too small."""
+        return "a larger solver.tolerance or a smaller solver.min_step"
+
+    def budget(self) -> str:
+        """Return what helps where too many steps were needed."""
+        return f"fewer revolutions, a larger {self.setting} or solver.max_steps"
+
+    def cause(self) -> str:
+        """Return that the pin seizes, a film is too thin or a size hardly meant, or nothing."""
+        slips = self._slips()
+        return self._seizing() + self._thin_film() + (f"; hardly meant: {slips}" if slips else "")
+
+    def resolution(self, worst: Unresolved) -> str:
+        """Return the step or the tolerance that resolves the impacts."""
+        solver = self._scene.solver
+        assert solver is not None
+        if solver.tolerance is not None:
+            return f"solver.tolerance = {0.1 * solver.tolerance:.0e}"
+        needed = min([0.5 * worst.step, *impact_steps(self._model)])
+        return f"solver.step = {_rounded_down(needed):.0e}"
+
+    def _slips(self) -> str:
+        """Return in words that a size is hardly meant, or nothing."""
+        return "; ".join(slip.partition(". ")[0] for slip in doubtful_sizes(self._scene))
+
+    def _seizing(self) -> str:
+        """Return in words which pin of the crank has a friction circle wide enough to seize.
+
+        Near dead centre the rod's force passes within it: friction then holds the pin fast,
+        whatever the force, and a crank that turns at constant speed makes it grow without bound.
+        """
+        scene = self._scene
+        for name, radius in mechanism_of(scene).crank_pins.items():
+            pin = scene.joints[name]
+            if isinstance(pin, IdealJoint) or pin.friction is None or pin.friction.law == "none":
+                continue
+            circle = pin.radius * math.sin(math.atan(pin.friction.mu_static))
+            if circle >= WIDE_CIRCLE * radius:
+                return (
+                    f"; the {name.replace('_', ' ')} seizes near dead centre (friction circle "
+                    f"{circle:.2g} m, crank radius {radius:.2g} m): try a smaller "
+                    f"friction.mu_static or joints.{name}.radius"
+                )
+        return ""
+
+    def _thin_film(self) -> str:
+        """Return in words that a film is so thin that rounding moves its forces, or nothing."""
+        for name, joint in self._scene.joints.with_clearance.items():
+            if isinstance(joint, LubricatedJoint) and joint.clearance < THIN:
+                return (
+                    "; a film this thin is too stiff for rounded speeds: try a larger "
+                    f"joints.{name}.clearance"
+                )
+        return ""
+
+
+def leapt_over_load(model: Assembled) -> str:
+    """Return in words that fixed steps are too long for a load, or nothing.
+
+    Steps by tolerance end on its corners.
+    """
+    scene, solver = model.scene, model.scene.solver
+    if solver is None or solver.step is None:
+        return ""
+    edges = {name: load.shortest_edge(scene) for name, load in applied_loads(scene).items()}
+    name = min(edges, key=edges.__getitem__, default="")
+    begin = model.next_corner(0.0)
+    if not name or begin >= scene.duration:
+        return ""
+    shortest = edges[name]
+    if solver.step <= shortest / STEPS_IN_AN_EDGE * (1.0 + 1e-9):
+        return ""
+    advice = SceneAdvice(model, Problem.of(model.mbs, None), False)
+    return (
+        f"under-resolved {advice.place(begin)}: steps of {solver.step:.2g} s in load.{name} with "
+        f"an edge of {shortest:.2g} s; peaks are the step's; try solver.step = "
+        f"{_rounded_down(shortest / STEPS_IN_AN_EDGE):.0e}"
+    )
+
+
+def _rounded_down(value: float) -> float:
+    """Return a value with one digit, not above it."""
+    power = 10.0 ** math.floor(math.log10(value))
+    return math.floor(value / power * (1.0 + 1e-9)) * power

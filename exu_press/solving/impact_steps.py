@@ -1,0 +1,93 @@
+"""Fixed steps that resolve the impacts of a run."""
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exu_press.joints import history, overlay_of
+from exu_press.laws.contact import NormalContact
+from exu_press.mechanism import GROUND
+from exu_press.scene import IdealJoint
+from exu_press.scene.laws import contact_law
+from exu_press.solving.assembled import Assembled
+
+__all__ = ["impact_steps"]
+
+Array = NDArray[np.float64]
+
+STEPS_IN_A_RISE = 3.0
+"""So many steps from first touch to the largest force resolve it to some percent."""
+
+
+def impact_steps(model: Assembled) -> Iterator[float]:
+    """Yield the steps that resolve the fastest impact of every joint whose surfaces may touch, s.
+
+    The impact of the lighter body alone: what hangs on it makes the true one slower.
+    """
+    scene = model.scene
+    if not any(joint.reach < math.inf for joint in model.clearance_joints.values()):
+        return
+    overlay = overlay_of(model.mbs)
+    held = {number: name for name, number in model.nodes.items()}
+    masses = {body.name: body.mass for body in model.mechanism.bodies} | {GROUND: math.inf}
+    if model.mechanism.crank in model.holding.pivoted:
+        masses[model.mechanism.crank] = math.inf  # driven
+    sensor = next(iter(model.sensors.values()))
+    time = np.asarray(model.mbs.GetSensorStoredData(sensor))[:, 0]
+    q, q_t = (
+        np.hstack(
+            [
+                np.asarray(model.mbs.GetSensorStoredData(model.sensors[held[node], level]))[:, 1:]
+                for node in overlay.nodes
+            ]
+        )
+        for level in ("position", "velocity")
+    )
+    for description in model.mechanism.joints:
+        joint, kind = model.clearance_joints.get(description.name), scene.joints[description.name]
+        if joint is None or isinstance(kind, IdealJoint) or kind.contact is None:
+            continue
+        states = history(joint, time, q, q_t)
+        apart = np.array([state.eccentricity for state in states])
+        moving = np.array([state.velocity for state in states])
+        distance = np.linalg.norm(apart, axis=1)
+        closing = (apart * moving).sum(axis=1) / np.maximum(distance, 1e-300)
+        free = distance <= joint.clearance
+        touches = free[:-1] & ~free[1:]
+        speed = float(closing[:-1][touches].max(initial=0.0))
+        if speed > 0.0:
+            law = contact_law(kind.contact, joint.clearance, revolute=not description.spherical)
+            mass = min(masses[description.journal], masses[description.bearing])
+            yield _rise_time(law, mass, speed) / STEPS_IN_A_RISE
+
+
+def _rise_time(contact: NormalContact, mass: float, speed: float) -> float:
+    """Return how long it takes from first touch to the largest force, s.
+
+    Args:
+        contact: law of the normal force.
+        mass: of a free body, kg.
+        speed: at which it arrives, m/s.
+    """
+    from scipy.integrate import solve_ivp  # type: ignore[import-untyped, unused-ignore]
+
+    def motion(_time: float, state: Array) -> list[float]:
+        return [state[1], -contact.force(state[0], state[1], speed)[0] / mass]
+
+    def stopped(_time: float, state: Array) -> float:
+        return float(state[1])
+
+    stopped.terminal = True  # type: ignore[attr-defined]
+    impact = solve_ivp(
+        motion,
+        (0.0, 1.0),
+        (0.0, speed),
+        "LSODA",
+        events=stopped,
+        rtol=1e-6,
+        atol=(1e-15, 1e-9 * speed),
+    )
+    forces = [contact.force(d, v, speed)[0] for d, v in impact.y.T]
+    return float(impact.t[int(np.argmax(forces))])

@@ -1,0 +1,97 @@
+"""What a scene asks for, in the integrator's terms."""
+
+import dataclasses
+import math
+
+import exudyn as exu
+
+from exu_press.integrate import Outcome, Scales, Status, Tuning, solve_dynamic
+from exu_press.scene import Scene, mechanism_of
+from exu_press.solving.advice import SceneAdvice, leapt_over_load
+from exu_press.solving.assembled import Assembled
+
+__all__ = ["DEFAULTS", "largest_step", "scales", "settings_for", "solve"]
+
+DEFAULTS = Tuning()
+
+FALL = 0.03
+"""Of free fall's acceleration, what counts as usual at least where there is clearance: parts fall
+through it, however slowly the crank turns. Asked for less (below 30 rpm), Newton's method iterates
+on what rounding leaves: at 0.01 rpm a hundred times for each step of 1e-4 s."""
+
+
+def solve(model: Assembled, *, tuning: Tuning = DEFAULTS, quiet: bool = True) -> Outcome:
+    """Run a model to its end time or to an early stop; what was computed stays in its sensors.
+
+    Args:
+        model: of a scene; items that were added to `model.mbs` and assembled take part.
+        tuning: the numbers of step control, to vary them.
+        quiet: False shows the progress on standard error.
+    """
+    scene = model.scene
+    solver = scene.solver
+    assert solver is not None
+    masses = {body.name: body.mass for body in model.mechanism.bodies}
+    outcome = solve_dynamic(
+        model.mbs,
+        settings_for(scene, twice=model.holding.twice),
+        tolerance=solver.tolerance,
+        scales=scales(scene),
+        next_corner=model.next_corner,
+        # modes and drive: no say
+        bodies={node: (name, masses.get(name, math.inf)) for name, node in model.nodes.items()},
+        advice=lambda problem, by_tolerance: SceneAdvice(model, problem, by_tolerance),
+        tuning=tuning,
+        max_steps=solver.max_steps,
+        quiet=quiet,
+    )
+    leapt = leapt_over_load(model) if outcome.status is Status.COMPLETED else ""
+    if leapt:
+        return dataclasses.replace(outcome, status=Status.UNDER_RESOLVED, reason=leapt)
+    return outcome
+
+
+def settings_for(scene: Scene, *, twice: bool = False) -> exu.SimulationSettings:
+    """Return Exudyn's settings of a scene, for constraints some of which may be redundant.
+
+    A fixed step is the largest one not above `solver.step` that divides the run's duration.
+    """
+    solver = scene.solver
+    assert solver is not None
+    settings = exu.SimulationSettings()
+    integration = settings.timeIntegration
+    steps = math.ceil(scene.duration / largest_step(scene) * (1.0 - 1e-12))
+    integration.numberOfSteps = max(1, steps)
+    integration.endTime = scene.duration
+    integration.minimumStepSize = solver.min_step
+    integration.verboseMode = 0
+    integration.generalizedAlpha.spectralRadius = solver.spectral_radius
+    # For the 20 to 160 unknowns here no slower than the sparse one, and its matrix is read at once.
+    settings.linearSolver.solverType = exu.LinearSolverType.EigenDense
+    settings.linearSolver.ignoreSingularJacobian = twice
+    settings.solution.file.write = False
+    settings.solution.sensors.writePeriod = 0.0  # every step
+    return settings
+
+
+def largest_step(scene: Scene) -> float:
+    """Return the fixed step, or the largest one that a tolerance may lead to, s."""
+    solver = scene.solver
+    assert solver is not None
+    return solver.step or math.radians(solver.max_step_deg) / scene.angular_speed
+
+
+def scales(scene: Scene) -> Scales:
+    """Return the crank pin's speed, and what its acceleration takes of all bodies.
+
+    With a slow crank, the speed at which a journal has fallen through its clearance.
+    """
+    mechanism = mechanism_of(scene)
+    play = 0.0 if scene.guide is None else scene.guide.clearance or 0.0
+    widest = max([play, *(joint.clearance for joint in scene.joints.values())])
+    usual = scene.angular_speed * scene.pin_speed
+    return Scales(
+        speed=max(scene.pin_speed, math.sqrt(4.0 * scene.gravity * widest)),
+        force=sum(body.mass for body in mechanism.bodies)
+        * max(usual, FALL * scene.gravity if widest else 0.0),
+    )

@@ -14,7 +14,8 @@ from exudyn.itemInterface import (
     MarkerBodyRigid,
     MarkerNodeCoordinate,
     ObjectConnectorCoordinate,
-    ObjectJointGeneric,
+    ObjectConnectorDistance,
+    ObjectJointRevolute2D,
     ObjectJointSpherical,
 )
 from exudyn.rigidBodyUtilities import (
@@ -43,6 +44,9 @@ __all__ = [
 ]
 
 Array = NDArray[np.float64]
+
+DRIVEN = ("driven", "driven rim")
+"""Points of the crank that move with the face that is driven: on the shaft's axis, and beside."""
 
 OUT_OF_PLANE = (2, 4, 5)
 """Among a frame's coordinates: the height, and the Euler parameters of both tilts."""
@@ -128,6 +132,11 @@ def add_part(
             for number, face in enumerate(part.faces[joint.name] if body == name else ()):
                 along = float(part.reduced.interface(face).centre[2])
                 points[point_name(joint, number)] = face, (*part.place(point), along)
+    if part.drive:
+        driven = part.reduced.interface(part.drive)
+        x, y = part.place(mechanism.body(name).local(mechanism.shaft.at))
+        for driven_point, arm in zip(DRIVEN, (0.0, driven.arm), strict=True):
+            points[driven_point] = part.drive, (x + arm, y, float(driven.centre[2]))
     return add_flexible_body(
         mbs,
         part.reduced,
@@ -201,11 +210,32 @@ def hold_pivot(
 
 
 def hold_driven(mbs: exu.MainSystem, disc: int, body: FlexibleBody, part: PlacedPart) -> None:
-    """Turn a body by its driven face about its axis alone, as a disc (object number) turns."""
-    aligned = exu.HT().Set(RotationMatrixZ(-part.angle), [0.0, 0.0, 0.0])
-    turning = mbs.AddMarker(MarkerBodyRigid(bodyNumber=disc, localHT=aligned))
-    markers = [turning, body.add_marker(mbs, part.drive)]
-    mbs.AddObject(ObjectJointGeneric(markerNumbers=markers, constrainedAxes=[0, 0, 0, 0, 0, 1]))
+    """Turn a body by its driven face about its axis alone, as a disc turns that it carries there.
+
+    A link along the tangent passes a force on, whose opposite goes through the disc's pin: the face
+    feels a couple. A joint between frames would do the same with twice as many equations, and with
+    a marker that has three nodes.
+
+    Args:
+        mbs: the system.
+        disc: object number of the disc, which has next to no mass.
+        body: flexible.
+        part: of the body.
+    """
+    middle, rim = (np.array(body.places[point]) for point in DRIVEN)
+    height = [0.0, 0.0, float(middle[2])]
+    arm = RotationMatrixZ(-part.angle) @ (rim - middle)
+    end = height + arm + np.cross((0.0, 0.0, 1.0), arm)
+    pin, link = (
+        [
+            mbs.AddMarker(MarkerBodyRigid(bodyNumber=disc, localPosition=place)),
+            body.add_point_marker(mbs, point),
+        ]
+        for point, place in zip(DRIVEN, (height, end.tolist()), strict=True)
+    )
+    mbs.AddObject(ObjectJointRevolute2D(markerNumbers=pin))
+    length = float(np.linalg.norm(arm))
+    mbs.AddObject(ObjectConnectorDistance(markerNumbers=link, distance=length))
 
 
 def hold_upright(

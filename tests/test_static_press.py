@@ -91,7 +91,7 @@ def test_a_force_at_the_slider_moves_it_as_the_solids_give_way(crank_model):
     marker = mbs.AddMarker(MarkerBodyRigid(bodyNumber=model.bodies["slider"]))
     mbs.AddLoad(LoadForceVector(markerNumber=marker, loadVector=[0.0, FORCE, 0.0]))
     mbs.Assemble()
-    drive = mbs.GetNodeODE2Index(model.nodes[DRIVE])
+    drive = mbs.GetNodeODE2Index(model.nodes[DRIVE]) + model.rigid[DRIVE].coordinates.index("angle")
     q, _ = quasi_static_motion(mbs, model.drive, drive, scene.angular_speed)
     moved = float(q[mbs.GetNodeODE2Index(slider) + model.rigid["slider"].coordinates.index("y")])
 

@@ -43,8 +43,11 @@ RIGID_OR_MODAL = (
     "RigidBody",
     "RigidBody2D",
     "FFRFreducedOrder",
+    "ConnectorDistance",
 )
-"""Objects whose stiffness and damping, if they have any, belong to modes and do not change."""
+"""Objects whose stiffness and damping, if they have any, belong to modes and do not change.
+
+Constraints have none, and most are joints by their names."""
 
 
 @dataclass(frozen=True)

@@ -76,7 +76,7 @@ def _assembled(
         if joint.name in held
     }
     if system.flexible:
-        ideal |= hold_flexible_bodies(system)
+        ideal |= hold_flexible_bodies(system, start)
     guides = {
         guide.body: add_guide(system, guide)
         for guide in mechanism.guides

@@ -1,13 +1,18 @@
 """What turns the crank, and holds flexible bodies in space."""
 
+from collections.abc import Mapping
+
 from exudyn.itemInterface import LoadCoordinate, ObjectConnectorCoordinateSpringDamper
 
-from exu_press.mechanism import Body
+from exu_press.mechanism import Body, Motion
 from exu_press.mechanism.parts import DRIVE
 from exu_press.model.system import System
-from exu_press.rigid import PivotedBody
+from exu_press.rigid import RigidBody
 
 __all__ = ["add_drive", "hold_flexible_bodies", "turned_body"]
+
+DISC_MASS = 1e-3
+"""kg: what turns a flexible crank, on which it rests, weighs nothing; but masses are positive."""
 
 
 def add_drive(system: System) -> int:
@@ -33,8 +38,12 @@ def turned_body(system: System) -> str:
     return DRIVE if crank in system.flexible else crank
 
 
-def hold_flexible_bodies(system: System) -> dict[str, int]:
+def hold_flexible_bodies(system: System, start: Mapping[str, Motion]) -> dict[str, int]:
     """Hold flexible bodies in space; a flexible crank is driven by a disc.
+
+    Args:
+        system: with all bodies in it.
+        start: name -> motion at the start, where it is not the ideal mechanism's.
 
     Returns:
         name of a joint with the frame, numbered where it holds several faces -> object number.
@@ -46,7 +55,7 @@ def hold_flexible_bodies(system: System) -> dict[str, int]:
     for name, body in system.flexible.items():
         part = system.parts[name]
         if name == system.mechanism.crank:
-            _add_disc(system)
+            _add_disc(system, start.get(DRIVE))
             hold_driven(mbs, system.bodies[DRIVE], body, part)
         pivot = system.holding.pivoted.get(name)
         hold_upright(mbs, system.still, body, part, pivot)
@@ -55,12 +64,13 @@ def hold_flexible_bodies(system: System) -> dict[str, int]:
     return held
 
 
-def _add_disc(system: System) -> None:
-    """Add the disc that turns a flexible crank, on the shaft's axis."""
+def _add_disc(system: System, start: Motion | None) -> None:
+    """Add the disc that turns a flexible crank, on the shaft's axis unless that has moved."""
     crank = system.mechanism.body(system.mechanism.crank)
-    shaft = system.mechanism.shaft
-    start = system.ideal[crank.name].at(crank.local(shaft.at))
+    relaxed = system.ideal[crank.name].at(crank.local(system.mechanism.shaft.at))
     motor = system.scene.drive
     inertia = 1.0 if motor is None else motor.inertia
-    disc = PivotedBody(system.mbs, Body(DRIVE, 1.0, inertia), start, shaft.at, (0.0, 0.0))
-    system.take_in(DRIVE, disc)
+    disc = Body(DRIVE, DISC_MASS, inertia)
+    system.take_in(
+        DRIVE, RigidBody(system.mbs, disc, start or relaxed, reference=relaxed.position[0])
+    )

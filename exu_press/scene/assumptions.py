@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from typing import Any
 
+from exu_press.mechanism import Mechanism
 from exu_press.scene.joint import DEFAULT_KINDS, Joint
 from exu_press.scene.scene import OF_THE_COUNTERWEIGHT, OF_THE_WAYS, TABLES, Scene
 
@@ -108,6 +109,8 @@ def keys_of(scene: Scene) -> dict[str, Key]:
     found = {}
     for name, (value, field) in _flat(scene):
         default = kinds[name] if name in kinds else defaults.get(name, (None,))[0]
+        if isinstance(value, Mechanism):
+            value = f"{value.name}, the scene's own"
         meta = field.metadata
         found[name] = Key(name, value, default, meta["unit"], meta["meaning"])
     return found | _joint_keys(scene) | _body_keys(scene) | _load_keys(scene)

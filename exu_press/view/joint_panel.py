@@ -150,7 +150,7 @@ class JointPanel:
         distance = float(self._distance[step])
         gap = (1.0 - distance) * self._clearance * 1e6
         named = f"gap {gap:.1f} µm" if gap >= 0.0 else f"penetration {-gap:.2f} µm"
-        return f"e/c = {distance:.3f},  {named},  F = {_kilo(force)}"
+        return f"e/c = {distance:.3f},  {named},  F = {_in_newtons(force)}"
 
 
 def _journal_angle(result: Result, name: str) -> Array:
@@ -165,9 +165,11 @@ def _legend(body: str, largest: float, still: bool) -> str:
     what = (
         f"force on the {body}" if still else f"largest force on the {body} since the frame before"
     )
-    return f"F, arrow: {what},\nlength as its square root, full at {_kilo(largest)}"
+    return f"F, arrow: {what},\nlength as its square root, full at {_in_newtons(largest)}"
 
 
-def _kilo(force: float) -> str:
-    """Return a force in kN."""
+def _in_newtons(force: float) -> str:
+    """Return a force in kN, a small one in N."""
+    if abs(force) < 100.0:
+        return f"{force:.3g} N"
     return f"{force / 1e3:.3g} kN" if abs(force) < 9.995e5 else f"{force / 1e3:.0f} kN"

@@ -24,6 +24,9 @@ Array = NDArray[np.float64]
 MARKED = COLOURS["vermilion"]
 """Joints with clearance, here and magnified."""
 
+LINE = 0.04
+"""Of a panel's height, which a label takes."""
+
 EDGE = "#333333"
 STEEL = "#8A8A8A"
 
@@ -42,7 +45,6 @@ class MechanismPanel:
         high = np.vstack(list(everywhere.values())).max(axis=0)
         self._unit = unit = float(high[1] - low[1])
         _draw_frame(axes, mechanism, everywhere, unit)
-        _draw_labels(axes, mechanism, self._poses, float(high[0]), (low[1], high[1]))
         if mechanism.dead_centres is not None:
             _draw_dead_centres(axes, mechanism, everywhere[mechanism.slider], unit)
         axes.set_aspect("equal", adjustable="box", anchor="W")
@@ -51,6 +53,7 @@ class MechanismPanel:
             xlim=(low[0] - 0.03 * unit, high[0] + 0.33 * unit),
             ylim=(low[1] - 0.03 * unit, high[1] + 0.03 * unit),
         )
+        _draw_labels(axes, mechanism, self._poses, float(high[0]), unit)
         self._bodies: dict[str, Polygon] = {}
         for body in order:
             self._bodies[body.name] = patch = Polygon(
@@ -165,21 +168,22 @@ def _draw_labels(
     mechanism: Mechanism,
     places: dict[str, Array],
     right: float,
-    span: tuple[float, float],
+    unit: float,
 ) -> None:
     """Name the bodies at the right, each once, with a line to it."""
-    height = span[1] - span[0]
+    panel = axes.get_window_extent()
+    drawn = max(np.ptp(axes.get_ylim()), np.ptp(axes.get_xlim()) * panel.height / panel.width)
     named = {
         joint_in_words(name.removesuffix("_right")).lower(): places[name].mean(axis=0)[:2]
         for name in (body.name for body in mechanism.bodies)
         if not name.endswith("_left")
     }
-    heights = _spread([place[1] for place in named.values()], 0.042 * height)
+    heights = _spread([place[1] for place in named.values()], LINE * drawn)
     for (words, place), y in zip(named.items(), heights, strict=True):
         axes.annotate(
             words,
             place,
-            (right + 0.12 * height, y),
+            (right + 0.12 * unit, y),
             fontsize=8.5,
             va="center",
             arrowprops={"arrowstyle": "-", "color": "#9A9A9A", "linewidth": 0.6},

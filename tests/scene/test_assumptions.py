@@ -4,6 +4,7 @@ import re
 import pytest
 
 from exu_press import Scene
+from exu_press.mechanism import shipped_mechanism
 from exu_press.scene import BlankingLoad
 from exu_press.scene.assumptions import ASSUMPTIONS, assumed_line, keys_of, used_assumptions
 from exu_press.scene.scene import TABLES
@@ -99,3 +100,8 @@ def test_only_what_differs_counts_as_given(scene, changed):
 
 def test_nothing_to_assume_is_no_line():
     assert assumed_line(Scene(joints={"crank_pin": "ideal", "balls": "ideal"})) == ""
+
+
+def test_a_mechanism_of_ones_own_is_named_in_the_keys():
+    scene = Scene(mechanism=shipped_mechanism("four_bar"), joints={})
+    assert keys_of(scene)["mechanism"].value == "four_bar, the scene's own"

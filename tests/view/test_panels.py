@@ -1,12 +1,16 @@
+from itertools import pairwise
+
 import numpy as np
 import pytest
+from matplotlib.text import Text
 
+from exu_press import Scene, simulate
 from exu_press.mechanism import GROUND
 from exu_press.mechanism.shapes import moved
 from exu_press.scene import mechanism_of
 from exu_press.view import instants
 from exu_press.view.curve_panel import CurvePanel
-from exu_press.view.joint_panel import CLEARANCE, JointPanel, _kilo
+from exu_press.view.joint_panel import CLEARANCE, JointPanel, _in_newtons
 from exu_press.view.mechanism_panel import MechanismPanel, poses
 
 
@@ -74,8 +78,8 @@ def test_no_impact_is_lost_between_frames(runs, animation):
 @pytest.mark.parametrize(
     ("newtons", "words"),
     [
-        (0.0, "0 kN"),
-        (12.345, "0.0123 kN"),
+        (0.0, "0 N"),
+        (12.345, "12.3 N"),
         (579_400.0, "579 kN"),
         (999_499.0, "999 kN"),
         (999_501.0, "1000 kN"),
@@ -84,7 +88,22 @@ def test_no_impact_is_lost_between_frames(runs, animation):
     ],
 )
 def test_forces_are_written_without_powers_of_ten(newtons, words):
-    assert _kilo(newtons) == words
+    assert _in_newtons(newtons) == words
+
+
+@pytest.mark.parametrize("mechanism", ["andrews_squeezer", "six_bar", "press"])
+def test_names_of_bodies_stand_clear_of_each_other(mechanism, animation):
+    result = simulate(Scene(mechanism=mechanism, joints={}, revolutions=0.01))
+    figure = animation(result, instants(result, frames=2)).figure
+    figure.draw_without_rendering()
+    names = {
+        body.name.removesuffix("_right").replace("_", " ")
+        for body in mechanism_of(result.scene).bodies
+    }
+    texts = [text for text in figure.findobj(Text) if text.get_text() in names]
+    assert len(texts) == len([name for name in names if not name.endswith("left")])
+    boxes = sorted((box.y0, box.y1) for box in (Text.get_window_extent(text) for text in texts))
+    assert all(top <= bottom for (_, top), (bottom, _) in pairwise(boxes))
 
 
 def test_the_arrow_points_along_the_force(runs, animation):

@@ -22,13 +22,11 @@ from setuptools import setup
 from setuptools.command.build_ext import build_ext
 
 MODULES = [
-    "integrate/ending",
+    "integrate/constraints",
     "integrate/error",
-    "integrate/local_error",
     "integrate/monitor",
     "integrate/newton",
     "integrate/scales",
-    "integrate/step_change",
     "integrate/stepping",
     "joints/ends",
     "joints/overlay",

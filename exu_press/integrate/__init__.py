@@ -2,7 +2,7 @@
 
 from exu_press.integrate.outcome import Advice, Outcome, Status
 from exu_press.integrate.scales import Scales
+from exu_press.integrate.settings import Tuning
 from exu_press.integrate.solve import solve_dynamic
-from exu_press.integrate.tuning import Tuning
 
 __all__ = ["Advice", "Outcome", "Scales", "Status", "Tuning", "solve_dynamic"]

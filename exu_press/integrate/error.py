@@ -1,23 +1,270 @@
-"""The local error of a step, relative to the tolerance and to the mechanism's own scales."""
+"""What one step misses, over what it may; compiled like the joints.
+
+Bodies' velocities, clearance joints' eccentricities and first-order coordinates; 1 is what a step
+may miss, and `ErrorPerStep` says how much that is of the run's tolerance.
+"""
 
 import math
+from dataclasses import dataclass
 from typing import Any
 
 import exudyn as exu
 import numpy as np
 
-from exu_press.integrate.local_error import BodyError, ErrorPerStep, FirstOrderError, JointError
 from exu_press.integrate.problem import Problem
 from exu_press.integrate.scales import FoundScales
-from exu_press.integrate.tuning import Tuning
+from exu_press.integrate.settings import Tuning
+from exu_press.joints.joint import ClearanceJoint
 
-__all__ = ["StepError"]
+__all__ = ["BodyError", "ErrorPerStep", "FirstOrderError", "JointError", "StepError"]
 
 CURRENT = exu.ConfigurationType.Current
 START = exu.ConfigurationType.StartOfStep
 
 EPSILON = 1.1e-16
 """Last digit of a number, over it."""
+
+LEAST_PENETRATION = 1e-3
+"""Over the clearance, up to which a penetration counts as this."""
+
+SAME = 1e-6
+"""Steps that differ by less, relative, are one size: the clock's last digits."""
+
+
+@dataclass(frozen=True)
+class ErrorPerStep:
+    """What a step may be off by, relative, so that the run is off by its tolerance.
+
+    Generalized-alpha is of second order: its local error goes with h^3, and a run needs about
+    tolerance^(-1/2) steps. So that the error of the whole run follows the tolerance, one step may
+    have tolerance^(3/2). With clearance joints it may have a hundredth of the tolerance at least,
+    as below 1e-4 impacts become no more.
+
+    A run of many more steps adds more errors up: all of them where a phase drifts, none where the
+    motion is damped or driven. In between, as for errors of either sign, a step may have less by
+    the root of how many steps of its size the run would take, over what is usual.
+
+    Attributes:
+        whole: what a step may have in a run of a usual number of steps.
+        shortest: step of such a run, s; 0.0 lets all steps have the whole.
+    """
+
+    whole: float
+    shortest: float = 0.0
+
+    @classmethod
+    def of(
+        cls, tolerance: float, duration: float, many_steps: float, impacts: bool
+    ) -> "ErrorPerStep":
+        """Return what the steps of a run may miss.
+
+        Args:
+            tolerance: of the run.
+            duration: of the run, s.
+            many_steps: times tolerance^(-1/2), the largest usual number of steps.
+            impacts: whether there are clearance joints.
+        """
+        whole = math.pow(tolerance, 1.5)
+        if impacts:
+            return cls(max(whole, 1e-2 * tolerance))
+        return cls(whole, duration * math.sqrt(tolerance) / many_steps)
+
+    def at(self, step: float) -> float:
+        """Return what a step (s) may have."""
+        return self.whole if step >= self.shortest else self.whole * math.sqrt(step / self.shortest)
+
+
+class BodyError:
+    """Tells from the accelerations at three instants what a step missed; 1 is what it may.
+
+    h^3 |second derivative of the acceleration| / 6 against what velocities may be off by; the
+    largest of all bodies, in the kinetic norm sqrt(|dx|^2 + (J/m) dphi^2).
+
+    Attributes:
+        change: of the accelerations' rate, by the step last tried, in SI over seconds.
+    """
+
+    def __init__(
+        self,
+        accelerations: list[float],
+        per_step: ErrorPerStep,
+        scales: FoundScales,
+        tuning: Tuning,
+        noise: float,
+    ) -> None:
+        """Take the bodies and the scales.
+
+        Args:
+            accelerations: of all coordinates, at the beginning of the first step.
+            per_step: what a velocity may be off by in one step, over the scale of speeds.
+            scales: of the motion, which knows the bodies.
+            tuning: numbers.
+            noise: what rounded positions make of accelerations, times the step's square, m.
+        """
+        self._scales, self._per_step = scales, per_step
+        self._noise = noise
+        self._constant = tuning.velocity_constant
+        self._before = self._now = accelerations
+        self._rate_before: list[float] = []  # none before the first step
+        self._rate: list[float] = []
+        self.change: list[float] = []
+        self._bend: list[float] = []  # second derivative of the accelerations
+        self._bend_before: list[float] = []
+        self._step = self._step_before = 0.0
+        self._common = self._common_before = 0.0  # of the bends of two steps, its largest norm
+        self._most = 0.0  # acceleration so far, m/s^2
+
+    def tried(self, now: list[float], step: float) -> float:
+        """Return the error of a step (s) that ends with these accelerations."""
+        self._now = now
+        before, last = self._before, self._rate_before
+        self._rate = rate = [(now[i] - before[i]) / step for i in range(len(now))]
+        if last:
+            self.change = [rate[i] - last[i] for i in range(len(rate))]
+        else:
+            part = step * self._part_changed(rate)
+            self.change = [part * value for value in rate]
+        return self.error(self.change, step)
+
+    def _part_changed(self, rate: list[float]) -> float:
+        """Return the rate of the accelerations, in the first step, over them: at most one a step.
+
+        What it changes by within the step is not known yet: as much as the accelerations do.
+        """
+        change, largest = self.largest_of(rate), self.largest()
+        return change / largest if change > 0.0 else 0.0
+
+    def error(self, change: list[float], step: float) -> float:
+        """Return the error that goes with a change of the accelerations' rate."""
+        limit = max(
+            self._per_step.at(step) * self._scales.speed, self._constant * self._noise / step
+        )
+        return self._constant * step * step * self.largest_of(change) / limit
+
+    def of_jump(self) -> float:
+        """Return the largest change of an acceleration in the step last tried, m/s^2."""
+        return self.largest_of([a - b for a, b in zip(self._now, self._before, strict=True)])
+
+    def largest(self) -> float:
+        """Return the largest acceleration at the two ends of the step last tried, m/s^2."""
+        return max(self.largest_of(self._now), self.largest_of(self._before))
+
+    def offset(self, step: float) -> float:
+        """Return what velocities that constraints prescribe are off by at each instant, m/s.
+
+        They follow from two positions: h^2 |rate of the acceleration| / 12.
+        """
+        return step * step * self.largest_of(self._rate) / 12.0
+
+    def curvature(self, step: float, tolerance: float) -> float:
+        """Return what accelerations are off a line between a step's ends, over what they may.
+
+        That is a tolerance of the largest. What alternates from step to step is none of the
+        motion's, and a jump does not shrink with the step: what two steps of one size have in
+        common counts, and in a step of another size what the last two had.
+        """
+        self._step, self._bend = step, [value / step for value in self.change]
+        self._common = self._common_before
+        if self._bend_before and abs(step - self._step_before) < SAME * step:
+            last = self._bend_before
+            mean = [0.5 * (a + b) for a, b in zip(self._bend, last, strict=True)]
+            smaller = min(map(self.largest_of, (self._bend, last)))
+            self._common = min(self.largest_of(mean), 3.0 * smaller)
+        off = 0.125 * step * step * self._common
+        return off / max(tolerance * self._most, self._noise / (step * step))
+
+    def accept(self) -> None:
+        """Remember the accepted step's end as the next one's beginning."""
+        self._step_before, self._common_before = self._step, self._common
+        self._bend_before = self._bend if self._rate_before else []
+        self._most = max(self._most, self.largest())
+        self._before, self._rate_before = self._now, self._rate
+
+    def largest_of(self, vector: list[float]) -> float:
+        """Return the largest kinetic norm of a body; what has no say may be no number."""
+        largest = 0.0
+        for square in self._scales.squares(vector):
+            largest = max(largest, square)
+        return math.sqrt(largest)
+
+
+class JointError:
+    """The eccentricity's error of one clearance joint: its way less that of its velocities.
+
+    See `exu_press.joints.path`. Where surfaces touch, its part across them is an error of the
+    penetration, and held against that too.
+    """
+
+    def __init__(
+        self,
+        joint: ClearanceJoint,
+        limit: float,
+        drift: float,
+        rounding: float,
+        tuning: Tuning,
+    ) -> None:
+        """Take a joint and its scales.
+
+        Args:
+            joint: whose eccentricity is looked at.
+            limit: the error of a step that counts as 1, m.
+            drift: the same over the step, m/s, where a film alone lies between the surfaces: it
+                keeps what each step leaves, always on the same side, so that errors add up.
+            rounding: of positions, as it alternates, m; no error below it counts as 1.
+            tuning: numbers.
+        """
+        self._joint = joint
+        self._limit = limit
+        self._rounding = rounding
+        self._penetration = tuning.penetration
+        self._drift = drift if joint.reach == math.inf else math.inf
+
+    def error(self, step: float, left: float = 0.0) -> float:
+        """Return the error of a step (s) that ends where the joint was last asked for its force.
+
+        Args:
+            step: s.
+            left: what its constraints leave open of positions, m.
+        """
+        joint, rounding = self._joint, max(self._rounding, left)
+        place = joint.eccentricity
+        missed, along = joint.path.missed(place, joint.relative_velocity, step)
+        error = missed / max(min(self._limit, self._drift * step), rounding)
+        depth = math.hypot(*place) - joint.reach
+        if depth > 0.0:
+            relative = max(LEAST_PENETRATION, self._penetration * depth / joint.clearance)
+            error = max(error, abs(along) / max(relative * self._limit, rounding))
+        return error
+
+
+class FirstOrderError:
+    """What the trapezoidal rule misses: h^3 |y'''| / 12, over each coordinate's largest value."""
+
+    def __init__(self, data: Any, per_step: ErrorPerStep) -> None:
+        """Take the system's data, and what one step may miss, relative."""
+        self._data, self._per_step = data, per_step
+        self._before = np.array(data.GetODE1Coordinates_t(START, False))
+        self._largest = np.abs(np.array(data.GetODE1Coordinates(START, False)))
+        self._change: Any = None  # of the rate, over the step, in the step before
+        self._tried: tuple[Any, Any] = self._before, None
+
+    def error(self, step: float) -> float:
+        """Return the error of a step (s) that ends in the current state."""
+        rate = np.array(self._data.GetODE1Coordinates_t(CURRENT, False))
+        change = (rate - self._before) / step
+        self._tried = rate, change
+        if self._change is None:
+            return 0.0
+        missed = step * step * np.abs(change - self._change) / 12.0
+        largest = np.maximum(self._largest, step * np.abs(rate))
+        counts = largest > 0.0
+        return float((missed[counts] / largest[counts]).max(initial=0.0)) / self._per_step.at(step)
+
+    def accept(self) -> None:
+        """Remember the accepted step's end as the next one's beginning."""
+        self._before, self._change = self._tried
+        values = np.abs(np.array(self._data.GetODE1Coordinates(CURRENT, False)))
+        self._largest = np.maximum(self._largest, values)
 
 
 class StepError:

@@ -18,7 +18,7 @@ import exudyn as exu
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.integrate.tuning import Tuning
+from exu_press.integrate.settings import Tuning
 from exu_press.joints.overlay import JointOverlay
 
 __all__ = ["FlexibleJacobian"]

@@ -22,13 +22,22 @@ import numpy as np
 from exu_press.integrate.flexible_jacobian import FlexibleJacobian
 from exu_press.integrate.problem import Node
 from exu_press.integrate.scales import FoundScales
-from exu_press.integrate.tuning import Tuning
+from exu_press.integrate.settings import Tuning
 from exu_press.joints.overlay import JointOverlay
 
 __all__ = ["Newton"]
 
 CURRENT = exu.ConfigurationType.Current
 START = exu.ConfigurationType.StartOfStep
+
+BALANCE = 0.2
+"""Of the tolerance, to which part of the usual forces Newton's method balances them."""
+
+PATIENCE = 4
+"""Newton iterations after which rounding is thought of; most steps take one or two."""
+
+REACH = 2.0
+"""Over the last step, how far ahead its rate of change is believed by the predictor."""
 
 
 class Newton:
@@ -64,9 +73,8 @@ class Newton:
         """
         self.data: Any = mbs.systemData
         self._solver, self._joints = solver, joints
-        self._scales, self._part = scales, tuning.balance * tolerance
-        self._patience, self._rounding = tuning.patience, tuning.rounding
-        self._reach = tuning.reach
+        self._scales, self._part = scales, BALANCE * tolerance
+        self._rounding = tuning.rounding
         self._jacobian, self._kept_balance = jacobian, tuning.kept_balance
         self._quaternions = [self._reference(node) for node in nodes if node.quaternion]
         self._weights: tuple[float, float, float] | None = None
@@ -93,7 +101,7 @@ class Newton:
             self._accept(self._begin_jacobian() * self._tolerance())
         elif iteration == 1 and self._jacobian is not None:
             self._jacobian.renew()
-        elif iteration == self._patience and self._joints is not None:
+        elif iteration == PATIENCE and self._joints is not None:
             rounding = self._rounding * self._joints.damping * self._scales.speed
             self._accept(max(self._tolerance(), rounding))
 
@@ -111,7 +119,7 @@ class Newton:
             ratio = (1.0 - solver.alphaF) / (1.0 - solver.alphaM)
             self._weights = ratio, solver.newmarkBeta, solver.newmarkGamma
         ratio, beta, gamma = self._weights
-        ahead, values = min(step, self._reach * self._last), self.now
+        ahead, values = min(step, REACH * self._last), self.now
         if self._rate:
             now, rate = self.now, self._rate
             values = [now[i] + ahead * rate[i] for i in range(len(rate))]

@@ -138,6 +138,11 @@ class FoundScales:
             found.append(total)
         return found
 
+    def squares(self, vector: list[float]) -> list[float]:
+        """Return the squares of each body's kinetic norm of a vector over all coordinates."""
+        sums = self._sums(vector)
+        return [s / m if m > 0.0 else 0.0 for s, m in zip(sums, self.masses, strict=True)]
+
     def alternating(self, rounding: float, alpha_f: float) -> float:
         """Return what rounded positions make of accelerations, times the step's square, m.
 

@@ -1,8 +1,13 @@
-"""Exudyn's settings for steps by tolerance, each with its reason; put back after the run."""
+"""The numbers of the integration, and what it needs in Exudyn's settings, each with its reason.
+
+`solve_dynamic(..., tuning=Tuning(safety=0.8))` varies a number; `scripts/ablation.py` prints what
+each of them buys in error and run time. Exudyn's settings are put back after the run.
+"""
 
 import math
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from typing import Any
 
 import exudyn as exu
@@ -10,7 +15,7 @@ import exudyn as exu
 from exu_press.errors import InputError
 from exu_press.integrate.problem import Problem
 
-__all__ = ["prepared", "refuse_unusable"]
+__all__ = ["Tuning", "prepared", "refuse_unusable"]
 
 RELATIVE_RESIDUAL = 1e-10
 """Of the first residual: where Newton's method ends if it cannot get further."""
@@ -19,6 +24,61 @@ TOLERANCES = 1e-8, 0.1
 """Between these a tolerance means something."""
 
 IMPLICIT = "GeneralizedAlpha"
+
+
+@dataclass(frozen=True)
+class Tuning:
+    """The numbers of step control, error estimate, predictor and step change.
+
+    All are ratios, unless a unit is named.
+
+    Attributes:
+        safety: error at which a step is aimed, of what it may be. The reserve saves repeated steps.
+        factor_max: by what a step is lengthened at most. Steps that grow by half swing about what
+            their errors ask for, and are a third more with a film.
+        factor_min: by what a step that failed is shortened at most.
+        first_step: first step over the largest one.
+        first_step_of_film: the same with a film, which takes up its load within a microsecond or
+            so: a longer step leaves an overshoot of 3 % in the first loads.
+        many_steps: times tolerance^(-1/2), the number of steps of a run from which on their errors
+            are taken to add up as errors of either sign do (`exu_press.integrate.error`).
+        velocity_constant: of generalized-alpha's local error h^3 times the second derivative of the
+            acceleration: 0.083 to 0.077 for spectral radii at infinity of 1 to 0.8, doubled.
+        rounding: of positions and speeds, over the largest one, in each step: times 1 / (1 -
+            spectral radius)^2, over the step's square, it is what alternates in accelerations.
+            Measured at radii of 0.8 and 0.9 and steps of 2 and 10 us on a governor of rods and
+            springs.
+        penetration: what a penetration may be off by, over itself, as a part of what an
+            eccentricity in free flight may be off by over the clearance. The impact that ends a
+            damped contact hands the error on a thousandfold.
+        kept_steps: within so many of the longest steps, 45 degrees of the crank, errors that a film
+            keeps may add up to the tolerance.
+        jacobian_steps: of one size, which one Jacobian of flexible bodies serves at most.
+        kept_balance: to which part of what is usual a kept Jacobian is to balance the forces.
+        refit: a step shorter than this, over the one that constrained velocities fit, makes them
+            fit anew.
+        largest_jump: of an inertia force within one step, over the run's largest one, from where
+            the impacts are not resolved (`exu_press.integrate.monitor`).
+    """
+
+    safety: float = 0.4
+    factor_max: float = 1.2
+    factor_min: float = 0.05
+    first_step: float = 1.0 / 64.0
+    first_step_of_film: float = 1e-4
+    many_steps: float = 10.0
+
+    velocity_constant: float = 2.0 / 12.0
+    rounding: float = 4e-15
+    penetration: float = 0.0625
+    kept_steps: float = 30.0
+
+    jacobian_steps: int = 10
+    kept_balance: float = 0.3
+
+    refit: float = 0.35
+
+    largest_jump: float = 0.65
 
 
 def refuse_unusable(settings: exu.SimulationSettings, tolerance: float | None) -> None:

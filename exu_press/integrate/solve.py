@@ -8,26 +8,31 @@ from typing import Any
 import exudyn as exu
 from threadpoolctl import threadpool_limits
 
-from exu_press.integrate.constraints import Constraints
-from exu_press.integrate.ending import Resolution, how_it_ended
+from exu_press.integrate.constraints import (
+    LOOK_AHEAD,
+    Constraints,
+    StepChange,
+    fit_start,
+    start_rates,
+)
 from exu_press.integrate.error import StepError
 from exu_press.integrate.flexible_jacobian import FlexibleJacobian
-from exu_press.integrate.monitor import Monitor
+from exu_press.integrate.monitor import Monitor, Resolution
 from exu_press.integrate.newton import Newton
-from exu_press.integrate.outcome import Advice, Outcome
+from exu_press.integrate.outcome import Advice, Outcome, how_it_ended
 from exu_press.integrate.problem import Problem, weights
 from exu_press.integrate.scales import FoundScales, Scales
-from exu_press.integrate.settings import prepared, refuse_unusable
-from exu_press.integrate.start import fit_start, start_rates
-from exu_press.integrate.step_change import StepChange
+from exu_press.integrate.settings import Tuning, prepared, refuse_unusable
 from exu_press.integrate.stepping import FixedSteps, StepControl
-from exu_press.integrate.tuning import Tuning
 from exu_press.progress import Progress
 
 __all__ = ["solve_dynamic"]
 
 FIXED_STEPS = 5e-5
 """The tolerance whose Newton's method fixed steps have."""
+
+MOST_HALVED = 2.0**10
+"""How often over a fixed step is halved where Newton's method fails."""
 
 NO_SCALES = Scales()
 DEFAULTS = Tuning()
@@ -99,7 +104,7 @@ def solve_dynamic(
     smallest = integration.minimumStepSize
     room = 10.0 * smallest  # to repeat a film's first step in, before rounding shows
     if tolerance is None:
-        smallest = 2.0**-tuning.halvings * largest
+        smallest = largest / MOST_HALVED
     solver: Any = exu.MainSolverImplicitSecondOrder()  # whose type stub forgets `self`
     accuracy = FIXED_STEPS if tolerance is None else tolerance
     found = FoundScales(scales, problem.length)
@@ -152,7 +157,7 @@ def solve_dynamic(
             start_rates(mbs, solver)
         solver.ComputeMassMatrix(mbs)
         if tolerance is not None:  # within a fixed step, motions may change by less than rounding
-            ahead = tuning.look_ahead * largest
+            ahead = LOOK_AHEAD * largest
             fitted = fit_start(mbs, solver, constraints, problem.length, ahead)
             if fitted is not None:
                 step_change.start_from(*fitted)
@@ -201,7 +206,6 @@ def solve_dynamic(
     status, reason = how_it_ended(
         problem,
         monitor,
-        resolution,
         words,
         gone=(reached - start) / (end - start),
         time=reached,

@@ -10,10 +10,10 @@ from typing import Any
 
 import exudyn as exu
 
+from exu_press.integrate.constraints import StepChange
 from exu_press.integrate.error import StepError
 from exu_press.integrate.newton import Newton
-from exu_press.integrate.step_change import StepChange
-from exu_press.integrate.tuning import Tuning
+from exu_press.integrate.settings import Tuning
 
 __all__ = ["FixedSteps", "StepControl"]
 

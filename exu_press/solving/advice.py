@@ -3,7 +3,7 @@
 import math
 
 from exu_press.integrate import Advice
-from exu_press.integrate.outcome import Unresolved
+from exu_press.integrate.monitor import Unresolved
 from exu_press.integrate.problem import Problem
 from exu_press.joints.joint import ClearanceJoint
 from exu_press.scene import IdealJoint, LubricatedJoint, mechanism_of

@@ -10,9 +10,11 @@ from scipy.linalg import expm
 
 from exu_press import (
     InputError,
+    Scene,
     Status,
     add_dry_revolute,
     add_lubricated_revolute,
+    simulate,
     solve_dynamic,
 )
 from exu_press.laws.contact import hertz, hunt_crossley
@@ -302,3 +304,18 @@ def test_a_system_of_hundreds_of_coordinates():
     assert solve_dynamic(mbs, chosen).status is Status.COMPLETED
     fall = mbs.GetNodeOutput(node, exu.OutputVariableType.Displacement)[1]
     assert fall == pytest.approx(-0.5 * 9.81 * 0.1**2, rel=1e-6)
+
+
+@pytest.mark.parametrize("mechanism", ["slider_crank", "press"])
+def test_velocities_of_an_ideal_mechanism_follow_the_tolerance(mechanism):
+    errors = []
+    for tolerance in (1e-4, 1e-5, 2e-6):
+        scene = Scene(
+            mechanism=mechanism, joints={}, revolutions=0.5, solver={"tolerance": tolerance}
+        )
+        run = simulate(scene)
+        assert run.completed
+        motion = scene.build().mechanism.ideal_slider(run["crank_angle"], scene.angular_speed)
+        errors.append(np.abs(run["slider_velocity"] - motion[1]).max() / scene.pin_speed)
+    for error, tolerance in zip(errors, (1e-4, 1e-5, 2e-6), strict=True):
+        assert 0.1 * tolerance < error < 2.0 * tolerance

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
-from exu_press.integrate.local_error import BodyError, ErrorPerStep, JointError
+from exu_press.integrate.error import BodyError, ErrorPerStep, JointError
 from exu_press.integrate.scales import FoundScales, Scales
-from exu_press.integrate.tuning import Tuning
+from exu_press.integrate.settings import Tuning
 from exu_press.joints.path import Path
 
 TUNING = Tuning()

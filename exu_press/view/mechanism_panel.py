@@ -45,12 +45,15 @@ class MechanismPanel:
         high = np.vstack(list(everywhere.values())).max(axis=0)
         self._unit = unit = float(high[1] - low[1])
         _draw_frame(axes, mechanism, everywhere, unit)
+        left = float(low[0])
         if mechanism.dead_centres is not None:
-            _draw_dead_centres(axes, mechanism, everywhere[mechanism.slider], unit)
+            outline = everywhere[mechanism.slider]
+            _draw_dead_centres(axes, mechanism, outline, unit)
+            left = min(left, float(outline[:, 0].min()) - 0.09 * unit)
         axes.set_aspect("equal", adjustable="box", anchor="W")
         axes.set_axis_off()
         axes.set(
-            xlim=(low[0] - 0.03 * unit, high[0] + 0.33 * unit),
+            xlim=(left - 0.03 * unit, high[0] + 0.33 * unit),
             ylim=(low[1] - 0.03 * unit, high[1] + 0.03 * unit),
         )
         _draw_labels(axes, mechanism, self._poses, float(high[0]), unit)
@@ -156,11 +159,12 @@ def _draw_dead_centres(axes: Axes, mechanism: Mechanism, outline: Array, unit: f
     motion = mechanism.motion(np.linspace(0.0, 2.0 * np.pi, 721), 1.0)[mechanism.slider]
     heights = motion.position[:, 1]
     edge = float(outline[:, 1].max() - heights.max())
-    right = float(outline[:, 0].max())
+    left = float(outline[:, 0].min())
     for y, words, side in ((heights.max(), "TDC", "bottom"), (heights.min(), "BDC", "top")):
-        line = [right + 0.01 * unit, right + 0.035 * unit]
+        line = [left - 0.01 * unit, left - 0.035 * unit]
         axes.plot(line, [y + edge, y + edge], color=GREY, linewidth=0.9)
-        axes.text(line[1] + 0.006 * unit, y + edge, words, fontsize=7.5, color=GREY, va=side)
+        at = line[1] - 0.006 * unit, y + edge
+        axes.text(*at, words, fontsize=7.5, color=GREY, va=side, ha="right")
 
 
 def _draw_labels(

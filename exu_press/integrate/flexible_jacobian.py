@@ -6,9 +6,9 @@ are. What the frame's motion adds to them is less than a hundredth of the inerti
 masses, the clearance joints' slopes and the constraints' directions are those of the state at hand.
 
 To put the matrix together and factorise it takes nearly half of a step. So one serves several steps
-of one size, until an iteration with it does not balance the forces: the next one gets a fresh one,
-and so do some of the steps that follow, as where surfaces touch. Without clearance joints steps are
-long, and the constraints' directions change too much from one to the next.
+of one size; where an iteration with it does not balance the forces, the next one gets a fresh one.
+Without clearance joints steps are long, and the constraints' directions change too much from one to
+the next.
 """
 
 from contextlib import nullcontext
@@ -25,10 +25,6 @@ __all__ = ["FlexibleJacobian"]
 
 Array = NDArray[np.float64]
 
-
-MOST_FRESH = 8
-"""Steps in a row that are not tried with a kept one; so many after it has failed three times."""
-
 SAME = 1e-6
 """Steps that differ by less, relative, are one size: the clock's last digits."""
 
@@ -38,7 +34,6 @@ class FlexibleJacobian:
 
     Attributes:
         kept: whether the step under way is tried with that of an earlier one.
-        made: how many were put together.
     """
 
     def __init__(
@@ -53,25 +48,18 @@ class FlexibleJacobian:
             tuning: numbers.
         """
         self._solver, self._joints = solver, joints
-        self.kept, self.made = False, 0
+        self.kept = False
         self._most = 0 if joints is None else tuning.jacobian_steps
-        self._step, self._age = 0.0, 0  # size of the step that the last one was made for; since
-        self._failed = False
-        self._fresh = self._pause = 0  # steps to come, and after the last failure, with fresh ones
+        self._step, self._age = 0.0, 0  # the step that the last one was made for, and steps since
         self._bodies: Array | None = None
         self._jacobian: Array = np.zeros((0, 0))
         solver.SetUserFunctionComputeNewtonJacobian(mbs, self._compute)
 
     def begin_try(self) -> None:
         """Choose whether the step that is about to be tried starts with the one there is."""
-        if self.kept:
-            self._pause = min(MOST_FRESH, max(1, 2 * self._pause)) if self._failed else 0
-            self._fresh = self._pause
-        self._failed = False
         step = self._solver.it.currentStepSize
         same = abs(step - self._step) <= SAME * step
-        self.kept = same and self._fresh == 0 and self._age < self._most
-        self._fresh = max(0, self._fresh - 1)
+        self.kept = same and self._age < self._most
         self._age += 1
         self._solver.conv.jacobianUpdateRequested = not self.kept
 
@@ -87,8 +75,7 @@ class FlexibleJacobian:
             self._bodies = self._differentiated(solver, mbs)
             self._jacobian = np.zeros((size + solver.GetAEsize(),) * 2)
         step, jacobian = solver.it.currentStepSize, self._jacobian
-        self.made += 1
-        self._step, self._age, self._failed = step, 0, True
+        self._step, self._age = step, 0
         by_q, by_q_t = solver.newmarkBeta * step * step, solver.newmarkGamma * step
         inertia = (1.0 - solver.alphaM) / (1.0 - solver.alphaF)
         bodies = jacobian[:size, :size]

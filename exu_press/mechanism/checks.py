@@ -2,13 +2,15 @@
 
 import math
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from typing import Any
+from typing import Any, TypeVar
 
 from exu_press.checks import nearest
 from exu_press.errors import InputError
 from exu_press.mechanism.parts import DRIVE, GROUND, Body, Guide, Joint, Output
 
-__all__ = ["check"]
+__all__ = ["all_of", "check"]
+
+Kind = TypeVar("Kind")
 
 SHAPES = ("revolute", "spherical")
 
@@ -24,7 +26,17 @@ ACROSS = 1e-9
 """Cosine of two directions that counts as a right angle."""
 
 
+def all_of(kind: type[Kind], where: str, given: Any) -> tuple[Kind, ...]:
+    """Return what is given as a tuple; raise InputError for the first that is of another kind."""
+    found = tuple(given) if isinstance(given, Iterable) else (given,)
+    for each in found:
+        if not isinstance(each, kind):
+            raise InputError(f"{where}: {each!r:.80} is no {kind.__name__}, which alone is allowed")
+    return found
+
+
 def check(
+    name: str,
     bodies: Sequence[Body],
     joints: Sequence[Joint],
     guides: Sequence[Guide],
@@ -33,15 +45,17 @@ def check(
     groups: Mapping[str, Sequence[str]],
 ) -> None:
     """Raise InputError for the first thing that no mechanism can be made of."""
+    if not isinstance(name, str) or not name:
+        raise InputError(f"name = {name!r}: allowed is a text")
     names = [body.name for body in bodies]
     if not bodies:
         raise InputError("bodies: none; allowed is at least the crank")
     _once("bodies", names)
     _once("joints", [joint.name for joint in joints])
     _once("guides", [guide.body for guide in guides])
-    for name, what in TAKEN.items():
-        if name in names:
-            raise InputError(f"bodies.{name}: the name of what {what}; allowed is another one")
+    for taken, what in TAKEN.items():
+        if taken in names:
+            raise InputError(f"bodies.{taken}: the name of what {what}; allowed is another one")
     for body in bodies:
         where = f"bodies.{body.name}"
         _positive(f"{where}.mass", body.mass, "kg")

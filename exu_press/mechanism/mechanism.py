@@ -4,11 +4,12 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from exu_press.mechanism.assur import Drawing
-from exu_press.mechanism.checks import check
+from exu_press.mechanism.checks import all_of, check
 from exu_press.mechanism.kinematics import Kinematics, kinematics_of
 from exu_press.mechanism.motion import Array, Motion
 from exu_press.mechanism.parts import GROUND, Body, Guide, Joint, Output, Point
@@ -47,18 +48,28 @@ class Mechanism:
 
     def __post_init__(self) -> None:
         """Check the drawing, fill in the inertia of uniform rods, make directions unit vectors."""
-        check(self.bodies, self.joints, self.guides, self.crank, self.output, self.groups)
-        completed = {
-            "bodies": tuple(
+        self._set(
+            bodies=all_of(Body, "bodies", self.bodies),
+            joints=all_of(Joint, "joints", self.joints),
+            guides=all_of(Guide, "guides", self.guides),
+            output=all_of(Output, "output", [self.output])[0],
+        )
+        check(
+            self.name, self.bodies, self.joints, self.guides, self.crank, self.output, self.groups
+        )
+        self._set(
+            bodies=tuple(
                 replace(body, inertia=_rod_inertia(self, body))
                 if math.isnan(body.inertia)
                 else body
                 for body in self.bodies
             ),
-            "guides": tuple(replace(g, direction=_unit(g.direction)) for g in self.guides),
-            "output": replace(self.output, direction=_unit(self.output.direction)),
-        }
-        for name, value in completed.items():
+            guides=tuple(replace(g, direction=_unit(g.direction)) for g in self.guides),
+            output=replace(self.output, direction=_unit(self.output.direction)),
+        )
+
+    def _set(self, **values: Any) -> None:
+        for name, value in values.items():
             object.__setattr__(self, name, value)
 
     @property

@@ -1,6 +1,7 @@
 """Mechanism files: what is read, what is refused in one line, and the way back."""
 
 import tomllib
+from dataclasses import replace
 
 import pytest
 
@@ -142,6 +143,22 @@ def test_frames_that_are_turned_in_the_drawing_come_back_too():
 )
 def test_what_is_wrong_is_named_in_one_line(changes, shown):
     assert refusal(changed(*changes)).startswith(shown)
+
+
+def test_dataclasses_of_ones_own_are_checked_too():
+    drawn = mechanism_from(tomllib.loads(TEXT))
+    listed = replace(drawn, bodies=list(drawn.bodies), joints=list(drawn.joints))
+    assert listed == drawn and hash(listed) == hash(drawn)
+    for change, shown in (
+        ({"bodies": {"crank": 1.0}}, "bodies: 'crank' is no Body, which alone is allowed"),
+        ({"joints": ("shaft",)}, "joints: 'shaft' is no Joint"),
+        ({"guides": drawn.bodies}, "guides: Body("),
+        ({"output": "slider"}, "output: 'slider' is no Output"),
+        ({"name": ""}, "name = '': allowed is a text"),
+    ):
+        with pytest.raises(InputError) as caught:
+            replace(drawn, **change)
+        assert str(caught.value).startswith(shown)
 
 
 def test_a_body_on_nothing():

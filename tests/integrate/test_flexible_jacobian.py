@@ -57,7 +57,7 @@ def test_it_changes_the_cost_and_not_the_result(scene, monkeypatch):
     assert kept.completed and stock.completed
     peaks = [np.abs(run["slider_acceleration"]).max() for run in (kept, stock)]
     assert peaks[0] == pytest.approx(peaks[1], rel=0.02)
-    assert kept.info["newton_iterations"] < 1.1 * stock.info["newton_iterations"]
+    assert kept.info["newton_iterations"] < 1.2 * stock.info["newton_iterations"]
 
 
 def test_no_alternation_grows_from_what_newtons_method_leaves_in_the_constraints():

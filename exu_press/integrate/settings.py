@@ -23,6 +23,10 @@ RELATIVE_RESIDUAL = 1e-10
 TOLERANCES = 1e-8, 0.1
 """Between these a tolerance means something."""
 
+SWITCHED = 0.5
+"""Above it a switch is iterated on: Exudyn's GeneralContact says 1 where a contact has opened or
+closed, and its usual limit of 1 lets what has opened go on to pull."""
+
 IMPLICIT = "GeneralizedAlpha"
 
 
@@ -158,7 +162,7 @@ def prepared(settings: exu.SimulationSettings, problem: Problem, smallest: float
             {
                 "ignoreMaxIterations": False,
                 "maxIterations": discontinuous.maxIterations if problem.switching else 1,
-                "iterationTolerance": min(discontinuous.iterationTolerance, 1.0),
+                "iterationTolerance": min(discontinuous.iterationTolerance, SWITCHED),
                 "useRecommendedStepSize": True,
             },
         ),

@@ -165,6 +165,40 @@ def test_friction_of_exudyns_own_with_its_switching():
     assert ends[0] == pytest.approx(ends[1], abs=3e-4)  # of 0.4 m
 
 
+def rebound(start, stiffness, time):
+    """Speed of a mass that falls by `start` onto an elastic support, before its second impact."""
+    speed, root = (2.0 * 9.81 * start) ** 0.5, stiffness**0.5
+    sag = 9.81 / stiffness
+    lasts = (2.0 * np.pi - 2.0 * np.arctan(speed / (9.81 / root))) / root
+    assert abs(sag * (1.0 - np.cos(root * lasts)) + speed / root * np.sin(root * lasts)) < 1e-12
+    return speed - 9.81 * (time - speed / 9.81 - lasts)
+
+
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-3, 1e-4])
+def test_general_contact_of_exudyns_own_lets_go(tolerance):
+    """It counts a switch as 1, and with Exudyn's own limit of 1 the spheres went on to pull."""
+    mbs = exu.SystemContainer().AddSystem()
+    contact = mbs.AddGeneralContact()
+    contact.SetFrictionPairings(np.zeros((1, 1)))
+    contact.SetSearchTreeCellSize([2, 2, 2])
+    nodes = [
+        mbs.AddNode(items.NodePointGround()),
+        mbs.AddNode(items.NodePoint(referenceCoordinates=[0.0, 0.25, 0.0])),
+    ]
+    mbs.AddObject(items.ObjectMassPoint(nodeNumber=nodes[1], mass=1.0))
+    markers = [mbs.AddMarker(items.MarkerNodePosition(nodeNumber=node)) for node in nodes]
+    mbs.AddLoad(items.LoadForceVector(markerNumber=markers[1], loadVector=[0.0, -9.81, 0.0]))
+    for marker in markers:
+        contact.AddSphereWithMarker(
+            marker, radius=0.1, contactStiffness=1e4, contactDamping=0.0, frictionMaterialIndex=0
+        )
+    mbs.Assemble()
+    assert solve_dynamic(mbs, settings(0.2), tolerance=tolerance).status is Status.COMPLETED
+    speed = mbs.GetNodeOutput(nodes[1], exu.OutputVariableType.Velocity)[1]
+    expected = rebound(0.05, 0.5e4, 0.2)  # two springs in series
+    assert abs(speed - expected) < 3.0 * tolerance
+
+
 def test_clearance_joints_in_a_system_of_ones_own():
     """A rod falls into its bearing and swings: it passes below with 5/2 of its weight at least."""
     mbs, _ = pendulum(0.5, 10.0, joint="dry", force=0.35)

@@ -8,6 +8,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import Enum
+from typing import Any
 
 from exu_press.integrate.monitor import Monitor, Unresolved
 from exu_press.integrate.problem import Problem
@@ -99,7 +100,10 @@ class Advice:
 
     def cause(self) -> str:
         """Return what is known of the system that explains why it does not get on, or nothing."""
-        return ""
+        function: Any = self.problem.mbs.GetPreStepUserFunction()
+        if function == 0:
+            return ""
+        return " (a pre-step function that changes constraints: offsetUserFunction instead)"
 
     def resolution(self, worst: Unresolved) -> str:
         """Return what resolves a run that leapt over its impacts."""

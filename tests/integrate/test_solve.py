@@ -233,6 +233,30 @@ def test_functions_and_settings_of_the_user_take_part_and_stay():
     assert called["after"] > outcome.steps + 2, "it is still there"
 
 
+def test_constraints_that_a_pre_step_function_moves_are_named():
+    """Their offsets are those of a step's end, also when the step is repeated with another."""
+    mbs = exu.SystemContainer().AddSystem()
+    nodes = [
+        mbs.AddNode(items.NodePointGround()),
+        mbs.AddNode(items.NodePoint2D(referenceCoordinates=[1.0, 0.0])),
+    ]
+    mbs.AddObject(items.ObjectMassPoint2D(nodeNumber=nodes[1], mass=2.0))
+    ends = [
+        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=0)) for node in nodes
+    ]
+    pushed = mbs.AddObject(items.ObjectConnectorCoordinate(markerNumbers=ends))
+
+    def push(mbs, time):
+        mbs.SetObjectParameter(pushed, "offset", 0.1 * (1.0 - np.cos(5.0 * time)))
+        return True
+
+    mbs.SetPreStepUserFunction(push)
+    mbs.Assemble()
+    outcome = solve_dynamic(mbs, settings(2.0))
+    assert outcome.status is Status.STEP_TOO_SMALL
+    assert "offsetUserFunction" in outcome.reason
+
+
 def unassembled():
     mbs = exu.SystemContainer().AddSystem()
     mbs.AddNode(items.NodePoint())

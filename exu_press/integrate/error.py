@@ -110,9 +110,10 @@ class BodyError:
         self.change: list[float] = []
         self._bend: list[float] = []  # second derivative of the accelerations
         self._bend_before: list[float] = []
+        self._size = self._size_before = 0.0  # of the bend, its largest norm
+        self._common = self._common_before = 0.0  # of the bends of two steps, likewise
         self._step = self._step_before = 0.0
-        self._common = self._common_before = 0.0  # of the bends of two steps, its largest norm
-        self._most = 0.0  # acceleration so far, m/s^2
+        self._most = self.largest_of(accelerations)  # so far, m/s^2
 
     def tried(self, now: list[float], step: float) -> float:
         """Return the error of a step (s) that ends with these accelerations."""
@@ -163,21 +164,23 @@ class BodyError:
         motion's, and a jump does not shrink with the step: what two steps of one size have in
         common counts, and in a step of another size what the last two had.
         """
-        self._step, self._bend = step, [value / step for value in self.change]
+        self._bend = bend = [value / step for value in self.change]
+        self._size, self._step = self.largest_of(bend), step
         self._common = self._common_before
         if self._bend_before and abs(step - self._step_before) < SAME * step:
-            last = self._bend_before
-            mean = [0.5 * (a + b) for a, b in zip(self._bend, last, strict=True)]
-            smaller = min(map(self.largest_of, (self._bend, last)))
+            mean = [0.5 * (a + b) for a, b in zip(bend, self._bend_before, strict=True)]
+            smaller = min(self._size, self._size_before)
             self._common = min(self.largest_of(mean), 3.0 * smaller)
         off = 0.125 * step * step * self._common
         return off / max(tolerance * self._most, self._noise / (step * step))
 
     def accept(self) -> None:
         """Remember the accepted step's end as the next one's beginning."""
-        self._step_before, self._common_before = self._step, self._common
-        self._bend_before = self._bend if self._rate_before else []
-        self._most = max(self._most, self.largest())
+        if self._bend:  # they are asked for
+            self._step_before, self._common_before = self._step, self._common
+            self._size_before = self._size
+            self._bend_before = self._bend if self._rate_before else []
+            self._most = max(self._most, self.largest_of(self._now))
         self._before, self._rate_before = self._now, self._rate
 
     def largest_of(self, vector: list[float]) -> float:

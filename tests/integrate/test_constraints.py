@@ -163,25 +163,6 @@ def test_a_repeated_step_starts_as_its_first_try_did(monkeypatch):
     assert fitted < 0.1 * error()
 
 
-def test_fixed_steps_return_to_their_grid_after_a_halved_one(monkeypatch):
-    scene = Scene(
-        joints={"crank_pin": "ideal", "balls": "ideal"}, revolutions=0.1, solver={"step": 2e-4}
-    )
-    failed = []
-
-    def fail_one(control, time):
-        if time > 5e-3 and not failed:
-            failed.append(time)
-            return [2.0, -1.0]
-        return [0.0, -1.0]
-
-    monkeypatch.setattr(FixedSteps, "after_newton", fail_one)
-    time = simulate(scene).time
-    on_grid = np.abs(time / 2e-4 - np.round(time / 2e-4)) < 1e-6
-    assert failed and 1 <= (~on_grid).sum() <= 2
-    assert on_grid[-50:].all()
-
-
 def test_films_take_up_their_load_in_short_steps():
     """At rest the film carries nothing; a long first step would make the accelerations ring."""
     scene = Scene(mechanism="slider_crank", joints={"crank_pin": "lubricated"}, revolutions=0.05)

@@ -47,7 +47,9 @@ class FlexibleJacobian:
             joints: the system's clearance joints, if it has any.
             tuning: numbers.
         """
-        self._solver, self._joints = solver, joints
+        self._iteration: Any = solver.it
+        self._convergence: Any = solver.conv
+        self._joints = joints
         self.kept = False
         self._most = 0 if joints is None else tuning.jacobian_steps
         self._step, self._age = 0.0, 0  # the step that the last one was made for, and steps since
@@ -57,16 +59,16 @@ class FlexibleJacobian:
 
     def begin_try(self) -> None:
         """Choose whether the step that is about to be tried starts with the one there is."""
-        step = self._solver.it.currentStepSize
+        step = self._iteration.currentStepSize
         same = abs(step - self._step) <= SAME * step
         self.kept = same and self._age < self._most
         self._age += 1
-        self._solver.conv.jacobianUpdateRequested = not self.kept
+        self._convergence.jacobianUpdateRequested = not self.kept
 
     def renew(self) -> None:
         """Let the next iteration of the step have a fresh one, if it was tried with a kept one."""
         if self.kept:
-            self._solver.conv.jacobianUpdateRequested = True
+            self._convergence.jacobianUpdateRequested = True
 
     def _compute(self, solver: Any, mbs: exu.MainSystem, settings: exu.SimulationSettings) -> bool:
         """Give the solver its Jacobian in the current state; return that this went well."""

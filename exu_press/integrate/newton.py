@@ -128,9 +128,10 @@ class Newton:
         data, by_q = self.data, step * step * ratio * beta
         positions = data.GetODE2Coordinates(CURRENT, False)
         for i, reference in self._quaternions:
-            turned = reference + positions[i : i + 4] + by_q * expected[i : i + 4]
+            rotation_tt = expected[i : i + 4]
+            turned = reference + positions[i : i + 4] + by_q * rotation_tt
             length = math.sqrt(float(turned @ turned))
-            expected[i : i + 4] += (1.0 / length - 1.0) / by_q * turned
+            rotation_tt += (1.0 / length - 1.0) / by_q * turned
         positions += by_q * expected
         velocities = data.GetODE2Coordinates_t(CURRENT, False)
         velocities += (step * ratio * gamma) * expected

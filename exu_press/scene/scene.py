@@ -153,9 +153,14 @@ class Scene(Table):
         joints = {b.name: [j.name for j in mechanism.joints_of(b.name)] for b in mechanism.bodies}
         joints[mechanism.crank].append(DRIVE_FACE)
         bodies = bodies_of(self.bodies, mechanism.name, joints)
-        guided = [guide.body for guide in mechanism.guides if guide.body in bodies]
-        if guided:
-            raise InputError(f"bodies.{guided[0]}: lies in a guide; allowed is a body without one")
+        guided = {guide.body for guide in mechanism.guides}
+        for name in bodies:
+            if name in guided:
+                free = (body.name for body in mechanism.bodies if body.name not in guided)
+                raise InputError(
+                    f"bodies.{name}: lies in a guide, which holds rigid bodies; allowed are "
+                    f"{', '.join(free)}"
+                )
         object.__setattr__(self, "bodies", bodies)
 
     def _settle_loads(self) -> None:

@@ -20,7 +20,10 @@ def test_a_part_alone_or_with_its_keys():
         ("flexible", r"bodies = 'flexible': is bodies\.NAME now.*bodies\.linkage = 'linkage'"),
         ("rigid", r"bodies = 'rigid': is bodies\.NAME now"),
         ({"linkige": "linkage"}, r"bodies\.linkige = 'linkage': press has no such body \(did you"),
-        ({"slide": "linkage"}, r"bodies\.slide: lies in a guide; allowed is a body without one"),
+        (
+            {"slide": "linkage"},
+            r"bodies\.slide: lies in a guide, which holds rigid bodies; allowed are crank, linkage",
+        ),
         ({"linkage": {"modes": 4}}, r"bodies\.linkage\.flexible: missing"),
         ({"linkage": 3}, r"bodies\.linkage.* = 3: allowed is a table of keys"),
         (flexible_press(modes=-1), r"bodies\.crank\.modes = -1: allowed is a whole number >= 0"),

@@ -202,9 +202,9 @@ def _nodes(
 
 
 def _length(data: Any, nodes: tuple[Node, ...]) -> float:
-    """Return the largest displacement coordinate at the start, m; 1.0 where all are zero."""
+    """Return the largest displacement coordinate at the start, m."""
     if not nodes:
-        return 1.0
+        return 0.0
     # GetODE2CoordinatesTotal(Initial) crashes Exudyn 1.13.6 from about a hundred coordinates on
     start, reference = (
         np.array(data.GetODE2Coordinates(configuration))
@@ -212,7 +212,7 @@ def _length(data: Any, nodes: tuple[Node, ...]) -> float:
     )
     total = np.abs(start + reference)
     places = [total[node.start : node.start + node.displacements] for node in nodes]
-    return float(np.concatenate(places).max(initial=0.0)) or 1.0
+    return float(np.concatenate(places).max(initial=0.0))
 
 
 def weights(nodes: tuple[Node, ...], mass_matrix: Array) -> tuple[list[float], list[float]]:

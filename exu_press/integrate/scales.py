@@ -80,7 +80,7 @@ class FoundScales:
         self._longest = longest
         squares = zip(self._sums(places), masses, strict=True)
         widths = [math.sqrt(s / m) for s, m in squares if m > 0.0]
-        self.length = max([self.length, *widths])
+        self.length = max([self.length, *widths]) or 1.0  # where all is zero
         given = self._given.speed, self._given.force
         self.fixed = True not in self._own and None not in given
         if self.fixed:

@@ -158,7 +158,7 @@ def solve_dynamic(
         solver.ComputeMassMatrix(mbs)
         if tolerance is not None:  # within a fixed step, motions may change by less than rounding
             ahead = LOOK_AHEAD * largest
-            fitted = fit_start(mbs, solver, constraints, problem.length, ahead)
+            fitted = fit_start(mbs, solver, constraints, problem.length or 1.0, ahead)
             if fitted is not None:
                 step_change.start_from(*fitted)
                 estimate.start = fitted[0].tolist()

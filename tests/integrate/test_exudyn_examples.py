@@ -33,6 +33,13 @@ def test_the_error_follows_the_tolerance(name, tolerance):
     follows(name, tolerance, 1e-4, EXAMPLES[name].short)
 
 
+def test_a_wheel_at_the_origin_is_no_metre_large():
+    """Its rounding was, so that its steps at 1e-6 were those of 1e-5."""
+    example = EXAMPLES["balance wheel"]
+    done = run(example, tolerance=1e-6, end=example.short)
+    assert error(done, fine("balance wheel", 1e-7, example.short)) < 4e-6
+
+
 @pytest.mark.long
 @pytest.mark.parametrize(("name", "tolerance"), cases(1e-2, 1e-3, 1e-4, 1e-5, 1e-6))
 def test_the_error_follows_the_tolerance_over_the_whole_run(name, tolerance):

@@ -28,9 +28,9 @@ AMPLIFIED = 1.7
 """Factor on either where the companions have parted and the run itself, which is nearer to the
 truth, has not yet."""
 
-NINE_IN_TEN = {1: 5.5, 2: 2.65, 3: 2.2, 4: 2.0}
+NINETEEN_IN_TWENTY = {1: 11.0, 2: 3.85, 3: 2.9, 4: 2.55}
 """Over the root mean square of a normal sample's differences to so many others: within this of it
-nine in ten further samples lie (quantiles of drawn ones; tests/confidence/test_estimate.py)."""
+nineteen in twenty further samples lie (quantiles of drawn ones; tests/confidence/test_estimate.py)."""
 
 LITTLE = 0.05
 """Over the figure: within this a figure counts as determined, however chaotic the motion is."""
@@ -68,7 +68,6 @@ def converging(
     Args:
         values: the figure at several tolerances.
         ratios: of these tolerances to the first.
-
         least: error, in the figure's unit.
         safety: factor on what the differences say.
 
@@ -84,14 +83,14 @@ def converging(
 def scattered(values: Sequence[float], least: float = 0.0) -> FigureError:
     """Return between which bounds a figure lies that depends on what nobody knows.
 
-    Nine in ten further runs lie there, if such figures scatter normally.
+    Nineteen in twenty further runs lie there, if such figures scatter normally.
 
     Args:
         values: of runs that have nothing in common any more; the first one is reported.
         least: error, in the figure's unit, on top.
     """
     apart = np.asarray(values[1:]) - values[0]
-    factor = NINE_IN_TEN.get(len(apart), 1.9)
+    factor = NINETEEN_IN_TWENTY.get(len(apart), 2.4)
     error = factor * float(np.sqrt(np.mean(apart**2))) + ROUNDING * abs(values[0]) + least
     determined = error <= LITTLE * abs(values[0])
     return FigureError(error, determined, values[0] - error, values[0] + error)

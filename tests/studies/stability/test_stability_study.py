@@ -119,7 +119,7 @@ def test_agreement_sees_a_difference_that_is_not_stated(run, channel, factor, na
 
 
 def test_a_difference_that_is_stated_is_right(run):
-    """Of a figure that is not determined bounds hold nineteen in twenty runs: 1.5 times as far is allowed."""
+    """Bounds of a figure that is not determined hold 19 in 20 runs: 1.5 times as far is allowed."""
     told = with_errors(run, beside=False)
     value = told.summary()["stroke"]
     off = changed(run, slider_position=1.1 * run["slider_position"])

@@ -30,7 +30,7 @@ truth, has not yet."""
 
 NINETEEN_IN_TWENTY = {1: 11.0, 2: 3.85, 3: 2.9, 4: 2.55}
 """Over the root mean square of a normal sample's differences to so many others: within this of it
-nineteen in twenty further samples lie (quantiles of drawn ones; tests/confidence/test_estimate.py)."""
+nineteen in twenty further samples lie (drawn ones; tests/confidence/test_estimate.py)."""
 
 LITTLE = 0.05
 """Over the figure: within this a figure counts as determined, however chaotic the motion is."""

@@ -74,8 +74,8 @@ EXAMPLES = {
     "flyball, angles": Example(
         partial(flyball_governor, **ANGLES), 2.0, 0.2, "TestModels/stiffFlyballGovernor.py"
     ),
-    "rotor run-up": Example(rotor, 10.0, 2.0, "Examples/rigidRotor3Drunup.py"),
-    "heavy top": Example(heavy_top, 0.5, 0.1, "TestModels/heavyTop.py"),
+    "rotor run-up": Example(rotor, 10.0, 2.0, "Examples/rigidRotor3Drunup.py", turned=300.0),
+    "heavy top": Example(heavy_top, 0.5, 0.1, "TestModels/heavyTop.py", turned=20.0),
     "rolling disc": Example(rolling_disc, 1.0, 0.5, "TestModels/createRollingDiscTest.py"),
     "friction band": Example(regularized, 1.0, 0.5, "Examples/massSpringFrictionInteractive.py"),
     "bouncing ball": Example(

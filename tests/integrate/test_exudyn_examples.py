@@ -14,14 +14,14 @@ def fine(name, tolerance, end):
     return run(EXAMPLES[name], tolerance=tolerance, end=end)
 
 
-def follows(name, tolerance, finest, end):
+def follows(name, tolerance, finest, end, most=10.0):
     example = EXAMPLES[name]
     done = run(example, tolerance=tolerance, end=end)
     # impacts of hard balls are found, but their peaks are not to be trusted at loose tolerances
     ends = (Status.COMPLETED, Status.UNDER_RESOLVED)
     assert done.outcome.status in ends[: 1 + example.positions], done.outcome.reason
     reference = fine(name, 0.1 * max(finest, example.finest), end)
-    assert 0.01 < error(done, reference, example.positions) / tolerance < 10.0
+    assert 0.01 < error(done, reference, example.positions) / tolerance < most
 
 
 def cases(*tolerances):
@@ -43,4 +43,4 @@ def test_a_wheel_at_the_origin_is_no_metre_large():
 @pytest.mark.long
 @pytest.mark.parametrize(("name", "tolerance"), cases(1e-2, 1e-3, 1e-4, 1e-5, 1e-6))
 def test_the_error_follows_the_tolerance_over_the_whole_run(name, tolerance):
-    follows(name, tolerance, 1e-6, EXAMPLES[name].end)
+    follows(name, tolerance, 1e-6, EXAMPLES[name].end, EXAMPLES[name].turned)

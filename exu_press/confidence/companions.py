@@ -28,6 +28,11 @@ OF_FLEXIBLE = (0.5, 8.0)
 """Those of flexible bodies beside clearances: coarser runs do not follow vibrations of some kHz, so
 that their figures agree with each other and not with the truth."""
 
+FINER = (0.5, 0.25)
+
+LEAST = 2
+"""Companions: a single one may agree with the run by chance."""
+
 COARSER_STEPS = (2.0, 3.0, 4.0)
 
 LOOSEST = 0.1
@@ -43,7 +48,7 @@ SAID = "said.txt"
 def plan(scene: Scene) -> dict[float, Scene]:
     """Return the companions of a scene, by the ratio of their tolerance (or step) to its own.
 
-    Where a tolerance is too loose for coarser ones, a finer one has to do.
+    Where a tolerance is too loose for two coarser ones, finer ones have to do.
     """
     solver = scene.solver
     assert solver is not None
@@ -53,12 +58,14 @@ def plan(scene: Scene) -> dict[float, Scene]:
     tolerance = solver.tolerance
     ratios = [ratio for ratio in COARSER if ratio * tolerance <= LOOSEST]
     if len(ratios) < len(COARSER):
-        ratios = [2.0, *ratios] if 2.0 * tolerance <= LOOSEST else [0.5]
+        ratios = [2.0, *ratios] if 2.0 * tolerance <= LOOSEST else []
     loose = scene.joints.with_clearance or (scene.guide and scene.guide.clearance)
     if not loose:
         ratios = ratios[:OF_SMOOTH]
     elif scene.bodies:
         ratios = [ratio for ratio in OF_FLEXIBLE if ratio * tolerance <= LOOSEST]
+    more = [ratio for ratio in FINER if ratio not in ratios]
+    ratios = [*ratios, *more[: max(0, LEAST - len(ratios))]]
     found = {}
     for ratio in ratios:
         change = {"solver.tolerance": ratio * tolerance}

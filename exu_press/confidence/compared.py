@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from exu_press.confidence.figures import figures
-from exu_press.confidence.reading import smoothed
+from exu_press.confidence.reading import smoothed, unbalanced
 from exu_press.result import Result
 from exu_press.result.info import Error
 
@@ -58,7 +58,8 @@ def compared(result: Result, reference: Result) -> Iterator[Compared]:
         reference: the same scene, more accurate; its errors are not looked at.
     """
     here, there = figures(result.summary()), figures(reference.summary())
-    read = figures(smoothed(reference).summary())
+    reads = [figures(changed(reference).summary()) for changed in (smoothed, unbalanced)]
     for name, told in result.info["errors"].items():
         if name in there:
-            yield Compared(name, here[name], there[name], abs(there[name] - read[name]), told)
+            reading = max(abs(there[name] - read[name]) for read in reads)
+            yield Compared(name, here[name], there[name], reading, told)

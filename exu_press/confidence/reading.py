@@ -6,9 +6,10 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from exu_press.observe.energy import has_balance
 from exu_press.result import Result
 
-__all__ = ["LOADS", "OF_FIRST_STEP", "overshot", "smoothed"]
+__all__ = ["LOADS", "OF_FIRST_STEP", "overshot", "smoothed", "unbalanced"]
 
 Array = NDArray[np.float64]
 
@@ -18,6 +19,9 @@ LOADS = ("acceleration", "force", "torque", "moment", "power", "shaking")
 
 OF_FIRST_STEP = 0.25
 """Of a load's change in the first step, its overshoot: 0.07 to 0.18 were measured with films."""
+
+AT_ONCE = 1e-6
+"""Of the first step: an instant so soon after the start."""
 
 
 def smoothed(run: Result) -> Result:
@@ -32,11 +36,33 @@ def smoothed(run: Result) -> Result:
 
 
 def overshot(run: Result) -> Result:
-    """Return a run whose loads go on by a part, OF_FIRST_STEP, of what the first step changes.
+    """Return a run with a further instant, just after the start, at which films have their loads.
 
-    Within it films take up their loads, with an overshoot that its end does not show.
+    Within the first step they take them up, none can tell when, with an overshoot that its end does
+    not show: OF_FIRST_STEP of what it changes.
     """
-    return _with_loads(run, _overshot)
+    if len(run.time) < 2:
+        return run
+    begun = {
+        name: replace(channel, values=np.concatenate([channel.values[:1], channel.values]))
+        for name, channel in run.channels.items()
+    }
+    begun["time"].values[1] += AT_ONCE * (run.time[1] - run.time[0])
+    return _with_loads(replace(run, channels=begun), _overshot)
+
+
+def unbalanced(run: Result) -> Result:
+    """Return a run that is put in as much more energy as its balance misses at worst.
+
+    The energy put in is the integral of a power that is read at steps. Where it flows back and
+    forth, as over whole revolutions, errors cancel at the end, which is luck.
+    """
+    if not has_balance(run):
+        return run
+    given = run.channels["energy_input"]
+    missed = given.values - run["energy_stored"] - run["energy_dissipated"]
+    more = replace(given, values=given.values + np.abs(missed).max())
+    return replace(run, channels={**run.channels, "energy_input": more})
 
 
 def _with_loads(run: Result, change: Callable[[Array, Array], Array]) -> Result:
@@ -61,8 +87,6 @@ def _averaged(time: Array, values: Array) -> Array:
 
 
 def _overshot(_: Array, values: Array) -> Array:
-    """Return values (n, ...) with a larger second one."""
-    if len(values) < 2:
-        return values
-    second = values[1] + OF_FIRST_STEP * (values[1] - values[0])
+    """Return values (n, ...) whose second one is the third one, and more."""
+    second = values[2] + OF_FIRST_STEP * (values[2] - values[0])
     return np.concatenate([values[:1], second[None], values[2:]])

@@ -18,7 +18,7 @@ from exu_press.confidence.estimate import (
 )
 from exu_press.confidence.figures import figures
 from exu_press.confidence.parting import parting
-from exu_press.confidence.reading import LOADS, overshot, smoothed
+from exu_press.confidence.reading import LOADS, overshot, smoothed, unbalanced
 from exu_press.confidence.windows import until
 from exu_press.result import Result
 from exu_press.result.info import Error, Errors
@@ -50,6 +50,10 @@ OF_ENERGY = 1e-6
 
 OF_ARMS = 1e-7
 """Least error of a guide's moment over the largest force, m: balanced forces leave as much."""
+
+OF_SUMS = 2e-8
+"""Least error of a shaking force over the largest force: what cancels in the sum leaves as much in
+steps of a microsecond, by the rounding of positions (1e-8 was measured at 1 rpm)."""
 
 SIGNED = (
     *("bottom_dead_centre", "strokes.mean", "mean_torque", "mean_power"),
@@ -129,7 +133,7 @@ def errors_of(result: Result, companions: Mapping[float, Result]) -> Errors:
     by_end = {end: _figures(runs, end) for end in {None, parted.beside, horizon}}
     solver = result.scene.solver
     safety = SAFETY if solver is not None and solver.step is None else SAFETY_OF_STEPS
-    reads = [figures(changed(result).summary()) for changed in (smoothed, overshot)]
+    reads = [figures(changed(result).summary()) for changed in (smoothed, overshot, unbalanced)]
     until_then = {safety: by_end[parted.beside], AMPLIFIED * safety: by_end[horizon]}
     errors: dict[str, Error] = {}
     for name, value in by_end[None][1.0].items():
@@ -188,14 +192,16 @@ def _least(name: str, values: Sequence[float], run: Mapping[str, float]) -> floa
     if name.endswith(("dissipated", "stored")):
         energies = [abs(run[k]) for k in run if k.startswith("energy.")]
         return OF_ENERGY * max(energies, default=size)
+    force = max((abs(run[k]) for k in run if k.endswith("peak_force")), default=0.0)
     if name.endswith("peak_moment"):
-        return OF_ARMS * max((abs(run[k]) for k in run if k.endswith("peak_force")), default=0.0)
+        return OF_ARMS * force
     if ".share_" in name:
         return OF_SHARES
     if not any(word in name for word in LOADS):
         return ROUNDING * size
     alike = max(values) - min(values) <= OF_LOADS * size
-    return (OF_THE_START if alike else OF_LOADS) * size
+    of_sum = OF_SUMS * force if name.startswith("shaking.") else 0.0
+    return max((OF_THE_START if alike else OF_LOADS) * size, of_sum)
 
 
 def _reached(run: Result, end: float) -> bool:

@@ -1,6 +1,6 @@
 """Observation: from curves to the numbers people compare."""
 
-from exu_press.observe.acceleration import differentiated_peak, mean_peak, peak
+from exu_press.observe.acceleration import differentiated_peak, mean_peak, mean_peak_of, peak
 from exu_press.observe.clearance import joint_summary
 from exu_press.observe.dead_centre import (
     DeadCentre,
@@ -19,6 +19,7 @@ __all__ = [
     "joint_summary",
     "lowest_of_strokes",
     "mean_peak",
+    "mean_peak_of",
     "peak",
     "press_summary",
     "summary",

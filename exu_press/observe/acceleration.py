@@ -7,9 +7,9 @@ program that prints one value a millisecond, or an instrument that differentiate
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.piecewise import evaluate, hermite
+from exu_press.piecewise import evaluate, hermite, integral
 
-__all__ = ["differentiated_peak", "mean_peak", "peak"]
+__all__ = ["differentiated_peak", "mean_peak", "mean_peak_of", "peak"]
 
 Array = NDArray[np.float64]
 
@@ -27,7 +27,7 @@ def mean_peak(time: Array, velocity: Array, window: float = 1e-3) -> float | Non
 
     Args:
         time: (n,), s, increasing.
-        velocity: (n,), m/s.
+        velocity: (n,), m/s, straight between.
         window: s.
 
     Returns:
@@ -35,11 +35,40 @@ def mean_peak(time: Array, velocity: Array, window: float = 1e-3) -> float | Non
     """
     if time[-1] - time[0] < window:
         return None
-    # the mean is linear in time but where one end of the window passes a step
-    ends = np.concatenate([time, time + window])
-    late = ends[(ends >= time[0] + window) & (ends <= time[-1])]
+    late = _ends(time, window)  # between them the mean is linear in time
     change = np.interp(late, time, velocity) - np.interp(late - window, time, velocity)
     return peak(change / window)
+
+
+def mean_peak_of(time: Array, values: Array, window: float = 1e-3) -> float | None:
+    """Return the largest magnitude of a load averaged over a moving window, in its unit.
+
+    Steps may be longer than the window.
+
+    Args:
+        time: (n,), s, increasing.
+        values: (n,), straight between.
+        window: s.
+
+    Returns:
+        None where the record is shorter than the window.
+    """
+    if time[-1] - time[0] < window:
+        return None
+    late = _ends(time, window)
+    change = np.interp(late, time, values) - np.interp(late - window, time, values)
+    turns = np.flatnonzero(change[:-1] * change[1:] < 0.0)  # there the mean is largest or least
+    part = change[turns] / (change[turns] - change[turns + 1])
+    late = np.concatenate([late, late[turns] + part * np.diff(late)[turns]])
+    parabolas = hermite(time, integral(time, values), values)
+    sums = evaluate(time, parabolas, late) - evaluate(time, parabolas, late - window)
+    return peak(sums / window)
+
+
+def _ends(time: Array, window: float) -> Array:
+    """Return the instants, increasing, at which a window ends that begins or ends at a step."""
+    ends = np.concatenate([time, time + window])
+    return np.unique(ends[(ends >= time[0] + window) & (ends <= time[-1])])
 
 
 def differentiated_peak(

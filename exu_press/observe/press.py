@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.mechanism import Guide
-from exu_press.observe.acceleration import mean_peak, peak
+from exu_press.observe.acceleration import mean_peak_of, peak
 from exu_press.observe.dead_centre import bottom_dead_centres
 from exu_press.piecewise import integral
 from exu_press.result import Result
@@ -37,7 +37,7 @@ def press_summary(result: Result) -> dict[str, Any]:
         "slider_lateral": peak(result["slider_lateral"]),
         "drive": {
             "peak_torque": peak(result["drive_torque"]),
-            "peak_torque_mean_1ms": _mean_peak(time, result["drive_torque"]),
+            "peak_torque_mean_1ms": mean_peak_of(time, result["drive_torque"]),
             "mean_torque": _mean(time, result["drive_torque"], whole),
             "peak_power": peak(result["drive_power"]),
             "mean_power": _mean(time, result["drive_power"], whole),
@@ -123,7 +123,8 @@ def _resultant(result: Result, name: str) -> dict[str, Any]:
     for column, direction in enumerate(("horizontal", "vertical")):
         force = result[name][:, column] if name in result else None
         entries[direction] = None if force is None else peak(force)
-        entries[f"{direction}_mean_1ms"] = None if force is None else _mean_peak(result.time, force)
+        mean = None if force is None else mean_peak_of(result.time, force)
+        entries[f"{direction}_mean_1ms"] = mean
     return entries
 
 
@@ -150,8 +151,3 @@ def mean_rate(time: Array, amount: Array, begin: float | None) -> float | None:
     if begin is None:
         return None
     return float((amount[-1] - np.interp(begin, time, amount)) / (time[-1] - begin))
-
-
-def _mean_peak(time: Array, values: Array) -> float | None:
-    """Return the largest magnitude of the mean over 1 ms, None where the record is shorter."""
-    return mean_peak(time, integral(time, values))

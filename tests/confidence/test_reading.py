@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
-from exu_press.confidence.reading import OF_FIRST_STEP, overshot, smoothed
+from exu_press.confidence.reading import OF_FIRST_STEP, overshot, smoothed, unbalanced
 from exu_press.confidence.run import errors_of
 
 SCENE = Scene(mechanism="slider_crank", revolutions=0.1)
@@ -45,6 +45,23 @@ def test_what_a_film_may_do_within_the_first_step_is_open(run):
     rising[0] = 100.0
     found = overshot(with_force(run, rising))["shaft_force"]
     assert np.abs(found).max() == pytest.approx(500.0 + OF_FIRST_STEP * 400.0)
+
+
+def test_a_film_may_take_up_its_load_at_once(run):
+    """Then the first step's area below the load is the second value's, not that of a triangle."""
+    falling = np.zeros((len(run.time), 2))
+    falling[0] = 100.0
+    found = overshot(with_force(run, falling))
+    area = np.trapezoid(found["shaft_force"][:, 0], found.time)
+    assert abs(area) < OF_FIRST_STEP * np.trapezoid(falling[:, 0], run.time) * 1.001
+    assert found["slider_position"][1] == run["slider_position"][0]
+    assert found.time[1] > found.time[0]
+
+
+def test_energy_is_as_unsure_as_its_balance(run):
+    missed = run["energy_input"] - run["energy_stored"] - run["energy_dissipated"]
+    more = unbalanced(run)["energy_input"] - run["energy_input"]
+    assert more == pytest.approx(np.abs(missed).max())
 
 
 def test_motion_is_left_alone(run):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from exu_press.observe import differentiated_peak, mean_peak, peak
+from exu_press.observe import differentiated_peak, mean_peak, mean_peak_of, peak
 
 TIME = np.linspace(0.0, 0.1, 10001)
 
@@ -45,6 +45,20 @@ def test_mean_is_the_jump_of_velocity_over_the_window():
     two, _ = pulse(1000.0, 0.0302, 1e-4)
     assert mean_peak(TIME, one - two) == pytest.approx(100.0, rel=1e-3)
     assert abs((one - two)[-1]) < 1e-12
+
+
+@pytest.mark.parametrize("step", [1e-5, 1e-3, 2.5e-3, 0.02])
+def test_mean_of_a_load_in_steps_longer_than_the_window(step):
+    """A ramp's largest mean is half a millisecond before its end, however long steps are."""
+    time = np.linspace(0.0, 0.02, round(0.02 / step) + 1)
+    assert mean_peak_of(time, 1000.0 * time) == pytest.approx(19.5)
+
+
+def test_mean_about_the_peak_of_a_load():
+    """A triangle's is in the middle of the window, which no step ends: 100 less a quarter ms's."""
+    time = np.array([0.0, 0.01, 0.02])
+    assert mean_peak_of(time, np.array([0.0, -100.0, 0.0])) == pytest.approx(97.5)
+    assert mean_peak_of(time[:1], time[:1]) is None
 
 
 def test_second_difference_of_an_impact_at_a_sample():

@@ -98,8 +98,15 @@ def _rubbing(summary: Summary) -> str:
     guide = summary["scene"].get("guide", {})
     if guide.get("clearance") and guide["friction"] != "none":
         return "-"
-    powers = [guide["sliding_power"] for guide in summary["guides"].values()]
-    return _number(0.1 * sum(powers)) if powers and None not in powers else "-"
+    powers = {name: guide["sliding_power"] for name, guide in summary["guides"].items()}
+    if not powers or None in powers.values():
+        return "-"
+    told = [summary.get("errors", {}).get(f"guides.{name}.sliding_power") for name in powers]
+    error = None
+    if None not in told:
+        error = {key: sum(each[key] for each in told) for key in ("error", "low", "high")}
+        error["determined"] = all(each["determined"] for each in told)
+    return uncertain(sum(powers.values()), error, 0.1)
 
 
 ROWS: tuple[tuple[str, Callable[[Summary], str]], ...] = (

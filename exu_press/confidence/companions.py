@@ -18,7 +18,7 @@ from exu_press.scene import Scene
 __all__ = ["Companions", "plan"]
 
 COARSER = (4.0, 8.0, 16.0)
-"""Tolerances of the companions over that of the run: together they take as long as it does."""
+"""Tolerances of the companions over that of the run: beside it, they take little longer."""
 
 OF_SMOOTH = 2
 """So many of them do where nothing has clearance, whose runs take little longer at any tolerance:

@@ -82,4 +82,4 @@ def _surface(points: Array, triangles: NDArray[np.int64], level: Array | None) -
     else:
         colour = matplotlib.colormaps["turbo"](level[seen].mean(axis=1))[:, :3]
     shaded = np.clip(colour * shade[:, None], 0.0, 1.0)
-    return PolyCollection(corners, facecolors=shaded, edgecolors=shaded, linewidths=0.4)
+    return PolyCollection(list(corners), facecolors=shaded, edgecolors=shaded, linewidths=0.4)

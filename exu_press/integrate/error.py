@@ -414,9 +414,10 @@ class StepError:
         By far where a mechanism passes a position in which two of them nearly say the same.
         """
         jacobian = np.asarray(self._solver.GetSystemJacobian())
-        size, first = len(self.accelerations), len(jacobian) - self._solver.GetAEsize()
+        size, count = len(self.accelerations), self._solver.GetAEsize()
+        of_constraints = np.eye(len(jacobian), count, count - len(jacobian))
         try:
-            moved = np.abs(np.linalg.inv(jacobian)[:size, first:]).sum(axis=1)
+            moved = np.abs(np.linalg.solve(jacobian, of_constraints)[:size]).sum(axis=1)
         except np.linalg.LinAlgError:  # constraints that say the same
             return 0.0
         assert self._bodies is not None

@@ -1,10 +1,7 @@
-"""The one kind of error a user's input can raise, and what the command line makes of it."""
+"""The one kind of error that a user's input can raise; the package below this one raises it too."""
+
+from fe_models.errors import InputError
 
 __all__ = ["InputError"]
 
-
-class InputError(ValueError):
-    """Something the user gave is wrong: the message says what, where, and what is allowed.
-
-    The command line prints the message in one line and exits with status 2.
-    """
+InputError.__module__ = __name__  # as tracebacks and the reference name it

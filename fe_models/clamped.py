@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.errors import InputError
+from fe_models.errors import InputError
 from fe_models.part import Part
 
 __all__ = [

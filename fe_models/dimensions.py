@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass, replace
 from math import pi, sqrt
 from typing import Any, Self
 
-from exu_press.errors import InputError
+from fe_models.errors import InputError
 
 __all__ = ["Axis", "Box", "CrankDimensions", "LinkageDimensions"]
 

@@ -29,7 +29,7 @@ from exudyn.rigidBodyUtilities import GetRigidBodyNode
 from numpy.typing import ArrayLike, NDArray
 from scipy.spatial.transform import Rotation
 
-from exu_press.errors import InputError
+from fe_models.errors import InputError
 from fe_models.reduced import ReducedPart
 
 __all__ = ["ROTATIONS", "FlexibleBody", "add_flexible_body"]

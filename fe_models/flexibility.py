@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.errors import InputError
+from fe_models.errors import InputError
 
 __all__ = ["Statics", "moved_in_plane", "shares"]
 

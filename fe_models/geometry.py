@@ -11,8 +11,8 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any, Protocol
 
-from exu_press.errors import InputError
 from fe_models.dimensions import Axis, Box, CrankDimensions, LinkageDimensions
+from fe_models.errors import InputError
 
 __all__ = ["Axis", "Box", "CrankShape", "Geometry", "LinkageShape", "OwnShape", "StepFile"]
 

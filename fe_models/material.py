@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from exu_press.errors import InputError
+from fe_models.errors import InputError
 
 __all__ = ["CRANK_STEEL", "LINKAGE_IRON", "Material"]
 

@@ -5,7 +5,7 @@ from typing import Any
 import ngsolve as ngs  # type: ignore[import-untyped]
 from netgen.occ import OCCGeometry  # type: ignore[import-untyped]
 
-from exu_press.errors import InputError
+from fe_models.errors import InputError
 from fe_models.part import Part
 
 __all__ = ["generate_mesh"]

@@ -9,7 +9,7 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from exu_press.errors import InputError
+from fe_models.errors import InputError
 from fe_models.geometry import CrankShape, Geometry, LinkageShape
 from fe_models.material import CRANK_STEEL, LINKAGE_IRON, Material
 

@@ -10,9 +10,9 @@ from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from exu_press.solid_view import facing, turned_view
 from fe_models.clamped import MODE_NUMBERS, clamped_modes
 from fe_models.part import Part
+from fe_models.solid_view import facing, turned_view
 
 __all__ = ["draw_mode_shapes"]
 

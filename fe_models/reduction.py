@@ -17,7 +17,7 @@ import scipy.linalg
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from exu_press.errors import InputError
+from fe_models.errors import InputError
 from fe_models.part import MOTIONS, Part
 from fe_models.reduced import ReducedInterface, ReducedPart
 

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from netgen.occ import Pnt, Sphere  # type: ignore[import-untyped]
 
-from exu_press.errors import InputError
 from fe_models.dimensions import Axis
+from fe_models.errors import InputError
 
 __all__ = ["NEAR", "name_round_faces"]
 

@@ -8,8 +8,8 @@ from typing import Any
 from netgen.occ import Cylinder, MoveTo, Pnt, Vec, Z  # type: ignore[import-untyped]
 from netgen.occ import OCCGeometry as OccGeometry
 
-from exu_press.errors import InputError
 from fe_models.dimensions import Box, CrankDimensions, LinkageDimensions
+from fe_models.errors import InputError
 
 __all__ = ["crank_shaft", "freeze", "from_step", "linkage", "thaw"]
 

@@ -10,12 +10,12 @@ from matplotlib.figure import Figure
 from matplotlib.gridspec import SubplotSpec
 from numpy.typing import NDArray
 
-from exu_press.errors import InputError
 from exu_press.result import Result
 from exu_press.result.surface import Surface
-from exu_press.solid_view import facing, turned_view
 from exu_press.view.instants import Instants
 from exu_press.view.panel import animated
+from fe_models.errors import InputError
+from fe_models.solid_view import facing, turned_view
 
 __all__ = ["FlexiblePanel", "Look"]
 

@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 
-from exu_press.errors import InputError
 from fe_models import clamped_frequencies, mesh_convergence, shipped_part
 from fe_models.clamped import PUBLISHED_HZ, ConvergenceRow, observed_order, relative_errors
+from fe_models.errors import InputError
 
 RMS = {"crank": 0.02, "linkage": 0.06}
 

@@ -12,8 +12,8 @@ from exudyn.itemInterface import (
     SensorSuperElement,
 )
 
-from exu_press.errors import InputError
 from fe_models import Reduction, add_flexible_body
+from fe_models.errors import InputError
 from fe_models.reduction import _craig_bampton_basis, _orthogonalise, reduce_model
 
 OUTPUT = exu.OutputVariableType

@@ -5,9 +5,9 @@ import pytest
 import scipy.sparse as sp
 from scipy.sparse.linalg import splu
 
-from exu_press.errors import InputError
 from fe_models import Reduction
 from fe_models.elasticity import rigid_motions
+from fe_models.errors import InputError
 from fe_models.reduction import reduce_model
 
 PLANE = ("x", "y", "rz")

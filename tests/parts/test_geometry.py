@@ -4,8 +4,8 @@ from pathlib import Path
 import pytest
 from netgen.occ import Box, Cylinder, Pnt, Z
 
-from exu_press.errors import InputError
 from fe_models import CRANK_STEEL, OwnShape, StepFile, shipped_part
+from fe_models.errors import InputError
 from fe_models.part import shipped_names
 
 MASSES = {"crank": 217.6, "linkage": 184.5}

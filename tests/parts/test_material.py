@@ -1,7 +1,7 @@
 import pytest
 
-from exu_press.errors import InputError
 from fe_models import CRANK_STEEL, LINKAGE_IRON, Material
+from fe_models.errors import InputError
 
 
 def test_the_papers_materials():

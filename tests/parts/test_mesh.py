@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from exu_press.errors import InputError
 from fe_models import Interface
+from fe_models.errors import InputError
 from fe_models.mesh import generate_mesh
 
 

@@ -1,7 +1,7 @@
 import pytest
 
-from exu_press.errors import InputError
 from fe_models import Interface, shipped_part
+from fe_models.errors import InputError
 
 
 def test_bearings_are_the_faces_held_in_all_motions():

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from exu_press.errors import InputError
+from fe_models.errors import InputError
 
 
 def test_virtual_nodes_move_with_the_interface(reduced_crank):

@@ -5,9 +5,9 @@ import itertools
 import numpy as np
 import pytest
 
-from exu_press.errors import InputError
 from fe_models import Interface, Reduction
 from fe_models.elasticity import rigid_motions
+from fe_models.errors import InputError
 from fe_models.reduction import reduce_model, reduce_part
 from fe_models.saddle import SaddleSolver
 

@@ -1,5 +1,6 @@
 """The process of companion runs: leaves the result of each in a directory."""
 
+import gc
 import pickle
 import signal
 import sys
@@ -7,16 +8,22 @@ from pathlib import Path
 
 from exu_press.simulation import simulate
 
-__all__ = ["SCENES", "main"]
+__all__ = ["RESULT", "SCENES", "main"]
 
 SCENES = "scenes.pickle"
+
+RESULT = "{}.pickle"
+"""Of the scene of this number."""
 
 
 def main(directory: Path) -> None:
     """Run every scene; Ctrl-C is for the run beside, which ends this process."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    gc.disable()  # a tenth of the time goes into it, and a few runs leave it next to nothing
     for number, scene in enumerate(pickle.loads((directory / SCENES).read_bytes())):
-        (directory / f"{number}.pickle").write_bytes(pickle.dumps(simulate(scene)))
+        unfinished = directory / "unfinished"
+        unfinished.write_bytes(pickle.dumps(simulate(scene)))
+        unfinished.rename(directory / RESULT.format(number))
 
 
 if __name__ == "__main__":

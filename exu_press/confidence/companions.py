@@ -7,6 +7,8 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
+from collections.abc import Iterator
 from multiprocessing.process import BaseProcess
 from pathlib import Path
 from types import TracebackType
@@ -17,23 +19,35 @@ from exu_press.scene import Scene
 
 __all__ = ["Companions", "plan"]
 
-COARSER = (4.0, 8.0, 16.0)
-"""Tolerances of the companions over that of the run: beside it, they take little longer."""
+PLANS: dict[str, dict[float, tuple[float, ...]]] = {
+    "steps": {0.0: (2.0, 3.0, 4.0)},
+    "smooth": {
+        16.0: (4.0, 8.0),
+        4.0: (2.0, 4.0),
+        2.0: (0.5, 2.0),
+        0.0: (0.25, 0.5),
+    },
+    "rigid": {
+        16.0: (4.0, 8.0, 16.0),
+        8.0: (2.0, 4.0, 8.0),
+        4.0: (2.0, 4.0),
+        2.0: (0.5, 2.0),
+        0.0: (0.25, 0.5),
+    },
+    "flexible": {8.0: (0.5, 8.0), 0.0: (0.25, 0.5)},
+}
+"""Tolerances of the companions over the run's, by kind of scene and by how much looser is allowed.
 
-OF_SMOOTH = 2
-"""So many of them do where nothing has clearance, whose runs take little longer at any tolerance:
-two cover 96 % of figures, three 97 %."""
+- At least two, as a single one may agree with the run by chance; coarser ones, as all of them
+  together then take little longer than the run.
+- Smooth: nothing has clearance. Coarser runs take little less time there, and two cover 96 % of
+  figures, three 97 %.
+- Flexible bodies beside clearances: coarser runs do not follow vibrations of some kHz, so that
+  their figures agree with each other and not with the truth.
+- Steps: fixed ones, whose errors and cost go with the step.
 
-OF_FLEXIBLE = (0.5, 8.0)
-"""Those of flexible bodies beside clearances: coarser runs do not follow vibrations of some kHz, so
-that their figures agree with each other and not with the truth."""
-
-FINER = (0.5, 0.25)
-
-LEAST = 2
-"""Companions: a single one may agree with the run by chance."""
-
-COARSER_STEPS = (2.0, 3.0, 4.0)
+The least ratio is first: it tells where the motions part, and the coarsest are done soonest.
+"""
 
 LOOSEST = 0.1
 """No run has a looser tolerance."""
@@ -41,33 +55,27 @@ LOOSEST = 0.1
 LARGEST_STEP = 15.0
 """degrees"""
 
+POLL = 2e-3
+"""s, between two looks for a result."""
+
 SAID = "said.txt"
 """What the process of the companions wrote to its terminal."""
 
 
 def plan(scene: Scene) -> dict[float, Scene]:
-    """Return the companions of a scene, by the ratio of their tolerance (or step) to its own.
-
-    Where a tolerance is too loose for two coarser ones, finer ones have to do.
-    """
+    """Return the companions of a scene, by the ratio of their tolerance (or step) to its own."""
     solver = scene.solver
     assert solver is not None
     if solver.step is not None:
-        return {ratio: scene.replace("solver.step", ratio * solver.step) for ratio in COARSER_STEPS}
-    assert solver.tolerance is not None
+        (ratios,) = PLANS["steps"].values()
+        return {ratio: scene.replace("solver.step", ratio * solver.step) for ratio in ratios}
     tolerance = solver.tolerance
-    ratios = [ratio for ratio in COARSER if ratio * tolerance <= LOOSEST]
-    if len(ratios) < len(COARSER):
-        ratios = [2.0, *ratios] if 2.0 * tolerance <= LOOSEST else []
+    assert tolerance is not None
     loose = scene.joints.with_clearance or (scene.guide and scene.guide.clearance)
-    if not loose:
-        ratios = ratios[:OF_SMOOTH]
-    elif scene.bodies:
-        ratios = [ratio for ratio in OF_FLEXIBLE if ratio * tolerance <= LOOSEST]
-    more = [ratio for ratio in FINER if ratio not in ratios]
-    ratios = [*ratios, *more[: max(0, LEAST - len(ratios))]]
+    kind = "smooth" if not loose else "flexible" if scene.bodies else "rigid"
+    room = next(least for least in PLANS[kind] if least * tolerance <= LOOSEST)
     found = {}
-    for ratio in ratios:
+    for ratio in PLANS[kind][room]:
         change = {"solver.tolerance": ratio * tolerance}
         if not loose:  # else impacts and films keep steps far below the largest one
             longest = math.sqrt(ratio) * solver.max_step_deg
@@ -122,25 +130,25 @@ class Companions:
                     command, stdin=subprocess.DEVNULL, stdout=said, stderr=said
                 )
 
-    def results(self) -> dict[float, Result]:
-        """Wait, and return what came out, by ratio.
+    def results(self) -> Iterator[tuple[float, Result]]:
+        """Yield ratio and result of each, as soon as it is there.
 
         Raises:
             RuntimeError: the process failed.
         """
-        if status := self._wait():
-            said = (self._directory / SAID).read_text(encoding="utf-8", errors="replace")
-            raise RuntimeError(f"a companion run failed ({status}): {said.strip()[-2000:]}")
-        return {
-            ratio: pickle.loads((self._directory / f"{number}.pickle").read_bytes())
-            for number, ratio in enumerate(self._scenes)
-        }
+        for number, ratio in enumerate(self._scenes):
+            path = self._directory / companion.RESULT.format(number)
+            while not path.exists():
+                if (status := self._status()) is not None and not path.exists():
+                    said = (self._directory / SAID).read_text(encoding="utf-8", errors="replace")
+                    raise RuntimeError(f"a companion run failed ({status}): {said.strip()[-2000:]}")
+                time.sleep(POLL)
+            yield ratio, pickle.loads(path.read_bytes())
 
-    def _wait(self) -> int | None:
-        """Return the process's exit status at its end."""
+    def _status(self) -> int | None:
+        """Return the process's exit status, None as long as it runs."""
         if isinstance(self._process, subprocess.Popen):
-            return self._process.wait()
-        self._process.join()
+            return self._process.poll()
         return self._process.exitcode
 
     def __enter__(self) -> "Companions":
@@ -155,5 +163,8 @@ class Companions:
     ) -> None:
         """End the process if it is not done, and clear away what it wrote."""
         self._process.kill()
-        self._wait()
+        if isinstance(self._process, subprocess.Popen):
+            self._process.wait()
+        else:
+            self._process.join()
         self._temporary.cleanup()

@@ -1,7 +1,7 @@
 """A run with the errors of its figures."""
 
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -17,7 +17,7 @@ from exu_press.confidence.estimate import (
     scattered,
 )
 from exu_press.confidence.figures import figures
-from exu_press.confidence.parting import parting
+from exu_press.confidence.parting import Parting, parting
 from exu_press.confidence.reading import LOADS, overshot, smoothed, unbalanced
 from exu_press.confidence.windows import until
 from exu_press.result import Result
@@ -81,8 +81,7 @@ def simulate_with_errors(scene: Scene, *, quiet: bool = True, beside: bool = Tru
     if not beside:
         return with_errors(simulate(scene, quiet=quiet), beside=False)
     with Companions(scene) as companions:
-        result = simulate(scene, quiet=quiet)
-        return _told(result, _found(companions) if result.completed else {})
+        return _beside(simulate(scene, quiet=quiet), companions)
 
 
 def with_errors(result: Result, *, beside: bool = True) -> Result:
@@ -93,64 +92,78 @@ def with_errors(result: Result, *, beside: bool = True) -> Result:
         beside: the companions run in a further process, else in this one.
     """
     if not result.completed:
-        return _told(result, {})
+        return _told(result, ())
     if not beside:
-        return _told(result, {r: simulate(scene) for r, scene in plan(result.scene).items()})
+        return _told(result, ((r, simulate(scene)) for r, scene in plan(result.scene).items()))
     with Companions(result.scene) as companions:
-        return _told(result, _found(companions))
+        return _beside(result, companions)
 
 
-def _found(companions: Companions) -> dict[float, Result]:
-    """Return what companions found; nothing, with a warning, where their process has failed."""
+def _beside(result: Result, companions: Companions) -> Result:
+    """Return a result with its errors; without, with a warning, if the companions have failed."""
     try:
-        return companions.results()
+        return _told(result, companions.results() if result.completed else ())
     except RuntimeError as error:
         warnings.warn(f"no errors of the figures are known: {error}", stacklevel=3)
-        return {}
+        return _told(result, ())
 
 
-def _told(result: Result, companions: Mapping[float, Result]) -> Result:
+def _told(result: Result, companions: Iterable[tuple[float, Result]]) -> Result:
     """Return a result that tells its errors."""
     return replace(result, info={**result.info, **errors_of(result, companions)})
 
 
-def errors_of(result: Result, companions: Mapping[float, Result]) -> Errors:
+def errors_of(result: Result, companions: Iterable[tuple[float, Result]]) -> Errors:
     """Return what a summary says of errors.
 
     Companions that stopped before the run itself did are left out; without any nothing is known.
+    Each is read as it comes, while the next one may still be on its way.
 
     Args:
         result: of a run.
-        companions: the same at other tolerances or steps, by their ratio to its own.
+        companions: the same at other tolerances or steps, after their ratio to its own; the least
+            ratio, whose run is the nearest one, is first.
     """
     end = float(result.time[-1])
-    kept = {ratio: until(run, end) for ratio, run in companions.items() if _reached(run, end)}
-    if not kept:
+    parted: Parting | None = None
+    by_end: dict[float, dict[float, Mapping[str, float]]] = {}
+    for ratio, companion in companions:
+        if companion.time[-1] < end * (1.0 - 1e-9):
+            continue
+        run = until(companion, end)
+        if parted is None:
+            parted = parting(result, run, ratio)
+            beside, horizon = (
+                end if instant is None else instant
+                for instant in (parted.beside, parted.growth.horizon)
+            )
+            by_end = {at: {1.0: _figures_until(result, at)} for at in (end, beside, horizon)}
+            reads = [figures(one(result).summary()) for one in (smoothed, overshot, unbalanced)]
+        for instant, found in by_end.items():
+            found[ratio] = _figures_until(run, instant)
+    if parted is None:
         return {"errors": {}, "errors_from": None, "amplification": None}
-    nearest = min(kept)
-    parted = parting(result, kept[nearest], nearest)
-    horizon, runs = parted.growth.horizon, {1.0: result, **kept}
-    by_end = {end: _figures(runs, end) for end in {None, parted.beside, horizon}}
     solver = result.scene.solver
     safety = SAFETY if solver is not None and solver.step is None else SAFETY_OF_STEPS
-    reads = [figures(changed(result).summary()) for changed in (smoothed, overshot, unbalanced)]
-    until_then = {safety: by_end[parted.beside], AMPLIFIED * safety: by_end[horizon]}
+    until_then = {safety: by_end[beside], AMPLIFIED * safety: by_end[horizon]}
     errors: dict[str, Error] = {}
-    for name, value in by_end[None][1.0].items():
+    for name, value in by_end[end][1.0].items():
         read = max(abs(value - changed[name]) for changed in reads)
-        of = _error(name, by_end[None], until_then, read)
+        of = _error(name, by_end[end], until_then, read)
         low, high = of.low, of.high
         if value >= 0.0 and not name.endswith(SIGNED):
             low = max(low, 0.0)
         errors[name] = {"error": of.error, "determined": of.determined, "low": low, "high": high}
-    return {"errors": errors, "errors_from": horizon, "amplification": parted.growth.rate}
-
-
-def _figures(runs: Mapping[float, Result], end: float | None) -> Figures:
-    """Return the figures of runs, of their motion until an instant, s."""
     return {
-        r: figures((run if end is None else until(run, end)).summary()) for r, run in runs.items()
+        "errors": errors,
+        "errors_from": parted.growth.horizon,
+        "amplification": parted.growth.rate,
     }
+
+
+def _figures_until(run: Result, end: float) -> Mapping[str, float]:
+    """Return the figures of a run's motion until an instant, s."""
+    return figures(until(run, end).summary())
 
 
 def _error(
@@ -202,7 +215,3 @@ def _least(name: str, values: Sequence[float], run: Mapping[str, float]) -> floa
     alike = max(values) - min(values) <= OF_LOADS * size
     of_sum = OF_SUMS * force if name.startswith("shaking.") else 0.0
     return max((OF_THE_START if alike else OF_LOADS) * size, of_sum)
-
-
-def _reached(run: Result, end: float) -> bool:
-    return bool(run.time[-1] >= end * (1.0 - 1e-9))

@@ -33,11 +33,8 @@ def mean_peak(time: Array, velocity: Array, window: float = 1e-3) -> float | Non
     Returns:
         None where the record is shorter than the window.
     """
-    if time[-1] - time[0] < window:
-        return None
-    late = _ends(time, window)  # between them the mean is linear in time
-    change = np.interp(late, time, velocity) - np.interp(late - window, time, velocity)
-    return peak(change / window)
+    late, change = _windows(time, velocity, window)  # between them the mean is linear in time
+    return peak(change / window) if len(late) else None
 
 
 def mean_peak_of(time: Array, values: Array, window: float = 1e-3) -> float | None:
@@ -53,10 +50,9 @@ def mean_peak_of(time: Array, values: Array, window: float = 1e-3) -> float | No
     Returns:
         None where the record is shorter than the window.
     """
-    if time[-1] - time[0] < window:
+    late, change = _windows(time, values, window)
+    if not len(late):
         return None
-    late = _ends(time, window)
-    change = np.interp(late, time, values) - np.interp(late - window, time, values)
     turns = np.flatnonzero(change[:-1] * change[1:] < 0.0)  # there the mean is largest or least
     part = change[turns] / (change[turns] - change[turns + 1])
     late = np.concatenate([late, late[turns] + part * np.diff(late)[turns]])
@@ -65,10 +61,14 @@ def mean_peak_of(time: Array, values: Array, window: float = 1e-3) -> float | No
     return peak(sums / window)
 
 
-def _ends(time: Array, window: float) -> Array:
-    """Return the instants, increasing, at which a window ends that begins or ends at a step."""
+def _windows(time: Array, values: Array, window: float) -> tuple[Array, Array]:
+    """Return when windows end that begin or end at a step, increasing, and the change over each.
+
+    There are none in a record that is shorter than the window.
+    """
     ends = np.concatenate([time, time + window])
-    return np.unique(ends[(ends >= time[0] + window) & (ends <= time[-1])])
+    late = np.unique(ends[(ends >= time[0] + window) & (ends <= time[-1])])
+    return late, np.interp(late, time, values) - np.interp(late - window, time, values)
 
 
 def differentiated_peak(

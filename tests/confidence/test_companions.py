@@ -12,7 +12,8 @@ import pytest
 
 from exu_press import Scene
 from exu_press.confidence import companion
-from exu_press.confidence.companions import Companions, _may_fork, plan
+from exu_press.confidence import companions as companions_of
+from exu_press.confidence.companions import PLANS, Companions, _may_fork, plan
 from exu_press.scene import flexible_press
 
 SHORT = Scene(mechanism="slider_crank", revolutions=0.02)
@@ -37,9 +38,24 @@ def by(monkeypatch):
 def test_results_are_those_of_the_plan(by, forks, capfd):
     by(forks)
     with Companions(SHORT) as companions:
-        found = companions.results()
+        found = dict(companions.results())
     assert {ratio: run.scene for ratio, run in found.items()} == plan(SHORT)
     assert capfd.readouterr() == ("", "")
+
+
+def test_results_are_there_as_soon_as_they_are_done(monkeypatch):
+    monkeypatch.setattr(companions_of, "plan", lambda _: {4.0: SHORT, 8.0: LONG})
+    with Companions(SHORT) as companions:
+        ratio, run = next(companions.results())
+    assert (ratio, run.scene) == (4.0, SHORT)
+
+
+def test_the_nearest_one_is_first():
+    """It tells from when on the motions part."""
+    for kind in PLANS.values():
+        for ratios in kind.values():
+            assert len(ratios) >= 2
+            assert list(ratios) == sorted(ratios)
 
 
 @posix
@@ -62,7 +78,7 @@ def test_a_process_that_is_killed_says_so(by, forks):
     with Companions(LONG) as companions:
         os.kill(companions._process.pid, signal.SIGTERM)
         with pytest.raises(RuntimeError, match=r"companion run failed \(-15\)"):
-            companions.results()
+            list(companions.results())
 
 
 @linux
@@ -73,7 +89,7 @@ def test_what_goes_wrong_in_it_is_told(by, monkeypatch):
     by(True)
     monkeypatch.setattr(companion, "simulate", fails)
     with Companions(SHORT) as companions, pytest.raises(RuntimeError, match="ValueError: no oil"):
-        companions.results()
+        list(companions.results())
 
 
 def test_beside_another_thread_the_process_is_a_new_one():

@@ -76,5 +76,5 @@ def test_an_alternating_peak_is_stated_as_unsure(run):
     force = np.array([0.0, 500.0]) + signs * np.array([0.0, 40.0])
     force[[0, 1, -1]] = 0.0, 500.0  # neither the first step nor the last one is the peak
     loud = with_force(run, force)
-    told = errors_of(loud, {4.0: loud, 8.0: loud})["errors"]["joints.shaft.peak_force"]
+    told = errors_of(loud, [(4.0, loud), (8.0, loud)])["errors"]["joints.shaft.peak_force"]
     assert told["error"] >= 0.5 * 39.0  # where steps grow, neighbours weigh differently

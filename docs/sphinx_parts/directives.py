@@ -13,7 +13,7 @@ from docutils.parsers.rst import Directive
 from exu_press import Scene
 from exu_press.scene import DryJoint, Flexible
 from exu_press.scene.load import LOAD_KINDS
-from exu_press.scene.scene import TABLES
+from exu_press.scene.usage import TABLES
 
 
 def setup(app: Any) -> dict[str, Any]:

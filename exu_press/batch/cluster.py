@@ -2,7 +2,6 @@
 
 import contextlib
 from concurrent.futures import CancelledError, Future
-from types import TracebackType
 from urllib.parse import urlsplit
 
 from exu_press.batch.child import Child, perform, worker_died
@@ -87,12 +86,7 @@ class Cluster:
         """Return the cluster itself."""
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         """Give back the tasks not begun, and leave the cluster running."""
         self._executor.shutdown(wait=False)
         self._client.close()

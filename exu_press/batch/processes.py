@@ -2,7 +2,6 @@
 
 import threading
 from concurrent.futures import Future, ThreadPoolExecutor
-from types import TracebackType
 
 from exu_press.batch.child import Child, WorkerDiedError, perform
 from exu_press.batch.task import Row, Task
@@ -61,12 +60,7 @@ class Processes:
         """Return the pool itself."""
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         """End every process; tasks not begun are dropped."""
         with self._lock:
             self._ended = True

@@ -2,6 +2,7 @@
 
 import argparse
 import sys
+import textwrap
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -69,10 +70,14 @@ def directory_of(options: argparse.Namespace) -> Path:
 def show_warnings(found: Iterable[str]) -> None:
     """Print the first few warnings, each of them once."""
     each = list(dict.fromkeys(found))
-    for warning in each[:MOST_WARNINGS]:
-        print(f"exu-press: warning: {warning}", file=sys.stderr)
+    shown = each[:MOST_WARNINGS]
     if len(each) > MOST_WARNINGS:
-        print(f"exu-press: warning: {len(each) - MOST_WARNINGS} more like these", file=sys.stderr)
+        shown.append(f"{len(each) - MOST_WARNINGS} more like these")
+    for warning in shown:
+        lines = textwrap.wrap(
+            f"exu-press: warning: {warning}", 100, subsequent_indent="  ", break_on_hyphens=False
+        )
+        print("\n".join(lines), file=sys.stderr)
 
 
 def shipped_names() -> list[str]:

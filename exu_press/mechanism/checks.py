@@ -43,6 +43,7 @@ def check(
     crank: str,
     output: Output,
     groups: Mapping[str, Sequence[str]],
+    counterweight: Sequence[str],
 ) -> None:
     """Raise InputError for the first thing that no mechanism can be made of."""
     if not isinstance(name, str) or not name:
@@ -80,6 +81,9 @@ def check(
                 "which holds it; allowed is a direction in which it moves"
             )
     _check_groups(groups, [joint.name for joint in joints])
+    _names("counterweight", counterweight, "bodies")
+    for body_name in counterweight:
+        _known("counterweight", body_name, [n for n in names if n not in (crank, output.body)])
     _check_connections(bodies, joints, guides, crank)
 
 
@@ -108,6 +112,7 @@ def _check_groups(groups: Mapping[str, Sequence[str]], joints: Sequence[str]) ->
     for name, members in groups.items():
         if name in joints:
             raise InputError(f"groups.{name}: is a joint's name too; allowed is another one")
+        _names(f"groups.{name}", members, "joints")
         if not members:
             raise InputError(f"groups.{name}: is empty; allowed are names of joints")
         _once(f"groups.{name}", members)
@@ -145,6 +150,11 @@ def _known(where: str, name: Any, known: Collection[str]) -> None:
         raise InputError(
             f"{where} = {name!r}: unknown{nearest(name, known)}; allowed are {', '.join(known)}"
         )
+
+
+def _names(where: str, value: Any, what: str) -> None:
+    if not isinstance(value, list | tuple):
+        raise InputError(f"{where} = {value!r}: allowed is a list of names of {what}")
 
 
 def _once(where: str, names: Iterable[str]) -> None:

@@ -17,7 +17,6 @@ direction = [0, 1]
 pins = ["crank_pin", "wrist_pin"]
 """
 
-import json
 import math
 from collections.abc import Collection, Mapping
 from dataclasses import fields
@@ -28,8 +27,8 @@ from typing import Any
 from exu_press.checks import nearest
 from exu_press.errors import InputError
 from exu_press.mechanism.mechanism import Mechanism
-from exu_press.mechanism.parts import ROD, Body, Guide, Joint, Output, Point
-from exu_press.read_toml import read_toml
+from exu_press.mechanism.parts import Body, Guide, Joint, Output
+from exu_press.toml import read_toml, toml_text
 
 __all__ = [
     "SHIPPED",
@@ -44,6 +43,17 @@ FILES = Path(__file__).with_name("files")
 
 SHIPPED = tuple(sorted(path.stem for path in FILES.glob("*.toml")))
 """Names of the mechanisms that the package has as files."""
+
+PARTS: dict[str, tuple[type, tuple[str, ...], tuple[str, ...]]] = {
+    "bodies": (Body, ("centre_of_mass", "mass"), ("inertia", "angle")),
+    "joints": (Joint, ("at", "journal", "bearing"), ("shape",)),
+    "guides": (Guide, ("direction",), ()),
+}
+"""Tables of tables -> what each is made of, the keys it needs, and those it may have."""
+
+OUTPUT = ("body",), ("direction", "origin")
+TOP = ("name", "crank", "output", "bodies", "joints"), ("guides", "groups", "counterweight")
+"""The same of the output's table and of the whole file."""
 
 
 def load_mechanism(path: str | Path) -> Mechanism:
@@ -72,57 +82,31 @@ def mechanism_from(data: Mapping[str, Any]) -> Mechanism:
     Raises:
         InputError: a key is unknown or missing or has a wrong type, or the data make no mechanism.
     """
-    _known("", data, ("name", "crank", "output", "bodies", "joints", "guides", "groups"))
-    _needed("", data, ("name", "crank", "output", "bodies", "joints"))
-    output = _table("output", data["output"])
-    _known("output", output, ("body", "direction", "origin"))
-    _needed("output", output, ("body",))
-    return Mechanism(
-        name=_text("name", data["name"]),
-        bodies=tuple(_body(name, table) for name, table in _tables(data, "bodies")),
-        joints=tuple(_joint(name, table) for name, table in _tables(data, "joints")),
-        guides=tuple(_guide(name, table) for name, table in _tables(data, "guides")),
-        crank=_text("crank", data["crank"]),
-        output=Output(
-            body=_text("output.body", output["body"]),
-            **{name: _point(f"output.{name}", output[name]) for name in output if name != "body"},
-        ),
-        groups={
-            name: _names(f"groups.{name}", members)
-            for name, members in _table("groups", data.get("groups", {})).items()
-        },
-    )
+    top = _keys("", data, *TOP)
+    parts: dict[str, Any] = {
+        kind: tuple(
+            made(name, **_keys(f"{kind}.{name}", table, needed, others))
+            for name, table in _table(kind, top.pop(kind, {})).items()
+        )
+        for kind, (made, needed, others) in PARTS.items()
+    }
+    output = Output(**_keys("output", top.pop("output"), *OUTPUT))
+    groups = _table("groups", top.pop("groups", {}))
+    groups = {name: _value(members) for name, members in groups.items()}
+    return Mechanism(**top, **parts, output=output, groups=groups)
 
 
 def mechanism_to_dict(mechanism: Mechanism) -> dict[str, Any]:
     """Return a mechanism with ideal guides as a nested mapping, for `mechanism_from`."""
-    return {
-        "name": mechanism.name,
-        "crank": mechanism.crank,
-        "output": {
-            field.name: _plain(getattr(mechanism.output, field.name)) for field in fields(Output)
-        },
-        "bodies": {
-            body.name: {
-                "centre_of_mass": [*body.centre_of_mass],
-                "mass": body.mass,
-                "inertia": body.inertia,
-                "angle": body.angle,
-            }
-            for body in mechanism.bodies
-        },
-        "joints": {
-            joint.name: {
-                "at": [*joint.at],
-                "journal": joint.journal,
-                "bearing": joint.bearing,
-                "shape": joint.shape,
-            }
-            for joint in mechanism.joints
-        },
-        "guides": {guide.body: {"direction": [*guide.direction]} for guide in mechanism.guides},
-        "groups": {name: [*members] for name, members in mechanism.groups.items()},
-    }
+    data: dict[str, Any] = {"name": mechanism.name, "crank": mechanism.crank}
+    if mechanism.counterweight:
+        data["counterweight"] = [*mechanism.counterweight]
+    data["output"] = _plain(mechanism.output, *OUTPUT)
+    for kind, (made, needed, others) in PARTS.items():
+        name = fields(made)[0].name
+        parts = getattr(mechanism, kind)
+        data[kind] = {getattr(part, name): _plain(part, needed, others) for part in parts}
+    return data | {"groups": {name: [*members] for name, members in mechanism.groups.items()}}
 
 
 def mechanism_lines(mechanism: Mechanism, prefix: str = "") -> list[str]:
@@ -133,60 +117,35 @@ def mechanism_lines(mechanism: Mechanism, prefix: str = "") -> list[str]:
         prefix: what the tables' names begin with, such as "mechanism." in a scene file.
     """
     data = mechanism_to_dict(mechanism)
-    lines = [f"{key} = {_toml(data[key])}" for key in ("name", "crank", "output")]
-    if prefix:
-        lines = [f"[{prefix.removesuffix('.')}]", *lines]
-    for kind in ("bodies", "joints", "guides"):
-        for name, table in data[kind].items():
+    tables = {kind: data.pop(kind) for kind in (*PARTS, "groups")}
+    lines = [f"[{prefix.removesuffix('.')}]"] if prefix else []
+    lines += [f"{key} = {toml_text(value)}" for key, value in data.items()]
+    for kind in PARTS:
+        for name, table in tables[kind].items():
             lines += ["", f"[{prefix}{kind}.{name}]"]
-            lines += [f"{key} = {_toml(value)}" for key, value in table.items()]
-    lines += ["", f"[{prefix}groups]"] if data["groups"] else []
-    return lines + [f"{name} = {_toml(members)}" for name, members in data["groups"].items()]
+            lines += [f"{key} = {toml_text(value)}" for key, value in table.items()]
+    lines += ["", f"[{prefix}groups]"] if tables["groups"] else []
+    return lines + [f"{name} = {toml_text(members)}" for name, members in tables["groups"].items()]
 
 
-def _toml(value: Any) -> str:
-    """Return a value in TOML: JSON's texts and lists are TOML's, and so is Python's float."""
-    if isinstance(value, Mapping):
-        return "{" + ", ".join(f"{key} = {_toml(inner)}" for key, inner in value.items()) + "}"
-    return json.dumps(value, ensure_ascii=False)
-
-
-def _body(name: str, table: Mapping[str, Any]) -> Body:
-    where = f"bodies.{name}"
-    _known(where, table, ("centre_of_mass", "mass", "inertia", "angle"))
-    _needed(where, table, ("centre_of_mass", "mass"))
-    return Body(
-        name,
-        mass=_number(f"{where}.mass", table["mass"]),
-        inertia=_number(f"{where}.inertia", table["inertia"]) if "inertia" in table else ROD,
-        centre_of_mass=_point(f"{where}.centre_of_mass", table["centre_of_mass"]),
-        angle=_number(f"{where}.angle", table.get("angle", 0.0)),
-    )
-
-
-def _joint(name: str, table: Mapping[str, Any]) -> Joint:
-    where = f"joints.{name}"
-    _known(where, table, ("at", "journal", "bearing", "shape"))
-    _needed(where, table, ("at", "journal", "bearing"))
-    return Joint(
-        name,
-        at=_point(f"{where}.at", table["at"]),
-        journal=_text(f"{where}.journal", table["journal"]),
-        bearing=_text(f"{where}.bearing", table["bearing"]),
-        shape=_text(f"{where}.shape", table.get("shape", "revolute")),
-    )
-
-
-def _guide(name: str, table: Mapping[str, Any]) -> Guide:
-    where = f"guides.{name}"
-    _known(where, table, ("direction",))
-    _needed(where, table, ("direction",))
-    return Guide(name, _point(f"{where}.direction", table["direction"]))
-
-
-def _tables(data: Mapping[str, Any], name: str) -> list[tuple[str, Mapping[str, Any]]]:
-    tables = _table(name, data.get(name, {}))
-    return [(key, _table(f"{name}.{key}", table)) for key, table in tables.items()]
+def _keys(
+    where: str, given: Any, needed: Collection[str], others: Collection[str]
+) -> dict[str, Any]:
+    """Return what a table has; which values are allowed the mechanism knows itself."""
+    table, known = _table(where, given), (*needed, *others)
+    for key, value in table.items():
+        path = f"{where}.{key}" if where else key
+        if key not in known:
+            raise InputError(
+                f"{path} = {value!r}: unknown key{nearest(key, known)}; allowed are "
+                f"{', '.join(known)}"
+            )
+        if isinstance(value, float) and math.isnan(value):  # `ROD`, which is left out here
+            raise InputError(f"{path} = {value!r}: allowed is a number")
+    for key in needed:
+        if key not in table:
+            raise InputError(f"{f'{where}.{key}' if where else key}: missing")
+    return {key: _value(value) if where else value for key, value in table.items()}
 
 
 def _table(where: str, value: Any) -> Mapping[str, Any]:
@@ -195,45 +154,14 @@ def _table(where: str, value: Any) -> Mapping[str, Any]:
     return value
 
 
-def _known(where: str, table: Mapping[str, Any], known: Collection[str]) -> None:
-    for key in table:
-        if key not in known:
-            path = f"{where}.{key}" if where else key
-            raise InputError(
-                f"{path} = {table[key]!r}: unknown key{nearest(key, known)}; allowed are "
-                f"{', '.join(known)}"
-            )
+def _value(value: Any) -> Any:
+    """Return lists as tuples, and whole numbers as the numbers that they stand for."""
+    if isinstance(value, list | tuple):
+        return tuple(map(_value, value))
+    return float(value) if type(value) is int else value
 
 
-def _needed(where: str, table: Mapping[str, Any], needed: Collection[str]) -> None:
-    for key in needed:
-        if key not in table:
-            raise InputError(f"{f'{where}.{key}' if where else key}: missing")
-
-
-def _number(where: str, value: Any) -> float:
-    if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
-        raise InputError(f"{where} = {value!r}: allowed is a number")
-    return float(value)
-
-
-def _text(where: str, value: Any) -> str:
-    if not isinstance(value, str) or not value:
-        raise InputError(f"{where} = {value!r}: allowed is a text")
-    return value
-
-
-def _point(where: str, value: Any) -> Point:
-    if not isinstance(value, list | tuple) or len(value) != 2:
-        raise InputError(f"{where} = {value!r}: allowed are two numbers, [x, y]")
-    return _number(where, value[0]), _number(where, value[1])
-
-
-def _names(where: str, value: Any) -> tuple[str, ...]:
-    if not isinstance(value, list | tuple):
-        raise InputError(f"{where} = {value!r}: allowed is a list of joints' names")
-    return tuple(_text(where, name) for name in value)
-
-
-def _plain(value: Any) -> Any:
-    return [*value] if isinstance(value, tuple) else value
+def _plain(part: Any, needed: tuple[str, ...], others: tuple[str, ...]) -> dict[str, Any]:
+    """Return the keys of a body, joint, guide or output, points as lists."""
+    values = {key: getattr(part, key) for key in needed + others}
+    return {key: [*v] if isinstance(v, tuple) else v for key, v in values.items()}

@@ -32,6 +32,8 @@ class Mechanism:
         crank: name of the driven body.
         output: whose motion the result's slider channels record.
         groups: names for several joints, which a scene gives clearance together.
+        counterweight: names of the bodies that balance the others, without which the shaking force
+            is recorded too.
 
     Raises:
         InputError: names are used twice or unknown, a body has no mass, or what else cannot be.
@@ -45,6 +47,7 @@ class Mechanism:
     crank: str
     output: Output
     groups: Mapping[str, tuple[str, ...]] = field(default_factory=dict, hash=False)
+    counterweight: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         """Check the drawing, fill in the inertia of uniform rods, make directions unit vectors."""
@@ -55,9 +58,17 @@ class Mechanism:
             output=all_of(Output, "output", [self.output])[0],
         )
         check(
-            self.name, self.bodies, self.joints, self.guides, self.crank, self.output, self.groups
+            self.name,
+            self.bodies,
+            self.joints,
+            self.guides,
+            self.crank,
+            self.output,
+            self.groups,
+            self.counterweight,
         )
         self._set(
+            counterweight=tuple(self.counterweight),
             bodies=tuple(
                 replace(body, inertia=_rod_inertia(self, body))
                 if math.isnan(body.inertia)

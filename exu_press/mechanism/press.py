@@ -165,6 +165,7 @@ def press(size: Press) -> Mechanism:
         crank="crank",
         output=Output("slider", origin=(0.0, slider_bottom - size.bottom_dead_centre)),
         groups=groups,
+        counterweight=("counter_linkage", "counterweight") if size.counterweight else (),
     )
 
 

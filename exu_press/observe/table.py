@@ -17,11 +17,6 @@ ALIKE = 1e-2
 """Two sides that differ by less, relatively, are shown as one."""
 
 
-def _number(value: float | None, scale: float = 1.0, digits: int = 4) -> str:
-    """Return a value in a multiple of its SI unit, or a dash where there is none."""
-    return "-" if value is None else f"{value * scale:.{digits}g}"
-
-
 def _figure(name: str, scale: float = 1.0, digits: int = 4) -> Callable[[Summary], str]:
     """Return what reads a figure by its dotted name, with its error where that is known."""
 
@@ -72,7 +67,7 @@ def _alike(one: float | None, other: float | None) -> bool:
 
 def _determined(summary: Summary) -> str:
     """Return until when errors are smaller than the figures; a dash if that is throughout."""
-    return _number(summary.get("errors_from"), 1e3)
+    return uncertain(summary.get("errors_from"), None, 1e3)
 
 
 def _tilt(summary: Summary) -> str:
@@ -138,9 +133,9 @@ ROWS: tuple[tuple[str, Callable[[Summary], str]], ...] = (
     ("  work that it put in, J", _loads("work", 1.0)),
     ("energy put in, J", _figure("energy.input")),
     ("energy dissipated, J", _figure("energy.dissipated")),
-    ("energy residual", lambda s: _number(s["energy"]["residual"], 1.0, 2)),
+    ("energy residual", lambda s: uncertain(s["energy"]["residual"], None, 1.0, 2)),
     ("steps", lambda s: f"{s['steps']} ({s['rejected_steps']} rejected)"),
-    ("wall time, s", lambda s: _number(s["wall_time"], 1.0, 3)),
+    ("wall time, s", lambda s: uncertain(s["wall_time"], None, 1.0, 3)),
 )
 
 

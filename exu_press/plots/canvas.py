@@ -22,6 +22,7 @@ __all__ = [
     "crank_degrees",
     "curve",
     "dead_centres",
+    "headed_figure",
     "legend_above",
     "new_figure",
 ]
@@ -37,11 +38,16 @@ def new_figure(heading: str, results: Mapping[str, Result], size: tuple[float, f
         results: of what, by label.
         size: width and height, inch.
     """
-    figure = Figure(figsize=size, layout="constrained")
     letters = int(12.5 * size[0])
     scenes = [result.scene for result in results.values()]
     lines = [describe(scenes, letters), early_stops(results, letters)]
-    text = plain("\n".join(["", *filter(None, lines)]))  # an empty line, where the heading goes
+    return headed_figure(heading, "\n".join(filter(None, lines)), size)
+
+
+def headed_figure(heading: str, text: str, size: tuple[float, float]) -> Figure:
+    """Return a figure with a heading and a text below it; arguments as those of `new_figure`."""
+    figure = Figure(figsize=size, layout="constrained")
+    text = plain(f"\n{text}")  # an empty line, where the heading goes
     below = figure.suptitle(text, x=0.012, ha="left", fontsize=9.5, linespacing=1.45)
     figure.add_artist(
         Annotation(heading, (0, 1), xycoords=below, va="top", fontsize=13, fontweight="bold")

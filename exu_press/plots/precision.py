@@ -10,8 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from matplotlib.text import Annotation
 
+from exu_press.plots.canvas import headed_figure
 from exu_press.plots.save import save_figure
 from exu_press.plots.style import COLOURS, GREY, SHADE, colour_of, styled
 from exu_press.studies.precision import Report, Row
@@ -57,14 +57,8 @@ def precision_figure(report: Report, name: str) -> Figure:
     else:
         panels["error_velocity"] = "angular velocity, rad/s" if case["scene"] is None else "m/s"
     stated = [one for one in report.stated if one.case == name and one.errors]
-    figure = Figure(figsize=(17.5 if stated else 13.0, 6.0), layout="constrained")
-    below = figure.suptitle(
-        f"\n{_words(report, case)}", x=0.012, ha="left", fontsize=9.5, linespacing=1.6
-    )
     heading = f"{case['title']}: error against run time"
-    figure.add_artist(
-        Annotation(heading, (0, 1), xycoords=below, va="top", fontsize=13, fontweight="bold")
-    ).set_in_layout(False)
+    figure = headed_figure(heading, _words(report, case), (17.5 if stated else 13.0, 6.0))
     widths = (*[1.0] * (len(panels) + bool(stated)), 0.34)
     *axes, key = figure.subplots(1, len(widths), width_ratios=widths)
     if stated:

@@ -11,8 +11,8 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.text import Annotation
 
+from exu_press.plots.canvas import headed_figure
 from exu_press.plots.save import save_figure
 from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, styled
 from exu_press.studies.stability import Report, Row
@@ -45,14 +45,8 @@ def stability_figure(report: Report) -> Figure:
     pairs = [row for row in report.rows if row.axis == PAIRS]
     lines = list(dict.fromkeys(map(_line, single)))
     height = 2.2 + 0.23 * max(len(lines), 20)
-    figure = Figure(figsize=(15.0 if pairs else 9.5, height), layout="constrained")
-    below = figure.suptitle(f"\n{_words(report)}", x=0.012, ha="left", fontsize=9.5)
-    figure.add_artist(
-        Annotation(
-            "Stiff and extreme cases", (0, 1), xycoords=below, va="top", fontsize=13,
-            fontweight="bold",
-        )
-    ).set_in_layout(False)  # fmt: skip
+    size = (15.0 if pairs else 9.5, height)
+    figure = headed_figure("Stiff and extreme cases", _words(report), size)
     left, *right = figure.subplots(1, 2 if pairs else 1, squeeze=False).flat
     colours = ScalarMappable(LogNorm(*RESIDUALS, clip=True), PATH_COLOURS)
     if single:

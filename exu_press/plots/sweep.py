@@ -5,9 +5,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from matplotlib.figure import Figure
-from matplotlib.text import Annotation
 
 from exu_press.errors import InputError
+from exu_press.plots.canvas import headed_figure
 from exu_press.plots.save import save_figure
 from exu_press.plots.style import styled
 from exu_press.plots.sweep_panels import draw_curves, draw_map
@@ -54,13 +54,9 @@ def sweep_figure(table: Table, axes: Sequence[str], quantities: Sequence[str]) -
     """
     columns = min(2, len(quantities))
     rows = -(-len(quantities) // columns)
-    figure = Figure(figsize=(6.4 * columns, 1.0 + 3.7 * rows), layout="constrained")
-    text = plain(f"\n{_words(table, int(80 * columns))}")
-    below = figure.suptitle(text, x=0.012, ha="left", fontsize=9.5, linespacing=1.45)
     heading = f"{len(table)} runs over {' and '.join(map(words, axes))}"
-    figure.add_artist(
-        Annotation(heading, (0, 1), xycoords=below, va="top", fontsize=13, fontweight="bold")
-    ).set_in_layout(False)
+    size = (6.4 * columns, 1.0 + 3.7 * rows)
+    figure = headed_figure(heading, _words(table, int(80 * columns)), size)
     panels = figure.subplots(rows, columns, squeeze=False)
     curves = _curves(table, axes)
     for panel, quantity in zip(panels.flat, quantities, strict=False):

@@ -8,9 +8,8 @@ from exu_press.errors import InputError
 from exu_press.observe.table import comparison_cells
 from exu_press.plots import save_comparison
 from exu_press.plots.words import describe
-from exu_press.report.html import items, page, picture, table
-from exu_press.report.run import scene_parts
-from exu_press.report.warnings import warnings_of
+from exu_press.report.html import page, picture, table, warnings
+from exu_press.report.run import scene_parts, warnings_of
 from exu_press.result import Result
 from exu_press.stored import from_json, shown
 
@@ -32,7 +31,7 @@ def comparison_report(file: Path) -> str:
             picture(path, CAPTIONS.get(path.stem, path.stem))
             for path in save_comparison(results, folder)
         ]
-    warnings = [
+    told = [
         f"{label}: {warning}"
         for label, summary in summaries.items()
         for warning in warnings_of(summary)
@@ -42,7 +41,7 @@ def comparison_report(file: Path) -> str:
         f"Comparison: {describe([result.scene for result in results.values()], 200)}",
         f"{', '.join(results)}; {file.parent.name}/{file.name}",
         [
-            ("Warnings", items(warnings, "warnings") if warnings else items(["none"], "good")),
+            ("Warnings", warnings(told)),
             ("Results", table(head, rows)),
             ("Pictures", "\n".join(shown)),
             *scene_parts(richest.scene),

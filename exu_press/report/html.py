@@ -8,7 +8,7 @@ from string import Template
 
 from exu_press.plots.typesetting import typeset
 
-__all__ = ["details", "items", "page", "paragraph", "picture", "section", "table"]
+__all__ = ["details", "page", "paragraph", "picture", "table", "warnings"]
 
 PAGE = Template("""<!DOCTYPE html>
 <html lang="en">
@@ -61,18 +61,15 @@ def page(title: str, under: str, sections: Sequence[tuple[str, str]]) -> str:
         under: what stands below the title.
         sections: heading and HTML of each.
     """
-    named = [(heading, f"part-{number}") for number, (heading, _) in enumerate(sections)]
-    links = "\n".join(f'<a href="#{name}">{_text(heading)}</a>' for heading, name in named)
+    links = "\n".join(
+        f'<a href="#part-{number}">{_text(heading)}</a>'
+        for number, (heading, _) in enumerate(sections)
+    )
     body = "\n".join(
-        section(heading, inner, f"part-{number}")
+        f'<section id="part-{number}">\n<h2>{_text(heading)}</h2>\n{inner}\n</section>'
         for number, (heading, inner) in enumerate(sections)
     )
     return PAGE.substitute(title=_text(title), under=_text(under), links=links, body=body)
-
-
-def section(heading: str, inner: str, name: str) -> str:
-    """Return a section with its heading."""
-    return f'<section id="{name}">\n<h2>{_text(heading)}</h2>\n{inner}\n</section>'
 
 
 def paragraph(text: str) -> str:
@@ -80,11 +77,10 @@ def paragraph(text: str) -> str:
     return f"<p>{_text(text)}</p>"
 
 
-def items(texts: Iterable[str], kind: str = "") -> str:
-    """Return a list of plain texts; `kind` is "warnings", "good" or nothing."""
-    inner = "\n".join(f"<li>{_text(text)}</li>" for text in texts)
-    attribute = f' class="{kind}"' if kind else ""
-    return f"<div{attribute}><ul>\n{inner}\n</ul></div>"
+def warnings(texts: Sequence[str]) -> str:
+    """Return a list of plain texts, or that there are none."""
+    inner = "\n".join(f"<li>{_text(text)}</li>" for text in texts or ["none"])
+    return f'<div class="{"warnings" if texts else "good"}"><ul>\n{inner}\n</ul></div>'
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[str]], caption: str = "") -> str:

@@ -12,16 +12,15 @@ from exu_press.observe.table import comparison_cells
 from exu_press.observe.uncertain import uncertain
 from exu_press.plots import save_pictures
 from exu_press.plots.words import describe
-from exu_press.report.html import details, items, page, paragraph, picture, table
+from exu_press.report.html import details, page, paragraph, picture, table, warnings
 from exu_press.report.joints import joint_table
-from exu_press.report.warnings import assumption_rows, warnings_of
 from exu_press.result import Result
 from exu_press.scene import Scene
-from exu_press.scene.assumptions import keys_of
+from exu_press.scene.assumptions import keys_of, used_assumptions
 from exu_press.view import Animation, moment, save_picture
 from exu_press.view.animation import SIZE
 
-__all__ = ["run_report", "scene_parts"]
+__all__ = ["run_report", "scene_parts", "warnings_of"]
 
 CAPTIONS = {
     "slider": "Slider motion against the ideal mechanism: position, velocity, acceleration.",
@@ -63,7 +62,7 @@ def run_report(result: Result, source: str) -> str:
         f"{source}: {summary['status']} at t = {summary['end_time']:.6g} s, "
         f"crank angle {np.degrees(result['crank_angle'][-1]):.1f}°",
         [
-            ("Warnings", _warnings(warnings_of(summary))),
+            ("Warnings", warnings(warnings_of(summary))),
             ("Results", table(("quantity", "value"), numbers) + joint_table(summary)),
             ("Pictures", _pictures(result)),
             ("Energy and solver", _energy(summary) + _statistics(summary)),
@@ -80,6 +79,10 @@ def scene_parts(scene: Scene) -> list[tuple[str, str]]:
         _row(key.name, key.value, key.unit, key.meaning, "assumed" if key.assumed else "given")
         for key in keys
     ]
+    assumed = [
+        [f"A-{assumption.number}", assumption.text, ", ".join(map(str, left))]
+        for assumption, left in used_assumptions(scene).items()
+    ]
     head = ("key", "value", "unit", "meaning")
     given = (
         table(head, changed, "Keys that differ from their defaults")
@@ -94,13 +97,15 @@ def scene_parts(scene: Scene) -> list[tuple[str, str]]:
                 "What the paper leaves out or misprints and this scene rests on. "
                 "Each key can be set in the scene."
             )
-            + table(("", "assumption", "default assumed"), assumption_rows(scene)),
+            + table(("", "assumption", "default assumed"), assumed),
         ),
     ]
 
 
-def _warnings(found: list[str]) -> str:
-    return items(found, "warnings") if found else items(["none"], "good")
+def warnings_of(summary: Mapping[str, Any]) -> list[str]:
+    """Return how a run ended, unless it completed, and its warnings."""
+    ended = [f"{summary['status']}: {summary['reason']}"] if summary["reason"] else []
+    return [*ended, *summary["warnings"]]
 
 
 def _pictures(result: Result) -> str:

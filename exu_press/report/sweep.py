@@ -10,7 +10,7 @@ from exu_press.checks import table_from
 from exu_press.errors import InputError
 from exu_press.plots.sweep import save_sweep
 from exu_press.plots.words import describe
-from exu_press.report.html import items, page, paragraph, picture, table
+from exu_press.report.html import page, paragraph, picture, table, warnings
 from exu_press.report.run import scene_parts
 from exu_press.scene.warnings import scene_warnings
 from exu_press.stored import LARGEST, from_json
@@ -47,7 +47,7 @@ def sweep_report(file: Path) -> str:
         f"{len(runs)} runs over {', '.join(runs.study.keys)}: {ends}; "
         f"{file.parent.name}/{file.name}",
         [
-            ("Warnings", items(told, "warnings") if told else items(["none"], "good")),
+            ("Warnings", warnings(told)),
             ("Pictures", "\n".join(pictures) or paragraph("No number varies, or none came out.")),
             ("Runs", table(head, rows) + more),
             *scene_parts(runs.study.scene),

@@ -37,10 +37,6 @@ EVERY_RUN = {
 BALANCE = {"energy_input": "", "energy_stored": "", "energy_dissipated": ""}
 """The channels of every run of a scene's own items alone."""
 
-SOME_RUNS = {
-    "shaking_force_without_counterweight": "plane",
-}
-
 ENDINGS = {"guide_force": "", "guide_moment": "", "guide_friction": "", "_loss": ""}
 """Of channels whose names begin with what they belong to."""
 
@@ -77,6 +73,8 @@ def _check(result: Contents) -> None:
         )
     loose = {joint.name for joint in mechanism.joints if scene.joints[joint.name].kind != "ideal"}
     always = EVERY_RUN if result.info["own_items"] else EVERY_RUN | BALANCE
+    if mechanism.counterweight:
+        always = always | {"shaking_force_without_counterweight": "plane"}
     _check_channels(result.channels, mechanism, loose, {**always, **_of_loads(scene)})
     _check_surfaces(result)
 
@@ -94,7 +92,7 @@ def _check_channels(
     always: Mapping[str, str],
 ) -> None:
     """Check which channels there are, and what their columns are."""
-    columns, required = {**EVERY_RUN, **BALANCE, **SOME_RUNS, **always}, list(always)
+    columns, required = {**EVERY_RUN, **BALANCE, **always}, list(always)
     for joint in mechanism.joints:
         columns[f"{joint.name}_force"] = vector = "space" if joint.spherical else "plane"
         if joint.name in loose:

@@ -13,8 +13,6 @@ __all__ = ["shaking_forces"]
 
 Array = NDArray[np.float64]
 
-COUNTERWEIGHT = ("counter_linkage", "counterweight")
-
 
 def shaking_forces(model: Model, acceleration: Array) -> dict[str, Channel]:
     """Return the shaking force, minus the rate of the mechanism's momentum, (n, 2), N.
@@ -22,8 +20,8 @@ def shaking_forces(model: Model, acceleration: Array) -> dict[str, Channel]:
     That is what shaft, pivots and guides press the frame with, less weight and blanking force; the
     latter closes within the press, from the slider through tool and bed.
 
-    The counterweight hangs on the shaft, not on the slider's branch, so that the shaking force
-    without it is that of the same press with bodies 11 and 12 left out.
+    Where the mechanism says which of its bodies are a counterweight, that of the others too: of the
+    same press built without it, if it hangs on the crank and not on the slider's branch.
 
     Args:
         model: integrated.
@@ -42,9 +40,9 @@ def shaking_forces(model: Model, acceleration: Array) -> dict[str, Channel]:
             _sum(forces, forces), "N", "shaking force: minus the rate of momentum", "plane"
         )
     }
-    if all(name in forces for name in COUNTERWEIGHT):
-        others = [name for name in forces if name not in COUNTERWEIGHT]
-        words = "shaking force without linkage 11 and counterweight 12"
+    if counterweight := model.mechanism.counterweight:
+        others = [name for name in forces if name not in counterweight]
+        words = "shaking force without the counterweight"
         channels["shaking_force_without_counterweight"] = Channel(
             _sum(forces, others), "N", words, "plane"
         )

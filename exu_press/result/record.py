@@ -4,7 +4,6 @@ import importlib.metadata
 import platform
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exu_press.integrate import Outcome
 from exu_press.mechanism.parts import DRIVE
@@ -25,8 +24,6 @@ from exu_press.result.stress import record_stress
 from exu_press.result.surface import surfaces_of
 
 __all__ = ["record"]
-
-Array = NDArray[np.float64]
 
 
 def record(model: Model, outcome: Outcome) -> Result:

@@ -4,14 +4,16 @@ The assumptions A-1 to A-14 are listed here once; meanings and defaults of keys 
 """
 
 import dataclasses
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from typing import Any
 
+from exu_press.checks import Table
 from exu_press.mechanism import Mechanism
 from exu_press.scene.joint import DEFAULT_KINDS, Joint
-from exu_press.scene.scene import OF_THE_COUNTERWEIGHT, OF_THE_WAYS, TABLES, Scene
+from exu_press.scene.scene import Scene
+from exu_press.scene.usage import TABLES, unused_keys
 
 __all__ = ["ASSUMPTIONS", "Assumption", "Key", "assumed_line", "keys_of", "used_assumptions"]
 
@@ -113,7 +115,12 @@ def keys_of(scene: Scene) -> dict[str, Key]:
             value = f"{value.name}, the scene's own"
         meta = field.metadata
         found[name] = Key(name, value, default, meta["unit"], meta["meaning"])
-    return found | _joint_keys(scene) | _body_keys(scene) | _load_keys(scene)
+    found |= _joint_keys(scene)
+    for name, body in scene.bodies.items():
+        found |= _keys_in(f"bodies.{name}", body, {"flexible": ""})
+    for name, load in scene.load.items():
+        found |= _keys_in(f"load.{name}", load, {})
+    return found
 
 
 def used_assumptions(scene: Scene) -> dict[Assumption, tuple[Key, ...]]:
@@ -150,8 +157,8 @@ def assumed_line(scene: Scene) -> str:
 
 def _at_defaults(scene: Scene) -> Scene:
     """Return a scene of the same kind in which nothing else is given."""
-    kind: dict[str, Any] = {name: getattr(scene, name) for name in ("mechanism",)}
-    kind["joints"] = {name: joint.kind for name, joint in scene.joints.items()}
+    joints = {name: joint.kind for name, joint in scene.joints.items()}
+    kind: dict[str, Any] = {"mechanism": scene.mechanism, "joints": joints}
     for name, key in (("film", "at_contact"), ("press", "counterweight")):
         table = getattr(scene, name)
         if table is not None:
@@ -186,34 +193,22 @@ def _joint_keys(scene: Scene) -> dict[str, Key]:
     return {key.name: key for key in found}
 
 
-def _body_keys(scene: Scene) -> dict[str, Key]:
-    """Return the keys of the flexible bodies."""
+def _keys_in(place: str, table: Table, defaults: Mapping[str, Any]) -> dict[str, Key]:
+    """Return the keys of one table that are given, with other defaults than the declared ones."""
     found = {}
-    for name, body in scene.bodies.items():
-        for field in dataclasses.fields(body):
-            value, meta = getattr(body, field.name), field.metadata
-            if meta and value is not None:
-                key = f"bodies.{name}.{field.name}"
-                default = "" if field.name == "flexible" else field.default
-                found[key] = Key(key, value, default, meta["unit"], meta["meaning"])
-    return found
-
-
-def _load_keys(scene: Scene) -> dict[str, Key]:
-    """Return the keys of the loads."""
-    found = {}
-    for name, load in scene.load.items():
-        for field in dataclasses.fields(load):
-            value, meta = getattr(load, field.name), field.metadata
-            if value is not None:
-                key = f"load.{name}.{field.name}"
-                found[key] = Key(key, value, field.default, meta["unit"], meta["meaning"])
+    for field in dataclasses.fields(table):
+        value, meta = getattr(table, field.name), field.metadata
+        if meta and value is not None:
+            default = defaults.get(field.name, field.default)
+            name = f"{place}.{field.name}"
+            found[name] = Key(name, value, default, meta["unit"], meta["meaning"])
     return found
 
 
 def _flat(scene: Scene) -> Iterator[tuple[str, tuple[Any, dataclasses.Field[Any]]]]:
     """Yield the name of every key in use with its value and declaration."""
     used = scene.to_dict()
+    unused = unused_keys(used)
     for field in dataclasses.fields(scene):
         if field.name not in TABLES:
             if field.name in used and field.name not in ("joints", "bodies", "load"):
@@ -221,13 +216,9 @@ def _flat(scene: Scene) -> Iterator[tuple[str, tuple[Any, dataclasses.Field[Any]
             continue
         table = getattr(scene, field.name)
         for inner in dataclasses.fields(table) if table is not None else ():
-            gone = (
-                field.name == "press"
-                and not table.counterweight
-                and inner.name in OF_THE_COUNTERWEIGHT
-            ) or (field.name == "guide" and table.clearance is None and inner.name in OF_THE_WAYS)
-            if inner.name in used[field.name] and not gone:
-                yield f"{field.name}.{inner.name}", (getattr(table, inner.name), inner)
+            name = f"{field.name}.{inner.name}"
+            if inner.name in used[field.name] and name not in unused:
+                yield name, (getattr(table, inner.name), inner)
 
 
 def _text(value: Any) -> str:

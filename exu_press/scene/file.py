@@ -6,10 +6,10 @@ from pathlib import Path
 from typing import Any
 
 from exu_press.errors import InputError
-from exu_press.read_toml import read_toml
 from exu_press.scene.bodies import STEP_FILES
 from exu_press.scene.loads import with_files_beside
 from exu_press.scene.scene import Scene
+from exu_press.toml import read_toml
 
 __all__ = ["load_scene", "parse_assignment"]
 

@@ -8,7 +8,7 @@ from exu_press.scene.joint import LAW_TABLES, keys_used
 from exu_press.scene.joints import keys_given
 from exu_press.scene.tables import Film
 
-__all__ = ["by_group", "changed_joints", "kinds_of", "unused_laws"]
+__all__ = ["by_group", "changed_joints", "kinds_of", "peek", "unused_laws"]
 
 
 def unused_laws(kinds: Iterable[tuple[Any, Any]]) -> dict[str, str]:
@@ -25,12 +25,12 @@ def unused_laws(kinds: Iterable[tuple[Any, Any]]) -> dict[str, str]:
 
 def kinds_of(joints: Any, film: Any) -> list[tuple[Any, Any]]:
     """Return kind and film.at_contact of joints as a scene file or a scene has them."""
-    usual = _peek(film, "at_contact", Film.at_contact)
+    usual = peek(film, "at_contact", Film.at_contact)
     each = joints.values() if isinstance(joints, Mapping) else ()
     return [
         (
-            joint if isinstance(joint, str) else _peek(joint, "kind"),
-            _peek(_peek(joint, "film"), "at_contact", usual),
+            joint if isinstance(joint, str) else peek(joint, "kind"),
+            peek(peek(joint, "film"), "at_contact", usual),
         )
         for joint in each
     ]
@@ -79,15 +79,21 @@ def changed_joints(
 def by_group(
     message: str, groups: Mapping[str, tuple[str, ...]], changes: Mapping[str, Any]
 ) -> str:
-    """Return a message about a joint with the group's name, where that is what was changed."""
+    """Return a message about a joint with the group's name, where that is what was changed.
+
+    Args:
+        message: names one joint of the group.
+        groups: names for several joints at once -> these joints.
+        changes: dotted name in the scene -> value.
+    """
     for path in changes:
-        group = path.partition(".")[0]
+        group = path.removeprefix("joints.").partition(".")[0]
         for member in groups.get(group, ()):
             message = message.replace(f"joints.{member}", f"joints.{group}")
     return message
 
 
-def _peek(table: Any, name: str, otherwise: Any = None) -> Any:
+def peek(table: Any, name: str, otherwise: Any = None) -> Any:
     """Return a key of a table before or after the table itself has been checked."""
     if isinstance(table, Mapping):
         return table.get(name, otherwise)

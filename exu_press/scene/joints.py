@@ -7,7 +7,6 @@ from typing import Any
 from exu_press.checks import Table, nearest, table_from
 from exu_press.errors import InputError
 from exu_press.scene.joint import (
-    DEFAULT_KINDS,
     JOINT_KINDS,
     LAW_TABLES,
     DryJoint,
@@ -130,8 +129,7 @@ def joints_of(
     A joint's own keys go before those of its group; a joint that is not named is ideal.
 
     Args:
-        given: joint or group -> its kind, a mapping of its keys or one of the three dataclasses;
-            None: the shipped mechanism's own.
+        given: joint or group -> its kind, a mapping of its keys or one of the three dataclasses.
         mechanism: its name.
         spherical: every joint of it -> whether it is a ball in a socket.
         groups: names for several joints at once -> these joints.
@@ -141,8 +139,6 @@ def joints_of(
         InputError: there is no such joint or group, a joint lies in two groups that are given, a
             key is not one of this kind of joint, or a law's parameters are outside its range.
     """
-    if given is None:
-        given = DEFAULT_KINDS.get(mechanism, {})
     if not isinstance(given, Mapping):
         raise InputError(f"joints = {given!r}: allowed is a table of joints")
     own: dict[str, dict[str, Any]] = {}

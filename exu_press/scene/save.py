@@ -1,7 +1,6 @@
 """A scene as a TOML file that `load_scene` reads back equal."""
 
 import dataclasses
-import json
 import os
 from collections.abc import Mapping
 from pathlib import Path
@@ -16,6 +15,7 @@ from exu_press.scene.joint import joint_dict
 from exu_press.scene.joints import Joints
 from exu_press.scene.load import LOAD_KINDS, Load
 from exu_press.scene.loads import Loads, load_dict
+from exu_press.toml import toml_text
 
 Laws = Mapping[str, Table | None]
 """The scene's own "contact", "friction" and "film"."""
@@ -76,7 +76,7 @@ def table_lines(table: Table, comments: bool, *, absent: bool = False) -> list[s
     """
     values = {field: getattr(table, field.name) for field in dataclasses.fields(table)}
     keys = {
-        f"# {field.name} =" if value is None else f"{field.name} = {_text(value)}": _meaning(
+        f"# {field.name} =" if value is None else f"{field.name} = {toml_text(value)}": _meaning(
             field.metadata
         )
         for field, value in values.items()
@@ -84,33 +84,21 @@ def table_lines(table: Table, comments: bool, *, absent: bool = False) -> list[s
         and (absent or value is not None)
         and not isinstance(value, Mechanism)
     }
-    return _commented(keys) if comments else list(keys)
+    return _lines(keys, comments)
 
 
 def body_lines(body: Flexible, comments: bool, *, absent: bool = False) -> list[str]:
     """Return the keys of a flexible body; arguments as those of `table_lines`."""
     meanings = {f.name: _meaning(f.metadata) for f in dataclasses.fields(body) if f.metadata}
     meanings["faces"] = "joint = face's name, or {radius, z} of its cylinder; found by their axes"
-    given = body_dict(body)
-    keys = {
-        f"{name} = {_text(given[name])}" if name in given else f"# {name} =": meaning
-        for name, meaning in meanings.items()
-        if absent or name in given
-    }
-    return _commented(keys) if comments else list(keys)
+    return _given_lines(body_dict(body), meanings, comments, absent)
 
 
 def load_lines(load: Load, comments: bool, *, absent: bool = False) -> list[str]:
     """Return the keys of a load; arguments as those of `table_lines`."""
     meanings = {"kind": " | ".join(LOAD_KINDS)}
     meanings |= {f.name: _meaning(f.metadata) for f in dataclasses.fields(load)}
-    given = load_dict(load)
-    keys = {
-        f"{name} = {_text(given[name])}" if name in given else f"# {name} =": meaning
-        for name, meaning in meanings.items()
-        if absent or name in given
-    }
-    return _commented(keys) if comments else list(keys)
+    return _given_lines(load_dict(load), meanings, comments, absent)
 
 
 def joint_lines(joints: Joints, laws: Laws, comments: bool) -> list[str]:
@@ -120,28 +108,29 @@ def joint_lines(joints: Joints, laws: Laws, comments: bool) -> list[str]:
         meanings = {f.name: _meaning(f.metadata) for f in dataclasses.fields(joint) if f.metadata}
         meanings["kind"] = "ideal | dry | lubricated; a joint that is not named is ideal"
         keys = {
-            f"{key} = {_text(value)}": meanings.get(key, f"where it differs from [{key}]")
+            f"{key} = {toml_text(value)}": meanings.get(key, f"where it differs from [{key}]")
             for key, value in joint_dict(joint, laws).items()
         }
-        lines += ["", f"[joints.{name}]", *(_commented(keys) if comments else keys)]
+        lines += ["", f"[joints.{name}]", *_lines(keys, comments)]
     return lines
 
 
-def _commented(keys: Mapping[str, str]) -> list[str]:
-    """Return lines with their meanings behind them."""
+def _given_lines(
+    given: Mapping[str, Any], meanings: Mapping[str, str], comments: bool, absent: bool
+) -> list[str]:
+    """Return the keys that are given, in the order of their meanings, or all of them."""
+    keys = {
+        f"{name} = {toml_text(given[name])}" if name in given else f"# {name} =": meaning
+        for name, meaning in meanings.items()
+        if absent or name in given
+    }
+    return _lines(keys, comments)
+
+
+def _lines(keys: Mapping[str, str], comments: bool) -> list[str]:
+    """Return lines, with their meanings behind them where comments are wanted."""
     width = max(map(len, keys), default=0)
-    return [f"{key:{width}}  # {meaning}" for key, meaning in keys.items()]
-
-
-def _text(value: Any) -> str:
-    """Return a value in TOML: JSON's texts and switches are TOML's, and so is Python's float."""
-    if isinstance(value, Mapping):
-        return "{" + ", ".join(f"{key} = {_text(inner)}" for key, inner in value.items()) + "}"
-    if isinstance(value, list):
-        return "[" + ", ".join(map(_text, value)) + "]"
-    if type(value) is float and float(short := f"{value:g}") == value:
-        return short if set(short) & set(".e") else f"{short}.0"
-    return repr(value) if type(value) in (float, int) else json.dumps(value, ensure_ascii=False)
+    return [f"{key:{width}}  # {meaning}" if comments else key for key, meaning in keys.items()]
 
 
 def _meaning(metadata: Mapping[str, Any]) -> str:

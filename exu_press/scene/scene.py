@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, ClassVar, cast
 
 from exu_press.above import WORKERS
-from exu_press.checks import RENAMED, Table, key, table_from
+from exu_press.checks import Table, key, table_from
 from exu_press.errors import InputError
 from exu_press.mechanism import (
     SHIPPED,
@@ -21,13 +21,13 @@ from exu_press.mechanism import (
     shipped_mechanism,
     slider_crank,
 )
-from exu_press.scene.bodies import DRIVE_FACE, Flexible, bodies_of, body_dict, changed_bodies
+from exu_press.scene.bodies import DRIVE_FACE, Flexible, bodies_of, body_dict
+from exu_press.scene.changes import changed_keys
 from exu_press.scene.elastic import with_elastic_guides
-from exu_press.scene.flywheel import with_flywheel
 from exu_press.scene.joint import DEFAULT_KINDS, LAW_TABLES, joint_dict
-from exu_press.scene.joint_changes import by_group, changed_joints, kinds_of, unused_laws
+from exu_press.scene.joint_changes import by_group, kinds_of, unused_laws
 from exu_press.scene.joints import Joints, joints_of
-from exu_press.scene.loads import Loads, changed_loads, loads_of
+from exu_press.scene.loads import Loads, loads_of
 from exu_press.scene.save import save_scene
 from exu_press.scene.tables import (
     Contact,
@@ -37,40 +37,11 @@ from exu_press.scene.tables import (
     Motor,
     Solver,
 )
+from exu_press.scene.usage import TABLES, unused_keys
 
 __all__ = ["Scene", "mechanism_of"]
 
 RPM = math.pi / 30  # rad/s
-
-OF_THE_COUNTERWEIGHT = (
-    "counter_eccentricity",
-    "counter_linkage_length",
-    "counter_linkage_mass",
-    "counterweight_mass",
-    "counterweight_inertia",
-)
-
-OF_THE_WAYS = (
-    "width",
-    "friction",
-    "mu_static",
-    "mu_kinetic",
-    "stribeck_velocity",
-    "regularisation_velocity",
-    "damping_depth",
-)
-"""Keys of guides with clearance."""
-
-TABLES = {
-    "contact": Contact,
-    "friction": Friction,
-    "film": Film,
-    "drive": Motor,
-    "guide": ElasticGuide,
-    "solver": Solver,
-    "press": Press,
-    "slider_crank": SliderCrank,
-}
 
 ONLY_WHERE_GIVEN = ("drive", "guide")
 """Tables that a scene without them does not have: constant speed, ideal guides."""
@@ -114,7 +85,7 @@ class Scene(Table):
         """Check the keys, refuse what the scene does not use and fill in what it does."""
         object.__setattr__(self, "mechanism", _asked(self.mechanism))
         super().__post_init__()
-        unused = _unused({field.name: getattr(self, field.name) for field in _fields(self)})
+        unused = unused_keys({field.name: getattr(self, field.name) for field in _fields(self)})
         for name, table in TABLES.items():
             given = getattr(self, name)
             if given is not None:
@@ -217,13 +188,7 @@ class Scene(Table):
             changes[change[0]] = change[1]
         elif change:
             changes.update(change[0])
-        data = self.to_dict()
-        if isinstance(bodies := changes.get("bodies", {}), Mapping):
-            own = {k[7:]: v for k, v in changes.items() if k.startswith("bodies.")}
-            changes = {k: v for k, v in changes.items() if not k.startswith("bodies.")}
-            before = bodies if "bodies" in changes else data.get("bodies", {})
-            changes |= {"bodies": changed_bodies(before, own)} if own else {}
-        groups = self.joints.groups
+        data, groups = self.to_dict(), self.joints.groups
         if (mechanism := changes.get("mechanism", self.mechanism)) != self.mechanism:
             other = Scene.from_dict({"mechanism": mechanism})
             same = {name: joint for name, joint in self.joints.items() if name in other.joints}
@@ -234,43 +199,11 @@ class Scene(Table):
             groups = other.joints.groups
             there = {body.name for body in mechanism_of(other).bodies}
             data["bodies"] = {n: k for n, k in data.get("bodies", {}).items() if n in there}
-        joint_changes: dict[str, Any] = {}
-        load_changes: dict[str, Any] = {}
-        for name, value in changes.items():
-            table, _, inner = name.rpartition(".")
-            if name.startswith("load."):
-                load_changes[name.removeprefix("load.")] = value
-                continue
-            if name.startswith("joints."):
-                joint_changes[name.removeprefix("joints.")] = value
-                continue
-            place = data.setdefault(table, {}) if table else data
-            if not isinstance(place, dict) or (table and table not in TABLES):
-                why = RENAMED.get(table, "")
-                why = f"is {why} now" if why else f"{table} is no table of a scene"
-                raise InputError(f"{name} = {value!r}: {why}")
-            place[inner] = value
-        if "joints" not in changes:
-            film = data.get("film")
-            data["joints"] = changed_joints(data["joints"], groups, joint_changes, film)
-        elif joint_changes:
-            raise InputError("joints and a key of joints: allowed is one of the two in one change")
-        if load_changes:
-            data["load"] = changed_loads(data.get("load", {}), load_changes)
-        for kept, dropped in (("step", "tolerance"), ("tolerance", "step")):
-            if f"solver.{kept}" in changes and f"solver.{dropped}" not in changes:
-                data["solver"].pop(dropped, None)
-        unused = _unused(data) | unused_laws(kinds_of(data["joints"], data.get("film")))
-        for name in unused.keys() - changes.keys():
-            table, _, inner = name.rpartition(".")
-            place = data.get(table) if table else data
-            named = any(changed.startswith(f"{name}.") for changed in changes)
-            if isinstance(place, dict) and not named:
-                place.pop(inner, None)
+        data = changed_keys(data, groups, changes)
         try:
             return Scene.from_dict(data)
         except InputError as error:
-            raise InputError(by_group(str(error), groups, joint_changes)) from None
+            raise InputError(by_group(str(error), groups, changes)) from None
 
     def build(self) -> Any:
         """Return the assembled `exu_press.model.Model`; its mbs and SC are the real Exudyn objects.
@@ -327,8 +260,19 @@ def mechanism_of(scene: Scene) -> Mechanism:
     else:
         drawn = shipped_mechanism(scene.mechanism)
     if scene.drive is not None:
-        drawn = with_flywheel(drawn, scene.drive.inertia)
+        drawn = _with_flywheel(drawn, scene.drive.inertia)
     return drawn if scene.guide is None else with_elastic_guides(drawn, scene.guide)
+
+
+def _with_flywheel(drawn: Mechanism, inertia: float) -> Mechanism:
+    """Return a mechanism whose crank has a flywheel's inertia, kg m^2, beside its own."""
+    bodies = tuple(
+        dataclasses.replace(body, inertia=body.inertia + inertia)
+        if body.name == drawn.crank
+        else body
+        for body in drawn.bodies
+    )
+    return dataclasses.replace(drawn, bodies=bodies)
 
 
 def _asked(mechanism: Any) -> Any:
@@ -345,29 +289,3 @@ def _asked(mechanism: Any) -> Any:
 
 def _fields(table: Any) -> tuple[dataclasses.Field[Any], ...]:
     return dataclasses.fields(table)
-
-
-def _peek(table: Any, name: str) -> Any:
-    """Return a key of a table before the table itself is checked, or None."""
-    return table.get(name) if isinstance(table, Mapping) else getattr(table, name, None)
-
-
-def _unused(scene: Mapping[str, Any]) -> dict[str, str]:
-    """Return the tables and keys that a scene does not use, each with its reason."""
-    mechanism = scene["mechanism"]
-    shown = repr(mechanism) if isinstance(mechanism, str) else "the scene's own"
-    press = mechanism == "press", f"mechanism is {shown}"
-    slider_crank = mechanism == "slider_crank", press[1]
-    countered = _peek(scene.get("press"), "counterweight") is not False
-    counterweight = (countered, "press.counterweight is false") if press[0] else press
-    play = _peek(scene.get("guide"), "clearance") is not None
-    ways = play, "guide.clearance is not given"
-    springs = not play, "guide.clearance is given: two ends bear what tilts"
-    wanted = {
-        **{f"guide.{name}": ways for name in OF_THE_WAYS},
-        **dict.fromkeys(("guide.tilting_stiffness", "guide.tilting_damping"), springs),
-        "press": press,
-        "slider_crank": slider_crank,
-        **{f"press.{name}": counterweight for name in OF_THE_COUNTERWEIGHT},
-    }
-    return {name: reason for name, (used, reason) in wanted.items() if not used}

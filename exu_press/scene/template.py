@@ -10,7 +10,8 @@ from exu_press.scene.joints import Joints
 from exu_press.scene.load import BlankingLoad, Load, TableLoad
 from exu_press.scene.loads import Loads
 from exu_press.scene.save import body_lines, joint_lines, load_lines, table_lines
-from exu_press.scene.scene import TABLES, Scene, mechanism_of
+from exu_press.scene.scene import Scene, mechanism_of
+from exu_press.scene.usage import TABLES
 
 __all__ = ["template"]
 

@@ -3,13 +3,9 @@
 from collections.abc import Sequence
 from typing import Protocol
 
-import numpy as np
 from matplotlib.artist import Artist
-from numpy.typing import NDArray
 
 __all__ = ["Panel", "animated"]
-
-Array = NDArray[np.float64]
 
 
 class Panel(Protocol):

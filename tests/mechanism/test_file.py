@@ -75,6 +75,7 @@ def test_a_file_is_read_as_drawn():
     assert mechanism.output.direction == pytest.approx((0.6, 0.8))
     assert mechanism.guides[0].direction == (0.0, 1.0)
     assert mechanism.groups == {"pins": ("crank_pin", "wrist_pin")}
+    assert mechanism.counterweight == ()
 
 
 def test_a_body_without_inertia_is_a_rod_between_its_two_joints():
@@ -104,7 +105,7 @@ def test_frames_that_are_turned_in_the_drawing_come_back_too():
         ([("inertia = 0.05", "inertia = nan")], "bodies.crank.inertia = nan: allowed is a number"),
         ([("inertia = 0.05", "inertia = -1")], "bodies.crank.inertia = -1.0: allowed is a number"),
         ([("inertia = 0.02", "")], "bodies.slider.inertia: missing; allowed is a number > 0"),
-        ([("at = [0.1, 0.0]", "at = [0.1]")], "joints.crank_pin.at = [0.1]: allowed are two"),
+        ([("at = [0.1, 0.0]", "at = [0.1]")], "joints.crank_pin.at = (0.1,): allowed are two"),
         ([("at = [0.1, 0.0]", "")], "joints.crank_pin.at: missing"),
         (
             [('bearing = "rod"', 'bearing = "rood"')],
@@ -116,7 +117,7 @@ def test_frames_that_are_turned_in_the_drawing_come_back_too():
         ([("direction = [0, 2]", "direction = [0, 0]")], "guides.slider.direction = (0.0, 0.0): "),
         ([('crank = "crank"', 'crank = "wheel"')], "crank = 'wheel': unknown"),
         ([('crank = "crank"', 'crank = "rod"')], "crank = 'rod': has 0 joints with the frame"),
-        ([('crank = "crank"', "crank = 1")], "crank = 1: allowed is a text"),
+        ([('crank = "crank"', "crank = 1")], "crank = 1: unknown; allowed are crank"),
         ([('body = "slider"', 'body = "slide"')], "output.body = 'slide': unknown (did you mean"),
         ([('body = "slider", ', "")], "output.body: missing"),
         (
@@ -139,6 +140,19 @@ def test_frames_that_are_turned_in_the_drawing_come_back_too():
         ([("[groups]", "[group]")], "group = "),
         ([("[bodies.rod]", "[bodies]\nloose = 3\n[bodies.rod]")], "bodies.loose = 3: allowed is a"),
         ([('name = "sliding"', "")], "name: missing"),
+        ([('["crank_pin", "wrist_pin"]', '"crank_pin"')], "groups.pins = 'crank_pin': allowed is"),
+        (
+            [('crank = "crank"', 'crank = "crank"\ncounterweight = "rod"')],
+            "counterweight = 'rod': ",
+        ),
+        (
+            [('crank = "crank"', 'crank = "crank"\ncounterweight = ["rodd"]')],
+            "counterweight = 'rodd': unknown (did you mean 'rod'?); allowed are rod",
+        ),
+        (
+            [('crank = "crank"', 'crank = "crank"\ncounterweight = ["slider"]')],
+            "counterweight = 'slider': unknown; allowed are rod",
+        ),
     ],
 )
 def test_what_is_wrong_is_named_in_one_line(changes, shown):

@@ -12,7 +12,7 @@ from exu_press import Scene, simulate
 from exu_press.cli import main
 from exu_press.errors import InputError
 from exu_press.integrate import Status
-from exu_press.scene.scene import TABLES
+from exu_press.scene.usage import TABLES
 
 anything = st.one_of(
     st.none(),

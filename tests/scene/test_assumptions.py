@@ -7,7 +7,7 @@ from exu_press import Scene
 from exu_press.mechanism import shipped_mechanism
 from exu_press.scene import BlankingLoad
 from exu_press.scene.assumptions import ASSUMPTIONS, assumed_line, keys_of, used_assumptions
-from exu_press.scene.scene import TABLES
+from exu_press.scene.usage import TABLES
 
 
 def numbers(scene):

@@ -5,8 +5,8 @@ import dataclasses
 import pytest
 
 from exu_press import InputError, Scene, load_scene
-from exu_press.scene.scene import TABLES
 from exu_press.scene.template import template
+from exu_press.scene.usage import TABLES
 
 
 @pytest.mark.parametrize("mechanism", ["press", "slider_crank", "four_bar"])

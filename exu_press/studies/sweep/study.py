@@ -8,9 +8,9 @@ from typing import Any
 
 from exu_press.checks import Table, key, table_from
 from exu_press.errors import InputError
-from exu_press.read_toml import read_toml
 from exu_press.scene import Scene, load_scene
 from exu_press.studies.sweep.points import Points, flat, grid, listed, sample
+from exu_press.toml import read_toml
 
 __all__ = ["Study", "load_study"]
 

@@ -7,7 +7,7 @@ from typing import Any
 from exu_press.checks import Table
 from exu_press.scene import DryJoint, Flexible, Scene
 from exu_press.scene.load import LOAD_KINDS
-from exu_press.scene.scene import TABLES
+from exu_press.scene.usage import TABLES
 
 __all__ = ["meaning_of", "unit_of"]
 

@@ -265,15 +265,7 @@ def hunt_crossley(
     .. math::
         \chi = \tfrac32 (1 - e)
 
-    Parameters, what is returned and errors are those of `hysteretic`.
-
-    Notes
-    -----
-    Range: derived for e near 1; a wanted 0.5 delivers 0.663.
-
-    Examples
-    --------
-    The restitution that a wanted 0.5 delivers:
+    Arguments and errors as of `hysteretic`. Range: derived for e near 1. A wanted 0.5 delivers:
 
     >>> from exu_press.laws.contact_restitution import restitution_of
     >>> e = 0.5
@@ -299,15 +291,7 @@ def lankarani_nikravesh(
     .. math::
         \chi = \tfrac34 (1 - e^2)
 
-    Parameters, what is returned and errors are those of `hysteretic`.
-
-    Notes
-    -----
-    Range: derived for e near 1; a wanted 0.5 delivers 0.725.
-
-    Examples
-    --------
-    The restitution that a wanted 0.5 delivers:
+    Arguments and errors as of `hysteretic`. Range: derived for e near 1. A wanted 0.5 delivers:
 
     >>> from exu_press.laws.contact_restitution import restitution_of
     >>> e = 0.5
@@ -335,15 +319,7 @@ def flores(
     .. math::
         \chi = \frac{8 (1 - e)}{5 e}
 
-    Parameters, what is returned and errors are those of `hysteretic`.
-
-    Notes
-    -----
-    Range: every e in (0, 1]; a wanted 0.5 delivers 0.470.
-
-    Examples
-    --------
-    The restitution that a wanted 0.5 delivers:
+    Arguments and errors as of `hysteretic`. Range: every e in (0, 1]. A wanted 0.5 delivers:
 
     >>> from exu_press.laws.contact_restitution import restitution_of
     >>> e = 0.5
@@ -371,15 +347,7 @@ def gonthier(
     .. math::
         \chi = \frac{1 - e^2}{e}
 
-    Parameters, what is returned and errors are those of `hysteretic`.
-
-    Notes
-    -----
-    Range: every e in (0, 1]; a wanted 0.5 delivers 0.488.
-
-    Examples
-    --------
-    The restitution that a wanted 0.5 delivers:
+    Arguments and errors as of `hysteretic`. Range: every e in (0, 1]. A wanted 0.5 delivers:
 
     >>> from exu_press.laws.contact_restitution import restitution_of
     >>> e = 0.5
@@ -406,15 +374,7 @@ def hu_guo(
     .. math::
         \chi = \frac{3 (1 - e)}{2 e}
 
-    Parameters, what is returned and errors are those of `hysteretic`.
-
-    Notes
-    -----
-    Range: every e in (0, 1]; a wanted 0.5 delivers 0.488.
-
-    Examples
-    --------
-    The restitution that a wanted 0.5 delivers:
+    Arguments and errors as of `hysteretic`. Range: every e in (0, 1]. A wanted 0.5 delivers:
 
     >>> from exu_press.laws.contact_restitution import restitution_of
     >>> e = 0.5

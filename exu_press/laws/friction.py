@@ -55,9 +55,7 @@ def coulomb(mu_kinetic: float, regularisation_velocity: float) -> Friction:
 
     References
     ----------
-    .. [1] Armstrong-Helouvry, B., P. Dupont, and C. Canudas de Wit. "A Survey of Models, Analysis
-       Tools and Compensation Methods for the Control of Machines with Friction." Automatica 30
-       (1994): 1083-1138.
+    As of `stribeck`.
     """
     not_negative(mu_kinetic=mu_kinetic)
     positive(regularisation_velocity=regularisation_velocity)
@@ -151,24 +149,8 @@ def lugre_steady(
         g = \mu_k + (\mu_s - \mu_k) e^{-|v / v_s|^\gamma}
 
     The printed sign jumps by 2 mu_s at v = 0, where Newton's method would chatter for ever; here
-    sgn(v) is tanh(v / v_r). This is `stribeck` with sigma_2 as its viscous part.
-
-    Parameters
-    ----------
-    mu_static : mu_s [-], at least mu_kinetic
-    mu_kinetic : mu_k [-], positive
-    sigma_2 : viscous friction [s/m], not negative
-    stribeck_velocity : v_s [m/s], positive
-    stribeck_exponent : gamma [-], 0 < gamma <= 10
-    regularisation_velocity : v_r [m/s], positive
-
-    Returns
-    -------
-    The law: v [m/s] -> (mu [-], dmu/dv [s/m]).
-
-    Raises
-    ------
-    InputError : an argument is outside its range
+    sgn(v) is tanh(v / v_r). This is `stribeck` with sigma_2 as its viscous part; arguments, what is
+    returned and errors are as there.
 
     Notes
     -----

@@ -1,6 +1,7 @@
-"""Exudyn's own solver on a system of a test's, without files and without a word."""
+"""Exudyn's own solver on a system of a test's, without files and without a word; its bodies."""
 
 import exudyn as exu
+from exudyn.itemInterface import NodeRigidBody2D, ObjectRigidBody2D, SensorNode
 
 
 def solve(mbs, settings):
@@ -22,3 +23,17 @@ def fixed_steps(duration, step):
     settings.timeIntegration.endTime = duration
     settings.timeIntegration.generalizedAlpha.spectralRadius = 0.9
     return settings
+
+
+def planar_body(mbs, mass, inertia, place=(0.0, 0.0, 0.0), velocity=(0.0, 0.0, 0.0), **node):
+    """Add a body at x, y and angle; return its number and its node's."""
+    node = NodeRigidBody2D(referenceCoordinates=place, initialVelocities=velocity, **node)
+    number = int(mbs.AddNode(node))
+    body = ObjectRigidBody2D(nodeNumber=number, mass=mass, inertia=inertia)
+    return mbs.AddObject(body), number
+
+
+def recorded(mbs, node, output):
+    """Add a sensor in memory of what exu.OutputVariableType calls `output`."""
+    kind = getattr(exu.OutputVariableType, output)
+    return mbs.AddSensor(SensorNode(nodeNumber=node, storeInternal=True, outputVariableType=kind))

@@ -9,14 +9,11 @@ from exudyn.itemInterface import (
     MarkerNodeCoordinate,
     Node1D,
     NodePointGround,
-    NodeRigidBody2D,
     ObjectConnectorCoordinate,
     ObjectMass1D,
-    ObjectRigidBody2D,
     ObjectRotationalMass1D,
-    SensorNode,
 )
-from solving import solve
+from solving import planar_body, recorded, solve
 
 from exu_press import InputError, add_dry_revolute
 from exu_press.joints import overlay_of
@@ -58,15 +55,8 @@ class OneJoint:
         )
         return self.mbs.AddObject(item), POINT, node
 
-    def planar(self, place, velocity):
-        node = self.mbs.AddNode(
-            NodeRigidBody2D(referenceCoordinates=place, initialVelocities=velocity)
-        )
-        body = self.mbs.AddObject(ObjectRigidBody2D(nodeNumber=node, mass=MASS, inertia=INERTIA))
-        return body, node
-
     def held(self, place, velocity, coordinates):
-        body, node = self.planar(place, velocity)
+        body, node = planar_body(self.mbs, MASS, INERTIA, place, velocity)
         ground = self.mbs.AddMarker(
             MarkerNodeCoordinate(nodeNumber=self.mbs.AddNode(NodePointGround()), coordinate=0)
         )
@@ -79,7 +69,7 @@ class OneJoint:
 
     def run(self, body, point, node, bearing_at):
         """Let the journal hit the bearing of a free body; return the coordinates of both."""
-        free, free_node = self.planar([*bearing_at, 0.0], [0.0, 0.0, 0.0])
+        free, free_node = planar_body(self.mbs, MASS, INERTIA, [*bearing_at, 0.0])
         add_dry_revolute(
             self.mbs,
             (body, point),
@@ -89,16 +79,7 @@ class OneJoint:
             contact=step_damping(hertz(2.5545e10), 2.5545e6, 1e-5),
             friction=lugre_steady(0.15, 0.1, 0.0, 0.1, 2.0, 1e-4),
         )
-        sensors = [
-            self.mbs.AddSensor(
-                SensorNode(
-                    nodeNumber=n,
-                    storeInternal=True,
-                    outputVariableType=exu.OutputVariableType.Coordinates,
-                )
-            )
-            for n in (node, free_node)
-        ]
+        sensors = [recorded(self.mbs, each, "Coordinates") for each in (node, free_node)]
         self.mbs.Assemble()
         settings = exu.SimulationSettings()
         settings.timeIntegration.numberOfSteps = 4000

@@ -8,13 +8,10 @@ import pytest
 from exudyn.itemInterface import (
     LoadMassProportional,
     MarkerBodyMass,
-    NodeRigidBody2D,
     ObjectGround,
     ObjectMassPoint2D,
-    ObjectRigidBody2D,
-    SensorNode,
 )
-from solving import solve
+from solving import planar_body, recorded, solve
 
 from exu_press import InputError, add_dry_revolute, add_dry_spherical, add_lubricated_revolute
 from exu_press.joints import history, overlay_of
@@ -27,9 +24,9 @@ CONTACT = step_damping(hertz(2.5545e10), 2.5545e6, 1e-5)
 STEADY = lugre_steady(0.15, 0.1, 0.0, 0.1, 2.0, 1e-4)
 SOFT_BRISTLE = LuGre(0.15, 0.1, 1e3, 4.0, 0.0, 0.1, 2.0)  # 0.1 ms at 1 m/s
 LEVELS = {
-    "position": exu.OutputVariableType.Coordinates,
-    "velocity": exu.OutputVariableType.Coordinates_t,
-    "acceleration": exu.OutputVariableType.Coordinates_tt,
+    "position": "Coordinates",
+    "velocity": "Coordinates_t",
+    "acceleration": "Coordinates_tt",
 }
 
 
@@ -44,23 +41,14 @@ class Bodies:
         self.masses, self.inertias, self.references = [], [], []
 
     def add(self, mass, inertia, place, velocity):
-        node = self.mbs.AddNode(
-            NodeRigidBody2D(referenceCoordinates=place, initialVelocities=velocity)
-        )
-        body = self.mbs.AddObject(ObjectRigidBody2D(nodeNumber=node, mass=mass, inertia=inertia))
-        self.nodes.append(int(node))
+        body, node = planar_body(self.mbs, mass, inertia, place, velocity)
+        self.nodes.append(node)
         self.bodies.append(body)
         self.masses.append(mass)
         self.inertias.append(inertia)
         self.references.append(place)
-        self.sensors.append(
-            {
-                level: self.mbs.AddSensor(
-                    SensorNode(nodeNumber=node, storeInternal=True, outputVariableType=kind)
-                )
-                for level, kind in LEVELS.items()
-            }
-        )
+        levels = {name: recorded(self.mbs, node, output) for name, output in LEVELS.items()}
+        self.sensors.append(levels)
         return body
 
     def run(self, end_time, step, tolerance=1e-10):

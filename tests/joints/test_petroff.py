@@ -6,13 +6,11 @@ import exudyn as exu
 import numpy as np
 import pytest
 from exudyn.itemInterface import (
-    NodeRigidBody2D,
     NodeRigidBodyEP,
     ObjectGround,
     ObjectRigidBody,
-    ObjectRigidBody2D,
-    SensorNode,
 )
+from solving import planar_body, recorded
 
 from exu_press import Scene, add_joint_sensor, add_lubricated_revolute, simulate
 from exu_press.laws.contact import hertz, step_damping
@@ -36,10 +34,7 @@ def rotor(kind, **film):
     mbs = container.AddSystem()
     ground = mbs.AddObject(ObjectGround())
     if kind == "2D":
-        node = mbs.AddNode(
-            NodeRigidBody2D(referenceCoordinates=[0.0] * 3, initialVelocities=[0.0, 0.0, 25.0])
-        )
-        body = mbs.AddObject(ObjectRigidBody2D(nodeNumber=node, mass=50.0, inertia=INERTIA))
+        body, node = planar_body(mbs, 50.0, INERTIA, velocity=(0.0, 0.0, 25.0))
     else:
         node = mbs.AddNode(
             NodeRigidBodyEP(
@@ -54,13 +49,7 @@ def rotor(kind, **film):
         mbs, (body, (0.0, 0.0, 0.0)), (ground, (0.0, 0.0, 0.0)),
         **geometry, length=LENGTH, viscosity=VISCOSITY, **film,
     )  # fmt: skip
-    spin = mbs.AddSensor(
-        SensorNode(
-            nodeNumber=node,
-            storeInternal=True,
-            outputVariableType=exu.OutputVariableType.AngularVelocity,
-        )
-    )
+    spin = recorded(mbs, node, "AngularVelocity")
     sensor = add_joint_sensor(mbs, joint)
     mbs.Assemble()
     settings = exu.SimulationSettings()

@@ -3,8 +3,8 @@
 import exudyn as exu
 import numpy as np
 import pytest
-from exudyn.itemInterface import NodeRigidBody2D, ObjectGround, ObjectRigidBody2D, SensorNode
-from solving import fixed_steps, solve
+from exudyn.itemInterface import ObjectGround
+from solving import fixed_steps, planar_body, recorded, solve
 
 from exu_press import add_dry_revolute
 from exu_press.laws.contact import (
@@ -29,24 +29,13 @@ def bounce(contact, mass, speed, duration, step=1e-6, clearance=1e-4):
     """Return rebound over approach speed of a body in a clearance around a point of the ground."""
     container = exu.SystemContainer()
     mbs = container.AddSystem()
-    node = mbs.AddNode(
-        NodeRigidBody2D(
-            referenceCoordinates=[0.99 * clearance, 0, 0], initialVelocities=[speed, 0, 0]
-        )
-    )
-    body = mbs.AddObject(ObjectRigidBody2D(nodeNumber=node, mass=mass, inertia=1.0))
+    body, node = planar_body(mbs, mass, 1.0, (0.99 * clearance, 0, 0), (speed, 0, 0))
     ground = mbs.AddObject(ObjectGround())
     add_dry_revolute(
         mbs, (body, (0, 0)), (ground, (0, 0)), radius=0.05, clearance=clearance,
         contact=contact, friction=no_friction(),
     )  # fmt: skip
-    velocity = mbs.AddSensor(
-        SensorNode(
-            nodeNumber=node,
-            storeInternal=True,
-            outputVariableType=exu.OutputVariableType.Coordinates_t,
-        )
-    )
+    velocity = recorded(mbs, node, "Coordinates_t")
     mbs.Assemble()
     settings = fixed_steps(duration, step)
     settings.timeIntegration.newton.modifiedNewtonJacUpdatePerStep = True

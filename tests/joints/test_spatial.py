@@ -4,16 +4,13 @@ import exudyn as exu
 import numpy as np
 import pytest
 from exudyn.itemInterface import (
-    NodeRigidBody2D,
     NodeRigidBodyEP,
     NodeRigidBodyRotVecLG,
     NodeRigidBodyRxyz,
     ObjectGround,
     ObjectRigidBody,
-    ObjectRigidBody2D,
-    SensorNode,
 )
-from solving import fixed_steps, solve
+from solving import fixed_steps, planar_body, recorded, solve
 
 from exu_press import (
     InputError,
@@ -46,13 +43,8 @@ def system():
 def add_body(mbs, kind, place, velocity, spin):
     """A body with the orientation of the axes; spin is its angular velocity."""
     if kind == "2D":
-        node = mbs.AddNode(
-            NodeRigidBody2D(
-                referenceCoordinates=[*place[:2], 0.0],
-                initialVelocities=[*velocity[:2], spin[2]],
-            )
-        )
-        body = mbs.AddObject(ObjectRigidBody2D(nodeNumber=node, mass=MASS, inertia=INERTIA[2, 2]))
+        start, rates = [*place[:2], 0.0], [*velocity[:2], spin[2]]
+        body, node = planar_body(mbs, MASS, INERTIA[2, 2], start, rates)
     else:
         turn, rates = {
             "EP": ([1.0, 0.0, 0.0, 0.0], [0.0, *(0.5 * np.array(spin))]),
@@ -64,17 +56,8 @@ def add_body(mbs, kind, place, velocity, spin):
         )
         inertia = [*np.diag(INERTIA), 0.0, 0.0, 0.0]
         body = mbs.AddObject(ObjectRigidBody(nodeNumber=node, mass=MASS, inertia=inertia))
-    outputs = exu.OutputVariableType
-    sensors = [
-        mbs.AddSensor(SensorNode(nodeNumber=node, storeInternal=True, outputVariableType=output))
-        for output in (
-            outputs.Position,
-            outputs.Velocity,
-            outputs.AngularVelocity,
-            outputs.RotationMatrix,
-        )
-    ]
-    return body, sensors
+    outputs = ("Position", "Velocity", "AngularVelocity", "RotationMatrix")
+    return body, [recorded(mbs, node, output) for output in outputs]
 
 
 def run(mbs, duration, step):

@@ -11,8 +11,8 @@ from exudyn.itemInterface import (
     MarkerBodyRigid,
     NodeRigidBody2D,
     ObjectRigidBody2D,
-    SensorNode,
 )
+from solving import planar_body, recorded
 
 from exu_press import InputError, Status, solve_dynamic
 from exu_press.joints import add_joint_sensor, add_ways_contact
@@ -30,16 +30,8 @@ def block(slope, friction, *, moment=0.0, half_width=0.0, start=(0.0, 0.0, 0.0),
     container = exu.SystemContainer()
     mbs = container.AddSystem()
     along = math.cos(slope), -math.sin(slope)
-    node = mbs.AddNode(
-        NodeRigidBody2D(
-            referenceCoordinates=[0.0, 0.0, 0.0],
-            initialCoordinates=start,
-            initialVelocities=[speed * along[0], speed * along[1], 0.0],
-        )
-    )
-    body = mbs.AddObject(
-        ObjectRigidBody2D(nodeNumber=node, mass=MASS, inertia=MASS * LENGTH**2 / 12)
-    )
+    inertia, velocity = MASS * LENGTH**2 / 12, (speed * along[0], speed * along[1], 0.0)
+    body, node = planar_body(mbs, MASS, inertia, velocity=velocity, initialCoordinates=start)
     marker = mbs.AddMarker(MarkerBodyRigid(bodyNumber=body))
     mbs.AddLoad(LoadForceVector(markerNumber=marker, loadVector=[0.0, -MASS * GRAVITY, 0.0]))
     mbs.AddLoad(LoadTorqueVector(markerNumber=marker, loadVector=[0.0, 0.0, moment]))
@@ -58,13 +50,7 @@ def block(slope, friction, *, moment=0.0, half_width=0.0, start=(0.0, 0.0, 0.0),
         for end in (-0.5 * LENGTH, 0.5 * LENGTH)
     ]
     sensors = [add_joint_sensor(mbs, contact) for contact in contacts]
-    motion = mbs.AddSensor(
-        SensorNode(
-            nodeNumber=node,
-            storeInternal=True,
-            outputVariableType=exu.OutputVariableType.Coordinates_t,
-        )
-    )
+    motion = recorded(mbs, node, "Coordinates_t")
     mbs.Assemble()
     return container, mbs, sensors, motion, along
 

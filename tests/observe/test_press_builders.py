@@ -154,16 +154,6 @@ def test_a_short_run_has_no_means_and_no_dead_centres():
     assert summary["guides"]["slider"]["sliding_power"] is None
 
 
-def test_without_counterweight_there_is_nothing_to_compare_with():
-    scene = Scene.from_dict({"joints": {}, "revolutions": 1.0, "solver": {"step": 5e-4}})
-    full = simulate(scene).summary()["shaking"]
-    bare = simulate(scene.replace("press.counterweight", False)).summary()["shaking"]
-    assert bare["without_counterweight"]["vertical"] is None
-    alone = full["without_counterweight"]["vertical"]
-    assert alone == pytest.approx(bare["vertical"], rel=1e-6)
-    assert full["vertical"] < 0.6 * alone
-
-
 @pytest.mark.parametrize(
     ("mechanism", "guides"),
     [("slider_crank", {"slider"}), ("four_bar", set()), ("eccentric_press", {"slide", "ram"})],

@@ -11,7 +11,7 @@ from pathlib import Path
 from exu_press.errors import InputError
 from exu_press.output import output_directory, write_json
 from paper.study import paper
-from paper.table import report_lines
+from paper.table import report_lines, tables
 
 
 def parser() -> argparse.ArgumentParser:
@@ -36,21 +36,19 @@ def run(options: argparse.Namespace) -> int:
     Runs of the sensitivity study that stop are part of what it reports.
     """
     directory = output_directory(Path(options.out))
-    report = paper(directory, quick=options.quick, workers=options.workers, quiet=options.quiet)
-    write_json(directory / "paper.json", report.to_dict())
-    write_json(directory / "sensitivity.json", report.sensitivity_dict())
-    write_json(directory / "clearance.json", report.clearance_dict())
-    written = ["paper.json", "sensitivity.json", "clearance.json"]
+    study = paper(directory, quick=options.quick, workers=options.workers, quiet=options.quiet)
+    write_json(directory / "paper.json", study.to_dict() | {"tables": tables(study)})
+    written = ["paper.json"]
     if not options.no_pictures:
-        from paper.plots.save import save_paper
+        from paper.pictures import save_paper
 
-        written += [path.name for path in save_paper(report, directory)]
+        written += [path.name for path in save_paper(study, directory)]
     if not options.quiet:
-        print("\n".join(report_lines(report)))
+        print("\n".join(report_lines(study)))
         print("\nwritten:", ", ".join(written), f"in {directory}")
-    for name, reason in report.stopped.items():
+    for name, reason in study.stopped.items():
         print(f"paper: {name}: {reason}", file=sys.stderr)
-    return 3 if report.stopped else 0
+    return 3 if study.stopped else 0
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -1,7 +1,7 @@
 """A run with the errors of its figures."""
 
 import warnings
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -65,6 +65,15 @@ SAME = 1e-9
 """Relative: a figure that has changed by less since the horizon is one from before it."""
 
 
+Read = Callable[[Result], Mapping[str, float]]
+"""Returns the figures of a record, by name."""
+
+
+def _of_summary(run: Result) -> dict[str, float]:
+    """Return the figures of a run's summary."""
+    return figures(run.summary())
+
+
 def simulate_with_errors(scene: Scene, *, quiet: bool = True, beside: bool = True) -> Result:
     """Do what `simulate` does, with companion runs.
 
@@ -113,7 +122,9 @@ def _told(result: Result, companions: Iterable[tuple[float, Result]]) -> Result:
     return replace(result, info={**result.info, **errors_of(result, companions)})
 
 
-def errors_of(result: Result, companions: Iterable[tuple[float, Result]]) -> Errors:
+def errors_of(
+    result: Result, companions: Iterable[tuple[float, Result]], read: Read = _of_summary
+) -> Errors:
     """Return what a summary says of errors.
 
     Companions that stopped before the run itself did are left out; without any nothing is known.
@@ -123,6 +134,7 @@ def errors_of(result: Result, companions: Iterable[tuple[float, Result]]) -> Err
         result: of a run.
         companions: the same at other tolerances or steps, after their ratio to its own; the least
             ratio, whose run is the nearest one, is first.
+        read: returns the figures of a record, by name; those of its summary unless told.
     """
     end = float(result.time[-1])
     parted: Parting | None = None
@@ -137,10 +149,10 @@ def errors_of(result: Result, companions: Iterable[tuple[float, Result]]) -> Err
                 end if instant is None else instant
                 for instant in (parted.beside, parted.growth.horizon)
             )
-            by_end = {at: {1.0: _figures_until(result, at)} for at in (end, beside, horizon)}
-            reads = [figures(one(result).summary()) for one in (smoothed, overshot, unbalanced)]
+            by_end = {at: {1.0: read(until(result, at))} for at in (end, beside, horizon)}
+            reads = [read(changed(result)) for changed in (smoothed, overshot, unbalanced)]
         for instant, found in by_end.items():
-            found[ratio] = _figures_until(run, instant)
+            found[ratio] = read(until(run, instant))
     if parted is None:
         return {"errors": {}, "errors_from": None, "amplification": None}
     solver = result.scene.solver
@@ -148,8 +160,8 @@ def errors_of(result: Result, companions: Iterable[tuple[float, Result]]) -> Err
     until_then = {safety: by_end[beside], AMPLIFIED * safety: by_end[horizon]}
     errors: dict[str, Error] = {}
     for name, value in by_end[end][1.0].items():
-        read = max(abs(value - changed[name]) for changed in reads)
-        of = _error(name, by_end[end], until_then, read)
+        left_open = max(abs(value - changed[name]) for changed in reads)
+        of = _error(name, by_end[end], until_then, left_open)
         low, high = of.low, of.high
         if value >= 0.0 and not name.endswith(SIGNED):
             low = max(low, 0.0)
@@ -159,11 +171,6 @@ def errors_of(result: Result, companions: Iterable[tuple[float, Result]]) -> Err
         "errors_from": parted.growth.horizon,
         "amplification": parted.growth.rate,
     }
-
-
-def _figures_until(run: Result, end: float) -> Mapping[str, float]:
-    """Return the figures of a run's motion until an instant, s."""
-    return figures(until(run, end).summary())
 
 
 def _error(

@@ -1,12 +1,12 @@
 """What the paper publishes, as data: numbers, trends in words, frequencies."""
 
 import tomllib
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
 
-__all__ = ["Frequencies", "Number", "Published", "Trend", "published", "stated"]
+__all__ = ["Frequencies", "Number", "Published", "Trend", "published"]
 
 
 @dataclass(frozen=True)
@@ -14,7 +14,6 @@ class Number:
     """A number of section 5.
 
     Attributes:
-        name: short, unique.
         quantity: in words.
         figure: where the paper has it.
         measure: what of a run it is compared with, as in `readings`.
@@ -24,7 +23,6 @@ class Number:
         note: what to know before comparing.
     """
 
-    name: str
     quantity: str
     figure: str
     measure: str
@@ -36,9 +34,8 @@ class Number:
 
 @dataclass(frozen=True)
 class Trend:
-    """What the paper states in words about runs in an order; `stated` as in `trends.TRENDS`."""
+    """What the paper states in words about runs in an order; `stated` as in `verdicts.TRENDS`."""
 
-    name: str
     quantity: str
     figure: str
     measure: str
@@ -66,25 +63,10 @@ class Published:
     frequencies: tuple[Frequencies, ...]
     clearance: dict[str, Any]
 
-    def beside(self, bodies: str) -> "Published":
-        """Return the same beside runs with "rigid" bodies instead of flexible ones.
-
-        What is said of flexible against rigid ones is left out then.
-        """
-        if bodies == "flexible":
-            return self
-
-        def named(run: str) -> str:
-            return run.replace("flexible", bodies)
-
-        trends = [
-            replace(trend, runs=tuple(named(run) for run in trend.runs)) for trend in self.trends
-        ]
-        return replace(
-            self,
-            numbers=tuple(replace(number, run=named(number.run)) for number in self.numbers),
-            trends=tuple(trend for trend in trends if len(set(trend.runs)) == len(trend.runs)),
-        )
+    @property
+    def peaks(self) -> list[Number]:
+        """Return the peak accelerations that the paper computed."""
+        return [n for n in self.numbers if "acceleration" in n.measure and not n.reference]
 
 
 @cache
@@ -101,13 +83,3 @@ def published() -> Published:
         ),
         clearance=data["recommended_clearance"],
     )
-
-
-def stated(run: str, measure: str) -> float | None:
-    """Return what the paper computed for a run of ours, by its name; None where it says nothing."""
-    found = [
-        number.published
-        for number in published().numbers
-        if number.run == run and number.measure == measure and not number.reference
-    ]
-    return found[0] if found else None

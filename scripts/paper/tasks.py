@@ -1,26 +1,30 @@
-"""What a worker does: one run read off, or the frequencies of one part."""
+"""What a worker does: one run read off with its errors, or the frequencies of one part."""
 
 from pathlib import Path
 from typing import Any
 
+from exu_press.confidence.companions import plan
+from exu_press.confidence.run import errors_of
 from exu_press.scene import Scene
 from exu_press.simulation import simulate
 from paper.readings import readings
 
-__all__ = ["observe", "part_frequencies", "run_file"]
+__all__ = ["COARSER", "observe", "part_frequencies"]
+
+COARSER = 1.5
+"""Mesh beside the one whose frequencies are taken, over it."""
 
 
 def observe(arguments: dict[str, Any]) -> dict[str, Any]:
-    """Run a scene and read it off.
+    """Run a scene and its companions, and read them off.
 
     Args:
         arguments: scene (as Scene.to_dict), and if wanted save (file for the whole result).
 
     Returns:
-        status, reason, steps and wall_time (s) as in the summary, residual of the energy balance,
-        readings, and whole: the same observed from the start on. A run that stopped early has
-        neither of the two. Fixed steps too long for its impacts do not stop a run; the status says
-        so, and the readings are what such steps show.
+        status and reason as in the summary, residual of the energy balance, and values: of each
+        reading what a `Value` has; none of a run that stopped early. Fixed steps too long for its
+        impacts do not stop a run; the status says so, and the readings are what such steps show.
     """
     scene = Scene.from_dict(arguments["scene"])
     result = simulate(scene)
@@ -28,33 +32,41 @@ def observe(arguments: dict[str, Any]) -> dict[str, Any]:
         path = Path(arguments["save"])
         path.parent.mkdir(parents=True, exist_ok=True)
         result.save(path)
-    kept = {key: result.info[key] for key in ("status", "reason", "steps", "wall_time")}
-    reached = result.time[-1] > scene.duration * (1.0 - 1e-9)
-    return {
-        **kept,
-        "residual": result.summary()["energy"]["residual"],
-        "readings": readings(result) if reached else None,
-        "whole": readings(result, (0.0, scene.duration)) if reached else None,
+    row = {key: result.info[key] for key in ("status", "reason")}
+    row["residual"] = result.summary()["energy"]["residual"]
+    if result.time[-1] < scene.duration * (1.0 - 1e-9):
+        return {**row, "values": {}}
+    companions = ((ratio, simulate(other)) for ratio, other in plan(scene).items())
+    errors = errors_of(result, companions, readings)["errors"]
+    values = {
+        name: {"value": value} | {key: errors[name][key] for key in ("low", "high", "determined")}
+        for name, value in readings(result).items()
+        if name in errors
     }
+    return {**row, "values": values}
 
 
 def part_frequencies(arguments: dict[str, Any]) -> dict[str, Any]:
     """Return the clamped natural frequencies of a part, Hz, up to a number of modes.
 
+    Those of a finer mesh are lower. At worst the error goes with the size of its elements, so that
+    what is left of it is at most 1 / (COARSER - 1) times what the coarser mesh is higher by.
+
     Args:
         arguments: part, mesh_size (m), modes.
+
+    Returns:
+        values: of every mode what a `Value` has.
     """
     from fe_models import clamped_frequencies, shipped_part
 
-    part = shipped_part(arguments["part"], arguments["mesh_size"])
-    hz = clamped_frequencies(part, arguments["modes"])
-    return {"status": "completed", "reason": "", "hz": [float(value) for value in hz]}
-
-
-def run_file(directory: Path, name: str) -> Path:
-    """Return where the result of a run is kept.
-
-    >>> run_file(Path("out"), "no load, dry, rigid").name
-    'no_load_dry_rigid.nc'
-    """
-    return directory / "runs" / f"{name.replace(',', '').replace(' ', '_')}.nc"
+    size, modes = arguments["mesh_size"], arguments["modes"]
+    fine, coarse = (
+        clamped_frequencies(shipped_part(arguments["part"], mesh), modes)
+        for mesh in (size, COARSER * size)
+    )
+    values = [
+        {"value": float(f), "low": float(f - abs(c - f) / (COARSER - 1.0)), "high": float(f)}
+        for f, c in zip(fine, coarse, strict=True)
+    ]
+    return {"status": "completed", "reason": "", "values": values}

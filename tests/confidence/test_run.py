@@ -154,3 +154,20 @@ def test_a_run_is_not_lost_with_its_companions(monkeypatch):
         result = simulate_with_errors(scene)
     assert result.completed
     assert result.summary()["errors"] == {}
+
+
+def test_errors_of_figures_of_ones_own_are_those_of_the_summary():
+    scene = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=0.2)
+    result = simulate(scene)
+    companions = [(ratio, simulate(other)) for ratio, other in plan(scene).items()]
+    theirs = errors_of(result, companions)["errors"]["joints.crank_pin.peak_force"]
+    told = errors_of(
+        result,
+        companions,
+        lambda run: {"force": run.summary()["joints"]["crank_pin"]["peak_force"]},
+    )
+    assert told["errors"]["force"]["error"] == pytest.approx(theirs["error"])
+    late = errors_of(
+        result, companions, lambda run: figures(run.summary()) if run.time[-1] > 0.01 else {}
+    )
+    assert late["errors"].keys() == errors_of(result, companions)["errors"].keys()

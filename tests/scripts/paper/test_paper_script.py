@@ -1,25 +1,20 @@
 """scripts/paper.py in its reduced form."""
 
 import json
+import re
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
+from paper.published import published
+from paper.runs import DAMPINGS
+from paper.table import REAL
+
 SCRIPT = Path(__file__).parents[3] / "scripts" / "paper.py"
 
-KEYS = {
-    "quantity",
-    "figure",
-    "published",
-    "resolved",
-    "mean_1ms",
-    "differentiated_1khz",
-    "ratio",
-    "verdict",
-    "reason",
-}
+WITH_ERROR = re.compile(r"\+- |exact| to ")
 
 
 @pytest.fixture(scope="module")
@@ -35,64 +30,61 @@ def run(*arguments):
     return subprocess.run(words, capture_output=True, text=True, timeout=200)
 
 
-def test_every_published_number_has_a_row(directory):
-    report = json.loads((directory / "paper.json").read_text())
-    assert report["quick"] and report["observation_model"] == "mean_1ms"
-    assert list(report["dampings"]) == ["2.5545e8", "0.01"]
-    for found in report["dampings"].values():
-        every_row_is_there(found, report["frequencies"])
+def read(directory):
+    return json.loads((directory / "paper.json").read_text())
 
 
-def every_row_is_there(found, frequencies):
-    rows = [*found["rows"], *frequencies]
-    assert all(row.keys() >= KEYS for row in rows)
-    assert {row["verdict"] for row in rows} <= {"agrees", "trend", "differs"}
-    assert all(row["reason"] for row in rows if row["verdict"] == "differs")
-    numbers = [row["published"] for row in rows if not isinstance(row["published"], str)]
-    for published in (0.47, 0.466, 0.4688, 0.467, 17.8, 29.4, 57.44, 40.4, 70.2, 105.0, 1e-4,
-                      0.438, 0.904, 34.0, 445.0, 23.5, 69.1, 538.192, 12973.3):  # fmt: skip
-        assert published in numbers
-    assert all(run["status"] == "completed" for run in found["runs"].values())
+def test_every_published_number_has_ours_with_its_error_and_a_verdict(directory):
+    report = read(directory)
+    head, *rows = report["tables"]["numbers"]
+    assert report["quick"] and len(rows) == len(published().numbers) + 1
+    assert {cell for row in rows for cell in row[5::3]} <= {"agrees", "differs", "open"}
+    for title, (head, *rows) in report["tables"].items():
+        for row in rows:
+            assert len(row) == len(head), title
+            for cell in row[3::3] if title == "numbers" else row[3:4]:
+                shown = row[0] == "paper" or cell in ("", "-") or WITH_ERROR.search(cell)
+                assert shown, (title, row)
+    for runs in report["runs"].values():
+        assert all(row["status"] == "completed" for row in runs.values())
 
 
-def test_peaks_side_by_side(directory):
-    """The almost undamped contact has no peaks that are hidden between samples."""
-    report = json.loads((directory / "paper.json").read_text())
-    damped, undamped = (found["peaks"][0] for found in report["dampings"].values())
-    assert damped["names"] == undamped["names"] and len(damped["names"]) == 9
-    assert damped["resolved_over_mean_1ms"] > 3.0 > 1.1 > undamped["resolved_over_mean_1ms"]
-    assert damped["distances"]["resolved"] > undamped["distances"]["resolved"] > 0.0
+def test_the_almost_undamped_contact_hides_no_peaks_between_samples(directory):
+    tables = read(directory)["tables"]
+    damped, undamped = (
+        tables[f"peak acceleration, m/s², rigid bodies, c_max {d} N s/m"][1:-1] for d in DAMPINGS
+    )
+    assert len(damped) == len(undamped) == 9
+    for place in (0, 3):  # narrow clearances, whose impacts come at once
+        hidden, seen = (
+            [float(cell.split()[0]) for cell in rows[place][3:5]] for rows in (damped, undamped)
+        )
+        assert hidden[0] > 3.0 * hidden[1] and seen[0] < 1.1 * seen[1]
 
 
-def test_sensitivity_and_clearance(directory):
-    report = json.loads((directory / "sensitivity.json").read_text())["dampings"]["2.5545e8"]
-    assert report["distances_of_peaks"].keys() >= {"observation model = resolved"}
-    by_name = {number["name"]: number for number in report["numbers"]}
-    factors = {f["factor"]: f for f in by_name["acceleration_200um"]["factors"]}
-    wider = next(s for s in factors["clearance of the balls"]["settings"] if s["label"] == "twice")
-    assert wider["change"] > 0.1  # the balls' fall is longer
-    choice = json.loads((directory / "clearance.json").read_text())["2.5545e8"]
-    assert len(choice["alike"]) == 2 and len(choice["separate"]) == 4
-    film = {point["pin"]: point["losses"]["pin"] for point in choice["alike"]}
-    assert 3.0 < film[5e-5] / film[2e-4] < 4.0  # sheared four times as hard; the wide one pressed
+def test_what_moves_the_numbers_and_the_clearance_to_choose(directory):
+    tables = read(directory)["tables"]
+    changes = {row[0]: row for row in tables["peak acceleration, m/s², rigid bodies, one change"]}
+    assert changes["twice the clearance of the balls"][3].endswith(REAL)  # their fall is longer
+    assert changes["viscosity 0.05 Pa s (A-11)"][1] == "-"  # a dry pin
+    line = tables["one clearance, c_max 2.5545e8 N s/m"][1:]
+    pin = {row[0]: float(row[4].split()[0]) for row in line}
+    assert pin["0.01 mm"] > 10.0 * pin["0.15 mm"]  # sheared fifteen times as hard
 
 
 def test_it_goes_on_where_it_was_stopped(directory):
     rows = (directory / "runs.jsonl").read_text().splitlines()
-    report = (directory / "paper.json").read_text()
+    before = read(directory)
     (directory / "runs.jsonl").write_text("\n".join(rows[:-5]) + "\n")
-    next((directory / "runs").glob("*.nc")).unlink()
-    again = run("--no-pictures", "--out", str(directory))
-    assert again.returncode == 0
-    assert len((directory / "runs.jsonl").read_text().splitlines()) == len(rows)
-    assert "are there" in again.stderr
-    assert "REDUCED FORM" in again.stdout and "largest" not in again.stderr
-    before, after = (json.loads(text)["dampings"] for text in (report, read(directory)))
-    assert before == after
-
-
-def read(directory):
-    return (directory / "paper.json").read_text()
+    next(directory.glob("*.nc")).unlink()
+    again = run("--out", str(directory))
+    assert again.returncode == 0 and "are there" in again.stderr
+    assert "REDUCED FORM" in again.stdout and "72 of 72 runs" in again.stdout
+    assert read(directory)["tables"] == before["tables"]
+    assert len(list(directory.glob("*.nc"))) == 2 * 4 + 2  # the ideal press has no contact
+    pictures = {path.stem for path in directory.glob("*.png")}
+    assert {"numbers", "sweeps", "clearance", "c_max_0.01_10_kN_orbit_dry"} <= pictures
+    assert len(pictures) == 3 + 2 * 2 * 3
 
 
 @pytest.mark.parametrize(

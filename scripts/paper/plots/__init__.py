@@ -1,1 +1,0 @@
-"""One picture for each of the paper's figures, and what explains them."""

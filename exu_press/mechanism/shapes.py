@@ -72,9 +72,9 @@ def shapes_of(mechanism: Mechanism) -> dict[str, Shape]:
     return shapes
 
 
-def swept(mechanism: Mechanism, steps: int = 73) -> Array:
+def swept(mechanism: Mechanism) -> Array:
     """Return every position that a joint passes through in a revolution of the ideal mechanism."""
-    motion = mechanism.motion(np.linspace(0.0, 2.0 * np.pi, steps), 1.0)
+    motion = mechanism.motion(np.linspace(0.0, 2.0 * np.pi, 73), 1.0)
     positions = [
         moved(np.array(mechanism.points(body.name)), pose)
         for body in mechanism.bodies

@@ -10,6 +10,7 @@ from exu_press.observe.acceleration import mean_peak_of, peak
 from exu_press.observe.dead_centre import bottom_dead_centres
 from exu_press.piecewise import integral
 from exu_press.result import Result
+from exu_press.result.channel import guide_channel
 from exu_press.scene import mechanism_of
 from exu_press.scene.applied import applied_loads
 
@@ -63,7 +64,7 @@ def press_summary(result: Result) -> dict[str, Any]:
 
 def _guide(result: Result, guide: Guide, whole: float | None) -> dict[str, float | None]:
     """Return what one guide carries, dissipates and would take if it rubbed."""
-    name = "guide" if guide.body == mechanism_of(result.scene).slider else f"{guide.body}_guide"
+    name = guide_channel(mechanism_of(result.scene), guide.body)
     entries: dict[str, float | None] = {"peak_force": None, "sliding_power": None}
     time, force = result.time, f"{name}_force"
     if force in result:

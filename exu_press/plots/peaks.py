@@ -66,19 +66,16 @@ def mark_peak(
     return f"peak {with_error(result, name, error['high'] - error['error'], scale)}"
 
 
-def mark_peaks(
-    axes: Axes, curves: Mapping[str, tuple[Result, Array]], name: str, scale: float = 1.0
-) -> str:
+def mark_peaks(axes: Axes, curves: Mapping[str, tuple[Result, Array]], name: str) -> str:
     """Draw error bars at the peaks of runs by label; return that of a single run in words.
 
     Args:
         axes: what holds the curves.
         curves: label -> run and values (n,), SI, in the order of their colours.
         name: dotted, of the figure.
-        scale: to the axis' unit.
     """
     texts = [
-        mark_peak(axes, result, name, values, scale, colour_of(index))
+        mark_peak(axes, result, name, values, 1.0, colour_of(index))
         for index, (result, values) in enumerate(curves.values())
     ]
     return texts[0] if len(texts) == 1 else ""

@@ -25,6 +25,7 @@ from exu_press.plots.slider import averaged
 from exu_press.plots.style import GREY, IDEAL, colour_of, styled
 from exu_press.plots.words import joint_in_words
 from exu_press.result import Result
+from exu_press.result.channel import guide_channel
 from exu_press.scene import mechanism_of
 from exu_press.scene.applied import applied_loads
 
@@ -89,12 +90,13 @@ def press_figure(result: Result) -> Figure:
 
 def _shaking(axes: Axes, result: Result) -> None:
     """Draw the vertical and the horizontal shaking force, and the former without counterweight."""
+    bare = "shaking_force_without_counterweight"
     _draw(
         axes,
         result,
         {
             "vertical": result["shaking_force"][:, 1],
-            "vertical, without counterweight": _without_counterweight(result),
+            "vertical, without counterweight": result[bare][:, 1] if bare in result else None,
             "horizontal": result["shaking_force"][:, 0],
         },
         (
@@ -105,11 +107,6 @@ def _shaking(axes: Axes, result: Result) -> None:
     )
     axes.set_title("Shaking force")
     axes.set_ylabel("mean over 1 ms, kN")
-
-
-def _without_counterweight(result: Result) -> Array | None:
-    name = "shaking_force_without_counterweight"
-    return result[name][:, 1] if name in result else None
 
 
 def _drive(axes: Axes, result: Result) -> None:
@@ -144,10 +141,9 @@ def _guides(axes: Axes, result: Result) -> None:
     """Draw the guides' lateral forces."""
     mechanism = mechanism_of(result.scene)
     names = {
-        joint_in_words(guide.body).lower(): f"{guide.body}_guide_force"
+        joint_in_words(guide.body).lower(): f"{guide_channel(mechanism, guide.body)}_force"
         for guide in mechanism.guides
     }
-    names |= {joint_in_words(mechanism.slider).lower(): "guide_force"}
     curves = {label: result[name] for label, name in names.items() if name in result}
     if not curves:
         axes.text(0.5, 0.5, "no guide", transform=axes.transAxes, ha="center", color=GREY)

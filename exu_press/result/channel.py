@@ -6,9 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.errors import InputError
+from exu_press.mechanism import Mechanism
 from exu_press.stored import LARGEST
 
-__all__ = ["AXES", "Channel"]
+__all__ = ["AXES", "Channel", "guide_channel"]
 
 Array = NDArray[np.float64]
 
@@ -49,3 +50,8 @@ class Channel:
             raise InputError(f"{self.long_name}: shape {shape}; columns are {self.axis!r}")
         if not (np.abs(self.values) < LARGEST).all():
             raise InputError(f"{self.long_name}: allowed are numbers below {LARGEST:g}")
+
+
+def guide_channel(mechanism: Mechanism, body: str) -> str:
+    """Return what the channels of a body's guide begin with; the slider's is the guide."""
+    return "guide" if body == mechanism.slider else f"{body}_guide"

@@ -7,10 +7,10 @@ from numpy.typing import NDArray
 
 from exu_press.mechanism import GROUND
 from exu_press.model import Model
-from exu_press.result.channel import Channel
+from exu_press.result.channel import Channel, guide_channel
 from exu_press.result.motion import body_motion, sensor
 
-__all__ = ["frame_force", "guide_channel", "guide_channels", "held_forces", "vectors"]
+__all__ = ["frame_force", "guide_channels", "held_forces", "vectors"]
 
 Array = NDArray[np.float64]
 
@@ -67,7 +67,7 @@ def frame_force(model: Model, channels: Mapping[str, Channel]) -> Channel:
             on_bodies += sign * channels[f"{name}_force"].values[:, :2]
     for guide in model.mechanism.guides:
         for quantity, direction in (("force", guide.across), ("friction", guide.direction)):
-            force = channels.get(f"{guide_channel(model, guide.body)}_{quantity}")
+            force = channels.get(f"{guide_channel(model.mechanism, guide.body)}_{quantity}")
             if force is not None:
                 on_bodies += np.outer(force.values, direction)
     return Channel(-on_bodies, "N", "force of shaft, pivots and guides on the frame", "plane")
@@ -83,30 +83,25 @@ def _half_held(model: Model, joint: str, force: Array) -> Array:
     return np.asarray(on_journal[:, None] * np.column_stack([np.cos(angle), np.sin(angle)]))
 
 
-def guide_channel(model: Model, body: str) -> str:
-    """Return what the channels of a body's guide begin with; the slider's is the guide."""
-    return "guide" if body == model.mechanism.slider else f"{body}_guide"
-
-
 def guide_channels(model: Model, body: str, loads: Mapping[str, Array]) -> dict[str, Channel]:
     """Return the channels of what a guide does to its body.
 
     Args:
         model: integrated.
         body: that it guides.
-        loads: "force" (N), "moment" (N m) and "friction" (N), as far as there are.
+        loads: "force" (N), "moment" (N m), "friction" (N) and "loss" (J), as far as there are.
     """
-    units = {
-        "force": ("N", "to the right"),
-        "moment": ("N m", "counter-clockwise"),
-        "friction": ("N", "along the guide"),
+    words = {
+        "force": ("N", "force on the body, to the right"),
+        "moment": ("N m", "moment on the body, counter-clockwise"),
+        "friction": ("N", "friction on the body, along the guide"),
+        "loss": ("J", "energy dissipated since the start"),
     }
-    shown, in_words = guide_channel(model, body), f"{body.replace('_', ' ')} guide"
+    shown, in_words = guide_channel(model.mechanism, body), f"{body.replace('_', ' ')} guide"
     found = {}
     for quantity, values in loads.items():
-        unit, along = units[quantity]
-        words = f"{in_words}: {quantity} on the body, {along}"
-        found[f"{shown}_{quantity}"] = Channel(values, unit, words)
+        unit, what = words[quantity]
+        found[f"{shown}_{quantity}"] = Channel(values, unit, f"{in_words}: {what}")
     return found
 
 

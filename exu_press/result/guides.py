@@ -6,8 +6,8 @@ from numpy.typing import NDArray
 from exu_press.model import Model
 from exu_press.result.channel import Channel
 from exu_press.result.energy import work
-from exu_press.result.forces import guide_channel, guide_channels
-from exu_press.result.joints import states_of
+from exu_press.result.forces import guide_channels
+from exu_press.result.joints import states_of, stored_and_lost
 
 __all__ = ["record_guides", "record_ways"]
 
@@ -39,8 +39,7 @@ def record_guides(
                 moved, rate = away @ np.array(direction), velocity[:, index] @ np.array(direction)
                 stored += 0.5 * spring.stiffness * moved**2
                 lost += work(time, spring.damping * rate, rate)
-        words = f"{guide.body.replace('_', ' ')} guide: energy dissipated since the start"
-        channels[f"{guide_channel(model, guide.body)}_loss"] = Channel(lost, "J", words)
+        channels |= guide_channels(model, guide.body, {"loss": lost})
         dissipated += lost
     return channels, stored, dissipated
 
@@ -80,15 +79,11 @@ def record_ways(
             force += pressed
             moment += arm_x * pressed[:, 1] - arm_y * pressed[:, 0]
             moment += [state.moments[0] for state in end]
-            elastic = np.array([state.stored_energy for state in end])
-            loads = np.array([state.force + state.moments for state in end])
-            rates = np.array([state.velocity + state.angular_velocities for state in end])
-            lost += -work(time, loads, rates) - (elastic - elastic[0])
+            elastic, lost_here = stored_and_lost(end, time)
+            lost += lost_here
             all_stored += elastic
         all_lost += lost
         across, along = force @ np.array(guide.across), force @ np.array(guide.direction)
-        held = {"force": across, "moment": moment, "friction": along}
+        held = {"force": across, "moment": moment, "friction": along, "loss": lost}
         channels |= guide_channels(model, guide.body, held)
-        words = f"{guide.body.replace('_', ' ')} guide: energy dissipated since the start"
-        channels[f"{guide_channel(model, guide.body)}_loss"] = Channel(lost, "J", words)
     return channels, all_stored, all_lost

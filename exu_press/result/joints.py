@@ -12,7 +12,7 @@ from exu_press.result.energy import work
 from exu_press.result.forces import vectors
 from exu_press.result.motion import sensor
 
-__all__ = ["joint_states", "record_joints", "states_of"]
+__all__ = ["joint_states", "record_joints", "states_of", "stored_and_lost"]
 
 Array = NDArray[np.float64]
 
@@ -36,6 +36,14 @@ def states_of(
     return {name: history(joint, time, q, q_t) for name, joint in joints.items()}
 
 
+def stored_and_lost(states: Sequence[JointState], time: Array) -> tuple[Array, Array]:
+    """Return what a joint stores and what it has dissipated since the start, (n,), J."""
+    elastic = np.array([state.stored_energy for state in states])
+    loads = np.array([state.force + state.moments for state in states])
+    rates = np.array([state.velocity + state.angular_velocities for state in states])
+    return elastic, -work(time, loads, rates) - (elastic - elastic[0])
+
+
 def record_joints(
     model: Model, histories: Mapping[str, Sequence[JointState]], time: Array
 ) -> tuple[dict[str, Channel], Array, Array]:
@@ -45,10 +53,7 @@ def record_joints(
     balls = {joint.name for joint in model.mechanism.joints if joint.spherical}
     for name, states in histories.items():
         spherical = name in balls
-        elastic = np.array([state.stored_energy for state in states])
-        loads = np.array([state.force + state.moments for state in states])
-        rates = np.array([state.velocity + state.angular_velocities for state in states])
-        lost = -work(time, loads, rates) - (elastic - elastic[0])
+        elastic, lost = stored_and_lost(states, time)
         stored += elastic
         dissipated += lost
         in_words = name.replace("_", " ")

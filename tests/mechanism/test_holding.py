@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from drawings import coupled_cranks, four_bar, slider_crank
 
-from exu_press import Scene, simulate
+from exu_press import InputError, Scene, simulate
 from exu_press.mechanism import Press, Spring, press
 from exu_press.mechanism.holding import holding_of
 
@@ -98,6 +98,22 @@ def test_half_of_a_second_rod_is_left_out_whatever_its_direction():
     across = np.array([np.cos(found.half_held[name].angle), np.sin(found.half_held[name].angle)])
     along = np.diff(slider_crank(second_rod=True).points("other_rod"), axis=0)[0]
     assert across @ along == pytest.approx(0.0, abs=1e-9)
+
+
+def test_half_a_joint_holds_no_flexible_body():
+    pytest.importorskip("ngsolve")
+    drawn = slider_crank(crank=0.03, rod=0.383, second_rod=True)
+    ends = dict(zip(("big", "small"), drawn.joints_of("other_rod"), strict=True))
+    (x, y), (end_x, end_y) = (joint.at for joint in ends.values())
+    part = {
+        "flexible": "linkage", "modes": 0, "mesh_size": 0.1,
+        "faces": {joint.name: f"{bore} bore" for bore, joint in ends.items()},
+        "origin": [(x + end_x) / 2, (y + end_y) / 2],
+        "angle_deg": np.degrees(np.arctan2(end_y - y, end_x - x)),
+    }  # fmt: skip
+    said = r"bodies\.other_rod: other joints hold half of joints\.other_rod_.*_end"
+    with pytest.raises(InputError, match=said):
+        Scene(mechanism=drawn, joints={}, bodies={"other_rod": part}).build()
 
 
 def test_elastic_guides_leave_their_work_to_no_joint():

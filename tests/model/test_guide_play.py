@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from pressed import pressed_slider_crank
 
 from exu_press import InputError, Scene, simulate
 from exu_press.scene import mechanism_of
@@ -11,20 +12,8 @@ MU, FORCE, CLEARANCE = 0.2, 1e5, 2e-5
 
 @pytest.fixture(scope="module")
 def pressed():
-    """A slow slider-crank without weight under a constant force against its closing."""
-    scene = Scene(
-        mechanism="slider_crank",
-        joints={},
-        gravity=0.0,
-        speed_rpm=5.0,
-        start_angle_deg=20.0,
-        revolutions=0.85,
-        load={"die": {"kind": "table", "time": [0.0, 1.0], "force": [FORCE, FORCE]}},
-        guide={"clearance": CLEARANCE, "friction": "coulomb", "mu_kinetic": MU, "mu_static": MU},
-    )
-    result = simulate(scene)
-    assert result.completed, result.info["reason"]
-    return result
+    guide = {"clearance": CLEARANCE, "friction": "coulomb", "mu_kinetic": MU, "mu_static": MU}
+    return pressed_slider_crank(FORCE, start_angle_deg=20.0, revolutions=0.85, guide=guide)
 
 
 def coulomb(result):

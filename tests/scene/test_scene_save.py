@@ -1,5 +1,6 @@
 """A scene written from Python is read back equal, and never in place of somebody's file."""
 
+import json
 import tomllib
 
 import pytest
@@ -42,6 +43,8 @@ SCENES = {
 def test_round_trip(keys, comments, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)  # a STEP file's path is taken from the scene's directory
     scene = Scene.from_dict(keys)
+    complete = scene.to_dict()
+    assert json.loads(json.dumps(complete)) == complete == Scene.from_dict(complete).to_dict()
     scene.save("scene.toml", comments=comments)
     assert load_scene("scene.toml") == scene
 

@@ -1,6 +1,5 @@
 """Validation: what a scene allows, what it refuses and what it says; what it fills in."""
 
-import json
 import math
 
 import pytest
@@ -262,32 +261,3 @@ def test_derived_quantities():
     assert scene.angular_speed == pytest.approx(4 * math.pi)
     assert scene.duration == pytest.approx(1.5)
     assert scene.start_angle == pytest.approx(math.pi / 2)
-
-
-@pytest.mark.parametrize(
-    "data",
-    [
-        *[
-            {"mechanism": "press", "joints": {"crank_pin": pin, "balls": balls}}
-            for pin in ("ideal", "dry", "lubricated")
-            for balls in ("ideal", "dry")
-        ],
-        *[
-            {"mechanism": "slider_crank", "joints": {"crank_pin": pin}}
-            for pin in ("ideal", "dry", "lubricated")
-        ],
-        {
-            "load": {"blanking": {"kind": "blanking", "force": 1e4}},
-            "film": {"at_contact": "mixed"},
-            "gravity": 0.0,
-        },
-    ],
-    ids=lambda data: " ".join(map(str, data.values())),
-)
-def test_complete_scene_round_trip(data):
-    """to_dict is complete, plain and leads back to the same scene."""
-    scene = Scene.from_dict(data)
-    complete = scene.to_dict()
-    assert Scene.from_dict(complete) == scene
-    assert json.loads(json.dumps(complete)) == complete
-    assert Scene.from_dict(complete).to_dict() == complete

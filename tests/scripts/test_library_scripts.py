@@ -1,5 +1,6 @@
 """The scripts that show the library: each runs, reduced, and ends in the numbers it should."""
 
+import math
 import re
 
 import pytest
@@ -76,3 +77,13 @@ def test_dry_press_peaks(tmp_path):
     (off,) = re.findall(r"([+-][\d.]+)%", printed)
     assert abs(float(off)) < 2.0
     assert re.search(r"independent model +[\d.]+$", printed.strip())
+
+
+def test_dry_press_steps(tmp_path):
+    """A period is off by about its phase's square over 12: 2 % of an oscillation at 33 steps."""
+    printed = run("dry_press_steps.py", tmp_path)
+    after_one, at_the_end = map(int, re.findall(r"(?:after one|that contact): (\d+)", printed))
+    assert abs(after_one - math.sqrt((2.0 * math.pi) ** 3 / (12.0 * 0.02))) < 2.0
+    (oscillations,) = map(int, re.findall(r"s, (\d+) oscillations", printed))
+    assert at_the_end == pytest.approx(after_one * math.sqrt(oscillations), rel=0.03)
+    assert all(float(share) > 50.0 for share in re.findall(r" (\d+)%  ", printed))

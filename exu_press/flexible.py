@@ -5,6 +5,7 @@ joints are those of rigid bodies; what the plane holds of itself is held here: a
 the frame by two faces along its axis by these, any other one by the mean of its motion.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -29,6 +30,7 @@ from exu_press.errors import InputError
 from exu_press.joints import FlexiblePoint
 from exu_press.mechanism import GROUND, Joint, Mechanism, Motion, Point
 from exu_press.placed_part import PlacedPart
+from exu_press.scene.applied import AppliedLoad
 from fe_models import FlexibleBody, add_flexible_body
 
 __all__ = [
@@ -39,6 +41,7 @@ __all__ = [
     "hold_pivot",
     "hold_upright",
     "joint_end",
+    "load_point",
     "point_name",
     "undeformed",
 ]
@@ -114,9 +117,10 @@ def add_part(
     part: PlacedPart,
     start: FrameStart,
     mechanism: Mechanism,
+    loads: Mapping[str, AppliedLoad],
     gravity: float,
 ) -> FlexibleBody:
-    """Add a part, its points where the drawing has the joints.
+    """Add a part, its points where the drawing has the joints and loads act.
 
     Args:
         mbs: the system.
@@ -124,6 +128,7 @@ def add_part(
         part: in its place.
         start: of the solid's frame and the modes.
         mechanism: for the joints.
+        loads: of all bodies.
         gravity: downwards, m/s^2.
     """
     points = {}
@@ -132,6 +137,10 @@ def add_part(
             for number, face in enumerate(part.faces[joint.name] if body == name else ()):
                 along = float(part.reduced.interface(face).centre[2])
                 points[point_name(joint, number)] = face, (*part.place(point), along)
+    for load_name, load in loads.items():
+        for number, face in enumerate(part.loads[load_name] if load.body == name else ()):
+            along = float(part.reduced.interface(face).centre[2])
+            points[load_point(load_name, number)] = face, (*part.place(load.point), along)
     if part.drive:
         driven = part.reduced.interface(part.drive)
         x, y = part.place(mechanism.body(name).local(mechanism.shaft.at))
@@ -156,6 +165,11 @@ def add_part(
 def point_name(joint: Joint, number: int = 0) -> str:
     """Return the name of the point where a body's joint holds one of its faces."""
     return joint.name if number == 0 else f"{joint.name} {number + 1}"
+
+
+def load_point(load: str, number: int = 0) -> str:
+    """Return the name of the point where a load presses one of the faces that carry it."""
+    return f"load {load} {number + 1}"
 
 
 def joint_end(body: FlexibleBody, part: PlacedPart, joint: Joint, point: Point) -> Any:

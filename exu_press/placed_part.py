@@ -1,29 +1,34 @@
 """The solid of a flexible body in its place: which of its faces the mechanism's joints hold.
 
 A solid has coordinates of its own, the z axis along the joints' axes. Faces that have names are
-fitted to where the drawing has their joints; other faces are found where the joints are.
+fitted to where the drawing has their joints; other faces are found where the joints are. What a
+guide or a load holds is found by names or places, and a guide's usual faces are the solid's sides.
 """
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from importlib.util import find_spec
-from math import atan2, cos, degrees, hypot, radians, sin
+from math import atan2, cos, degrees, hypot, inf, radians, sin
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from exu_press.errors import InputError
 from exu_press.mechanism import Body, Joint, Mechanism, Motion, Point
 from exu_press.progress import Progress
 from exu_press.scene import Face, Flexible, Scene, mechanism_of
-from exu_press.scene.bodies import DRIVE_FACE, faces_given, require_rainflow
+from exu_press.scene.bodies import DRIVE_FACE, GUIDE_FACE, faces_given, require_rainflow
+from exu_press.scene.load import Load
 from fe_models import (
     CRANK_STEEL,
     Axis,
     Interface,
     Part,
+    Patch,
     ReducedPart,
     Reduction,
+    Sides,
     StepFile,
     reduced_part,
     shipped_faces,
@@ -31,6 +36,8 @@ from fe_models import (
 )
 
 __all__ = ["PlacedPart", "placed_parts"]
+
+Array = NDArray[np.float64]
 
 NEAR = 1e-4
 """m: how far a face's axis may lie from its joint; drawings are rounded to tenths of a mm."""
@@ -52,6 +59,9 @@ class PlacedPart:
         angle: of the body's frame in the solid's, rad.
         faces: joint -> the interfaces that it holds.
         drive: the interface that the drive turns; empty for other bodies than the crank.
+        guide: the interface that the guide holds; empty for bodies that have none.
+        loads: name of a load on the body -> the interfaces that carry it.
+        middles: name of a load that acts in the middle of its face -> that in the body's frame, m.
         damping_ratio: of every mode.
     """
 
@@ -60,7 +70,23 @@ class PlacedPart:
     angle: float
     faces: Mapping[str, tuple[str, ...]]
     drive: str
+    guide: str
+    loads: Mapping[str, tuple[str, ...]]
+    middles: Mapping[str, Point]
     damping_ratio: float
+
+    def carried(self, faces: tuple[str, ...], point: Point) -> tuple[Array, Array]:
+        """Return a point (3,) that faces carry, and what each mode moves it, (3, modes).
+
+        Args:
+            faces: interfaces, whose mean motion carries it.
+            point: in the body's frame, m.
+        """
+        places, modes = [], []
+        for interface in map(self.reduced.interface, faces):
+            places.append([*self.place(point), float(interface.centre[2])])
+            modes.append(interface.moved_point(places[-1])[1])
+        return np.mean(places, axis=0), np.mean(modes, axis=0)
 
     def place(self, point: Point) -> Point:
         """Return a point of the body's frame in the solid's, m."""
@@ -109,13 +135,20 @@ def placed_parts(scene: Scene, *, quiet: bool = True) -> dict[str, PlacedPart]:
         try:
             if table.woehler_stress is not None:
                 require_rainflow()
-            placed[name] = _placed(mechanism, mechanism.body(name), table, quiet)
+            loads = {
+                which: load
+                for which, load in scene.load.items()
+                if (load.body or mechanism.slider) == name
+            }
+            placed[name] = _placed(mechanism, mechanism.body(name), table, loads, quiet)
         except InputError as error:
             raise InputError(f"bodies.{name}: {error}") from None
     return placed
 
 
-def _placed(mechanism: Mechanism, body: Body, table: Flexible, quiet: bool) -> PlacedPart:
+def _placed(
+    mechanism: Mechanism, body: Body, table: Flexible, loads: Mapping[str, Load], quiet: bool
+) -> PlacedPart:
     """Return one body's part."""
     joints = mechanism.joints_of(body.name)
     driven = body.name == mechanism.crank
@@ -125,11 +158,18 @@ def _placed(mechanism: Mechanism, body: Body, table: Flexible, quiet: bool) -> P
         asked = {**faces_given(shipped_faces(table.flexible)), **asked}
     faces = {joint.name: asked.get(joint.name, (Face(),)) for joint in joints}
     drive = asked.get(DRIVE_FACE, ()) if driven else ()
+    patches = {f"load {name}": load.face for name, load in loads.items() if load.face is not None}
+    guide = next((guide for guide in mechanism.guides if guide.body == body.name), None)
+    if guide is not None:
+        patches = {GUIDE_FACE: asked.get(GUIDE_FACE, ()), **patches}
     _refuse_shared(faces)
-    named = all(face.name for each in faces.values() for face in each)
+    named = all(face.name for each in faces.values() for face in each) and all(
+        each and all(face.name for face in each) for each in patches.values()
+    )
     fitted = named and table.origin is None and table.angle_deg is None
     origin, turn = table.origin or (0.0, 0.0), radians(table.angle_deg or 0.0)
-    part = _part(table, body, faces, drive, joints, origin, turn)
+    across = (1.0, 0.0) if guide is None else _turned(guide.across, -turn)
+    part, carriers = _part(table, body, faces, drive, patches, joints, origin, turn, across)
     reduction = Reduction(
         table.modes, table.method, flexibility_error=table.flexibility_error, loads=IN_THE_PLANE
     )
@@ -156,12 +196,28 @@ def _placed(mechanism: Mechanism, body: Body, table: Flexible, quiet: bool) -> P
                 f"angle_deg = {degrees(turn):.6g}{best}; allowed is {1e3 * NEAR:g} mm"
             )
     x, y = body.centre_of_mass
+    centre, angle = _turned((x - origin[0], y - origin[1]), -turn), body.angle - turn
+
+    def middle(load: str) -> Point:
+        x, y, _ = reduced.interface(carriers[f"load {load}"]).centre
+        return _turned((x - centre[0], y - centre[1]), -angle)
+
     return PlacedPart(
         reduced=reduced,
-        centre=_turned((x - origin[0], y - origin[1]), -turn),
-        angle=body.angle - turn,
+        centre=centre,
+        angle=angle,
         faces=held,
         drive=(drive[0].name if drive else held[mechanism.shaft.name][0]) if driven else "",
+        guide="" if guide is None else carriers[GUIDE_FACE],
+        loads={
+            name: (carriers[f"load {name}"],) if load.joint is None else held[load.joint]
+            for name, load in loads.items()
+        },
+        middles={
+            name: middle(name)
+            for name, load in loads.items()
+            if load.joint is None and load.offset is None
+        },
         damping_ratio=table.damping_ratio,
     )
 
@@ -171,22 +227,34 @@ def _part(
     body: Body,
     faces: Mapping[str, tuple[Face, ...]],
     drive: tuple[Face, ...],
+    patches: Mapping[str, tuple[Face, ...]],
     joints: list[Joint],
     origin: Point,
     turn: float,
-) -> Part:
-    """Return the part to be reduced, in the material that is asked for."""
+    across: Point,
+) -> tuple[Part, dict[str, str]]:
+    """Return the part to be reduced, in the material that is asked for.
+
+    The second are the interfaces of the patches, which guide and loads hold, by the patches' names.
+    """
     if not table.from_file:
         part = shipped_part(table.flexible, table.mesh_size)
         known = [interface.face for interface in part.interfaces]
-        for joint, each in {**faces, DRIVE_FACE: drive}.items():
-            if wrong := [face.name for face in each if face.name not in known]:
+        for what, each in {**faces, DRIVE_FACE: drive, **patches}.items():
+            loaded = what in patches
+            wrong = [face.name for face in each if face.name not in known]
+            if loaded and len(each) != 1:
+                wrong.append("")
+            if wrong:
                 given = f" {wrong[0]!r}" if wrong[0] else ""
+                of_load = loaded and what != GUIDE_FACE
+                key = f"{what.replace(' ', '.')}.face" if of_load else f"faces.{what}"
                 raise InputError(
-                    f"{table.flexible!r} has no face{given} for {joint}; allowed as "
-                    f"faces.{joint} is one of {', '.join(map(repr, known))}"
+                    f"{table.flexible!r} has no face{given} for {what}; allowed as "
+                    f"{key} is one of {', '.join(map(repr, known))}"
                 )
-        return part.replace(material=_material(table, part.material))
+        part = part.replace(material=_material(table, part.material))
+        return part, {what: each[0].name for what, each in patches.items()}
     axes = {
         _face_name(joint.name, i): Axis(
             place=_turned((joint.at[0] - origin[0], joint.at[1] - origin[1]), -turn),
@@ -205,12 +273,30 @@ def _part(
         for i, face in enumerate(each)
     ]
     turned = [face.name for face in drive if face.name not in names]
+    first: dict[tuple[Face, ...], str] = {}  # loads may share a patch
+    carriers = {
+        what: each[0].name if len(each) == 1 and each[0].name else first.setdefault(each, what)
+        for what, each in patches.items()
+    }
+    more = [name for name in dict.fromkeys(carriers.values()) if name not in (*names, *turned)]
     interfaces = [Interface(name) for name in dict.fromkeys(names)]
     interfaces += [Interface(name, ("rz",)) for name in turned]
-    solid = StepFile(table.path, MILLIMETRES, axes=axes)
-    return Part(
-        solid.path.stem, solid, _material(table, CRANK_STEEL), tuple(interfaces), table.mesh_size
-    )
+    interfaces += [Interface(name, IN_THE_PLANE) for name in more]
+    held = {
+        what: tuple(map(_patch, each)) or Sides(across)
+        for what, each in patches.items()
+        if carriers[what] == what
+    }
+    solid = StepFile(table.path, MILLIMETRES, axes=axes, patches=held)
+    material = _material(table, CRANK_STEEL)
+    return Part(solid.path.stem, solid, material, tuple(interfaces), table.mesh_size), carriers
+
+
+def _patch(face: Face) -> Patch:
+    if face.name:
+        return Patch(face.name)
+    low, high = zip(*(ends or (-inf, inf) for ends in face.ranges), strict=True)
+    return Patch(box=(low, high))
 
 
 def _material(table: Flexible, usual: Any) -> Any:

@@ -12,7 +12,15 @@ if TYPE_CHECKING:
     from fe_models.cache import default_folder, reduced_part
     from fe_models.clamped import ConvergenceRow, clamped_frequencies, mesh_convergence
     from fe_models.exudyn_body import FlexibleBody, add_flexible_body
-    from fe_models.geometry import Axis, CrankShape, LinkageShape, OwnShape, StepFile
+    from fe_models.geometry import (
+        Axis,
+        CrankShape,
+        LinkageShape,
+        OwnShape,
+        Patch,
+        Sides,
+        StepFile,
+    )
     from fe_models.material import CRANK_STEEL, LINKAGE_IRON, Material
     from fe_models.part import Interface, Part, shipped_faces, shipped_part
     from fe_models.pictures import draw_mode_shapes
@@ -31,9 +39,11 @@ __all__ = [
     "Material",
     "OwnShape",
     "Part",
+    "Patch",
     "ReducedInterface",
     "ReducedPart",
     "Reduction",
+    "Sides",
     "StepFile",
     "add_flexible_body",
     "clamped_frequencies",
@@ -57,9 +67,11 @@ _HOMES = {
     "Material": "material",
     "OwnShape": "geometry",
     "Part": "part",
+    "Patch": "geometry",
     "ReducedInterface": "reduced",
     "ReducedPart": "reduced",
     "Reduction": "reduction",
+    "Sides": "geometry",
     "StepFile": "geometry",
     "add_flexible_body": "exudyn_body",
     "clamped_frequencies": "clamped",

@@ -30,6 +30,7 @@ __all__ = ["cache_file", "default_folder", "load", "reduced_part", "save"]
 SOURCES = (
     "shapes",
     "round_faces",
+    "patches",
     "flexibility",
     "mesh",
     "elasticity",

@@ -9,7 +9,7 @@ from typing import Any, Self
 
 from fe_models.errors import InputError
 
-__all__ = ["Axis", "Box", "CrankDimensions", "LinkageDimensions"]
+__all__ = ["Axis", "Box", "CrankDimensions", "LinkageDimensions", "Patch", "Sides"]
 
 Box = tuple[tuple[float, float, float], tuple[float, float, float]]
 
@@ -31,6 +31,26 @@ class Axis:
     hole: bool = True
     radius: float | None = None
     z: tuple[float, float] | None = None
+
+
+@dataclass(frozen=True)
+class Patch:
+    """Faces by their name, or all that lie wholly within a box.
+
+    Attributes:
+        name: as the STEP file has it; empty: by the box.
+        box: lowest and highest corner, m; infinite where any place will do.
+    """
+
+    name: str = ""
+    box: Box | None = None
+
+
+@dataclass(frozen=True)
+class Sides:
+    """The outermost plane faces on both sides of a solid, across a direction in the x-y plane."""
+
+    across: tuple[float, float]
 
 
 @dataclass(frozen=True)

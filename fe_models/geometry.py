@@ -11,10 +11,20 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any, Protocol
 
-from fe_models.dimensions import Axis, Box, CrankDimensions, LinkageDimensions
+from fe_models.dimensions import Axis, Box, CrankDimensions, LinkageDimensions, Patch, Sides
 from fe_models.errors import InputError
 
-__all__ = ["Axis", "Box", "CrankShape", "Geometry", "LinkageShape", "OwnShape", "StepFile"]
+__all__ = [
+    "Axis",
+    "Box",
+    "CrankShape",
+    "Geometry",
+    "LinkageShape",
+    "OwnShape",
+    "Patch",
+    "Sides",
+    "StepFile",
+]
 
 
 class Geometry(Protocol):
@@ -63,32 +73,40 @@ class StepFile:
 
     Netgen reads face names that the file carries. `faces` names others: every face that lies wholly
     inside a box ((x, y, z) lowest, (x, y, z) highest; in m) takes its name. `axes` names cylinders
-    along z and spheres by where their axis is.
+    along z and spheres by where their axis is. `patches` gives one name to faces that are held
+    together, by their own names, by boxes, or as the two sides of the solid.
     """
 
     path: Path
     scale: float = 1.0
     faces: Mapping[str, Box] = field(default_factory=dict)
     axes: Mapping[str, Axis] = field(default_factory=dict)
+    patches: Mapping[str, tuple[Patch, ...] | Sides] = field(default_factory=dict)
 
     def key(self) -> dict[str, Any]:
-        """Return a digest of the file, the boxes and the axes."""
+        """Return a digest of the file, the boxes, the axes and the patches."""
         return {
             "shape": "step",
             "digest": hashlib.sha256(self._bytes()).hexdigest(),
             "scale": self.scale,
             "faces": {name: [list(corner) for corner in box] for name, box in self.faces.items()},
             "axes": {name: asdict(axis) for name, axis in self.axes.items()},
+            "patches": {
+                name: asdict(each) if isinstance(each, Sides) else [asdict(one) for one in each]
+                for name, each in self.patches.items()
+            },
         }
 
     def build(self) -> Any:
-        """Return the solid, its faces named by the file, the boxes and the axes."""
+        """Return the solid, its faces named by the file, boxes, axes and patches."""
         self._bytes()
+        from fe_models.patches import name_patches
         from fe_models.round_faces import name_round_faces
         from fe_models.shapes import from_step
 
         shape = from_step(self.path, self.scale, self.faces)
         name_round_faces(shape, self.axes, f"STEP file {self.path}")
+        name_patches(shape, self.patches, self.axes, f"STEP file {self.path}")
         return shape
 
     def _bytes(self) -> bytes:

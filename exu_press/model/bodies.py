@@ -60,7 +60,15 @@ def _add_flexible_body(
 
     part = system.parts[name]
     begin = deformed or undeformed(part.frame(start))
-    body = add_part(system.mbs, name, part, begin, system.mechanism, system.scene.gravity)
+    body = add_part(
+        system.mbs,
+        name,
+        part,
+        begin,
+        mechanism=system.mechanism,
+        loads=system.loads,
+        gravity=system.scene.gravity,
+    )
     system.flexible[name] = body
     system.bodies[name], system.nodes[name] = body.object_number, body.node_rigid
     if body.node_modes is not None:

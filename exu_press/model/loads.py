@@ -5,12 +5,13 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 import exudyn as exu
+import numpy as np
 from exudyn.itemInterface import LoadForceVector
 
 from exu_press.model.drive import turned_body
 from exu_press.model.system import System
 from exu_press.scene import Scene
-from exu_press.scene.applied import AppliedLoad, applied_loads
+from exu_press.scene.applied import AppliedLoad
 
 __all__ = ["Place", "add_loads", "next_corner"]
 
@@ -28,9 +29,9 @@ rest of the way would be a step so short that it rings."""
 def add_loads(system: System) -> dict[str, tuple[AppliedLoad, Place]]:
     """Let every load press its body; return the loads, each with its place on its curve."""
     added = {}
-    for name, load in applied_loads(system.scene).items():
+    for name, load in system.loads.items():
         place = _place(system, load)
-        _add_load(system, load, place)
+        _add_load(system, name, load, place)
         added[name] = load, place
     return added
 
@@ -54,8 +55,8 @@ def next_corner(loads: Mapping[str, tuple[AppliedLoad, Place]], scene: Scene, ti
     return soonest
 
 
-def _add_load(system: System, load: AppliedLoad, place: Place) -> None:
-    """Press a point of a body, in a direction that stays."""
+def _add_load(system: System, name: str, load: AppliedLoad, place: Place) -> None:
+    """Press a point of a body, in a direction that stays; on a flexible one the faces carry it."""
     x, y = load.direction
     curve = load.curve
 
@@ -64,7 +65,14 @@ def _add_load(system: System, load: AppliedLoad, place: Place) -> None:
         return [size * x, size * y, 0.0]
 
     function: Any = force
-    marker = system.marker(load.body, load.point)
+    if load.body in system.flexible:
+        from exu_press.flexible import load_point
+
+        count = len(system.parts[load.body].loads[name])
+        points = (load_point(name, number) for number in range(count))
+        marker = system.flexible[load.body].add_point_marker(system.mbs, *points)
+    else:
+        marker = system.marker(load.body, load.point)
     system.mbs.AddLoad(LoadForceVector(markerNumber=marker, loadVectorUserFunction=function))
 
 
@@ -107,10 +115,14 @@ def _slider_position(system: System) -> Place:
     slider = output.body
     levels = exu.OutputVariableType.Position, exu.OutputVariableType.Velocity
     if slider in system.flexible:
-        node = system.nodes[slider]
+        node, middle = system.nodes[slider], np.array([*system.parts[slider].centre, 0.0])
 
         def read(level: exu.OutputVariableType) -> Any:
-            return mbs.GetNodeOutput(node, level)
+            """Return what the frame has in the body's centre of mass."""
+            kinds = exu.OutputVariableType.RotationMatrix, exu.OutputVariableType.AngularVelocity
+            rotation, omega, own = (np.array(mbs.GetNodeOutput(node, k)) for k in (*kinds, level))
+            arm = rotation.reshape(3, 3) @ middle
+            return own + (arm if level == levels[0] else np.cross(omega, arm))
     else:
         body, centre = system.bodies[slider], [*system.rigid[slider].local((0.0, 0.0)), 0.0]
 

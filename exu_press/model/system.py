@@ -1,6 +1,7 @@
 """An Exudyn system under construction: its bodies by name, and markers and springs on them."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import exudyn as exu
@@ -18,6 +19,7 @@ from exu_press.mechanism import GROUND, Joint, Mechanism, Point, Spring
 from exu_press.mechanism.holding import by_constraints, holding_of
 from exu_press.rigid import RigidBody
 from exu_press.scene import Scene, mechanism_of
+from exu_press.scene.applied import applied_loads
 
 if TYPE_CHECKING:
     from exu_press.placed_part import PlacedPart
@@ -35,6 +37,7 @@ class System:
         mechanism: bodies, joints and guides.
         holding: which ideal joints and guides hold what.
         ideal: name -> motion of the ideal mechanism at the start.
+        loads: name -> load.
         SC: Exudyn's system container.
         mbs: Exudyn's main system, not yet assembled.
         ground: object number of the frame.
@@ -56,6 +59,12 @@ class System:
             holding_of(self.mechanism, scene.joints.ideal), _beside_flexible(scene, self.mechanism)
         )
         self.ideal = self.mechanism.motion(np.array([scene.start_angle]), scene.angular_speed)
+        self.loads = {
+            name: replace(load, point=parts[load.body].middles.get(name, load.point))
+            if load.body in parts
+            else load
+            for name, load in applied_loads(scene).items()
+        }
         self.SC = exu.SystemContainer()
         self.mbs = self.SC.AddSystem()
         self.ground = int(self.mbs.AddObject(ObjectGround()))

@@ -5,16 +5,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from exu_press.mechanism import Point
 from exu_press.model import Model
 from exu_press.result.channel import Channel
 from exu_press.result.energy import work
-from exu_press.result.motion import frame_motion, point_motion, sensor
+from exu_press.result.motion import frame_motion, moving_point, point_motion, sensor
 
 if TYPE_CHECKING:
     from exu_press.placed_part import PlacedPart
     from fe_models import ReducedPart
 
-__all__ = ["deflection", "modal", "record_parts"]
+__all__ = ["carried_motion", "deflection", "modal", "record_parts"]
 
 Array = NDArray[np.float64]
 
@@ -89,6 +90,23 @@ def deflection(placed: "PlacedPart", joint: str, pivot: str) -> Array:
     axis = part.interface(placed.drive or placed.faces[pivot][0]).rotation.T * (0.0, 0.0, 1.0)
     turned = np.cross(axis, moved.axis - rests[0].axis).T
     return np.asarray((moved.translation - line - turned)[:2])
+
+
+def carried_motion(
+    model: Model, name: str, faces: tuple[str, ...], point: Point
+) -> tuple[Array, Array]:
+    """Return position, m, and velocity, m/s, (n, 3) each, of a point that faces carry.
+
+    Args:
+        model: integrated.
+        name: of the flexible body.
+        faces: interfaces, whose mean motion carries the point.
+        point: in the undeformed body's frame, m.
+    """
+    placed, count = model.parts[name], len(sensor(model, name, "position"))
+    place, modes = placed.carried(faces, point)
+    q, q_t = modal(model, name, placed.reduced, count)
+    return moving_point(model, name, place + q @ modes.T, q_t @ modes.T)
 
 
 def modal(model: Model, name: str, part: "ReducedPart", count: int) -> tuple[Array, Array]:

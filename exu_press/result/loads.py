@@ -9,6 +9,7 @@ from exu_press.mechanism import Motion
 from exu_press.model import Model
 from exu_press.result.channel import Channel
 from exu_press.result.energy import work
+from exu_press.result.flexible import carried_motion
 
 __all__ = ["record_loads"]
 
@@ -38,8 +39,12 @@ def record_loads(
     all_work = np.zeros_like(time)
     for name, (load, _) in model.loads.items():
         force = load.force(time, crank_angle, slider_position)
-        motion = motions[load.body].at(load.point)
-        along = motion.velocity[:, :2] @ np.array(load.direction)
+        if load.body in model.parts:
+            part = model.parts[load.body]
+            velocity = carried_motion(model, load.body, part.loads[name], load.point)[1]
+        else:
+            velocity = motions[load.body].at(load.point).velocity
+        along = velocity[:, :2] @ np.array(load.direction)
         done = work(time, force, along)
         all_work += done
         words = f"load {name} on the {load.body.replace('_', ' ')}"

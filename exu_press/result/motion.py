@@ -6,7 +6,14 @@ from numpy.typing import NDArray
 from exu_press.mechanism import Motion
 from exu_press.model import Model
 
-__all__ = ["body_motion", "frame_motion", "point_acceleration", "point_motion", "sensor"]
+__all__ = [
+    "body_motion",
+    "frame_motion",
+    "moving_point",
+    "point_acceleration",
+    "point_motion",
+    "sensor",
+]
 
 Array = NDArray[np.float64]
 
@@ -72,6 +79,23 @@ def point_motion(model: Model, name: str, point: Array) -> tuple[Array, Array, A
     omega, arm = _angular_velocity(e_0, e, velocity[:, 3:]), _turned(e_0, e, point)
     height = frame_motion(model, name).position[:, 1] + arm[:, 1]
     return height, velocity[:, :3] + np.cross(omega, arm), _turned(e_0, -e, omega)
+
+
+def moving_point(model: Model, name: str, place: Array, rate: Array) -> tuple[Array, Array]:
+    """Return position and velocity (n, 3) of a point that moves in a flexible body's frame.
+
+    Args:
+        model: integrated.
+        name: of the body.
+        place: (n, 3) in its frame, m.
+        rate: (n, 3) of the place, m/s.
+    """
+    e_0, e, velocity = _in_space(model, name)
+    omega, arm = _angular_velocity(e_0, e, velocity[:, 3:]), _turned(e_0, e, place)
+    start = model.mbs.GetNodeParameter(model.nodes[name], "referenceCoordinates")
+    position = (sensor(model, name, "position") + start)[:, :3]
+    moved = velocity[:, :3] + np.cross(omega, arm) + _turned(e_0, e, rate)
+    return np.asarray(position + arm), np.asarray(moved)
 
 
 def _in_space(model: Model, name: str) -> tuple[Array, Array, Array]:

@@ -78,10 +78,13 @@ def applied_loads(scene: Scene) -> dict[str, AppliedLoad]:
         x, y = load.direction or mechanism.output.direction
         length = math.hypot(x, y)
         (u, v), (dx, dy) = body.centre_of_mass, load.offset or (0.0, 0.0)
+        place = (u + dx, v + dy)
+        if load.joint is not None:
+            place = next(joint.at for joint in mechanism.joints if joint.name == load.joint)
         applied = AppliedLoad(
             kind=load.kind,
             body=body.name,
-            point=body.local((u + dx, v + dy)),
+            point=body.local(place),
             direction=(x / length, y / length),
             over=load.over,
             curve=load.curve(scene.angular_speed),

@@ -13,17 +13,23 @@ from exu_press.errors import InputError
 
 __all__ = [
     "DRIVE_FACE",
+    "GUIDE_FACE",
     "STEP_FILES",
     "Face",
     "Flexible",
     "bodies_of",
     "body_dict",
     "changed_bodies",
+    "face_dict",
     "faces_given",
+    "patch_given",
 ]
 
 DRIVE_FACE = "drive"
 """Among a crank's faces: the one that the drive turns."""
+
+GUIDE_FACE = "guide"
+"""Among the faces of a body in a guide: those that the guide holds."""
 
 STEP_FILES = (".step", ".stp")
 
@@ -36,20 +42,38 @@ OLD = "is bodies.NAME now, a table for each flexible body, as in bodies.linkage 
 
 @dataclass(frozen=True)
 class Face:
-    """Which faces of a solid a joint holds: by name, or cylinders and spheres about its axis.
+    """Which faces of a solid a joint, a guide or a load holds.
+
+    By name; or, of a joint, cylinders and spheres about its axis; of a guide or a load, all that
+    lie wholly within ranges.
 
     Attributes:
         name: of the faces, as the STEP file or the shipped part has it; empty: by their place.
-        radius: of the cylinder or sphere, m, where several have the same axis.
-        z: lowest and highest place along the axis, m, where several have the same radius.
+        radius: of a joint's cylinder or sphere, m, where several have the same axis.
+        z: lowest and highest place along the joints' axes, m; of a joint, where several cylinders
+            have the same radius.
         eccentric: the joint's axis may lie beside the face's, as that of an eccentric ring on it,
             and the face may carry another joint.
+        x: lowest and highest place of a guide's or a load's faces, m, as the STEP file has it.
+        y: likewise.
     """
 
     name: str = ""
     radius: float | None = None
     z: tuple[float, float] | None = None
     eccentric: bool = False
+    x: tuple[float, float] | None = None
+    y: tuple[float, float] | None = None
+
+    @property
+    def ranges(self) -> tuple[tuple[float, float] | None, ...]:
+        """Within x, y and z."""
+        return self.x, self.y, self.z
+
+
+OF_A_JOINT = ("name", "radius", "z", "eccentric")
+OF_A_PATCH = ("name", "x", "y", "z")
+"""Keys of faces that a joint holds, and of those that a guide or a load does."""
 
 
 @dataclass(frozen=True)
@@ -178,7 +202,7 @@ def body_dict(body: Flexible) -> dict[str, Any]:
     for field in dataclasses.fields(body):
         value = getattr(body, field.name)
         if field.name == "faces":
-            faces = {joint: [_face_dict(face) for face in faces] for joint, faces in value.items()}
+            faces = {joint: [face_dict(face) for face in faces] for joint, faces in value.items()}
             found |= {"faces": faces} if faces else {}
         elif value is not None:
             found[field.name] = list(value) if isinstance(value, tuple) else value
@@ -241,28 +265,51 @@ def faces_given(given: Any) -> dict[str, tuple[Face, ...]]:
     """
     if not isinstance(given, Mapping):
         raise InputError(f"faces = {given!r}: allowed is a table of joints' names")
-    return {name: _faces(f"faces.{name}", each) for name, each in given.items()}
+    return {
+        name: patch_given(f"faces.{name}", each)
+        if name == GUIDE_FACE
+        else _faces(f"faces.{name}", each, OF_A_JOINT)
+        for name, each in given.items()
+    }
 
 
-def _faces(where: str, given: Any) -> tuple[Face, ...]:
-    """Return the faces of one joint: one or a list of them, each a name or a table."""
+def patch_given(where: str, given: Any) -> tuple[Face, ...]:
+    """Return the faces that a guide or a load holds together.
+
+    Args:
+        where: what messages begin with.
+        given: one or a list of them, each a name or a table of name or ranges.
+
+    Raises:
+        InputError: a face is none, or has neither a name nor a range.
+    """
+    faces = _faces(where, given, OF_A_PATCH)
+    for face in faces:
+        if bool(face.name) == any(face.ranges):
+            raise InputError(
+                f"{where} = {face_dict(face)!r}: allowed is a face's name, or ranges of x, y and z "
+                "within which faces lie wholly, m"
+            )
+    return faces
+
+
+def _faces(where: str, given: Any, known: tuple[str, ...]) -> tuple[Face, ...]:
+    """Return faces: one or a list of them, each a name or a table."""
     each = given if isinstance(given, (list, tuple)) else [given]
     if not each:
         raise InputError(f"{where} = []: allowed is at least one face")
-    return tuple(_face(where, one) for one in each)
+    return tuple(_face(where, one, known) for one in each)
 
 
-def _face(where: str, given: Any) -> Face:
+def _face(where: str, given: Any, known: tuple[str, ...]) -> Face:
     if isinstance(given, Face):
         return given
     if isinstance(given, str):
         given = {"name": given}
     if not isinstance(given, Mapping):
         raise InputError(
-            f"{where} = {given!r}: allowed is a face's name, or a table of name, radius, z, "
-            "eccentric"
+            f"{where} = {given!r}: allowed is a face's name, or a table of {', '.join(known)}"
         )
-    known = [field.name for field in dataclasses.fields(Face)]
     for one in given:
         if one not in known:
             raise InputError(
@@ -270,10 +317,11 @@ def _face(where: str, given: Any) -> Face:
                 f"{', '.join(known)}"
             )
     keys = dict(given)
-    if (z := keys.get("z")) is not None:
-        keys["z"] = low, high = _pair(f"{where}.z", z)
-        if not low < high:
-            raise InputError(f"{where}.z = {z!r}: allowed is [lowest, highest], m")
+    for axis in ("x", "y", "z"):
+        if (ends := keys.get(axis)) is not None:
+            keys[axis] = low, high = _pair(f"{where}.{axis}", ends)
+            if not low < high:
+                raise InputError(f"{where}.{axis} = {ends!r}: allowed is [lowest, highest], m")
     radius = keys.get("radius")
     if radius is not None and not (_number(radius) and radius > 0):
         raise InputError(f"{where}.radius = {radius!r}: allowed is a number > 0, m")
@@ -284,7 +332,7 @@ def _face(where: str, given: Any) -> Face:
     return Face(**keys)
 
 
-def _face_dict(face: Face) -> Any:
+def face_dict(face: Face) -> Any:
     """Return a face as a scene file has it."""
     given = {k: v for k, v in dataclasses.asdict(face).items() if v != Face.__dict__.get(k)}
     if list(given) == ["name"]:

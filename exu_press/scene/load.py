@@ -3,11 +3,12 @@
 import math
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 from exu_press.checks import Table, key
 from exu_press.errors import InputError
 from exu_press.laws.load_curve import LoadCurve, blanking_pulse
+from exu_press.scene.bodies import Face, patch_given
 
 __all__ = ["COLUMNS", "LOAD_KINDS", "BlankingLoad", "Load", "TableLoad"]
 
@@ -19,7 +20,11 @@ REVOLUTION = 2.0 * math.pi
 
 @dataclass(frozen=True)
 class _Placed(Table):
-    """Where a load acts; its direction stays in the frame however the body turns."""
+    """Where a load acts; its direction stays in the frame however the body turns.
+
+    A flexible body needs to know which of its faces carry the load: those of a joint, or others. A
+    point beside the middle of these moves with their mean motion.
+    """
 
     body: str | None = key(None, "on which it acts; the mechanism's output unless given")
     offset: tuple[float, float] | None = key(
@@ -28,13 +33,24 @@ class _Placed(Table):
         "m",
         numbers=2,
     )
+    joint: str | None = key(None, "of the body, at whose centre it acts, instead of offset")
+    face: tuple[Face, ...] | None = key(
+        None, "of a flexible body, in whose middle it acts: its name, or {x, y, z}", also=tuple
+    )
     direction: tuple[float, float] | None = key(
         None, "of a positive force; the output's unless given", numbers=2
     )
 
     def __post_init__(self) -> None:
-        """Check the keys, and that the direction is one."""
+        """Check the keys, that the direction is one, and that there is one place."""
+        given: Any = self.face
+        if given is not None:
+            object.__setattr__(self, "face", patch_given("face", given))
         super().__post_init__()
+        if self.joint is not None:
+            for name in ("offset", "face"):
+                if getattr(self, name) is not None:
+                    raise InputError(f"joint and {name}: allowed is one of the two")
         if self.direction is not None and math.hypot(*self.direction) == 0.0:
             raise InputError("direction = [0, 0]: allowed is a direction, such as [0, 1]")
 

@@ -8,6 +8,7 @@ from typing import Any
 from exu_press.checks import nearest
 from exu_press.errors import InputError
 from exu_press.mechanism import Mechanism
+from exu_press.scene.bodies import face_dict
 from exu_press.scene.load import COLUMNS, LOAD_KINDS, BlankingLoad, Load, TableLoad
 from exu_press.scene.load_file import read_load_table
 
@@ -54,12 +55,13 @@ def loads_of(
     Args:
         given: name -> mapping of keys with its kind, or one of the dataclasses; or None.
         mechanism: on whose bodies they act.
-        flexible: names of its flexible bodies, on which none can act.
+        flexible: names of its flexible bodies, on which a load needs a joint or a face.
         speed_rpm: of the crank.
 
     Raises:
         InputError: a load has no kind, a key that its kind does not have, a value that is not
-            allowed, a body that there is not, or a file that is no table.
+            allowed, a body or a joint that there is not, a place on a flexible body where nothing
+            carries it, or a file that is no table.
     """
     if not isinstance(given or {}, Mapping):
         raise InputError(f"load = {given!r}: allowed is a table of loads")
@@ -87,7 +89,10 @@ def load_dict(load: Load) -> dict[str, Any]:
     keys: dict[str, Any] = {"kind": load.kind}
     for field in dataclasses.fields(load):
         value = getattr(load, field.name)
-        if value is not None:
+        if field.name == "face" and value is not None:
+            faces = [face_dict(face) for face in value]
+            keys["face"] = faces[0] if len(faces) == 1 else faces
+        elif value is not None:
             keys[field.name] = list(value) if isinstance(value, tuple) else value
     return keys
 
@@ -130,7 +135,7 @@ def with_files_beside(given: Any, folder: Path) -> Any:
     }
 
 
-_PLACES = ("body", "offset", "direction")
+_PLACES = ("body", "offset", "joint", "face", "direction")
 
 
 def _load(where: str, given: Any) -> Load:
@@ -176,6 +181,18 @@ def _check_body(where: str, load: Load, mechanism: Mechanism, flexible: Collecti
             f"{where}.body = {name!r}: {mechanism.name} has no such body{nearest(name, bodies)}; "
             f"allowed are {', '.join(bodies)}"
         )
-    if name in flexible:
-        rigid = [body for body in bodies if body not in flexible]
-        raise InputError(f"{where}.body = {name!r}: is flexible; allowed are {', '.join(rigid)}")
+    joints = [joint.name for joint in mechanism.joints_of(name)]
+    if load.joint is not None and load.joint not in joints:
+        raise InputError(
+            f"{where}.joint = {load.joint!r}: {name} has no such joint"
+            f"{nearest(load.joint, joints)}; allowed are {', '.join(joints)}"
+        )
+    if name in flexible and load.joint is None and load.face is None:
+        raise InputError(
+            f"{where}: acts on the flexible {name}, which a force at a point would dent without "
+            f"end; allowed are joint, one of {', '.join(joints)}, or face, of those that carry it"
+        )
+    if name not in flexible and load.face is not None:
+        raise InputError(
+            f"{where}.face: {name} is rigid; allowed are joint and offset, or [bodies.{name}]"
+        )

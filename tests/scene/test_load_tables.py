@@ -5,7 +5,7 @@ import json
 import pytest
 
 from exu_press import InputError, Scene, load_scene
-from exu_press.scene import BlankingLoad, TableLoad
+from exu_press.scene import BlankingLoad, TableLoad, mechanism_of
 from exu_press.scene.applied import applied_loads
 
 PULSE = {"kind": "blanking", "force": 1e4}
@@ -137,10 +137,50 @@ def test_what_is_refused(load, message):
     assert message in refusal(load)
 
 
-def test_a_flexible_body_carries_no_load():
-    pytest.importorskip("ngsolve")
-    message = refusal({"a": {**PULSE, "body": "linkage"}}, bodies={"linkage": "linkage"})
-    assert message.startswith("load.a.body = 'linkage': is flexible; allowed are crank, slide, ")
+@pytest.mark.parametrize(
+    ("load", "message"),
+    [
+        (
+            {"body": "linkage"},
+            "load.a: acts on the flexible linkage, which a force at a point would dent without "
+            "end; allowed are joint, one of crank_pin, slide_pin, or face, of those that carry it",
+        ),
+        (
+            {"body": "linkage", "joint": "slide_pins"},
+            "load.a.joint = 'slide_pins': linkage has no such joint (did you mean 'slide_pin'?)",
+        ),
+        ({"joint": "ball_left", "offset": [0, 1]}, "load.a.joint and offset: allowed is one of"),
+        ({"joint": "ball_left", "face": "a"}, "load.a.joint and face: allowed is one of the two"),
+        ({"face": "a"}, "load.a.face: slider is rigid; allowed are joint and offset, or [bodies.s"),
+        ({"body": "linkage", "face": {}}, "load.a.face = {}: allowed is a face's name, or ranges"),
+        ({"body": "linkage", "face": 3}, "load.a.face = 3: allowed is a face's name, or a table"),
+        ({"body": "linkage", "face": {"radius": 1}}, "load.a.face.radius = 1: unknown key"),
+        ({"body": "linkage", "face": {"x": [1, 0]}}, "load.a.face.x = [1, 0]: allowed is [lowest"),
+    ],
+)  # fmt: skip
+def test_what_is_refused_on_flexible_bodies(load, message):
+    assert refusal({"a": {**PULSE, **load}}, bodies={"linkage": "linkage"}).startswith(message)
+
+
+def test_a_load_on_a_joint_or_a_face_is_saved_and_read_back(tmp_path):
+    load = {
+        "pin": {**PULSE, "body": "linkage", "joint": "slide_pin"},
+        "bore": {**PULSE, "body": "linkage", "face": "big bore"},
+        "two": {**PULSE, "body": "linkage", "face": [{"x": [0, 1]}, {"y": [0, 1], "z": [2, 3]}]},
+    }
+    scene = Scene(bodies={"linkage": "linkage"}, load=load)
+    assert Scene.from_dict(scene.to_dict()) == scene
+    scene.save(tmp_path / "scene.toml")
+    assert load_scene(tmp_path / "scene.toml") == scene
+    moved = scene.replace("load.pin.joint", "crank_pin")
+    assert moved.load["pin"].joint == "crank_pin"
+
+
+def test_a_joint_is_a_place_of_a_rigid_body_too():
+    scene = Scene(load={"a": {**PULSE, "joint": "ball_left"}})
+    mechanism = mechanism_of(scene)
+    ball = next(joint for joint in mechanism.joints if joint.name == "ball_left")
+    assert applied_loads(scene)["a"].point == mechanism.body("slider").local(ball.at)
 
 
 def test_the_old_spelling_is_refused_and_the_new_one_named():

@@ -1,0 +1,134 @@
+"""Faces of a solid that a guide or a load holds together: by name, by their place, or its sides."""
+
+from collections.abc import Collection, Iterable, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fe_models.dimensions import Box, Patch, Sides
+from fe_models.errors import InputError
+
+__all__ = ["name_patches"]
+
+Array = NDArray[np.float64]
+
+NEAR = 1e-4
+"""m: how far a face may lie outside of a box; drawings are rounded to tenths of a mm."""
+
+PARALLEL = 1e-3
+"""rad: between a plane's normal and the direction that it is across."""
+
+FLAT = 1e-6
+"""Of the distance of points: how far they may lie beside a plane."""
+
+
+def name_patches(
+    shape: Any,
+    patches: Mapping[str, tuple[Patch, ...] | Sides],
+    held: Collection[str],
+    where: str,
+) -> None:
+    """Give the faces of every patch its name.
+
+    Args:
+        shape: in m.
+        patches: name -> which faces.
+        held: names of faces that are held by others already.
+        where: what messages begin with.
+
+    Raises:
+        InputError: a patch has no faces, or one that something else holds.
+    """
+    before = [face.name for face in shape.faces]
+    taken: dict[int, str] = {i: name for i, name in enumerate(before) if name in held}
+    for name, patch in patches.items():
+        found = _sides(shape, patch, name, where) if isinstance(patch, Sides) else set()
+        if not isinstance(patch, Sides):
+            for one in patch:
+                found |= _faces(shape, before, held, one, name, where)
+        for i in sorted(found):
+            if i in taken:
+                raise InputError(
+                    f"{where}: {taken[i]} and {name} hold the same face; allowed are different ones"
+                )
+            taken[i] = name
+            shape.faces[i].name = name
+
+
+def _faces(
+    shape: Any,
+    names: Iterable[str | None],
+    held: Collection[str],
+    one: Patch,
+    what: str,
+    where: str,
+) -> set[int]:
+    """Return the numbers of the faces that are meant."""
+    if one.box is None:
+        found = {i for i, name in enumerate(names) if name == one.name}
+        if not found:
+            known = sorted({name for name in names if name and name not in held})
+            raise InputError(
+                f"{where}: has no face named {one.name!r} for {what}; its faces are named "
+                f"{', '.join(map(repr, known)) or 'nothing at all'}"
+            )
+        return found
+    found = {i for i, face in enumerate(shape.faces) if _within(face.bounding_box, one.box)}
+    if not found:
+        raise InputError(
+            f"{where}: no face for {what} lies wholly within {_ranges(one.box)}; the solid fills "
+            f"{_ranges(tuple(shape.bounding_box))}, in m"
+        )
+    return found
+
+
+def _sides(shape: Any, sides: Sides, what: str, where: str) -> set[int]:
+    """Return the numbers of the outermost plane faces across a direction."""
+    x, y = sides.across
+    places: dict[int, float] = {}
+    for i, face in enumerate(shape.faces):
+        plane = _plane(face)
+        if plane is not None:
+            point, normal = plane
+            if abs(normal[0] * y - normal[1] * x) + abs(normal[2]) < PARALLEL:
+                places[i] = float(point[0] * x + point[1] * y)
+    low, high = min(places.values(), default=0.0), max(places.values(), default=0.0)
+    if high - low <= NEAR:
+        raise InputError(
+            f"{where}: has no plane faces on both sides across the guide's direction; allowed as "
+            "faces.guide are the names of faces, or ranges of x, y and z that hold them"
+        )
+    return {i for i, place in places.items() if place < low + NEAR or place > high - NEAR}
+
+
+def _plane(face: Any) -> tuple[Array, Array] | None:
+    """Return a point and the unit normal of a plane face; None for others."""
+    try:
+        origin, u, v, both = (
+            np.array([*face.surf.Value(*at)], dtype=float)
+            for at in ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (0.7, -0.4))
+        )
+    except Exception:
+        return None
+    normal = np.cross(u - origin, v - origin)
+    size = np.linalg.norm(normal)
+    away = origin + 0.7 * (u - origin) - 0.4 * (v - origin) - both
+    if not size > 0.0 or np.linalg.norm(away) > FLAT * np.linalg.norm(u - origin):
+        return None
+    return origin, normal / size
+
+
+def _within(bounds: Any, box: Box) -> bool:
+    (lowest, highest), (low, high) = bounds, box
+    return all(lowest[i] >= low[i] - NEAR and highest[i] <= high[i] + NEAR for i in range(3))
+
+
+def _ranges(box: Any) -> str:
+    """Return the finite ranges of a box."""
+    low, high = box
+    return ", ".join(
+        f"{axis} = [{low[i]:.5g}, {high[i]:.5g}]"
+        for i, axis in enumerate("xyz")
+        if np.isfinite([low[i], high[i]]).any()
+    )

@@ -1,0 +1,199 @@
+"""Loads on flexible bodies: statics against a beam and all finite elements, work, stiff limit."""
+
+import numpy as np
+import pytest
+import scipy.sparse as sp
+from scipy.sparse.linalg import splu
+
+from exu_press import InputError, Scene, simulate
+from exu_press.model import build
+from exu_press.quasi_static import quasi_static_motion
+from exu_press.scene import mechanism_of
+
+pytest.importorskip("ngsolve")
+
+from netgen.occ import Box, Cylinder, Pnt, Z
+
+from exu_press.placed_part import placed_parts
+from fe_models import CRANK_STEEL, Axis, Interface, Part, Patch, StepFile
+from fe_models.elasticity import full_model
+
+LENGTH, OVERHANG, SIDE = 0.3, 0.2, 0.016  # m, of the rocker
+AT, MESH, FORCE = 0.36, 0.04, 10.0
+FLEXURAL = 2.1e11 * SIDE**4 / 12.0  # N m^2
+TIP = {"y": [0.499, 0.501]}
+CONSTANT = {"kind": "table", "time": [0.0, 1.0], "force": [FORCE, FORCE], "direction": [1.0, 0.0]}
+
+
+@pytest.fixture(scope="module")
+def rocker(tmp_path_factory):
+    """A four-bar's dictionary with an upright rocker, and a bar that goes on beyond its knuckle."""
+    path = tmp_path_factory.mktemp("rocker") / "rocker.step"
+    half = 500.0 * SIDE
+    solid = Box(Pnt(360 - half, -15, -half), Pnt(360 + half, 500, half))
+    for y in (0.0, 300.0):
+        solid += Cylinder(Pnt(360, y, -half), Z, r=1.2 * half, h=2 * half)
+    for y in (0.0, 300.0):
+        solid -= Cylinder(Pnt(360, y, -2 * half), Z, r=0.4 * half, h=4 * half)
+    solid.WriteStep(str(path))
+    data = Scene(mechanism=mechanism_of(Scene(mechanism="four_bar"))).to_dict()["mechanism"]
+    data["joints"]["pivot"]["at"] = [AT, 0.0]
+    data["bodies"]["rocker"]["centre_of_mass"] = [AT, 0.15]
+    return data, str(path)
+
+
+def scene(rocker, load, **keys):
+    data, path = rocker
+    bores = {joint: {"radius": 0.2 * SIDE} for joint in ("knuckle", "pivot")}
+    body = {"flexible": path, "mesh_size": MESH, "modes": 12, "faces": bores}
+    body |= keys.pop("body", {})
+    load = {name: {"body": "rocker", **one} for name, one in load.items()}
+    bodies = {"rocker": body}
+    return Scene(**{"mechanism": data, "joints": {}, "bodies": bodies, "load": load, **keys})
+
+
+def bent(rocker, **keys):
+    """Return how far the tip of the loaded rocker at rest lies beside the line of its joints, m."""
+    load = {**CONSTANT, "face": TIP, **keys}
+    asked = scene(rocker, {"one": load}, gravity=0.0, speed_rpm=1e-3)
+    model = build(asked)
+    mbs = model.mbs
+    turned = mbs.GetNodeODE2Index(model.nodes["crank"])
+    q, _ = quasi_static_motion(mbs, model.drive, turned, asked.angular_speed)
+    modes = q[mbs.systemData.GetNodeLTGODE2(model.nodes["rocker_modes"])]
+    part, body = model.parts["rocker"], model.mechanism.body("rocker")
+    top = body.local((AT, LENGTH + OVERHANG))
+    moved = {"tip": part.carried(part.loads["one"], top)[1] @ modes}
+    for joint, y in {"pivot": 0.0, "knuckle": LENGTH}.items():
+        moved[joint] = part.carried(part.faces[joint], body.local((AT, y)))[1] @ modes
+    model.SC.Reset()
+    return beside({name: vector[0] for name, vector in moved.items()})
+
+
+def beside(moved):
+    return (
+        moved["tip"]
+        - moved["pivot"]
+        - (1 + OVERHANG / LENGTH) * (moved["knuckle"] - moved["pivot"])
+    )
+
+
+def test_the_tip_bends_as_all_finite_elements_and_as_a_beam(rocker):
+    bores = {"pivot": 0.0, "knuckle": LENGTH}
+    ends = {name: Axis((AT, y), radius=0.2 * SIDE) for name, y in bores.items()}
+    tip = Patch(box=((-np.inf, TIP["y"][0], -np.inf), (np.inf, TIP["y"][1], np.inf)))
+    solid = StepFile(rocker[1], 1e-3, axes=ends, patches={"tip": (tip,)})
+    interfaces = tuple(Interface(name) for name in ("pivot", "knuckle", "tip"))
+    model = full_model(Part("rocker", solid, CRANK_STEEL, interfaces, MESH))
+    coupler = sp.csr_matrix([[0.36, 0.2, 0.0, 0.0, 0.0, 0.0]])  # whose direction it holds
+    rows = sp.vstack([model.faces["pivot"].rows[:5], coupler @ model.faces["knuckle"].rows])
+    force = model.faces["tip"].rows[:3].T @ np.array([FORCE, 0.0, 0.0])
+    matrix = sp.bmat([[model.stiffness, 1e9 * rows.T], [1e9 * rows, None]]).tocsc()
+    found = splu(matrix).solve(np.concatenate([force, np.zeros(rows.shape[0])]))
+    direct = {name: (face.rows @ found[: model.unknowns])[0] for name, face in model.faces.items()}
+    deflection = bent(rocker)
+    assert deflection == pytest.approx(beside(direct), rel=1e-4)
+    euler = FORCE * OVERHANG**2 * (LENGTH + OVERHANG) / (3.0 * FLEXURAL)
+    assert deflection == pytest.approx(euler, rel=0.05)
+
+
+def test_a_point_beside_the_face_adds_a_couple(rocker):
+    """50 mm further out, M b (l + 3 b/2) / 3 EI more with the couple M and the overhang b."""
+    arm = 0.05
+    more = bent(rocker, offset=[0.0, LENGTH / 2 + OVERHANG + arm]) - bent(rocker)
+    euler = FORCE * arm * OVERHANG * (LENGTH + 1.5 * OVERHANG) / (3.0 * FLEXURAL)
+    assert more == pytest.approx(euler, rel=0.05)
+
+
+ON = {
+    "a joint": {"joint": "knuckle"},
+    "the middle of a face": {"face": TIP},
+    "a face, its point elsewhere": {"face": TIP, "offset": [0.0, -0.05]},
+}
+RAMP = {"kind": "table", "crank_angle_deg": [10, 25, 40], "force": [0.0, 2e3, 0.0],
+        "direction": [1.0, 0.4]}  # fmt: skip
+
+
+@pytest.mark.parametrize("place", ON)
+def test_stiff_the_drive_takes_out_what_the_load_puts_in(rocker, place):
+    """As of a rigid rocker, by virtual work."""
+    stiff = {"youngs_modulus": 1e16}
+    asked = scene(rocker, {"one": {**RAMP, **ON[place]}}, body=stiff, revolutions=0.12)
+    asked = asked.replace({"solver.step": 2e-4, "speed_rpm": 100.0})
+    result, free = simulate(asked), simulate(asked.replace("load", {}))
+    power = result["load_one_force"] * (
+        mechanism_of(asked)
+        .motion(result["crank_angle"], asked.angular_speed)["rocker"]
+        .at(point_of(asked))
+        .velocity[:, :2]
+        @ np.array([1.0, 0.4])
+        / np.hypot(1.0, 0.4)
+    )
+    changed = result["drive_torque"] - free["drive_torque"]
+    expected = -power / asked.angular_speed
+    assert np.abs(expected).max() > 5.0
+    assert np.abs(changed - expected).max() < 1e-3 * np.abs(expected).max()
+
+
+def point_of(asked):
+    model = build(asked)
+    point = model.loads["one"][0].point
+    model.SC.Reset()
+    return point
+
+
+def test_the_balance_closes_only_with_the_bodys_own_motion(rocker):
+    """A soft rocker: the tip's vibration does work that the mean motion's does not."""
+    soft = {"youngs_modulus": 2e10}
+    load = {**RAMP, "force": [0.0, 200.0, 0.0], "face": TIP}
+    asked = scene(rocker, {"one": load}, body=soft, revolutions=0.15, speed_rpm=200.0)
+    result = simulate(asked.replace("solver.tolerance", 1e-4))
+    assert result.completed
+    assert result.summary()["energy"]["residual"] < 2e-3
+    motion = result["body_position"][:, result.bodies.index("rocker")]
+    x, y = point_of(asked)
+    c, s = np.cos(motion[:, 2]), np.sin(motion[:, 2])
+    place = motion[:, :2] + np.column_stack([c * x - s * y, s * x + c * y])
+    along = np.gradient(place @ np.array([1.0, 0.4]) / np.hypot(1.0, 0.4), result.time)
+    of_mean_motion = np.trapezoid(result["load_one_force"] * along, result.time)
+    assert (
+        abs(of_mean_motion - result["load_one_work"][-1])
+        > 0.01 * abs(result["load_one_work"]).max()
+    )
+
+
+def test_over_the_sliders_position_that_of_the_flexible_output_counts(rocker):
+    """Its frame lies in the origin of the file, 0.39 m away: the balance would not close."""
+    spring = {"kind": "table", "slider_position": [0.0, 1.0], "force": [1e3, -1e3]}
+    load = {"spring": {**spring, "direction": [1.0, 0.0], "face": TIP}}
+    result = simulate(scene(rocker, load, revolutions=0.1, speed_rpm=100.0))
+    assert result.completed
+    assert np.ptp(result["load_spring_force"]) > 10.0
+    assert result.summary()["energy"]["residual"] < 2e-3
+
+
+@pytest.mark.parametrize(
+    ("face", "message"),
+    [
+        (
+            {"y": [0.6, 0.7]},
+            r"rocker: .*no face for load one lies wholly within y = \[0\.6",
+        ),
+        ("top", r"bodies\.rocker: .*no face named 'top'"),
+        (
+            {"x": [0.35, 0.37], "y": [0.29, 0.31]},
+            r"bodies\.rocker: .*knuckle and load one hold the same face; allowed are different",
+        ),
+    ],
+)
+def test_faces_that_are_not_there_are_refused(rocker, face, message):
+    asked = scene(rocker, {"one": {**CONSTANT, "face": face}}, body={"modes": 0})
+    with pytest.raises(InputError, match=message) as refused:
+        placed_parts(asked)
+    assert "\n" not in str(refused.value)
+
+
+def test_a_shipped_part_says_which_faces_it_has():
+    load = {"one": {"kind": "blanking", "force": 1.0, "body": "linkage", "face": "bore"}}
+    with pytest.raises(InputError, match=r"no face 'bore' for load one; allowed as load\.one"):
+        placed_parts(Scene(bodies={"linkage": "linkage"}, load=load))

@@ -9,21 +9,15 @@ Before the first step the state is moved to fit them (`fit_start`); where the st
 what generalized-alpha carries over (`StepChange`).
 """
 
-from typing import Any
-
-import exudyn as exu
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.integrate.settings import Tuning
+from exu_press.integrate.settings import SAME, Task
 
 __all__ = ["Constraints", "StepChange", "fit_start", "start_rates"]
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
-
-CURRENT = exu.ConfigurationType.Current
-START = exu.ConfigurationType.StartOfStep
 
 GIVE = 1e-8
 """Of constraints, over what the masses give way. Where two of them nearly say the same, a hundredth
@@ -46,43 +40,21 @@ AHEAD = 1.0 / 64.0
 CHANGE_ITERATIONS = 3
 """To velocities and positions that fit the constraints; each leaves some hundredths."""
 
-SAME = 1e-6
-"""Steps that differ by less, relative, are one size: the clock's last digits."""
-
-
-def _views(data: Any, where: exu.ConfigurationType) -> tuple[Any, Any, Any]:
-    """Return positions, velocities and accelerations as Exudyn holds them."""
-    return (
-        data.GetODE2Coordinates(where, False),
-        data.GetODE2Coordinates_t(where, False),
-        data.GetODE2Coordinates_tt(where, False),
-    )
-
 
 class Constraints:
-    """The constraints of a system.
+    """The constraints of a system."""
 
-    Attributes:
-        count: how many they are.
-    """
-
-    def __init__(self, mbs: exu.MainSystem, solver: Any, untold_rates: bool) -> None:
-        """Take a system.
-
-        Args:
-            mbs: the system.
-            solver: an exu.MainSolverImplicitSecondOrder, which is about to solve it.
-            untold_rates: whether Exudyn does not tell how fast some constraints are violated.
-        """
-        self._mbs, self._solver, self._untold = mbs, solver, untold_rates
-        self._data: Any = mbs.systemData
+    def __init__(self, task: Task) -> None:
+        """Take what is solved."""
+        problem = task.problem
+        self._mbs, self._solver, self._data = problem.mbs, task.solver, problem.data
+        self._current, self._untold = problem.current, problem.untold_rates
         self._of_velocities: Flags | None = None
 
     @property
     def count(self) -> int:
         """How many they are."""
-        found: int = self._solver.GetAEsize()
-        return found
+        return len(self._current.multipliers)
 
     def of_velocities(self) -> Flags:
         """Return which of them hold velocities; the others hold positions."""
@@ -95,12 +67,11 @@ class Constraints:
         return self._jacobian(1.0, 0.0) + self._jacobian(0.0, 1.0)
 
     def _jacobian(self, of_positions: float, of_velocities: float) -> Array:
-        solver = self._solver
+        solver, size = self._solver, len(self._current.positions)
         before = np.array(solver.GetSystemJacobian())
-        size, count = solver.GetODE2size(), self.count
-        solver.SetSystemJacobian(np.zeros((size + solver.GetODE1size() + count,) * 2))
+        solver.SetSystemJacobian(np.zeros((size + solver.GetODE1size() + self.count,) * 2))
         solver.ComputeJacobianAE(self._mbs, of_positions, of_velocities)
-        found = np.array(solver.GetSystemJacobian())[-count:, :size]
+        found = np.array(solver.GetSystemJacobian())[-self.count :, :size]
         solver.SetSystemJacobian(before)
         return found
 
@@ -117,18 +88,15 @@ class Constraints:
         """
         if not self._untold:
             return self.violated(velocities=True)
-        data = self._data
-        time = data.GetTime()
-        positions = data.GetODE2Coordinates(CURRENT, False)
-        velocities = data.GetODE2Coordinates_t(CURRENT, False)
+        time, positions = self._data.GetTime(), self._current.positions
         now, here = np.array(positions), self.violated()
         beside = []
         for side in (ahead, -ahead):
-            positions[:] = now + side * velocities
-            data.SetTime(time + side)
+            positions[:] = now + side * self._current.velocities
+            self._data.SetTime(time + side)
             beside.append(self.violated())
         positions[:] = now
-        data.SetTime(time)
+        self._data.SetTime(time)
         rates = (beside[0] - beside[1]) / (2.0 * ahead)
         return np.where(self.of_velocities(), here, rates)
 
@@ -157,24 +125,24 @@ class Constraints:
 class _Start:
     """The state at the start, and what its constraints say of it and ahead of it."""
 
-    def __init__(
-        self, mbs: exu.MainSystem, solver: Any, constraints: Constraints, ahead: float
-    ) -> None:
-        self._data: Any = mbs.systemData
-        self._constraints, self._ahead = constraints, ahead
-        self._time = self._data.GetTime()
-        self.q, self.v, self.a = (np.array(view) for view in _views(self._data, CURRENT))
-        self._mass = np.array(solver.GetSystemMassMatrix())
+    def __init__(self, task: Task, constraints: Constraints) -> None:
+        self._data, self._current = task.problem.data, task.problem.current
+        self._constraints = constraints
+        self._start, self._ahead = task.start, LOOK_AHEAD * task.largest
+        self.q = np.array(self._current.positions)
+        self.v = np.array(self._current.velocities)
+        self.a = np.array(self._current.accelerations)
+        self._mass = np.array(task.solver.GetSystemMassMatrix())
         self._matrix = constraints.matrix(self._mass, constraints.directions())
         self.held = ~constraints.of_velocities()
 
     def put(self, time: float = 0.0) -> None:
         """Set the state after a time (s), with the accelerations of the start."""
-        q, v, a = _views(self._data, CURRENT)
-        q[:] = self.q + time * self.v + 0.5 * time * time * self.a
-        v[:] = self.v + time * self.a
-        a[:] = self.a
-        self._data.SetTime(self._time + time)
+        current = self._current
+        current.positions[:] = self.q + time * self.v + 0.5 * time * time * self.a
+        current.velocities[:] = self.v + time * self.a
+        current.accelerations[:] = self.a
+        self._data.SetTime(self._start + time)
 
     def violated(self, time: float = 0.0) -> Array:
         """Return by how much each constraint is violated after a time (s)."""
@@ -201,9 +169,7 @@ class _Start:
         return float(np.sqrt(abs(vector @ self._mass @ vector)))
 
 
-def fit_start(
-    mbs: exu.MainSystem, solver: Any, constraints: Constraints, length: float, ahead: float
-) -> tuple[Array, Array] | None:
+def fit_start(task: Task, constraints: Constraints) -> tuple[Array, Array] | None:
     """Let the start fit the constraints, as near to what it was as can be.
 
     Exudyn computes accelerations at the start, but for constraints that stand still: where an
@@ -216,20 +182,15 @@ def fit_start(
     Source: E. Hairer and G. Wanner, Solving Ordinary Differential Equations II, VII.1 (consistent
     values of systems of index 3).
 
-    Args:
-        mbs: the system, at its start, its mass matrix computed.
-        solver: an exu.MainSolverImplicitSecondOrder.
-        constraints: of the system.
-        length: of the coordinates, m.
-        ahead: time within which constraints are asked, s; motions are smooth in it.
+    The solver has computed the mass matrix of the state.
 
     Returns:
         The accelerations, and what of their rate the constraints prescribe; None without any.
     """
-    if not constraints.count or not solver.GetODE2size():
+    if not constraints.count or not task.problem.nodes:
         return None
-    start = _Start(mbs, solver, constraints, ahead)
-    held = start.held
+    start = _Start(task, constraints)
+    held, length = start.held, task.problem.length or 1.0
     for _ in range(START_ITERATIONS):
         violated = np.where(held, start.violated(), 0.0)
         if np.abs(violated).max() <= FITS[0] * length:
@@ -246,17 +207,17 @@ def fit_start(
     return start.a, rate
 
 
-def start_rates(mbs: exu.MainSystem, solver: Any) -> None:
+def start_rates(task: Task) -> None:
     """Set the rates of first-order coordinates at the start.
 
     Exudyn takes them for zero there, which leaves half of the first step's change in the result.
     """
-    data: Any = mbs.systemData
-    before, size = solver.GetODE2size(), data.ODE1Size()
-    solver.ComputeODE1RHS(mbs)
-    rates = np.array(solver.GetSystemResidual())[before : before + size]
-    for configuration in (CURRENT, START):
-        data.GetODE1Coordinates_t(configuration, False)[:] = rates
+    problem = task.problem
+    before, size = len(problem.current.positions), len(problem.current.rates)
+    if size:
+        task.solver.ComputeODE1RHS(problem.mbs)
+        rates = np.array(task.solver.GetSystemResidual())[before : before + size]
+        problem.current.rates[:] = problem.start.rates[:] = rates
 
 
 class StepChange:
@@ -290,45 +251,32 @@ class StepChange:
     hidden constraints.
     """
 
-    def __init__(
-        self,
-        mbs: exu.MainSystem,
-        solver: Any,
-        constraints: Constraints,
-        smooth: bool,
-        tuning: Tuning,
-    ) -> None:
-        """Watch the steps of a system.
-
-        Args:
-            mbs: the system.
-            solver: an exu.MainSolverImplicitSecondOrder, which is about to solve it.
-            constraints: of the system.
-            smooth: whether there is neither a film nor a contact.
-            tuning: numbers.
-        """
-        self._smooth = smooth
-        self._refit = tuning.refit
-        self._solver, self._constraints = solver, constraints
-        self._data: Any = mbs.systemData
+    def __init__(self, task: Task, constraints: Constraints) -> None:
+        """Watch the steps of a system that has these constraints."""
+        problem = task.problem
+        self._smooth = problem.joints is None
+        self._film_waits = problem.lubricated
+        self._refit = task.tuning.refit
+        self._solver, self._constraints = task.solver, constraints
+        self._data, self._current, self._at_start = problem.data, problem.current, problem.start
         self._start: float | None = None  # of the step under way, s
         self._last: float | None = None  # size of the last accepted step, s
         self._fits = self._leaves = 0.0  # the step that constrained velocities fit, now and next
-        self._state: list[Array] | None = None  # at the step's beginning, before any shift
+        self._state: list[Array] = []  # at the step's beginning, before any shift
         self._offsets: tuple[Array, Array] | None = None
         self._mean: Array | None = None  # acceleration of the first step
         # accelerations at the start, and what of their rate constraints prescribe
         self._given: tuple[Array, Array] | None = None
 
-    def start_over(self, time: float) -> bool:
-        """Return whether the first step is to be repeated, from its own mean acceleration.
+    def start_over(self, step: float) -> bool:
+        """Return whether a step (s) is to be repeated from its own mean acceleration.
 
-        To be asked after the try of a step to `time`, s, where a film takes up its load.
+        The first one is, once, where a film takes up its load. To be asked after it was tried.
         """
-        if self._last is not None or self._mean is not None or self._start is None:
+        if not self._film_waits:
             return False
-        (_, now, _), (_, before, _) = _views(self._data, CURRENT), _views(self._data, START)
-        self._mean = np.asarray((now - before) / (time - self._start))
+        self._film_waits = False
+        self._mean = (self._current.velocities - self._at_start.velocities) / step
         return True
 
     def start_from(self, accelerations: Array, rate: Array) -> None:
@@ -340,16 +288,14 @@ class StepChange:
         """
         self._given = accelerations, rate
 
-    def before_try(self, time: float) -> None:
-        """Shift the state from which Exudyn is about to try a step to `time`, s."""
-        start = self._data.GetTime(START)
+    def before_try(self, start: float, step: float) -> None:
+        """Shift the state from which Exudyn is about to try a step (s) from a start (s)."""
         repeated = start == self._start
         if not repeated:
             self._last = None if self._start is None else start - self._start
             self._fits = max(self._leaves, self._last or 0.0)
-            self._start, self._state, self._offsets = start, None, None
+            self._start, self._state, self._offsets = start, [], None
         self._leaves = self._fits
-        step = time - start
         ratio = 1.0 if self._last is None else step / self._last
         if not self._smooth:
             ratio = min(1.0, ratio)
@@ -363,9 +309,11 @@ class StepChange:
         Newton's method may start anew, from what Exudyn keeps of the step's beginning; so that is
         shifted as well, by what is missing there.
         """
-        solver = self._solver
-        if self._state is None:
-            self._state = [np.array(view) for view in _views(self._data, START)]
+        solver, start = self._solver, self._at_start
+        if not self._state:
+            self._state = [
+                np.array(view) for view in (start.positions, start.velocities, start.accelerations)
+            ]
         q, v, a = self._state
         if abs(ratio - 1.0) > SAME:
             part = step / self._fits
@@ -387,15 +335,12 @@ class StepChange:
         # q1 = q + h v + h^2 (1/2 - beta) a + h^2 beta a1 and v1 = v + h (1 - gamma) a + h gamma a1
         # with (1 - alpha_m) a1 + alpha_m a = (1 - alpha_f) a_true1 + alpha_f a_true
         beta, gamma = solver.newmarkBeta, solver.newmarkGamma
-        for where, there in ((CURRENT, solver.GetAAlgorithmic()), (START, at_start)):
+        current = self._current
+        for state, there in ((current, solver.GetAAlgorithmic()), (start, at_start)):
             missing = wanted - there
-            shifted = (
-                q + step * step * (gamma - 0.5 - beta) * missing,
-                v + step * (1.0 - gamma) * missing,
-                a - (solver.alphaM / solver.alphaF) * missing,
-            )
-            for view, value in zip(_views(self._data, where), shifted, strict=True):
-                view[:] = value
+            state.positions[:] = q + step * step * (gamma - 0.5 - beta) * missing
+            state.velocities[:] = v + step * (1.0 - gamma) * missing
+            state.accelerations[:] = a - (solver.alphaM / solver.alphaF) * missing
 
     def _violations(self) -> tuple[Array, Array]:
         """Return what of positions and velocities the constraints forbid, in the kinetic norm.
@@ -403,7 +348,6 @@ class StepChange:
         The directions in which constraints act are those of the last Jacobian, perhaps a degree of
         the crank away; how far they are violated is of this very state, so a few turns lead to it.
         """
-        assert self._state is not None
         solver = self._solver
         mass = np.asarray(solver.GetSystemMassMatrix())
         size, count = len(mass), self._constraints.count
@@ -414,7 +358,7 @@ class StepChange:
         lengths = np.sqrt(np.square(directions).sum(axis=1))
         lengths[lengths == 0.0] = 1.0
         matrix = self._constraints.matrix(mass, directions / lengths[:, None])
-        position, velocity, _ = _views(self._data, CURRENT)
+        position, velocity = self._current.positions, self._current.velocities
         now = self._data.GetTime()
         self._data.SetTime(self._start)
         found, violated = np.zeros((size, 2)), np.zeros((size + count, 2))

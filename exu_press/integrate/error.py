@@ -8,27 +8,20 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
-import exudyn as exu
 import numpy as np
 
 from exu_press.integrate.problem import Problem
 from exu_press.integrate.scales import FoundScales
-from exu_press.integrate.settings import Tuning
+from exu_press.integrate.settings import SAME, Task, Tuning
 from exu_press.joints.joint import ClearanceJoint
 
 __all__ = ["BodyError", "ErrorPerStep", "FirstOrderError", "JointError", "StepError"]
-
-CURRENT = exu.ConfigurationType.Current
-START = exu.ConfigurationType.StartOfStep
 
 EPSILON = 1.1e-16
 """Last digit of a number, over it."""
 
 LEAST_PENETRATION = 1e-3
 """Over the clearance, up to which a penetration counts as this."""
-
-SAME = 1e-6
-"""Steps that differ by less, relative, are one size: the clock's last digits."""
 
 
 @dataclass(frozen=True)
@@ -113,7 +106,7 @@ class BodyError:
         self._size = self._size_before = 0.0  # of the bend, its largest norm
         self._common = self._common_before = 0.0  # of the bends of two steps, likewise
         self._step = self._step_before = 0.0
-        self._most = self.largest_of(accelerations)  # so far, m/s^2
+        self._most = scales.norm(accelerations)  # so far, m/s^2
 
     def tried(self, now: list[float], step: float) -> float:
         """Return the error of a step (s) that ends with these accelerations."""
@@ -132,7 +125,7 @@ class BodyError:
 
         What it changes by within the step is not known yet: as much as the accelerations do.
         """
-        change, largest = self.largest_of(rate), self.largest()
+        change, largest = self._scales.norm(rate), self.largest()
         return change / largest if change > 0.0 else 0.0
 
     def error(self, change: list[float], step: float) -> float:
@@ -140,22 +133,22 @@ class BodyError:
         limit = max(
             self._per_step.at(step) * self._scales.speed, self._constant * self._noise / step
         )
-        return self._constant * step * step * self.largest_of(change) / limit
+        return self._constant * step * step * self._scales.norm(change) / limit
 
     def of_jump(self) -> float:
         """Return the largest change of an acceleration in the step last tried, m/s^2."""
-        return self.largest_of([a - b for a, b in zip(self._now, self._before, strict=True)])
+        return self._scales.norm([a - b for a, b in zip(self._now, self._before, strict=True)])
 
     def largest(self) -> float:
         """Return the largest acceleration at the two ends of the step last tried, m/s^2."""
-        return max(self.largest_of(self._now), self.largest_of(self._before))
+        return max(self._scales.norm(self._now), self._scales.norm(self._before))
 
     def offset(self, step: float) -> float:
         """Return what velocities that constraints prescribe are off by at each instant, m/s.
 
         They follow from two positions: h^2 |rate of the acceleration| / 12.
         """
-        return step * step * self.largest_of(self._rate) / 12.0
+        return step * step * self._scales.norm(self._rate) / 12.0
 
     def curvature(self, step: float, tolerance: float) -> float:
         """Return what accelerations are off a line between a step's ends, over what they may.
@@ -165,12 +158,12 @@ class BodyError:
         common counts, and in a step of another size what the last two had.
         """
         self._bend = bend = [value / step for value in self.change]
-        self._size, self._step = self.largest_of(bend), step
+        self._size, self._step = self._scales.norm(bend), step
         self._common = self._common_before
         if self._bend_before and abs(step - self._step_before) < SAME * step:
             mean = [0.5 * (a + b) for a, b in zip(bend, self._bend_before, strict=True)]
             smaller = min(self._size, self._size_before)
-            self._common = min(self.largest_of(mean), 3.0 * smaller)
+            self._common = min(self._scales.norm(mean), 3.0 * smaller)
         off = 0.125 * step * step * self._common
         return off / max(tolerance * self._most, self._noise / (step * step))
 
@@ -180,15 +173,8 @@ class BodyError:
             self._step_before, self._common_before = self._step, self._common
             self._size_before = self._size
             self._bend_before = self._bend if self._rate_before else []
-            self._most = max(self._most, self.largest_of(self._now))
+            self._most = max(self._most, self._scales.norm(self._now))
         self._before, self._rate_before = self._now, self._rate
-
-    def largest_of(self, vector: list[float]) -> float:
-        """Return the largest kinetic norm of a body; what has no say may be no number."""
-        largest = 0.0
-        for square in self._scales.squares(vector):
-            largest = max(largest, square)
-        return math.sqrt(largest)
 
 
 class JointError:
@@ -243,17 +229,17 @@ class JointError:
 class FirstOrderError:
     """What the trapezoidal rule misses: h^3 |y'''| / 12, over each coordinate's largest value."""
 
-    def __init__(self, data: Any, per_step: ErrorPerStep) -> None:
-        """Take the system's data, and what one step may miss, relative."""
-        self._data, self._per_step = data, per_step
-        self._before = np.array(data.GetODE1Coordinates_t(START, False))
-        self._largest = np.abs(np.array(data.GetODE1Coordinates(START, False)))
+    def __init__(self, problem: Problem, per_step: ErrorPerStep) -> None:
+        """Take what is solved, and what one step may miss, relative."""
+        self._current, self._per_step = problem.current, per_step
+        self._before = np.array(problem.start.rates)
+        self._largest = np.abs(problem.start.first_order)
         self._change: Any = None  # of the rate, over the step, in the step before
         self._tried: tuple[Any, Any] = self._before, None
 
     def error(self, step: float) -> float:
         """Return the error of a step (s) that ends in the current state."""
-        rate = np.array(self._data.GetODE1Coordinates_t(CURRENT, False))
+        rate = np.array(self._current.rates)
         change = (rate - self._before) / step
         self._tried = rate, change
         if self._change is None:
@@ -266,8 +252,7 @@ class FirstOrderError:
     def accept(self) -> None:
         """Remember the accepted step's end as the next one's beginning."""
         self._before, self._change = self._tried
-        values = np.abs(np.array(self._data.GetODE1Coordinates(CURRENT, False)))
-        self._largest = np.maximum(self._largest, values)
+        self._largest = np.maximum(self._largest, np.abs(self._current.first_order))
 
 
 class StepError:
@@ -284,66 +269,41 @@ class StepError:
     joint's clearance and penetration, in films against the clearance and the time: `JointError`.
 
     Attributes:
-        accelerations: of all coordinates at the end of the step last tried.
         start: accelerations of all coordinates at the run's start, where they are not Exudyn's.
     """
 
-    def __init__(
-        self,
-        problem: Problem,
-        solver: Any,
-        scales: FoundScales,
-        tolerance: float,
-        longest: float,
-        duration: float,
-        tuning: Tuning,
-    ) -> None:
-        """Look at what is solved.
-
-        Args:
-            problem: what is solved.
-            solver: an exu.MainSolverImplicitSecondOrder, which is about to solve it.
-            scales: of the motion; are told of it.
-            tolerance: of the run.
-            longest: step that may be taken, s.
-            duration: of the run, s.
-            tuning: numbers.
-        """
-        self._problem, self._solver, self._scales = problem, solver, scales
-        self._data: Any = problem.mbs.systemData
-        self._tolerance, self._tuning = tolerance, tuning
-        per_step = ErrorPerStep.of(
-            tolerance, duration, tuning.many_steps, problem.joints is not None
-        )
-        self._per_step = per_step
-        self.accelerations: list[float] = []
+    def __init__(self, task: Task) -> None:
+        """Look at what is solved."""
+        problem, tolerance, tuning = task.problem, task.tolerance, task.tuning
+        self._task, self._solver, self._scales = task, task.solver, task.scales
+        self._velocities = problem.current.velocities
+        self._accelerations = problem.current.accelerations
+        self._tolerance, self._switching = tolerance, problem.switching
+        duration, impacts = task.end - task.start, problem.joints is not None
+        self._per_step = ErrorPerStep.of(tolerance, duration, tuning.many_steps, impacts)
         self.start: list[float] = []
         self._bodies: BodyError | None = None
         self._first_order: FirstOrderError | None = None
-        self._per_time = tolerance / (tuning.kept_steps * longest)
         self._joints: list[JointError] = []
 
     def __call__(self, step: float) -> float:
-        """Return the error of the step that ends in the current state."""
+        """Return the error of the step (s) that ends in the current state."""
         if self._bodies is None:
             self._bodies = self._first_look()
-            if self._problem.first_order:
-                self._first_order = FirstOrderError(self._data, self._per_step)
-        self.accelerations = self._data.GetODE2Coordinates_tt(CURRENT, False).tolist()
-        if self._scales.resting:
-            velocities = self._data.GetODE2Coordinates_t(CURRENT, False).tolist()
-            self._scales.set_out(velocities, self.accelerations)
-        error = self._bodies.tried(self.accelerations, step)
+        bodies, scales, now = self._bodies, self._scales, self._accelerations.tolist()
+        if scales.resting:
+            scales.set_out(self._velocities.tolist(), now)
+        error = bodies.tried(now, step)
         if error > 1.0:
-            error = self._bodies.error(self._filtered(self._bodies.change), step)
+            error = bodies.error(self._filtered(bodies.change), step)
         if not self._joints:  # else impacts and films need finer steps, by far
-            offset = self._relative(self._bodies.offset(step))
-            if not self._problem.switching:  # whose accelerations jump
-                offset = max(offset, self._bodies.curvature(step, self._tolerance))
+            offset = self._relative(bodies.offset(step))
+            if not self._switching:  # whose accelerations jump
+                offset = max(offset, bodies.curvature(step, self._tolerance))
             error = max(error, math.pow(offset, 1.5))  # as the step's cube
         if self._first_order is not None:
             error = max(error, self._first_order.error(step))
-        if self._problem.switching:
+        if self._switching:
             error = max(error, self.of_switch(step))
         left = 0.0
         for joint in self._joints:
@@ -361,9 +321,8 @@ class StepError:
         accelerations show: half of it acted too long. As switches are few, that is held against
         the tolerance itself.
         """
-        if not self._solver.it.discontinuousIteration:
+        if self._bodies is None or not self._solver.it.discontinuousIteration:
             return 0.0
-        assert self._bodies is not None
         return self._relative(0.5 * step * self._bodies.largest())
 
     def of_jump(self, step: float) -> float:
@@ -372,16 +331,14 @@ class StepError:
         However short the step, it is then of first order; at most half of the jump times the step,
         which is held against the tolerance itself as jumps are few.
         """
-        assert self._bodies is not None
-        return self._relative(0.5 * step * self._bodies.of_jump())
+        return 0.0 if self._bodies is None else self._relative(0.5 * step * self._bodies.of_jump())
 
     def accept(self) -> None:
         """Remember the accepted step's end as the next one's beginning."""
         assert self._bodies is not None
         self._bodies.accept()
         if not self._scales.fixed:
-            velocities = self._data.GetODE2Coordinates_t(CURRENT, False).tolist()
-            self._scales.update(velocities, self.accelerations)
+            self._scales.update(self._velocities.tolist(), self._accelerations.tolist())
         if self._first_order is not None:
             self._first_order.accept()
 
@@ -391,22 +348,20 @@ class StepError:
         return speed / allowed if allowed > 0.0 else 0.0
 
     def _first_look(self) -> BodyError:
-        """Return the bodies' errors from the first step's beginning on; look at the joints too."""
-        noise = self._scales.alternating(self._tuning.rounding, self._solver.alphaF)
-        if self._problem.joints is not None:
-            whole, per_time = self._per_step.whole, self._per_time
+        """Return the bodies' errors from the first step's beginning on; look at the rest too."""
+        task, problem, tuning = self._task, self._task.problem, self._task.tuning
+        noise = self._scales.alternating(tuning.rounding, self._solver.alphaF)
+        if len(problem.start.rates):
+            self._first_order = FirstOrderError(problem, self._per_step)
+        if problem.joints is not None:
+            whole = self._per_step.whole
+            per_time = task.tolerance / (tuning.kept_steps * task.largest)
             self._joints = [
-                JointError(j, whole * j.clearance, per_time * j.clearance, noise, self._tuning)
-                for j in self._problem.joints.joints
+                JointError(j, whole * j.clearance, per_time * j.clearance, noise, tuning)
+                for j in problem.joints.joints
             ]
-        start = self.start or self._data.GetODE2Coordinates_tt(START, False).tolist()
-        return BodyError(
-            accelerations=start,
-            per_step=self._per_step,
-            scales=self._scales,
-            tuning=self._tuning,
-            noise=noise,
-        )
+        start = self.start or problem.start.accelerations.tolist()
+        return BodyError(start, self._per_step, self._scales, tuning, noise)
 
     def _left_in_constraints(self) -> float:
         """Return how far the last digits of constraints move a body, m.
@@ -414,14 +369,13 @@ class StepError:
         By far where a mechanism passes a position in which two of them nearly say the same.
         """
         jacobian = np.asarray(self._solver.GetSystemJacobian())
-        size, count = len(self.accelerations), self._solver.GetAEsize()
+        size, count = len(self._accelerations), self._solver.GetAEsize()
         of_constraints = np.eye(len(jacobian), count, count - len(jacobian))
         try:
             moved = np.abs(np.linalg.solve(jacobian, of_constraints)[:size]).sum(axis=1)
         except np.linalg.LinAlgError:  # constraints that say the same
             return 0.0
-        assert self._bodies is not None
-        return EPSILON * self._scales.length * self._bodies.largest_of(moved.tolist())
+        return EPSILON * self._scales.length * self._scales.norm(moved.tolist())
 
     def _filtered(self, change: list[float]) -> list[float]:
         """Return what Newton's matrix, M (1 - alpha_m)/(1 - alpha_f) + ..., leaves of a change."""

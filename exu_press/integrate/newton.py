@@ -1,4 +1,4 @@
-"""What Newton's method is told: where to start, and what is too much to ask.
+"""What Newton's method is told: where to start, with which matrix, and what is too much to ask.
 
 Exudyn starts every step from accelerations of zero, which costs an iteration a step in lubricated
 motion and several where contact lasts. Here they go on as they did in the last step, and lasting
@@ -14,21 +14,18 @@ accelerations are those that end on the sphere.
 """
 
 import math
+from contextlib import nullcontext
 from typing import Any
 
 import exudyn as exu
 import numpy as np
+from numpy.typing import NDArray
 
-from exu_press.integrate.flexible_jacobian import FlexibleJacobian
-from exu_press.integrate.problem import Node
-from exu_press.integrate.scales import FoundScales
-from exu_press.integrate.settings import Tuning
-from exu_press.joints.overlay import JointOverlay
+from exu_press.integrate.settings import SAME, Task
 
-__all__ = ["Newton"]
+__all__ = ["FlexibleJacobian", "Newton"]
 
-CURRENT = exu.ConfigurationType.Current
-START = exu.ConfigurationType.StartOfStep
+Array = NDArray[np.float64]
 
 BALANCE = 0.2
 """Of the tolerance, to which part of the usual forces Newton's method balances them."""
@@ -41,63 +38,53 @@ REACH = 2.0
 
 
 class Newton:
-    """Extrapolates accelerations to the end of a step, and asks for no more than can be.
+    """Extrapolates accelerations to the end of a step, and asks for no more than can be."""
 
-    Attributes:
-        data: of the system, `mbs.systemData`; to ask for it costs as much as what it is asked.
-        now: accelerations at the end of the last accepted step.
-    """
-
-    def __init__(
-        self,
-        mbs: exu.MainSystem,
-        solver: Any,
-        joints: JointOverlay | None,
-        scales: FoundScales,
-        tolerance: float,
-        tuning: Tuning,
-        nodes: tuple[Node, ...],
-        jacobian: FlexibleJacobian | None,
-    ) -> None:
-        """Guide the solver of a system.
-
-        Args:
-            mbs: the system.
-            solver: an exu.MainSolverImplicitSecondOrder, which is about to solve it.
-            joints: its clearance joints, if it has any.
-            scales: of its motion.
-            tolerance: of the run.
-            tuning: numbers.
-            nodes: of the system, with its coordinates.
-            jacobian: that of flexible bodies, if it is not Exudyn's.
-        """
-        self.data: Any = mbs.systemData
-        self._solver, self._joints = solver, joints
-        self._scales, self._part = scales, BALANCE * tolerance
-        self._rounding = tuning.rounding
-        self._jacobian, self._kept_balance = jacobian, tuning.kept_balance
-        self._quaternions = [self._reference(node) for node in nodes if node.quaternion]
-        self._weights: tuple[float, float, float] | None = None
-        self._start: float | None = None  # of the step under way, s
-        self.now: list[float] = []
+    def __init__(self, task: Task) -> None:
+        """Guide the solver of a task."""
+        problem = task.problem
+        self._solver, self._joints, self._scales = task.solver, problem.joints, task.scales
+        self._part = BALANCE * task.tolerance
+        self._rounding, self._kept_balance = task.tuning.rounding, task.tuning.kept_balance
+        self._jacobian = FlexibleJacobian(task) if problem.modal_stiffness else None
+        current = problem.current
+        self._positions, self._velocities = current.positions, current.velocities
+        self._accelerations, self._multipliers = current.accelerations, current.multipliers
+        self._multipliers_before = problem.start.multipliers
+        self._expected: Any = np.zeros(len(current.positions))
+        self._change: Any = np.zeros(len(current.positions))
+        self._quaternions: list[tuple[Any, Any, Any]] = []  # reference, position, acceleration
+        for node in problem.nodes:
+            if node.quaternion:
+                four = slice(node.start + node.size - 4, node.start + node.size)
+                self._quaternions.append(
+                    (problem.reference[four], current.positions[four], self._expected[four])
+                )
+        self._ratio = self._beta = self._gamma = 0.0
+        self._now: list[float] = []  # accelerations at the end of the last accepted step
         self._rate: list[float] = []  # of change, in the last step
         self._last = 0.0  # size of the last step, s
-        self._given: float | None = None  # Newton's absolute tolerance of the settings, N
+        self._given = 0.0  # Newton's absolute tolerance of the settings, N
         self._accepted = 0.0  # now, N
 
-    def stepped(self, time: float, accelerations: list[float]) -> None:
-        """Be told where an accepted step ends: the time, s, and all coordinates' accelerations."""
-        if self._start is not None:
-            self._last, before = time - self._start, self.now
-            last = self._last
-            self._rate = [(accelerations[i] - before[i]) / last for i in range(len(before))]
-        self._start, self.now = time, accelerations
+    def begin(self, accelerations: list[float]) -> None:
+        """Be told of all coordinates' accelerations at the start, when the solver is ready."""
+        solver = self._solver
+        self._ratio = (1.0 - solver.alphaF) / (1.0 - solver.alphaM)
+        self._beta, self._gamma = solver.newmarkBeta, solver.newmarkGamma
+        self._given = self._accepted = solver.newton.absoluteTolerance
+        self._now = accelerations
 
-    def before_residual(self, time: float, iteration: int) -> None:
-        """Set what an iteration of a step to `time`, s, starts from, and where it may end."""
+    def stepped(self, step: float, accelerations: list[float]) -> None:
+        """Be told of all coordinates' accelerations at the end of an accepted step (s)."""
+        before = self._now
+        self._rate = [(accelerations[i] - before[i]) / step for i in range(len(before))]
+        self._last, self._now = step, accelerations
+
+    def before_residual(self, step: float, iteration: int) -> None:
+        """Set what an iteration of a step (s) starts from, and where it may end."""
         if not iteration:
-            assert self._start is not None
-            self._advance(time - self._start)
+            self._advance(step)
             self._accept(self._begin_jacobian() * self._tolerance())
         elif iteration == 1 and self._jacobian is not None:
             self._jacobian.renew()
@@ -113,44 +100,107 @@ class Newton:
         return self._kept_balance if self._jacobian.kept else 1.0
 
     def _advance(self, step: float) -> None:
-        """Add the expected accelerations to a state that was advanced without any."""
-        if self._weights is None:
-            solver = self._solver
-            ratio = (1.0 - solver.alphaF) / (1.0 - solver.alphaM)
-            self._weights = ratio, solver.newmarkBeta, solver.newmarkGamma
-        ratio, beta, gamma = self._weights
-        ahead, values = min(step, REACH * self._last), self.now
-        if self._rate:
-            now, rate = self.now, self._rate
-            values = [now[i] + ahead * rate[i] for i in range(len(rate))]
-        expected = np.array(values)
-        # as Newton's method adds an increment of them
-        data, by_q = self.data, step * step * ratio * beta
-        positions = data.GetODE2Coordinates(CURRENT, False)
-        for i, reference in self._quaternions:
-            rotation_tt = expected[i : i + 4]
-            turned = reference + positions[i : i + 4] + by_q * rotation_tt
-            length = math.sqrt(float(turned @ turned))
-            rotation_tt += (1.0 / length - 1.0) / by_q * turned
-        positions += by_q * expected
-        velocities = data.GetODE2Coordinates_t(CURRENT, False)
-        velocities += (step * ratio * gamma) * expected
-        data.GetODE2Coordinates_tt(CURRENT, False)[:] = expected
-        data.GetAECoordinates(CURRENT, False)[:] = data.GetAECoordinates(START, False)
+        """Add the expected accelerations to a state that was advanced without any.
 
-    def _reference(self, node: Node) -> tuple[int, Any]:
-        """Return where a node's Euler parameters begin, and what their coordinates add to."""
-        first = node.start + node.size - 4
-        reference = self.data.GetODE2Coordinates(exu.ConfigurationType.Reference)
-        return first, np.array(reference[first : first + 4])
+        As Newton's method adds an increment of them.
+        """
+        expected, change = self._expected, self._change
+        now, rate = self._now, self._rate
+        if rate:
+            ahead = min(step, REACH * self._last)
+            expected[:] = [now[i] + ahead * rate[i] for i in range(len(rate))]
+        else:
+            expected[:] = now
+        by_q = step * step * self._ratio * self._beta
+        for reference, position, rotation_tt in self._quaternions:
+            turned = reference + position + by_q * rotation_tt
+            length = math.sqrt(float(turned.dot(turned)))
+            rotation_tt += (1.0 / length - 1.0) / by_q * turned
+        np.multiply(expected, by_q, out=change)
+        self._positions += change
+        np.multiply(expected, step * self._ratio * self._gamma, out=change)
+        self._velocities += change
+        self._accelerations[:] = expected
+        self._multipliers[:] = self._multipliers_before
 
     def _tolerance(self) -> float:
         """Return to what Newton's method is to balance forces, N."""
-        if self._given is None:
-            self._given = self._accepted = self._solver.newton.absoluteTolerance
         return self._part * self._scales.force or self._given
 
     def _accept(self, residual: float) -> None:
         """Let Newton's method end at a residual, N."""
         if residual != self._accepted:
             self._accepted = self._solver.newton.absoluteTolerance = residual
+
+
+class FlexibleJacobian:
+    """Newton's matrix of a system with flexible bodies, which are differentiated but once.
+
+    M (1 - alpha_m)/(1 - alpha_f) + beta h^2 K + gamma h D, bordered by the constraints. Exudyn
+    differentiates bodies in floating frames numerically, which takes as long as forty residuals.
+    But stiffness and damping belong to modes, whose coordinates turn with the frame: they stay as
+    they are. What the frame's motion adds to them is less than a hundredth of the inertia over a
+    step. The masses, the clearance joints' slopes and the constraints' directions are those of the
+    state at hand.
+
+    To put the matrix together and factorise it takes nearly half of a step. So one serves several
+    steps of one size; where an iteration with it does not balance the forces, the next one gets a
+    fresh one. Without clearance joints steps are long, and the constraints' directions change too
+    much from one to the next.
+
+    Attributes:
+        kept: whether the step under way is tried with that of an earlier one.
+    """
+
+    def __init__(self, task: Task) -> None:
+        """Let the solver of a task take this Jacobian instead of its own."""
+        self._iteration: Any = task.solver.it
+        self._convergence: Any = task.solver.conv
+        self._joints = task.problem.joints
+        self.kept = False
+        self._most = 0 if self._joints is None else task.tuning.jacobian_steps
+        self._step, self._age = 0.0, 0  # the step that the last one was made for, and steps since
+        self._bodies: Array | None = None
+        self._jacobian: Array = np.zeros((0, 0))
+        task.solver.SetUserFunctionComputeNewtonJacobian(task.problem.mbs, self._compute)
+
+    def begin_try(self) -> None:
+        """Choose whether the step that is about to be tried starts with the one there is."""
+        step = self._iteration.currentStepSize
+        same = abs(step - self._step) <= SAME * step
+        self.kept = same and self._age < self._most
+        self._age += 1
+        self._convergence.jacobianUpdateRequested = not self.kept
+
+    def renew(self) -> None:
+        """Let the next iteration of the step have a fresh one, if it was tried with a kept one."""
+        if self.kept:
+            self._convergence.jacobianUpdateRequested = True
+
+    def _compute(self, solver: Any, mbs: exu.MainSystem, settings: exu.SimulationSettings) -> bool:
+        """Give the solver its Jacobian in the current state; return that this went well."""
+        size = solver.GetODE2size()
+        if self._bodies is None:
+            self._bodies = self._differentiated(solver, mbs)
+            self._jacobian = np.zeros((size + solver.GetAEsize(),) * 2)
+        step, jacobian = solver.it.currentStepSize, self._jacobian
+        self._step, self._age = step, 0
+        by_q, by_q_t = solver.newmarkBeta * step * step, solver.newmarkGamma * step
+        inertia = (1.0 - solver.alphaM) / (1.0 - solver.alphaF)
+        bodies = jacobian[:size, :size]
+        np.multiply(solver.GetSystemMassMatrix(), inertia, out=bodies)
+        bodies += np.dot((by_q, by_q_t), self._bodies).reshape(size, size)
+        if self._joints is not None:
+            self._joints.add_slopes(jacobian, by_q, by_q_t)
+        solver.SetSystemJacobian(jacobian)
+        solver.ComputeJacobianAE(mbs, 1.0, by_q_t / by_q)  # adds the constraints
+        return True
+
+    def _differentiated(self, solver: Any, mbs: exu.MainSystem) -> Array:
+        """Return stiffness and damping of all but the clearance joints, a row each."""
+        size, found = solver.GetODE2size(), []
+        with nullcontext() if self._joints is None else self._joints.left_out():
+            for factors in ((-1.0, 0.0), (0.0, -1.0)):
+                solver.ComputeJacobianODE2RHS(mbs, *factors)
+                found.append(np.array(solver.GetSystemJacobian())[:size, :size].ravel())
+        return np.array(found)

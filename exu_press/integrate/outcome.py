@@ -10,8 +10,10 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Any
 
-from exu_press.integrate.monitor import Monitor, Unresolved
+from exu_press.integrate.monitor import Monitor
 from exu_press.integrate.problem import Problem
+from exu_press.integrate.settings import Task
+from exu_press.integrate.stepping import Unresolved
 from exu_press.joints.joint import ClearanceJoint
 
 __all__ = ["Advice", "Outcome", "Status", "how_it_ended"]
@@ -111,28 +113,19 @@ class Advice:
 
 
 def how_it_ended(
-    problem: Problem,
-    monitor: Monitor,
-    advice: Advice,
-    *,
-    gone: float,
-    time: float,
-    error: float,
-    smallest: float,
-    failure: str,
+    task: Task, monitor: Monitor, advice: Advice, *, time: float, failure: str
 ) -> tuple[Status, str]:
     """Return status and reason of a run.
 
     Args:
-        problem: what was integrated.
+        task: what was to be solved.
         monitor: of the run.
         advice: words for what to try.
-        gone: part of the run that was done.
         time: reached, s.
-        error: of the last try, over what it may be; 0.0 with fixed steps.
-        smallest: step, s.
         failure: what Exudyn said, if it failed.
     """
+    problem, smallest = task.problem, task.smallest
+    gone = (time - task.start) / (task.end - task.start)
     if gone >= 1.0 - 1e-9:
         worst = monitor.resolution.worst()
         if worst is None:
@@ -158,7 +151,7 @@ def how_it_ended(
             f"try {advice.film()}"
         )
     busiest = _busiest_joint(problem, advice)
-    if not error <= 1.0:
+    if not monitor.control.error <= 1.0:
         return Status.STEP_TOO_SMALL, (
             f"the tolerance needs a step below {smallest:.2g} s {where}{busiest}; try "
             f"{advice.smallest()}{advice.cause()}"

@@ -13,7 +13,7 @@ from exu_press.errors import InputError
 from exu_press.joints import overlay_of
 from exu_press.joints.overlay import JointOverlay
 
-__all__ = ["Node", "Problem", "weights"]
+__all__ = ["Node", "Problem", "State"]
 
 Array = NDArray[np.float64]
 
@@ -77,16 +77,43 @@ class Node:
     carrier: int | None = None
 
 
+class State:
+    """All coordinates where Exudyn keeps them: what is written here, it goes on from.
+
+    To ask for them costs as much as what is done with them, so that they are asked for once.
+
+    Attributes:
+        positions: second-order coordinates, over those of the reference.
+        velocities: their rates.
+        accelerations: the rates of these.
+        multipliers: forces of the constraints.
+        first_order: first-order coordinates.
+        rates: of these.
+    """
+
+    def __init__(self, data: Any, where: exu.ConfigurationType) -> None:
+        """Look at the state of a system's data, current or at the start of the step."""
+        self.positions = data.GetODE2Coordinates(where, False)
+        self.velocities = data.GetODE2Coordinates_t(where, False)
+        self.accelerations = data.GetODE2Coordinates_tt(where, False)
+        self.multipliers = data.GetAECoordinates(where, False)
+        self.first_order = data.GetODE1Coordinates(where, False)
+        self.rates = data.GetODE1Coordinates_t(where, False)
+
+
 @dataclass(frozen=True)
 class Problem:
     """What is integrated.
 
     Attributes:
         mbs: the system.
+        data: of the system, `mbs.systemData`.
+        current: state at the end of the step that is tried.
+        start: state at its start.
+        reference: positions that those of a state are added to.
         nodes: of the second-order coordinates, in their order.
         joints: the system's clearance joints, if it has any.
         modal_stiffness: whether all stiffness is that of flexible bodies' modes.
-        first_order: whether there are first-order coordinates.
         switching: whether there are data variables or general contacts, which Exudyn iterates on
             after Newton's method.
         untold_rates: whether Exudyn does not tell how fast some constraints are violated: where
@@ -96,16 +123,21 @@ class Problem:
     """
 
     mbs: exu.MainSystem
+    data: Any
+    current: State
+    start: State
+    reference: Array
     nodes: tuple[Node, ...]
     joints: JointOverlay | None
     modal_stiffness: bool
-    first_order: bool
     switching: bool
     untold_rates: bool
     length: float
 
     @classmethod
-    def of(cls, mbs: exu.MainSystem, bodies: Mapping[int, tuple[str, float]] | None) -> "Problem":
+    def of(
+        cls, mbs: exu.MainSystem, bodies: Mapping[int, tuple[str, float]] | None = None
+    ) -> "Problem":
         """Look at an assembled system.
 
         Args:
@@ -132,16 +164,25 @@ class Problem:
             kind.startswith("ConnectorCoordinate") and "Spring" not in kind for kind in others
         )
         nodes = _nodes(mbs, objects, bodies)
+        reference = np.array(data.GetODE2Coordinates(exu.ConfigurationType.Reference))
         return cls(
             mbs=mbs,
+            data=data,
+            current=State(data, exu.ConfigurationType.Current),
+            start=State(data, exu.ConfigurationType.StartOfStep),
+            reference=reference,
             nodes=nodes,
             joints=joints if joints.joints else None,
             modal_stiffness=modal,
-            first_order=data.ODE1Size() > 0,
             switching=data.DataSize() > 0 or mbs.NumberOfGeneralContacts() > 0,
             untold_rates=_untold_rates(mbs, objects),
-            length=_length(data, nodes),
+            length=_length(data, reference, nodes),
         )
+
+    @property
+    def lubricated(self) -> bool:
+        """Whether there is a film."""
+        return self.joints is not None and self.joints.lubricated
 
 
 def _untold_rates(mbs: exu.MainSystem, objects: list[dict[str, Any]]) -> bool:
@@ -201,42 +242,9 @@ def _nodes(
     return tuple(sorted(found, key=lambda node: node.start))
 
 
-def _length(data: Any, nodes: tuple[Node, ...]) -> float:
+def _length(data: Any, reference: Array, nodes: tuple[Node, ...]) -> float:
     """Return the largest displacement coordinate at the start, m."""
-    if not nodes:
-        return 0.0
     # GetODE2CoordinatesTotal(Initial) crashes Exudyn 1.13.6 from about a hundred coordinates on
-    start, reference = (
-        np.array(data.GetODE2Coordinates(configuration))
-        for configuration in (exu.ConfigurationType.Initial, exu.ConfigurationType.Reference)
-    )
-    total = np.abs(start + reference)
-    places = [total[node.start : node.start + node.displacements] for node in nodes]
-    return float(np.concatenate(places).max(initial=0.0))
-
-
-def weights(nodes: tuple[Node, ...], mass_matrix: Array) -> tuple[list[float], list[float]]:
-    """Return each coordinate's inertia and each node's mass, 0.0 where that is to be found.
-
-    Euler parameters count with the mean of their four inertias, which no rotation changes.
-
-    Args:
-        nodes: of the system, in the order of their coordinates.
-        mass_matrix: (n, n).
-    """
-    inertias = np.array(np.diag(mass_matrix), dtype=float) if nodes else np.zeros(0)
-    masses: dict[int, float] = {}
-    for node in nodes:
-        first, last = node.start, node.start + node.size
-        if node.quaternion:
-            inertias[last - 4 : last] = inertias[last - 4 : last].mean()
-        mass = node.mass
-        if mass is None:
-            mass = float(inertias[first : first + node.displacements].max(initial=0.0))
-            if not inertias[first:last].any():
-                mass = math.inf
-        masses[node.number] = mass
-    for node in nodes:
-        if node.mass is None and node.carrier is not None:
-            masses[node.number] = masses[node.carrier]
-    return inertias.tolist(), [masses[node.number] for node in nodes]
+    places = np.abs(np.array(data.GetODE2Coordinates(exu.ConfigurationType.Initial)) + reference)
+    largest = [places[n.start : n.start + n.displacements].max(initial=0.0) for n in nodes]
+    return float(max(largest, default=0.0))

@@ -1,9 +1,15 @@
 """What errors are relative to: given, or found from the motion as it goes."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
-__all__ = ["FoundScales", "Scales"]
+import numpy as np
+
+from exu_press.integrate.problem import Node, Problem
+
+__all__ = ["FoundScales", "Scales", "weights"]
 
 
 @dataclass(frozen=True)
@@ -30,66 +36,48 @@ class FoundScales:
         speed: m/s.
         force: N.
         length: of the coordinates whose last digits are rounded, m.
-        ends: where each node's coordinates end among all.
-        inertias: the mass matrix's diagonal, kg and kg m^2.
+        fixed: whether all is given.
         masses: of the nodes, kg, infinite for what has no say; where the system gives none, the
             node's largest kinetic energy over half the square of `speed`.
     """
 
-    def __init__(self, given: Scales, length: float) -> None:
-        """Take what is given; the rest is found from `begin` on."""
-        self.length = length
-        self._given = given
-        self.ends: list[int] = []
-        self.inertias: list[float] = []
+    def __init__(self, given: Scales, problem: Problem, longest: float) -> None:
+        """Take what is given; the rest is found from `begin` on.
+
+        Args:
+            given: scales.
+            problem: what is solved.
+            longest: step, s.
+        """
+        self._given, self._problem, self._longest = given, problem, longest
+        self.length = problem.length
+        self.masses: list[float] = []
+        self._ends = [node.start + node.size for node in problem.nodes]
+        self._inertias: list[float] = []
         self._own: list[bool] = []
         self._energies: list[float] = []  # twice the largest kinetic energy of each node so far
-        self.masses: list[float] = []
         self.speed = given.speed or 0.0
         self.force = given.force or 0.0
         self.fixed = False
-        self._longest = 0.0
 
-    def begin(
-        self,
-        starts: list[int],
-        inertias: list[float],
-        masses: list[float],
-        velocities: list[float],
-        accelerations: list[float],
-        places: list[float],
-        longest: float,
-        widest: float,
-    ) -> None:
-        """Look at the state from which the run starts.
-
-        Args:
-            starts: where each node's coordinates begin among all; those of the first one at 0.
-            inertias: the mass matrix's diagonal, kg and kg m^2.
-            masses: of the nodes, kg; 0.0 where they are to be found.
-            velocities: of all coordinates.
-            accelerations: of all coordinates.
-            places: the coordinates, which angles and Euler parameters are among.
-            longest: step, s.
-            widest: clearance, m, or 0.0 without clearance joints.
-        """
-        self.ends = [*starts[1:], len(inertias)] if starts else []
-        self.inertias, self.masses = inertias, list(masses)
+    def begin(self, mass_matrix: Any) -> None:
+        """Look at the state from which the run starts, and the mass matrix, (n, n)."""
+        problem = self._problem
+        self._inertias, masses = weights(problem.nodes, mass_matrix)
+        self.masses = masses
         self._own = [mass == 0.0 for mass in masses]
         self._energies = [0.0 for _ in masses]
-        self._longest = longest
-        squares = zip(self._sums(places), masses, strict=True)
-        widths = [math.sqrt(s / m) for s, m in squares if m > 0.0]
-        self.length = max([self.length, *widths]) or 1.0  # where all is zero
+        positions = (problem.current.positions + problem.reference).tolist()
+        self.length = max(self.length, self.norm(positions)) or 1.0  # where all is zero
         given = self._given.speed, self._given.force
         self.fixed = True not in self._own and None not in given
         if self.fixed:
             return
-        powers = zip(self._sums(accelerations), masses, strict=True)
-        largest = math.sqrt(max((p / m for p, m in powers if m > 0.0), default=0.0))
-        time = longest
-        if widest > 0.0 and largest > 0.0:
-            time = min(longest, math.sqrt(4.0 * widest / largest))
+        velocities = problem.current.velocities.tolist()
+        accelerations = problem.current.accelerations.tolist()
+        largest, time = self.norm(accelerations), self._longest
+        if problem.joints is not None and largest > 0.0:
+            time = min(time, math.sqrt(4.0 * problem.joints.widest / largest))
         self.update([time * value for value in accelerations], accelerations)
         self.update(velocities, accelerations)
 
@@ -100,48 +88,64 @@ class FoundScales:
 
     def set_out(self, velocities: list[float], accelerations: list[float]) -> None:
         """Be told of a state that a step was tried to, in which a system may have left its rest."""
-        if self.resting:
-            self.update([self._longest * value for value in accelerations], accelerations)
-            self.update(velocities, accelerations)
+        self.update([self._longest * value for value in accelerations], accelerations)
+        self.update(velocities, accelerations)
 
     def update(self, velocities: list[float], accelerations: list[float]) -> None:
         """Be told of a state."""
         if self.fixed:
             return
-        energies = self._sums(velocities)
+        energies, masses = self._sums(velocities), self.masses
         speed_2 = 0.0
-        for i, mass in enumerate(self.masses):
-            self._energies[i] = max(self._energies[i], energies[i])
+        for i in range(len(masses)):
+            if energies[i] > self._energies[i]:
+                self._energies[i] = energies[i]
             if not self._own[i]:
-                speed_2 = max(speed_2, energies[i] / mass)
+                speed_2 = max(speed_2, energies[i] / masses[i])
         if self._given.speed is None:
             self.speed = max(self.speed, math.sqrt(speed_2))
             if self.speed == 0.0 and True in self._own:
                 self.speed = 1.0  # nothing is displaced: any speed will do, energies count
-        for i, own in enumerate(self._own):
-            if own:
-                square = self.speed * self.speed
-                self.masses[i] = self._energies[i] / square if square > 0.0 else 0.0
+        square = self.speed * self.speed
+        for i in range(len(masses)):
+            if self._own[i]:
+                masses[i] = self._energies[i] / square if square > 0.0 else 0.0
         if self._given.force is None:
-            forces = sum((m * a) ** 2 for m, a in zip(self.inertias, accelerations, strict=True))
-            self.force = max(self.force, math.sqrt(forces))
+            squares = 0.0
+            for i in range(len(accelerations)):
+                force = self._inertias[i] * accelerations[i]
+                squares += force * force
+            self.force = max(self.force, math.sqrt(squares))
+
+    def norm(self, vector: list[float]) -> float:
+        """Return the largest kinetic norm of a body; what has no say may be no number."""
+        largest = 0.0
+        for square in self.squares(vector):
+            if square > largest:
+                largest = square
+        return math.sqrt(largest)
+
+    def squares(self, vector: list[float]) -> list[float]:
+        """Return the squares of each body's kinetic norm of a vector over all coordinates."""
+        squares, masses = self._sums(vector), self.masses
+        for i in range(len(squares)):
+            mass = masses[i]
+            squares[i] = squares[i] / mass if mass > 0.0 else 0.0
+        return squares
 
     def _sums(self, vector: list[float]) -> list[float]:
         """Return the sum of inertia times square over each node's coordinates."""
         found: list[float] = []
+        inertias = self._inertias
         i = 0
-        for end in self.ends:
+        for end in self._ends:
             total = 0.0
             while i < end:
-                total += self.inertias[i] * vector[i] * vector[i]
+                value = vector[i]
+                total += inertias[i] * value * value
                 i += 1
             found.append(total)
         return found
-
-    def squares(self, vector: list[float]) -> list[float]:
-        """Return the squares of each body's kinetic norm of a vector over all coordinates."""
-        sums = self._sums(vector)
-        return [s / m if m > 0.0 else 0.0 for s, m in zip(sums, self.masses, strict=True)]
 
     def alternating(self, rounding: float, alpha_f: float) -> float:
         """Return what rounded positions make of accelerations, times the step's square, m.
@@ -152,3 +156,30 @@ class FoundScales:
         """
         radius = min(alpha_f / (1.0 - alpha_f), 0.95)
         return rounding * self.length / (1.0 - radius) ** 2
+
+
+def weights(nodes: Sequence[Node], mass_matrix: Any) -> tuple[list[float], list[float]]:
+    """Return each coordinate's inertia and each node's mass, 0.0 where that is to be found.
+
+    Euler parameters count with the mean of their four inertias, which no rotation changes.
+
+    Args:
+        nodes: of the system, in the order of their coordinates.
+        mass_matrix: (n, n).
+    """
+    inertias = np.array(np.diag(mass_matrix), dtype=float) if nodes else np.zeros(0)
+    masses: dict[int, float] = {}
+    for node in nodes:
+        first, last = node.start, node.start + node.size
+        if node.quaternion:
+            inertias[last - 4 : last] = inertias[last - 4 : last].mean()
+        mass = node.mass
+        if mass is None:
+            mass = float(inertias[first : first + node.displacements].max(initial=0.0))
+            if not inertias[first:last].any():
+                mass = math.inf
+        masses[node.number] = mass
+    for node in nodes:
+        if node.mass is None and node.carrier is not None:
+            masses[node.number] = masses[node.carrier]
+    return inertias.tolist(), [masses[node.number] for node in nodes]

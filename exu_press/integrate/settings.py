@@ -1,4 +1,4 @@
-"""The numbers of the integration, and what it needs in Exudyn's settings, each with its reason.
+"""What a run is asked for: its numbers, and what it needs in Exudyn's settings, with reasons.
 
 `solve_dynamic(..., tuning=Tuning(safety=0.8))` varies a number; `scripts/ablation.py` prints what
 each of them buys in error and run time. Exudyn's settings are put back after the run.
@@ -14,8 +14,18 @@ import exudyn as exu
 
 from exu_press.errors import InputError
 from exu_press.integrate.problem import Problem
+from exu_press.integrate.scales import FoundScales, Scales
 
-__all__ = ["Tuning", "prepared", "refuse_unusable"]
+__all__ = ["SAME", "Task", "Tuning", "prepared", "refuse_unusable"]
+
+SAME = 1e-6
+"""Steps that differ by less, relative, are one size: the clock's last digits."""
+
+FIXED_STEPS = 5e-5
+"""The tolerance whose Newton's method fixed steps have."""
+
+MOST_HALVED = 2.0**10
+"""How often over a fixed step is halved where Newton's method fails."""
 
 RELATIVE_RESIDUAL = 1e-10
 """Of the first residual: where Newton's method ends if it cannot get further."""
@@ -85,6 +95,54 @@ class Tuning:
     largest_jump: float = 0.65
 
 
+class Task:
+    """A run as it is asked for.
+
+    Attributes:
+        problem: what is solved.
+        solver: an exu.MainSolverImplicitSecondOrder, which is about to solve it.
+        scales: of the motion.
+        tuning: numbers.
+        tolerance: of the run; with fixed steps, of Newton's method.
+        fixed: whether steps are of one size.
+        start: of the run, s.
+        end: of the run, s.
+        largest: step, s.
+        smallest: step, s.
+        first: step, s.
+        spectral_radius: at infinity, of generalized-alpha.
+    """
+
+    def __init__(
+        self,
+        problem: Problem,
+        settings: exu.SimulationSettings,
+        tolerance: float | None,
+        scales: Scales,
+        tuning: Tuning,
+    ) -> None:
+        """Take a problem and what is asked of it."""
+        integration = settings.timeIntegration
+        self.problem, self.tuning = problem, tuning
+        self.solver: Any = exu.MainSolverImplicitSecondOrder()  # whose type stub forgets `self`
+        self.fixed = tolerance is None
+        self.tolerance = FIXED_STEPS if tolerance is None else tolerance
+        self.start, self.end = integration.startTime, integration.endTime
+        self.spectral_radius = integration.generalizedAlpha.spectralRadius
+        self.largest = largest = (self.end - self.start) / integration.numberOfSteps
+        self.scales = FoundScales(scales, problem, largest)
+        self.smallest = integration.minimumStepSize
+        room = 10.0 * self.smallest  # to repeat a film's first step in, before rounding shows
+        if self.fixed:
+            self.smallest = largest / MOST_HALVED
+            self.first = max(2.0 * self.smallest, room) if problem.lubricated else largest
+        else:
+            of_film = max(tuning.first_step_of_film * largest, room)
+            usual = of_film if problem.lubricated else tuning.first_step * largest
+            self.first = max(integration.initialStepSize or usual, self.smallest)
+        self.first = min(self.first, largest)
+
+
 def refuse_unusable(settings: exu.SimulationSettings, tolerance: float | None) -> None:
     """Refuse what cannot be integrated.
 
@@ -140,50 +198,30 @@ def prepared(settings: exu.SimulationSettings, problem: Problem, smallest: float
     integration = settings.timeIntegration
     newton, discontinuous = integration.newton, integration.discontinuous
     linear = settings.linearSolver
-    in_place = linear.solverType == exu.LinearSolverType.EXUdense
-    wanted: list[tuple[Any, dict[str, Any]]] = [
-        (
-            linear,
-            {"solverType": exu.LinearSolverType.EigenDense if in_place else linear.solverType},
-        ),
-        (
-            newton,
-            {
-                "useModifiedNewton": True,
-                "modifiedNewtonJacUpdatePerStep": True,
-                "modifiedNewtonContractivity": 0.5,
-                "relativeTolerance": RELATIVE_RESIDUAL,
-                "absoluteTolerance": newton.absoluteTolerance,
-                "maxIterations": 25,
-            },
-        ),
-        (
-            discontinuous,
-            {
-                "ignoreMaxIterations": False,
-                "maxIterations": discontinuous.maxIterations if problem.switching else 1,
-                "iterationTolerance": min(discontinuous.iterationTolerance, SWITCHED),
-                "useRecommendedStepSize": True,
-            },
-        ),
-        (
-            integration,
-            {
-                "adaptiveStep": True,
-                "adaptiveStepDecrease": 0.5,
-                "minimumStepSize": smallest,
-                "adaptiveStepRecoverySteps": 2**30,  # growth is decided in `stepping`
-                "verboseMode": 0,
-            },
-        ),
+    wanted: list[tuple[Any, str, Any]] = [
+        (newton, "useModifiedNewton", True),
+        (newton, "modifiedNewtonJacUpdatePerStep", True),
+        (newton, "modifiedNewtonContractivity", 0.5),
+        (newton, "relativeTolerance", RELATIVE_RESIDUAL),
+        (newton, "maxIterations", 25),
+        (discontinuous, "ignoreMaxIterations", False),
+        (discontinuous, "iterationTolerance", min(discontinuous.iterationTolerance, SWITCHED)),
+        (discontinuous, "useRecommendedStepSize", True),
+        (integration, "adaptiveStep", True),
+        (integration, "adaptiveStepDecrease", 0.5),
+        (integration, "minimumStepSize", smallest),
+        (integration, "adaptiveStepRecoverySteps", 2**30),  # growth is decided in `stepping`
+        (integration, "verboseMode", 0),
     ]
-    before = [(part, {name: getattr(part, name) for name in new}) for part, new in wanted]
+    if not problem.switching:
+        wanted.append((discontinuous, "maxIterations", 1))
+    if linear.solverType == exu.LinearSolverType.EXUdense:
+        wanted.append((linear, "solverType", exu.LinearSolverType.EigenDense))
+    before = [(part, name, getattr(part, name)) for part, name, _ in wanted]
     try:
-        for part, new in wanted:
-            for name, value in new.items():
-                setattr(part, name, value)
+        for part, name, value in wanted:
+            setattr(part, name, value)
         yield
     finally:
-        for part, old in before:
-            for name, value in old.items():
-                setattr(part, name, value)
+        for part, name, value in before:
+            setattr(part, name, value)

@@ -3,8 +3,8 @@
 import math
 
 from exu_press.integrate import Advice
-from exu_press.integrate.monitor import Unresolved
 from exu_press.integrate.problem import Problem
+from exu_press.integrate.stepping import Unresolved
 from exu_press.joints.joint import ClearanceJoint
 from exu_press.scene import IdealJoint, LubricatedJoint, mechanism_of
 from exu_press.scene.applied import applied_loads

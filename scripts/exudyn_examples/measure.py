@@ -8,7 +8,8 @@ import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 
 from exu_press import solve_dynamic
-from exu_press.integrate.problem import Problem, weights
+from exu_press.integrate.problem import Problem
+from exu_press.integrate.scales import weights
 
 __all__ = ["Run", "error", "run"]
 
@@ -77,7 +78,7 @@ def run(example, *, tolerance=None, steps=None, end=None, record=True):
 
 def _weights(mbs):
     """Weight and body of each coordinate, from the mass matrix."""
-    problem = Problem.of(mbs, None)
+    problem = Problem.of(mbs)
     if not problem.nodes:
         return np.zeros(0), np.zeros(0, int)
     inertias, masses = weights(problem.nodes, mbs.sys["dynamicSolver"].GetSystemMassMatrix())

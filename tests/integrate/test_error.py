@@ -8,6 +8,7 @@ import pytest
 
 from exu_press import Scene, simulate
 from exu_press.integrate.error import BodyError, ErrorPerStep, JointError
+from exu_press.integrate.problem import Node
 from exu_press.integrate.scales import FoundScales, Scales
 from exu_press.integrate.settings import Tuning
 from exu_press.joints.path import Path
@@ -18,20 +19,19 @@ NOISE = 1e-13
 
 def errors(velocity_limit=1e-3, masses=(2.0,)):
     """Errors of bodies that rest at first; each of one mass and a moment of inertia of 0.5."""
-    scales = FoundScales(Scales(speed=1.0, force=1.0), length=1.0)
-    rest = [0.0] * 3 * len(masses)
-    scales.begin(
-        starts=[3 * i for i in range(len(masses))],
-        inertias=[value for mass in masses for value in (mass, mass, 0.5)],
-        masses=list(masses),
-        velocities=rest,
-        accelerations=rest,
-        places=rest,
-        longest=1.0,
-        widest=0.0,
+    rest = np.zeros(3 * len(masses))
+    state = SimpleNamespace(positions=rest, velocities=rest, accelerations=rest)
+    problem = SimpleNamespace(
+        nodes=tuple(Node(i, "", 3 * i, 3, mass) for i, mass in enumerate(masses)),
+        current=state,
+        reference=rest,
+        length=1.0,
+        joints=None,
     )
+    scales = FoundScales(Scales(speed=1.0, force=1.0), problem, longest=1.0)
+    scales.begin(np.diag([value for mass in masses for value in (mass, mass, 0.5)]))
     return BodyError(
-        rest,
+        rest.tolist(),
         per_step=ErrorPerStep(velocity_limit),
         scales=scales,
         tuning=TUNING,

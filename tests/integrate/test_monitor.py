@@ -1,108 +1,65 @@
-"""Runs whose steps do not resolve their impacts say so, and with which steps they would."""
+"""Exudyn's calls reach the user's own functions, whose word counts."""
 
-import json
-import re
+import exudyn as exu
 
-import numpy as np
-import pytest
+from exu_press import Status, solve_dynamic
+from exudyn_examples import EXAMPLES
 
-from exu_press import Result, Scene, simulate
-from exu_press.cli import main
-
-DRY = {"mechanism": "slider_crank", "joints": {"crank_pin": "dry"}, "revolutions": 0.1}
-REASON = re.compile(
-    r"under-resolved at t = (\S+) s, crank angle (\S+) deg: (\d+)% of the largest inertia force "
-    r"\((slider|rod)\) within a step of (\S+) s; peaks are the step's; "
-    r"try solver\.(step|tolerance) = (\S+)"
-)
+EXAMPLE = EXAMPLES["IFToMM pendulum"]
 
 
-def run(**changes):
-    return simulate(Scene.from_dict(DRY).replace(changes))
+def system():
+    mbs = exu.SystemContainer().AddSystem()
+    EXAMPLE.build(mbs)
+    mbs.Assemble()
+    return mbs
 
 
-def peak(result):
-    return np.abs(result["slider_acceleration"]).max()
+def test_all_of_the_users_functions_are_called_and_stay():
+    mbs, calls = system(), {"step": 0, "residual": 0, "newton": 0, "end": 0}
+
+    def called(name, answer):
+        def function(mbs, *state):
+            calls[name] += 1
+            return answer
+
+        return function
+
+    mbs.SetPreStepUserFunction(called("step", True))
+    mbs.SetPreNewtonResidualUserFunction(called("residual", None))
+    mbs.SetPostNewtonUserFunction(called("newton", [0.0, -1.0]))
+    mbs.SetPostStepUserFunction(called("end", True))
+    functions = mbs.GetPreStepUserFunction(), mbs.GetPostNewtonUserFunction()
+    outcome = solve_dynamic(mbs, EXAMPLE.settings(0.5))
+    tries = outcome.steps + outcome.rejected_steps
+    assert calls["step"] == calls["newton"] == tries
+    assert calls["residual"] >= outcome.newton_iterations
+    assert calls["end"] == outcome.steps + 1  # at the start too, as Exudyn does
+    assert (mbs.GetPreStepUserFunction(), mbs.GetPostNewtonUserFunction()) == functions
 
 
-@pytest.fixture(scope="module")
-def reference():
-    return run(**{"solver.tolerance": 1e-5})
+def test_a_step_that_the_user_wants_shorter_is_repeated():
+    mbs, tried = system(), []
+
+    def at_most(mbs, time):
+        step = time - mbs.systemData.GetTime(exu.ConfigurationType.StartOfStep)
+        tried.append(step)
+        return [2.0, 1e-3] if step > 1.01e-3 else [0.0, -1.0]
+
+    mbs.SetPostNewtonUserFunction(at_most)
+    outcome = solve_dynamic(mbs, EXAMPLE.settings(0.1))
+    assert outcome.status is Status.COMPLETED
+    assert outcome.rejected_steps == sum(step > 1.01e-3 for step in tried) > 0
+    assert outcome.steps >= 100
 
 
-@pytest.mark.parametrize("step", [1e-3, 2e-4])
-def test_a_step_that_leaps_over_impacts_names_one_that_does_not(step, reference):
-    coarse = run(**{"solver.step": step})
-    assert coarse.completed, "it reached its end"
-    assert coarse.info["status"] == "under-resolved"
-    match = REASON.fullmatch(coarse.info["reason"])
-    assert match, coarse.info["reason"]
-    assert peak(coarse) < 0.6 * peak(reference), "and its peak is the step's"
-    assert match[6] == "step"
-    fine = run(**{"solver.step": float(match[7])})
-    assert fine.info["status"] == "completed", fine.info["reason"]
-    assert peak(fine) == pytest.approx(peak(reference), rel=0.03)
+def test_without_them_fewer_steps_are_taken():
+    assert solve_dynamic(system(), EXAMPLE.settings(0.1)).steps < 50
 
 
-@pytest.mark.parametrize(
-    "changes",
-    [
-        {"solver.tolerance": 1e-3},
-        {"solver.step": 2e-5},
-        {"solver.step": 1e-3, "contact.damping_max": 0.0},  # soft: the impact lasts many steps
-        {"solver.step": 1e-3, "joints": {}},
-    ],
-    ids=str,
-)
-def test_resolved_runs_are_completed(changes):
-    assert run(**changes).info["status"] == "completed"
-
-
-def test_an_impact_on_the_frame_says_which_step_resolves_it():
-    coarse = run(**{"joints": {"shaft": "dry"}, "solver.step": 1e-3})
-    assert coarse.info["status"] == "under-resolved"
-    assert re.search(r"try solver\.step = \d", coarse.info["reason"])
-
-
-@pytest.mark.parametrize("changes", [{}, {"film.viscosity": 1.0}], ids=str)
-def test_a_film_that_starts_from_rest_is_no_impact(changes):
-    """Its accelerations ring for some steps."""
-    result = run(**{"joints": {"crank_pin": "lubricated"}, "solver.step": 1e-4, **changes})
-    assert result.info["status"] == "completed", result.info["reason"]
-
-
-@pytest.mark.parametrize("rise", [1e-4, 1e-5])
-def test_a_pulse_shorter_than_the_step_is_not_resolved_either(rise):
-    load = {
-        "load.blanking.kind": "blanking",
-        "load.blanking.force": 1e6,
-        "load.blanking.rise": rise,
-        "load.blanking.fall": 2.0 * rise,
-    }
-    changes = {"joints": {}, "load.blanking.end_angle_deg": 20.0, **load}
-    leapt = run(**changes, **{"solver.step": 1e-3})
-    assert leapt.info["status"] == "under-resolved"
-    assert leapt["load_blanking_force"].max() < 0.9e6, "the pulse's peak was missed"
-    advice = re.search(r"load\.blanking .* try solver\.step = (\S+)", leapt.info["reason"])
-    fine = run(**changes, **{"solver.step": float(advice[1])})
-    assert fine.info["status"] == "completed"
-    assert fine["load_blanking_force"].max() > 0.9e6
-    assert run(**changes).info["status"] == "completed", "a tolerance steps on its corners"
-
-
-def test_the_command_exits_with_3_and_does_not_speak_of_a_stop(tmp_path, capsys):
-    out = tmp_path / "out"
-    arguments = [
-        "--set",
-        "joints.crank_pin=dry",
-        "--set",
-        "revolutions=0.05",
-        "--set",
-        "solver.step=2e-4",
-    ]
-    assert main(["run", "slider_crank", *arguments, "--no-pictures", "--out", str(out)]) == 3
-    error = capsys.readouterr().err
-    assert error.startswith("exu-press: under-resolved at t = ")
-    summary = json.loads((out / "summary.json").read_text())
-    assert summary["status"] == "under-resolved"
-    assert Result.load(out / "run.nc").completed
+def test_a_function_that_asks_to_stop_before_a_step_ends_the_run():
+    mbs = system()
+    mbs.SetPreStepUserFunction(lambda mbs, time: time < 0.05)
+    outcome = solve_dynamic(mbs, EXAMPLE.settings(0.1))
+    assert outcome.status is Status.INTERRUPTED
+    assert outcome.reason.startswith("stopped by a user function at t = 0.0")

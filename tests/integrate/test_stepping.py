@@ -1,25 +1,182 @@
-"""Steps of one size keep to their grid."""
+"""Steps follow a tolerance or keep to a grid; those that do not resolve impacts say so."""
+
+import json
+import math
+import re
+from types import SimpleNamespace
 
 import numpy as np
+import pytest
+from patched import PATCHED
 
-from exu_press import Scene, simulate
-from exu_press.integrate.stepping import FixedSteps
+from exu_press import Result, Scene, simulate
+from exu_press.cli import main
+from exu_press.integrate.settings import Tuning
+from exu_press.integrate.stepping import FixedSteps, StepControl
+
+DRY = {"mechanism": "slider_crank", "joints": {"crank_pin": "dry"}, "revolutions": 0.1}
+REASON = re.compile(
+    r"under-resolved at t = (\S+) s, crank angle (\S+) deg: (\d+)% of the largest inertia force "
+    r"\((slider|rod)\) within a step of (\S+) s; peaks are the step's; "
+    r"try solver\.(step|tolerance) = (\S+)"
+)
 
 
-def test_fixed_steps_return_to_their_grid_after_a_halved_one(monkeypatch):
-    scene = Scene(
-        joints={"crank_pin": "ideal", "balls": "ideal"}, revolutions=0.1, solver={"step": 2e-4}
-    )
-    failed = []
+def run(**changes):
+    return simulate(Scene.from_dict(DRY).replace(changes))
 
-    def fail_one(control, time):
-        if time > 5e-3 and not failed:
-            failed.append(time)
-            return [2.0, -1.0]
-        return [0.0, -1.0]
 
-    monkeypatch.setattr(FixedSteps, "after_newton", fail_one)
-    time = simulate(scene).time
-    on_grid = np.abs(time / 2e-4 - np.round(time / 2e-4)) < 1e-6
-    assert failed and 1 <= (~on_grid).sum() <= 2
-    assert on_grid[-50:].all()
+def peak(result):
+    return np.abs(result["slider_acceleration"]).max()
+
+
+@pytest.fixture(scope="module")
+def reference():
+    return run(**{"solver.tolerance": 1e-5})
+
+
+@pytest.mark.parametrize("step", [1e-3, 2e-4])
+def test_a_step_that_leaps_over_impacts_names_one_that_does_not(step, reference):
+    coarse = run(**{"solver.step": step})
+    assert coarse.completed, "it reached its end"
+    assert coarse.info["status"] == "under-resolved"
+    match = REASON.fullmatch(coarse.info["reason"])
+    assert match, coarse.info["reason"]
+    assert peak(coarse) < 0.6 * peak(reference), "and its peak is the step's"
+    assert match[6] == "step"
+    fine = run(**{"solver.step": float(match[7])})
+    assert fine.info["status"] == "completed", fine.info["reason"]
+    assert peak(fine) == pytest.approx(peak(reference), rel=0.03)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"solver.tolerance": 1e-3},
+        {"solver.step": 2e-5},
+        {"solver.step": 1e-3, "contact.damping_max": 0.0},  # soft: the impact lasts many steps
+        {"solver.step": 1e-3, "joints": {}},
+    ],
+    ids=str,
+)
+def test_resolved_runs_are_completed(changes):
+    assert run(**changes).info["status"] == "completed"
+
+
+def test_an_impact_on_the_frame_says_which_step_resolves_it():
+    coarse = run(**{"joints": {"shaft": "dry"}, "solver.step": 1e-3})
+    assert coarse.info["status"] == "under-resolved"
+    assert re.search(r"try solver\.step = \d", coarse.info["reason"])
+
+
+@pytest.mark.parametrize("changes", [{}, {"film.viscosity": 1.0}], ids=str)
+def test_a_film_that_starts_from_rest_is_no_impact(changes):
+    """Its accelerations ring for some steps."""
+    result = run(**{"joints": {"crank_pin": "lubricated"}, "solver.step": 1e-4, **changes})
+    assert result.info["status"] == "completed", result.info["reason"]
+
+
+@pytest.mark.parametrize("rise", [1e-4, 1e-5])
+def test_a_pulse_shorter_than_the_step_is_not_resolved_either(rise):
+    load = {
+        "load.blanking.kind": "blanking",
+        "load.blanking.force": 1e6,
+        "load.blanking.rise": rise,
+        "load.blanking.fall": 2.0 * rise,
+    }
+    changes = {"joints": {}, "load.blanking.end_angle_deg": 20.0, **load}
+    leapt = run(**changes, **{"solver.step": 1e-3})
+    assert leapt.info["status"] == "under-resolved"
+    assert leapt["load_blanking_force"].max() < 0.9e6, "the pulse's peak was missed"
+    advice = re.search(r"load\.blanking .* try solver\.step = (\S+)", leapt.info["reason"])
+    fine = run(**changes, **{"solver.step": float(advice[1])})
+    assert fine.info["status"] == "completed"
+    assert fine["load_blanking_force"].max() > 0.9e6
+    assert run(**changes).info["status"] == "completed", "a tolerance steps on its corners"
+
+
+def test_the_command_exits_with_3_and_does_not_speak_of_a_stop(tmp_path, capsys):
+    out = tmp_path / "out"
+    arguments = [
+        "--set",
+        "joints.crank_pin=dry",
+        "--set",
+        "revolutions=0.05",
+        "--set",
+        "solver.step=2e-4",
+    ]
+    assert main(["run", "slider_crank", *arguments, "--no-pictures", "--out", str(out)]) == 3
+    error = capsys.readouterr().err
+    assert error.startswith("exu-press: under-resolved at t = ")
+    summary = json.loads((out / "summary.json").read_text())
+    assert summary["status"] == "under-resolved"
+    assert Result.load(out / "run.nc").completed
+
+
+def task(**changes):
+    usual = {"largest": 1e-3, "smallest": 1e-9, "first": 1e-3, "start": 0.0, "end": 1.0}
+    return SimpleNamespace(**{**usual, "tuning": Tuning(), **changes})
+
+
+def test_fixed_steps_return_to_their_grid_after_a_halved_one():
+    control, times = FixedSteps(task()), [0.0]
+    for i in range(20):
+        step = control.next_step(times[-1]) * (0.25 if i == 5 else 1.0)
+        control.accept(step)
+        times.append(times[-1] + step)
+    off_grid = [abs(time / 1e-3 - round(time / 1e-3)) > 1e-9 for time in times]
+    assert [i for i, off in enumerate(off_grid) if off] == [6, 7]
+    assert np.diff(times)[-12:] == pytest.approx(1e-3)
+
+
+class Estimate:
+    """Errors that go with the cube of the step; 1 at a step (s)."""
+
+    def __init__(self, good):
+        self.good = good
+
+    def __call__(self, step):
+        return (step / self.good) ** 3
+
+    def accept(self):
+        pass
+
+
+def steps(good, corner=math.inf, **changes):
+    """Sizes of accepted steps to the end, and the number of repeated ones."""
+    asked = task(**changes)
+    control = StepControl(asked, Estimate(good), lambda time: corner if time < corner else math.inf)
+    time, sizes, repeated = 0.0, [], 0
+    while asked.end - time > 1e-12:
+        step = control.next_step(time)
+        while shorter := control.shorter(step):
+            step, repeated = shorter, repeated + 1
+        control.accept(step)
+        sizes.append(step)
+        time += step
+    return sizes, repeated
+
+
+@PATCHED
+def test_steps_grow_slowly_to_what_their_errors_allow():
+    sizes, repeated = steps(good=1e-3, first=1e-5, end=0.1)
+    growth = np.array(sizes[1:-2]) / sizes[:-3]
+    assert growth.max() == pytest.approx(Tuning().factor_max)
+    aim = Tuning().safety ** (1.0 / 3.0) * 1e-3
+    assert aim / Tuning().factor_max <= sizes[-5] <= aim
+    assert repeated == 0
+
+
+@PATCHED
+def test_a_step_that_is_too_long_is_repeated_once():
+    sizes, repeated = steps(good=2e-4, end=0.01)
+    assert repeated == 1
+    assert sizes[0] == pytest.approx(2e-4 * Tuning().safety ** (1.0 / 3.0))
+
+
+@PATCHED
+def test_steps_end_on_corners_and_the_end():
+    sizes, _ = steps(good=1.0, corner=2.3e-3, end=5.1e-3)
+    times = np.cumsum(sizes)
+    assert np.abs(times - 2.3e-3).min() < 1e-15 and times[-1] == pytest.approx(5.1e-3)
+    assert min(sizes) > 0.5e-3, "nothing little is left before one"

@@ -43,7 +43,7 @@ def test_a_run_that_says_it_was_not_resolved_has_stopped():
 
 def test_the_same_run_without_a_word_would_be_wrong(monkeypatch):
     """The checks, not the status, find it: the verdict does not rest on the run's own word."""
-    from exu_press.integrate.monitor import Resolution
+    from exu_press.integrate.stepping import Resolution
 
     monkeypatch.setattr(Resolution, "worst", lambda resolution: None)
     row = judged(**DRY, **{"solver.step": 1e-3})

@@ -19,7 +19,7 @@ start, turns = (170.0, 0.04) if quick else (0.0, 2.0)
 load = {"blanking": {"kind": "blanking", "force": 0.0}}
 scene = Scene(revolutions=turns, start_angle_deg=start, load=load)
 forces = [1e4, 4e4] if quick else [0.0, 1e4, 2e4, 3e4, 4e4]
-study = Study(scene=scene, grid={"load.blanking.force": forces})
+study = Study(scene=scene, grid={"load.blanking.force": forces}, errors=True)
 shown = ("bottom_dead_centre", "peak_acceleration.mean_1ms", "joints.crank_pin.peak_force")
 table = sweep(study, out, quiet=quick)
 print("\n".join(table_lines(table, shown)))

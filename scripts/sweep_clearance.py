@@ -22,6 +22,7 @@ clearances = [5e-5, 2e-4] if quick else [5e-5, 7.5e-5, 1e-4, 1.25e-4, 1.5e-4, 1.
 study = Study(
     scene=scene,
     grid={"joints.crank_pin": ["dry", "lubricated"], "joints.crank_pin.clearance": clearances},
+    errors=True,
 )
 shown = ("peak_acceleration.resolved", "peak_acceleration.mean_1ms", "joints.crank_pin.peak_force")
 table = sweep(study, out, quiet=quick)

@@ -17,7 +17,7 @@ scene = Scene(
     revolutions=0.02 if quick else 2.0, load={"blanking": {"kind": "blanking", "force": 1e4}}
 )
 speeds = [200.0, 500.0] if quick else [200.0, 250.0, 300.0, 350.0, 400.0, 450.0, 500.0]
-study = Study(scene=scene, grid={"speed_rpm": speeds})
+study = Study(scene=scene, grid={"speed_rpm": speeds}, errors=True)
 shown = ("peak_acceleration.mean_1ms", "joints.crank_pin.peak_force", "joints.crank_pin.min_film")
 table = sweep(study, out, quiet=quick)
 print("\n".join(table_lines(table, shown)))

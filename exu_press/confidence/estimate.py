@@ -1,17 +1,17 @@
 """The error of a figure, from the same figure of runs at other tolerances."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
+
+from exu_press.result.info import Error
 
 __all__ = [
     "AMPLIFIED",
     "ROUNDING",
     "SAFETY",
     "SAFETY_OF_STEPS",
-    "FigureError",
     "converging",
     "scattered",
 ]
@@ -39,27 +39,9 @@ ROUNDING = 1e-9
 """Of a figure, what no two runs agree to better than."""
 
 
-@dataclass(frozen=True)
-class FigureError:
-    """What is known of a figure's error, in the figure's unit.
-
-    Attributes:
-        error: that the figure is off by, at most.
-        determined: whether the scene determines the figure; if not, runs that differ by nothing
-            that is known of the scene lie between `low` and `high`.
-        low: the least that it may be.
-        high: the most.
-    """
-
-    error: float
-    determined: bool
-    low: float
-    high: float
-
-
 def converging(
     values: Sequence[float], ratios: Sequence[float], least: float = 0.0, safety: float = SAFETY
-) -> FigureError:
+) -> Error:
     """Return the error of a figure whose error goes with the tolerance (or the step).
 
     The first value is the figure itself, its ratio 1; of each pair of runs the difference over that
@@ -71,16 +53,15 @@ def converging(
         least: error, in the figure's unit.
         safety: factor on what the differences say.
 
-    >>> round(converging([1.01, 1.04, 1.08], [1.0, 4.0, 8.0]).error, 6)  # SAFETY times 1.01 - 1
+    >>> round(converging([1.01, 1.04, 1.08], [1.0, 4.0, 8.0])["error"], 6)  # SAFETY times 1.01 - 1
     0.018
     """
     pairs = combinations(zip(values, ratios, strict=True), 2)
     largest = max(abs(a - b) / abs(i - j) for (a, i), (b, j) in pairs)
-    error = safety * largest + least
-    return FigureError(error, True, values[0] - error, values[0] + error)
+    return _about(values[0], safety * largest + least, determined=True)
 
 
-def scattered(values: Sequence[float], least: float = 0.0) -> FigureError:
+def scattered(values: Sequence[float], least: float = 0.0) -> Error:
     """Return between which bounds a figure lies that depends on what nobody knows.
 
     Nineteen in twenty further runs lie there, if such figures scatter normally.
@@ -92,5 +73,13 @@ def scattered(values: Sequence[float], least: float = 0.0) -> FigureError:
     apart = np.asarray(values[1:]) - values[0]
     factor = NINETEEN_IN_TWENTY.get(len(apart), 2.4)
     error = factor * float(np.sqrt(np.mean(apart**2))) + ROUNDING * abs(values[0]) + least
-    determined = error <= LITTLE * abs(values[0])
-    return FigureError(error, determined, values[0] - error, values[0] + error)
+    return _about(values[0], error, determined=error <= LITTLE * abs(values[0]))
+
+
+def _about(value: float, error: float, *, determined: bool) -> Error:
+    return {
+        "error": error,
+        "determined": determined,
+        "low": value - error,
+        "high": value + error,
+    }

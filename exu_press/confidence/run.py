@@ -12,7 +12,6 @@ from exu_press.confidence.estimate import (
     ROUNDING,
     SAFETY,
     SAFETY_OF_STEPS,
-    FigureError,
     converging,
     scattered,
 )
@@ -161,11 +160,9 @@ def errors_of(
     errors: dict[str, Error] = {}
     for name, value in by_end[end][1.0].items():
         left_open = max(abs(value - changed[name]) for changed in reads)
-        of = _error(name, by_end[end], until_then, left_open)
-        low, high = of.low, of.high
+        errors[name] = told = _error(name, by_end[end], until_then, left_open)
         if value >= 0.0 and not name.endswith(SIGNED):
-            low = max(low, 0.0)
-        errors[name] = {"error": of.error, "determined": of.determined, "low": low, "high": high}
+            told["low"] = max(told["low"], 0.0)
     return {
         "errors": errors,
         "errors_from": parted.growth.horizon,
@@ -173,9 +170,7 @@ def errors_of(
     }
 
 
-def _error(
-    name: str, now: Figures, until_then: Mapping[float, Figures], read: float
-) -> FigureError:
+def _error(name: str, now: Figures, until_then: Mapping[float, Figures], read: float) -> Error:
     """Return the error of a figure.
 
     Args:

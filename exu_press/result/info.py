@@ -40,7 +40,8 @@ class Error(TypedDict):
 
     Attributes:
         error: absolute, in the figure's unit.
-        determined: whether the scene determines the figure.
+        determined: whether the scene determines the figure; if not, runs that differ by nothing
+            that is known of the scene lie between `low` and `high`.
         low: least value that it may have.
         high: largest value that it may have.
     """

@@ -51,7 +51,7 @@ class Amount:
     stated: tuple[float, ...]
 
 
-FULL = Amount(3, 2.0, 0.2, 1e-6, 1e-6, 1e-10, 1.0, 1e-6, 6, (1e-2, 3e-3, 1e-3, 3e-4))
+FULL = Amount(3, 2.0, 1.0, 1e-6, 1e-6, 1e-10, 1.0, 1e-6, 6, (1e-2, 3e-3, 1e-3, 3e-4))
 QUICK = Amount(1, 0.2, 0.02, 1e-4, 1e-4, 1e-5, 30.0, 1e-5, 1, (1e-2,))
 
 

@@ -37,6 +37,7 @@ __all__ = [
     "FrameStart",
     "add_part",
     "deformed",
+    "guided_motion",
     "hold_driven",
     "hold_pivot",
     "hold_upright",
@@ -135,8 +136,8 @@ def add_part(
     for joint in mechanism.joints:
         for body, point in mechanism.ends(joint):
             for number, face in enumerate(part.faces[joint.name] if body == name else ()):
-                along = float(part.reduced.interface(face).centre[2])
-                points[point_name(joint, number)] = face, (*part.place(point), along)
+                place = *part.place(point), _height(part, joint, face)
+                points[point_name(joint, number)] = face, place
     for load_name, load in loads.items():
         for number, face in enumerate(part.loads[load_name] if load.body == name else ()):
             along = float(part.reduced.interface(face).centre[2])
@@ -162,6 +163,11 @@ def add_part(
     )
 
 
+def _height(part: PlacedPart, joint: Joint, face: str) -> float:
+    """Return how high over the plane a joint holds a face, m; balls lie in the plane."""
+    return 0.0 if joint.spherical else float(part.reduced.interface(face).centre[2])
+
+
 def point_name(joint: Joint, number: int = 0) -> str:
     """Return the name of the point where a body's joint holds one of its faces."""
     return joint.name if number == 0 else f"{joint.name} {number + 1}"
@@ -185,7 +191,7 @@ def joint_end(body: FlexibleBody, part: PlacedPart, joint: Joint, point: Point) 
             "allowed is 'ideal'"
         )
     interface = body.part.interface(face)
-    centre = np.array([*part.place(point), interface.centre[2]])
+    centre = np.array([*part.place(point), _height(part, joint, face)])
     if body.node_modes is None:
         return body.object_number, centre
     return FlexiblePoint(body.object_number, centre, interface.translation, interface.rotation)
@@ -250,6 +256,35 @@ def hold_driven(mbs: exu.MainSystem, disc: int, body: FlexibleBody, part: Placed
     mbs.AddObject(ObjectJointRevolute2D(markerNumbers=pin))
     length = float(np.linalg.norm(arm))
     mbs.AddObject(ObjectConnectorDistance(markerNumbers=link, distance=length))
+
+
+def guided_motion(mbs: exu.MainSystem, body: FlexibleBody, part: PlacedPart) -> tuple[Array, Array]:
+    """Return what a guide holds of a body, linear in its coordinates: x, y (m) and angle (rad).
+
+    It is the mean motion of the faces that lie in the guide, where the body has its centre of mass.
+    In a guide a body hardly turns: what is left out goes with the square of its tilt.
+
+    Args:
+        mbs: the system.
+        body: flexible.
+        part: of the body.
+
+    Returns:
+        Its values where the coordinates have their reference values, (3,), and what displacements
+        of the frame's coordinates and of the modes change them by, (3, coordinates).
+    """
+    pose = np.asarray(mbs.GetNodeParameter(body.node_rigid, "referenceCoordinates"))
+    rotation = np.asarray(EulerParameters2RotationMatrix(pose[3:]))
+    place, modes = part.carried((part.guide,), (0.0, 0.0))
+    arm = rotation @ place
+    turning = 2.0 * np.array([-pose[6], 0.0, 0.0, pose[3]])
+    rows = np.zeros((3, len(pose) + part.reduced.mode_count))
+    rows[:2, :2] = np.eye(2)
+    rows[:, 3:7] = np.outer((-arm[1], arm[0], 1.0), turning)
+    rows[:2, 7:] = (rotation @ modes)[:2]
+    rows[2, 7:] = part.reduced.interface(part.guide).rotation[2]
+    angle = 2.0 * np.arctan2(pose[6], pose[3]) + part.angle
+    return np.array([pose[0] + arm[0], pose[1] + arm[1], angle]), rows
 
 
 def hold_upright(

@@ -195,6 +195,13 @@ def _placed(
                 f"from joints.{joint.name}, with origin = [{origin[0]:.6g}, {origin[1]:.6g}], "
                 f"angle_deg = {degrees(turn):.6g}{best}; allowed is {1e3 * NEAR:g} mm"
             )
+    for joint in joints:
+        height = float(reduced.interface(held[joint.name][0]).axis[2])
+        if joint.spherical and abs(height) > NEAR:
+            raise InputError(
+                f"the sphere of joints.{joint.name} has its centre at z = {height:.6g} m of "
+                f"{table.flexible!r}; allowed is z = 0, the plane of the mechanism"
+            )
     x, y = body.centre_of_mass
     centre, angle = _turned((x - origin[0], y - origin[1]), -turn), body.angle - turn
 

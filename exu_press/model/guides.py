@@ -6,7 +6,10 @@ from exudyn.itemInterface import (
     MarkerNodeCoordinates,
     ObjectConnectorCoordinateVector,
     ObjectConnectorLinearSpringDamper,
+    ObjectGenericODE2,
+    VObjectGenericODE2,
 )
+from numpy.typing import NDArray
 
 from exu_press.joints import ClearanceJoint, add_ways_contact
 from exu_press.mechanism import Guide, Spring, Ways
@@ -14,6 +17,8 @@ from exu_press.model.system import System
 from exu_press.scene.laws import ways_contact_law, ways_friction_law
 
 __all__ = ["add_guide", "add_ways"]
+
+Array = NDArray[np.float64]
 
 
 def add_ways(system: System, guide: Guide, ways: Ways) -> tuple[ClearanceJoint, ClearanceJoint]:
@@ -47,6 +52,8 @@ def add_guide(system: System, guide: Guide) -> dict[str, int]:
     Returns:
         "force" and "moment", as far as it holds them, -> object number.
     """
+    if guide.body in system.flexible:
+        return _add_flexible_guide(system, guide)
     holds_across, holds_angle = system.holding.guides[guide.body]
     added = {}
     if guide.lateral is not None:
@@ -58,6 +65,63 @@ def add_guide(system: System, guide: Guide) -> dict[str, int]:
     elif holds_angle:
         added["moment"] = system.hold(guide.body, "angle")
     return added
+
+
+def _add_flexible_guide(system: System, guide: Guide) -> dict[str, int]:
+    """Do the same to the mean motion of the faces of a flexible body that lie in the guide.
+
+    Springs are one item with constant matrices, whose forces follow from the motion.
+    """
+    from exu_press.flexible import guided_motion
+
+    mbs, body = system.mbs, system.flexible[guide.body]
+    values, rows = guided_motion(mbs, body, system.parts[guide.body])
+    away = values - system.ideal[guide.body].position[0]
+    away[2] = np.remainder(away[2] + np.pi, 2.0 * np.pi) - np.pi
+    held = dict(zip(("force", "moment"), system.holding.guides[guide.body], strict=True))
+    springs = {"force": guide.lateral, "moment": guide.tilting}
+    directions = {"force": (*guide.across, 0.0), "moment": (0.0, 0.0, 1.0)}
+    nodes = [body.node_rigid, *([] if body.node_modes is None else [body.node_modes])]
+    added = {}
+    stiffness, damping = (np.zeros((rows.shape[1],) * 2) for _ in range(2))
+    force = np.zeros(rows.shape[1])
+    for quantity, direction in directions.items():
+        row, missed = direction @ rows, float(direction @ away)
+        spring = springs[quantity]
+        if spring is not None:
+            stiffness += spring.stiffness * np.outer(row, row)
+            damping += spring.damping * np.outer(row, row)
+            force -= spring.stiffness * missed * row
+        elif held[quantity]:
+            added[quantity] = _hold_row(system, nodes, row, missed)
+    if stiffness.any():
+        item = ObjectGenericODE2(
+            nodeNumbers=nodes,
+            stiffnessMatrix=stiffness,
+            dampingMatrix=damping,
+            forceVector=force,
+            visualization=VObjectGenericODE2(show=False),
+        )
+        mbs.AddObject(item)
+    return added
+
+
+def _hold_row(system: System, nodes: list[int], row: Array, missed: float) -> int:
+    """Hold a combination of a flexible body's coordinates, missed by so much at the reference."""
+    mbs = system.mbs
+    references = [np.array(mbs.GetNodeParameter(n, "referenceCoordinates")) for n in nodes]
+    frame = len(references[0])
+    offset = float(row @ np.concatenate(references)) - missed
+    markers = [mbs.AddMarker(MarkerNodeCoordinates(nodeNumber=node)) for node in nodes]
+    if len(nodes) == 1:
+        ground = mbs.AddMarker(MarkerNodeCoordinates(nodeNumber=system.ground_node))
+        markers, first, second = [ground, *markers], [], [row.tolist()]
+    else:
+        first, second = [(-row[:frame]).tolist()], [row[frame:].tolist()]
+    held = ObjectConnectorCoordinateVector(
+        markerNumbers=markers, scalingMarker0=first, scalingMarker1=second, offset=[offset]
+    )
+    return int(mbs.AddObject(held))
 
 
 def _hold_across(system: System, guide: Guide) -> int:

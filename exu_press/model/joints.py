@@ -1,9 +1,15 @@
 """The joints of a system: ideal ones as constraints, the others with clearance."""
 
+import math
 from typing import Any
 
 import exudyn as exu
-from exudyn.itemInterface import MarkerBodyRigid, ObjectJointGeneric, ObjectJointRevolute2D
+from exudyn.itemInterface import (
+    MarkerBodyRigid,
+    ObjectJointGeneric,
+    ObjectJointRevolute2D,
+    ObjectJointSpherical,
+)
 from exudyn.rigidBodyUtilities import RotationMatrixZ
 
 from exu_press.errors import InputError
@@ -86,10 +92,7 @@ def _hold_half(system: System, joint: Joint, half: HalfHeld) -> int:
     (body, point), end = (journal, bearing) if half.body == joint.journal else (bearing, journal)
     loose = [name for name in (body, end[0]) if name in system.flexible]
     if loose:
-        raise InputError(
-            f"bodies.{loose[0]}: other joints hold half of joints.{joint.name}; allowed is a "
-            "rigid body there, or such a joint with clearance"
-        )
+        return _hold_along(system, joint, half, loose[0])
     local, angle = point, half.angle
     if body != GROUND:
         local, angle = system.rigid[body].local(point), angle + system.rigid[body].turned
@@ -104,3 +107,22 @@ def _hold_half(system: System, joint: Joint, half: HalfHeld) -> int:
     number = int(system.mbs.AddObject(held))
     system.local_forces.add(number)
     return number
+
+
+def _hold_along(system: System, joint: Joint, half: HalfHeld, flexible: str) -> int:
+    """Hold a flexible body's joint in the one direction, where a guide keeps that along x or y."""
+    guided = {guide.body for guide in system.mechanism.guides}
+    angle = half.angle
+    if half.body != GROUND:
+        angle += float(system.ideal[half.body].position[0, 2])
+    axes = [round(abs(c), 9) for c in (math.cos(angle), math.sin(angle))]
+    if half.body not in {*guided, GROUND} or sorted(axes) != [0.0, 1.0]:
+        raise InputError(
+            f"bodies.{flexible}: other joints hold half of joints.{joint.name}; allowed is a "
+            "rigid body there, such a joint with clearance, or one between guides along x or y"
+        )
+    markers = [system.joint_marker(joint, *end) for end in system.mechanism.ends(joint)]
+    held = ObjectJointSpherical(
+        name=joint.name, markerNumbers=markers, constrainedAxes=[*map(int, axes), 0]
+    )
+    return int(system.mbs.AddObject(held))

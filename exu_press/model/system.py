@@ -55,8 +55,10 @@ class System:
         """Make a system with nothing but the frame in it."""
         self.scene, self.parts = scene, parts
         self.mechanism = mechanism_of(scene)
+        guided = {guide.body for guide in self.mechanism.guides} & scene.bodies.keys()
         self.holding = by_constraints(
-            holding_of(self.mechanism, scene.joints.ideal), _beside_flexible(scene, self.mechanism)
+            holding_of(self.mechanism, scene.joints.ideal),
+            _beside_flexible(scene, self.mechanism) | guided,
         )
         self.ideal = self.mechanism.motion(np.array([scene.start_angle]), scene.angular_speed)
         self.loads = {

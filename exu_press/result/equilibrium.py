@@ -13,6 +13,7 @@ from exu_press.mechanism import Motion
 from exu_press.model import Model
 from exu_press.result.channel import Channel
 from exu_press.result.forces import guide_channels, vectors
+from exu_press.result.joints import moments_in_plane
 
 __all__ = ["equilibrium"]
 
@@ -75,7 +76,7 @@ def _applied(
                 arm_y = x * np.sin(angle) + y * np.cos(angle)
                 force += on_body
                 moment += arm_x * on_body[:, 1] - arm_y * on_body[:, 0]
-                moment += [state.moments[end] for state in states.get(joint.name, ())] or 0.0
+                moment += [moments_in_plane(s)[end] for s in states.get(joint.name, ())] or 0.0
     for key, (load, _) in model.loads.items():
         if load.body == name:
             pressed = channels[f"load_{key}_force"].values

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.mechanism import Point
+from exu_press.mechanism import Motion, Point
 from exu_press.model import Model
 from exu_press.result.channel import Channel
 from exu_press.result.energy import work
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from exu_press.placed_part import PlacedPart
     from fe_models import ReducedPart
 
-__all__ = ["carried_motion", "deflection", "modal", "record_parts"]
+__all__ = ["carried_motion", "deflection", "guided_motion", "modal", "record_parts"]
 
 Array = NDArray[np.float64]
 
@@ -107,6 +107,25 @@ def carried_motion(
     place, modes = placed.carried(faces, point)
     q, q_t = modal(model, name, placed.reduced, count)
     return moving_point(model, name, place + q @ modes.T, q_t @ modes.T)
+
+
+def guided_motion(model: Model, name: str) -> Motion:
+    """Return the mean motion of the faces of a body that lie in its guide, (x, y, angle).
+
+    Where the body has its centre of mass; accelerations are left out.
+    """
+    placed = model.parts[name]
+    frame = frame_motion(model, name)
+    q, q_t = modal(model, name, placed.reduced, len(frame.position))
+    turn = placed.reduced.interface(placed.guide).rotation[2]
+    place, rate = carried_motion(model, name, (placed.guide,), (0.0, 0.0))
+    angle = frame.position[:, 2] + placed.angle + q @ turn
+    omega = frame.velocity[:, 2] + q_t @ turn
+    position, velocity = (
+        np.column_stack([vector[:, :2], angular])
+        for vector, angular in ((place, angle), (rate, omega))
+    )
+    return Motion(position, velocity, np.zeros_like(position))
 
 
 def modal(model: Model, name: str, part: "ReducedPart", count: int) -> tuple[Array, Array]:

@@ -33,7 +33,7 @@ def held_forces(model: Model) -> dict[str, Channel]:
             body = name.removesuffix("_guide")
             channels |= guide_channels(model, body, {quantity: -values[:, 0]})
         else:
-            if name in model.holding.half_held:
+            if name in model.holding.half_held and not _flexible(model, name):
                 values = _half_held(model, name, values[:, 0])
             channels[f"{name}_force"] = vectors(
                 values[:, :2], "N", f"{in_words}: force on journal", name in spherical
@@ -71,6 +71,11 @@ def frame_force(model: Model, channels: Mapping[str, Channel]) -> Channel:
             if force is not None:
                 on_bodies += np.outer(force.values, direction)
     return Channel(-on_bodies, "N", "force of shaft, pivots and guides on the frame", "plane")
+
+
+def _flexible(model: Model, joint: str) -> bool:
+    """Return whether a joint holds a flexible body."""
+    return any(joint in part.faces for part in model.parts.values())
 
 
 def _half_held(model: Model, joint: str, force: Array) -> Array:

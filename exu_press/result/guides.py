@@ -6,6 +6,7 @@ from numpy.typing import NDArray
 from exu_press.model import Model
 from exu_press.result.channel import Channel
 from exu_press.result.energy import work
+from exu_press.result.flexible import guided_motion
 from exu_press.result.forces import guide_channels
 from exu_press.result.joints import states_of, stored_and_lost
 
@@ -33,15 +34,31 @@ def record_guides(
         if not any(spring for spring, _ in springs):
             continue
         index, lost = names.index(guide.body), np.zeros_like(time)
-        for spring, direction in springs:
+        place, speed = position[:, index], velocity[:, index]
+        if guide.body in model.parts:
+            held = guided_motion(model, guide.body)
+            place, speed = held.position, held.velocity
+        place = place - _relaxed(model, guide.body)
+        loads = {}
+        for quantity, (spring, direction) in zip(("force", "moment"), springs, strict=True):
             if spring is not None:
-                away = position[:, index] - model.rigid[guide.body].reference
-                moved, rate = away @ np.array(direction), velocity[:, index] @ np.array(direction)
+                moved, rate = place @ np.array(direction), speed @ np.array(direction)
                 stored += 0.5 * spring.stiffness * moved**2
                 lost += work(time, spring.damping * rate, rate)
+                loads[quantity] = -(spring.stiffness * moved + spring.damping * rate)
+        if guide.body in model.parts:  # of others sensors tell it
+            channels |= guide_channels(model, guide.body, loads)
         channels |= guide_channels(model, guide.body, {"loss": lost})
         dissipated += lost
     return channels, stored, dissipated
+
+
+def _relaxed(model: Model, name: str) -> Array:
+    """Return the pose (3,) in which the springs of a body's guide are relaxed."""
+    if name in model.rigid:
+        return model.rigid[name].reference
+    start = model.mechanism.motion(np.array([model.scene.start_angle]), 1.0)[name]
+    return np.asarray(start.position[0])
 
 
 def record_ways(

@@ -12,7 +12,7 @@ from exu_press.result.energy import work
 from exu_press.result.forces import vectors
 from exu_press.result.motion import sensor
 
-__all__ = ["joint_states", "record_joints", "states_of", "stored_and_lost"]
+__all__ = ["joint_states", "moments_in_plane", "record_joints", "states_of", "stored_and_lost"]
 
 Array = NDArray[np.float64]
 
@@ -44,6 +44,12 @@ def stored_and_lost(states: Sequence[JointState], time: Array) -> tuple[Array, A
     return elastic, -work(time, loads, rates) - (elastic - elastic[0])
 
 
+def moments_in_plane(state: JointState) -> tuple[float, float]:
+    """Return the moments on journal and bearing about the z axis, N m; a ball's may have three."""
+    each = len(state.moments) // 2
+    return state.moments[each - 1], state.moments[-1]
+
+
 def record_joints(
     model: Model, histories: Mapping[str, Sequence[JointState]], time: Array
 ) -> tuple[dict[str, Channel], Array, Array]:
@@ -71,7 +77,7 @@ def record_joints(
                 spherical,
             ),
             f"{name}_moment": Channel(
-                np.array([state.moments for state in states]),
+                np.array([moments_in_plane(state) for state in states]),
                 "N m",
                 f"{in_words}: moment on journal and on bearing",
                 "ends",

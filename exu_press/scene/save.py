@@ -90,7 +90,7 @@ def table_lines(table: Table, comments: bool, *, absent: bool = False) -> list[s
 def body_lines(body: Flexible, comments: bool, *, absent: bool = False) -> list[str]:
     """Return the keys of a flexible body; arguments as those of `table_lines`."""
     meanings = {f.name: _meaning(f.metadata) for f in dataclasses.fields(body) if f.metadata}
-    meanings["faces"] = "joint = face's name, or {radius, z} of its cylinder; found by their axes"
+    meanings["faces"] = "joint = face's name, or {radius, z} of its cylinder; guide = {x, y, z}"
     return _given_lines(body_dict(body), meanings, comments, absent)
 
 

@@ -21,7 +21,7 @@ from exu_press.mechanism import (
     shipped_mechanism,
     slider_crank,
 )
-from exu_press.scene.bodies import DRIVE_FACE, Flexible, bodies_of, body_dict
+from exu_press.scene.bodies import DRIVE_FACE, GUIDE_FACE, Flexible, bodies_of, body_dict
 from exu_press.scene.changes import changed_keys
 from exu_press.scene.elastic import with_elastic_guides
 from exu_press.scene.joint import DEFAULT_KINDS, LAW_TABLES, joint_dict
@@ -119,18 +119,18 @@ class Scene(Table):
             object.__setattr__(self, name, None if name in unused else usual[name])
 
     def _settle_bodies(self) -> None:
-        """Say which bodies are flexible; those in guides are not."""
+        """Say which bodies are flexible; a guide with clearance holds rigid ones alone."""
         mechanism = mechanism_of(self)
         joints = {b.name: [j.name for j in mechanism.joints_of(b.name)] for b in mechanism.bodies}
         joints[mechanism.crank].append(DRIVE_FACE)
+        for guide in mechanism.guides:
+            joints[guide.body].append(GUIDE_FACE)
         bodies = bodies_of(self.bodies, mechanism.name, joints)
-        guided = {guide.body for guide in mechanism.guides}
-        for name in bodies:
-            if name in guided:
-                free = (body.name for body in mechanism.bodies if body.name not in guided)
+        for guide in mechanism.guides:
+            if guide.ways is not None and guide.body in bodies:
                 raise InputError(
-                    f"bodies.{name}: lies in a guide, which holds rigid bodies; allowed are "
-                    f"{', '.join(free)}"
+                    f"guide.clearance = {guide.ways.clearance!r}: the ways touch rigid bodies, and "
+                    f"bodies.{guide.body} is flexible; allowed is a guide without clearance"
                 )
         object.__setattr__(self, "bodies", bodies)
 

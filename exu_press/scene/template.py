@@ -85,7 +85,7 @@ def _a_flexible_body(scene: Scene) -> Iterator[str]:
     shipped = scene.shipped == "press"
     name = "linkage" if shipped else free[-1]
     example = Flexible("linkage" if shipped else "my_part.step")
-    yield f"[bodies.{name}]  # A flexible body: {', '.join(free)}; rigid without it."
+    yield f"[bodies.{name}]  # A flexible body: any one of the mechanism; rigid without it."
     for line in body_lines(example, True, absent=True):
         yield line.removeprefix("# ")
 

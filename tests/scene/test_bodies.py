@@ -21,8 +21,8 @@ def test_a_part_alone_or_with_its_keys():
         ("rigid", r"bodies = 'rigid': is bodies\.NAME now"),
         ({"linkige": "linkage"}, r"bodies\.linkige = 'linkage': press has no such body \(did you"),
         (
-            {"slide": "linkage"},
-            r"bodies\.slide: lies in a guide, which holds rigid bodies; allowed are crank, linkage",
+            {"linkage": {"flexible": "linkage", "faces": {"guide": "pin"}}},
+            r"bodies\.linkage\.faces\.guide: linkage has no such joint.*allowed are crank_pin",
         ),
         ({"linkage": {"modes": 4}}, r"bodies\.linkage\.flexible: missing"),
         ({"linkage": 3}, r"bodies\.linkage.* = 3: allowed is a table of keys"),

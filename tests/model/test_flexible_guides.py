@@ -1,0 +1,245 @@
+"""Flexible bodies in guides: the stiff limit is the rigid body, statics are those of the solid."""
+
+import numpy as np
+import pytest
+import scipy.sparse as sp
+from scipy.sparse.linalg import splu
+
+from exu_press import InputError, Scene, simulate
+from exu_press.model import build
+from exu_press.placed_part import placed_parts
+from exu_press.quasi_static import quasi_static_motion
+from exu_press.scene import mechanism_of
+
+pytest.importorskip("ngsolve")
+
+from netgen.occ import Axis as Line
+from netgen.occ import Box, Cylinder, Pnt, Sphere, Vec, Z
+
+from fe_models import CRANK_STEEL, Axis, Interface, Part, Patch, Sides, StepFile
+from fe_models.elasticity import full_model
+
+WRIST = -0.353  # m, of the shipped slider-crank at top dead centre
+WIDTH, BORE, LENGTH, MESH = 0.08, 0.02, 0.3, 0.05
+STEEL = 2.1e11
+
+
+def block(length=LENGTH):
+    """Return a square slider with a bore near its upper end, as drawn, mm."""
+    half, low = 500.0 * WIDTH, 1e3 * (WRIST - length)
+    solid = Box(Pnt(-half, low, -half), Pnt(half, 1e3 * WRIST + 60.0, half))
+    return solid - Cylinder(Pnt(0, 1e3 * WRIST, -100), Z, r=1e3 * BORE, h=200)
+
+
+@pytest.fixture(scope="module")
+def slider(tmp_path_factory):
+    """Return a function that writes a solid and returns the slider-crank with it as its slider."""
+    folder = tmp_path_factory.mktemp("sliders")
+
+    def scene(solid=None, name="block", body=None, **keys):
+        path = folder / f"{name}.step"
+        (solid or block()).WriteStep(str(path))
+        own = {"flexible": str(path), "mesh_size": MESH, "modes": 12, **(body or {})}
+        given = {"mechanism": "slider_crank", "joints": {}, "bodies": {"slider": own}, **keys}
+        return Scene(**given)
+
+    return scene
+
+
+def with_rigid(asked):
+    """Return the scene with the solid's centre of mass in its drawing, and the same one rigid."""
+    part = placed_parts(asked)["slider"]
+    y = part.centre_of_mass[1]
+    data = Scene(mechanism=mechanism_of(asked.replace("guide", None))).to_dict()["mechanism"]
+    data["bodies"]["slider"] |= {
+        "mass": part.reduced.mass,
+        "inertia": part.inertia,
+        "centre_of_mass": [0.0, WRIST + y],
+    }
+    given = {**asked.to_dict(), "mechanism": data}
+    given.pop("slider_crank")
+    rigid = {key: value for key, value in given.items() if key != "bodies"}
+    push = {key: value for key, value in given["load"]["push"].items() if key != "face"}
+    rigid["load"] = {"push": {**push, "offset": [0.0, -LENGTH - y]}}
+    return Scene.from_dict(given), Scene.from_dict(rigid)
+
+
+PUSH = {"kind": "table", "crank_angle_deg": [5, 20, 40], "force": [0.0, 1e4, 0.0]}
+BOTTOM = {"y": [WRIST - LENGTH - 1e-3, WRIST - LENGTH + 1e-3]}
+RUN = {"revolutions": 0.15, "speed_rpm": 200.0, "solver": {"step": 1e-4}}
+SOFT = {"lateral_stiffness": 2e8, "tilting_stiffness": 1e6, "damping_ratio": 0.5}
+STIFF = {"youngs_modulus": 1e16}
+
+
+def compared(flexible, rigid, channel, begin):
+    settled = rigid.time > begin * rigid.time[-1]
+    one, two = flexible[channel][settled], rigid[channel][settled]
+    return np.abs(one - two).max() / np.abs(two).max()
+
+
+@pytest.mark.parametrize("guide", [None, SOFT], ids=["ideal", "elastic"])
+@pytest.mark.parametrize("body", [STIFF, {"modes": 0}], ids=["stiff", "no modes"])
+def test_stiff_it_is_the_rigid_slider(slider, body, guide):
+    """In its motion, in the drive, and in what the guide bears, stores and loses."""
+    drawn = slider(body=body, load={"push": {**PUSH, "face": BOTTOM}}, guide=guide, **RUN)
+    flexible, rigid = with_rigid(drawn)
+    result, other = simulate(flexible), simulate(rigid)
+    assert result.completed and other.completed
+    # forces alternate in the first steps; a flexible body starts on springs that bear its weight
+    starts_bent = guide is not None and "modes" not in body
+    same = ["drive_torque", "slider_position", "wrist_pin_force", "guide_force", "guide_moment"]
+    if guide is not None and not starts_bent:
+        same += ["slider_lateral", "slider_tilt", "guide_loss", "energy_stored"]
+    for channel in same:
+        limit = 1e-3 if starts_bent else 1e-4
+        assert compared(result, other, channel, 0.7 if starts_bent else 0.2) < limit, channel
+    assert result["load_push_work"][-1] == pytest.approx(other["load_push_work"][-1], rel=1e-4)
+
+
+def pressed(asked, mean):
+    """Return how far a face moves against the pin under a force of 1 N at slow speed, m."""
+    model = build(asked)
+    mbs = model.mbs
+    turned = mbs.GetNodeODE2Index(model.nodes["crank"])
+    q, _ = quasi_static_motion(mbs, model.drive, turned, asked.angular_speed)
+    modes = q[mbs.systemData.GetNodeLTGODE2(model.nodes["slider_modes"])]
+    interface = model.parts["slider"].reduced.interface
+    moved = interface(mean).translation @ modes - interface("wrist_pin").translation @ modes
+    model.SC.Reset()
+    return moved[1]
+
+
+def load_of(force, length=LENGTH):
+    face = {"y": [WRIST - length - 1e-3, WRIST - length + 1e-3]}
+    values = {"kind": "table", "time": [0.0, 1.0], "force": [force, force]}
+    return {"push": {**values, "face": face}}
+
+
+STILL = {"gravity": 0.0, "speed_rpm": 1e-3, "start_angle_deg": 1.0}
+
+
+def test_a_force_compresses_it_as_all_finite_elements(slider):
+    """With the pin's mean motion held upright and the guide's across and about z."""
+    asked = slider(load=load_of(1e4), **STILL)
+    moved = pressed(asked, "load push")
+    low = WRIST - LENGTH
+    box = ((-np.inf, low - 1e-3, -np.inf), (np.inf, low + 1e-3, np.inf))
+    solid = StepFile(
+        asked.bodies["slider"].path,
+        1e-3,
+        axes={"pin": Axis((0.0, WRIST))},
+        patches={"guide": Sides((1.0, 0.0)), "bottom": (Patch(box=box),)},
+    )
+    interfaces = tuple(Interface(name) for name in ("pin", "guide", "bottom"))
+    model = full_model(Part("block", solid, CRANK_STEEL, interfaces, MESH))
+    faces = model.faces
+    rows = sp.vstack([faces["pin"].rows[[1, 2, 3, 4]], faces["guide"].rows[[0, 5]]])
+    force = faces["bottom"].rows[1].toarray().ravel() * 1e4
+    matrix = sp.bmat([[model.stiffness, 1e9 * rows.T], [1e9 * rows, None]]).tocsc()
+    found = splu(matrix).solve(np.concatenate([force, np.zeros(rows.shape[0])]))
+    assert moved == pytest.approx((faces["bottom"].rows @ found[: model.unknowns])[1], rel=1e-4)
+
+
+def test_longer_by_a_length_it_gives_way_by_that_over_ea(slider):
+    """What the pin's surroundings add is the same for both."""
+    moved = [
+        pressed(
+            slider(block(length), f"long {length}", load=load_of(1e4, length), **STILL), "load push"
+        )
+        for length in (0.3, 0.5)
+    ]
+    assert moved[1] - moved[0] == pytest.approx(1e4 * 0.2 / (STEEL * WIDTH**2), rel=2e-3)
+
+
+def test_the_balance_closes_and_the_solid_may_be_drawn_on_its_own(slider):
+    """Lying on its side about its pin: the same run, in an ideal and in an elastic guide."""
+    side = block().Move(Vec(0, -1e3 * WRIST, 0)).Rotate(Line(Pnt(0, 0, 0), Z), 90.0)
+    bottom = {"x": [LENGTH - 1e-3, LENGTH + 1e-3]}
+    run = {**RUN, "solver": {"tolerance": 1e-4}, "revolutions": 0.12}
+    for guide in (None, {}):
+        drawn = slider(load={"push": {**PUSH, "face": BOTTOM}}, guide=guide, **run)
+        place = {"origin": [0.0, WRIST], "angle_deg": -90.0}
+        turned = slider(
+            side, "side", place, load={"push": {**PUSH, "face": bottom}}, guide=guide, **run
+        )
+        result, other = simulate(drawn), simulate(turned)
+        assert result.completed
+        assert result.summary()["energy"]["residual"] < 1e-3
+        assert result["slider_strain_energy"].max() > 1e-3
+        assert result["slider_position"][-1] == pytest.approx(
+            other["slider_position"][-1], abs=1e-8
+        )
+        assert np.abs(result["guide_force"]).max() == pytest.approx(
+            np.abs(other["guide_force"]).max(), rel=1e-2
+        )
+
+
+@pytest.mark.parametrize("kind", ["ideal", "dry"])
+def test_balls_carry_a_flexible_ram(tmp_path, kind):
+    """Of the eccentric press; ideal balls hold half, along the parallel guides.
+
+    Dry ones hit while the ram follows the slide.
+    """
+    mechanism = mechanism_of(Scene(mechanism="eccentric_press"))
+    balls = [joint for joint in mechanism.joints if joint.spherical]
+    reach = max(abs(joint.at[0]) for joint in balls) + 0.06
+    top = balls[0].at[1]
+    solid = Box(Pnt(-1e3 * reach, 1e3 * top - 150, -60), Pnt(1e3 * reach, 1e3 * top, 60))
+    for ball in balls:
+        solid -= Sphere(Pnt(1e3 * ball.at[0], 1e3 * top, 0), 30)
+    path = tmp_path / "ram.step"
+    solid.WriteStep(str(path))
+    scene = Scene(
+        mechanism="eccentric_press",
+        joints={"balls": kind},
+        bodies={"ram": {"flexible": str(path), "mesh_size": 0.1, "modes": 8}},
+        revolutions=0.06 if kind == "dry" else 0.3,
+    )
+    result = simulate(scene)
+    assert result.completed
+    assert result.summary()["energy"]["residual"] < 2e-3
+    carried = sum(result[f"{ball.name}_force"][:, 1] for ball in balls)
+    lifted = result.info["solids"]["ram"]["mass"] * (9.81 + result["slider_acceleration"])
+    sign = 1.0 if balls[0].journal == "ram" else -1.0
+    if kind == "ideal":
+        assert sign * carried == pytest.approx(lifted, rel=1e-2)
+
+
+@pytest.mark.parametrize(
+    ("keys", "message"),
+    [
+        (
+            {"guide": {"clearance": 5e-5}},
+            r"guide\.clearance = 5e-05: the ways touch rigid bodies, and bodies\.slider is",
+        ),
+        ({"body": {"faces": {"guide": {"radius": 1.0}}}}, r"faces\.guide\.radius = 1\.0: unknown"),
+        ({"body": {"faces": {"guide": {}}}}, r"faces\.guide = \{\}: allowed is a face's name, or"),
+        ({"body": {"faces": {"wrist_pin": {"x": [0, 1]}}}}, r"faces\.wrist_pin\.x = \[0, 1\]: unk"),
+        (
+            {"body": {"faces": {"guide": {"x": [1.0, 2.0]}}}},
+            r"no face for guide lies wholly within x = \[1, 2\]; the solid fills x = \[-0\.04, 0\.",
+        ),
+        (
+            {"body": {"angle_deg": 45.0, "origin": [-0.2496, -0.1034]}},
+            r"lies about wrist_pin|no plane faces on both sides across the guide",
+        ),
+        (
+            {"body": {"faces": {"guide": {"x": [-0.021, 0.021], "y": [-0.38, -0.33]}}}},
+            r"wrist_pin and guide hold the same face",
+        ),
+    ],
+)
+def test_what_is_refused_in_one_line(slider, keys, message):
+    with pytest.raises(InputError, match=message) as refused:
+        placed_parts(slider(**{**keys, "body": {"modes": 0, **keys.get("body", {})}}))
+    assert "\n" not in str(refused.value)
+
+
+def test_a_ball_lies_in_the_plane(tmp_path):
+    solid = Box(Pnt(-250, -653, -60), Pnt(250, -503, 160))
+    for x in (-165.5, 165.5):
+        solid -= Sphere(Pnt(x, -503, 50), 30)
+    solid.WriteStep(str(tmp_path / "ram.step"))
+    body = {"flexible": str(tmp_path / "ram.step"), "mesh_size": 0.1, "modes": 0}
+    with pytest.raises(InputError, match=r"ball_left has its centre at z = 0\.05 m of .*ra"):
+        placed_parts(Scene(mechanism="eccentric_press", joints={}, bodies={"ram": body}))

@@ -50,6 +50,11 @@ class Block:
         return named[1] if named else None
 
     @property
+    def shortened(self) -> list[str]:
+        """What shows that the commands run, in a tenth of a revolution unless more is looked at."""
+        return [] if re.search("--at |--from ", self.text) else ["--set", "revolutions=0.1"]
+
+    @property
     def commands(self) -> list[str]:
         """The shell commands to run."""
         lines = [line.partition("  #")[0].strip() for line in self.text.splitlines()]
@@ -66,7 +71,7 @@ def blocks_of(page: Path) -> list[Block]:
     ]  # fmt: skip
 
 
-def run_block(block: Block, place: Path) -> None:
+def run_block(block: Block, place: Path, *, short: bool = False) -> None:
     """Do what the block says, in a directory; what goes wrong is an AssertionError."""
     if block.file:
         (place / block.file).write_text(block.text, encoding="utf-8")
@@ -76,11 +81,11 @@ def run_block(block: Block, place: Path) -> None:
         read(block, place)
     elif block.language == "sh":
         for command in block.commands:
-            written = run_command(command, place)
+            written = run_command(command, place, block.shortened if short else [])
             assert all(path.exists() for path in written), (command, written)
 
 
-def run_command(command: str, place: Path) -> list[Path]:
+def run_command(command: str, place: Path, shortened: list[str]) -> list[Path]:
     """Run a shell command of ours; return the files and directories that it was to write."""
     words = shlex.split(command)
     name = Path(words[0]).name
@@ -93,6 +98,7 @@ def run_command(command: str, place: Path) -> list[Path]:
             words.append("--no-pictures")  # longer than the run; tests/plots has them
         if words[1] in ("run", "compare") and "--within" not in words:
             words.append("--no-error")  # as long as the run; tests/confidence has them
+            words += shortened if "revolutions=" not in command else []
     run(words, place)
     return [place / value for option, value in pairwise(words) if option in ("--out", "--save")]
 

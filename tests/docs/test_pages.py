@@ -1,4 +1,7 @@
-"""Every command and every code block of the README and of docs/ runs, as a reader runs them."""
+"""Every command and every code block of the README and of docs/ runs, as a reader runs them.
+
+The quick tests shorten the runs of those that only show that they run.
+"""
 
 import re
 import subprocess
@@ -30,7 +33,7 @@ def test_both_setup_commands_stand_in_the_readme():
 def test_page(page, tmp_path):
     for block in pages.blocks_of(page):
         if not block.long:
-            pages.run_block(block, tmp_path)
+            pages.run_block(block, tmp_path, short=True)
 
 
 @pytest.mark.long

@@ -166,7 +166,7 @@ def test_bristle_of_a_ball_works_in_space():
         radius=RADIUS, clearance=CLEARANCE, contact=CONTACT, friction=bristle,
     )  # fmt: skip
     sensor = add_joint_sensor(mbs, joint)
-    run(mbs, 2e-3, 1e-6)
+    run(mbs, 2e-3, 4e-6)
     record = np.asarray(mbs.GetSensorStoredData(sensor))
     force, eccentricity = record[:, 4:7], record[:, 1:4]
     normal = eccentricity / np.linalg.norm(eccentricity, axis=1)[:, None]

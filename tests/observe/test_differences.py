@@ -11,7 +11,20 @@ def test_only_what_errors_leave_open_is_named():
     dry = {"errors": {"stroke": told(1.0, 1.1), "peak_velocity": told(2.0, 2.5)}}
     oil = {"errors": {"stroke": told(1.2, 1.3), "peak_velocity": told(2.4, 2.6)}}
     lines = difference_lines({"dry": dry, "oil": oil})
-    assert lines == ["dry, oil: differences are real but for peak_velocity"]
+    assert lines == ["dry, oil: all differences exceed their errors, except in peak_velocity"]
+
+
+def test_rounding_is_no_difference():
+    """A slider in guides without play does not tilt."""
+    one, other = (
+        {"errors": {"slider_tilt": told(0.0, 2e-17)}},
+        {"errors": {"slider_tilt": told(0.0, 1e-17)}},
+    )
+    assert difference_lines({"dry": one, "oil": other}) == [
+        "dry, oil: all differences exceed their errors"
+    ]
+    one["scene"] = {"guide": {}}
+    assert difference_lines({"dry": one, "oil": other})[0].endswith("slider_tilt")
 
 
 def test_nothing_is_said_without_errors():

@@ -8,3 +8,10 @@ class InputError(ValueError):
 
     The command line prints the message in one line and exits with status 2.
     """
+
+    def __str__(self) -> str:
+        """Return the message; what no terminal can show of a name in a file stands as in Python."""
+        return "".join(
+            letter if letter.isprintable() or letter == "\n" else repr(letter)[1:-1]
+            for letter in super().__str__()
+        )

@@ -48,17 +48,6 @@ def test_balance_with_blanking(variant):
     assert result.summary()["energy"]["residual"] < 1e-3
 
 
-@pytest.mark.parametrize(
-    "variant",
-    [PRESS[0], PRESS[3], PRESS[4], SLIDER_CRANK[2]],
-    ids=str,
-)
-def test_balance_without_load(variant):
-    result = run(with_steps(variant))
-    assert "load_blanking_force" not in result
-    assert result.summary()["energy"]["residual"] < 1e-3
-
-
 @pytest.mark.parametrize("law", ["pi_film", "short"])
 def test_balance_of_other_films(law):
     scene = with_steps(SLIDER_CRANK[2], film={"law": law})

@@ -6,10 +6,9 @@ import pytest
 from exudyn.itemInterface import (
     LoadMassProportional,
     MarkerBodyMass,
-    NodeRigidBody2D,
     ObjectGround,
-    ObjectRigidBody2D,
 )
+from solving import fixed_steps, planar_body, solve
 
 from exu_press import (
     add_dry_revolute,
@@ -28,11 +27,9 @@ STIFFNESS, CLEARANCE = 2.5545e10, 1e-4
 @pytest.mark.parametrize("mass", [50.0, 1500.0])
 def test_penetration_at_rest(add, mass):
     """(m g / K)^(2/3), to 1e-3; the damping is chosen to settle within the run."""
-    SC = exu.SystemContainer()  # noqa: N806 - Exudyn's own name
-    mbs = SC.AddSystem()
+    mbs = exu.SystemContainer().AddSystem()
     ground = mbs.AddObject(ObjectGround())
-    node = mbs.AddNode(NodeRigidBody2D(referenceCoordinates=[0.0, -CLEARANCE, 0.0]))
-    body = mbs.AddObject(ObjectRigidBody2D(nodeNumber=node, mass=mass, inertia=1.0))
+    body, node = planar_body(mbs, mass, 1.0, (0.0, -CLEARANCE, 0.0))
     marker = mbs.AddMarker(MarkerBodyMass(bodyNumber=body))
     mbs.AddLoad(LoadMassProportional(markerNumber=marker, loadVector=[0.0, -9.81, 0.0]))
     depth = (mass * 9.81 / STIFFNESS) ** (2 / 3)
@@ -47,13 +44,9 @@ def test_penetration_at_rest(add, mass):
         friction=no_friction(),
     )
     mbs.Assemble()
-    settings = exu.SimulationSettings()
-    settings.timeIntegration.endTime = 0.05
-    settings.timeIntegration.numberOfSteps = 2500
+    settings = fixed_steps(0.05, 2e-5)
     settings.timeIntegration.generalizedAlpha.spectralRadius = 0.8
-    settings.timeIntegration.verboseMode = 0
-    settings.solution.file.write = False
-    mbs.SolveDynamic(settings)
+    solve(mbs, settings)
     q = list(mbs.GetNodeOutput(node, exu.OutputVariableType.Coordinates))
     q_t = list(mbs.GetNodeOutput(node, exu.OutputVariableType.Coordinates_t))
     ground_coordinates = [0.0, 0.0, 0.0]
@@ -66,11 +59,9 @@ def test_penetration_at_rest(add, mass):
 @pytest.mark.parametrize("place", [0.0, 5e-5])
 @pytest.mark.parametrize("law", [pinkus(), finite(0.7)])
 def test_a_body_in_a_film_stays_where_nothing_moves_it(law, place):
-    SC = exu.SystemContainer()  # noqa: N806 - Exudyn's own name
-    mbs = SC.AddSystem()
+    mbs = exu.SystemContainer().AddSystem()
     ground = mbs.AddObject(ObjectGround())
-    node = mbs.AddNode(NodeRigidBody2D(referenceCoordinates=[place, 0.0, 0.0]))
-    body = mbs.AddObject(ObjectRigidBody2D(nodeNumber=node, mass=10.0, inertia=1.0))
+    body, node = planar_body(mbs, 10.0, 1.0, (place, 0.0, 0.0))
     ends = (body, (0.0, 0.0)), (ground, (0.0, 0.0))
     size = {"radius": 0.07, "clearance": CLEARANCE, "length": 0.1, "viscosity": 0.1}
     add_lubricated_revolute(mbs, *ends, **size, law=law)

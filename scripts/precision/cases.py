@@ -74,7 +74,7 @@ def cases() -> tuple[Case, ...]:
         Case(
             "press_flexible_dry",
             "Press, flexible (20 modes), dry pin and dry balls, 0.1 mm",
-            _press("dry", "dry", bodies=flexible_press(), revolutions=0.5),
+            _press("dry", "dry", bodies=flexible_press(), revolutions=0.25),
             steps=STEPS[3:9],
             tolerances=TOLERANCES[:10],
             reference_tolerance=3e-6,

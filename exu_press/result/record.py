@@ -1,7 +1,9 @@
 """From a model's sensors to the channels of a result."""
 
+import functools
 import importlib.metadata
 import platform
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -122,7 +124,6 @@ def record(model: Model, outcome: Outcome) -> Result:
 def _info(model: Model, outcome: Outcome, worst: dict[str, Stress]) -> Info:
     """Return status, statistics, sizes and versions."""
     mbs = model.mbs
-    packages = ("exu-press", "exudyn", "numpy", "scipy")
     info: Info = {
         "status": outcome.status.value,
         "reason": outcome.reason,
@@ -136,10 +137,7 @@ def _info(model: Model, outcome: Outcome, worst: dict[str, Stress]) -> Info:
         "coordinates": mbs.systemData.ODE2Size(),
         "bodies": len(model.nodes),
         "connectors": mbs.systemData.NumberOfObjects() - len(model.nodes) - 1,
-        "versions": {
-            "python": platform.python_version(),
-            **{name: importlib.metadata.version(name) for name in packages},
-        },
+        "versions": dict(_versions()),
     }
     if model.parts:
         info["stress"] = worst
@@ -153,3 +151,11 @@ def _info(model: Model, outcome: Outcome, worst: dict[str, Stress]) -> Info:
             for name, part in model.parts.items()
         }
     return info
+
+
+@functools.cache
+def _versions() -> Mapping[str, str]:
+    """Return the versions behind a result; looking them up takes a tenth of a short run."""
+    packages = ("exu-press", "exudyn", "numpy", "scipy")
+    found = {name: importlib.metadata.version(name) for name in packages}
+    return {"python": platform.python_version(), **found}

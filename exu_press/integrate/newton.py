@@ -53,13 +53,14 @@ class Newton:
         self._multipliers_before = problem.start.multipliers
         self._expected: Any = np.zeros(len(current.positions))
         self._change: Any = np.zeros(len(current.positions))
-        self._quaternions: list[tuple[Any, Any, Any]] = []  # reference, position, acceleration
+        # where they begin among the coordinates, their reference values, their displacements
+        self._quaternions: list[tuple[int, list[float], Any]] = []
         for node in problem.nodes:
             if node.quaternion:
-                four = slice(node.start + node.size - 4, node.start + node.size)
-                self._quaternions.append(
-                    (problem.reference[four], current.positions[four], self._expected[four])
-                )
+                first = node.start + node.size - 4
+                four = slice(first, first + 4)
+                reference: list[float] = problem.reference[four].tolist()
+                self._quaternions.append((first, reference, current.positions[four]))
         self._ratio = self._beta = self._gamma = 0.0
         self._now: list[float] = []  # accelerations at the end of the last accepted step
         self._rate: list[float] = []  # of change, in the last step
@@ -104,24 +105,37 @@ class Newton:
 
         As Newton's method adds an increment of them.
         """
-        expected, change = self._expected, self._change
-        now, rate = self._now, self._rate
+        values, rate, change = self._now, self._rate, self._change
         if rate:
             ahead = min(step, REACH * self._last)
-            expected[:] = [now[i] + ahead * rate[i] for i in range(len(rate))]
-        else:
-            expected[:] = now
+            values = [values[i] + ahead * rate[i] for i in range(len(rate))]
         by_q = step * step * self._ratio * self._beta
-        for reference, position, rotation_tt in self._quaternions:
-            turned = reference + position + by_q * rotation_tt
-            length = math.sqrt(float(turned.dot(turned)))
-            rotation_tt += (1.0 / length - 1.0) / by_q * turned
+        if self._quaternions:
+            values = self._on_the_sphere(values, by_q)
+        expected = self._expected
+        expected[:] = values
         np.multiply(expected, by_q, out=change)
         self._positions += change
         np.multiply(expected, step * self._ratio * self._gamma, out=change)
         self._velocities += change
         self._accelerations[:] = expected
         self._multipliers[:] = self._multipliers_before
+
+    def _on_the_sphere(self, values: list[float], by_q: float) -> list[float]:
+        """Return expected accelerations with which Euler parameters have unit length.
+
+        In floats: half as long as arrays of four take.
+        """
+        values = values.copy()
+        for first, reference, displacement in self._quaternions:
+            moved: list[float] = displacement.tolist()
+            turned = [reference[k] + moved[k] + by_q * values[first + k] for k in range(4)]
+            vector = np.array(turned)
+            length = math.sqrt(float(vector.dot(vector)))
+            longer = (1.0 / length - 1.0) / by_q
+            for k in range(4):
+                values[first + k] += longer * turned[k]
+        return values
 
     def _tolerance(self) -> float:
         """Return to what Newton's method is to balance forces, N."""
@@ -161,6 +175,8 @@ class FlexibleJacobian:
         self._most = 0 if self._joints is None else task.tuning.jacobian_steps
         self._step, self._age = 0.0, 0  # the step that the last one was made for, and steps since
         self._bodies: Array | None = None
+        self._factors = 0.0, 0.0  # of stiffness and damping, and what they make of them
+        self._combined: Array = np.zeros((0, 0))
         self._jacobian: Array = np.zeros((0, 0))
         task.solver.SetUserFunctionComputeNewtonJacobian(task.problem.mbs, self._compute)
 
@@ -189,7 +205,10 @@ class FlexibleJacobian:
         inertia = (1.0 - solver.alphaM) / (1.0 - solver.alphaF)
         bodies = jacobian[:size, :size]
         np.multiply(solver.GetSystemMassMatrix(), inertia, out=bodies)
-        bodies += np.dot((by_q, by_q_t), self._bodies).reshape(size, size)
+        if (by_q, by_q_t) != self._factors:
+            self._factors = by_q, by_q_t
+            self._combined = np.dot(self._factors, self._bodies).reshape(size, size)
+        bodies += self._combined
         if self._joints is not None:
             self._joints.add_slopes(jacobian, by_q, by_q_t)
         solver.SetSystemJacobian(jacobian)

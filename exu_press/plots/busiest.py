@@ -52,7 +52,7 @@ def rest_lines(result: Result, rest: Mapping[str, str]) -> list[str]:
     return columns(cells)
 
 
-def draw_rest(axes: Axes, result: Result, rest: Mapping[str, str], size: float = 8.0) -> None:
+def draw_rest(axes: Axes, result: Result, rest: Mapping[str, str], size: float) -> None:
     """Write the table of the joints that are not drawn into a panel of its own."""
     axes.set_axis_off()
     text = axes.text(

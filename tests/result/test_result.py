@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from exu_press import InputError, Result, Scene, simulate
+from exu_press import InputError, Scene, simulate
 from exu_press.scene import mechanism_of
 
 SCENE = {"mechanism": "press", "revolutions": 0.02, "solver": {"step": 1e-4}}
@@ -52,10 +52,6 @@ def test_run_starts_on_the_ideal_mechanism_with_centred_journals(result):
         assert np.abs(result[f"{joint}_eccentricity"][0]).max() < 1e-12
     assert result["slider_position"][0] == pytest.approx(0.47 + 26.19e-3, abs=0.02e-3)
     assert result["slider_velocity"][0] == pytest.approx(0.0, abs=1e-9)
-
-
-def test_clearance_joints(result):
-    assert sorted(result.clearance_joints) == ["ball_left", "ball_right", "crank_pin"]
 
 
 def test_unknown_channel_shows_the_known_ones(result):
@@ -105,13 +101,3 @@ def test_summary_has_what_the_interface_promises(result):
 def test_summary_is_strict_json(result):
     text = json.dumps(result.summary(), allow_nan=False)
     assert json.loads(text) == result.summary()
-
-
-def test_summary_holds_the_complete_scene(result):
-    assert Scene.from_dict(result.summary()["scene"]) == result.scene
-
-
-def test_result_is_a_plain_object(result):
-    assert isinstance(result, Result)
-    assert result.completed
-    assert len(list(result)) == len(result.channels)

@@ -163,11 +163,6 @@ def test_joints_must_be_a_table():
         Scene(joints=3)
 
 
-def test_a_film_that_no_joint_has_is_refused():
-    with pytest.raises(InputError, match=r"\[film\]: not used by this scene"):
-        Scene(joints={"crank_pin": "dry"}, film={})
-
-
 def test_an_unknown_joint_is_named():
     with pytest.raises(InputError, match=r"press has no such joint \(did you mean 'crank_pin'"):
         Scene().joints["crankpin"]

@@ -97,10 +97,6 @@ def test_shipped_scenes_load(path):
     assert path.stem.startswith(load_scene(path).mechanism)
 
 
-def test_there_are_shipped_scenes():
-    assert {path.stem for path in SHIPPED} >= {"press", "slider_crank"}
-
-
 def test_assignments_change_the_file(tmp_path):
     path = write(tmp_path, "speed_rpm = 300\n[film]\nviscosity = 0.1")
     scene = load_scene(path, ["speed_rpm=200", "film.viscosity = 0.2", "film.law=pi_film"])

@@ -382,7 +382,7 @@ class StepError:
         solver = self._solver
         jacobian = np.asarray(solver.GetSystemJacobian())
         right = np.zeros(len(jacobian))
-        right[: len(change)] = np.asarray(solver.GetSystemMassMatrix()) @ change
+        right[: len(change)] = np.dot(solver.GetSystemMassMatrix(), change)
         right *= (1.0 - solver.alphaM) / (1.0 - solver.alphaF)
         try:
             filtered = np.linalg.solve(jacobian, right)[: len(change)]

@@ -24,8 +24,9 @@ class Example:
         positions: whether errors are those of positions: velocities jump in impacts, and a
             millionth of a second makes errors as large as they are.
         finest: tolerance that the system itself can follow.
-        turned: error over tolerance that is allowed over the whole run. The angle of what turns
-            many times is off by the speed's error times as many radians.
+        most: error over tolerance that is allowed over the whole run. The angle of what turns many
+            times is off by the speed's error times as many radians.
+        twin: name of the example with the same motion whose run is the reference.
         source: the example of Exudyn's repository after which it is written, or what it shows.
     """
 
@@ -36,7 +37,8 @@ class Example:
     steps: int = 100
     positions: bool = False
     finest: float = 1e-6
-    turned: float = 10.0
+    most: float = 10.0
+    twin: str = ""
     change: Callable[[Any], None] = field(default=lambda settings: None)
 
     def settings(self, end: float, steps: int | None = None) -> exu.SimulationSettings:

@@ -9,7 +9,11 @@ Run with: python scripts/flexible_parts.py [--quick] [--out DIR]
 import sys
 from pathlib import Path
 
-from exu_press import Scene, simulate
+from exu_press import Result, Scene, simulate
+from exu_press.columns import columns
+from exu_press.confidence.companions import plan
+from exu_press.confidence.run import errors_of
+from exu_press.observe.uncertain import uncertain
 from exu_press.scene import flexible_press
 from fe_models import clamped_frequencies, draw_mode_shapes, shipped_part
 
@@ -37,16 +41,25 @@ for name in PUBLISHED_HZ:
     part = shipped_part(name, mesh_size) if quick else shipped_part(name)
     draw_mode_shapes(part, out / f"modes_{name}.png")
 
-print(f"\n{'lubricated press, 240 rpm':34} {'m/s^2':>9} {'over 1 ms':>9} {'um':>9} {'MPa':>9}")
+
+def figures(run: Result) -> dict[str, float]:
+    """Return the columns of the last table that a run has, in their units."""
+    peaks = run.summary()["peak_acceleration"]
+    found = {"acceleration": peaks["resolved"], "mean_1ms": peaks["mean_1ms"]}
+    if "crank_pin_deflection" in run:
+        found["deflection"] = 1e6 * abs(run["crank_pin_deflection"]).max()
+        stress = [part["von_mises"] for part in run.info["stress"].values()]
+        found["stress"] = 1e-6 * max(stress)
+    return found
+
+
+rows = [("lubricated press, 240 rpm", "m/s^2", "over 1 ms", "um", "MPa")]
 scene = Scene(revolutions=0.01 if quick else 0.2)
 flexible = scene.replace(bodies=flexible_press())
 second = scene.replace(bodies={"crank": "crank_2", "linkage": "linkage_2"})
 for label, case in (("rigid", scene), ("flexible", flexible), ("flexible, second shapes", second)):
-    result = simulate(case)
-    peaks = result.summary()["peak_acceleration"]
-    row = f"{label:34} {peaks['resolved']:9.1f} {peaks['mean_1ms']:9.2f}"
-    if "crank_pin_deflection" in result:
-        throw = abs(result["crank_pin_deflection"]).max() * 1e6
-        stress = max(part["von_mises"] for part in result.info["stress"].values()) * 1e-6
-        row += f" {throw:9.1f} {stress:9.1f}"
-    print(row)
+    result, beside = simulate(case), plan(case).items()
+    told = errors_of(result, ((r, simulate(one)) for r, one in beside), figures)["errors"]
+    texts = [uncertain(value, told[name]) for name, value in figures(result).items()]
+    rows.append((label, *texts, *[""] * (4 - len(texts))))
+print("", *columns(rows), sep="\n")

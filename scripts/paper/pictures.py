@@ -107,8 +107,8 @@ def sweeps_figure(study: Study) -> Figure:
             if theirs:
                 axes.plot(*zip(*theirs, strict=True), linestyle="none", label="paper", **PAPER)
             axes.set_xticks(at)
-            axes.margins(x=0.08, y=0.12)
-            axes.set_ylim(bottom=0.0)
+            axes.margins(x=0.08)
+            axes.set_ylim(0.0, 1.1 * axes.get_ylim()[1])
             said = {t.figure: t.stated for t in published().trends if t.measure == measure}
             name = f"Fig. {FIGURES[row][column]}"
             axes.set_title(f"{name}: {said[name]}, says the paper", fontsize=10)

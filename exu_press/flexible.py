@@ -6,7 +6,7 @@ the frame by two faces along its axis by these, any other one by the mean of its
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import exudyn as exu
@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 
 from exu_press.errors import InputError
 from exu_press.joints import FlexiblePoint
-from exu_press.mechanism import GROUND, Joint, Mechanism, Motion, Point
+from exu_press.mechanism import GROUND, Guide, Joint, Mechanism, Motion, Point
 from exu_press.placed_part import PlacedPart
 from exu_press.scene.applied import AppliedLoad
 from fe_models import FlexibleBody, add_flexible_body
@@ -37,6 +37,7 @@ __all__ = [
     "FrameStart",
     "add_part",
     "deformed",
+    "fitted_to_guide",
     "guided_motion",
     "hold_driven",
     "hold_pivot",
@@ -256,6 +257,46 @@ def hold_driven(mbs: exu.MainSystem, disc: int, body: FlexibleBody, part: Placed
     mbs.AddObject(ObjectJointRevolute2D(markerNumbers=pin))
     length = float(np.linalg.norm(arm))
     mbs.AddObject(ObjectConnectorDistance(markerNumbers=link, distance=length))
+
+
+def fitted_to_guide(
+    start: FrameStart, part: PlacedPart, guide: Guide, held: tuple[bool, bool], pose: Array
+) -> FrameStart:
+    """Return the start that fits what an ideal guide holds of a body.
+
+    Where all joints are ideal others may hold it: ball joints, which give way with their bodies.
+
+    Args:
+        start: deformed.
+        part: of the body.
+        guide: of the body.
+        held: whether the guide holds the displacement across it, and the angle.
+        pose: x, y (m) and angle (rad) of the ideal mechanism's start.
+    """
+    if start.modes is None or start.modes_t is None:
+        return start
+    place, modes = part.carried((part.guide,), (0.0, 0.0))
+    bent = part.reduced.interface(part.guide).rotation[2]
+    omega = start.angular_velocity.copy()
+    rotation = start.rotation
+    if held[1]:
+        angle = np.arctan2(rotation[1, 0], rotation[0, 0]) + part.angle + bent @ start.modes
+        rotation = RotationMatrixZ(float(pose[2] - angle)) @ rotation
+        omega[2] = -float(bent @ start.modes_t)
+    position, velocity = start.position, start.velocity
+    if held[0]:
+        across = np.array([*guide.across, 0.0])
+        arm = rotation @ (place + modes @ start.modes)
+        rate = velocity + np.cross(omega, arm) + rotation @ (modes @ start.modes_t)
+        position = position - across * (across @ (position + arm - [pose[0], pose[1], 0.0]))
+        velocity = velocity - across * (across @ rate)
+    return replace(
+        start,
+        position=position,
+        rotation=np.asarray(rotation),
+        velocity=velocity,
+        angular_velocity=omega,
+    )
 
 
 def guided_motion(mbs: exu.MainSystem, body: FlexibleBody, part: PlacedPart) -> tuple[Array, Array]:

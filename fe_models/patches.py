@@ -43,10 +43,10 @@ def name_patches(
     before = [face.name for face in shape.faces]
     taken: dict[int, str] = {i: name for i, name in enumerate(before) if name in held}
     for name, patch in patches.items():
-        found = _sides(shape, patch, name, where) if isinstance(patch, Sides) else set()
-        if not isinstance(patch, Sides):
-            for one in patch:
-                found |= _faces(shape, before, held, one, name, where)
+        if isinstance(patch, Sides):
+            found = _sides(shape, patch, name, where)
+        else:
+            found = set().union(*(_faces(shape, before, held, one, name, where) for one in patch))
         for i in sorted(found):
             if i in taken:
                 raise InputError(

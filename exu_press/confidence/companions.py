@@ -11,7 +11,6 @@ import time
 from collections.abc import Iterator
 from multiprocessing.process import BaseProcess
 from pathlib import Path
-from types import TracebackType
 
 from exu_press.confidence import companion
 from exu_press.result import Result
@@ -19,8 +18,10 @@ from exu_press.scene import Scene
 
 __all__ = ["Companions", "plan"]
 
+OF_STEPS = (2.0, 3.0, 4.0)
+"""Fixed steps of the companions over the run's: their errors and cost go with the step."""
+
 PLANS: dict[str, dict[float, tuple[float, ...]]] = {
-    "steps": {0.0: (2.0, 3.0, 4.0)},
     "smooth": {
         16.0: (4.0, 8.0),
         4.0: (2.0, 4.0),
@@ -44,7 +45,6 @@ PLANS: dict[str, dict[float, tuple[float, ...]]] = {
   figures, three 97 %.
 - Flexible bodies beside clearances: coarser runs do not follow vibrations of some kHz, so that
   their figures agree with each other and not with the truth.
-- Steps: fixed ones, whose errors and cost go with the step.
 
 The least ratio is first: it tells where the motions part, and the coarsest are done soonest.
 """
@@ -67,8 +67,7 @@ def plan(scene: Scene) -> dict[float, Scene]:
     solver = scene.solver
     assert solver is not None
     if solver.step is not None:
-        (ratios,) = PLANS["steps"].values()
-        return {ratio: scene.replace("solver.step", ratio * solver.step) for ratio in ratios}
+        return {ratio: scene.replace("solver.step", ratio * solver.step) for ratio in OF_STEPS}
     tolerance = solver.tolerance
     assert tolerance is not None
     loose = scene.joints.with_clearance or (scene.guide and scene.guide.clearance)
@@ -155,12 +154,7 @@ class Companions:
         """Return the companions."""
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         """End the process if it is not done, and clear away what it wrote."""
         self._process.kill()
         if isinstance(self._process, subprocess.Popen):

@@ -72,7 +72,7 @@ class Tuning:
         refit: a step shorter than this, over the one that constrained velocities fit, makes them
             fit anew.
         largest_jump: of an inertia force within one step, over the run's largest one, from where
-            the impacts are not resolved (`exu_press.integrate.monitor`).
+            the impacts are not resolved (`exu_press.integrate.stepping`).
     """
 
     safety: float = 0.4

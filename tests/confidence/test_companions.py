@@ -13,7 +13,7 @@ import pytest
 from exu_press import Scene
 from exu_press.confidence import companion
 from exu_press.confidence import companions as companions_of
-from exu_press.confidence.companions import PLANS, Companions, _may_fork, plan
+from exu_press.confidence.companions import OF_STEPS, PLANS, Companions, _may_fork, plan
 from exu_press.scene import flexible_press
 
 SHORT = Scene(mechanism="slider_crank", revolutions=0.02)
@@ -52,7 +52,7 @@ def test_results_are_there_as_soon_as_they_are_done(monkeypatch):
 
 def test_the_nearest_one_is_first():
     """It tells from when on the motions part."""
-    for kind in PLANS.values():
+    for kind in (*PLANS.values(), {0.0: OF_STEPS}):
         for ratios in kind.values():
             assert len(ratios) >= 2
             assert list(ratios) == sorted(ratios)

@@ -343,21 +343,26 @@ class StepChange:
             state.accelerations[:] = a - (solver.alphaM / solver.alphaF) * missing
 
     def _violations(self) -> tuple[Array, Array]:
-        """Return what of positions and velocities the constraints forbid, in the kinetic norm.
+        """Return what of positions and velocities the constraints forbid, in Newton's norm.
 
-        The directions in which constraints act are those of the last Jacobian, perhaps a degree of
+        Of all changes that mend it the one that the last Jacobian resists least, as in an iteration
+        of Newton's method: that counts what masses weigh, and what films and contacts would answer
+        with. In the norm of masses alone a journal was moved in its film by 1e-5 m/s, which it
+        answered with 2.4 kN.
+
+        The directions in which constraints act are those of that Jacobian too, perhaps a degree of
         the crank away; how far they are violated is of this very state, so a few turns lead to it.
         """
-        solver = self._solver
-        mass = np.asarray(solver.GetSystemMassMatrix())
-        size, count = len(mass), self._constraints.count
+        size, count = len(self._current.positions), self._constraints.count
         if count == 0:
             return np.zeros(size), np.zeros(size)
-        directions = np.asarray(solver.GetSystemJacobian())[-count:, :size]
+        jacobian = np.asarray(self._solver.GetSystemJacobian())
+        inertia, directions = jacobian[:size, :size], jacobian[-count:, :size]
         # Newton's matrix has those of velocities over the step
         lengths = np.sqrt(np.square(directions).sum(axis=1))
         lengths[lengths == 0.0] = 1.0
-        matrix = self._constraints.matrix(mass, directions / lengths[:, None])
+        symmetric = 0.5 * (inertia + inertia.T)
+        matrix = self._constraints.matrix(symmetric, directions / lengths[:, None])
         position, velocity = self._current.positions, self._current.velocities
         now = self._data.GetTime()
         self._data.SetTime(self._start)

@@ -38,6 +38,7 @@ __all__ = [
     "add_part",
     "deformed",
     "fitted_to_guide",
+    "guide_end",
     "guided_motion",
     "hold_driven",
     "hold_pivot",
@@ -297,6 +298,15 @@ def fitted_to_guide(
         velocity=velocity,
         angular_velocity=omega,
     )
+
+
+def guide_end(body: FlexibleBody, part: PlacedPart, point: Point) -> Any:
+    """Return what ways with play touch: a point of the body, carried by the faces in its guide."""
+    place, modes = part.carried((part.guide,), point)
+    if body.node_modes is None:
+        return body.object_number, place
+    rotation = part.reduced.interface(part.guide).rotation
+    return FlexiblePoint(body.object_number, place, modes, rotation)
 
 
 def guided_motion(mbs: exu.MainSystem, body: FlexibleBody, part: PlacedPart) -> tuple[Array, Array]:

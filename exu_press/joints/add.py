@@ -15,7 +15,7 @@ from exu_press.joints.pairs import DryPair, FilmPair, Pair
 from exu_press.joints.planar import PlanarJoint
 from exu_press.joints.spatial import SpatialRevolute
 from exu_press.joints.spherical import SpatialSpherical
-from exu_press.joints.ways import WaysContact
+from exu_press.joints.ways import SpatialWaysContact, WaysContact
 from exu_press.laws.contact import NormalContact
 from exu_press.laws.film import FilmLaw, film_scale
 from exu_press.laws.friction import Friction, LuGre, no_friction
@@ -156,7 +156,7 @@ def add_lubricated_revolute(
 
 def add_ways_contact(
     mbs: exu.MainSystem,
-    body: tuple[int, Sequence[float]],
+    body: BodyPoint,
     *,
     middle: Sequence[float],
     direction: Sequence[float],
@@ -165,13 +165,13 @@ def add_ways_contact(
     friction: Friction | LuGre,
     half_width: float = 0.0,
 ) -> ClearanceJoint:
-    """Put one end of a planar body between two straight ways of the frame: touching and rubbing.
+    """Put one end of a body between two straight ways of the frame: touching and rubbing.
 
     A guided body has two such ends, which keep it upright between them.
 
     Args:
         mbs: system, not yet assembled.
-        body: a planar body's object number, and the point of it that touches, in its frame (m).
+        body: that lies between them, and the point of it that touches, in its frame (m).
         middle: a point in the middle of the ways, m.
         direction: of the ways.
         clearance: on each side of the point, m.
@@ -183,12 +183,10 @@ def add_ways_contact(
         The contact; `add_joint_sensor` records it, with what presses the body as its force.
 
     Raises:
-        InputError: the body is not planar, direction or clearance are none, a law is given by its
-            name, or the system is assembled already.
+        InputError: the body is of a kind that joints cannot hold on to, direction or clearance are
+            none, a law is given by its name, or the system is assembled already.
     """
     _check_laws(mbs, contact=contact, friction=friction)
-    if not in_plane(mbs, body):
-        raise InputError(f"body {body[0]}: allowed between ways is a body in the plane")
     length = math.hypot(direction[0], direction[1])
     if not 0.0 < length < math.inf:
         raise InputError(f"direction = {tuple(direction)}: allowed is a direction, such as (0, 1)")
@@ -200,7 +198,11 @@ def add_ways_contact(
     across = direction[1] / length, -direction[0] / length
     pair = DryPair(contact, friction, half_width, clearance)
     place = float(middle[0]), float(middle[1])
-    joint = WaysContact(planar_end(mbs, body), place, across, pair)
+    joint: ClearanceJoint
+    if in_plane(mbs, body):
+        joint = WaysContact(planar_end(mbs, body), place, across, pair)
+    else:
+        joint = SpatialWaysContact(spatial_end(mbs, body), place, across, pair)
     overlay_of(mbs).add(joint)
     return joint
 

@@ -39,6 +39,7 @@ class SpatialRevolute(PairedJoint):
         self._n: Vector = (1.0, 0.0, 0.0)
         self._t: Vector = (0.0, 1.0, 0.0)
         self._along: Vector = (0.0, 0.0, 0.0)
+        self._turns = True  # the normal, with the eccentricity
 
     def add_force(self, q: list[float], q_t: list[float], out: list[float]) -> None:
         """Add the joint's generalised forces to `out`."""
@@ -51,9 +52,7 @@ class SpatialRevolute(PairedJoint):
         height = dot(axis, apart)
         # the bearing's force acts beside the journal
         self._along = along = axis[0] * height, axis[1] * height, axis[2] * height
-        across = apart[0] - along[0], apart[1] - along[1], apart[2] - along[2]
-        e = sqrt(dot(across, across))
-        n = (across[0] / e, across[1] / e, across[2] / e) if e > 0.0 else _normal_to(axis)
+        e, n = self._across((apart[0] - along[0], apart[1] - along[1], apart[2] - along[2]))
         t = cross(axis, n)
         self._n, self._t = n, t
         aside = cross(along, bearing.angular_velocity)
@@ -72,7 +71,7 @@ class SpatialRevolute(PairedJoint):
     def jacobian(self, by_q: float, by_q_t: float) -> Array | None:
         """Return -(by_q dQ/dq + by_q_t dQ/dq_t), but for what only turns arms and axes."""
         e, e_dot, v_t, w_j, w_b = self._motion
-        turn = 1.0 / e if e > 0.0 else 0.0
+        turn = 1.0 / e if self._turns and e > 0.0 else 0.0
         # (F_n, F_t, M_J, M_B) by what moves along n and t and turns journal and bearing
         normal, across = [0.0] * 4, [0.0] * 4
         on_journal, on_bearing = [0.0] * 4, [0.0] * 4
@@ -130,20 +129,25 @@ class SpatialRevolute(PairedJoint):
     def state(self, q: list[float], q_t: list[float]) -> JointState:
         """Return what the joint does in a state of its two bodies."""
         self.add_force(q, q_t, [0.0] * len(q))
-        e, e_dot, _, w_j, w_b = self._motion
+        e, e_dot, v_t, w_j, w_b = self._motion
         loads = [load for load in self._loads if load is not None]
         f_n, f_t = sum(load[0] for load in loads), sum(load[1] for load in loads)
         m_j, m_b = sum(load[2] for load in loads), sum(load[3] for load in loads)
         return JointState(
             eccentricity=self.eccentricity,
             force=_sum(f_n, self._n, f_t, self._t),
-            velocity=self.relative_velocity,
+            velocity=_sum(e_dot, self._n, v_t, self._t),
             moments=(m_j, m_b),
             angular_velocities=(w_j, w_b),
             gap=self.clearance - e,
             stored_energy=sum(pair.stored_energy(e) for pair in self.pairs),
             stored_power=sum(pair.stored_force(e) for pair in self.pairs) * e_dot,
         )
+
+    def _across(self, apart: Vector) -> tuple[float, Vector]:
+        """Return eccentricity and normal for how far the centres lie apart across the axis, m."""
+        e = sqrt(dot(apart, apart))
+        return e, (apart[0] / e, apart[1] / e, apart[2] / e) if e > 0.0 else _normal_to(self._a)
 
     def _rates(self) -> Array:
         """Return, by all rates, velocities along n and t and both angular velocities, (4, n)."""

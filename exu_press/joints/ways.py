@@ -1,4 +1,4 @@
-"""One end of a guided planar body between its ways: they touch on either side, and rub.
+"""One end of a guided body between its ways: they touch on either side, and rub.
 
 The body's point lies beside the middle of the ways by s; they touch where |s| > c, on one side or
 the other. The normal is that of the ways and does not turn, as a journal's does with its
@@ -9,15 +9,19 @@ radius is a journal's.
 import math
 from math import cos, sin
 
+import numpy as np
+
+from exu_press.joints.ends import BodyEnd, Vector
 from exu_press.joints.joint import JointState
 from exu_press.joints.pairs import DryPair, Load, PairedJoint
 from exu_press.joints.planar import PlanarEnd
+from exu_press.joints.spatial import SpatialRevolute
 
-__all__ = ["WaysContact"]
+__all__ = ["SpatialWaysContact", "WaysContact"]
 
 
 class WaysContact(PairedJoint):
-    """A point of a body between two straight ways of the frame."""
+    """A point of a planar body between two straight ways of the frame."""
 
     def __init__(
         self,
@@ -125,3 +129,34 @@ class WaysContact(PairedJoint):
             stored_energy=pair.stored_energy(e),
             stored_power=pair.stored_force(e) * e_dot,
         )
+
+
+class SpatialWaysContact(SpatialRevolute):
+    """The same for bodies in space and flexible ones: a joint whose normal stays."""
+
+    def __init__(
+        self,
+        end: BodyEnd,
+        middle: tuple[float, float],
+        across: tuple[float, float],
+        pair: DryPair,
+    ) -> None:
+        """Let a body touch its ways, which lie in the plane z = 0; see `WaysContact`."""
+        x, y = middle
+        frame = BodyEnd("Ground", 0, np.zeros(0), np.array([x, y, 0.0]))
+        super().__init__(end, frame, (0.0, 0.0, 1.0), [pair])
+        self.deepest = math.inf
+        self._turns = False
+        self._normal = across
+
+    def _across(self, apart: Vector) -> tuple[float, Vector]:
+        """Return how far the point lies beside the middle, m, and the normal on that side."""
+        x, y = self._normal
+        beside = apart[0] * x + apart[1] * y
+        return (beside, (x, y, 0.0)) if beside >= 0.0 else (-beside, (-x, -y, 0.0))
+
+    @property
+    def relative_velocity(self) -> tuple[float, ...]:
+        """Rate of the eccentricity at the last `add_force`, m/s: that across the ways."""
+        rate, n = self._motion[1], self._n
+        return rate * n[0], rate * n[1], 0.0

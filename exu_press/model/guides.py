@@ -1,5 +1,7 @@
 """The guides of a system: constraints where they are ideal, springs, or ways with play."""
 
+from typing import Any
+
 import numpy as np
 from exudyn.itemInterface import (
     MarkerBodyRigid,
@@ -12,7 +14,7 @@ from exudyn.itemInterface import (
 from numpy.typing import NDArray
 
 from exu_press.joints import ClearanceJoint, add_ways_contact
-from exu_press.mechanism import Guide, Spring, Ways
+from exu_press.mechanism import Guide, Point, Spring, Ways
 from exu_press.model.system import System
 from exu_press.scene.laws import ways_contact_law, ways_friction_law
 
@@ -27,14 +29,12 @@ def add_ways(system: System, guide: Guide, ways: Ways) -> tuple[ClearanceJoint, 
     assert table is not None
     body = system.mechanism.body(guide.body)
     along = np.array(guide.direction)
-    rigid = system.rigid[guide.body]
 
     def end(side: float) -> ClearanceJoint:
         drawn = np.array(body.centre_of_mass) + 0.5 * side * ways.length * along
-        point = rigid.local(body.local((float(drawn[0]), float(drawn[1]))))
         return add_ways_contact(
             system.mbs,
-            (rigid.number, point),
+            _end(system, guide.body, body.local((float(drawn[0]), float(drawn[1])))),
             middle=body.centre_of_mass,
             direction=guide.direction,
             clearance=ways.clearance,
@@ -44,6 +44,15 @@ def add_ways(system: System, guide: Guide, ways: Ways) -> tuple[ClearanceJoint, 
         )
 
     return end(-1.0), end(1.0)
+
+
+def _end(system: System, body: str, point: Point) -> Any:
+    """Return a point of a guided body for its ways to touch."""
+    if body not in system.flexible:
+        return system.bodies[body], system.rigid[body].local(point)
+    from exu_press.flexible import guide_end
+
+    return guide_end(system.flexible[body], system.parts[body], point)
 
 
 def add_guide(system: System, guide: Guide) -> dict[str, int]:

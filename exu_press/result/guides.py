@@ -89,7 +89,7 @@ def record_ways(
         force, moment, lost = np.zeros((len(time), 2)), np.zeros_like(time), np.zeros_like(time)
         for n, side in enumerate((-1.0, 1.0)):
             end = states[f"{guide.body} {n}"]
-            pressed = np.array([state.force for state in end])
+            pressed = np.array([state.force[:2] for state in end])
             reach = 0.5 * side * guide.ways.length
             arm_x = reach * (np.cos(angle) * x - np.sin(angle) * y)
             arm_y = reach * (np.sin(angle) * x + np.cos(angle) * y)

@@ -119,19 +119,13 @@ class Scene(Table):
             object.__setattr__(self, name, None if name in unused else usual[name])
 
     def _settle_bodies(self) -> None:
-        """Say which bodies are flexible; a guide with clearance holds rigid ones alone."""
+        """Say which bodies are flexible."""
         mechanism = mechanism_of(self)
         joints = {b.name: [j.name for j in mechanism.joints_of(b.name)] for b in mechanism.bodies}
         joints[mechanism.crank].append(DRIVE_FACE)
         for guide in mechanism.guides:
             joints[guide.body].append(GUIDE_FACE)
         bodies = bodies_of(self.bodies, mechanism.name, joints)
-        for guide in mechanism.guides:
-            if guide.ways is not None and guide.body in bodies:
-                raise InputError(
-                    f"guide.clearance = {guide.ways.clearance!r}: the ways touch rigid bodies, and "
-                    f"bodies.{guide.body} is flexible; allowed is a guide without clearance"
-                )
         object.__setattr__(self, "bodies", bodies)
 
     def _settle_loads(self) -> None:

@@ -16,9 +16,10 @@ from solving import planar_body, recorded
 
 from exu_press import InputError, Status, solve_dynamic
 from exu_press.joints import add_joint_sensor, add_ways_contact
+from exu_press.joints.ends import BodyEnd
 from exu_press.joints.pairs import DryPair
 from exu_press.joints.planar import PlanarEnd
-from exu_press.joints.ways import WaysContact
+from exu_press.joints.ways import SpatialWaysContact, WaysContact
 from exu_press.laws.contact import hertz, step_damping
 from exu_press.laws.friction import coulomb, no_friction, stribeck
 
@@ -125,8 +126,8 @@ def test_friction_beside_the_middle_turns_the_block():
     assert (front - rear) * LENGTH / 2 == pytest.approx(mu * weight * half_width, rel=1e-3)
 
 
-@pytest.mark.parametrize("side", [-1.0, 1.0])
-def test_the_jacobian_is_that_of_the_forces(side):
+def pressed_end(side, kind=WaysContact):
+    """Return a contact, with coordinates and rates in which it touches on a side."""
     end = PlanarEnd((0, 1, 2), (0.3, -0.2, 0.4), (0.1, 0.25))
     pair = DryPair(
         step_damping(hertz(5e7, 1.5), damping_max=3e4, damping_depth=1e-5),
@@ -139,8 +140,39 @@ def test_the_jacobian_is_that_of_the_forces(side):
     arm = [math.cos(0.4) * 0.1 - math.sin(0.4) * 0.25, math.sin(0.4) * 0.1 + math.cos(0.4) * 0.25]
     shift = side * 1.2e-4
     middle = (x + arm[0] - shift * across[0], y + arm[1] - shift * across[1])
-    contact = WaysContact(end, middle, across, pair)
-    q, q_t = [0.0, 0.0, 0.0], [-0.03 * side, 0.02 * side, -0.4 * side]
+    given = end
+    if kind is SpatialWaysContact:
+        reference, point = np.array(end.reference), np.array([*end.point, 0.0])
+        given = BodyEnd("RigidBody2D", 0, reference, point)
+    rates = [-0.03 * side, 0.02 * side, -0.4 * side]
+    return kind(given, middle, across, pair), [0.0, 0.0, 0.0], rates
+
+
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+def test_in_space_it_is_the_same(side):
+    """Its Jacobian leaves out what only turns the arm: in the third column, by the coordinates."""
+    (planar, q, q_t), (spatial, _, _) = (
+        pressed_end(side, kind) for kind in (WaysContact, SpatialWaysContact)
+    )
+    one, other = planar.state(q, q_t), spatial.state(q, q_t)
+    assert other.gap == pytest.approx(one.gap, rel=1e-9) and one.gap < 0.0
+    for name in ("eccentricity", "force", "velocity"):
+        assert getattr(other, name)[:2] == pytest.approx(getattr(one, name), rel=1e-9)
+    assert other.power == pytest.approx(one.power, rel=1e-9)
+    assert spatial.relative_velocity[:2] == pytest.approx(planar.relative_velocity)
+    assert spatial.deepest == planar.deepest
+    for by_q, by_q_t in ((1.0, 0.0), (0.0, 1.0)):
+        found, expected = (
+            np.reshape(contact.jacobian(by_q, by_q_t), (3, 3)) for contact in (spatial, planar)
+        )
+        columns = slice(0, 2) if by_q else slice(0, 3)
+        apart = np.abs(found - expected)[:, columns].max()
+        assert apart < 1e-9 * np.abs(expected).max()
+
+
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+def test_the_jacobian_is_that_of_the_forces(side):
+    contact, q, q_t = pressed_end(side)
 
     def forces(q, q_t):
         out = [0.0] * 3

@@ -9,6 +9,9 @@ from exu_press import InputError, Scene, simulate
 from exu_press.model import build
 from exu_press.placed_part import placed_parts
 from exu_press.quasi_static import quasi_static_motion
+from exu_press.result.flexible import guided_motion
+from exu_press.result.joints import states_of
+from exu_press.result.record import record
 from exu_press.scene import mechanism_of
 
 pytest.importorskip("ngsolve")
@@ -94,6 +97,56 @@ def test_stiff_it_is_the_rigid_slider(slider, body, guide):
         limit = 1e-3 if starts_bent else 1e-4
         assert compared(result, other, channel, 0.7 if starts_bent else 0.2) < limit, channel
     assert result["load_push_work"][-1] == pytest.approx(other["load_push_work"][-1], rel=1e-4)
+
+
+PLAY = {
+    "clearance": 2e-5,
+    "friction": "coulomb",
+    "length": 0.2,
+    "width": WIDTH,
+    "damping_ratio": 0.5,
+    "lateral_stiffness": 2e8,
+}
+
+
+@pytest.mark.parametrize("body", [{"youngs_modulus": 1e4 * STEEL}, {"modes": 0}])
+def test_stiff_it_hits_its_ways_as_the_rigid_slider(slider, body):
+    """With both ends, on both sides, and with friction beside its middle."""
+    run = {**RUN, "solver": {"tolerance": 1e-5}, "revolutions": 0.1}
+    load = {"push": {**PUSH, "face": BOTTOM}}
+    flexible, rigid = with_rigid(slider(body=body, load=load, guide=PLAY, **run))
+    result, other = simulate(flexible), simulate(rigid)
+    assert result.completed and other.completed
+    assert other["guide_force"].max() > 100.0 and other["guide_force"].min() < -100.0
+    assert np.abs(other["guide_friction"]).max() > 10.0
+    for channel in ("slider_lateral", "slider_tilt", "guide_force", "guide_moment", "guide_loss"):
+        there = np.interp(result.time, other.time, other[channel])
+        assert np.abs(result[channel] - there).max() < 1e-2 * np.abs(there).max(), channel
+        assert result[channel][-1] == pytest.approx(there[-1], abs=1e-4 * np.abs(there).max()), (
+            channel
+        )
+
+
+def test_in_its_play_a_soft_slider_touches_with_what_its_guide_holds(slider):
+    """Both ends lie where the mean motion of the guide's faces puts them; the balance closes."""
+    soft = {"youngs_modulus": 0.01 * STEEL, "modes": 8}
+    run = {"revolutions": 0.06, "speed_rpm": 200.0, "solver": {"tolerance": 1e-4}}
+    load = {"push": {**PUSH, "face": BOTTOM}}
+    model = build(slider(body=soft, load=load, guide=PLAY, **run))
+    result = record(model, model.solve())
+    held = guided_motion(model, "slider").position
+    ends = {str(number): end for number, end in enumerate(model.ways["slider"])}
+    low, high = (
+        np.array([state.eccentricity[0] for state in states])
+        for states in states_of(model, result.time, ends).values()
+    )
+    assert np.abs(0.5 * (low + high) - held[:, 0]).max() < 1e-9
+    assert np.abs((low - high) / PLAY["length"] - np.sin(held[:, 2])).max() < 1e-8
+    assert np.abs(held[:, 2] - result["slider_tilt"]).max() > 3e-7
+    assert np.abs(result["guide_force"]).max() > 100.0
+    summary = result.summary()
+    assert summary["energy"]["residual"] < 5e-4
+    assert 0.0 < summary["guides"]["slider"]["dissipated"] <= summary["energy"]["dissipated"]
 
 
 def pressed(asked, mean):
@@ -208,10 +261,6 @@ def test_balls_carry_a_flexible_ram(tmp_path, kind):
 @pytest.mark.parametrize(
     ("keys", "message"),
     [
-        (
-            {"guide": {"clearance": 5e-5}},
-            r"guide\.clearance = 5e-05: the ways touch rigid bodies, and bodies\.slider is",
-        ),
         ({"body": {"faces": {"guide": {"radius": 1.0}}}}, r"faces\.guide\.radius = 1\.0: unknown"),
         ({"body": {"faces": {"guide": {}}}}, r"faces\.guide = \{\}: allowed is a face's name, or"),
         ({"body": {"faces": {"wrist_pin": {"x": [0, 1]}}}}, r"faces\.wrist_pin\.x = \[0, 1\]: unk"),

@@ -27,6 +27,7 @@ BUDGET = 50_000  # steps; a variant that needs more counts as stopped
 
 OFF = {
     "factor_max": 1e9,
+    "beside_joints": 1.0,
     "penetration": 1e9,
     "refit": 0.0,
 }

@@ -353,15 +353,17 @@ class StepError:
         noise = self._scales.alternating(tuning.rounding, self._solver.alphaF)
         if len(problem.start.rates):
             self._first_order = FirstOrderError(problem, self._per_step)
+        of_bodies = self._per_step
         if problem.joints is not None:
             whole = self._per_step.whole
+            of_bodies = ErrorPerStep(tuning.beside_joints * whole)
             per_time = task.tolerance / (tuning.kept_steps * task.largest)
             self._joints = [
                 JointError(j, whole * j.clearance, per_time * j.clearance, noise, tuning)
                 for j in problem.joints.joints
             ]
         start = self.start or problem.start.accelerations.tolist()
-        return BodyError(start, self._per_step, self._scales, tuning, noise)
+        return BodyError(start, of_bodies, self._scales, tuning, noise)
 
     def _left_in_constraints(self) -> float:
         """Return how far the last digits of constraints move a body, m.

@@ -5,6 +5,7 @@ Prints medians of processor times.
 Run with: python scripts/benchmark_kinematics.py
 """
 
+import argparse
 import statistics
 import time
 
@@ -26,6 +27,7 @@ ANGLE = np.radians(np.arange(0.0, 360.0, 0.5))
 
 def main() -> None:
     """Print a row for each shipped mechanism."""
+    argparse.ArgumentParser(description=__doc__).parse_args()
     mechanisms = [press(Press()), slider_crank(SliderCrank()), *map(shipped_mechanism, SHIPPED)]
     print(f"{'mechanism':18}{'bodies':>7}{'first, ms':>11}{'again, ms':>11}")
     for mechanism in mechanisms:

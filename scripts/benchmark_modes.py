@@ -6,7 +6,7 @@ modes are chosen by a flexibility error.
 Run with: python scripts/benchmark_modes.py [--quick]
 """
 
-import sys
+import argparse
 import time
 
 from exu_press import Scene
@@ -16,7 +16,9 @@ from exu_press.scene import flexible_press
 USUAL = 20  # modes
 ERROR = 0.01  # of the flexibility
 
-quick = "--quick" in sys.argv
+parser = argparse.ArgumentParser(description=__doc__)
+parser.add_argument("--quick", action="store_true", help="few modes, short runs")
+quick = parser.parse_args().quick
 counts = (0, 4) if quick else (0, 4, 10, USUAL, 40)
 short, long = (0.002, 0.01) if quick else (0.02, 2.0)
 repeats = 1 if quick else 5

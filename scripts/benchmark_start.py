@@ -3,6 +3,7 @@
 Each is the least of several: commands of fresh processes, pictures of drawing them all again.
 """
 
+import argparse
 import resource
 import subprocess
 import sys
@@ -60,6 +61,7 @@ def drawing_times() -> dict[str, float]:
 
 
 def main() -> None:
+    argparse.ArgumentParser(description=__doc__).parse_args()
     times = {name: processor_time(code) for name, code in COMMANDS.items()} | drawing_times()
     exudyn = times["import exudyn"]
     for name, seconds in times.items():

@@ -3,7 +3,7 @@
 Run with: python scripts/compare_variants.py [--quick]
 """
 
-import sys
+import argparse
 
 from exu_press import Scene, simulate
 from exu_press.observe.table import comparison_lines
@@ -11,7 +11,9 @@ from exu_press.output import output_directory
 from exu_press.plots import save_comparison
 from exu_press.studies.compare import variants
 
-scene = Scene(revolutions=0.1 if "--quick" in sys.argv else 2.0)
+parser = argparse.ArgumentParser(description=__doc__)
+parser.add_argument("--quick", action="store_true", help="a tenth of a revolution")
+scene = Scene(revolutions=0.1 if parser.parse_args().quick else 2.0)
 results = {label: simulate(variant) for label, variant in variants(scene).items()}
 save_comparison(results, output_directory("out/compare_variants"))
 print("\n".join(comparison_lines({label: run.summary() for label, run in results.items()})))

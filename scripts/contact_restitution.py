@@ -3,9 +3,12 @@
 Run with: python scripts/contact_restitution.py
 """
 
+import argparse
+
 from exu_press import Scene
 from exu_press.laws.contact import DAMPING_LAWS, delivered_restitution, hertz, step_damping
 
+argparse.ArgumentParser(description=__doc__).parse_args()
 contact = Scene().contact
 assert contact is not None
 stiffness = hertz(contact.stiffness, contact.exponent)

@@ -3,7 +3,7 @@
 Run with: python scripts/draw_press.py [PICTURE.png]
 """
 
-import sys
+import argparse
 from pathlib import Path
 
 import matplotlib
@@ -125,4 +125,6 @@ def main(path):
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1] if len(sys.argv) > 1 else "out/press_drawing.png"))
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("picture", nargs="?", type=Path, default="out/press_drawing.png")
+    main(parser.parse_args().picture)

@@ -6,6 +6,7 @@ The independent model is that of tests/independent/symmetric_press.py, which sha
 package: three coordinates, SciPy's LSODA.
 """
 
+import argparse
 import sys
 from pathlib import Path
 
@@ -23,7 +24,9 @@ from independent.symmetric_press import SymmetricPress
 
 DRY = Scene(joints={"crank_pin": "dry", "balls": "dry"})
 NAME = "peak_acceleration.resolved"
-QUICK = "--quick" in sys.argv
+parser = argparse.ArgumentParser(description=__doc__)
+parser.add_argument("--quick", action="store_true", help="a tenth of a revolution, one tolerance")
+QUICK = parser.parse_args().quick
 TOLERANCES = (1e-2,) if QUICK else (1e-2, 1e-3, 1e-4, 1e-5)
 REVOLUTIONS = 0.1 if QUICK else 2.0
 

@@ -7,10 +7,10 @@ steps a period the method itself needs follows from its amplification matrix on 
 (J. Chung, G. M. Hulbert, Journal of Applied Mechanics 60, 1993).
 """
 
+import argparse
 import cmath
 import itertools
 import math
-import sys
 import time
 
 import numpy as np
@@ -22,7 +22,9 @@ from exu_press.columns import columns
 
 Array = NDArray[np.float64]
 
-QUICK = "--quick" in sys.argv
+parser = argparse.ArgumentParser(description=__doc__)
+parser.add_argument("--quick", action="store_true", help="a fifth of a revolution, coarse")
+QUICK = parser.parse_args().quick
 DRY = Scene(joints={"crank_pin": "dry", "balls": "dry"}, revolutions=0.2 if QUICK else 2.0)
 SETTINGS = {"step": 1e-4, "tolerance": 1e-2} if QUICK else {"step": 1e-5, "tolerance": 2e-3}
 """Those that deliver the peaks of the whole run within 2 % (scripts/precision.py)."""

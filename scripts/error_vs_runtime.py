@@ -3,14 +3,18 @@
 Run with: python scripts/error_vs_runtime.py [--quick]
 """
 
-import sys
+import argparse
 
 from exu_press import Scene
 from exu_press.output import output_directory
 from exu_press.plots.precision import save_precision
 from exu_press.studies.precision import case_of, precision
 
+parser = argparse.ArgumentParser(description=__doc__)
+parser.add_argument("--quick", action="store_true", help="a reduced form; times mean nothing")
+quick = parser.parse_args().quick
+
 scene = Scene(mechanism="slider_crank", joints={"crank_pin": "lubricated"}, revolutions=1.0)
-report = precision((case_of("my_slider_crank", scene),), quick="--quick" in sys.argv)
+report = precision((case_of("my_slider_crank", scene),), quick=quick)
 save_precision(report, output_directory("out/error_vs_runtime"))
 print("\n".join(report.lines()))

@@ -6,7 +6,7 @@ shows the press with one pair of shapes and with the other.
 Run with: python scripts/flexible_parts.py [--quick] [--out DIR]
 """
 
-import sys
+import argparse
 from pathlib import Path
 
 from exu_press import Result, Scene, simulate
@@ -22,8 +22,11 @@ PUBLISHED_HZ = {
     "linkage": (5657.49, 8024.39, 8258.71, 10250.3, 12973.3),
 }
 NUMBERS = (2, 5, 6, 10, 16)
-quick = "--quick" in sys.argv
-out = Path(sys.argv[sys.argv.index("--out") + 1] if "--out" in sys.argv else "out/parts")
+parser = argparse.ArgumentParser(description=__doc__)
+parser.add_argument("--quick", action="store_true", help="coarse meshes, a short run")
+parser.add_argument("--out", metavar="DIR", default="out/parts", type=Path)
+options = parser.parse_args()
+quick, out = options.quick, options.out
 out.mkdir(parents=True, exist_ok=True)
 mesh_size = 0.06 if quick else 0.02
 

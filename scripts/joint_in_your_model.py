@@ -1,7 +1,6 @@
-"""A lubricated joint in an Exudyn model that knows nothing of the press: a pendulum in its bearing.
+"""A lubricated joint in an Exudyn model that knows no press: a pendulum in its bearing."""
 
-Run with: python scripts/joint_in_your_model.py
-"""
+import argparse
 
 import exudyn as exu
 import exudyn.utilities as items
@@ -10,6 +9,7 @@ import numpy as np
 from exu_press import add_joint_sensor, add_lubricated_revolute, solve_dynamic
 from exu_press.laws.film import finite
 
+argparse.ArgumentParser(description=__doc__).parse_args()
 mbs = exu.SystemContainer().AddSystem()
 ground = mbs.AddObject(items.ObjectGround())
 node = mbs.AddNode(items.NodeRigidBody2D(referenceCoordinates=[0.5, 0.0, 0.0]))

@@ -5,7 +5,7 @@ Prints mass, frequencies and the tip's deflection beside a beam's; draws modes i
 Run with: python scripts/my_own_part.py [--quick]
 """
 
-import sys
+import argparse
 
 import exudyn as exu
 import numpy as np
@@ -24,6 +24,10 @@ from fe_models import (
     reduced_part,
 )
 
+parser = argparse.ArgumentParser(description=__doc__)
+parser.add_argument("--quick", action="store_true", help="a coarse mesh")
+quick = parser.parse_args().quick
+
 out = output_directory("out/my_own_part")
 file = out / "lever.step"  # yours comes from a CAD program, in mm
 Box(Pnt(0, -15, -10), Pnt(400, 15, 10)).WriteStep(str(file))
@@ -34,7 +38,7 @@ faces = {
 }
 shape = StepFile(file, scale=1e-3, faces=faces)  # from mm to m; a box around each face to be held
 steel = Material(youngs_modulus=2.1e11, poissons_ratio=0.3, density=7850.0)
-size = 0.03 if "--quick" in sys.argv else 0.01  # m, of the tetrahedra
+size = 0.03 if quick else 0.01  # m, of the tetrahedra
 part = Part("lever", shape, steel, (Interface("root"), Interface("tip")), mesh_size=size)
 lever = reduced_part(part, Reduction(modes=10), folder=out)
 draw_mode_shapes(part, out / "modes.png", modes=(1, 2, 3, 4, 5))

@@ -3,6 +3,7 @@
 Run with: python scripts/run_press.py [--quick]
 """
 
+import argparse
 import sys
 
 from exu_press import Scene, simulate
@@ -10,13 +11,17 @@ from exu_press.observe.table import run_lines
 from exu_press.output import output_directory
 from exu_press.plots import save_pictures
 
+parser = argparse.ArgumentParser(description=__doc__)
+parser.add_argument("--quick", action="store_true", help="a tenth of a revolution")
+quick = parser.parse_args().quick
+
 scene = Scene(
     joints={
         "crank_pin": {"kind": "lubricated", "clearance": 1e-4},  # radial, m
         "balls": {"kind": "dry", "clearance": 1e-4},
     },
     speed_rpm=240.0,
-    revolutions=0.1 if "--quick" in sys.argv else 2.0,
+    revolutions=0.1 if quick else 2.0,
     film={"law": "finite", "viscosity": 0.1},  # Pa s
 )
 result = simulate(scene)

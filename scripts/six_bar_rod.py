@@ -5,13 +5,15 @@ as a CAD program exports a part out of its assembly.
 Run with: python scripts/six_bar_rod.py [FILE.step]
 """
 
+import argparse
 import math
-import sys
 from pathlib import Path
 
 from netgen.occ import Axis, Box, Cylinder, Pnt, Vec, Z
 
-FILE = sys.argv[1] if len(sys.argv) > 1 else "exu_press/scenes/six_bar_rod.step"
+parser = argparse.ArgumentParser(description=__doc__)
+parser.add_argument("file", nargs="?", default="exu_press/scenes/six_bar_rod.step")
+FILE = parser.parse_args().file
 ENDS = (15.0, 232.0), (43.0, -595.0)  # rod pin and wrist pin, mm
 WIDTH, THICKNESS = 80.0, 40.0
 EYE, BORE, EYE_THICKNESS = 65.0, 35.0, 60.0  # outer radius, radius, along the pin

@@ -3,17 +3,18 @@
 Run with: python scripts/sweep_blanking_force.py [--quick] [--out DIR]
 """
 
-import sys
+import argparse
 from pathlib import Path
 
 from exu_press import Scene
 from exu_press.plots.sweep import save_sweep
 from exu_press.studies.sweep import Study, sweep, table_lines
 
-quick = "--quick" in sys.argv
-out = Path(
-    sys.argv[sys.argv.index("--out") + 1] if "--out" in sys.argv else "out/sweep_blanking_force"
-)
+parser = argparse.ArgumentParser(description=__doc__)
+parser.add_argument("--quick", action="store_true", help="two short runs")
+parser.add_argument("--out", metavar="DIR", default="out/sweep_blanking_force", type=Path)
+options = parser.parse_args()
+quick, out = options.quick, options.out
 
 start, turns = (170.0, 0.04) if quick else (0.0, 2.0)
 load = {"blanking": {"kind": "blanking", "force": 0.0}}

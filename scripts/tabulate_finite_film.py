@@ -3,6 +3,7 @@
 Run it with one BLAS thread: OMP_NUM_THREADS=1 python scripts/tabulate_finite_film.py
 """
 
+import argparse
 import math
 from pathlib import Path
 
@@ -50,6 +51,7 @@ def dissipation_and_turn(eps, turn, ratio, supplied):
 
 
 def main():
+    argparse.ArgumentParser(description=__doc__).parse_args()
     shape = (len(RATIOS), len(ECCENTRICITIES), len(DIRECTIONS))
     table = np.zeros((2, *shape))
     for i, ratio in enumerate(RATIOS):

@@ -3,16 +3,21 @@
 Run with: python scripts/what_you_may_leave_out.py [--quick]
 """
 
+import argparse
 import sys
 import time
 
 from exu_press import Scene, simulate
 from exu_press.scene import flexible_press
 
+parser = argparse.ArgumentParser(description=__doc__)
+parser.add_argument("--quick", action="store_true", help="a fiftieth of a revolution")
+QUICK = parser.parse_args().quick
+
 FULL = {
     "bodies": flexible_press(),
     "joints": {"crank_pin": "lubricated", "balls": "dry"},
-    "revolutions": 0.02 if "--quick" in sys.argv else 1.0,
+    "revolutions": 0.02 if QUICK else 1.0,
     "film": {"law": "finite"},
     "friction": {"law": "lugre"},
     "guide": {},

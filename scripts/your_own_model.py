@@ -3,6 +3,8 @@
 Run with: python scripts/your_own_model.py
 """
 
+import argparse
+
 import exudyn as exu
 import exudyn.utilities as items
 import numpy as np
@@ -10,6 +12,8 @@ import numpy as np
 from exu_press import Status, add_dry_revolute, solve_dynamic
 from exu_press.laws.contact import hertz, hunt_crossley
 from exu_press.laws.friction import no_friction
+
+argparse.ArgumentParser(description=__doc__).parse_args()
 
 FRAME = [(0.0, 0.0), (0.3, 0.0)]  # the two pivots, m
 CRANK_PIN, ROCKER_PIN = (0.0, 0.1), (0.25, 0.25)  # in the drawing, m

@@ -7,10 +7,10 @@ from pathlib import Path
 SCRIPTS = Path(__file__).parents[2] / "scripts"
 
 
-def run(name, place, *options):
+def run(name, place, *options, quick=True):
     """Return what a script printed that ran in a directory."""
     done = subprocess.run(
-        [sys.executable, str(SCRIPTS / name), "--quick", *options],
+        [sys.executable, str(SCRIPTS / name), *["--quick"] * quick, *options],
         cwd=place,
         capture_output=True,
         text=True,

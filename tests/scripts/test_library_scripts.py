@@ -44,7 +44,7 @@ def test_my_own_part(tmp_path):
 
 def test_joint_in_your_model(tmp_path):
     """A rod that falls from the horizontal swings through with 5/2 of its weight."""
-    printed = run("joint_in_your_model.py", tmp_path)
+    printed = run("joint_in_your_model.py", tmp_path, quick=False)
     film, force = map(float, re.findall(r"([\d.]+) (?:um|N)", printed))
     assert 0.0 < film < 50.0
     assert force == pytest.approx(2.5 * 10.0 * 9.81, rel=0.01)
@@ -56,7 +56,7 @@ def test_your_own_model(tmp_path):
 
     They were off by six to ten tolerances while accelerations had no say.
     """
-    printed = run("your_own_model.py", tmp_path)
+    printed = run("your_own_model.py", tmp_path, quick=False)
     forces = [float(force) for force in re.findall(r"tolerance \S+: (\S+) N", printed)]
     for force, tolerance in zip(forces[:3], (1e-2, 1e-3, 1e-4), strict=True):
         assert abs(force / FOUR_BAR - 1.0) < 3.0 * tolerance

@@ -10,7 +10,7 @@ S, which a film alone has, is the couple of its shear.
 import math
 from collections.abc import Sequence
 
-from exu_press.joints.joint import SHALLOW
+from exu_press.joints.joint import SHALLOW, JointState
 from exu_press.joints.path import Path
 from exu_press.laws.contact import Approach, NormalContact
 from exu_press.laws.film import FilmLaw
@@ -330,15 +330,39 @@ class PairedJoint:
                 return pair.outside
         return None
 
+    def add_force(self, q: list[float], q_t: list[float], out: list[float]) -> None:
+        """Add the joint's generalised forces to `out`."""
+        raise NotImplementedError
+
+    def in_frame(self, along_n: float, along_t: float) -> tuple[float, ...]:
+        """Return a vector of the joint's plane at the last `add_force` in the global frame."""
+        raise NotImplementedError
+
     @property
     def eccentricity(self) -> tuple[float, ...]:
         """Journal centre - bearing centre at the last `add_force`, m."""
-        raise NotImplementedError
+        return self.in_frame(self._motion[0], 0.0)
 
     @property
     def relative_velocity(self) -> tuple[float, ...]:
         """Rate of the eccentricity at the last `add_force`, m/s."""
-        raise NotImplementedError
+        return self.in_frame(self._motion[1], self._motion[2])
+
+    def state(self, q: list[float], q_t: list[float]) -> JointState:
+        """Return what the joint does in a state of its two bodies."""
+        self.add_force(q, q_t, [0.0] * len(q))
+        e, e_dot, v_t, w_j, w_b = self._motion
+        loads = [load for load in self._loads if load is not None]
+        return JointState(
+            eccentricity=self.eccentricity,
+            force=self.in_frame(sum((f[0] for f in loads), 0.0), sum((f[1] for f in loads), 0.0)),
+            velocity=self.in_frame(e_dot, v_t),
+            moments=(sum((f[2] for f in loads), 0.0), sum((f[3] for f in loads), 0.0)),
+            angular_velocities=(w_j, w_b),
+            gap=self.clearance - e,
+            stored_energy=sum(pair.stored_energy(e) for pair in self.pairs),
+            stored_power=sum(pair.stored_force(e) for pair in self.pairs) * e_dot,
+        )
 
     def begin_step(self, step: float, accepted: bool) -> None:
         """Start a step of size `step` (s), after the last one was accepted or is repeated."""

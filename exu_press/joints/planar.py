@@ -4,7 +4,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import atan2, cos, hypot, sin, sqrt
 
-from exu_press.joints.joint import JointState
 from exu_press.joints.pairs import Load, Pair, PairedJoint
 
 __all__ = ["PlanarEnd", "PlanarJoint"]
@@ -160,35 +159,7 @@ class PlanarJoint(PairedJoint):
             -b_1, -b_2, -b_3, b_1, b_2, -b_4,
         ]  # fmt: skip
 
-    @property
-    def eccentricity(self) -> tuple[float, ...]:
-        """Journal centre - bearing centre at the last `add_force`, m."""
-        e, _, _, _, _ = self._motion
+    def in_frame(self, along_n: float, along_t: float) -> tuple[float, ...]:
+        """Return a vector of the plane at the last `add_force` in the global frame."""
         n_x, n_y, _, _, _, _ = self._directions
-        return e * n_x, e * n_y
-
-    @property
-    def relative_velocity(self) -> tuple[float, ...]:
-        """Rate of the eccentricity at the last `add_force`, m/s."""
-        _, e_dot, v_t, _, _ = self._motion
-        n_x, n_y, _, _, _, _ = self._directions
-        return e_dot * n_x - v_t * n_y, e_dot * n_y + v_t * n_x
-
-    def state(self, q: list[float], q_t: list[float]) -> JointState:
-        """Return what the joint does in a state of its two bodies."""
-        self.add_force(q, q_t, [0.0] * len(q))
-        e, e_dot, _, w_j, w_b = self._motion
-        n_x, n_y, _, _, _, _ = self._directions
-        loads = [load for load in self._loads if load is not None]
-        f_n, f_t = sum(load[0] for load in loads), sum(load[1] for load in loads)
-        m_j, m_b = sum(load[2] for load in loads), sum(load[3] for load in loads)
-        return JointState(
-            eccentricity=self.eccentricity,
-            force=(f_n * n_x - f_t * n_y, f_n * n_y + f_t * n_x),
-            moments=(m_j, m_b),
-            velocity=self.relative_velocity,
-            angular_velocities=(w_j, w_b),
-            gap=self.clearance - e,
-            stored_energy=sum(pair.stored_energy(e) for pair in self.pairs),
-            stored_power=sum(pair.stored_force(e) for pair in self.pairs) * e_dot,
-        )
+        return along_n * n_x - along_t * n_y, along_n * n_y + along_t * n_x

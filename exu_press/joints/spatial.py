@@ -7,7 +7,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.joints.ends import BodyEnd, Vector, cross, dot, turned
-from exu_press.joints.joint import JointState
 from exu_press.joints.pairs import Pair, PairedJoint
 
 __all__ = ["SpatialRevolute"]
@@ -114,35 +113,9 @@ class SpatialRevolute(PairedJoint):
         slopes = np.array([normal, across, on_journal, on_bearing])
         return np.asarray(rates.T @ -(slopes @ rates)).ravel()
 
-    @property
-    def eccentricity(self) -> tuple[float, ...]:
-        """Journal centre - bearing centre at the last `add_force`, m."""
-        e, _, _, _, _ = self._motion
-        return _sum(e, self._n, 0.0, self._t)
-
-    @property
-    def relative_velocity(self) -> tuple[float, ...]:
-        """Rate of the eccentricity at the last `add_force`, m/s."""
-        _, e_dot, v_t, _, _ = self._motion
-        return _sum(e_dot, self._n, v_t, self._t)
-
-    def state(self, q: list[float], q_t: list[float]) -> JointState:
-        """Return what the joint does in a state of its two bodies."""
-        self.add_force(q, q_t, [0.0] * len(q))
-        e, e_dot, v_t, w_j, w_b = self._motion
-        loads = [load for load in self._loads if load is not None]
-        f_n, f_t = sum(load[0] for load in loads), sum(load[1] for load in loads)
-        m_j, m_b = sum(load[2] for load in loads), sum(load[3] for load in loads)
-        return JointState(
-            eccentricity=self.eccentricity,
-            force=_sum(f_n, self._n, f_t, self._t),
-            velocity=_sum(e_dot, self._n, v_t, self._t),
-            moments=(m_j, m_b),
-            angular_velocities=(w_j, w_b),
-            gap=self.clearance - e,
-            stored_energy=sum(pair.stored_energy(e) for pair in self.pairs),
-            stored_power=sum(pair.stored_force(e) for pair in self.pairs) * e_dot,
-        )
+    def in_frame(self, along_n: float, along_t: float) -> tuple[float, ...]:
+        """Return a vector of the joint's plane at the last `add_force` in the global frame."""
+        return _sum(along_n, self._n, along_t, self._t)
 
     def _across(self, apart: Vector) -> tuple[float, Vector]:
         """Return eccentricity and normal for how far the centres lie apart across the axis, m."""

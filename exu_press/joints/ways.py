@@ -7,6 +7,7 @@ radius is a journal's.
 """
 
 import math
+from dataclasses import replace
 from math import cos, sin
 
 import numpy as np
@@ -99,36 +100,20 @@ class WaysContact(PairedJoint):
         m_3 = lever * t_3 + arm_n * t_3 - arm_t * n_3 - by_q * (arm_n * f_n + arm_t * f_t)
         return [-x_1, -x_2, -x_3, -y_1, -y_2, -y_3, -m_1, -m_2, -m_3]
 
-    @property
-    def eccentricity(self) -> tuple[float, ...]:
-        """How far the point is beside the middle at the last `add_force`, m."""
-        e = self._motion[0]
-        return e * self._directions[0], e * self._directions[1]
+    def in_frame(self, along_n: float, along_t: float) -> tuple[float, ...]:
+        """Return a vector across and along the ways in the global frame."""
+        n_x, n_y, _, _ = self._directions
+        return along_n * n_x - along_t * n_y, along_n * n_y + along_t * n_x
 
     @property
     def relative_velocity(self) -> tuple[float, ...]:
         """Rate of the eccentricity at the last `add_force`, m/s: that across the ways."""
-        rate = self._motion[1]
-        return rate * self._directions[0], rate * self._directions[1]
+        return self.in_frame(self._motion[1], 0.0)
 
     def state(self, q: list[float], q_t: list[float]) -> JointState:
         """Return what the ways do in a state; the velocity is the point's, along them too."""
-        self.add_force(q, q_t, [0.0] * len(q))
-        e, e_dot, v_t, omega, _ = self._motion
-        n_x, n_y, _, _ = self._directions
-        (load,) = self._loads
-        f_n, f_t, moment = (0.0, 0.0, 0.0) if load is None else (load[0], load[1], load[2])
-        pair = self.pairs[0]
-        return JointState(
-            eccentricity=self.eccentricity,
-            force=(f_n * n_x - f_t * n_y, f_n * n_y + f_t * n_x),
-            moments=(moment, 0.0),
-            velocity=(e_dot * n_x - v_t * n_y, e_dot * n_y + v_t * n_x),
-            angular_velocities=(omega, 0.0),
-            gap=self.clearance - e,
-            stored_energy=pair.stored_energy(e),
-            stored_power=pair.stored_force(e) * e_dot,
-        )
+        state = super().state(q, q_t)
+        return replace(state, moments=(state.moments[0], 0.0))  # the frame takes any
 
 
 class SpatialWaysContact(SpatialRevolute):

@@ -261,10 +261,6 @@ class LuGre:
         """z_dot [m/s] of the bristle's differential equation."""
         return v - self.sigma_0 * abs(v) * z / self._curve(v)[0]
 
-    def bristle_energy(self, z: float) -> float:
-        """Energy per normal force [J/N] stored in the bristle: sigma_0 z^2 / 2."""
-        return 0.5 * self.sigma_0 * z * z
-
     def _curve(self, v: float) -> tuple[float, float]:
         return _curve(
             v, self.mu_static, self.mu_kinetic, self.stribeck_velocity, self.stribeck_exponent

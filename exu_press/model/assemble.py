@@ -101,7 +101,6 @@ def _assembled(
         nodes=system.nodes,
         rigid=system.rigid,
         clearance_joints=clearance,
-        ideal_joints=ideal,
         drive=drive,
         loads=loads,
         ways=ways,

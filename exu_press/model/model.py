@@ -36,7 +36,6 @@ class Model:
         nodes: name -> node number.
         rigid: name -> rigid body.
         clearance_joints: name -> joint.
-        ideal_joints: name -> object number; those that hold a coordinate.
         drive: object number of the constraint that turns the crank.
         loads: name -> load that acts, and what tells its place on its curve.
         ways: name of a body with play in its guide -> the contacts of its two ends.
@@ -53,7 +52,6 @@ class Model:
     bodies: dict[str, int]
     nodes: dict[str, int]
     clearance_joints: dict[str, ClearanceJoint]
-    ideal_joints: dict[str, int]
     rigid: Mapping[str, RigidBody]
     drive: int
     loads: Mapping[str, tuple[AppliedLoad, Place]]

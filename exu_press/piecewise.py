@@ -6,11 +6,10 @@ A cubic one is c[0] + c[1] u + c[2] u^2 + c[3] u^3 between two neighbours of x, 
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
+
+from exu_press.arrays import Array
 
 __all__ = ["evaluate", "hermite", "integral", "spline"]
-
-Array = NDArray[np.float64]
 
 
 def hermite(x: Array, values: Array, slopes: Array) -> Array:

@@ -11,12 +11,11 @@ from typing import Any
 
 import exudyn as exu
 import numpy as np
-from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
-__all__ = ["quasi_static_motion"]
+from exu_press.arrays import Array
 
-Array = NDArray[np.float64]
+__all__ = ["quasi_static_motion"]
 
 CURRENT = exu.ConfigurationType.Current
 

@@ -16,13 +16,11 @@ from exudyn.itemInterface import (
     ObjectRigidBody2D,
     ObjectRotationalMass1D,
 )
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.mechanism import Body, Motion, Point
 
 __all__ = ["PivotedBody", "RigidBody", "SlidingBody"]
-
-Array = NDArray[np.float64]
 
 
 class RigidBody:

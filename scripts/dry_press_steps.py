@@ -14,13 +14,11 @@ import math
 import time
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.ndimage import uniform_filter1d
 
 from exu_press import Result, Scene, simulate
+from exu_press.arrays import Array
 from exu_press.columns import columns
-
-Array = NDArray[np.float64]
 
 parser = argparse.ArgumentParser(description=__doc__)
 parser.add_argument("--quick", action="store_true", help="a fifth of a revolution, coarse")

@@ -8,11 +8,10 @@ from math import cos, sin
 
 import numpy as np
 from exudyn.rigidBodyUtilities import RotationVector2RotationMatrix, RotXYZ2G, RotXYZ2RotationMatrix
-from numpy.typing import NDArray
+
+from exu_press.arrays import Array
 
 __all__ = ["NODES", "BodyEnd", "FlexiblePoint", "Vector", "cross", "cross_matrix", "dot", "turned"]
-
-Array = NDArray[np.float64]
 
 Vector = tuple[float, float, float]
 

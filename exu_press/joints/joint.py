@@ -3,14 +3,11 @@
 from dataclasses import dataclass
 from typing import Protocol
 
-import numpy as np
-from numpy.typing import NDArray
-
+from exu_press.arrays import Array
 from exu_press.joints.path import Path
 
 __all__ = ["GROUND", "SHALLOW", "ClearanceJoint", "JointState", "history"]
 
-Array = NDArray[np.float64]
 Vector = tuple[float, ...]
 
 GROUND = (0.0, 0.0, 0.0)

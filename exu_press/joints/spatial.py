@@ -4,14 +4,12 @@ from collections.abc import Sequence
 from math import sqrt
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.joints.ends import BodyEnd, Vector, cross, dot, turned
 from exu_press.joints.pairs import Pair, PairedJoint
 
 __all__ = ["SpatialRevolute"]
-
-Array = NDArray[np.float64]
 
 
 class SpatialRevolute(PairedJoint):

@@ -1,8 +1,8 @@
 """A dry spherical clearance joint between bodies of any kind (Eqs. 12-22)."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.joints.ends import BodyEnd, Vector, cross, cross_matrix
 from exu_press.joints.joint import SHALLOW, JointState
 from exu_press.joints.path import Path
@@ -10,8 +10,6 @@ from exu_press.laws.contact import Approach, NormalContact
 from exu_press.laws.friction import Friction, LuGre
 
 __all__ = ["SpatialSpherical"]
-
-Array = NDArray[np.float64]
 
 
 class SpatialSpherical:

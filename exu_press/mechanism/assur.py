@@ -21,11 +21,10 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+
+from exu_press.arrays import Array
 
 __all__ = ["Drawing", "Group", "Pose", "groups_of", "known_bodies", "one_group_of"]
-
-Array = NDArray[np.float64]
 
 Number = Any
 """One complex (or real) number, or an array of them over crank angles."""

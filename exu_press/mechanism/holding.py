@@ -20,9 +20,9 @@ from functools import lru_cache
 
 import numpy as np
 
+from exu_press.arrays import Array
 from exu_press.errors import InputError
 from exu_press.mechanism.mechanism import Mechanism
-from exu_press.mechanism.motion import Array
 from exu_press.mechanism.parts import GROUND, Guide, Joint, Point
 
 __all__ = ["HalfHeld", "Holding", "by_constraints", "holding_of"]

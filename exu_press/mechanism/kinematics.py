@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.errors import InputError
 from exu_press.mechanism.assur import (
     Drawing,
@@ -23,7 +24,7 @@ from exu_press.mechanism.assur import (
     known_bodies,
     one_group_of,
 )
-from exu_press.mechanism.motion import Array, Motion
+from exu_press.mechanism.motion import Motion
 
 __all__ = ["Kinematics", "kinematics_of"]
 

@@ -8,10 +8,11 @@ from typing import Any
 
 import numpy as np
 
+from exu_press.arrays import Array
 from exu_press.mechanism.assur import Drawing
 from exu_press.mechanism.checks import all_of, check
 from exu_press.mechanism.kinematics import Kinematics, kinematics_of
-from exu_press.mechanism.motion import Array, Motion
+from exu_press.mechanism.motion import Motion
 from exu_press.mechanism.parts import GROUND, Body, Guide, Joint, Output, Point
 
 __all__ = ["Mechanism"]

@@ -3,11 +3,10 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-__all__ = ["Array", "Motion"]
+from exu_press.arrays import Array
 
-Array = NDArray[np.float64]
+__all__ = ["Motion"]
 
 
 @dataclass(frozen=True)

@@ -7,13 +7,11 @@ joints' positions are the mechanism's.
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.mechanism.mechanism import Mechanism
 
 __all__ = ["COLOURS", "Shape", "moved", "shapes_of", "swept"]
-
-Array = NDArray[np.float64]
 
 COLOURS = {"crank": "#F2C14E", "bearing": "#8FC1E3", "link": "#C3D0DA", "block": "#DADFE3"}
 """By role; "bearing" is the body on the pin that is farthest from the crank's shaft."""

@@ -4,8 +4,8 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.mechanism import Motion
 from exu_press.model.drive import turned_body
 from exu_press.model.system import System
@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from exu_press.flexible import FrameStart
 
 __all__ = ["deformed_start"]
-
-Array = NDArray[np.float64]
 
 
 def deformed_start(ideal: System, drive: int) -> tuple[dict[str, Motion], dict[str, "FrameStart"]]:

@@ -5,13 +5,11 @@ program that prints one value a millisecond, or an instrument that differentiate
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.piecewise import evaluate, hermite, integral
 
 __all__ = ["differentiated_peak", "mean_peak", "mean_peak_of", "peak"]
-
-Array = NDArray[np.float64]
 
 MOST_SAMPLES = 10_000_000
 """Of a displacement; they take 80 MB a copy."""

@@ -3,13 +3,11 @@
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.result import JointRecord
 
 __all__ = ["TOUCH", "joint_summary"]
-
-Array = NDArray[np.float64]
 
 TOUCH = 1e-10
 """Penetration from which surfaces count as touching, m; the force begins at zero."""

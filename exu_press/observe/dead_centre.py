@@ -4,16 +4,14 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.mechanism import Mechanism
 from exu_press.piecewise import hermite
 from exu_press.result import Result
 from exu_press.scene import Scene, mechanism_of
 
 __all__ = ["DeadCentre", "bottom_dead_centres", "ideal_bottom_angle", "lowest_of_strokes"]
-
-Array = NDArray[np.float64]
 
 REACH = np.pi / 2
 """A stroke's dead centre is looked for this far before and behind the ideal one, rad: clearances

@@ -1,13 +1,11 @@
 """The energy balance of a run in numbers: how much, and how well it closes."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.result import Result
 
 __all__ = ["energy_residual", "energy_scale", "energy_summary", "has_balance"]
-
-Array = NDArray[np.float64]
 
 BALANCE = ("input", "stored", "dissipated")
 

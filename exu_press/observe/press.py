@@ -3,8 +3,8 @@
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.mechanism import Guide
 from exu_press.observe.acceleration import mean_peak_of, peak
 from exu_press.observe.dead_centre import bottom_dead_centres
@@ -15,8 +15,6 @@ from exu_press.scene import mechanism_of
 from exu_press.scene.applied import applied_loads
 
 __all__ = ["begin_of_whole_revolutions", "mean_rate", "press_summary"]
-
-Array = NDArray[np.float64]
 
 
 def press_summary(result: Result) -> dict[str, Any]:

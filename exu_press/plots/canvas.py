@@ -7,8 +7,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.text import Annotation
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.plots.decimate import decimate
 from exu_press.plots.scales import crank_angle_axis
 from exu_press.plots.words import describe, early_stops, plain
@@ -26,8 +26,6 @@ __all__ = [
     "legend_above",
     "new_figure",
 ]
-
-Array = NDArray[np.float64]
 
 
 def new_figure(heading: str, results: Mapping[str, Result], size: tuple[float, float]) -> Figure:

@@ -10,16 +10,14 @@ from matplotlib.collections import LineCollection
 from matplotlib.colors import Normalize
 from matplotlib.patches import Circle
 from matplotlib.ticker import MaxNLocator
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.plots.canvas import crank_degrees, legend_above
 from exu_press.plots.decimate import visible_segments
 from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, RUN, SHADE
 from exu_press.result import JointRecord, Result
 
 __all__ = ["TOUCH_COLOUR", "Path", "draw_path"]
-
-Array = NDArray[np.float64]
 
 MICRO = 1e6
 

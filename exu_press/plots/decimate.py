@@ -3,9 +3,9 @@
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["BINS", "decimate", "visible_segments"]
+from exu_press.arrays import Array
 
-Array = NDArray[np.float64]
+__all__ = ["BINS", "decimate", "visible_segments"]
 
 BINS = 1500
 """About two bins a pixel in a panel over half a picture's width."""

@@ -4,8 +4,8 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.mechanism import GROUND
 from exu_press.plots.busiest import busiest
 from exu_press.plots.canvas import angle_axis, angle_words, crank_degrees, curve, new_figure
@@ -17,8 +17,6 @@ from exu_press.result import Result
 from exu_press.scene import mechanism_of
 
 __all__ = ["force_figure"]
-
-Array = NDArray[np.float64]
 
 MOST_JOINTS = 5
 """Joints whose forces are drawn: those with the largest ones, of the joints with clearance, of the

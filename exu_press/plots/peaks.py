@@ -4,8 +4,8 @@ from collections.abc import Mapping
 
 import numpy as np
 from matplotlib.axes import Axes
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.observe.uncertain import uncertain
 from exu_press.plots.canvas import crank_degrees
 from exu_press.plots.style import colour_of
@@ -13,8 +13,6 @@ from exu_press.result import Result
 from exu_press.result.info import Error
 
 __all__ = ["error_of", "mark_peak", "mark_peaks", "with_error"]
-
-Array = NDArray[np.float64]
 
 
 def error_of(result: Result, name: str) -> Error | None:

@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.observe import DeadCentre, bottom_dead_centres, ideal_bottom_angle
 from exu_press.piecewise import evaluate, hermite, integral
 from exu_press.plots.canvas import (
@@ -30,8 +30,6 @@ from exu_press.scene import mechanism_of
 from exu_press.scene.applied import applied_loads
 
 __all__ = ["press_figure"]
-
-Array = NDArray[np.float64]
 
 ABOUT = 12.0
 """How far about bottom dead centre the strokes are shown, deg."""

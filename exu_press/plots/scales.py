@@ -6,13 +6,11 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.plots.style import GREY, SHADE
 
 __all__ = ["angle_ticks", "crank_angle_axis", "impact_scale", "note", "widen"]
-
-Array = NDArray[np.float64]
 
 TICK_STEPS = (0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 45, 90, 180, 360)  # deg
 MOST_CENTRES = 100

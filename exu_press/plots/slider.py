@@ -7,6 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.plots.canvas import angle_axis, angle_words, crank_degrees, curve, new_figure
 from exu_press.plots.decimate import decimate
 from exu_press.plots.peaks import mark_peaks
@@ -18,7 +19,6 @@ from exu_press.scene import mechanism_of
 
 __all__ = ["averaged", "slider_figure"]
 
-Array = NDArray[np.float64]
 Panels = NDArray[np.object_]
 Motion = tuple[Array, Array, Array]
 

@@ -8,13 +8,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.plots.style import GREY, PATH_COLOURS, colour_of
 from exu_press.plots.sweep_words import in_unit, words
 from exu_press.studies.sweep import Table
 
 __all__ = ["draw_curves", "draw_map"]
-
-Array = NDArray[np.float64]
 
 LOGARITHMIC_FROM = 50.0
 """Ratio of an axis' ends."""

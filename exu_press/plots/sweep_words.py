@@ -5,14 +5,12 @@ import re
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.plots.typesetting import typeset
 from exu_press.studies.sweep.units import meaning_of, unit_of
 
 __all__ = ["in_unit", "setting", "words"]
-
-Array = NDArray[np.float64]
 
 PREFIXES = {-9: "n", -6: "u", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 PREFIXED = ("m", "s", "N", "N m", "J", "W", "Pa")

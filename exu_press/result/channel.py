@@ -3,15 +3,13 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.errors import InputError
 from exu_press.mechanism import Mechanism
 from exu_press.stored import LARGEST
 
 __all__ = ["AXES", "Channel", "guide_channel"]
-
-Array = NDArray[np.float64]
 
 AXES = {
     "": (),

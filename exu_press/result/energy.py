@@ -3,13 +3,11 @@
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.mechanism import Body
 
 __all__ = ["mechanical_energy", "work"]
-
-Array = NDArray[np.float64]
 
 
 def mechanical_energy(

@@ -6,8 +6,8 @@ Such a body has one coordinate (see `exu_press/rigid.py`), so that no constraint
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.joints import JointState
 from exu_press.mechanism import Motion
 from exu_press.model import Model
@@ -16,8 +16,6 @@ from exu_press.result.forces import guide_channels, vectors
 from exu_press.result.joints import moments_in_plane
 
 __all__ = ["equilibrium"]
-
-Array = NDArray[np.float64]
 
 
 def equilibrium(

@@ -3,8 +3,8 @@
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.mechanism import Motion, Point
 from exu_press.model import Model
 from exu_press.result.channel import Channel
@@ -16,8 +16,6 @@ if TYPE_CHECKING:
     from fe_models import ReducedPart
 
 __all__ = ["carried_motion", "deflection", "guided_motion", "modal", "record_parts"]
-
-Array = NDArray[np.float64]
 
 
 def record_parts(model: Model, time: Array) -> tuple[dict[str, Channel], Array, Array]:

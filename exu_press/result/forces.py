@@ -3,16 +3,14 @@
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.mechanism import GROUND
 from exu_press.model import Model
 from exu_press.result.channel import Channel, guide_channel
 from exu_press.result.motion import body_motion, sensor
 
 __all__ = ["frame_force", "guide_channels", "held_forces", "vectors"]
-
-Array = NDArray[np.float64]
 
 
 def held_forces(model: Model) -> dict[str, Channel]:

@@ -1,8 +1,8 @@
 """What elastic guides and ways with play hold, store and turn into heat."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.model import Model
 from exu_press.result.channel import Channel
 from exu_press.result.energy import work
@@ -11,8 +11,6 @@ from exu_press.result.forces import guide_channels
 from exu_press.result.joints import states_of, stored_and_lost
 
 __all__ = ["record_guides", "record_ways"]
-
-Array = NDArray[np.float64]
 
 
 def record_guides(

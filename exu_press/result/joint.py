@@ -3,11 +3,10 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+
+from exu_press.arrays import Array
 
 __all__ = ["JointRecord"]
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -3,8 +3,8 @@
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.joints import ClearanceJoint, JointState, history, overlay_of
 from exu_press.model import Model
 from exu_press.result.channel import Channel
@@ -13,8 +13,6 @@ from exu_press.result.forces import vectors
 from exu_press.result.motion import sensor
 
 __all__ = ["joint_states", "moments_in_plane", "record_joints", "states_of", "stored_and_lost"]
-
-Array = NDArray[np.float64]
 
 
 def joint_states(model: Model, time: Array) -> dict[str, list[JointState]]:

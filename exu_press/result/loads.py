@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.mechanism import Motion
 from exu_press.model import Model
 from exu_press.result.channel import Channel
@@ -12,8 +12,6 @@ from exu_press.result.energy import work
 from exu_press.result.flexible import carried_motion
 
 __all__ = ["record_loads"]
-
-Array = NDArray[np.float64]
 
 
 def record_loads(

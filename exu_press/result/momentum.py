@@ -3,15 +3,13 @@
 from collections.abc import Collection
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.model import Model
 from exu_press.result.channel import Channel
 from exu_press.result.motion import point_acceleration
 
 __all__ = ["shaking_forces"]
-
-Array = NDArray[np.float64]
 
 
 def shaking_forces(model: Model, acceleration: Array) -> dict[str, Channel]:

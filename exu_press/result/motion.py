@@ -1,8 +1,8 @@
 """From a model's sensors to the motion of its bodies."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.mechanism import Motion
 from exu_press.model import Model
 
@@ -14,8 +14,6 @@ __all__ = [
     "point_motion",
     "sensor",
 ]
-
-Array = NDArray[np.float64]
 
 
 def sensor(model: Model, name: str, quantity: str, *, with_time: bool = False) -> Array:

@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exu_press.above import WORKERS
+from exu_press.arrays import Array
 from exu_press.checks import nearest
 from exu_press.errors import InputError
 from exu_press.result.contents import Contents
@@ -18,8 +18,6 @@ from exu_press.scene import IdealJoint
 from exu_press.scene.joint import Joint
 
 __all__ = ["Result"]
-
-Array = NDArray[np.float64]
 
 
 class _Joints(dict[str, JointRecord]):

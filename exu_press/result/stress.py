@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.model import Model
 from exu_press.result.channel import Channel
 from exu_press.result.flexible import modal
@@ -14,8 +15,6 @@ if TYPE_CHECKING:
     from exu_press.placed_part import PlacedPart
 
 __all__ = ["record_stress"]
-
-Array = NDArray[np.float64]
 
 DEVIATOR = np.zeros((6, 6))  # of xx yy zz yz xz xy: its square is that of von Mises
 DEVIATOR[:3, :3] = np.sqrt(0.5) * np.array([[1.0, -1.0, 0.0], [0.0, 1.0, -1.0], [-1.0, 0.0, 1.0]])

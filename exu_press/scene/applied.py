@@ -4,15 +4,13 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.laws.load_curve import LoadCurve
 from exu_press.mechanism import Point
 from exu_press.scene.scene import Scene, mechanism_of
 
 __all__ = ["AppliedLoad", "applied_loads"]
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -4,8 +4,8 @@ import math
 from collections.abc import Iterator
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.joints import history, overlay_of
 from exu_press.laws.contact import NormalContact
 from exu_press.mechanism import GROUND
@@ -14,8 +14,6 @@ from exu_press.scene.laws import contact_law
 from exu_press.solving.assembled import Assembled
 
 __all__ = ["impact_steps"]
-
-Array = NDArray[np.float64]
 
 STEPS_IN_A_RISE = 3.0
 """So many steps from first touch to the largest force resolve it to some percent."""

@@ -2,8 +2,8 @@
 
 import numpy as np
 from matplotlib.axes import Axes
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.plots.decimate import decimate
 from exu_press.plots.style import RUN
 from exu_press.result import Result
@@ -11,8 +11,6 @@ from exu_press.view.instants import Instants
 from exu_press.view.panel import animated
 
 __all__ = ["CurvePanel"]
-
-Array = NDArray[np.float64]
 
 PALE = "#B5CDE0"
 

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.gridspec import SubplotSpec
 from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.result import Result
 from exu_press.result.surface import Surface
 from exu_press.view.instants import Instants
@@ -18,8 +19,6 @@ from fe_models.errors import InputError
 from fe_models.solid_view import facing, turned_view
 
 __all__ = ["FlexiblePanel", "Look"]
-
-Array = NDArray[np.float64]
 
 TIMES_SIGN = "\N{MULTIPLICATION SIGN}"
 

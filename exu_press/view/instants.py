@@ -5,12 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.errors import InputError
 from exu_press.result import Result
 
 __all__ = ["SECONDS_PER_REVOLUTION", "Instants", "instants", "moment"]
-
-Array = NDArray[np.float64]
 
 SECONDS_PER_REVOLUTION = 5.0
 """Of the animation, unless told otherwise, s."""

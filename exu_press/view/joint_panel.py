@@ -6,8 +6,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, FancyArrowPatch
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.plots.style import COLOURS, GREY, RUN
 from exu_press.result import Result
 from exu_press.scene import mechanism_of
@@ -16,8 +16,6 @@ from exu_press.view.mechanism_panel import MARKED
 from exu_press.view.panel import animated
 
 __all__ = ["JointPanel"]
-
-Array = NDArray[np.float64]
 
 BORE, JOURNAL = 1.0, 0.55
 CLEARANCE = BORE - JOURNAL

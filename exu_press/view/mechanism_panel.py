@@ -6,8 +6,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Polygon
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.mechanism import GROUND, Mechanism
 from exu_press.mechanism.shapes import Shape, moved, shapes_of
 from exu_press.plots.style import COLOURS, GREY
@@ -18,8 +18,6 @@ from exu_press.view.instants import Instants
 from exu_press.view.panel import animated
 
 __all__ = ["MARKED", "MechanismPanel", "poses"]
-
-Array = NDArray[np.float64]
 
 MARKED = COLOURS["vermilion"]
 """Joints with clearance, here and magnified."""

@@ -4,14 +4,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicHermiteSpline
 
+from exu_press.arrays import Array
 from exu_press.observe import differentiated_peak, mean_peak, peak
 from exu_press.observe.clearance import TOUCH
 from exu_press.result import Result
 from exu_press.scene import IdealJoint, Scene, mechanism_of
 
 __all__ = ["DATUM", "MODELS", "OBSERVED", "permanent_contact", "readings", "span_of"]
-
-Array = NDArray[np.float64]
 
 MODELS = ("resolved", "mean_1ms", "differentiated_1khz")
 """Of observing accelerations: the integrator's own steps, means over 1 ms, 1 kHz samples."""

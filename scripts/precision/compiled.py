@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from exu_press.arrays import Array
 from exu_press.scene import Scene
-from exu_press.studies.precision.trajectory import Array, Trajectory
+from exu_press.studies.precision.trajectory import Trajectory
 from precision.reduced import ScalarFunction, numbers_of, rate_of, start_of
 
 __all__ = ["CompiledModel", "compile_model", "has_numba"]

@@ -27,13 +27,14 @@ from exudyn.itemInterface import (
     ObjectJointRevolute2D,
 )
 
+from exu_press.arrays import Array
 from exu_press.integrate import Status, solve_dynamic
 from exu_press.mechanism import Body, Motion
 from exu_press.rigid import RigidBody
 from exu_press.studies.precision.errors import Errors
 from exu_press.studies.precision.measured import Attempt, Measured
 from exu_press.studies.precision.own import FIXED, TOLERANCE
-from exu_press.studies.precision.trajectory import Array, Trajectory
+from exu_press.studies.precision.trajectory import Trajectory
 
 __all__ = ["DURATION", "END", "END_RATE", "squeezer_attempts", "squeezer_errors"]
 

@@ -4,12 +4,11 @@ import math
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import solveh_banded  # type: ignore[import-untyped,unused-ignore]
 
-__all__ = ["Pressure", "solve_reynolds", "supply_line"]
+from exu_press.arrays import Array
 
-Array = NDArray[np.float64]
+__all__ = ["Pressure", "solve_reynolds", "supply_line"]
 
 
 class Pressure(NamedTuple):

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from exu_press.arrays import Array
 from exu_press.confidence import Growth, growth
 from exu_press.scene import Scene, mechanism_of
 from exu_press.studies.precision.errors import (
@@ -18,7 +19,7 @@ from exu_press.studies.precision.errors import (
     instants_until,
 )
 from exu_press.studies.precision.own import moved, run_scene
-from exu_press.studies.precision.trajectory import Array, Trajectory
+from exu_press.studies.precision.trajectory import Trajectory
 
 __all__ = ["Reference", "closed_form", "from_own", "parting"]
 

@@ -3,14 +3,12 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicHermiteSpline
 
+from exu_press.arrays import Array
 from exu_press.result import Result
 
-__all__ = ["Array", "Trajectory", "trajectory_of"]
-
-Array = NDArray[np.float64]
+__all__ = ["Trajectory", "trajectory_of"]
 
 
 @dataclass(frozen=True)

@@ -6,8 +6,8 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.confidence.compared import compared
 from exu_press.integrate import Tuning
 from exu_press.laws.film.contract import film_scale
@@ -18,8 +18,6 @@ from exu_press.scene import LubricatedJoint, Scene, mechanism_of
 from exu_press.scene.laws import contact_law
 
 __all__ = ["RESIDUAL_LIMIT", "Check", "agreement", "checks_of"]
-
-Array = NDArray[np.float64]
 
 RESIDUAL_LIMIT = 1e-3
 """Of the energy balance, as in the summary."""

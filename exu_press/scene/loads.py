@@ -1,7 +1,7 @@
 """Every load of a scene by its name, from what is given."""
 
 import dataclasses
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -12,45 +12,13 @@ from exu_press.scene.bodies import face_dict
 from exu_press.scene.load import COLUMNS, LOAD_KINDS, BlankingLoad, Load, TableLoad
 from exu_press.scene.load_file import read_load_table
 
-__all__ = ["Loads", "changed_loads", "load_dict", "loads_of", "with_files_beside"]
-
-
-class Loads(Mapping[str, Load]):
-    """The loads of a scene by name, in the order in which they are given."""
-
-    def __init__(self, loads: Mapping[str, Load]) -> None:
-        """Keep loads that have been checked; `loads_of` makes them from what is given."""
-        self._loads = dict(loads)
-
-    def __getitem__(self, name: str) -> Load:
-        """Return a load by its name."""
-        return self._loads[name]
-
-    def __iter__(self) -> Iterator[str]:
-        """Iterate over the names."""
-        return iter(self._loads)
-
-    def __len__(self) -> int:
-        """Return how many there are."""
-        return len(self._loads)
-
-    def __hash__(self) -> int:
-        """Return the hash of all loads."""
-        return hash(tuple(self._loads.items()))
-
-    def __repr__(self) -> str:
-        """Return the loads."""
-        return f"Loads({self._loads!r})"
-
-    def to_dict(self) -> dict[str, dict[str, Any]]:
-        """Return the loads as nested mappings; tables with their numbers, not their files."""
-        return {name: load_dict(load) for name, load in self.items()}
+__all__ = ["changed_loads", "load_dict", "loads_of", "with_files_beside"]
 
 
 def loads_of(
     given: Any, mechanism: Mechanism, flexible: Collection[str], speed_rpm: float
-) -> Loads:
-    """Return the loads of a scene from what it gives.
+) -> dict[str, Load]:
+    """Return the loads of a scene from what it gives, by name, in the order in which it does.
 
     Args:
         given: name -> mapping of keys with its kind, or one of the dataclasses; or None.
@@ -81,11 +49,11 @@ def loads_of(
                 f"{where}.rise + fall = {load.rise + load.fall!r}: allowed is at most one "
                 f"revolution, {60.0 / speed_rpm:g} s"
             )
-    return Loads(found)
+    return found
 
 
 def load_dict(load: Load) -> dict[str, Any]:
-    """Return a load as a mapping."""
+    """Return a load as a mapping; a table with its numbers, not its file."""
     keys: dict[str, Any] = {"kind": load.kind}
     for field in dataclasses.fields(load):
         value = getattr(load, field.name)
@@ -101,7 +69,7 @@ def changed_loads(loads: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[
     """Return loads as mappings with other keys.
 
     Args:
-        loads: as `Loads.to_dict` has them.
+        loads: as `Scene.to_dict` has them.
         changes: "NAME.key" -> a value, or "NAME" -> all keys.
     """
     changed = {

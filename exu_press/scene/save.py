@@ -14,7 +14,7 @@ from exu_press.scene.bodies import Flexible, body_dict
 from exu_press.scene.joint import joint_dict
 from exu_press.scene.joints import Joints
 from exu_press.scene.load import LOAD_KINDS, Load
-from exu_press.scene.loads import Loads, load_dict
+from exu_press.scene.loads import load_dict
 from exu_press.toml import toml_text
 
 Laws = Mapping[str, Table | None]
@@ -49,7 +49,7 @@ def save_scene(
         table = getattr(scene, field.name)
         if isinstance(table, Joints):
             lines += joint_lines(table, laws, comments)
-        elif isinstance(table, Loads):
+        elif field.name == "load":
             for name, load in table.items():
                 lines += ["", f"[load.{name}]", *load_lines(load, comments)]
         elif field.name == "bodies":

@@ -27,7 +27,8 @@ from exu_press.scene.elastic import with_elastic_guides
 from exu_press.scene.joint import DEFAULT_KINDS, LAW_TABLES, joint_dict
 from exu_press.scene.joint_changes import by_group, kinds_of, unused_laws
 from exu_press.scene.joints import Joints, joints_of
-from exu_press.scene.loads import Loads, loads_of
+from exu_press.scene.load import Load
+from exu_press.scene.loads import load_dict, loads_of
 from exu_press.scene.save import save_scene
 from exu_press.scene.tables import (
     Contact,
@@ -74,7 +75,7 @@ class Scene(Table):
     contact: Contact | None = None
     friction: Friction | None = None
     film: Film | None = None
-    load: Loads = dataclasses.field(default=cast(Any, None))  # until its mechanism is known
+    load: Mapping[str, Load] = dataclasses.field(default_factory=dict, hash=False)
     drive: Motor | None = None
     guide: ElasticGuide | None = None
     solver: Solver | None = None
@@ -85,14 +86,16 @@ class Scene(Table):
         """Check the keys, refuse what the scene does not use and fill in what it does."""
         object.__setattr__(self, "mechanism", _asked(self.mechanism))
         super().__post_init__()
-        unused = unused_keys({field.name: getattr(self, field.name) for field in _fields(self)})
+        unused = unused_keys(
+            {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
+        )
         for name, table in TABLES.items():
             given = getattr(self, name)
             if given is not None:
                 self._refuse(unused, name, given)
                 checked: Table = table_from(table, name, given)
                 object.__setattr__(self, name, checked)
-                for field in _fields(checked):
+                for field in dataclasses.fields(checked):
                     if (value := getattr(checked, field.name)) != field.default:
                         self._refuse(unused, f"{name}.{field.name}", value)
             elif name not in unused and name not in (*ONLY_WHERE_GIVEN, *LAW_TABLES):
@@ -141,15 +144,14 @@ class Scene(Table):
     def to_dict(self) -> dict[str, Any]:
         """Return the complete scene as a nested mapping, for Scene.from_dict or a file."""
         complete: dict[str, Any] = {}
-        for field in _fields(self):
+        for field in dataclasses.fields(self):
             value = getattr(self, field.name)
             if isinstance(value, Joints):
                 complete[field.name] = value.to_dict(self.laws)
-            elif isinstance(value, Loads):
-                complete |= {field.name: value.to_dict()} if value else {}
-            elif field.name == "bodies":
-                bodies = {name: body_dict(body) for name, body in value.items()}
-                complete |= {"bodies": bodies} if bodies else {}
+            elif field.name in ("load", "bodies"):
+                to_dict = load_dict if field.name == "load" else body_dict
+                tables = {name: to_dict(table) for name, table in value.items()}
+                complete |= {field.name: tables} if tables else {}
             elif isinstance(value, Table):
                 inner = dataclasses.asdict(value)
                 complete[field.name] = {k: v for k, v in inner.items() if v is not None}
@@ -279,7 +281,3 @@ def _asked(mechanism: Any) -> Any:
     if isinstance(mechanism, str) and mechanism.endswith(".toml"):
         return load_mechanism(mechanism)
     return mechanism
-
-
-def _fields(table: Any) -> tuple[dataclasses.Field[Any], ...]:
-    return dataclasses.fields(table)

@@ -8,7 +8,6 @@ from exu_press.checks import Table
 from exu_press.scene.bodies import Flexible
 from exu_press.scene.joints import Joints
 from exu_press.scene.load import BlankingLoad, Load, TableLoad
-from exu_press.scene.loads import Loads
 from exu_press.scene.save import body_lines, joint_lines, load_lines, table_lines
 from exu_press.scene.scene import Scene, mechanism_of
 from exu_press.scene.usage import TABLES
@@ -45,7 +44,7 @@ def _lines(scene: Scene) -> Iterator[str]:
                 example = scene.replace(f"joints.{name}", "dry")
                 shown = joint_lines(example.joints, example.laws, True)[1:]
                 yield from ("", *(f"# {line}" for line in shown))
-        elif isinstance(value, Loads):
+        elif field.name == "load":
             yield from ("", *(f"# {line}".rstrip("# ") for line in _loads()))
         elif field.name == "bodies":
             yield from ("", *(f"# {line}" for line in _a_flexible_body(scene)))

@@ -9,12 +9,13 @@ Before the first step the state is moved to fit them (`fit_start`); where the st
 what generalized-alpha carries over (`StepChange`).
 """
 
+import exudyn as exu
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.integrate.settings import SAME, Task
+from exu_press.integrate.settings import SAME, SWITCHED, Task
 
-__all__ = ["Constraints", "StepChange", "fit_start", "start_rates"]
+__all__ = ["Constraints", "StepChange", "fit_data", "fit_start", "start_rates"]
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -49,12 +50,13 @@ class Constraints:
         problem = task.problem
         self._mbs, self._solver, self._data = problem.mbs, task.solver, problem.data
         self._current, self._untold = problem.current, problem.untold_rates
+        self._all_multipliers = problem.all_multipliers
         self._of_velocities: Flags | None = None
 
     @property
     def count(self) -> int:
-        """How many they are."""
-        return len(self._current.multipliers)
+        """How many they are; 0 where not all unknowns beside the coordinates are multipliers."""
+        return len(self._current.multipliers) if self._all_multipliers else 0
 
     def of_velocities(self) -> Flags:
         """Return which of them hold velocities; the others hold positions."""
@@ -218,6 +220,25 @@ def start_rates(task: Task) -> None:
         task.solver.ComputeODE1RHS(problem.mbs)
         rates = np.array(task.solver.GetSystemResidual())[before : before + size]
         problem.current.rates[:] = problem.start.rates[:] = rates
+
+
+def fit_data(task: Task) -> None:
+    """Let data variables fit the start, where they are a guess that contact or friction denies.
+
+    Some contacts of Exudyn's, as of convex rolls, compare with the step's start alone, so that a
+    first step with another gap than the guessed one would never settle, however short. Places along
+    cables follow from unknowns that only the first step finds.
+    """
+    data, where = task.problem.data, exu.ConfigurationType
+    guess = np.array(data.GetDataCoordinates(where.Current))
+    if not len(guess) or not task.problem.all_multipliers:
+        return
+    mbs = task.problem.mbs
+    denied = task.solver.PostNewton(mbs, mbs.sys["simulationSettings"])
+    if denied > SWITCHED:
+        data.SetDataCoordinates(data.GetDataCoordinates(where.Current), where.StartOfStep)
+    else:
+        data.SetDataCoordinates(guess, where.Current)
 
 
 class StepChange:

@@ -33,9 +33,9 @@ class ErrorPerStep:
     have tolerance^(3/2). With clearance joints it may have a hundredth of the tolerance at least,
     as below 1e-4 impacts become no more.
 
-    A run of many more steps adds more errors up: all of them where a phase drifts, none where the
-    motion is damped or driven. In between, as for errors of either sign, a step may have less by
-    the root of how many steps of its size the run would take, over what is usual.
+    A run of many more steps adds more errors up: all of them where bodies vibrate and a phase
+    drifts, so that a step may have less by how many steps of its size the run would take, over what
+    is usual. First-order coordinates relax, and their errors are of either sign: the root of that.
 
     Attributes:
         whole: what a step may have in a run of a usual number of steps.
@@ -63,8 +63,12 @@ class ErrorPerStep:
         return cls(whole, duration * math.sqrt(tolerance) / many_steps)
 
     def at(self, step: float) -> float:
-        """Return what a step (s) may have."""
-        return self.whole if step >= self.shortest else self.whole * math.sqrt(step / self.shortest)
+        """Return what a step (s) may have of velocities."""
+        return self.whole if step >= self.shortest else self.whole * step / self.shortest
+
+    def relaxing(self, step: float) -> float:
+        """Return what a step (s) may have of first-order coordinates."""
+        return math.sqrt(self.whole * self.at(step))
 
 
 class BodyError:
@@ -146,9 +150,11 @@ class BodyError:
     def offset(self, step: float) -> float:
         """Return what velocities that constraints prescribe are off by at each instant, m/s.
 
-        They follow from two positions: h^2 |rate of the acceleration| / 12.
+        They follow from two positions: h^2 |rate of the acceleration| / 12, if that is more than
+        what alternates because positions are rounded.
         """
-        return step * step * self._scales.norm(self._rate) / 12.0
+        off = step * step * self._scales.norm(self._rate) / 12.0
+        return off if off > self._noise / (6.0 * step) else 0.0
 
     def curvature(self, step: float, tolerance: float) -> float:
         """Return what accelerations are off a line between a step's ends, over what they may.
@@ -247,7 +253,8 @@ class FirstOrderError:
         missed = step * step * np.abs(change - self._change) / 12.0
         largest = np.maximum(self._largest, step * np.abs(rate))
         counts = largest > 0.0
-        return float((missed[counts] / largest[counts]).max(initial=0.0)) / self._per_step.at(step)
+        relative = float((missed[counts] / largest[counts]).max(initial=0.0))
+        return relative / self._per_step.relaxing(step)
 
     def accept(self) -> None:
         """Remember the accepted step's end as the next one's beginning."""

@@ -10,7 +10,13 @@ from typing import Any
 
 import exudyn as exu
 
-from exu_press.integrate.constraints import Constraints, StepChange, fit_start, start_rates
+from exu_press.integrate.constraints import (
+    Constraints,
+    StepChange,
+    fit_data,
+    fit_start,
+    start_rates,
+)
 from exu_press.integrate.error import StepError
 from exu_press.integrate.newton import Newton
 from exu_press.integrate.settings import Task
@@ -106,6 +112,7 @@ class Monitor:
         task.solver.ComputeMassMatrix(task.problem.mbs)
         if not task.fixed:  # within a fixed step, motions may change by less than rounding
             fitted = fit_start(task, self._constraints)
+            fit_data(task)
             if fitted is not None:
                 self._step_change.start_from(*fitted)
                 self._estimate.start = fitted[0].tolist()

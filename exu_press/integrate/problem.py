@@ -34,6 +34,9 @@ MATERIAL_POINTS = {
 
 LIE_GROUP = "RigidBodyRotVecLG"
 
+ALONG_CABLES = "JointSliding", "JointSliding2D"
+"""Joints one of whose algebraic unknowns is a place along a cable, m."""
+
 RIGID_OR_MODAL = (
     "Ground",
     "Mass1D",
@@ -117,8 +120,10 @@ class Problem:
         switching: whether there are data variables or general contacts, which Exudyn iterates on
             after Newton's method.
         untold_rates: whether Exudyn does not tell how fast some constraints are violated: where
-            user functions prescribe offsets, but not their rates, and at flexible bodies' rigid
-            markers, whose velocities are no rates of their positions.
+            user functions prescribe offsets, but not their rates, or whole constraints, and at
+            flexible bodies' rigid markers, whose velocities are no rates of their positions.
+        all_multipliers: whether all algebraic unknowns are forces of constraints; places along
+            cables are none, and what they leave open no constraint can mend.
         length: largest displacement coordinate at the start, m; their last digits are rounded.
     """
 
@@ -132,6 +137,7 @@ class Problem:
     modal_stiffness: bool
     switching: bool
     untold_rates: bool
+    all_multipliers: bool
     length: float
 
     @classmethod
@@ -163,6 +169,7 @@ class Problem:
         modal = "FFRFreducedOrder" in kinds and all(
             kind.startswith("ConnectorCoordinate") and "Spring" not in kind for kind in others
         )
+        _refuse_first_order(objects)
         nodes = _nodes(mbs, objects, bodies)
         reference = np.array(data.GetODE2Coordinates(exu.ConfigurationType.Reference))
         return cls(
@@ -176,6 +183,7 @@ class Problem:
             modal_stiffness=modal,
             switching=data.DataSize() > 0 or mbs.NumberOfGeneralContacts() > 0,
             untold_rates=_untold_rates(mbs, objects),
+            all_multipliers=not any(kind in ALONG_CABLES for kind in kinds),
             length=_length(data, reference, nodes),
         )
 
@@ -185,12 +193,25 @@ class Problem:
         return self.joints is not None and self.joints.lubricated
 
 
+def _refuse_first_order(objects: list[dict[str, Any]]) -> None:
+    """Refuse joints whose place along a cable Exudyn follows to first order only."""
+    for number, item in enumerate(objects):
+        kind = item["objectType"]
+        if kind in ALONG_CABLES and not item.get("useClassicalFormulation", True):
+            raise InputError(
+                f"object {number} ({item['name']}) is a {kind} with useClassicalFormulation = "
+                "False: allowed with a tolerance is True, whose place along the cable is of the "
+                "integrator's order"
+            )
+
+
 def _untold_rates(mbs: exu.MainSystem, objects: list[dict[str, Any]]) -> bool:
     """Return whether Exudyn does not tell how fast some constraints are violated."""
     data: Any = mbs.systemData
     kinds = {mbs.GetMarker(number)["markerType"] for number in range(data.NumberOfMarkers())}
     return "SuperElementRigid" in kinds or any(
-        item.get("offsetUserFunction", 0) != 0 and item.get("offsetUserFunction_t", 0) == 0
+        item.get("constraintUserFunction", 0) != 0
+        or (item.get("offsetUserFunction", 0) != 0 and item.get("offsetUserFunction_t", 0) == 0)
         for item in objects
     )
 

@@ -16,7 +16,7 @@ from exu_press.errors import InputError
 from exu_press.integrate.problem import Problem
 from exu_press.integrate.scales import FoundScales, Scales
 
-__all__ = ["SAME", "Task", "Tuning", "prepared", "refuse_unusable"]
+__all__ = ["SAME", "SWITCHED", "Task", "Tuning", "prepared", "refuse_unusable"]
 
 SAME = 1e-6
 """Steps that differ by less, relative, are one size: the clock's last digits."""
@@ -54,8 +54,8 @@ class Tuning:
         first_step: first step over the largest one.
         first_step_of_film: the same with a film, which takes up its load within a microsecond or
             so: a longer step leaves an overshoot of 3 % in the first loads.
-        many_steps: times tolerance^(-1/2), the number of steps of a run from which on their errors
-            are taken to add up as errors of either sign do (`exu_press.integrate.error`).
+        many_steps: times tolerance^(-1/2), the number of steps of a run from which on each may
+            miss less, as their errors add up (`exu_press.integrate.error`).
         velocity_constant: of generalized-alpha's local error h^3 times the second derivative of the
             acceleration: 0.083 to 0.077 for spectral radii at infinity of 1 to 0.8, doubled.
         rounding: of positions and speeds, over the largest one, in each step: times 1 / (1 -

@@ -178,7 +178,7 @@ def test_vibrating_bodies_follow_the_tolerance():
 def test_a_usual_run_gives_each_step_the_whole():
     per_step = ErrorPerStep.of(1e-4, duration=1.0, many_steps=10.0, impacts=False)
     assert per_step.at(1e-3) == pytest.approx(1e-6)  # a thousand steps
-    assert per_step.at(1e-5) == pytest.approx(1e-7)  # a hundred times as many
+    assert per_step.at(1e-5) == pytest.approx(1e-8)  # a hundred times as many
 
 
 def test_impacts_leave_a_hundredth():

@@ -18,7 +18,7 @@ from exu_press.confidence.estimate import (
 from exu_press.confidence.figures import figures
 from exu_press.confidence.parting import Parting, parting
 from exu_press.confidence.reading import LOADS, overshot, smoothed, unbalanced
-from exu_press.confidence.windows import until
+from exu_press.confidence.windows import until, window
 from exu_press.result import Result
 from exu_press.result.info import Error, Errors
 from exu_press.scene import Scene
@@ -138,6 +138,7 @@ def errors_of(
     end = float(result.time[-1])
     parted: Parting | None = None
     by_end: dict[float, dict[float, Mapping[str, float]]] = {}
+    after: dict[float, Mapping[str, float]] = {}
     for ratio, companion in companions:
         if companion.time[-1] < end * (1.0 - 1e-9):
             continue
@@ -149,9 +150,12 @@ def errors_of(
                 for instant in (parted.beside, parted.growth.horizon)
             )
             by_end = {at: {1.0: read(until(result, at))} for at in (end, beside, horizon)}
+            after = {1.0: read(window(result, horizon, end))} if horizon < end else {}
             reads = [read(changed(result)) for changed in (smoothed, overshot, unbalanced)]
         for instant, found in by_end.items():
             found[ratio] = read(until(run, instant))
+        if after:
+            after[ratio] = read(window(run, horizon, end))
     if parted is None:
         return {"errors": {}, "errors_from": None, "amplification": None}
     solver = result.scene.solver
@@ -160,7 +164,7 @@ def errors_of(
     errors: dict[str, Error] = {}
     for name, value in by_end[end][1.0].items():
         left_open = max(abs(value - changed[name]) for changed in reads)
-        errors[name] = told = _error(name, by_end[end], until_then, left_open)
+        errors[name] = told = _error(name, by_end[end], until_then, after, left_open)
         if value >= 0.0 and not name.endswith(SIGNED):
             told["low"] = max(told["low"], 0.0)
     return {
@@ -170,14 +174,20 @@ def errors_of(
     }
 
 
-def _error(name: str, now: Figures, until_then: Mapping[float, Figures], read: float) -> Error:
+def _error(
+    name: str, now: Figures, until_then: Mapping[float, Figures], after: Figures, read: float
+) -> Error:
     """Return the error of a figure.
+
+    Beyond the horizon, an extreme is that of the run continued as each companion goes on: what
+    companions did before, where the run is right, does not widen its bounds.
 
     Args:
         name: of the figure.
         now: of the whole motion.
         until_then: safety of errors that go with the tolerance or the step -> the figures until the
-            instant up to which it is enough.
+            instant up to which it is enough; the last one is the horizon.
+        after: of the motion from the horizon on, where there is one.
         read: what reading the figure at the run's steps leaves open.
     """
     values = {ratio: found[name] for ratio, found in now.items() if name in found}
@@ -185,12 +195,38 @@ def _error(name: str, now: Figures, until_then: Mapping[float, Figures], read: f
         return scattered([values[1.0], 0.0])
     least = _least(name, list(values.values()), now[1.0]) + OF_READING * read
     for safety, before in until_then.items():
-        if all(
-            abs(before[r].get(name, np.inf) - value) <= SAME * abs(value)
+        begun = {r: before[r].get(name, np.nan) for r in values}
+        if all(abs(begun[r] - value) <= SAME * abs(value) for r, value in values.items()):
+            return converging(list(values.values()), list(values), least, safety)
+    later = {r: found.get(name, np.nan) for r, found in after.items() if r in values}
+    extreme = _extreme(name, values, begun, later) if later else None
+    if extreme is None:
+        return scattered(list(values.values()), least)
+    known = converging(list(begun.values()), list(values), least, safety)
+    continued = [extreme(begun[1.0], value) for value in later.values()]
+    of_before = abs(begun[1.0] - values[1.0]) <= SAME * abs(values[1.0])
+    told = scattered(continued, known["error"] if of_before else least)
+    if extreme is max:
+        told["low"] = max(told["low"], known["low"])
+    else:
+        told["high"] = min(told["high"], known["high"])
+    return told
+
+
+def _extreme(
+    name: str,
+    values: Mapping[float, float],
+    begun: Mapping[float, float],
+    later: Mapping[float, float],
+) -> Callable[[float, float], float] | None:
+    """Return max or min, if the figure is that of its values in two parts of every run."""
+    for extreme in (max, min):
+        if not name.endswith(SIGNED) and all(
+            abs(extreme(begun[r], later[r]) - value) <= SAME * abs(value)
             for r, value in values.items()
         ):
-            return converging(list(values.values()), list(values), least, safety)
-    return scattered(list(values.values()), least)
+            return extreme
+    return None
 
 
 def _least(name: str, values: Sequence[float], run: Mapping[str, float]) -> float:

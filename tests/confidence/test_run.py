@@ -93,6 +93,25 @@ def test_a_run_that_has_not_parted_itself_tells_a_larger_error():
     assert most > 3.0 * more
 
 
+def test_what_companions_did_before_the_horizon_widens_no_bounds():
+    """A peak does not fall below the one until then."""
+    scene = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=0.1)
+    result = simulate(scene)
+    part = result.time / result.time[-1]
+    beside = dict(result.channels)
+    for name, changed in {
+        "crank_pin_eccentricity": np.where(part > 0.9, 2e-4, 0.0)[:, None] * [1.0, 0.0],
+        "crank_pin_force": np.where(part > 0.95, 1e7, 0.0)[:, None] * [1.0, 0.0],
+    }.items():
+        beside[name] = replace(beside[name], values=beside[name].values + changed)
+    other = replace(result, channels=beside)
+    errors = errors_of(result, [(4.0, other), (8.0, other)])["errors"]
+    force = errors["joints.crank_pin.peak_force"]
+    peak = result.summary()["joints"]["crank_pin"]["peak_force"]
+    assert force["low"] == pytest.approx(peak, rel=0.02)
+    assert force["high"] > 1e7
+
+
 def test_magnitudes_are_not_below_zero_and_energies_may_be():
     """The bounds of two runs that have nothing in common are wide."""
     scene = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=0.1)

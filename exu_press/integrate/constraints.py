@@ -162,7 +162,10 @@ class _Start:
     def mended(self, vector: Array, violated: Array, fits: float) -> Array:
         """Return the nearest vector, in the kinetic norm, without violations; itself if it fits."""
         right = np.concatenate([np.zeros(len(vector)), violated])
-        change = np.linalg.solve(self._matrix, right)[: len(vector)]
+        try:
+            change = np.linalg.solve(self._matrix, right)[: len(vector)]
+        except np.linalg.LinAlgError:  # coordinates without mass, as of a beam's cross-sections
+            change = np.linalg.lstsq(self._matrix, right, rcond=None)[0][: len(vector)]
         return (
             vector if self._norm(change) <= fits * self._norm(vector - change) else vector - change
         )

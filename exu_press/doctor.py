@@ -7,6 +7,8 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from exu_press.versions import version_of
+
 __all__ = ["Run", "extras", "joints_compiled", "machine", "runs", "versions"]
 
 PACKAGE = "exu-press"
@@ -65,13 +67,13 @@ def machine() -> str:
 
 def versions() -> dict[str, str | None]:
     """Return the version of every package that is needed; None where it is missing."""
-    return {name: _version(name) for name in [PACKAGE, *_requirements()[""]]}
+    return {name: version_of(name) for name in [PACKAGE, *_requirements()[""]]}
 
 
 def extras() -> dict[str, dict[str, str | None]]:
     """Return the versions of what each extra adds, by extra; None where it is missing."""
     return {
-        extra: {name: _version(name) for name in names}
+        extra: {name: version_of(name) for name in names}
         for extra, names in _requirements().items()
         if extra
     }
@@ -156,11 +158,3 @@ def _requirements() -> dict[str, list[str]]:
         if name != PACKAGE:
             found.setdefault(extra[1] if extra else "", []).append(name)
     return found
-
-
-def _version(name: str) -> str | None:
-    """Return the version of an installed package."""
-    try:
-        return importlib.metadata.version(name)
-    except importlib.metadata.PackageNotFoundError:
-        return None

@@ -11,7 +11,7 @@ from exudyn import graphics
 
 from exu_press.mechanism import GROUND, Mechanism, Point
 from exu_press.mechanism.parts import DRIVE
-from exu_press.mechanism.shapes import Shape, shapes_of, swept
+from exu_press.mechanism.shapes import Shape, shapes_of, swept, swept_outlines
 from exu_press.model import Model, build
 from exu_press.scene import Scene
 
@@ -80,15 +80,8 @@ def _layers(mechanism: Mechanism) -> dict[str, int]:
     """Return a layer for every body, such that bodies with a common joint never share one."""
     layers: dict[str, int] = {}
     for body in mechanism.bodies:
-        taken = {
-            layers.get(other)
-            for joint in mechanism.joints
-            for one, other in (
-                (joint.journal, joint.bearing),
-                (joint.bearing, joint.journal),
-            )
-            if one == body.name
-        }
+        joints = mechanism.joints_of(body.name)
+        taken = {layers.get(end) for joint in joints for end in (joint.journal, joint.bearing)}
         layers[body.name] = next(n for n in range(len(mechanism.bodies)) if n not in taken)
     return layers
 
@@ -97,18 +90,17 @@ def _frame(
     mechanism: Mechanism, shapes: dict[str, Shape], layers: dict[str, int], thickness: float
 ) -> list[Any]:
     """Return the guides' rails beside their bodies, and the pivots' pins."""
-    motion = mechanism.motion(np.linspace(0.0, 2.0 * np.pi, 73), 1.0)
+    everywhere = swept_outlines(mechanism, shapes)
     solids = []
     for guide in mechanism.guides:
-        positions = np.vstack([shapes[guide.body].moved(p) for p in motion[guide.body].position])
-        (left, low), (right, high) = positions.min(axis=0), positions.max(axis=0)
+        (left, low), (right, high) = everywhere[guide.body].min(0), everywhere[guide.body].max(0)
         width = 0.25 * thickness
         for x in (left - width, right + width):
             centre = [x, 0.5 * (low + high), layers[guide.body] * thickness]
             size = [width, high - low, thickness]
             solids.append(graphics.Brick(centre, size, FRAME))
     for joint in mechanism.joints:
-        if GROUND in (joint.journal, joint.bearing):
+        if joint.on_frame:
             start = [*joint.at, -thickness]
             pin = graphics.Cylinder(start, [0.0, 0.0, 3.0 * thickness], 0.2 * thickness, FRAME)
             solids.append(pin)

@@ -192,16 +192,7 @@ class PivotedBody(RigidBody):
 
     def motion(self, q: Array, q_t: Array, q_tt: Array) -> Motion:
         """As `RigidBody.motion`."""
-        angle, omega, alpha = self.reference[2] + q[:, 0], q_t[:, 0], q_tt[:, 0]
-        x, y = self.local((0.0, 0.0))
-        arm_x, arm_y = (
-            np.cos(angle) * x - np.sin(angle) * y,
-            np.sin(angle) * x + np.cos(angle) * y,
-        )
-        return Motion(
-            np.column_stack([self._pivot[0] + arm_x, self._pivot[1] + arm_y, angle]),
-            np.column_stack([-omega * arm_y, omega * arm_x, omega]),
-            np.column_stack(
-                [-alpha * arm_y - omega**2 * arm_x, alpha * arm_x - omega**2 * arm_y, alpha]
-            ),
-        )
+        still = np.zeros((len(q), 2))
+        places = np.column_stack([still + self._pivot, self.reference[2] + q])
+        turned = Motion(places, np.column_stack([still, q_t]), np.column_stack([still, q_tt]))
+        return turned.at(self.local((0.0, 0.0)))

@@ -2,13 +2,13 @@
 
 import hashlib
 import importlib
-import importlib.metadata
 import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from exu_press.batch.sources import source_digest
+from exu_press.versions import version_of
 
 __all__ = [
     "COMPLETED",
@@ -70,15 +70,8 @@ def versions(function: str) -> dict[str, str | None]:
 
     Our own version alone would not do: sources change between two versions.
     """
-    found: dict[str, str | None] = {
-        "sources": source_digest(function.partition(":")[0].partition(".")[0])
-    }
-    for package in PACKAGES:
-        try:
-            found[package] = importlib.metadata.version(package)
-        except importlib.metadata.PackageNotFoundError:
-            found[package] = None
-    return found
+    sources = source_digest(function.partition(":")[0].partition(".")[0])
+    return {"sources": sources, **{package: version_of(package) for package in PACKAGES}}
 
 
 def name_of(function: Function) -> str:

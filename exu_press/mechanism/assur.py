@@ -111,7 +111,6 @@ class _Member:
 class _Loop:
     """A joint whose two bodies are in place already."""
 
-    joint: str
     bodies: tuple[str, str]
     points: tuple[complex, complex]
 
@@ -352,7 +351,7 @@ def _group(drawing: Drawing, poses: Mapping[str, Pose], chosen: Sequence[str]) -
         hung.add(name)
         waiting.remove(body)
     loops = tuple(
-        _Loop(name, (one, other), (local(one, at), local(other, at)))
+        _Loop((one, other), (local(one, at), local(other, at)))
         for name, at, one, other in inside
         if name not in hung
     )

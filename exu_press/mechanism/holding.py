@@ -271,7 +271,7 @@ def _pivoted(mechanism: Mechanism, ideal: frozenset[str]) -> dict[str, Joint]:
     """Return the bodies on an ideal pivot of the frame, each with it."""
     found: dict[str, Joint] = {}
     for joint in mechanism.joints:
-        if joint.name in ideal and GROUND in (joint.journal, joint.bearing):
+        if joint.name in ideal and joint.on_frame:
             body = joint.bearing if joint.journal == GROUND else joint.journal
             found.setdefault(body, joint)
     return found

@@ -149,7 +149,7 @@ class Kinematics:
     def _follow(self) -> None:
         """Find the knots: coordinates and their derivatives from 0 to a whole revolution."""
         angle, step = 0.0, LONGEST_STEP
-        drawn = [(group.drawn(), *_still(group)) for group in self.groups]
+        drawn = [(group.drawn(), *np.zeros((2, len(group.members)))) for group in self.groups]
         try:
             states = self._step(0.0, drawn, 0.0)
         except _LostError as lost:
@@ -251,10 +251,6 @@ def _scaled(drawing: Drawing, size: float) -> Drawing:
         bodies=tuple((name, centre / size, angle) for name, centre, angle in drawing.bodies),
         joints=tuple((name, at / size, one, other) for name, at, one, other in drawing.joints),
     )
-
-
-def _still(group: Group) -> tuple[Array, Array]:
-    return np.zeros(len(group.members)), np.zeros(len(group.members))
 
 
 def _inverse(group: Group, jacobian: Array) -> Array:

@@ -4,6 +4,7 @@ Drawn, not measured: links have one width, blocks grow with the cube root of the
 joints' positions are the mechanism's.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,7 +12,7 @@ import numpy as np
 from exu_press.arrays import Array
 from exu_press.mechanism.mechanism import Mechanism
 
-__all__ = ["COLOURS", "Shape", "moved", "shapes_of", "swept"]
+__all__ = ["COLOURS", "Shape", "moved", "shapes_of", "swept", "swept_outlines"]
 
 COLOURS = {"crank": "#F2C14E", "bearing": "#8FC1E3", "link": "#C3D0DA", "block": "#DADFE3"}
 """By role; "bearing" is the body on the pin that is farthest from the crank's shaft."""
@@ -31,14 +32,10 @@ class Shape:
     """A body's outline in its own frame, m.
 
     Attributes:
-        body: name.
-        points: (k, 2) its joints' centres.
         outline: (n, 2) corners of a polygon, counter-clockwise.
         role: "crank", "bearing", "link" or "block", which a guide holds.
     """
 
-    body: str
-    points: Array
     outline: Array
     role: str
 
@@ -66,7 +63,7 @@ def shapes_of(mechanism: Mechanism) -> dict[str, Shape]:
         else:
             margin = ROD * height * (1.6 if body.name == mechanism.crank else 1.0)
             outline = _link(points, margin)
-        shapes[body.name] = Shape(body.name, points, outline, _role(mechanism, body.name))
+        shapes[body.name] = Shape(outline, _role(mechanism, body.name))
     return shapes
 
 
@@ -79,6 +76,15 @@ def swept(mechanism: Mechanism) -> Array:
         for pose in motion[body.name].position
     ]
     return np.vstack(positions)
+
+
+def swept_outlines(mechanism: Mechanism, shapes: Mapping[str, Shape]) -> dict[str, Array]:
+    """Return all places (n, 2) of every body's outline over a revolution of the ideal mechanism."""
+    motion = mechanism.motion(np.linspace(0.0, 2.0 * np.pi, 73), 1.0)
+    return {
+        name: np.vstack([shape.moved(pose) for pose in motion[name].position])
+        for name, shape in shapes.items()
+    }
 
 
 def moved(points: Array, pose: Array) -> Array:

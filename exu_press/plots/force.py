@@ -75,13 +75,8 @@ def _joints(results: Sequence[Result]) -> list[str]:
     order: dict[str, int] = {}
     for result in results:
         mechanism = mechanism_of(result.scene)
-        on_crank = [
-            joint.name
-            for joint in mechanism.joints
-            if mechanism.crank in (joint.journal, joint.bearing)
-            and GROUND not in (joint.journal, joint.bearing)
-        ]
-        order |= dict.fromkeys((*result.clearance_joints, *on_crank[:1]), 0)
+        on_crank = [*mechanism.crank_pins][:1]
+        order |= dict.fromkeys((*result.clearance_joints, *on_crank), 0)
         for joint in mechanism.joints:
             bodies = {joint.journal, joint.bearing}
             if bodies & {GROUND, mechanism.slider} and mechanism.crank not in bodies:

@@ -1,15 +1,15 @@
 """The mechanism from the front, to scale, with its guides, pivots and dead centres."""
 
 from collections.abc import Iterable
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Polygon
 
 from exu_press.arrays import Array
-from exu_press.mechanism import GROUND, Mechanism
-from exu_press.mechanism.shapes import Shape, moved, shapes_of
+from exu_press.mechanism import Mechanism
+from exu_press.mechanism.shapes import moved, shapes_of, swept_outlines
 from exu_press.plots.style import COLOURS, GREY
 from exu_press.plots.words import joint_in_words
 from exu_press.result import Result
@@ -26,7 +26,10 @@ LINE = 0.04
 """Of a panel's height, which a label takes."""
 
 EDGE = "#333333"
-STEEL = "#8A8A8A"
+FIXED: dict[str, Any] = {
+    "facecolor": "white", "edgecolor": "#8A8A8A", "hatch": "/////", "linewidth": 0.6
+}  # fmt: skip
+"""Looks of the frame."""
 
 
 class MechanismPanel:
@@ -38,7 +41,7 @@ class MechanismPanel:
         self._poses = poses(result, mechanism, instants)
         self._shapes = shapes_of(mechanism)
         order = sorted(mechanism.bodies, key=lambda body: self._layer(body.name))
-        everywhere = _swept_outlines(mechanism, self._shapes)
+        everywhere = swept_outlines(mechanism, self._shapes)
         low = np.vstack(list(everywhere.values())).min(axis=0)
         high = np.vstack(list(everywhere.values())).max(axis=0)
         self._unit = unit = float(high[1] - low[1])
@@ -92,8 +95,8 @@ class MechanismPanel:
         places = np.array(
             [moved(np.array([point]), self._poses[body][frame])[0] for body, point in self._joints]
         )
-        _put(self._pins, places[: self._split])
-        _put(self._marked, places[self._split :])
+        self._pins.set_data(*places[: self._split].T)
+        self._marked.set_data(*places[self._split :].T)
 
 
 def poses(result: Result, mechanism: Mechanism, instants: Instants) -> dict[str, Array]:
@@ -105,24 +108,10 @@ def poses(result: Result, mechanism: Mechanism, instants: Instants) -> dict[str,
     stored = result["body_position"]
     found = {}
     for index, name in enumerate(result.bodies):
-        pose = np.column_stack(
+        found[name] = np.column_stack(
             [np.interp(instants.time, result.time, stored[:, index, k]) for k in range(3)]
         )
-        found[name] = pose
     return found
-
-
-def _put(line: Line2D, places: Array) -> None:
-    line.set_data(places[:, 0], places[:, 1])
-
-
-def _swept_outlines(mechanism: Mechanism, shapes: dict[str, Shape]) -> dict[str, Array]:
-    """Return all places (n, 2) of every body's outline over a revolution of the ideal mechanism."""
-    motion = mechanism.motion(np.linspace(0.0, 2.0 * np.pi, 73), 1.0)
-    return {
-        name: np.vstack([shape.moved(pose) for pose in motion[name].position])
-        for name, shape in shapes.items()
-    }
 
 
 def _draw_frame(
@@ -134,22 +123,10 @@ def _draw_frame(
         (left, low), (right, high) = everywhere[guide.body].min(0), everywhere[guide.body].max(0)
         for edge in (left - gap - width, right + gap):
             rail = [[edge, low], [edge + width, low], [edge + width, high], [edge, high]]
-            axes.add_patch(
-                Polygon(rail, facecolor="white", edgecolor=STEEL, hatch="/////", linewidth=0.6)
-            )
+            axes.add_patch(Polygon(rail, **FIXED))
     for joint in mechanism.joints:
-        if GROUND in (joint.journal, joint.bearing):
-            x, y = joint.at
-            axes.add_patch(
-                Circle(
-                    (x, y),
-                    0.026 * unit,
-                    facecolor="white",
-                    edgecolor=STEEL,
-                    hatch="/////",
-                    linewidth=0.6,
-                )
-            )
+        if joint.on_frame:
+            axes.add_patch(Circle(joint.at, 0.026 * unit, **FIXED))
 
 
 def _draw_dead_centres(axes: Axes, mechanism: Mechanism, outline: Array, unit: float) -> None:

@@ -17,7 +17,7 @@ from exu_press import (
     simulate,
     solve_dynamic,
 )
-from exu_press.laws.contact import hertz, hunt_crossley
+from exu_press.laws.contact import hertz, hunt_crossley, hysteretic
 from exu_press.laws.film import pinkus
 from exu_press.laws.friction import no_friction
 from exudyn_examples.other import stick_slip
@@ -52,7 +52,7 @@ def pendulum(length=1.0, mass=1.0, joint="ideal", gravity=9.81, force=1.0):
     elif joint == "dry":
         slowest = 1e-3 * (length * gravity / 9.81) ** 0.5
         stiffness = hertz(1e10 * force / length**1.5)
-        contact = hunt_crossley(stiffness, restitution=0.5, slowest_impact=slowest)
+        contact = hysteretic(stiffness, 0.5, lambda e: 1.5 * (1.0 - e), slowest_impact=slowest)
         add_dry_revolute(mbs, *ends, **size, contact=contact, friction=no_friction())
     else:
         viscosity = 1.0 * force * (9.81 * length / gravity) ** 0.5 / length**2

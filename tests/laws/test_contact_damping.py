@@ -9,7 +9,7 @@ from exu_press.laws.contact import (
     DAMPING_LAWS,
     delivered_restitution,
     hertz,
-    hunt_crossley,
+    hysteretic,
     restitution_of,
     step,
     step_damping,
@@ -114,7 +114,7 @@ def test_restitution_out_of_range_is_refused_by_name(law: str, restitution: floa
     [
         (lambda: step_damping(hertz(1e8), -1.0, 1e-5), "damping_max"),
         (lambda: step_damping(hertz(1e8), 1e3, 0.0), "damping_depth"),
-        (lambda: hunt_crossley(hertz(1e8), 0.5, slowest_impact=0.0), "slowest_impact"),
+        (lambda: hysteretic(hertz(1e8), 0.5, float, slowest_impact=0.0), "slowest_impact"),
     ],
 )
 def test_bad_parameters_are_refused_by_name(make, name: str) -> None:

@@ -1,10 +1,11 @@
 """Where the times were taken."""
 
-import importlib.metadata
 import os
 import platform
 from pathlib import Path
 from typing import Any
+
+from exu_press.versions import version_of
 
 __all__ = ["machine"]
 
@@ -20,7 +21,7 @@ def machine() -> dict[str, Any]:
         "system": platform.platform(),
         "versions": {
             "python": platform.python_version(),
-            **{name: _version(name) for name in PACKAGES},
+            **{name: version_of(name) for name in PACKAGES},
         },
     }
 
@@ -32,10 +33,3 @@ def _processor() -> str:
         lines = []
     names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
     return names[0] if names else platform.processor() or platform.machine()
-
-
-def _version(name: str) -> str | None:
-    try:
-        return importlib.metadata.version(name)
-    except importlib.metadata.PackageNotFoundError:
-        return None

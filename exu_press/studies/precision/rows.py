@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
+from statistics import linear_regression
 from typing import Any
 
 from exu_press.studies.precision.errors import Errors, Late
@@ -135,11 +136,7 @@ def order_of(series: Sequence[Row], error: str = "error_position") -> float | No
         for row in series
         if row.status == "completed" and (value := row.resolved(error)) is not None and value > 0.0
     ][-3:]
-    if len(points) < 2:
-        return None
-    mean_x, mean_y = (sum(p[i] for p in points) / len(points) for i in (0, 1))
-    square = sum((x - mean_x) ** 2 for x, _ in points)
-    return sum((x - mean_x) * (y - mean_y) for x, y in points) / square
+    return linear_regression(*zip(*points, strict=True)).slope if len(points) > 1 else None
 
 
 def cheapest(series: Sequence[Row], error: str, limit: float) -> Row | None:

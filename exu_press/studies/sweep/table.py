@@ -3,7 +3,7 @@
 import csv
 import io
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -105,7 +105,9 @@ def table_of(study: Study, rows: Sequence[Mapping[str, Any]], files: Sequence[st
             head["file"] = files[number]
         times = {name: scalars.pop(name) for name in RUN_TIMES if name in scalars}
         each.append((head, scalars, times))
-    names = _names(part for parts in zip(*each, strict=True) for part in parts)
+    names = dict.fromkeys(
+        name for some in zip(*each, strict=True) for part in some for name in part
+    )
     lines: list[dict[str, Value]] = [{**times, **scalars, **head} for head, scalars, times in each]
     return Table(study, {name: tuple(line.get(name) for line in lines) for name in names})
 
@@ -117,11 +119,6 @@ def _scalars(row: Mapping[str, Any]) -> dict[str, Any]:
         if not COLUMN_NAME.fullmatch(name):
             raise InputError(f"{shown(name)}: allowed is the name of a column")
     return scalars
-
-
-def _names(rows: Iterable[Mapping[str, Any]]) -> list[str]:
-    """Return the names of all rows, in the order in which they come first."""
-    return list(dict.fromkeys(name for row in rows for name in row))
 
 
 def _text(value: Value) -> str:

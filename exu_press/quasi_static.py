@@ -43,7 +43,8 @@ def quasi_static_motion(
         coordinate: the drive's angle among all coordinates.
         speed: of the drive, rad/s.
     """
-    with threadpool_limits(1):  # a hundred rows: further threads only wait for each other
+    # a hundred rows: further threads only wait for each other; of limp bodies values overflow
+    with threadpool_limits(1), np.errstate(over="ignore", invalid="ignore"):
         balance = _Balance(mbs, drive, coordinate)
         rate = speed * _differentiation(ANGLES)
         q = np.zeros((len(ANGLES), balance.size))

@@ -4,6 +4,7 @@ from collections.abc import Collection, Iterable, Mapping
 from typing import Any
 
 import numpy as np
+from netgen.occ import OCCException  # type: ignore[import-untyped]
 from numpy.typing import NDArray
 
 from fe_models.dimensions import Box, Patch, Sides
@@ -109,7 +110,7 @@ def _plane(face: Any) -> tuple[Array, Array] | None:
             np.array([*face.surf.Value(*at)], dtype=float)
             for at in ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (0.7, -0.4))
         )
-    except Exception:
+    except OCCException:  # an offset surface has no points where it has no normal
         return None
     normal = np.cross(u - origin, v - origin)
     size = np.linalg.norm(normal)

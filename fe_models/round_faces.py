@@ -6,7 +6,7 @@ from math import cos, hypot, pi, sin
 from typing import Any
 
 import numpy as np
-from netgen.occ import Pnt, Sphere  # type: ignore[import-untyped]
+from netgen.occ import OCCException, Pnt, Sphere  # type: ignore[import-untyped]
 
 from fe_models.dimensions import Axis
 from fe_models.errors import InputError
@@ -34,7 +34,7 @@ class _Round:
 
     def __str__(self) -> str:
         """Return how a scene would name it."""
-        return f"radius = {self.radius:.6g}, z = [{self.low:.6g}, {self.high:.6g}]"
+        return f"radius = {self.radius:.6g}, z = [{self.low:.5g}, {self.high:.5g}]"
 
 
 def name_round_faces(shape: Any, axes: Mapping[str, Axis], where: str) -> None:
@@ -73,7 +73,7 @@ def _round(face: Any) -> _Round | None:
         points, raised = (
             np.array([_xyz(face.surf.Value(u, v)) for u in PARAMETERS]) for v in (0.0, 1e-3)
         )
-    except Exception:
+    except OCCException:  # an offset surface has no points where it has no normal
         return None
     (_, _, low), (_, _, high) = (_xyz(corner) for corner in face.bounding_box)
     away = raised - points
@@ -173,7 +173,11 @@ def _nothing(found: Iterable[_Round], axis: Axis, name: str) -> str:
         return f"{text}; it has none at all"
     near = min(alike, key=lambda one: _distance(one, axis))
     away = _distance(near, axis)
+    if away <= NEAR:
+        about = {str(one): None for one in alike if _distance(one, axis) <= NEAR}
+        return f"{text}; there are {'; '.join(about)}"
+    x, y = (round(place, 9) + 0.0 for place in (near.x, near.y))  # without -0 and 1e-17
     return (
-        f"{text}; the nearest one's axis is {1e3 * away:.4g} mm away, at ({near.x:.6g}, "
-        f"{near.y:.6g}) ({near}); allowed is {1e3 * NEAR:g} mm"
+        f"{text}; the nearest one's axis is {1e3 * away:.4g} mm away, at ({x:.6g}, {y:.6g}) "
+        f"({near}); allowed is {1e3 * NEAR:g} mm"
     )

@@ -4,7 +4,7 @@ import exudyn as exu
 import numpy as np
 import pytest
 
-from exu_press import Scene, simulate
+from exu_press import InputError, Scene, simulate
 from exu_press.scene import flexible_press
 
 pytest.importorskip("ngsolve")
@@ -51,6 +51,18 @@ def test_undeformed_bodies_would_ring(monkeypatch):
     monkeypatch.undo()
     quiet = np.linalg.norm(simulate(scene)["crank_pin_force"], axis=1)
     assert rung.max() > 1.5 * quiet.max()
+
+
+def test_a_body_too_soft_to_stay_in_shape_is_refused():
+    """A Young's modulus in MPa; what it would be bent by is no number that says anything."""
+    linkage = {"flexible": "linkage", "modes": 4, "youngs_modulus": 1.69e5}
+    scene = Scene(**IDEAL, bodies={"linkage": linkage}, revolutions=0.001)
+    message = (
+        r"bodies\.linkage: its .* larger youngs_modulus than 169000 Pa or at a lower speed_rpm"
+    )
+    with pytest.raises(InputError, match=message) as refused:
+        simulate(scene)
+    assert "\n" not in str(refused.value)
 
 
 def test_where_nothing_moves_the_bodies_hang_in_their_static_deflection():

@@ -60,11 +60,12 @@ def _solids(summary: Mapping[str, Any], scene: Scene) -> Iterator[str]:
     mechanism = mechanism_of(scene)
     for name, solid in summary.get("solids", {}).items():
         body, away = mechanism.body(name), math.hypot(*solid["centre_of_mass"])
+        flywheel = 0.0 if scene.drive is None or name != mechanism.crank else scene.drive.inertia
         said = [
             f"{what} {solid[what]:.4g} {unit} for {meant:.4g}"
             for what, unit, meant in (
                 ("mass", "kg", body.mass),
-                ("inertia", "kg m^2", body.inertia),
+                ("inertia", "kg m^2", body.inertia - flywheel),
             )
             if abs(solid[what] - meant) > ALIKE * meant
         ]

@@ -171,6 +171,11 @@ def bodies_of(
                 f"bodies.{name} = {_shown(value)}: {mechanism} has no such body"
                 f"{nearest(name, joints)}; allowed are {', '.join(joints)}"
             )
+        if not isinstance(value, (str, Mapping, Flexible)):
+            raise InputError(
+                f"bodies.{name} = {value!r}: allowed is a shipped part, a STEP file's path, or a "
+                "table of keys"
+            )
         try:
             body = found[name] = table_from(Flexible, "", _keys(value))
         except InputError as error:
@@ -265,12 +270,16 @@ def faces_given(given: Any) -> dict[str, tuple[Face, ...]]:
     """
     if not isinstance(given, Mapping):
         raise InputError(f"faces = {given!r}: allowed is a table of joints' names")
-    return {
+    found = {
         name: patch_given(f"faces.{name}", each)
         if name == GUIDE_FACE
         else _faces(f"faces.{name}", each, OF_A_JOINT)
         for name, each in given.items()
     }
+    driven = found.get(DRIVE_FACE)
+    if driven is not None and (len(driven) != 1 or not driven[0].name):
+        raise InputError(f"faces.{DRIVE_FACE} = {given[DRIVE_FACE]!r}: allowed is a face's name")
+    return found
 
 
 def patch_given(where: str, given: Any) -> tuple[Face, ...]:

@@ -15,6 +15,9 @@ NARROWEST, WIDEST = 1e-4, 1e-2
 THINNEST, THICKEST = 1e-3, 2.0
 """Pa s: water, and gear oil of the thickest grade, ISO VG 1500, hardly warm."""
 
+SOFTEST, STIFFEST = 1e9, 1.2e12
+"""Pa: plastics, and diamond."""
+
 MILLI = 1e-3
 
 
@@ -24,8 +27,8 @@ def scene_warnings(scene: Scene) -> list[str]:
 
 
 def doubtful_sizes(scene: Scene) -> list[str]:
-    """Return the warnings about clearances and viscosity, which may be slips of a unit."""
-    return [*_clearances(scene), *_viscosity(scene)]
+    """Return the warnings about sizes that may be slips of a unit."""
+    return [*_clearances(scene), *_viscosity(scene), *_stiffness(scene)]
 
 
 def _clearances(scene: Scene) -> Iterator[str]:
@@ -59,6 +62,19 @@ def _viscosity(scene: Scene) -> Iterator[str]:
             f"{table}.viscosity = {given:g} Pa s is {side} Pa s. Bearing oils in use have 0.005 to "
             "1, honey has 10 and air 2e-5. Force and drag of the film are in proportion to it."
             + _slip(given, THINNEST, THICKEST, "Pa s")
+        )
+
+
+def _stiffness(scene: Scene) -> Iterator[str]:
+    """Yield the stiffness of bodies that no material has."""
+    for name, body in scene.bodies.items():
+        given = body.youngs_modulus
+        if given is None or SOFTEST <= given <= STIFFEST:
+            continue
+        side = f"below {SOFTEST:g}" if given < SOFTEST else f"above {STIFFEST:g}"
+        yield (
+            f"bodies.{name}.youngs_modulus = {given:g} Pa is {side} Pa. Plastics have 1e9, steel "
+            "has 2.1e11 and diamond 1.05e12. Deflections are in proportion to its inverse."
         )
 
 

@@ -128,6 +128,16 @@ def test_warnings_of_doubtful_runs(outputs):
     assert film.startswith("crank pin: eccentricity ratio up to 0.990")
 
 
+def test_a_flywheel_is_no_part_of_the_solid_that_a_crank_is():
+    """What a solid's inertia is compared with."""
+    scene = Scene(drive={"inertia": 50.0})
+    crank = Scene(drive=None).to_dict()["press"]
+    mass, arm = crank["crank_mass"], crank["crank_radius"]
+    solid = {"mass": mass, "inertia": mass * arm**2 / 12, "centre_of_mass": [0.0, 0.0]}
+    said = {"energy": {"residual": 0.0}, "own_items": False, "joints": {}}
+    assert run_warnings({**said, "solids": {"crank": solid}}, scene) == []
+
+
 def test_the_file_names_the_kind(outputs, tmp_path):
     assert find_output(outputs["compare"])[0] is Kind.COMPARISON
     assert find_output(outputs["sweep"] / "table.csv")[0] is Kind.SWEEP

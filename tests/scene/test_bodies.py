@@ -25,7 +25,7 @@ def test_a_part_alone_or_with_its_keys():
             r"bodies\.linkage\.faces\.guide: linkage has no such joint.*allowed are crank_pin",
         ),
         ({"linkage": {"modes": 4}}, r"bodies\.linkage\.flexible: missing"),
-        ({"linkage": 3}, r"bodies\.linkage.* = 3: allowed is a table of keys"),
+        ({"linkage": 3}, r"bodies\.linkage = 3: allowed is a shipped part, a STEP file's path, or"),
         (flexible_press(modes=-1), r"bodies\.crank\.modes = -1: allowed is a whole number >= 0"),
         (flexible_press(modes=2.5), r"bodies\.crank\.modes = 2\.5"),
         (
@@ -47,6 +47,11 @@ def test_a_part_alone_or_with_its_keys():
             flexible_press(faces={"crank_pin": 3}),
             r"crank\.faces\.crank_pin = 3: allowed is a face's",
         ),
+        (
+            flexible_press(faces={"drive": {"z": [0, 1]}}),
+            r"drive = \{'z'.*allowed is a face's name",
+        ),
+        (flexible_press(faces={"drive": ["pin", "web"]}), r"faces\.drive = \['pin', 'web'\]: allo"),
         (flexible_press(faces={"crank_pin": {"r": 3}}), r"faces\.crank_pin\.r = 3: unknown key"),
         (flexible_press(faces={"crank_pin": {"radius": -1}}), r"crank_pin\.radius = -1: allowed"),
         (flexible_press(faces={"crank_pin": {"z": [1, 0]}}), r"crank_pin\.z = \[1, 0\]: allowed"),

@@ -97,3 +97,10 @@ def test_a_joint_with_a_film_of_its_own_is_named():
     )
     assert oil.startswith("joints.crank_pin.film.viscosity = 0.0001 Pa s is below water's")
     assert law.startswith("joints.crank_pin.film.law = 'short' is meant for L/D of 0 to 0.5. ")
+
+
+@pytest.mark.parametrize(("given", "side"), [(210000.0, "below 1e+09"), (2.1e14, "above 1.2e+12")])
+def test_a_youngs_modulus_in_megapascals(given, side):
+    body = {"flexible": "linkage", "youngs_modulus": given}
+    (warning,) = scene_warnings(Scene(bodies={"linkage": body}))
+    assert warning.startswith(f"bodies.linkage.youngs_modulus = {given:g} Pa is {side} Pa. ")

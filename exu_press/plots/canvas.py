@@ -64,9 +64,17 @@ def angle_range(results: Mapping[str, Result]) -> tuple[float, float]:
     return min(angle[0] for angle in angles), max(angle[-1] for angle in angles)
 
 
-def angle_axis(panels: Iterable[Axes], results: Mapping[str, Result]) -> None:
-    """Give panels a common crank angle axis with the dead centres that all runs have."""
+def angle_axis(
+    panels: Iterable[Axes], results: Mapping[str, Result], named: Iterable[Axes]
+) -> None:
+    """Give panels a common crank angle axis with the dead centres that all runs have.
+
+    It is named below some of them, with its numbers.
+    """
     crank_angle_axis(panels, *angle_range(results), dead_centres(results))
+    for axes in named:
+        axes.set_xlabel(angle_words(results))
+        axes.tick_params(labelbottom=True)
 
 
 def angle_words(results: Mapping[str, Result]) -> str:

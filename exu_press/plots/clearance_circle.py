@@ -98,9 +98,7 @@ def draw_path(axes: Axes, path: Path) -> LineCollection | None:
     Returns:
         What the crank angle's colours are of; None for a vertical path, which runs over itself.
     """
-    axes.set_title(textwrap.fill(path.title, LETTERS))
-    axes.set_xlabel("x, µm")
-    axes.set_ylabel("y, µm")
+    axes.set(title=textwrap.fill(path.title, LETTERS), xlabel="x, µm", ylabel="y, µm")
     limit = path.clearance
     half = MARGIN * max(path.reach, limit)
     if path.small:

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from exu_press.observe.energy import energy_residual
-from exu_press.plots.canvas import angle_axis, angle_words, curve, legend_above, new_figure
+from exu_press.plots.canvas import angle_axis, curve, legend_above, new_figure
 from exu_press.plots.scales import note
 from exu_press.plots.sides import joint_titles
 from exu_press.plots.style import COLOURS, GREY, colour_of, styled
@@ -43,18 +43,13 @@ def energy_figure(result: Result) -> Figure:
     for name, line in BALANCE_LINES.items():
         if dissipates or name != "energy_dissipated":
             curve(panels["balance"], result, result[name], **({"linewidth": 1.6} | line))
-    panels["balance"].set_title("Balance")
+    panels["balance"].set(title="Balance", ylabel="energy, J")
     legend_above(panels["balance"])
-    panels["balance"].set_ylabel("energy, J")
     _residual(panels["residual"], result)
     if dissipates:
         _losses(panels["losses"], result)
-        panels["losses"].set_ylabel("energy, J")
         panels["losses"].tick_params(labelbottom=False)
-    for name in ("balance", "residual"):
-        panels[name].set_xlabel(angle_words({"": result}))
-        panels[name].tick_params(labelbottom=True)
-    angle_axis(panels.values(), {"": result})
+    angle_axis(panels.values(), {"": result}, [panels["balance"], panels["residual"]])
     return figure
 
 
@@ -81,7 +76,7 @@ def _losses(axes: Axes, result: Result) -> None:
         if several:
             lost = np.sum([result[f"{name}_loss"] for name in several], axis=0)
             curve(axes, result, lost, color=GREY, linewidth=1.4, linestyle=style, label=label)
-    axes.set_title("Dissipated in")
+    axes.set(title="Dissipated in", ylabel="energy, J")
     if rest:
         note(axes, f"{rest} joints that dissipate less are not drawn")
     axes.legend(loc="upper left", ncols=2, columnspacing=1.3)  # where all losses begin at nothing
@@ -94,7 +89,6 @@ def _residual(axes: Axes, result: Result) -> None:
     worst = float(np.abs(residual).max())
     unit, scale = ("J", 1.0) if worst > 0.1 else ("mJ", 1e3)
     curve(axes, result, scale * residual, color=GREY, linewidth=1.0)
-    axes.set_title("Residual")
-    axes.set_ylabel(f"{MINUS.join(('put in', 'stored', 'dissipated'))}, {unit}")
+    axes.set(title="Residual", ylabel=f"put in{MINUS}stored{MINUS}dissipated, {unit}")
     if relative is not None:
         note(axes, f"at most {relative:.1e} of the largest energy on the left")

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from exu_press.arrays import Array
 from exu_press.mechanism import GROUND
 from exu_press.plots.busiest import busiest
-from exu_press.plots.canvas import angle_axis, angle_words, crank_degrees, curve, new_figure
+from exu_press.plots.canvas import angle_axis, crank_degrees, curve, new_figure
 from exu_press.plots.peaks import mark_peak
 from exu_press.plots.scales import impact_scale, note
 from exu_press.plots.style import colour_of, styled
@@ -54,14 +54,10 @@ def force_figure(results: Mapping[str, Result]) -> Figure:
         signed = any(values.min() < -1e-3 * values.max() for _, values in curves)
         words = impact_scale(axes, curves, signed=signed)
         note(axes, *(peaks if len(results) == 1 else ()), words)
-        axes.set_title(title)
-        axes.set_ylabel(unit)
+        axes.set(title=title, ylabel=unit)
     for axes in list(grid.flat)[len(shown) :]:
         axes.remove()
-    for axes in panels[-2:]:
-        axes.set_xlabel(angle_words(results))
-        axes.tick_params(labelbottom=True)
-    angle_axis(panels, results)
+    angle_axis(panels, results, panels[-2:])
     if len(results) > 1:
         handles, labels = panels[-1].get_legend_handles_labels()
         for handle in handles:

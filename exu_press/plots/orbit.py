@@ -7,14 +7,7 @@ from matplotlib.figure import Figure
 
 from exu_press.errors import InputError
 from exu_press.plots.busiest import busiest, draw_rest
-from exu_press.plots.canvas import (
-    angle_axis,
-    angle_range,
-    angle_words,
-    curve,
-    legend_above,
-    new_figure,
-)
+from exu_press.plots.canvas import angle_axis, angle_range, curve, legend_above, new_figure
 from exu_press.plots.clearance_circle import TOUCH_COLOUR, Path, draw_path
 from exu_press.plots.scales import angle_ticks, note
 from exu_press.plots.style import GREY, RUN, SHADE, styled
@@ -62,8 +55,7 @@ def orbit_figure(result: Result) -> Figure:
         lines = draw_path(grid[row, 1], path)
         _angle_colours(figure, grid[row, 0], lines, result)
         _over_angle(grid[row, 2], result, path)
-    angle_axis(grid[:, 2], {"": result})
-    grid[-1, 2].set_xlabel(angle_words({"": result}))
+    angle_axis(grid[:, 2], {"": result}, [grid[-1, 2]])
     return figure
 
 
@@ -84,8 +76,8 @@ def _over_angle(axes: Axes, result: Result, path: Path) -> None:
     """Draw the eccentricity of a journal or the height of a ball over the crank angle."""
     limit, ball = path.clearance, path.ball
     values = path.points[:, 1] if ball else path.distance
-    axes.set_title(f"{path.title}: {'height in its socket' if ball else 'eccentricity'}")
-    axes.set_ylabel("vertical eccentricity, µm" if ball else "eccentricity, µm")
+    shown = ("height in its socket", "vertical eccentricity") if ball else ("eccentricity",) * 2
+    axes.set(title=f"{path.title}: {shown[0]}", ylabel=f"{shown[1]}, µm")
     curve(axes, result, values, color=RUN, linewidth=0.9, label="centre")
     reach = 1.3 * max(path.reach, 1e-3 * limit) if path.small else 1.12 * max(path.reach, limit)
     axes.set_ylim(-reach if ball else 0.0, reach)
@@ -93,10 +85,9 @@ def _over_angle(axes: Axes, result: Result, path: Path) -> None:
         note(axes, f"the surfaces would touch at {limit:g} µm")
     else:
         for sign in (1, -1) if ball else (1,):
-            first = sign == 1
             line = axes.axhline(sign * limit, color=TOUCH_COLOUR, linewidth=1.2, zorder=1.8)
             band = axes.axhspan(sign * limit, sign * reach, color=SHADE, linewidth=0, zorder=0.5)
-            if first:
+            if sign == 1:
                 line.set_label("surfaces touch")
                 band.set(label="penetration")
         legend_above(axes)

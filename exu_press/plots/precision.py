@@ -12,7 +12,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from exu_press.plots.canvas import headed_figure
-from exu_press.plots.save import save_figure
+from exu_press.plots.save import save_figures
 from exu_press.plots.style import COLOURS, GREY, SHADE, colour_of, styled
 from exu_press.studies.precision import Report, Row
 from exu_press.studies.precision.own import FIXED, TOLERANCE
@@ -48,7 +48,7 @@ def precision_figure(report: Report, name: str) -> Figure:
     """
     case = report.cases[name]
     series = {solver: rows for (of, solver), rows in series_of(report.rows).items() if of == name}
-    panels = {"error_position": f"{'angle, rad' if case['scene'] is None else 'position, m'}"}
+    panels = {"error_position": "angle, rad" if case["scene"] is None else "position, m"}
     everything = [row for rows in series.values() for row in rows]
     if case["horizon"] < case["duration"] and any(row.error_peaks for row in everything):
         panels["error_peaks"] = "peaks of the whole run: mean, 95 %"
@@ -65,10 +65,11 @@ def precision_figure(report: Report, name: str) -> Figure:
         _draw_stated(axes[-1], stated)
     for panel, (error, words) in zip(axes, panels.items(), strict=False):
         _draw(panel, series, error, case)
-        panel.set_title(f"Error of the {words}")
-        panel.set_xlabel("processor time of the integration, s")
+        panel.set(title=f"Error of the {words}", xlabel="processor time of the integration, s")
     key.axis("off")
-    handles: list[Artist] = [_handle(s, index) for index, s in enumerate(_in_order(series))]
+    handles: list[Artist] = [
+        Line2D([], [], label=s, **_style(s, index)) for index, s in enumerate(_in_order(series))
+    ]
     handles.append(Patch(color=SHADE, label="below what the\nreference can tell"))
     key.legend(handles=handles, loc="upper left", handlelength=2.6, borderaxespad=0.0)
     return figure
@@ -80,16 +81,13 @@ def save_precision(report: Report, directory: str | Path) -> list[Path]:
     Raises:
         InputError: a file cannot be written.
     """
-    return [
-        save_figure(precision_figure(report, name), Path(directory) / f"precision_{name}.png")
-        for name in report.cases
-    ]
+    figures = {f"precision_{name}": precision_figure(report, name) for name in report.cases}
+    return save_figures(figures, directory)
 
 
 def _draw(axes: Axes, series: Mapping[str, Sequence[Row]], error: str, case: Any) -> None:
     """Draw one kind of error of every solver."""
-    axes.set_xscale("log")
-    axes.set_yscale("log")
+    axes.set(xscale="log", yscale="log")
     axes.margins(0.06, 0.08)
     floor = case["reference"]["floor"].get(error.removeprefix("error_"))
     failed = []
@@ -121,16 +119,12 @@ def _draw_stated(axes: Axes, stated: Sequence[Stated]) -> None:
         told, true = zip(*one.errors, strict=True)
         label = f"tolerance {one.tolerance:g}"
         axes.plot(true, told, ".", color=colour_of(index), markersize=5, label=label)
-    axes.set_xscale("log")
-    axes.set_yscale("log")
+    axes.set(xscale="log", yscale="log")
     ends = np.array([*axes.get_xlim(), *axes.get_ylim()])
     line = float(ends.min()), float(ends.max())
     axes.plot(line, line, color=GREY, linewidth=1.0, zorder=1)
-    axes.set_xlim(line)
-    axes.set_ylim(line)
-    axes.set_title("Stated errors of all figures, relative")
-    axes.set_xlabel("true error")
-    axes.set_ylabel("stated error")
+    axes.set(xlim=line, ylim=line, title="Stated errors of all figures, relative")
+    axes.set(xlabel="true error", ylabel="stated error")
     axes.legend(loc="lower right")
 
 
@@ -164,10 +158,6 @@ def _style(solver: str, index: int) -> dict[str, Any]:
         return {**style, **PEERS[solver]}
     varied = {"color": GREY, "marker": MARKERS[index % len(MARKERS)], "linewidth": 0.8}
     return {**style, **varied, "markersize": 9.0, "zorder": 2, "linestyle": ":"}
-
-
-def _handle(solver: str, index: int) -> Line2D:
-    return Line2D([], [], label=solver, **_style(solver, index))
 
 
 def _words(report: Report, case: Mapping[str, Any]) -> str:

@@ -12,7 +12,6 @@ from exu_press.observe import DeadCentre, bottom_dead_centres, ideal_bottom_angl
 from exu_press.piecewise import evaluate, hermite, integral
 from exu_press.plots.canvas import (
     angle_axis,
-    angle_words,
     crank_degrees,
     curve,
     dead_centres,
@@ -34,6 +33,11 @@ __all__ = ["press_figure"]
 ABOUT = 12.0
 """How far about bottom dead centre the strokes are shown, deg."""
 
+BESIDE = {
+    "slider_tilt": ("Slider tilt", "counter-clockwise", "µrad"),
+    "slider_lateral": ("Slider sideways", "to the right", "µm"),
+}
+
 CROWD = 8
 """More strokes than this are not named one by one."""
 
@@ -53,36 +57,27 @@ def press_figure(result: Result) -> Figure:
     rows = math.ceil((4 + bool(loads) + motor + 2 * elastic) / 2)
     heading = "Frame, drive, guides, dead centres"
     figure = new_figure(heading, {"": result}, (13.0, 3.6 * rows))
-    panels = list(figure.subplots(rows, 2).flat)
-    _shaking(panels[0], result)
-    _drive(panels[1], result)
-    _guides(panels[2], result)
-    shown = 4
+    shaking, drive, guides, strokes, *others = figure.subplots(rows, 2).flat
+    _shaking(shaking, result)
+    _drive(drive, result)
+    _guides(guides, result)
+    over_angle, free = [shaking, drive, guides, *others], iter(others)
     centres = bottom_dead_centres(result)
     if centres and dead_centres({"": result}):
-        _strokes(panels[3], result, centres)
+        _strokes(strokes, result, centres)
     else:
-        panels[3].remove()
+        strokes.remove()
     if elastic:
-        _at_dead_centres(panels[4], result, "slider_tilt", centres, "µrad")
-        panels[4].set_title("Slider tilt")
-        panels[4].set_ylabel("counter-clockwise, µrad")
-        _at_dead_centres(panels[5], result, "slider_lateral", centres, "µm")
-        panels[5].set_title("Slider sideways")
-        panels[5].set_ylabel("to the right, µm")
-        shown = 6
+        for name, words in BESIDE.items():
+            _at_dead_centres(next(free), result, name, centres, *words)
     if motor:
-        _speed(panels[shown], result)
-        shown += 1
+        _speed(next(free), result)
     if loads:
-        _loads(panels[shown], result, loads)
-        shown += 1
-    for panel in panels[shown:]:
-        panel.remove()
-    over_angle = [panel for index, panel in enumerate(panels[:shown]) if index != 3]
-    angle_axis(over_angle, {"": result})
-    for axes in over_angle:
-        axes.set_xlabel(angle_words({"": result}))
+        _loads(next(free), result, loads)
+    for unused in free:
+        unused.remove()
+        over_angle.remove(unused)
+    angle_axis(over_angle, {"": result}, over_angle)
     return figure
 
 
@@ -103,15 +98,13 @@ def _shaking(axes: Axes, result: Result) -> None:
             "shaking.horizontal_mean_1ms",
         ),
     )
-    axes.set_title("Shaking force")
-    axes.set_ylabel("mean over 1 ms, kN")
+    axes.set(title="Shaking force", ylabel="mean over 1 ms, kN")
 
 
 def _drive(axes: Axes, result: Result) -> None:
     """Draw the drive's power."""
     _draw(axes, result, {"": result["drive_power"]}, ())
-    axes.set_title("Power of the drive")
-    axes.set_ylabel("mean over 1 ms, kW")
+    axes.set(title="Power of the drive", ylabel="mean over 1 ms, kW")
     worst = float(np.abs(result["drive_torque"]).max())
     told = with_error(result, "drive.peak_torque", worst, 1e-3)
     note(axes, f"torque, as resolved: at most {told} kN m")
@@ -120,8 +113,7 @@ def _drive(axes: Axes, result: Result) -> None:
 def _speed(axes: Axes, result: Result) -> None:
     """Draw the crank's speed."""
     curve(axes, result, result["crank_speed"] * 30.0 / np.pi, color=colour_of(0), linewidth=1.1)
-    axes.set_title("Crank speed")
-    axes.set_ylabel("rpm")
+    axes.set(title="Crank speed", ylabel="rpm")
 
 
 def _loads(axes: Axes, result: Result, names: list[str]) -> None:
@@ -130,8 +122,7 @@ def _loads(axes: Axes, result: Result, names: list[str]) -> None:
         force = 1e-3 * result[f"load_{name}_force"]
         label = name.replace("_", " ")
         curve(axes, result, force, color=colour_of(index), linewidth=1.1, label=label)
-    axes.set_title("Loads")
-    axes.set_ylabel("force, kN")
+    axes.set(title="Loads", ylabel="force, kN")
     legend_above(axes, columns=len(names))
 
 
@@ -146,8 +137,7 @@ def _guides(axes: Axes, result: Result) -> None:
     if not curves:
         axes.text(0.5, 0.5, "no guide", transform=axes.transAxes, ha="center", color=GREY)
     _draw(axes, result, curves, ())
-    axes.set_title("Guides")
-    axes.set_ylabel("force, mean over 1 ms, kN")
+    axes.set(title="Guides", ylabel="force, mean over 1 ms, kN")
 
 
 def _draw(
@@ -193,10 +183,10 @@ def _strokes(axes: Axes, result: Result, centres: list[DeadCentre]) -> None:
         axes.plot(near - turn, height, color=colour, linewidth=1.1, label=label)
         place = np.degrees(centre.crank_angle) - turn, 1e6 * (centre.position - mean)
         axes.plot(*place, "o", color=colour, markersize=4)
-    axes.set_xlim(-ABOUT, ABOUT)
-    axes.set_title("Bottom dead centre")
-    axes.set_xlabel("crank angle from bottom dead centre, deg")
-    axes.set_ylabel("slider above its lowest, µm")
+    axes.set(xlim=(-ABOUT, ABOUT), title="Bottom dead centre")
+    axes.set(
+        xlabel="crank angle from bottom dead centre, deg", ylabel="slider above its lowest, µm"
+    )
     axes.margins(y=0.3)
     axes.legend(loc="upper center", ncols=3)
     told = with_error(result, "strokes.mean", mean, 1e3, 6)
@@ -214,7 +204,13 @@ def _scatter(result: Result, centres: list[DeadCentre]) -> str:
 
 
 def _at_dead_centres(
-    axes: Axes, result: Result, name: str, centres: list[DeadCentre], unit: str
+    axes: Axes,
+    result: Result,
+    name: str,
+    centres: list[DeadCentre],
+    title: str,
+    sense: str,
+    unit: str,
 ) -> None:
     """Draw a channel (n,) in millionths, with a dot at every bottom dead centre."""
     values = 1e6 * result[name]
@@ -223,6 +219,7 @@ def _at_dead_centres(
     at = np.interp(instants, result.time, values)
     angles = np.degrees([centre.crank_angle for centre in centres])
     axes.plot(angles, at, "o", color=colour_of(1), markersize=5, zorder=4)
+    axes.set(title=title, ylabel=f"{sense}, {unit}")
     widen(axes, 1e-3)
     if centres and dead_centres({"": result}):
         most = float(np.abs(at).max())

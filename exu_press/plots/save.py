@@ -19,7 +19,7 @@ from exu_press.plots.slider import slider_figure
 from exu_press.plots.style import DPI, look
 from exu_press.result import Result
 
-__all__ = ["save_comparison", "save_figure", "save_pictures"]
+__all__ = ["save_comparison", "save_figure", "save_figures", "save_pictures"]
 
 
 def save_pictures(result: Result, directory: str | Path) -> list[Path]:
@@ -39,9 +39,7 @@ def save_pictures(result: Result, directory: str | Path) -> list[Path]:
     figures["press"] = press_figure(result)
     if has_balance(result):
         figures["energy"] = energy_figure(result)
-    return [
-        save_figure(figure, Path(directory) / f"{name}.png") for name, figure in figures.items()
-    ]
+    return save_figures(figures, directory)
 
 
 def save_comparison(results: Mapping[str, Result], directory: str | Path) -> list[Path]:
@@ -51,9 +49,12 @@ def save_comparison(results: Mapping[str, Result], directory: str | Path) -> lis
         InputError: a file cannot be written.
     """
     figures = {"compare_slider": slider_figure(results), "compare_force": force_figure(results)}
-    return [
-        save_figure(figure, Path(directory) / f"{name}.png") for name, figure in figures.items()
-    ]
+    return save_figures(figures, directory)
+
+
+def save_figures(figures: Mapping[str, Figure], directory: str | Path) -> list[Path]:
+    """Write figures by their names; return the files, NAME.png."""
+    return [save_figure(drawn, Path(directory) / f"{name}.png") for name, drawn in figures.items()]
 
 
 def save_figure(figure: Figure, path: Path) -> Path:

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from exu_press.arrays import Array
-from exu_press.plots.canvas import angle_axis, angle_words, crank_degrees, curve, new_figure
+from exu_press.plots.canvas import angle_axis, crank_degrees, curve, new_figure
 from exu_press.plots.decimate import decimate
 from exu_press.plots.peaks import mark_peaks
 from exu_press.plots.scales import impact_scale, note, widen
@@ -54,10 +54,7 @@ def slider_figure(results: Mapping[str, Result]) -> Figure:
         _draw_run(panels, result, ideals[label], label, colour_of(index))
     _draw_ideals(panels, results, ideals)
     for axes, (title, unit) in zip(panels.flat, TITLES, strict=True):
-        axes.set_title(title)
-        axes.set_ylabel(unit)
-    for axes in panels[2]:
-        axes.set_xlabel(angle_words(results))
+        axes.set(title=title, ylabel=unit)
     for axes in panels[:2, 1]:
         widen(axes, 1.0)
     _scale_averaged(panels[2, 0], results, ideals)
@@ -65,7 +62,7 @@ def slider_figure(results: Mapping[str, Result]) -> Figure:
     scale = impact_scale(panels[2, 1], resolved, signed=True)
     peaks = {label: (r, r["slider_acceleration"]) for label, r in results.items()}
     note(panels[2, 1], mark_peaks(panels[2, 1], peaks, "peak_acceleration.resolved"), scale)
-    angle_axis(panels.flat, results)
+    angle_axis(panels.flat, results, panels[2])
     handles, labels = panels[0, 0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=min(len(labels), 6))
     return figure

@@ -82,10 +82,7 @@ def _line(row: Row) -> tuple[str, str]:
 
 
 def _draw_axes(
-    axes: Axes,
-    rows: Sequence[Row],
-    lines: Sequence[tuple[str, str]],
-    colours: ScalarMappable,
+    axes: Axes, rows: Sequence[Row], lines: Sequence[tuple[str, str]], colours: ScalarMappable
 ) -> None:
     """Draw a line for every axis and base, its cases side by side in the table's order."""
     most = 0
@@ -100,11 +97,9 @@ def _draw_axes(
             color=GREY,
         )  # fmt: skip
     axes.set_yticks(range(len(lines)), [f"{axis}: {base}" for axis, base in lines], fontsize=8)
-    axes.set_ylim(len(lines) - 0.4, -0.6)
-    axes.set_xlim(-0.7, most + 4.0)
-    axes.set_xticks([])
-    axes.grid(False)
+    axes.set(xlim=(-0.7, most + 4.0), ylim=(len(lines) - 0.4, -0.6), xticks=[])
     axes.set_title("Along each axis")
+    axes.grid(False)
 
 
 def _draw_pairs(axes: Axes, rows: Sequence[Row], colours: ScalarMappable) -> None:
@@ -115,8 +110,7 @@ def _draw_pairs(axes: Axes, rows: Sequence[Row], colours: ScalarMappable) -> Non
         _mark(axes, min(across, down), max(across, down), row, colours)
     axes.set_xticks(range(len(names)), names, rotation=60, ha="right", fontsize=8)
     axes.set_yticks(range(len(names)), names, fontsize=8)
-    axes.set_ylim(len(names) - 0.4, -0.6)
-    axes.set_xlim(-0.6, len(names) - 0.4)
+    axes.set(xlim=(-0.6, len(names) - 0.4), ylim=(len(names) - 0.4, -0.6))
     axes.set_title(f"Two extremes at once: {rows[0].name.rpartition(', ')[2]}")
 
 

@@ -43,8 +43,7 @@ def draw_curves(
     if x.min() > 0.0 and x.max() > LOGARITHMIC_FROM * x.min():
         panel.set_xscale("log")
     panel.margins(0.04, 0.08)
-    panel.set_xlabel(_labelled(axis, across))
-    panel.set_title(_headed(quantity, up))
+    panel.set(xlabel=_labelled(axis, across), title=_headed(quantity, up))
 
 
 def _draw_errors(
@@ -79,8 +78,7 @@ def draw_map(figure: Figure, panel: Axes, table: Table, axes: Sequence[str], qua
     if missing.any():
         panel.plot(x[missing], y[missing], "x", color=GREY)
         _count(panel, missing)
-    panel.set_xlabel(_labelled(axes[0], across))
-    panel.set_ylabel(_labelled(axes[1], up))
+    panel.set(xlabel=_labelled(axes[0], across), ylabel=_labelled(axes[1], up))
     panel.set_title(_headed(quantity, unit))
     figure.colorbar(shown, ax=panel, pad=0.02).outline.set_visible(False)
 

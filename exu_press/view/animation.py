@@ -138,8 +138,7 @@ class Animation:
             axes = self.figure.add_subplot(rows[index])
             values = scale * result[channel]
             self.panels.append(CurvePanel(axes, result, values, self.instants))
-            axes.set_title(title)
-            axes.set_ylabel(unit)
+            axes.set(title=title, ylabel=unit)
             if channel == "slider_acceleration":
                 note(axes, impact_scale(axes, [(degrees[shown], values[shown])], signed=True))
             else:

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from exu_press.plots import orbit_figure, slider_figure
-from exu_press.plots.save import save_figure
+from exu_press.plots.save import save_figures
 from exu_press.plots.style import COLOURS, RUN, styled
 from exu_press.result import Result
 from exu_press.scene import Scene
@@ -49,18 +49,15 @@ def save_paper(study: Study, directory: str | Path) -> list[Path]:
         "sweeps": sweeps_figure(study),
         "clearance": clearance_figure(study),
     }
-    written = [save_figure(drawn, Path(directory) / f"{n}.png") for n, drawn in figures.items()]
     for damping, load in ((d, load) for d in DAMPINGS for load in LOADS):
-        runs = {joints: _result(study, damping, f"{load}, {joints}") for joints in JOINTS}
+        scenes = {joints: study.scenes[damping][f"{load}, {joints}"] for joints in JOINTS}
+        runs = {joints: Result.load(study.files[scene]) for joints, scene in scenes.items()}
         stem = f"c_max_{damping}_{load}".replace(" ", "_")
-        drawn = {"slider": slider_figure(runs)}
-        drawn |= {f"orbit_{j}": orbit_figure(r) for j, r in runs.items() if r.clearance_joints}
-        written += [save_figure(f, Path(directory) / f"{stem}_{n}.png") for n, f in drawn.items()]
-    return written
-
-
-def _result(study: Study, damping: str, name: str) -> Result:
-    return Result.load(study.files[study.scenes[damping][name]])
+        figures[f"{stem}_slider"] = slider_figure(runs)
+        for joints, run in runs.items():
+            if run.clearance_joints:
+                figures[f"{stem}_orbit_{joints}"] = orbit_figure(run)
+    return save_figures(figures, directory)
 
 
 @styled

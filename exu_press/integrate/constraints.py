@@ -50,13 +50,12 @@ class Constraints:
         problem = task.problem
         self._mbs, self._solver, self._data = problem.mbs, task.solver, problem.data
         self._current, self._untold = problem.current, problem.untold_rates
-        self._all_multipliers = problem.all_multipliers
         self._of_velocities: Flags | None = None
 
     @property
     def count(self) -> int:
-        """How many they are; 0 where not all unknowns beside the coordinates are multipliers."""
-        return len(self._current.multipliers) if self._all_multipliers else 0
+        """How many they are."""
+        return len(self._current.multipliers)
 
     def of_velocities(self) -> Flags:
         """Return which of them hold velocities; the others hold positions."""
@@ -229,12 +228,11 @@ def fit_data(task: Task) -> None:
     """Let data variables fit the start, where they are a guess that contact or friction denies.
 
     Some contacts of Exudyn's, as of convex rolls, compare with the step's start alone, so that a
-    first step with another gap than the guessed one would never settle, however short. Places along
-    cables follow from unknowns that only the first step finds.
+    first step with another gap than the guessed one would never settle, however short.
     """
     data, where = task.problem.data, exu.ConfigurationType
     guess = np.array(data.GetDataCoordinates(where.Current))
-    if not len(guess) or not task.problem.all_multipliers:
+    if not len(guess):
         return
     mbs = task.problem.mbs
     denied = task.solver.PostNewton(mbs, mbs.sys["simulationSettings"])

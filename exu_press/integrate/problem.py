@@ -122,8 +122,6 @@ class Problem:
         untold_rates: whether Exudyn does not tell how fast some constraints are violated: where
             user functions prescribe offsets, but not their rates, or whole constraints, and at
             flexible bodies' rigid markers, whose velocities are no rates of their positions.
-        all_multipliers: whether all algebraic unknowns are forces of constraints; places along
-            cables are none, and what they leave open no constraint can mend.
         length: largest displacement coordinate at the start, m; their last digits are rounded.
     """
 
@@ -137,7 +135,6 @@ class Problem:
     modal_stiffness: bool
     switching: bool
     untold_rates: bool
-    all_multipliers: bool
     length: float
 
     @classmethod
@@ -169,7 +166,7 @@ class Problem:
         modal = "FFRFreducedOrder" in kinds and all(
             kind.startswith("ConnectorCoordinate") and "Spring" not in kind for kind in others
         )
-        _refuse_first_order(objects)
+        _refuse_places(objects)
         nodes = _nodes(mbs, objects, bodies)
         reference = np.array(data.GetODE2Coordinates(exu.ConfigurationType.Reference))
         return cls(
@@ -183,7 +180,6 @@ class Problem:
             modal_stiffness=modal,
             switching=data.DataSize() > 0 or mbs.NumberOfGeneralContacts() > 0,
             untold_rates=_untold_rates(mbs, objects),
-            all_multipliers=not any(kind in ALONG_CABLES for kind in kinds),
             length=_length(data, reference, nodes),
         )
 
@@ -193,15 +189,18 @@ class Problem:
         return self.joints is not None and self.joints.lubricated
 
 
-def _refuse_first_order(objects: list[dict[str, Any]]) -> None:
-    """Refuse joints whose place along a cable Exudyn follows to first order only."""
+def _refuse_places(objects: list[dict[str, Any]]) -> None:
+    """Refuse joints that slide along cables.
+
+    One of their unknowns is a place, which no step change mends; and where it passes from one
+    element to the next, steps shrank to nothing.
+    """
     for number, item in enumerate(objects):
         kind = item["objectType"]
-        if kind in ALONG_CABLES and not item.get("useClassicalFormulation", True):
+        if kind in ALONG_CABLES:
             raise InputError(
-                f"object {number} ({item['name']}) is a {kind} with useClassicalFormulation = "
-                "False: allowed with a tolerance is True, whose place along the cable is of the "
-                "integrator's order"
+                f"object {number} ({item['name']}) is a {kind}: allowed with a tolerance are "
+                "joints whose unknowns are forces, as JointALEMoving2D"
             )
 
 

@@ -8,7 +8,7 @@ from functools import partial
 import exudyn as exu
 
 from exudyn_examples.example import Example
-from exudyn_examples.flexible import ancf_cable, beam, ffrf_pendulum
+from exudyn_examples.flexible import ancf_cable, beam, cantilever, ffrf_pendulum
 from exudyn_examples.other import (
     bouncing_ball,
     cradle,
@@ -23,10 +23,12 @@ from exudyn_examples.planar import (
     driven_crank,
     four_bar,
     iftomm_pendulum,
+    mass_points,
     slider_crank,
 )
 from exudyn_examples.spatial import (
     bricard,
+    convex_roll,
     flyball_governor,
     four_bar_3d,
     heavy_top,
@@ -48,6 +50,11 @@ def sharp(settings):
     settings.timeIntegration.discontinuous.iterationTolerance = 1e-2
 
 
+def soft(settings):
+    """The barrel weighs a quarter of a newton."""
+    settings.timeIntegration.discontinuous.iterationTolerance = 1e-4
+
+
 def redundant(settings):
     """As Exudyn asks for it where constraints say the same twice."""
     settings.linearSolver.solverType = exu.LinearSolverType.EigenDense
@@ -59,6 +66,9 @@ EXAMPLES = {
     "four-bar": Example(four_bar, 0.5, 0.3, "TestModels/fourBarMechanismTest.py"),
     "IFToMM pendulum": Example(iftomm_pendulum, 10.0, 2.0, "Examples/pendulumIftommBenchmark.py"),
     "double pendulum": Example(double_pendulum, 2.0, 1.0, "Examples/doublePendulum2D.py"),
+    "mass points": Example(
+        mass_points, 1.0, 1.0, "TestModels/coordinateVectorConstraintGenericODE2.py"
+    ),
     "four-bar in space": Example(
         four_bar_3d, 2.0, 1.0, "Examples/fourBarMechanism3D.py", change=sparse
     ),
@@ -80,6 +90,16 @@ EXAMPLES = {
     "rotor run-up": Example(rotor, 10.0, 2.0, "Examples/rigidRotor3Drunup.py", most=300.0),
     "heavy top": Example(heavy_top, 0.5, 0.1, "TestModels/heavyTop.py", most=20.0),
     "rolling disc": Example(rolling_disc, 1.0, 0.5, "TestModels/createRollingDiscTest.py"),
+    "convex roll": Example(
+        # its dampers jerk it where it touches
+        convex_roll,
+        0.1,
+        0.03,
+        "TestModels/ConvexContactTest.py",
+        change=soft,
+        finest=1e-5,
+        positions=True,
+    ),
     "friction band": Example(regularized, 1.0, 0.5, "Examples/massSpringFrictionInteractive.py"),
     "bouncing ball": Example(
         # its contact does not converge to less than a hundredth of a newton
@@ -105,6 +125,14 @@ EXAMPLES = {
     "driven crank": Example(driven_crank, 1.0, 0.5, "an offset as a function of time"),
     "ANCF cable": Example(ancf_cable, 1.0, 0.3, "Examples/flexiblePendulumANCF.py", change=sparse),
     "beam": Example(beam, 0.2, 0.1, "TestModels/geometricallyExactBeam2Dtest.py"),
+    "cantilever": Example(
+        # steps of microseconds round
+        cantilever,
+        0.1,
+        0.02,
+        "Examples/ANCFcantileverTestDyn.py",
+        finest=1e-4,
+    ),
     "FFRF pendulum": Example(ffrf_pendulum, 1.0, 0.2, "TestModels/objectFFRFreducedOrderTest.py"),
     "LuGre": Example(lugre, 10.0, 5.0, "Examples/lugreFrictionODE1.py"),
     "hydraulics": Example(hydraulics, 1.0, 0.1, "TestModels/hydraulicActuatorSimpleTest.py"),

@@ -7,7 +7,7 @@ import numpy as np
 
 from exudyn_examples.example import GRAVITY
 
-__all__ = ["ancf_cable", "beam", "ffrf_pendulum"]
+__all__ = ["ancf_cable", "beam", "cantilever", "ffrf_pendulum"]
 
 SIDE = 0.05  # of the square cross sections, m
 
@@ -27,27 +27,44 @@ def hold(mbs, node, coordinates):
         mbs.AddObject(items.ObjectConnectorCoordinate(markerNumbers=[still, marker]))
 
 
-def ancf_cable(mbs, elements=4):
-    """A soft cable of ANCF elements that hangs on a hinge and falls."""
-    modulus, length = 2.1e7, 1.0 / elements
+def cables(mbs, modulus, bending=0.0, axial=0.0, elements=4):
+    """ANCF elements along a metre of the x-axis, with damping times in s: nodes and bodies."""
+    length = 1.0 / elements
     nodes = [
         mbs.AddNode(items.NodePoint2DSlope1(referenceCoordinates=[i * length, 0.0, 1.0, 0.0]))
         for i in range(elements + 1)
     ]
-    for i in range(elements):
-        body = mbs.AddObject(
+    bodies = [
+        mbs.AddObject(
             items.ObjectANCFCable2D(
                 nodeNumbers=nodes[i : i + 2],
                 length=length,
                 massPerLength=2.5,
                 bendingStiffness=modulus * SIDE**4 / 12.0,
                 axialStiffness=modulus * SIDE**2,
-                bendingDamping=0.02 * modulus * SIDE**4 / 12.0,
-                axialDamping=0.002 * modulus * SIDE**2,
+                bendingDamping=bending * modulus * SIDE**4 / 12.0,
+                axialDamping=axial * modulus * SIDE**2,
             )
         )
+        for i in range(elements)
+    ]
+    return nodes, bodies
+
+
+def ancf_cable(mbs):
+    """A soft cable of ANCF elements that hangs on a hinge and falls."""
+    nodes, bodies = cables(mbs, 2.1e7, 0.02, 0.002)
+    for body in bodies:
         weight(mbs, body)
     hold(mbs, nodes[0], (0, 1))
+
+
+def cantilever(mbs):
+    """A clamped beam of ANCF elements without damping that vibrates under a sudden tip load."""
+    nodes, _ = cables(mbs, 2.1e8)
+    hold(mbs, nodes[0], (0, 1, 3))
+    tip = mbs.AddMarker(items.MarkerNodePosition(nodeNumber=nodes[-1]))
+    mbs.AddLoad(items.LoadForceVector(markerNumber=tip, loadVector=[0.0, -20.0, 0.0]))
 
 
 def beam(mbs, elements=4):

@@ -7,7 +7,14 @@ import numpy as np
 
 from exudyn_examples.example import GRAVITY
 
-__all__ = ["double_pendulum", "driven_crank", "four_bar", "iftomm_pendulum", "slider_crank"]
+__all__ = [
+    "double_pendulum",
+    "driven_crank",
+    "four_bar",
+    "iftomm_pendulum",
+    "mass_points",
+    "slider_crank",
+]
 
 
 def bar(mbs, start, end, mass, velocity=(0.0, 0.0, 0.0)):
@@ -113,3 +120,39 @@ def double_pendulum(mbs):
         rod, half, _ = bar(mbs, (i, 0.0), (i + 1.0, 0.0), 1.0)
         pin(mbs, before, (half if i else 0.0, 0.0), rod, (-half, 0.0))
         before = rod
+
+
+def mass_points(mbs):
+    """A double pendulum of two masses in one object, whose constraints a user function gives."""
+    length, mass = 0.8, 2.5
+    nodes = [
+        mbs.AddNode(items.NodePoint2D(referenceCoordinates=[x, 0.0])) for x in (length, 2 * length)
+    ]
+    both = mbs.AddObject(items.ObjectGenericODE2(nodeNumbers=nodes, massMatrix=mass * np.eye(4)))
+    for node in nodes:
+        marker = mbs.AddMarker(items.MarkerNodePosition(nodeNumber=node))
+        mbs.AddLoad(
+            items.LoadForceVector(markerNumber=marker, loadVector=[0.0, -mass * GRAVITY, 0.0])
+        )
+
+    def violated(mbs, time, item, q, q_t, velocity_level):
+        """Positions only, as in Exudyn's example."""
+        return [np.hypot(q[0], q[1]) - length, np.hypot(q[2] - q[0], q[3] - q[1]) - length]
+
+    def directions(mbs, time, item, q, q_t, velocity_level):
+        one = np.array(q[:2]) / np.hypot(q[0], q[1])
+        other = np.array([q[2] - q[0], q[3] - q[1]]) / np.hypot(q[2] - q[0], q[3] - q[1])
+        return np.array([[*one, 0.0, 0.0], [*-other, *other]])
+
+    still = mbs.AddNode(items.NodePointGround())
+    mbs.AddObject(
+        items.ObjectConnectorCoordinateVector(
+            markerNumbers=[
+                mbs.AddMarker(items.MarkerNodeCoordinates(nodeNumber=still)),
+                mbs.AddMarker(items.MarkerObjectODE2Coordinates(objectNumber=both)),
+            ],
+            scalingMarker0=np.zeros((2, 4)),  # two constraints
+            constraintUserFunction=violated,
+            jacobianUserFunction=directions,
+        )
+    )

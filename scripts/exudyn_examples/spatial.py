@@ -1,6 +1,7 @@
 """Mechanisms in space."""
 
 import exudyn as exu
+import exudyn.utilities as items
 import numpy as np
 from exudyn.utilities import (
     InertiaCuboid,
@@ -12,7 +13,15 @@ from exudyn.utilities import (
 
 from exudyn_examples.example import GRAVITY
 
-__all__ = ["bricard", "flyball_governor", "four_bar_3d", "heavy_top", "rolling_disc", "rotor"]
+__all__ = [
+    "bricard",
+    "convex_roll",
+    "flyball_governor",
+    "four_bar_3d",
+    "heavy_top",
+    "rolling_disc",
+    "rotor",
+]
 
 DOWN = [0.0, -GRAVITY, 0.0]
 
@@ -170,4 +179,38 @@ def rolling_disc(mbs):
         axisVector=[1, 0, 0],
         discRadius=radius,
         axisPosition=[0, 0, 0],
+    )
+
+
+def convex_roll(mbs):
+    """A spinning barrel that falls on a plane with friction, on Exudyn's ObjectContactConvexRoll.
+
+    Its gap is guessed to be nothing, as in Exudyn's example, though it is a millimetre.
+    """
+    length, hull = 0.1, [-3.6, 0.0, 1.65e-2]
+    turn = RotationMatrixY(np.pi / 16.0)
+    roll = mbs.CreateRigidBody(
+        inertia=InertiaCylinder(density=7800.0, length=length, outerRadius=3e-3, axis=0),
+        referencePosition=[0.0, 0.0, 1.2 * hull[-1]],
+        referenceRotationMatrix=turn,
+        initialAngularVelocity=list(turn @ np.array([-100.0, 0.0, 0.0])),
+        gravity=[0.0, 0.0, -GRAVITY],
+    )
+    gap = mbs.AddNode(
+        items.NodeGenericData(initialCoordinates=[0.0] * 3, numberOfDataCoordinates=3)
+    )
+    mbs.AddObject(
+        items.ObjectContactConvexRoll(
+            markerNumbers=[
+                mbs.AddMarker(items.MarkerBodyRigid(bodyNumber=body))
+                for body in (mbs.CreateGround(), roll)
+            ],
+            nodeNumber=gap,
+            contactStiffness=1e3,
+            contactDamping=1.0,
+            dynamicFriction=0.9,
+            frictionProportionalZone=1e-2,
+            rollLength=length,
+            coefficientsHull=hull,
+        )
     )

@@ -97,6 +97,38 @@ def test_a_start_that_fits_is_left_alone():
     assert place.tolist() == [0.6, 0.8] and velocity.tolist() == [0.8, -0.6]
 
 
+def test_a_start_with_coordinates_without_mass():
+    """ANCF beams have cross-sections with some; the masses alone cannot be inverted."""
+    side, length = 0.1, 1.0 / 3.0
+    modulus, inertia = 2.1e8, side**4 / 12.0
+    stiffness = np.array([side**2, side**2 / 2.6, side**2 / 2.6, inertia, inertia, inertia])
+    section = exu.BeamSection()
+    section.stiffnessMatrix, section.massPerLength = np.diag(modulus * stiffness), 10.0
+    section.inertia = 1e3 * inertia * np.diag([2.0, 1.0, 1.0])
+    mbs = exu.SystemContainer().AddSystem()
+    slopes = [0.0, 1.0, 0.0, 0.0, 0.0, 1.0]
+    nodes = [
+        mbs.AddNode(items.NodePointSlope23(referenceCoordinates=[i * length, 0.0, 0.0, *slopes]))
+        for i in range(4)
+    ]
+    for pair in itertools.pairwise(nodes):
+        mbs.AddObject(
+            items.ObjectANCFBeam(nodeNumbers=list(pair), length=length, sectionData=section)
+        )
+    still = mbs.AddMarker(
+        items.MarkerNodeCoordinate(nodeNumber=mbs.AddNode(items.NodePointGround()), coordinate=0)
+    )
+    for i in range(9):
+        held = mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=nodes[0], coordinate=i))
+        mbs.AddObject(items.ObjectConnectorCoordinate(markerNumbers=[still, held]))
+    tip = mbs.AddMarker(items.MarkerNodePosition(nodeNumber=nodes[-1]))
+    mbs.AddLoad(items.LoadForceVector(markerNumber=tip, loadVector=[0.0, -50.0, 20.0]))
+    mbs.Assemble()
+    chosen = settings(5e-3)
+    chosen.linearSolver.solverType = exu.LinearSolverType.EigenSparse
+    assert solve_dynamic(mbs, chosen, tolerance=1e-2).status is Status.COMPLETED
+
+
 STEPS = [4e-4] * 8 + [5e-5] * 8 + [1e-4] * 3 + [2e-4] * 3
 """s, in turn: shortened at once, lengthened by doubling, as the step control does."""
 

@@ -81,6 +81,16 @@ def test_jumps_are_told_by_body():
     assert error.of_jump() == pytest.approx(5.0)
 
 
+def test_what_rounding_makes_alternate_is_no_offset():
+    error, h = errors(), 1e-8
+    for size in (0.9 * NOISE / h**2, 1.1 * NOISE / h**2):
+        error.tried([-size, 0.0, 0.0], h)
+        error.accept()
+        error.tried([size, 0.0, 0.0], h)
+        found = error.offset(h)
+        assert found == (0.0 if size < NOISE / h**2 else pytest.approx(h * size / 6.0))
+
+
 def curvature_after(accelerations, h=0.1, tolerance=1e-2):
     error = errors()
     for value in accelerations:
@@ -179,6 +189,7 @@ def test_a_usual_run_gives_each_step_the_whole():
     per_step = ErrorPerStep.of(1e-4, duration=1.0, many_steps=10.0, impacts=False)
     assert per_step.at(1e-3) == pytest.approx(1e-6)  # a thousand steps
     assert per_step.at(1e-5) == pytest.approx(1e-8)  # a hundred times as many
+    assert per_step.relaxing(1e-5) == pytest.approx(1e-7)
 
 
 def test_impacts_leave_a_hundredth():

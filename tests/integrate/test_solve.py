@@ -20,6 +20,7 @@ from exu_press import (
 from exu_press.laws.contact import hertz, hunt_crossley, hysteretic
 from exu_press.laws.film import pinkus
 from exu_press.laws.friction import no_friction
+from exudyn_examples import EXAMPLES
 from exudyn_examples.other import stick_slip
 
 POSITION = exu.OutputVariableType.Coordinates
@@ -255,6 +256,23 @@ def test_constraints_that_a_pre_step_function_moves_are_named():
     outcome = solve_dynamic(mbs, settings(2.0))
     assert outcome.status is Status.STEP_TOO_SMALL
     assert "offsetUserFunction" in outcome.reason
+
+
+def test_a_load_that_jumps_at_a_tight_tolerance():
+    """Steps of 20 ns ended in what rounded positions make alternate."""
+    mbs = exu.SystemContainer().AddSystem()
+    EXAMPLES["four-bar"].build(mbs)
+    at = mbs.AddMarker(items.MarkerBodyRigid(bodyNumber=1))
+    mbs.AddLoad(
+        items.LoadTorqueVector(
+            markerNumber=at,
+            loadVector=[0.0, 0.0, 1.0],
+            loadVectorUserFunction=lambda mbs, time, load: [0, 0, 0.5 if time > 0.1 else -0.3],
+        )
+    )
+    mbs.Assemble()
+    outcome = solve_dynamic(mbs, settings(0.12), tolerance=1e-6)
+    assert outcome.status is not Status.STEP_TOO_SMALL, outcome.reason
 
 
 def unassembled():

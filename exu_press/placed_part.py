@@ -319,15 +319,18 @@ def _reduced(part: Part, reduction: Reduction, name: str, quiet: bool) -> Reduce
 
 
 def _refuse_shared(faces: Mapping[str, tuple[Face, ...]]) -> None:
-    """Refuse a face that two joints hold by its name."""
+    """Refuse a face that two joints hold by its name, or one joint twice."""
     taken: dict[str, str] = {}
     for joint, each in faces.items():
         for face in each:
-            if face.name and not face.eccentric and taken.setdefault(face.name, joint) != joint:
+            if not face.name or face.eccentric:
+                continue
+            if face.name in taken:
                 raise InputError(
                     f"joints.{taken[face.name]} and joints.{joint} hold the same face "
                     f"{face.name!r}; allowed are different ones"
                 )
+            taken[face.name] = joint
 
 
 def _face_name(joint: str, number: int) -> str:

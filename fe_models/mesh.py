@@ -1,5 +1,10 @@
 """Second-order tetrahedra of a part's solid, by Netgen. Same part, same mesh."""
 
+import ctypes
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import ngsolve as ngs  # type: ignore[import-untyped]
@@ -26,7 +31,9 @@ def generate_mesh(part: Part) -> Any:
                 f"{', '.join(repr(name) for name in sorted(known)) or 'nothing at all'}"
             )
     try:
-        netgen_mesh = OCCGeometry(shape).GenerateMesh(maxh=part.mesh_size, parallel_meshing=False)
+        with _quiet():
+            geometry = OCCGeometry(shape)
+            netgen_mesh = geometry.GenerateMesh(maxh=part.mesh_size, parallel_meshing=False)
         tetrahedra = netgen_mesh.Elements3D()
         if len(tetrahedra) == 0:
             raise RuntimeError("no tetrahedra: is the shape a closed solid?")
@@ -37,3 +44,22 @@ def generate_mesh(part: Part) -> Any:
             "try a smaller one, and check that the shape is one closed solid in m"
         ) from error
     return ngs.Mesh(netgen_mesh)
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """Drop what Netgen prints: of a mesh that fails a thousand lines, whatever its message level.
+
+    Its errors are left, as it may end the process with one.
+    """
+    sys.stdout.flush()
+    c_library = ctypes.CDLL(None)
+    kept, nowhere = os.dup(1), os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, 1)
+    try:
+        yield
+    finally:
+        c_library.fflush(None)
+        os.dup2(kept, 1)
+        os.close(kept)
+        os.close(nowhere)

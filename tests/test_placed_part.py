@@ -75,6 +75,19 @@ def test_of_a_boss_and_its_bore_the_bearing_takes_the_bore(rod):
     )
 
 
+def test_a_forked_rod_holds_its_pin_by_both_eyes(rod):
+    """The pin of the ram, which the guide lets go up and down, bears weight and inertia."""
+    fork = bar() - Box(Pnt(LENGTH - 30, -50, -5), Pnt(LENGTH + 50, 50, 5))
+    eyes = [{"z": [-0.016, -0.004]}, {"z": [0.004, 0.016]}]
+    result = simulate(rod(fork, faces={"wrist_pin": eyes}))
+    assert result.completed
+    mass = mechanism_of(result.scene).body("ram").mass
+    lifted = mass * (9.81 + result["slider_acceleration"])
+    settled = result.time > 0.5 * result.time[-1]
+    force = result["wrist_pin_force"][:, 1]
+    assert force[settled] == pytest.approx(lifted[settled], rel=1e-3)
+
+
 @pytest.mark.parametrize(
     ("solid", "keys", "message"),
     [
@@ -95,6 +108,11 @@ def test_of_a_boss_and_its_bore_the_bearing_takes_the_bore(rod):
             bar(),
             {"faces": {"rod_pin": "bore", "wrist_pin": "bore"}},
             r"joints\.rod_pin and joints\.wrist_pin hold the same face 'bore'",
+        ),
+        (
+            bar(),
+            {"faces": {"rod_pin": ["bore", "bore"]}},
+            r"joints\.rod_pin and joints\.rod_pin hold the same face 'bore'",
         ),
         (
             bar() - Cylinder(Pnt(0, 0, 5), Z, r=25, h=20),

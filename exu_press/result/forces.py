@@ -40,7 +40,7 @@ def held_forces(model: Model) -> dict[str, Channel]:
 
 
 def _of_several_faces(channels: Mapping[str, Channel], model: Model) -> dict[str, Channel]:
-    """Return the forces of joints that hold several faces of a flexible body: those of the faces.
+    """Return the forces of joints of the frame with several faces: those of the faces.
 
     Face by face they are in the channels, too, numbered.
     """
@@ -48,7 +48,7 @@ def _of_several_faces(channels: Mapping[str, Channel], model: Model) -> dict[str
     for part in model.parts.values():
         for joint, faces in part.faces.items():
             each = [f"{joint}_{number}_force" for number in range(1, len(faces) + 1)]
-            if len(each) > 1:
+            if len(each) > 1 and each[0] in channels:
                 force = np.sum([channels[name].values for name in each], axis=0)
                 words = f"{joint.replace('_', ' ')}: force on journal"
                 found[f"{joint}_force"] = Channel(force, "N", words, "plane")

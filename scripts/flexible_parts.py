@@ -16,12 +16,8 @@ from exu_press.confidence.run import errors_of
 from exu_press.observe.uncertain import uncertain
 from exu_press.scene import flexible_press
 from fe_models import clamped_frequencies, draw_mode_shapes, shipped_part
+from fe_models.clamped import MODE_NUMBERS, PUBLISHED_HZ, relative_errors
 
-PUBLISHED_HZ = {
-    "crank": (538.192, 2221.68, 2334.63, 5080.91, 7633.93),
-    "linkage": (5657.49, 8024.39, 8258.71, 10250.3, 12973.3),
-}
-NUMBERS = (2, 5, 6, 10, 16)
 parser = argparse.ArgumentParser(description=__doc__)
 parser.add_argument("--quick", action="store_true", help="coarse meshes, a short run")
 parser.add_argument("--out", metavar="DIR", default="out/parts", type=Path)
@@ -30,15 +26,15 @@ quick, out = options.quick, options.out
 out.mkdir(parents=True, exist_ok=True)
 mesh_size = 0.06 if quick else 0.02
 
-print("Hz, bearing surfaces clamped, mode " + "".join(f"{n:>9}" for n in NUMBERS) + "      rms")
+numbers = "".join(f"{number:>9}" for number in MODE_NUMBERS)
+print(f"Hz, bearing surfaces clamped, mode {numbers}      rms")
 for name, published in PUBLISHED_HZ.items():
     print(f"{name + ', paper':34} " + "".join(f"{hz:9.1f}" for hz in published))
     for shape in (name, f"{name}_2"):
-        all_hz = clamped_frequencies(shipped_part(shape, mesh_size), max(NUMBERS))
-        hz = [all_hz[n - 1] for n in NUMBERS]
-        errors = [a / b - 1 for a, b in zip(hz, published, strict=True)]
-        rms = (sum(e * e for e in errors) / len(errors)) ** 0.5
-        print(f"{shape:34} " + "".join(f"{value:9.1f}" for value in hz))
+        hz = clamped_frequencies(shipped_part(shape, mesh_size), max(MODE_NUMBERS))
+        errors = relative_errors(hz, published)
+        rms = (errors**2).mean() ** 0.5
+        print(f"{shape:34} " + "".join(f"{hz[n - 1]:9.1f}" for n in MODE_NUMBERS))
         print(f"{'':34} " + "".join(f"{e:+9.1%}" for e in errors) + f"  {rms:7.1%}")
 for name in PUBLISHED_HZ:
     part = shipped_part(name, mesh_size) if quick else shipped_part(name)

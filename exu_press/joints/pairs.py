@@ -24,7 +24,6 @@ __all__ = [
     "Motion",
     "Pair",
     "PairedJoint",
-    "PolarForce",
     "Response",
     "Slopes",
 ]
@@ -34,13 +33,6 @@ Slopes = tuple[
     tuple[float, float, float, float, float],
 ]
 """Derivatives of f_n and of f_t with respect to (|e|, d|e|/dt, v_t, omega_J, omega_B)."""
-
-PolarForce = tuple[
-    tuple[float, float],
-    tuple[float, float, float, float, float],
-    tuple[float, float, float, float, float],
-]
-"""(f_n, f_t), then their slopes."""
 
 Arms = tuple[float, float, float, float]
 """a_J, a_B, m, and their derivatives with respect to |e|."""
@@ -86,17 +78,6 @@ class Pair:
     def slopes(self, response: Response, e: float, omega_j: float, omega_b: float) -> Slopes:
         """Return the derivatives of the force that goes with an response of the laws, SI."""
         raise NotImplementedError
-
-    def force(
-        self, e: float, e_dot: float, v_t: float, omega_j: float, omega_b: float
-    ) -> PolarForce | None:
-        """Return force and derivatives together, SI."""
-        load = self.load(e, e_dot, v_t, omega_j, omega_b)
-        if load is None:
-            return None
-        f_n, f_t, _, _, response = load
-        by_n, by_t = self.slopes(response, e, omega_j, omega_b)
-        return (f_n, f_t), by_n, by_t
 
     def arms(self, e: float) -> Arms:
         """Return a_J, a_B (m) and their derivatives with respect to |e|."""

@@ -125,7 +125,7 @@ def stribeck(
         direction = tanh(v / regularisation_velocity)
         decay = (abs(v) / stribeck_velocity) ** stribeck_exponent
         peak = rise * exp(-decay)
-        g, v_times_slope = mu_kinetic + peak, -stribeck_exponent * decay * peak  # as in _curve
+        g, v_times_slope = mu_kinetic + peak, -stribeck_exponent * decay * peak  # as in LuGre
         slope = g * (1.0 - direction * direction) / regularisation_velocity + viscous
         if v != 0.0:
             slope += v_times_slope * direction / v
@@ -262,22 +262,10 @@ class LuGre:
         return v - self.sigma_0 * abs(v) * z / self._curve(v)[0]
 
     def _curve(self, v: float) -> tuple[float, float]:
-        return _curve(
-            v, self.mu_static, self.mu_kinetic, self.stribeck_velocity, self.stribeck_exponent
-        )
-
-
-def _curve(
-    v: float,
-    mu_static: float,
-    mu_kinetic: float,
-    stribeck_velocity: float,
-    stribeck_exponent: float,
-) -> tuple[float, float]:
-    """Stribeck's curve (g, v dg/dv); the product is finite at v = 0 for every exponent."""
-    decay = (abs(v) / stribeck_velocity) ** stribeck_exponent
-    peak = (mu_static - mu_kinetic) * exp(-decay)
-    return mu_kinetic + peak, -stribeck_exponent * decay * peak
+        """Stribeck's curve (g, v dg/dv); the product is finite at v = 0 for every exponent."""
+        decay = (abs(v) / self.stribeck_velocity) ** self.stribeck_exponent
+        peak = (self.mu_static - self.mu_kinetic) * exp(-decay)
+        return self.mu_kinetic + peak, -self.stribeck_exponent * decay * peak
 
 
 def _demand_curve(

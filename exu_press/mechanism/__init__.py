@@ -12,7 +12,6 @@ from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.motion import Motion
 from exu_press.mechanism.parts import (
     GROUND,
-    ROD,
     Body,
     Guide,
     Joint,
@@ -20,14 +19,12 @@ from exu_press.mechanism.parts import (
     Point,
     Spring,
     Ways,
-    steel_cube,
 )
 from exu_press.mechanism.press import Press, press
 from exu_press.mechanism.slider_crank import SliderCrank, slider_crank
 
 __all__ = [
     "GROUND",
-    "ROD",
     "SHIPPED",
     "Body",
     "Guide",
@@ -47,5 +44,4 @@ __all__ = [
     "press",
     "shipped_mechanism",
     "slider_crank",
-    "steel_cube",
 ]

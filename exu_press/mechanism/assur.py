@@ -18,6 +18,7 @@ References
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import chain
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -276,14 +277,10 @@ def _closed_groups(
         if one in neighbours and other in neighbours:
             neighbours[one].add(other)
             neighbours[other].add(one)
-    sizes = [*range(1, min(len(left), LARGEST_GROUP) + 1)]
-    for size in sizes:
-        for chosen in _connected(left, neighbours, size):
-            group = _group(drawing, poses, chosen)
-            if group is not None and _holds(group, poses):
-                yield group
-    if len(left) > LARGEST_GROUP:
-        group = _group(drawing, poses, left)
+    sizes = range(1, min(len(left), LARGEST_GROUP) + 1)
+    sets = chain.from_iterable(_connected(left, neighbours, size) for size in sizes)
+    for chosen in chain(sets, [left] if len(left) > LARGEST_GROUP else []):
+        group = _group(drawing, poses, chosen)
         if group is not None and _holds(group, poses):
             yield group
 

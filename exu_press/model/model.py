@@ -7,14 +7,10 @@ from typing import TYPE_CHECKING
 import exudyn as exu
 
 from exu_press.integrate import Outcome, Tuning
-from exu_press.joints import ClearanceJoint
-from exu_press.mechanism import Mechanism
-from exu_press.mechanism.holding import Holding
 from exu_press.model.loads import Place, next_corner
 from exu_press.rigid import RigidBody
-from exu_press.scene import Scene
 from exu_press.scene.applied import AppliedLoad
-from exu_press.solving import DEFAULTS, solve
+from exu_press.solving import DEFAULTS, Assembled, solve
 
 if TYPE_CHECKING:
     from exu_press.placed_part import PlacedPart
@@ -23,40 +19,24 @@ __all__ = ["Model", "count_items"]
 
 
 @dataclass(frozen=True)
-class Model:
+class Model(Assembled):
     """An assembled system and what its items are called.
 
     Attributes:
-        scene: what was asked.
-        mechanism: bodies, joints and guides.
-        holding: which ideal joints and guides hold what.
-        SC: Exudyn's system container.
-        mbs: Exudyn's main system, assembled.
+        SC: Exudyn's system container; its main system is `mbs`.
         bodies: name -> object number.
-        nodes: name -> node number.
         rigid: name -> rigid body.
-        clearance_joints: name -> joint.
         drive: object number of the constraint that turns the crank.
         loads: name -> load that acts, and what tells its place on its curve.
-        ways: name of a body with play in its guide -> the contacts of its two ends.
         parts: name -> flexible body's part; empty for rigid bodies.
-        sensors: (name, quantity) -> sensor number.
         made: number of objects and loads that the scene was made of.
     """
 
-    scene: Scene
-    mechanism: Mechanism
-    holding: Holding
     SC: exu.SystemContainer
-    mbs: exu.MainSystem
     bodies: dict[str, int]
-    nodes: dict[str, int]
-    clearance_joints: dict[str, ClearanceJoint]
     rigid: Mapping[str, RigidBody]
     drive: int
     loads: Mapping[str, tuple[AppliedLoad, Place]]
-    ways: Mapping[str, tuple[ClearanceJoint, ClearanceJoint]]
-    sensors: dict[tuple[str, str], int]
     parts: Mapping[str, "PlacedPart"]
     made: int
 

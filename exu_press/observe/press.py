@@ -62,24 +62,25 @@ def press_summary(result: Result) -> dict[str, Any]:
 
 def _guide(result: Result, guide: Guide, whole: float | None) -> dict[str, float | None]:
     """Return what one guide carries, dissipates and would take if it rubbed."""
-    name = guide_channel(mechanism_of(result.scene), guide.body)
-    entries: dict[str, float | None] = {"peak_force": None, "sliding_power": None}
-    time, force = result.time, f"{name}_force"
-    if force in result:
-        entries["peak_force"] = peak(result[force])
-        if len(time) > 1:
-            position = result["body_position"][:, result.bodies.index(guide.body), :2]
-            speed = np.gradient(position @ np.array(guide.direction), time)
-            power = np.abs(result[force] * speed)
-            entries["sliding_power"] = _mean(time, power, whole)
-    moment, loss = f"{name}_moment", f"{name}_loss"
-    friction = f"{name}_friction"
-    entries["peak_friction"] = peak(result[friction]) if friction in result else None
-    entries["peak_moment"] = peak(result[moment]) if moment in result else None
-    lost = result[loss] if loss in result else np.zeros_like(time)
-    entries["dissipated"] = float(lost[-1])
-    entries["mean_power"] = mean_rate(time, lost, whole)
-    return entries
+    name, time = guide_channel(mechanism_of(result.scene), guide.body), result.time
+    channels = {q: f"{name}_{q}" for q in ("force", "friction", "moment", "loss")}
+    found = {
+        quantity: result[channel] for quantity, channel in channels.items() if channel in result
+    }
+    sliding = None
+    if "force" in found and len(time) > 1:
+        position = result["body_position"][:, result.bodies.index(guide.body), :2]
+        speed = np.gradient(position @ np.array(guide.direction), time)
+        sliding = _mean(time, np.abs(found["force"] * speed), whole)
+    lost = found.get("loss", np.zeros_like(time))
+    return {
+        "peak_force": peak(found["force"]) if "force" in found else None,
+        "sliding_power": sliding,
+        "peak_friction": peak(found["friction"]) if "friction" in found else None,
+        "peak_moment": peak(found["moment"]) if "moment" in found else None,
+        "dissipated": float(lost[-1]),
+        "mean_power": mean_rate(time, lost, whole),
+    }
 
 
 def _speed(result: Result, whole: float | None) -> dict[str, float | None]:
@@ -140,8 +141,6 @@ def begin_of_whole_revolutions(result: Result) -> float | None:
 
 def _mean(time: Array, values: Array, begin: float | None) -> float | None:
     """Return the mean of a channel (n,) from an instant on, None without one."""
-    if begin is None:
-        return None
     return mean_rate(time, integral(time, values), begin)
 
 

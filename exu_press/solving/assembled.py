@@ -1,7 +1,7 @@
 """What solving needs of a scene's model."""
 
 from collections.abc import Mapping
-from typing import Protocol
+from dataclasses import dataclass
 
 import exudyn as exu
 
@@ -13,40 +13,30 @@ from exu_press.scene import Scene
 __all__ = ["Assembled"]
 
 
-class Assembled(Protocol):
-    """What solving needs of a scene's model; `exu_press.model.Model` is one."""
+@dataclass(frozen=True)
+class Assembled:
+    """What solving needs of a scene's model; `exu_press.model.Model` is one, and has more.
 
-    @property
-    def scene(self) -> Scene:
-        """What was asked."""
+    Attributes:
+        scene: what was asked.
+        mechanism: bodies, joints and guides.
+        holding: which ideal joints and guides hold what.
+        mbs: Exudyn's main system, assembled.
+        nodes: name -> node number.
+        clearance_joints: name -> joint.
+        ways: name of a body with play in its guide -> the contacts of its two ends.
+        sensors: (name, quantity) -> sensor number.
+    """
 
-    @property
-    def mechanism(self) -> Mechanism:
-        """Bodies, joints and guides."""
-
-    @property
-    def holding(self) -> Holding:
-        """Which ideal joints and guides hold what."""
-
-    @property
-    def mbs(self) -> exu.MainSystem:
-        """Exudyn's main system, assembled."""
-
-    @property
-    def nodes(self) -> Mapping[str, int]:
-        """Name -> node number."""
-
-    @property
-    def clearance_joints(self) -> Mapping[str, ClearanceJoint]:
-        """Name -> joint."""
-
-    @property
-    def ways(self) -> Mapping[str, tuple[ClearanceJoint, ClearanceJoint]]:
-        """Name of a body with play in its guide -> the contacts of its two ends."""
-
-    @property
-    def sensors(self) -> Mapping[tuple[str, str], int]:
-        """(name, quantity) -> sensor number."""
+    scene: Scene
+    mechanism: Mechanism
+    holding: Holding
+    mbs: exu.MainSystem
+    nodes: dict[str, int]
+    clearance_joints: dict[str, ClearanceJoint]
+    ways: Mapping[str, tuple[ClearanceJoint, ClearanceJoint]]
+    sensors: dict[tuple[str, str], int]
 
     def next_corner(self, time: float) -> float:
         """Return the next instant at which a load has a corner, s, or infinity."""
+        raise NotImplementedError

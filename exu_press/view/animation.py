@@ -73,10 +73,6 @@ class Animation:
             f"t = {self.instants.time[frame] * 1e3:7.2f} ms    crank {degrees:6.1f}°"
         )
 
-    def draw_artists(self) -> None:
-        """Draw what changes, on what has been drawn."""
-        self.draw(self.artists)
-
     def draw(self, artists: Iterable[Artist]) -> None:
         """Draw some of what changes."""
         for artist in artists:

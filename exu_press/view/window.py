@@ -107,7 +107,7 @@ class Player:
 
     def _draw_changes(self) -> None:
         with look():
-            self.animation.draw_artists()
+            self.animation.draw(self.animation.artists)
             for axes in self._controls:
                 self.animation.figure.draw_artist(axes)
 

@@ -242,11 +242,15 @@ def _angles() -> list[Case]:
     ]
 
 
+def _press_masses() -> dict[str, float]:
+    """Return the press's masses by their keys, kg."""
+    press = Scene().to_dict()["press"]
+    return {name: value for name, value in press.items() if name.endswith("_mass")}
+
+
 def _masses() -> list[Case]:
     """All masses together, then the slider's alone."""
-    press = {
-        name: value for name, value in Scene().to_dict()["press"].items() if name.endswith("_mass")
-    }
+    press = _press_masses()
     crank = Scene(mechanism="slider_crank").to_dict()["slider_crank"]
     moving = {name: crank[name] for name in ("rod_mass", "rod_inertia", "slider_mass")}
     factors = (0.01, 0.1, 1.0, 10.0, 100.0)
@@ -330,9 +334,6 @@ def _variants() -> list[Case]:
 
 def _pairs() -> list[Case]:
     """Two extremes at once, on the press whose joints have film, asperities and contact."""
-    masses = {
-        name: value for name, value in Scene().to_dict()["press"].items() if name.endswith("_mass")
-    }
     extremes: dict[str, Changes] = {
         "stiffness x 1e-3": {"contact.stiffness": 2.5545e7},
         "stiffness x 1e3": {"contact.stiffness": 2.5545e13},
@@ -352,8 +353,8 @@ def _pairs() -> list[Case]:
             "load.blanking.kind": "blanking", "load.blanking.force": 2e6,
             "load.blanking.rise": 1e-5, "load.blanking.fall": 1e-5,
         },
-        "masses x 0.01": {f"press.{name}": 0.01 * value for name, value in masses.items()},
-        "masses x 100": {f"press.{name}": 100.0 * value for name, value in masses.items()},
+        "masses x 0.01": {f"press.{name}": 0.01 * value for name, value in _press_masses().items()},
+        "masses x 100": {f"press.{name}": 100.0 * value for name, value in _press_masses().items()},
         "tolerance 0.1": {"solver.tolerance": 0.1},
         "tolerance 1e-5": {"solver.tolerance": 1e-5},
     }  # fmt: skip

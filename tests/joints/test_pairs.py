@@ -76,14 +76,20 @@ def film_states(count, seed=2, largest=0.95):
         )
 
 
+def force_of(pair, e, e_dot, v_t, omega_j, omega_b):
+    """Return f_n and f_t, then the slopes of each."""
+    load = pair.load(e, e_dot, v_t, omega_j, omega_b)
+    return load and (load[:2], *pair.slopes(load[4], e, omega_j, omega_b))
+
+
 def assert_derivatives(pair, state, widths):
-    given = pair.force(*state)
+    given = force_of(pair, *state)
     assert given is not None
     for i, width in enumerate(widths):
         up, down = list(state), list(state)
         up[i] += width
         down[i] -= width
-        high, low = pair.force(*up), pair.force(*down)
+        high, low = force_of(pair, *up), force_of(pair, *down)
         for force in (0, 1):
             difference = (high[0][force] - low[0][force]) / (2 * width)
             scale = max(abs(given[0][force]) / (1e4 * width), abs(difference), 1e-6)
@@ -93,7 +99,7 @@ def assert_derivatives(pair, state, widths):
 @pytest.mark.parametrize("pair", DRY.values(), ids=DRY)
 def test_derivatives_of_a_dry_pair(pair):
     for state in dry_states(60):
-        if pair.force(*state)[0][0] == 0.0:
+        if force_of(pair, *state)[0][0] == 0.0:
             continue  # held at zero: no tension
         width = 1e-4 * (state[0] - CLEARANCE)
         assert_derivatives(pair, state, (width, 1e-8, 1e-8, 1e-7, 1e-7))
@@ -125,19 +131,19 @@ def test_derivatives_of_a_films_shear(pair):
 
 
 def test_free_flight_costs_nothing():
-    assert dry(STEADY).force(0.9 * CLEARANCE, 1.0, 1.0, 1.0, 1.0) is None
-    assert dry(BRISTLE).force(0.9 * CLEARANCE, 1.0, 1.0, 1.0, 1.0) is None
+    assert force_of(dry(STEADY), 0.9 * CLEARANCE, 1.0, 1.0, 1.0, 1.0) is None
+    assert force_of(dry(BRISTLE), 0.9 * CLEARANCE, 1.0, 1.0, 1.0, 1.0) is None
 
 
 def test_contact_begins_at_the_clearance():
-    assert dry(no_friction()).force(CLEARANCE, 0.1, 0.0, 0.0, 0.0) is None
-    (f_n, f_t), _, _ = dry(no_friction()).force(CLEARANCE + 1e-6, 0.0, 0.3, 0.0, 0.0)
+    assert force_of(dry(no_friction()), CLEARANCE, 0.1, 0.0, 0.0, 0.0) is None
+    (f_n, f_t), _, _ = force_of(dry(no_friction()), CLEARANCE + 1e-6, 0.0, 0.3, 0.0, 0.0)
     assert f_n == pytest.approx(-2.5545e10 * 1e-6**1.5)
     assert f_t == 0.0
 
 
 def test_contact_pushes_the_journal_inwards_and_friction_against_its_sliding():
-    (f_n, f_t), _, _ = dry(STEADY).force(CLEARANCE + 1e-6, 0.0, 0.5, 0.0, 0.0)
+    (f_n, f_t), _, _ = force_of(dry(STEADY), CLEARANCE + 1e-6, 0.0, 0.5, 0.0, 0.0)
     assert f_n < 0.0
     assert f_t < 0.0
     assert f_t / f_n == pytest.approx(0.1 + 0.05 * math.exp(-25) + 0.5e-3)
@@ -146,7 +152,7 @@ def test_contact_pushes_the_journal_inwards_and_friction_against_its_sliding():
 def test_friction_acts_on_the_sliding_of_the_two_surfaces():
     """A turning journal that stays in place slides with R omega."""
     omega = 3.0
-    (f_n, f_t), _, _ = dry(STEADY).force(CLEARANCE + 1e-6, 0.0, 0.0, omega, 0.0)
+    (f_n, f_t), _, _ = force_of(dry(STEADY), CLEARANCE + 1e-6, 0.0, 0.0, omega, 0.0)
     assert f_t / f_n == pytest.approx(STEADY(RADIUS * omega)[0], rel=1e-12)
 
 
@@ -155,8 +161,8 @@ def test_turning_together_like_one_body_moves_no_surface(pair):
     """Co-rotation: v_t = omega |e|, both bodies with omega. A mixed-up W fails here."""
     omega = 20.0
     e = 0.6 * CLEARANCE if isinstance(pair, FilmPair) else CLEARANCE + 1e-6
-    (f_n, f_t), _, _ = pair.force(e, 0.0, omega * e, omega, omega)
-    turning_alone, _, _ = pair.force(e, 0.0, 0.0, omega, 0.0)
+    (f_n, f_t), _, _ = force_of(pair, e, 0.0, omega * e, omega, omega)
+    turning_alone, _, _ = force_of(pair, e, 0.0, 0.0, omega, 0.0)
     assert abs(f_t) < 1e-8 * abs(turning_alone[1])
     if isinstance(pair, FilmPair):
         assert abs(f_n) < 1e-8 * abs(turning_alone[0])
@@ -188,10 +194,10 @@ def test_stored_energy_of_a_dry_pair_is_the_work_of_its_elastic_force():
 @pytest.mark.parametrize("name", ["pinkus", "pi_film", "short", "finite"])
 def test_film_outside_its_range_is_nan_and_remembered(name):
     pair = FILMS[name]
-    (f_n, _), _, _ = pair.force(1.01 * CLEARANCE, 0.1, 0.1, 1.0, 0.0)
+    (f_n, _), _, _ = force_of(pair, 1.01 * CLEARANCE, 0.1, 0.1, 1.0, 0.0)
     assert math.isnan(f_n)
     assert pair.outside == pytest.approx(1.01)
-    pair.force(0.5 * CLEARANCE, 0.1, 0.1, 1.0, 0.0)
+    force_of(pair, 0.5 * CLEARANCE, 0.1, 0.1, 1.0, 0.0)
     assert pair.outside is None
 
 
@@ -223,12 +229,12 @@ def test_bristle_follows_its_differential_equation():
     pair.begin_step(0.0, accepted=True)
     for number in range(1, steps + 1):
         pair.begin_step(period / steps, accepted=True)
-        pair.force(e, 0.0, speed(number * period / steps), 0.0, 0.0)
+        force_of(pair, e, 0.0, speed(number * period / steps), 0.0, 0.0)
         if number in (steps // 4, steps // 2, 3 * steps // 4):
             z = exact.y[0, number]
             v = speed(number * period / steps)
             mu = soft.sigma_0 * z + soft.sigma_1 * soft.rate(v, z)
-            (f_n, f_t), _, _ = pair.force(e, 0.0, v, 0.0, 0.0)
+            (f_n, f_t), _, _ = force_of(pair, e, 0.0, v, 0.0, 0.0)
             assert f_t / f_n == pytest.approx(mu, rel=0.02)
 
 
@@ -236,24 +242,24 @@ def test_bristle_is_kept_from_accepted_steps_only():
     pair = dry(BRISTLE)
     state = (CLEARANCE + 1e-6, 0.0, 0.5, 0.0, 0.0)
     pair.begin_step(1e-6, accepted=True)
-    first = pair.force(*state)
-    pair.force(CLEARANCE + 1e-6, 0.0, -0.5, 0.0, 0.0)
-    assert pair.force(*state) == first, "iterations of a step leave no trace"
+    first = force_of(pair, *state)
+    force_of(pair, CLEARANCE + 1e-6, 0.0, -0.5, 0.0, 0.0)
+    assert force_of(pair, *state) == first, "iterations of a step leave no trace"
     pair.begin_step(1e-6, accepted=False)
-    assert pair.force(*state) == first, "a repeated step starts where the rejected one did"
+    assert force_of(pair, *state) == first, "a repeated step starts where the rejected one did"
     pair.begin_step(1e-6, accepted=True)
-    assert pair.force(*state) != first, "the next step starts where this one ended"
+    assert force_of(pair, *state) != first, "the next step starts where this one ended"
 
 
 def test_bristle_is_not_reset_by_separation():
     """Spec 2: z goes on in free flight."""
     pair = dry(BRISTLE)
     pair.begin_step(1e-6, accepted=True)
-    pair.force(CLEARANCE + 1e-6, 0.0, 0.5, 0.0, 0.0)
+    force_of(pair, CLEARANCE + 1e-6, 0.0, 0.5, 0.0, 0.0)
     pair.begin_step(1e-9, accepted=True)
     bent = pair.bristle
     assert bent > 0.0
-    pair.force(0.5 * CLEARANCE, 0.0, 0.0, 0.0, 0.0)
+    force_of(pair, 0.5 * CLEARANCE, 0.0, 0.0, 0.0, 0.0)
     pair.begin_step(1e-9, accepted=True)
     assert pair.bristle == bent
 
@@ -263,7 +269,7 @@ def test_approach_speed_is_that_of_the_touch():
     pair = dry(STEADY, hunt_crossley(hertz(2.5545e10), 0.7))
     for e, e_dot in ((0.9, 0.1), (0.99, 0.2), (1.01, 0.3)):
         pair.begin_step(1e-6, accepted=True)
-        force = pair.force(e * CLEARANCE, e_dot, 0.0, 0.0, 0.0)
+        force = force_of(pair, e * CLEARANCE, e_dot, 0.0, 0.0, 0.0)
     touch = math.sqrt((0.2**2 + 0.3**2) / 2.0)
     contact = pair.contact.force(0.01 * CLEARANCE, 0.3, touch)
     assert force is not None and -force[0][0] == pytest.approx(contact[0])
@@ -283,7 +289,7 @@ def test_reset_forgets():
     pair = dry(BRISTLE)
     for _ in range(2):
         pair.begin_step(1e-3, accepted=True)
-        pair.force(CLEARANCE + 1e-6, 0.0, 0.5, 0.0, 0.0)
+        force_of(pair, CLEARANCE + 1e-6, 0.0, 0.5, 0.0, 0.0)
     assert pair.bristle != 0.0
     pair.reset()
     pair.begin_step(1e-3, accepted=True)

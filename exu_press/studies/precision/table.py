@@ -2,11 +2,12 @@
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import astuple
 from typing import Any
 
 from exu_press.columns import columns
 from exu_press.studies.precision.errors import PEAKS_APART
-from exu_press.studies.precision.rows import Row
+from exu_press.studies.precision.rows import ERRORS, Row
 from exu_press.studies.precision.stated import Stated
 
 __all__ = ["case_lines", "horizon_words", "machine_lines", "order_lines", "stated_lines"]
@@ -36,7 +37,7 @@ LATE_HEAD = (
 
 ORDER_HEAD = ("case", "solver", "setting", "position", "velocity", "peak")
 
-STATED_HEAD = (*("case", "tolerance", "figures", "covered", "stated/true", "peak: stated", "true"),)
+STATED_HEAD = ("case", "tolerance", "figures", "covered", "stated/true", "peak: stated", "true")
 
 
 def machine_lines(machine: Mapping[str, Any], quick: bool) -> list[str]:
@@ -61,7 +62,11 @@ def case_lines(name: str, case: Mapping[str, Any], rows: Sequence[Row]) -> list[
         "* one run, not the median of three",
         f"  reference: {reference['method']}; {_difference(reference)}",
         *columns([HEAD, *(_cells(row) for row in rows)], INDENT),
-        *_reasons(rows),
+        *(
+            f"  {row.solver} {row.setting} {row.value:g}: {row.reason}"
+            for row in rows
+            if row.reason
+        ),
         *(_late_lines(rows) if case["horizon"] < case["duration"] else ()),
     ]
 
@@ -125,18 +130,14 @@ def _difference(reference: Mapping[str, Any]) -> str:
 
 def _cells(row: Row) -> tuple[str, ...]:
     per_step = None if not row.steps else 1e6 * row.cpu_time / row.steps
+    counts = (row.steps, row.rejected_steps, row.newton_iterations, row.law_evaluations)
     return (
         row.solver,
         f"{row.value:g}{' s' if row.setting == 'step' else ''}",
-        _error(row, "error_position"),
-        _error(row, "error_velocity"),
-        _error(row, "error_peak_acceleration"),
+        *(_error(row, name) for name in ERRORS),
         f"{row.wall_time:.3g}" + ("" if len(row.wall_times) > 1 else "*"),
         f"{row.cpu_time:.3g}",
-        _number(row.steps, 7),
-        _number(row.rejected_steps, 7),
-        _number(row.newton_iterations, 7),
-        _number(row.law_evaluations, 7),
+        *(_number(count, 7) for count in counts),
         _number(per_step, 3),
         row.status,
     )
@@ -146,12 +147,6 @@ def _error(row: Row, name: str) -> str:
     return ("<" if name in row.at_most else "") + _number(getattr(row, name), 2)
 
 
-def _reasons(rows: Sequence[Row]) -> list[str]:
-    return [
-        f"  {row.solver} {row.setting} {row.value:g}: {row.reason}" for row in rows if row.reason
-    ]
-
-
 def _late_lines(rows: Sequence[Row]) -> list[str]:
     """Return what is compared of the whole of dry runs, where any errors are."""
     cells: list[tuple[str, ...]] = [
@@ -159,12 +154,7 @@ def _late_lines(rows: Sequence[Row]) -> list[str]:
             row.solver,
             f"{row.value:g}",
             str(row.late.impacts),
-            _number(row.late.impact_time, 2),
-            _number(row.late.peak_force, 2),
-            _number(row.late.rms_force, 2),
-            _number(row.late.graph_distance, 2),
-            _number(row.late.mean_of_peaks, 2),
-            _number(row.late.large_peaks, 2),
+            *(_number(value, 2) for value in astuple(row.late)[1:]),
         )
         for row in rows
         if row.late is not None

@@ -63,15 +63,10 @@ _HOMES = {
 }
 
 
-def _build(scene: "Any") -> "Any":
-    return importlib.import_module("exu_press.graphics").build_with_graphics(scene)
-
-
-def _summary(result: "Any") -> "Any":
-    return importlib.import_module("exu_press.observe").summary(result)
-
-
-WORKERS.update(build=_build, summary=_summary)
+WORKERS.update(
+    build=lambda scene: importlib.import_module("exu_press.graphics").build_with_graphics(scene),
+    summary=lambda result: importlib.import_module("exu_press.observe").summary(result),
+)
 
 
 def __getattr__(name: str) -> "Any":

@@ -2,6 +2,7 @@
 
 import sys
 import time
+from contextlib import AbstractContextManager
 from typing import TYPE_CHECKING, NoReturn, TextIO
 
 if TYPE_CHECKING:
@@ -12,7 +13,7 @@ __all__ = ["Progress"]
 SECONDS_BETWEEN_LINES = 5.0
 
 
-class Progress:
+class Progress(AbstractContextManager["Progress", None]):
     """Progress towards a total, with the time left.
 
     Used as a context manager; `update` may be called as often as one likes.
@@ -64,10 +65,6 @@ class Progress:
                     file=self._stream,
                     flush=True,
                 )
-
-    def __enter__(self) -> "Progress":
-        """Return the progress itself."""
-        return self
 
     def __exit__(self, *_: object) -> None:
         """Close the bar where it stands."""

@@ -9,6 +9,7 @@ import subprocess
 import sys
 import threading
 from collections.abc import Callable
+from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
 
@@ -38,7 +39,7 @@ class WorkerDiedError(Exception):
     """The process ended before it answered; the text says how."""
 
 
-class Child:
+class Child(AbstractContextManager["Child", None]):
     """A process for the tasks of one function; a context manager that ends it."""
 
     def __init__(self, task: Task) -> None:
@@ -132,10 +133,6 @@ class Child:
         with contextlib.suppress(ValueError):
             raise WorkerDiedError(f"killed by {signal.Signals(-code).name}")
         raise WorkerDiedError(f"killed by signal {-code}")
-
-    def __enter__(self) -> "Child":
-        """Return the child itself."""
-        return self
 
     def __exit__(self, *_: object) -> None:
         """End the process."""

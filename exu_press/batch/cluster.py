@@ -2,6 +2,7 @@
 
 import contextlib
 from concurrent.futures import CancelledError, Future
+from contextlib import AbstractContextManager
 from urllib.parse import urlsplit
 
 from exu_press.batch.child import Child, perform, worker_died
@@ -16,7 +17,7 @@ TASKS_AHEAD = 4
 """Tasks under way for each of the cluster's threads, so that none waits for the network."""
 
 
-class Cluster:
+class Cluster(AbstractContextManager["Cluster", None]):
     """Performs tasks on a running Dask cluster."""
 
     def __init__(self, address: str, time_limit: float | None) -> None:
@@ -81,10 +82,6 @@ class Cluster:
                 f"dask = {self._address}: its workers cannot do this ({_in_a_line(error)}); they "
                 "need the packages that are installed here"
             ) from None
-
-    def __enter__(self) -> "Cluster":
-        """Return the cluster itself."""
-        return self
 
     def __exit__(self, *_: object) -> None:
         """Give back the tasks not begun, and leave the cluster running."""

@@ -2,6 +2,7 @@
 
 import threading
 from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import AbstractContextManager
 
 from exu_press.batch.child import Child, WorkerDiedError, perform
 from exu_press.batch.task import Row, Task
@@ -9,7 +10,7 @@ from exu_press.batch.task import Row, Task
 __all__ = ["Processes"]
 
 
-class Processes:
+class Processes(AbstractContextManager["Processes", None]):
     """Performs tasks in processes that stay alive from task to task; a dead one is replaced.
 
     Python's own pools of processes are of no use here: one killed worker breaks the whole of
@@ -55,10 +56,6 @@ class Processes:
                 return started
         started.end()  # begun while __exit__ ended the others
         raise WorkerDiedError("the batch was stopped")
-
-    def __enter__(self) -> "Processes":
-        """Return the pool itself."""
-        return self
 
     def __exit__(self, *_: object) -> None:
         """End every process; tasks not begun are dropped."""

@@ -2,6 +2,7 @@
 
 import json
 import os
+from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import TypedDict
 
@@ -26,7 +27,7 @@ class Record(TypedDict):
     row: Row
 
 
-class RowFile:
+class RowFile(AbstractContextManager["RowFile", None]):
     """runs.jsonl: every line is the record of a task.
 
     A line without its end is what a kill in the middle of a write leaves; it is cut off. Used as a
@@ -91,10 +92,6 @@ class RowFile:
             os.fsync(self._file.fileno())
         except OSError as error:
             raise InputError(f"{self._path}: cannot be written ({error.strerror})") from None
-
-    def __enter__(self) -> "RowFile":
-        """Return the file itself."""
-        return self
 
     def __exit__(self, *_: object) -> None:
         """Close the file."""

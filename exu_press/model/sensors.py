@@ -28,12 +28,6 @@ def add_sensors(
         forces |= {(f"{body}_guide", kind): number for kind, number in numbers.items()}
     for key, number in forces.items():
         local = number in system.local_forces
-        system.sensors[key] = system.mbs.AddSensor(
-            SensorObject(
-                objectNumber=number,
-                storeInternal=True,
-                outputVariableType=exu.OutputVariableType.ForceLocal
-                if local
-                else exu.OutputVariableType.Force,
-            )
-        )
+        kind = exu.OutputVariableType.ForceLocal if local else exu.OutputVariableType.Force
+        load = SensorObject(objectNumber=number, storeInternal=True, outputVariableType=kind)
+        system.sensors[key] = system.mbs.AddSensor(load)

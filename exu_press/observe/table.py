@@ -65,11 +65,6 @@ def _alike(one: float | None, other: float | None) -> bool:
     return abs(one - other) <= ALIKE * max(abs(one), abs(other))
 
 
-def _determined(summary: Summary) -> str:
-    """Return until when errors are smaller than the figures; a dash if that is throughout."""
-    return uncertain(summary.get("errors_from"), None, 1e3)
-
-
 def _tilt(summary: Summary) -> str:
     """Return the slider's largest tilt, where its guide lets it."""
     return _figure("slider_tilt", 1e6)(summary) if "guide" in summary["scene"] else "-"
@@ -106,7 +101,7 @@ def _rubbing(summary: Summary) -> str:
 
 ROWS: tuple[tuple[str, Callable[[Summary], str]], ...] = (
     ("status", lambda s: str(s["status"])),
-    ("errors exceed figures from, ms", _determined),
+    ("errors exceed figures from, ms", lambda s: uncertain(s.get("errors_from"), None, 1e3)),
     ("stroke, mm", _figure("stroke", 1e3, 5)),
     ("bottom dead centre, mm", _figure("bottom_dead_centre", 1e3, 6)),
     ("peak velocity, m/s", _figure("peak_velocity")),

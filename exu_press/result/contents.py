@@ -18,18 +18,10 @@ from exu_press.stored import shown
 __all__ = ["Contents"]
 
 EVERY_RUN = {
-    "time": "",
-    "crank_angle": "",
-    "crank_speed": "",
-    "slider_position": "",
-    "slider_velocity": "",
-    "slider_acceleration": "",
-    "slider_lateral": "",
-    "slider_tilt": "",
-    "drive_torque": "",
-    "drive_power": "",
-    "frame_force": "plane",
-    "shaking_force": "plane",
+    **dict.fromkeys(("time", "crank_angle", "crank_speed", "drive_torque", "drive_power"), ""),
+    **dict.fromkeys(("slider_position", "slider_velocity", "slider_acceleration"), ""),
+    **dict.fromkeys(("slider_lateral", "slider_tilt"), ""),
+    **dict.fromkeys(("frame_force", "shaking_force"), "plane"),
     "body_position": "pose",
 }
 """The channels of every run -> what their columns are."""
@@ -75,14 +67,10 @@ def _check(result: Contents) -> None:
     always = EVERY_RUN if result.info["own_items"] else EVERY_RUN | BALANCE
     if mechanism.counterweight:
         always = always | {"shaking_force_without_counterweight": "plane"}
-    _check_channels(result.channels, mechanism, loose, {**always, **_of_loads(scene)})
+    loads = applied_loads(scene)
+    always = always | {f"load_{name}_{what}": "" for name in loads for what in ("force", "work")}
+    _check_channels(result.channels, mechanism, loose, always)
     _check_surfaces(result)
-
-
-def _of_loads(scene: Scene) -> dict[str, str]:
-    """Return the channels that a scene's loads always have."""
-    names = applied_loads(scene)
-    return {f"load_{name}_{quantity}": "" for name in names for quantity in ("force", "work")}
 
 
 def _check_channels(

@@ -178,18 +178,12 @@ def _joint_keys(scene: Scene) -> dict[str, Key]:
         place = f"joints.{name}"
         default = by_joint.get(scene.joints.members(name)[0], "ideal")
         found.append(Key(f"{place}.kind", joint.kind, default, "", "ideal, dry or lubricated"))
+        found += _keys_in(place, joint, {}).values()
         for field in dataclasses.fields(joint):
-            value, law = getattr(joint, field.name), scene.laws.get(field.name)
-            if field.metadata:
-                meta = field.metadata
-                key = f"{place}.{field.name}"
-                found.append(Key(key, value, field.default, meta["unit"], meta["meaning"]))
-            elif value is not None and law is not None:
-                for inner in dataclasses.fields(value):
-                    own, meta = getattr(value, inner.name), inner.metadata
-                    if own != (common := getattr(law, inner.name)):
-                        key = f"{place}.{field.name}.{inner.name}"
-                        found.append(Key(key, own, common, meta["unit"], meta["meaning"]))
+            own, law = getattr(joint, field.name), scene.laws.get(field.name)
+            if own is not None and law is not None:
+                keys = _keys_in(f"{place}.{field.name}", own, dataclasses.asdict(law))
+                found += (key for key in keys.values() if not key.assumed)
     return {key.name: key for key in found}
 
 

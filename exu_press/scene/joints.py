@@ -69,10 +69,6 @@ class Joints(Mapping[str, Joint]):
         """Return the hash of all joints."""
         return hash(tuple(self._joints.items()))
 
-    def __eq__(self, other: object) -> bool:
-        """Return whether all joints are equal."""
-        return isinstance(other, Joints) and self._joints == other._joints
-
     def __repr__(self) -> str:
         """Return the joints that are not ideal."""
         return f"Joints({self.with_clearance!r})"

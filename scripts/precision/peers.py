@@ -202,7 +202,7 @@ def peer_attempts(model: CompiledModel, tolerances: Iterable[float]) -> list[Att
             "tolerance",
             tol,
             partial(_measure, peer, model, tol),
-            again=partial(_time_again, peer, model, tol),
+            again=partial(_time, peer, model, tol),
         )
         for peer in PEERS
         if not installed(peer)
@@ -210,13 +210,8 @@ def peer_attempts(model: CompiledModel, tolerances: Iterable[float]) -> list[Att
     ]
 
 
-def _time_again(peer: Peer, model: CompiledModel, tolerance: float, _: int) -> Measured:
-    """Integrate once more as it is timed; the start is the same."""
-    return _time(peer, model, tolerance)
-
-
-def _time(peer: Peer, model: CompiledModel, tolerance: float) -> Measured:
-    """Integrate as it is timed."""
+def _time(peer: Peer, model: CompiledModel, tolerance: float, _number: int = 0) -> Measured:
+    """Integrate as it is timed; once more from the same start, whatever its number."""
     evaluations, reason = None, ""
     with _silent_libraries():
         start, cpu_start = time.perf_counter(), time.process_time()

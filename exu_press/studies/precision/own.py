@@ -2,7 +2,6 @@
 
 import time
 from collections.abc import Iterable
-from functools import partial
 
 from exu_press.result import record
 from exu_press.scene import Scene
@@ -54,12 +53,13 @@ def tolerances(scene: Scene, values: Iterable[float]) -> list[Attempt]:
 
 def attempt(solver: str, scene: Scene, setting: str, value: float) -> Attempt:
     """Return a run of a solver's, repeated from starts that differ by next to nothing."""
-    again = partial(_from_start, scene, setting, value)
-    return Attempt(solver, setting, value, partial(run_scene, scene, setting, value), again)
-
-
-def _from_start(scene: Scene, setting: str, value: float, number: int) -> Measured:
-    return run_scene(moved(scene, number), setting, value)
+    return Attempt(
+        solver,
+        setting,
+        value,
+        run=lambda: run_scene(scene, setting, value),
+        again=lambda number: run_scene(moved(scene, number), setting, value),
+    )
 
 
 def moved(scene: Scene, number: int) -> Scene:

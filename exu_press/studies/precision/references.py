@@ -9,7 +9,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.confidence import Growth, growth
 from exu_press.scene import Scene, mechanism_of
 from exu_press.studies.precision.errors import (
@@ -106,14 +105,14 @@ def from_own(scene: Scene, tolerance: float, step: float, starts: int) -> Refere
         return Reference(f"{method}: not all of them reached the end", None, NOTHING)
     instants = instants_until(horizon)
     position, velocity = (
-        float(np.abs(_at_zero(c, f) - t).max())
+        float(np.abs(f + (f - c) / 3.0 - t).max())  # second order, at step zero
         for c, f, t in zip(*(run.at(instants) for run in (coarse, fine, tight)), strict=True)
     )
     peak = errors_of(fine, tight, horizon).peak_acceleration  # as sampled; no order to rely on
     difference = Errors(position, velocity, peak)
-    others: tuple[Trajectory, ...] = ()
-    if parted.horizon is not None:
-        others = _starts(scene, LOOSER * tolerance, starts)
+    beside = [moved(scene, -n) for n in range(1, starts + 1)] if parted.horizon is not None else []
+    runs = [run_scene(other, "tolerance", LOOSER * tolerance).trajectory for other in beside]
+    others = tuple(run for run in runs if run is not None)
     return Reference(f"{method}, extrapolated", tight, difference, parted, others)
 
 
@@ -125,17 +124,6 @@ def parting(scene: Scene, one: Trajectory, other: Trajectory) -> Growth:
         return STAYS
     there, _ = other.at(np.clip(one.time, other.time[0], other.time[-1]))
     return growth(one.time, np.abs(one.position - there) / min(clearances), KNOWN)
-
-
-def _starts(scene: Scene, tolerance: float, count: int) -> tuple[Trajectory, ...]:
-    """Return runs from starts beside the scene's own."""
-    runs = (run_scene(moved(scene, -n), "tolerance", tolerance) for n in range(1, count + 1))
-    return tuple(run.trajectory for run in runs if run.trajectory is not None)
-
-
-def _at_zero(coarse: Array, fine: Array) -> Array:
-    """Return what a second-order method would give at step zero, from a step and its double."""
-    return np.asarray(fine + (fine - coarse) / 3.0)
 
 
 def _above(difference: float | None) -> float | None:

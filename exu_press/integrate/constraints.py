@@ -9,6 +9,8 @@ Before the first step the state is moved to fit them (`fit_start`); where the st
 what generalized-alpha carries over (`StepChange`).
 """
 
+import math
+
 import exudyn as exu
 import numpy as np
 from numpy.typing import NDArray
@@ -397,6 +399,12 @@ class StepChange:
             violated[size:] /= lengths[:, None]
             same = violated[:, 0] == violated[:, 1]
             violated[same] = 0.0  # prescribed speeds are no places, and are met as they are
-            found += np.linalg.solve(matrix, violated)[:size]
+            try:
+                found += np.linalg.solve(matrix, violated)[:size]
+            except np.linalg.LinAlgError:
+                found[:] = math.nan
+            if not np.isfinite(found).all():  # a film's forces beyond all numbers: it says so
+                found[:] = 0.0
+                break
         self._data.SetTime(now)
         return found[:, 0], found[:, 1]

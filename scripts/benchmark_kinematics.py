@@ -11,14 +11,7 @@ import time
 
 import numpy as np
 
-from exu_press.mechanism import (
-    SHIPPED,
-    Press,
-    SliderCrank,
-    press,
-    shipped_mechanism,
-    slider_crank,
-)
+from exu_press.mechanism import SHIPPED, Press, SliderCrank, press, shipped_mechanism, slider_crank
 from exu_press.mechanism.kinematics import kinematics_of
 
 REPEATS = 15

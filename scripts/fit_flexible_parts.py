@@ -195,13 +195,7 @@ def main():
     start = asdict(shipped_part(options.part).geometry)
     start |= json.loads(options.start or "{}")
     found = fit(
-        name,
-        start,
-        options.samples,
-        options.steps,
-        options.mesh_size,
-        options.seed,
-        options.spread,
+        name, start, options.samples, options.steps, options.mesh_size, options.seed, options.spread
     )
     shape = part_of(name, found).geometry
     for key, value in asdict(shape).items():

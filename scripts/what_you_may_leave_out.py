@@ -38,11 +38,7 @@ CHOICES = {
     "tolerance 1e-2 instead of 1e-3": {"solver": {"tolerance": 1e-2}},
     "tolerance 1e-4": {"solver": {"tolerance": 1e-4}},
     "rigid, ideal guides": {**RIGID, "guide": None},
-    "only the mechanism": {
-        **RIGID,
-        **dict.fromkeys(["guide", "film", "friction"]),
-        "joints": {},
-    },
+    "only the mechanism": {**RIGID, **dict.fromkeys(["guide", "film", "friction"]), "joints": {}},
 }
 FIGURES = {
     "peak a, m/s^2": lambda s: s["peak_acceleration"]["resolved"],

@@ -8,8 +8,6 @@ __all__ = ["EXAMPLE", "add_arguments", "execute"]
 
 EXAMPLE = "exu-press doctor"
 
-JOINTS = {True: "compiled", False: "in Python", None: "cannot be loaded"}
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add nothing: there is nothing to choose."""
@@ -25,7 +23,7 @@ def execute(options: argparse.Namespace) -> int:
     for extra, packages in doctor.extras().items():
         missing = ", ".join(name for name, version in packages.items() if version is None)
         print(f"  {extra:16} {f'not installed: {missing}' if missing else 'installed'}")
-    print(f"joints: {JOINTS[doctor.joints_compiled()]}")
+    print(f"joints: {'compiled' if doctor.joints_compiled() else 'in Python'}")
     runs = doctor.runs()
     for run in runs:
         print(f"{'ok' if run.ok else 'WRONG'}: {run.name}: {_words(run)}")

@@ -23,10 +23,7 @@ class Report(Protocol):
 
 
 def finish(
-    report: Report,
-    file: Path,
-    draw: Callable[[], Iterable[Path]],
-    options: argparse.Namespace,
+    report: Report, file: Path, draw: Callable[[], Iterable[Path]], options: argparse.Namespace
 ) -> None:
     """Write, draw and print a report.
 

@@ -112,10 +112,7 @@ class SpatialSpherical:
         pressed = depth - self.path.drift
         elastic = self._contact.stiffness.force(pressed)[0] if pressed > 0.0 else 0.0
         moments = np.concatenate(
-            [
-                self._radius * _cross(self._n, self._drag),
-                -reach * _cross(self._n, self._drag),
-            ]
+            [self._radius * _cross(self._n, self._drag), -reach * _cross(self._n, self._drag)]
         )
         return JointState(
             eccentricity=self.eccentricity,

@@ -10,16 +10,7 @@ from exu_press.mechanism.file import (
 )
 from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.motion import Motion
-from exu_press.mechanism.parts import (
-    GROUND,
-    Body,
-    Guide,
-    Joint,
-    Output,
-    Point,
-    Spring,
-    Ways,
-)
+from exu_press.mechanism.parts import GROUND, Body, Guide, Joint, Output, Point, Spring, Ways
 from exu_press.mechanism.press import Press, press
 from exu_press.mechanism.slider_crank import SliderCrank, slider_crank
 

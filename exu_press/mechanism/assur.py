@@ -61,11 +61,7 @@ class Pose:
     __slots__ = ("a", "angle", "column", "e", "slopes", "w", "z", "z1", "z2")
 
     def __init__(
-        self,
-        z: Number,
-        angle: Number,
-        slopes: Sequence[Number] = (),
-        column: int | None = None,
+        self, z: Number, angle: Number, slopes: Sequence[Number] = (), column: int | None = None
     ) -> None:
         """Stand still at a position."""
         self.z, self.angle, self.e = z, angle, np.exp(1j * angle)

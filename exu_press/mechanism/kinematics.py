@@ -16,14 +16,7 @@ from numpy.typing import NDArray
 
 from exu_press.arrays import Array
 from exu_press.errors import InputError
-from exu_press.mechanism.assur import (
-    Drawing,
-    Group,
-    Pose,
-    groups_of,
-    known_bodies,
-    one_group_of,
-)
+from exu_press.mechanism.assur import Drawing, Group, Pose, groups_of, known_bodies, one_group_of
 from exu_press.mechanism.motion import Motion
 
 __all__ = ["Kinematics", "kinematics_of"]

@@ -9,7 +9,7 @@ from exu_press.arrays import Array
 from exu_press.mechanism import Mechanism
 from exu_press.piecewise import hermite
 from exu_press.result import Result
-from exu_press.scene import Scene, mechanism_of
+from exu_press.scene import mechanism_of
 
 __all__ = ["DeadCentre", "bottom_dead_centres", "ideal_bottom_angle", "lowest_of_strokes"]
 
@@ -40,17 +40,13 @@ def bottom_dead_centres(result: Result) -> list[DeadCentre]:
         result["crank_angle"],
         result["slider_position"],
         result["slider_velocity"],
-        about=ideal_bottom_angle(result.scene),
+        about=ideal_bottom_angle(mechanism_of(result.scene)),
     )
 
 
-def ideal_bottom_angle(scene: Scene) -> float:
-    """Return the crank angle at which the ideal slider is lowest, to half a degree, rad."""
-    return _ideal_bottom_angle(mechanism_of(scene))
-
-
 @lru_cache(maxsize=16)  # errors take six summaries of a scene, and this is most of a short one's
-def _ideal_bottom_angle(mechanism: Mechanism) -> float:
+def ideal_bottom_angle(mechanism: Mechanism) -> float:
+    """Return the crank angle at which the ideal slider is lowest, to half a degree, rad."""
     angle = np.linspace(0.0, 2.0 * np.pi, 721)
     position = mechanism.ideal_slider(angle, speed=1.0)[0]
     return float(angle[np.argmin(position)])

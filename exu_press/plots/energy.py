@@ -58,10 +58,7 @@ def _losses(axes: Axes, result: Result) -> None:
     names = [name.removesuffix("_loss") for name in result if name.endswith("_loss")]
     others = [name for name in names if name not in result.joints]
     modes = [name for name in others if name.endswith("_modes")]
-    together = {
-        "guides": [name for name in others if name not in modes],
-        "damping of modes": modes,
-    }
+    together = {"guides": [name for name in others if name not in modes], "damping of modes": modes}
     order = sorted(result.clearance_joints, key=lambda n: (result.joints[n].spherical, n))
     titles = joint_titles([result], order, "loss")
     most = sorted(titles, key=lambda name: -float(result[f"{name}_loss"][-1]))[:MOST_LOSSES]

@@ -159,8 +159,9 @@ def _strokes(axes: Axes, result: Result, centres: list[DeadCentre]) -> None:
     """Draw every stroke about its bottom dead centre, and the ideal one."""
     mean = float(np.mean([centre.position for centre in centres]))
     from_centre = np.linspace(-ABOUT, ABOUT, 200)
-    bottom = np.degrees(ideal_bottom_angle(result.scene))
-    ideal = mechanism_of(result.scene).ideal_slider(np.radians(bottom + from_centre), 1.0)[0]
+    mechanism = mechanism_of(result.scene)
+    bottom = np.degrees(ideal_bottom_angle(mechanism))
+    ideal = mechanism.ideal_slider(np.radians(bottom + from_centre), 1.0)[0]
     axes.plot(
         from_centre,
         1e6 * (ideal - ideal.min()),

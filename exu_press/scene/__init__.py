@@ -7,14 +7,7 @@ from exu_press.scene.joint import DryJoint, IdealJoint, LubricatedJoint
 from exu_press.scene.joints import Joints
 from exu_press.scene.load import BlankingLoad, TableLoad
 from exu_press.scene.scene import Scene, mechanism_of
-from exu_press.scene.tables import (
-    Contact,
-    ElasticGuide,
-    Film,
-    Friction,
-    Motor,
-    Solver,
-)
+from exu_press.scene.tables import Contact, ElasticGuide, Film, Friction, Motor, Solver
 
 __all__ = [
     "BlankingLoad",

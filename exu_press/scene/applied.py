@@ -35,12 +35,8 @@ class AppliedLoad:
 
     def force(self, time: Array, crank_angle: Array, slider_position: Array) -> Array:
         """Return the force in its direction, (n,), N, at instants (n,), s, rad and m."""
-        places = {
-            "time": time,
-            "crank_angle_deg": crank_angle,
-            "slider_position": slider_position,
-        }[self.over]
-        return np.array([self.curve(place) for place in places.tolist()])
+        places = {"time": time, "crank_angle_deg": crank_angle, "slider_position": slider_position}
+        return np.array([self.curve(place) for place in places[self.over].tolist()])
 
     def moment(self, force: Array, angle: Array) -> Array:
         """Return the moment about the body's centre of mass, (n,), N m.

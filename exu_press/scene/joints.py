@@ -239,11 +239,7 @@ def _check_laws(place: str, joint: Joint, spherical: bool) -> None:
 
 
 def _unknown(
-    name: str,
-    mechanism: str,
-    joints: Iterable[str],
-    groups: Iterable[str],
-    value: Any = None,
+    name: str, mechanism: str, joints: Iterable[str], groups: Iterable[str], value: Any = None
 ) -> str:
     """Return the message about a joint or group that there is not."""
     groups = list(groups)

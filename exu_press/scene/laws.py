@@ -6,16 +6,8 @@ from typing import TypeVar
 from exu_press.errors import InputError
 from exu_press.laws.contact import DAMPING_LAWS, NormalContact, cylindrical, hertz
 from exu_press.laws.film import FILM_LAWS, FilmLaw, with_asperities
-from exu_press.laws.friction import (
-    Friction as FrictionLaw,
-)
-from exu_press.laws.friction import (
-    LuGre,
-    coulomb,
-    lugre_steady,
-    no_friction,
-    stribeck,
-)
+from exu_press.laws.friction import Friction as FrictionLaw
+from exu_press.laws.friction import LuGre, coulomb, lugre_steady, no_friction, stribeck
 from exu_press.mechanism import Spring
 from exu_press.scene.tables import Contact, ElasticGuide, Film, Friction
 

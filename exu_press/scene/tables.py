@@ -12,14 +12,7 @@ from exu_press.errors import InputError
 from exu_press.laws.contact import DAMPING_LAWS
 from exu_press.laws.film import FILM_LAWS
 
-__all__ = [
-    "Contact",
-    "ElasticGuide",
-    "Film",
-    "Friction",
-    "Motor",
-    "Solver",
-]
+__all__ = ["Contact", "ElasticGuide", "Film", "Friction", "Motor", "Solver"]
 
 FRICTION_LAWS = ("none", "coulomb", "stribeck", "lugre_steady", "lugre")
 DEFAULT_TOLERANCE = 1e-3

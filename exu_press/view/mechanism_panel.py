@@ -143,11 +143,7 @@ def _draw_dead_centres(axes: Axes, mechanism: Mechanism, outline: Array, unit: f
 
 
 def _draw_labels(
-    axes: Axes,
-    mechanism: Mechanism,
-    places: dict[str, Array],
-    right: float,
-    unit: float,
+    axes: Axes, mechanism: Mechanism, places: dict[str, Array], right: float, unit: float
 ) -> None:
     """Name the bodies at the right, each once, with a line to it."""
     panel = axes.get_window_extent()

@@ -147,9 +147,7 @@ def _peaks(study: Study, damping: str, suffix: str) -> Table:
 
 
 def _settings(
-    study: Study,
-    cases: Mapping[str, str],
-    changes: Mapping[str, Mapping[str, Scene | None]],
+    study: Study, cases: Mapping[str, str], changes: Mapping[str, Mapping[str, Scene | None]]
 ) -> Table:
     """Return the peaks as they are and with each change that is one, and what changes nothing."""
     base = {case: study.value(DEFAULT, name, PEAK) for case, name in cases.items()}

@@ -27,9 +27,7 @@ def cases() -> tuple[Case, ...]:
             variations=True,
         ),
         Reduced(
-            "slider_crank_dry_0.01mm",
-            "Slider-crank, dry pin, 0.01 mm",
-            _slider_crank("dry", 1e-5),
+            "slider_crank_dry_0.01mm", "Slider-crank, dry pin, 0.01 mm", _slider_crank("dry", 1e-5)
         ),
         Reduced(
             "slider_crank_lubricated_0.1mm",
@@ -37,12 +35,7 @@ def cases() -> tuple[Case, ...]:
             _slider_crank("lubricated", 1e-4),
             variations=True,
         ),
-        Case(
-            "press_ideal",
-            "Press, rigid, ideal",
-            _press("ideal", "ideal"),
-            steps=STEPS[:7],
-        ),
+        Case("press_ideal", "Press, rigid, ideal", _press("ideal", "ideal"), steps=STEPS[:7]),
         Case(
             "press_lubricated",
             "Press, rigid, lubricated pin and dry balls, 0.1 mm",

@@ -62,13 +62,9 @@ class Peer:
     solve: Callable[[CompiledModel, float, Array | None], Solution]
     needs_numba: bool = False
 
-    def run(self, model: CompiledModel, tolerance: float) -> Solution:
-        """Integrate once, as it is timed."""
-        return self.solve(model, tolerance, None)
-
     def trajectory(self, model: CompiledModel, tolerance: float) -> Trajectory:
         """Integrate once for the result: dense, and at its own steps, which resolve impacts."""
-        own_steps = self.run(model, tolerance)[0]
+        own_steps = self.solve(model, tolerance, None)[0]
         count = round(model.scene.duration / SAMPLES_APART)
         grid = np.linspace(0.0, model.scene.duration, count + 1)
         steps = own_steps[
@@ -216,7 +212,7 @@ def _time(peer: Peer, model: CompiledModel, tolerance: float, _number: int = 0) 
     with _silent_libraries():
         start, cpu_start = time.perf_counter(), time.process_time()
         try:
-            evaluations = peer.run(model, tolerance)[2]
+            evaluations = peer.solve(model, tolerance, None)[2]
         except PeerError as error:
             reason = str(error)
         times = (time.perf_counter() - start,), (time.process_time() - cpu_start,)

@@ -147,10 +147,7 @@ def _speeds() -> list[Case]:
         for rpm in values
     }
     whole = {f"{rpm:g} rpm": {"speed_rpm": rpm, "revolutions": 1.0} for rpm in values}
-    return [
-        *_along("speed", [*DRY, *FILM], speeds),
-        *_along("speed", IDEAL, whole),
-    ]
+    return [*_along("speed", [*DRY, *FILM], speeds), *_along("speed", IDEAL, whole)]
 
 
 def _films() -> list[Case]:

@@ -110,14 +110,17 @@ def agreement(result: Result, finer: Result) -> Check:
 
     Args:
         result: with its errors.
-        finer: the same scene at a smaller tolerance.
+        finer: the same scene at a smaller tolerance; with errors, its own count as well.
     """
     worst, which = 0.0, ""
+    of_finer = finer.info.get("errors", {})
     for one in compared(result, finer):
         told, stated = one.told, one.told["error"]
         if not told["determined"]:
             more = one.true > one.value
             stated = 1.5 * (told["high"] - one.value if more else one.value - told["low"])
+        if one.name in of_finer:
+            stated += of_finer[one.name]["error"]
         allowed = max(stated + one.reading, _little(result.scene, one.name, one.true))
         if one.off == 0.0:
             continue  # also of a figure that is zero, with nothing allowed

@@ -134,6 +134,8 @@ def test_a_difference_that_is_stated_is_right(run):
         }  # fmt: skip
         said = dataclasses.replace(told, info={**told.info, "errors": {"stroke": entry}})
         assert agreement(said, off).passed is right
+    finer = dataclasses.replace(off, info={**off.info, "errors": said.info["errors"]})
+    assert agreement(said, finer).value == pytest.approx(0.1 / (1.5 * 0.03 + 0.03), rel=1e-2)
 
 
 def test_a_joint_that_never_touches_agrees():

@@ -132,11 +132,16 @@ class BodyError:
         change, largest = self._scales.norm(rate), self.largest()
         return change / largest if change > 0.0 else 0.0
 
-    def error(self, change: list[float], step: float) -> float:
-        """Return the error that goes with a change of the accelerations' rate."""
-        limit = max(
-            self._per_step.at(step) * self._scales.speed, self._constant * self._noise / step
-        )
+    def error(self, change: list[float], step: float, left: float = 0.0) -> float:
+        """Return the error that goes with a change of the accelerations' rate.
+
+        Args:
+            change: in SI over seconds.
+            step: s.
+            left: what its constraints leave open of positions, m.
+        """
+        noise = max(self._noise, left)
+        limit = max(self._per_step.at(step) * self._scales.speed, self._constant * noise / step)
         return self._constant * step * step * self._scales.norm(change) / limit
 
     def of_jump(self) -> float:
@@ -300,9 +305,13 @@ class StepError:
         bodies, scales, now = self._bodies, self._scales, self._accelerations.tolist()
         if scales.resting:
             scales.set_out(self._velocities.tolist(), now)
-        error = bodies.tried(now, step)
+        error, left = bodies.tried(now, step), 0.0
         if error > 1.0:
-            error = bodies.error(self._filtered(bodies.change), step)
+            change = self._filtered(bodies.change)
+            error = bodies.error(change, step)
+            if error > 1.0 and self._joints:
+                left = self._left_in_constraints()
+                error = bodies.error(change, step, left)
         if not self._joints:  # else impacts and films need finer steps, by far
             offset = self._relative(bodies.offset(step))
             if not self._switching:  # whose accelerations jump
@@ -312,7 +321,6 @@ class StepError:
             error = max(error, self._first_order.error(step))
         if self._switching:
             error = max(error, self.of_switch(step))
-        left = 0.0
         for joint in self._joints:
             found = joint.error(step)
             if found > 1.0:

@@ -11,8 +11,8 @@ import argparse
 import itertools
 import time as clock
 
+import exudyn
 import numpy as np
-from exudyn import ExudynError
 
 from exu_press import Status
 from exudyn_examples import EXAMPLES
@@ -41,7 +41,7 @@ def fixed_steps(example, end, fine, least):
     for steps in FIXED:
         try:
             done = run(example, steps=steps, end=end)
-        except ExudynError:  # steps too long for Newton's method
+        except exudyn.ExudynError:  # steps too long for Newton's method
             continue
         missed = error(done, fine, example.positions) if done.outcome else np.inf
         if np.isfinite(missed):
@@ -84,6 +84,9 @@ def main():
     parser.add_argument("--only", choices=[*EXAMPLES], help="one example")
     parser.add_argument("--turned", action="store_true", help="errors of angles, over them")
     options = parser.parse_args()
+    exudyn.config.printToConsole = (
+        False  # where a contact has changed it says so, many times a step
+    )
     tolerances = TOLERANCES[:3] if options.quick else TOLERANCES
     if not options.turned:
         print(

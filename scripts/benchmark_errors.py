@@ -15,6 +15,7 @@ from collections.abc import Callable
 
 from exu_press import Result, Scene, simulate
 from exu_press.confidence import simulate_with_errors
+from exu_press.scene import flexible_press
 
 SCENES = {
     "press, two revolutions": Scene(),
@@ -24,6 +25,7 @@ SCENES = {
     "slider-crank, dry pin, one revolution": Scene(
         mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=1.0
     ),
+    "press, flexible, half a revolution": Scene(bodies=flexible_press(), revolutions=0.5),
 }
 
 AIM = 1.5

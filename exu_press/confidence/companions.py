@@ -1,4 +1,4 @@
-"""Runs of the same scene at other tolerances, beside the run itself, in one further process."""
+"""Runs of the same scene at other tolerances, beside the run itself, in two further processes."""
 
 import math
 import multiprocessing
@@ -8,7 +8,7 @@ import sys
 import tempfile
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from multiprocessing.process import BaseProcess
 from pathlib import Path
 
@@ -60,8 +60,10 @@ LARGEST_STEP = 15.0
 POLL = 2e-3
 """s, between two looks for a result."""
 
-SAID = "said.txt"
-"""What the process of the companions wrote to its terminal."""
+Process = BaseProcess | subprocess.Popen[bytes]
+
+SAID = "said_{}.txt"
+"""What the process of the companion of this number wrote to its terminal."""
 
 
 def plan(scene: Scene) -> dict[float, Scene]:
@@ -99,37 +101,50 @@ def _may_fork() -> bool:
     )
 
 
-def _forked(directory: Path) -> None:
+def _forked(directory: Path, numbers: Sequence[int]) -> None:
     """Do in a copy of this process what `companion` does in a new one."""
-    sys.stdout = sys.stderr = (directory / SAID).open("w", encoding="utf-8")
-    companion.main(directory)
+    sys.stdout = sys.stderr = _said(directory, numbers).open("w", encoding="utf-8")
+    companion.main(directory, numbers)
+
+
+def _said(directory: Path, numbers: Sequence[int]) -> Path:
+    """Return what the process of these companions writes to its terminal."""
+    return directory / SAID.format(numbers[0])
+
+
+def _started(directory: Path, numbers: Sequence[int]) -> Process:
+    """Start a process for companions.
+
+    A copy of this process is there at once; a new one takes as long as a short run to load the
+    package, and is started by hand, as multiprocessing would run the user's script again in it.
+    """
+    said = _said(directory, numbers)
+    said.touch()
+    if _may_fork():
+        fork = multiprocessing.get_context("fork")
+        process = fork.Process(target=_forked, args=(directory, numbers))
+        process.start()
+        return process
+    command = [sys.executable, "-m", companion.__name__, str(directory), *map(str, numbers)]
+    with said.open("wb") as terminal:
+        return subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=terminal, stderr=terminal)
 
 
 class Companions:
     """The companions of a scene under way; a context manager that leaves no process behind."""
 
     def __init__(self, scene: Scene) -> None:
-        """Start them, one after the other in a process of their own.
+        """Start the first one in a process of its own, the others in one that gives way to it.
 
-        A copy of this process is there at once; a new one takes as long as a short run to load the
-        package, and is started by hand, as multiprocessing would run the user's script again in it.
+        So two cores are busy until all are done, whichever of them takes longer than the run.
         """
         self._scenes = plan(scene)
         self._temporary = tempfile.TemporaryDirectory(prefix="exu_press_")
         self._directory = Path(self._temporary.name)
         (self._directory / companion.SCENES).write_bytes(pickle.dumps([*self._scenes.values()]))
-        (self._directory / SAID).touch()
-        self._process: BaseProcess | subprocess.Popen[bytes]
-        if _may_fork():
-            fork = multiprocessing.get_context("fork")
-            self._process = fork.Process(target=_forked, args=(self._directory,))
-            self._process.start()
-        else:
-            command = [sys.executable, "-m", companion.__name__, self._temporary.name]
-            with (self._directory / SAID).open("wb") as said:
-                self._process = subprocess.Popen(
-                    command, stdin=subprocess.DEVNULL, stdout=said, stderr=said
-                )
+        first, *others = range(len(self._scenes))
+        self._parts = [first], others
+        self._processes = [_started(self._directory, numbers) for numbers in self._parts]
 
     def results(self) -> Iterator[tuple[float, Result]]:
         """Yield ratio and result of each, as soon as it is there.
@@ -138,29 +153,32 @@ class Companions:
             RuntimeError: the process failed.
         """
         for number, ratio in enumerate(self._scenes):
+            part = min(number, 1)
             path = self._directory / companion.RESULT.format(number)
             while not path.exists():
-                if (status := self._status()) is not None and not path.exists():
-                    said = (self._directory / SAID).read_text(encoding="utf-8", errors="replace")
-                    raise RuntimeError(f"a companion run failed ({status}): {said.strip()[-2000:]}")
+                if (status := _status(self._processes[part])) is not None and not path.exists():
+                    said = _said(self._directory, self._parts[part])
+                    words = said.read_text(encoding="utf-8", errors="replace").strip()
+                    raise RuntimeError(f"a companion run failed ({status}): {words[-2000:]}")
                 time.sleep(POLL)
             yield ratio, pickle.loads(path.read_bytes())
-
-    def _status(self) -> int | None:
-        """Return the process's exit status, None as long as it runs."""
-        if isinstance(self._process, subprocess.Popen):
-            return self._process.poll()
-        return self._process.exitcode
 
     def __enter__(self) -> "Companions":
         """Return the companions."""
         return self
 
     def __exit__(self, *_: object) -> None:
-        """End the process if it is not done, and clear away what it wrote."""
-        self._process.kill()
-        if isinstance(self._process, subprocess.Popen):
-            self._process.wait()
-        else:
-            self._process.join()
+        """End the processes that are not done, and clear away what they wrote."""
+        for process in self._processes:
+            process.kill()
+        for process in self._processes:
+            if isinstance(process, subprocess.Popen):
+                process.wait()
+            else:
+                process.join()
         self._temporary.cleanup()
+
+
+def _status(process: Process) -> int | None:
+    """Return a process's exit status, None as long as it runs."""
+    return process.poll() if isinstance(process, subprocess.Popen) else process.exitcode

@@ -64,19 +64,25 @@ def test_no_process_and_no_file_is_left_behind(by, forks):
     by(forks)
     begun = time.monotonic()
     with Companions(LONG) as companions:
-        directory, process = companions._directory, companions._process.pid
+        directory, processes = companions._directory, [p.pid for p in companions._processes]
     assert time.monotonic() - begun < 10.0
     assert not directory.exists()
-    with pytest.raises(ProcessLookupError):
-        os.kill(process, 0)
+    assert len(processes) == 2
+    for process in processes:
+        with pytest.raises(ProcessLookupError):
+            os.kill(process, 0)
 
 
 @posix
 @way
-def test_a_process_that_is_killed_says_so(by, forks):
+@pytest.mark.parametrize("number", [0, 1])
+def test_a_process_that_is_killed_says_so(by, forks, number, monkeypatch):
     by(forks)
+    scenes = {2.0: SHORT, 4.0: SHORT, 8.0: SHORT}
+    scenes[(2.0, 4.0)[number]] = LONG
+    monkeypatch.setattr(companions_of, "plan", lambda _: scenes)
     with Companions(LONG) as companions:
-        os.kill(companions._process.pid, signal.SIGTERM)
+        os.kill(companions._processes[number].pid, signal.SIGTERM)
         with pytest.raises(RuntimeError, match=r"companion run failed \(-15\)"):
             list(companions.results())
 

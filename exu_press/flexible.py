@@ -24,8 +24,8 @@ from exudyn.rigidBodyUtilities import (
     EulerParameters2RotationMatrix,
     RotationMatrixZ,
 )
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.errors import InputError
 from exu_press.joints import FlexiblePoint
 from exu_press.mechanism import GROUND, Guide, Joint, Mechanism, Motion, Point
@@ -48,8 +48,6 @@ __all__ = [
     "point_name",
     "undeformed",
 ]
-
-Array = NDArray[np.float64]
 
 DRIVEN = ("driven", "driven rim")
 """Points of the crank that move with the face that is driven: on the shaft's axis, and beside."""

@@ -12,8 +12,8 @@ from math import atan2, cos, degrees, hypot, inf, radians, sin
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.errors import InputError
 from exu_press.mechanism import Body, Joint, Mechanism, Motion, Point
 from exu_press.progress import Progress
@@ -36,8 +36,6 @@ from fe_models import (
 )
 
 __all__ = ["PlacedPart", "placed_parts"]
-
-Array = NDArray[np.float64]
 
 NEAR = 1e-4
 """m: how far a face's axis may lie from its joint; drawings are rounded to tenths of a mm."""

@@ -4,11 +4,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+
+from exu_press.arrays import Array
 
 __all__ = ["Growth", "growth"]
-
-Array = NDArray[np.float64]
 
 LEAST_SPAN = 10.0
 """Over its beginning, how far a distance has to grow so that a rate says something."""

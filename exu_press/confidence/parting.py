@@ -4,15 +4,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.confidence.growth import Growth, growth
 from exu_press.result import Result
 from exu_press.scene import mechanism_of
 
 __all__ = ["Parting", "parting"]
-
-Array = NDArray[np.float64]
 
 APART = 0.3
 """Of a clearance: journals that differ by this have nothing in common any more."""

@@ -4,14 +4,12 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.observe.energy import has_balance
 from exu_press.result import Result
 
 __all__ = ["LOADS", "OF_FIRST_STEP", "overshot", "smoothed", "unbalanced"]
-
-Array = NDArray[np.float64]
 
 LOADS = ("acceleration", "force", "torque", "moment", "power", "shaking")
 """In the names of channels and figures that follow from accelerations."""

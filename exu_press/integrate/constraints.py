@@ -15,11 +15,11 @@ import exudyn as exu
 import numpy as np
 from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.integrate.settings import SAME, SWITCHED, Task
 
 __all__ = ["Constraints", "StepChange", "fit_data", "fit_start", "start_rates"]
 
-Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 GIVE = 1e-8

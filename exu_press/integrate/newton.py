@@ -19,13 +19,11 @@ from typing import Any
 
 import exudyn as exu
 import numpy as np
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.integrate.settings import SAME, Task
 
 __all__ = ["FlexibleJacobian", "Newton"]
-
-Array = NDArray[np.float64]
 
 BALANCE = 0.2
 """Of the tolerance, to which part of the usual forces Newton's method balances them."""

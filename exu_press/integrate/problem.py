@@ -7,15 +7,13 @@ from typing import Any
 
 import exudyn as exu
 import numpy as np
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.errors import InputError
 from exu_press.joints import overlay_of
 from exu_press.joints.overlay import JointOverlay
 
 __all__ = ["Node", "Problem", "State"]
-
-Array = NDArray[np.float64]
 
 MATERIAL_POINTS = {
     "Point": 3,

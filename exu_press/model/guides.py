@@ -11,16 +11,14 @@ from exudyn.itemInterface import (
     ObjectGenericODE2,
     VObjectGenericODE2,
 )
-from numpy.typing import NDArray
 
+from exu_press.arrays import Array
 from exu_press.joints import ClearanceJoint, add_ways_contact
 from exu_press.mechanism import Guide, Point, Spring, Ways
 from exu_press.model.system import System
 from exu_press.scene.laws import ways_contact_law, ways_friction_law
 
 __all__ = ["add_guide", "add_ways"]
-
-Array = NDArray[np.float64]
 
 
 def add_ways(system: System, guide: Guide, ways: Ways) -> tuple[ClearanceJoint, ClearanceJoint]:

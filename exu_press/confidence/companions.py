@@ -1,4 +1,4 @@
-"""Runs of the same scene at other tolerances, beside the run itself, in two further processes."""
+"""Runs of the same scene at other tolerances, beside the run itself, in further processes."""
 
 import math
 import multiprocessing
@@ -134,16 +134,18 @@ class Companions:
     """The companions of a scene under way; a context manager that leaves no process behind."""
 
     def __init__(self, scene: Scene) -> None:
-        """Start the first one in a process of its own, the others in one that gives way to it.
+        """Start them, one after the other in a process of their own.
 
-        So two cores are busy until all are done, whichever of them takes longer than the run.
+        A first one that is finer than the run takes longer than it. The others then have a process
+        that gives way to it, so that two cores are busy until all are done.
         """
         self._scenes = plan(scene)
         self._temporary = tempfile.TemporaryDirectory(prefix="exu_press_")
         self._directory = Path(self._temporary.name)
         (self._directory / companion.SCENES).write_bytes(pickle.dumps([*self._scenes.values()]))
-        first, *others = range(len(self._scenes))
-        self._parts = [first], others
+        numbers = range(len(self._scenes))
+        finer = next(iter(self._scenes)) < 1.0
+        self._parts = [numbers[:1], numbers[1:]] if finer else [numbers]
         self._processes = [_started(self._directory, numbers) for numbers in self._parts]
 
     def results(self) -> Iterator[tuple[float, Result]]:
@@ -153,7 +155,7 @@ class Companions:
             RuntimeError: the process failed.
         """
         for number, ratio in enumerate(self._scenes):
-            part = min(number, 1)
+            part = min(number, len(self._parts) - 1)
             path = self._directory / companion.RESULT.format(number)
             while not path.exists():
                 if (status := _status(self._processes[part])) is not None and not path.exists():

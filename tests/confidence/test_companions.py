@@ -60,8 +60,9 @@ def test_the_nearest_one_is_first():
 
 @posix
 @way
-def test_no_process_and_no_file_is_left_behind(by, forks):
+def test_no_process_and_no_file_is_left_behind(by, forks, monkeypatch):
     by(forks)
+    monkeypatch.setattr(companions_of, "plan", lambda _: {0.5: LONG, 8.0: LONG})
     begun = time.monotonic()
     with Companions(LONG) as companions:
         directory, processes = companions._directory, [p.pid for p in companions._processes]
@@ -78,8 +79,8 @@ def test_no_process_and_no_file_is_left_behind(by, forks):
 @pytest.mark.parametrize("number", [0, 1])
 def test_a_process_that_is_killed_says_so(by, forks, number, monkeypatch):
     by(forks)
-    scenes = {2.0: SHORT, 4.0: SHORT, 8.0: SHORT}
-    scenes[(2.0, 4.0)[number]] = LONG
+    scenes = {0.5: SHORT, 4.0: SHORT, 8.0: SHORT}
+    scenes[(0.5, 4.0)[number]] = LONG
     monkeypatch.setattr(companions_of, "plan", lambda _: scenes)
     with Companions(LONG) as companions:
         os.kill(companions._processes[number].pid, signal.SIGTERM)

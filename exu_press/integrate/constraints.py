@@ -40,6 +40,9 @@ are moved: differences are rounded."""
 AHEAD = 1.0 / 64.0
 """Of a step: near enough to tell velocities from positions, far enough for rounded ones."""
 
+MORE = 0.999
+"""Of what masses resist a change with: to which part forces resist it too, but for rounding."""
+
 CHANGE_ITERATIONS = 3
 """To velocities and positions that fit the constraints; each leaves some hundredths."""
 
@@ -372,25 +375,41 @@ class StepChange:
         Of all changes that mend it the one that the last Jacobian resists least, as in an iteration
         of Newton's method: that counts what masses weigh, and what films and contacts would answer
         with. In the norm of masses alone a journal was moved in its film by 1e-5 m/s, which it
-        answered with 2.4 kN.
-
-        The directions in which constraints act are those of that Jacobian too, perhaps a degree of
-        the crank away; how far they are violated is of this very state, so a few turns lead to it.
+        answered with 2.4 kN. But a contact that lets go may give way to a change instead, so that
+        a large one costs nothing: where masses alone resist more, they count.
         """
         size, count = len(self._current.positions), self._constraints.count
         if count == 0:
             return np.zeros(size), np.zeros(size)
-        jacobian = np.asarray(self._solver.GetSystemJacobian())
-        inertia, directions = jacobian[:size, :size], jacobian[-count:, :size]
+        solver = self._solver
+        jacobian = np.asarray(solver.GetSystemJacobian())
+        directions, forces = jacobian[-count:, :size], jacobian[:size, :size]
+        inertia = (1.0 - solver.alphaM) / (1.0 - solver.alphaF) * solver.GetSystemMassMatrix()
+        found = self._mended(0.5 * (forces + forces.T), directions)
+        for change in found:
+            if change @ forces @ change < MORE * (change @ inertia @ change):
+                return self._mended(inertia, directions)
+        return found
+
+    def _mended(self, norm: Array, directions: Array) -> tuple[Array, Array]:
+        """Return the least changes of positions and velocities that the constraints ask for.
+
+        The directions in which constraints act are those of the last Jacobian, perhaps a degree of
+        the crank away; how far they are violated is of this very state, so a few turns lead to it.
+
+        Args:
+            norm: (n, n), in which they are the least.
+            directions: of the constraints, (count, n).
+        """
+        size = len(norm)
         # Newton's matrix has those of velocities over the step
         lengths = np.sqrt(np.square(directions).sum(axis=1))
         lengths[lengths == 0.0] = 1.0
-        symmetric = 0.5 * (inertia + inertia.T)
-        matrix = self._constraints.matrix(symmetric, directions / lengths[:, None])
+        matrix = self._constraints.matrix(norm, directions / lengths[:, None])
         position, velocity = self._current.positions, self._current.velocities
         now = self._data.GetTime()
         self._data.SetTime(self._start)
-        found, violated = np.zeros((size, 2)), np.zeros((size + count, 2))
+        found, violated = np.zeros((size, 2)), np.zeros((len(matrix), 2))
         for _ in range(CHANGE_ITERATIONS):
             position[:] = self._state[0] - found[:, 0]
             velocity[:] = self._state[1] - found[:, 1]

@@ -154,16 +154,17 @@ class Companions:
         Raises:
             RuntimeError: the process failed.
         """
-        for number, ratio in enumerate(self._scenes):
-            part = min(number, len(self._parts) - 1)
-            path = self._directory / companion.RESULT.format(number)
-            while not path.exists():
-                if (status := _status(self._processes[part])) is not None and not path.exists():
-                    said = _said(self._directory, self._parts[part])
-                    words = said.read_text(encoding="utf-8", errors="replace").strip()
-                    raise RuntimeError(f"a companion run failed ({status}): {words[-2000:]}")
-                time.sleep(POLL)
-            yield ratio, pickle.loads(path.read_bytes())
+        ratios = [*self._scenes]
+        for numbers, process in zip(self._parts, self._processes, strict=True):
+            for number in numbers:
+                path = self._directory / companion.RESULT.format(number)
+                while not path.exists():
+                    if (status := _status(process)) is not None and not path.exists():
+                        said = _said(self._directory, numbers)
+                        words = said.read_text(encoding="utf-8", errors="replace").strip()
+                        raise RuntimeError(f"a companion run failed ({status}): {words[-2000:]}")
+                    time.sleep(POLL)
+                yield ratios[number], pickle.loads(path.read_bytes())
 
     def __enter__(self) -> "Companions":
         """Return the companions."""

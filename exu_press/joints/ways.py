@@ -143,5 +143,4 @@ class SpatialWaysContact(SpatialRevolute):
     @property
     def relative_velocity(self) -> tuple[float, ...]:
         """Rate of the eccentricity at the last `add_force`, m/s: that across the ways."""
-        rate, n = self._motion[1], self._n
-        return rate * n[0], rate * n[1], 0.0
+        return self.in_frame(self._motion[1], 0.0)

@@ -3,8 +3,7 @@
 Prints for each example and tolerance: the error over the tolerance, the steps, and the run time of
 the best fixed step of Exudyn's own that has the same error, over that of `solve_dynamic`. Errors:
 of velocities (impacts: of positions) over the whole run, against a tolerance ten times finer than
-the finest. With --turned instead: by how much the angle of what turns many times is off, over the
-whole angle. Run with: python scripts/examples_error.py [--quick] [--only NAME] [--turned]
+the finest. Run with: python scripts/examples_error.py [--quick] [--only NAME]
 """
 
 import argparse
@@ -16,10 +15,9 @@ import numpy as np
 
 from exu_press import Status
 from exudyn_examples import EXAMPLES
-from exudyn_examples.measure import error, run, turned
+from exudyn_examples.measure import error, run
 
 TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
-TURNING = "rotor run-up", "heavy top"
 FIXED = [100 * 4**k for k in range(6)]  # numbers of fixed steps
 
 
@@ -67,42 +65,23 @@ def cell(done, missed, tolerance, faster):
     return f"{missed / tolerance:8.2g} {done.steps:6d} {gain}"
 
 
-def print_turned(example, end, its, fine):
-    """Print the angle's error over the whole angle at each tolerance."""
-    for tolerance in its:
-        missed, angle = turned(run(example, tolerance=tolerance, end=end), fine)
-        print(
-            f"  tolerance {tolerance:g}: off by {missed:.2g} of {angle:.1f} rad, "
-            f"{missed / angle / tolerance:.2g} tolerances",
-            flush=True,
-        )
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--quick", action="store_true", help="short runs, three tolerances")
     parser.add_argument("--only", choices=[*EXAMPLES], help="one example")
-    parser.add_argument("--turned", action="store_true", help="errors of angles, over them")
     options = parser.parse_args()
     exudyn.config.printToConsole = (
         False  # where a contact has changed it says so, many times a step
     )
     tolerances = TOLERANCES[:3] if options.quick else TOLERANCES
-    if not options.turned:
-        print(
-            "error over tolerance, steps, run time of the best fixed step of equal error over this"
-        )
-        print(f"{'':20s}" + "".join(f"{t:>23g}" for t in tolerances))
+    print("error over tolerance, steps, run time of the best fixed step of equal error over this")
+    print(f"{'':20s}" + "".join(f"{t:>23g}" for t in tolerances))
     for name, example in EXAMPLES.items():
-        if options.only not in (None, name) or (options.turned and name not in TURNING):
+        if options.only not in (None, name):
             continue
         end = example.short if options.quick else example.end
         its = [t for t in tolerances if t >= example.finest]
         fine = run(EXAMPLES[example.twin or name], tolerance=0.1 * its[-1], end=end)
-        if options.turned:
-            print(name)
-            print_turned(example, end, its, fine)
-            continue
         runs = [run(example, tolerance=t, end=end) for t in its]
         errors = [error(done, fine, example.positions) for done in runs]
         found = fixed_steps(example, end, fine, min(errors))

@@ -15,7 +15,7 @@ from exu_press.integrate.scales import FoundScales
 from exu_press.integrate.settings import SAME, Task, Tuning
 from exu_press.joints.joint import ClearanceJoint
 
-__all__ = ["BodyError", "ErrorPerStep", "FirstOrderError", "JointError", "StepError"]
+__all__ = ["BodyError", "ErrorPerStep", "FirstOrderError", "JointError", "StepError", "Turning"]
 
 EPSILON = 1.1e-16
 """Last digit of a number, over it."""
@@ -71,6 +71,63 @@ class ErrorPerStep:
         return math.sqrt(self.whole * self.at(step))
 
 
+class Turning:
+    """How far the velocity of a body turns to one side, as that of a crank, until the run ends.
+
+    What a speed is off by makes the place be off by more and more, unless the motion comes back, as
+    a vibration does. After a turn by an angle, in radians, the velocity there is off by so many
+    times the error of the speed. So velocities may be off by less, if they are to turn by more than
+    a radian yet.
+
+    The angle so far is that between velocity and acceleration over time, with its sign, in the
+    kinetic norm; each instant counts with the square of the largest speed then, as what nearly
+    rests has no direction. The velocities of Euler parameters turn by half of what the body does.
+    """
+
+    def __init__(self, problem: Problem, scales: FoundScales, duration: float, foreseen: float):
+        """Follow the bodies of a system.
+
+        Args:
+            problem: what is solved.
+            scales: of the motion.
+            duration: of the run, s.
+            foreseen: over the time so far, for how long the motion is believed to go on likewise.
+        """
+        self._state, self._scales = problem.current, scales
+        self._duration, self._foreseen = duration, foreseen
+        points = [(i, node) for i, node in enumerate(problem.nodes) if node.displacements]
+        sizes = [node.size if node.quaternion else node.displacements for _, node in points]
+        count, most = len(points), max(sizes, default=0)
+        self._nodes = np.array([i for i, _ in points], dtype=int)
+        self._places = np.zeros((count, most), dtype=int)  # of coordinates
+        self._roots = np.zeros((count, most))  # of inertias
+        for i, (_, node) in enumerate(points):
+            places = range(node.start, node.start + sizes[i])
+            self._places[i, : sizes[i]] = places
+            self._roots[i, : sizes[i]] = [math.sqrt(scales.inertias[k]) for k in places]
+        self._turned = np.zeros((count, most, most))  # times squares of speeds
+        self._squares = 0.0  # of speeds, over time
+        self._time = 0.0
+
+    def stepped(self, step: float) -> float:
+        """Return the angle still to come, rad, after an accepted step (s)."""
+        self._time += step
+        if not len(self._nodes):
+            return 0.0
+        masses = np.array(self._scales.masses)[self._nodes]
+        weights = self._roots / np.sqrt(np.where(masses > 0.0, masses, math.inf))[:, None]
+        speeds = weights * self._state.velocities[self._places]
+        changes = weights * self._state.accelerations[self._places]
+        self._squares += step * float(np.square(speeds).sum(axis=1).max())
+        if self._squares == 0.0:
+            return 0.0
+        products = step * speeds[:, :, None] * changes[:, None, :]
+        self._turned += products - products.transpose(0, 2, 1)
+        turned = math.sqrt(0.5 * float(np.square(self._turned).sum(axis=(1, 2)).max()))
+        rest = min(self._duration - self._time, self._foreseen * self._time)
+        return max(0.0, rest) * turned / self._squares
+
+
 class BodyError:
     """Tells from the accelerations at three instants what a step missed; 1 is what it may.
 
@@ -79,6 +136,8 @@ class BodyError:
 
     Attributes:
         change: of the accelerations' rate, by the step last tried, in SI over seconds.
+        rate: of the accelerations' change, in the step last tried.
+        turning: angle by which velocities are to turn yet, rad: `Turning`.
     """
 
     def __init__(
@@ -103,8 +162,9 @@ class BodyError:
         self._constant = tuning.velocity_constant
         self._before = self._now = accelerations
         self._rate_before: list[float] = []  # none before the first step
-        self._rate: list[float] = []
+        self.rate: list[float] = []
         self.change: list[float] = []
+        self.turning = 0.0
         self._bend: list[float] = []  # second derivative of the accelerations
         self._bend_before: list[float] = []
         self._size = self._size_before = 0.0  # of the bend, its largest norm
@@ -116,7 +176,7 @@ class BodyError:
         """Return the error of a step (s) that ends with these accelerations."""
         self._now = now
         before, last = self._before, self._rate_before
-        self._rate = rate = [(now[i] - before[i]) / step for i in range(len(now))]
+        self.rate = rate = [(now[i] - before[i]) / step for i in range(len(now))]
         if last:
             self.change = [rate[i] - last[i] for i in range(len(rate))]
         else:
@@ -140,9 +200,28 @@ class BodyError:
             step: s.
             left: what its constraints leave open of positions, m.
         """
-        noise = max(self._noise, left)
-        limit = max(self._per_step.at(step) * self._scales.speed, self._constant * noise / step)
+        limit = self._limit(step, max(self._noise, left), max(1.0, self.turning))
         return self._constant * step * step * self._scales.norm(change) / limit
+
+    def of_positions(self, rate: list[float], step: float) -> float:
+        """Return the error that goes with positions, where constraints take that of velocities.
+
+        On a circle the third derivative of the velocity points to the centre, and the constraint
+        takes it away; but positions miss h^3 |da/dt| / 6 along the circle, and the velocity there
+        changes by its acceleration over its speed.
+
+        Args:
+            rate: of the accelerations' change, in SI over seconds.
+            step: s.
+        """
+        missed = self._constant * step * step * step * self._scales.norm(rate)
+        per_length = self.largest() / self._scales.speed
+        return missed * per_length / self._limit(step, self._noise, 1.0)
+
+    def _limit(self, step: float, noise: float, grows: float) -> float:
+        """Return what a velocity may be off by in a step (s), m/s, if that grows by a factor."""
+        whole = self._per_step.at(step) * self._scales.speed
+        return max(whole / grows, self._constant * noise / step)
 
     def of_jump(self) -> float:
         """Return the largest change of an acceleration in the step last tried, m/s^2."""
@@ -158,7 +237,7 @@ class BodyError:
         They follow from two positions: h^2 |rate of the acceleration| / 12, if that is more than
         what alternates because positions are rounded.
         """
-        off = step * step * self._scales.norm(self._rate) / 12.0
+        off = step * step * self._scales.norm(self.rate) / 12.0
         return off if off > self._noise / (6.0 * step) else 0.0
 
     def curvature(self, step: float, tolerance: float) -> float:
@@ -185,7 +264,7 @@ class BodyError:
             self._size_before = self._size
             self._bend_before = self._bend if self._rate_before else []
             self._most = max(self._most, self._scales.norm(self._now))
-        self._before, self._rate_before = self._now, self._rate
+        self._before, self._rate_before = self._now, self.rate
 
 
 class JointError:
@@ -295,6 +374,8 @@ class StepError:
         self._per_step = ErrorPerStep.of(tolerance, duration, tuning.many_steps, impacts)
         self.start: list[float] = []
         self._bodies: BodyError | None = None
+        self._turning: Turning | None = None
+        self._step = 0.0  # last tried, s
         self._first_order: FirstOrderError | None = None
         self._joints: list[JointError] = []
 
@@ -302,13 +383,18 @@ class StepError:
         """Return the error of the step (s) that ends in the current state."""
         if self._bodies is None:
             self._bodies = self._first_look()
+        self._step = step
         bodies, scales, now = self._bodies, self._scales, self._accelerations.tolist()
         if scales.resting:
             scales.set_out(self._velocities.tolist(), now)
         error, left = bodies.tried(now, step), 0.0
         if error > 1.0:
-            change = self._filtered(bodies.change)
-            error = bodies.error(change, step)
+            if self._turning is None:
+                (change,) = self._filtered(bodies.change)
+                error = bodies.error(change, step)
+            else:
+                change, rate = self._filtered(bodies.change, bodies.rate)
+                error = max(bodies.error(change, step), bodies.of_positions(rate, step))
             if error > 1.0 and self._joints:
                 left = self._left_in_constraints()
                 error = bodies.error(change, step, left)
@@ -352,6 +438,8 @@ class StepError:
         """Remember the accepted step's end as the next one's beginning."""
         assert self._bodies is not None
         self._bodies.accept()
+        if self._turning is not None:
+            self._bodies.turning = self._turning.stepped(self._step)
         if not self._scales.fixed:
             self._scales.update(self._velocities.tolist(), self._accelerations.tolist())
         if self._first_order is not None:
@@ -369,7 +457,10 @@ class StepError:
         if len(problem.start.rates):
             self._first_order = FirstOrderError(problem, self._per_step)
         of_bodies = self._per_step
-        if problem.joints is not None:
+        if problem.joints is None:
+            duration = task.end - task.start
+            self._turning = Turning(problem, self._scales, duration, tuning.foreseen)
+        else:
             whole = self._per_step.whole
             of_bodies = ErrorPerStep(tuning.beside_joints * whole)
             per_time = task.tolerance / (tuning.kept_steps * task.largest)
@@ -394,16 +485,17 @@ class StepError:
             return 0.0
         return EPSILON * self._scales.length * self._scales.norm(moved.tolist())
 
-    def _filtered(self, change: list[float]) -> list[float]:
-        """Return what Newton's matrix, M (1 - alpha_m)/(1 - alpha_f) + ..., leaves of a change."""
+    def _filtered(self, *changes: list[float]) -> list[list[float]]:
+        """Return what Newton's matrix, M (1 - alpha_m)/(1 - alpha_f) + ..., leaves of changes."""
         solver = self._solver
-        jacobian = np.asarray(solver.GetSystemJacobian())
-        right = np.zeros(len(jacobian))
-        right[: len(change)] = np.dot(solver.GetSystemMassMatrix(), change)
+        jacobian, mass = np.asarray(solver.GetSystemJacobian()), solver.GetSystemMassMatrix()
+        right = np.zeros((len(jacobian), len(changes)))
+        for i, change in enumerate(changes):
+            right[: len(change), i] = np.dot(mass, change)
         right *= (1.0 - solver.alphaM) / (1.0 - solver.alphaF)
         try:
-            filtered = np.linalg.solve(jacobian, right)[: len(change)]
+            filtered = np.linalg.solve(jacobian, right)[: len(changes[0])]
         except np.linalg.LinAlgError:  # constraints that say the same
-            return change
-        found: list[float] = filtered.tolist()
+            return list(changes)
+        found: list[list[float]] = filtered.T.tolist()
         return found

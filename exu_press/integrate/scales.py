@@ -35,6 +35,7 @@ class FoundScales:
     Attributes:
         speed: m/s.
         force: N.
+        inertias: of the coordinates, kg where they are displacements.
         length: of the coordinates whose last digits are rounded, m.
         fixed: whether all is given.
         masses: of the nodes, kg, infinite for what has no say; where the system gives none, the
@@ -53,7 +54,7 @@ class FoundScales:
         self.length = problem.length
         self.masses: list[float] = []
         self._ends = [node.start + node.size for node in problem.nodes]
-        self._inertias: list[float] = []
+        self.inertias: list[float] = []
         self._own: list[bool] = []
         self._energies: list[float] = []  # twice the largest kinetic energy of each node so far
         self.speed = given.speed or 0.0
@@ -63,7 +64,7 @@ class FoundScales:
     def begin(self, mass_matrix: Any) -> None:
         """Look at the state from which the run starts, and the mass matrix, (n, n)."""
         problem = self._problem
-        self._inertias, masses = weights(problem.nodes, mass_matrix)
+        self.inertias, masses = weights(problem.nodes, mass_matrix)
         self.masses = masses
         self._own = [mass == 0.0 for mass in masses]
         self._energies = [0.0 for _ in masses]
@@ -113,7 +114,7 @@ class FoundScales:
         if self._given.force is None:
             squares = 0.0
             for i in range(len(accelerations)):
-                force = self._inertias[i] * accelerations[i]
+                force = self.inertias[i] * accelerations[i]
                 squares += force * force
             self.force = max(self.force, math.sqrt(squares))
 
@@ -136,7 +137,7 @@ class FoundScales:
     def _sums(self, vector: list[float]) -> list[float]:
         """Return the sum of inertia times square over each node's coordinates."""
         found: list[float] = []
-        inertias = self._inertias
+        inertias = self.inertias
         i = 0
         for end in self._ends:
             total = 0.0

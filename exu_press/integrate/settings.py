@@ -56,6 +56,10 @@ class Tuning:
             so: a longer step leaves an overshoot of 3 % in the first loads.
         many_steps: times tolerance^(-1/2), the number of steps of a run from which on each may
             miss less, as their errors add up (`exu_press.integrate.error`).
+        foreseen: over the time so far, for how long velocities are believed to turn on likewise, to
+            one side: errors of speeds add up to errors of places then. With 1 a crank that a torque
+            runs up is twice as far off; without a limit the first swing of a pendulum, which might
+            be a turn, has six times the steps.
         velocity_constant: of generalized-alpha's local error h^3 times the second derivative of the
             acceleration: 0.083 to 0.077 for spectral radii at infinity of 1 to 0.8, doubled.
         rounding: of positions and speeds, over the largest one, in each step: times 1 / (1 -
@@ -84,6 +88,7 @@ class Tuning:
     first_step: float = 1.0 / 64.0
     first_step_of_film: float = 1e-4
     many_steps: float = 10.0
+    foreseen: float = 3.0
 
     velocity_constant: float = 2.0 / 12.0
     rounding: float = 4e-15

@@ -87,8 +87,8 @@ EXAMPLES = {
     "flyball, angles": Example(
         partial(flyball_governor, **ANGLES), 2.0, 0.2, "TestModels/stiffFlyballGovernor.py"
     ),
-    "rotor run-up": Example(rotor, 10.0, 2.0, "Examples/rigidRotor3Drunup.py", most=200.0),
-    "heavy top": Example(heavy_top, 0.5, 0.1, "TestModels/heavyTop.py", most=25.0),
+    "rotor run-up": Example(rotor, 10.0, 2.0, "Examples/rigidRotor3Drunup.py"),
+    "heavy top": Example(heavy_top, 0.5, 0.1, "TestModels/heavyTop.py"),
     "rolling disc": Example(rolling_disc, 1.0, 0.5, "TestModels/createRollingDiscTest.py"),
     "convex roll": Example(
         # its dampers jerk it where it touches

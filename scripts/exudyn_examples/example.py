@@ -24,8 +24,7 @@ class Example:
         positions: whether errors are those of positions: velocities jump in impacts, and a
             millionth of a second makes errors as large as they are.
         finest: tolerance that the system itself can follow.
-        most: error over tolerance that is allowed over the whole run. The angle of what turns many
-            times is off by the speed's error times as many radians.
+        most: error over tolerance that is allowed over the whole run.
         twin: name of the example with the same motion whose run is the reference.
         source: the example of Exudyn's repository after which it is written, or what it shows.
     """

@@ -11,7 +11,7 @@ from exu_press import solve_dynamic
 from exu_press.integrate.problem import Problem
 from exu_press.integrate.scales import weights
 
-__all__ = ["Run", "error", "run", "turned"]
+__all__ = ["Run", "error", "run"]
 
 CURRENT = exu.ConfigurationType.Current
 
@@ -24,7 +24,6 @@ class Run:
     states: list[np.ndarray]  # positions, velocities, accelerations, first-order and their rates
     weight: np.ndarray  # of coordinates, to a body's kinetic norm: sqrt(inertia / mass)
     body: np.ndarray  # of each coordinate
-    quaternions: list[slice]  # Euler parameters among the coordinates
     steps: int
     rejected: int
     seconds: float  # of processor time, of the integration
@@ -71,26 +70,23 @@ def run(example, *, tolerance=None, steps=None, end=None, record=True):
         outcome = mbs.SolveDynamic(settings)
         count, rejected = len(times) - 1, 0
     seconds = clock.process_time() - begun
-    weight, body, quaternions = _weights(mbs)
+    weight, body = _weights(mbs)
     container.Reset()
     states = [np.array([row[i] for row in rows]) for i in range(5)]
-    return Run(
-        np.array(times), states, weight, body, quaternions, count, rejected, seconds, outcome
-    )
+    return Run(np.array(times), states, weight, body, count, rejected, seconds, outcome)
 
 
 def _weights(mbs):
-    """Weight and body of each coordinate, from the mass matrix, and where Euler parameters are."""
+    """Weight and body of each coordinate, from the mass matrix."""
     problem = Problem.of(mbs)
     if not problem.nodes:
-        return np.zeros(0), np.zeros(0, int), []
+        return np.zeros(0), np.zeros(0, int)
     inertias, masses = weights(problem.nodes, mbs.sys["dynamicSolver"].GetSystemMassMatrix())
     sizes = [node.size for node in problem.nodes]
     body = np.repeat(np.arange(len(sizes)), sizes)
     mass = np.array(masses)[body]
     mass[mass == 0.0] = np.nan  # no displacements: its own largest energy is the scale
-    ends = [node.start + node.size for node in problem.nodes if node.quaternion]
-    return np.sqrt(np.array(inertias) / mass), body, [slice(end - 4, end) for end in ends]
+    return np.sqrt(np.array(inertias) / mass), body
 
 
 def error(one, fine, positions=False):
@@ -127,19 +123,3 @@ def error(one, fine, positions=False):
         missed = one.states[3] - CubicHermiteSpline(fine.time, fine_y, fine_rate)(time)
         found = max(found, (np.abs(missed).max(axis=0) / np.abs(fine_y).max(axis=0)).max())
     return found
-
-
-def turned(one, fine):
-    """Largest error of a body's orientation, and the largest angle by which one has turned, rad."""
-    time = np.clip(one.time, fine.time[0], fine.time[-1])
-    there = CubicHermiteSpline(fine.time, fine.states[0], fine.states[1])(time)
-    missed, angle = 0.0, 0.0
-    for four in fine.quaternions:
-        unit = [
-            p / np.linalg.norm(p, axis=1)[:, None] for p in (one.states[0][:, four], there[:, four])
-        ]
-        chord = np.linalg.norm(unit[0] - unit[1], axis=1).max()
-        missed = max(missed, 4.0 * np.arcsin(0.5 * chord))  # half angles in Euler parameters
-        speed = 2.0 * np.linalg.norm(fine.states[1][:, four], axis=1)
-        angle = max(angle, np.trapezoid(speed, fine.time))
-    return missed, angle

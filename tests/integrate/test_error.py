@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
-from exu_press.integrate.error import BodyError, ErrorPerStep, JointError
+from exu_press.integrate.error import BodyError, ErrorPerStep, JointError, Turning
 from exu_press.integrate.problem import Node
 from exu_press.integrate.scales import FoundScales, Scales
 from exu_press.integrate.settings import Tuning
@@ -195,3 +195,66 @@ def test_a_usual_run_gives_each_step_the_whole():
 def test_impacts_leave_a_hundredth():
     assert ErrorPerStep.of(1e-6, 1.0, 10.0, impacts=True).at(1e-9) == pytest.approx(1e-8)
     assert ErrorPerStep.of(1e-6, 1.0, 10.0, impacts=False).whole == pytest.approx(1e-9)
+
+
+def test_constraints_leave_what_positions_miss_along_a_circle():
+    """At a speed of 1 m/s: a = w, da/dt = w^2 along the circle, as much as of an oscillator."""
+    w, h = 3.0, 0.01
+    error = errors()
+    error.tried([w, 0.0, 0.0], h)
+    assert error.of_positions([0.0, w * w, 0.0], h) == pytest.approx((w * h) ** 3 / 6.0 / 1e-3)
+
+
+def test_what_is_to_turn_yet_may_be_off_by_less():
+    error = errors()
+    one = error.tried([1.0, 0.0, 0.0], 0.01)
+    error.turning = 0.5
+    assert error.error(error.change, 0.01) == one
+    error.turning = 7.0
+    assert error.error(error.change, 0.01) == pytest.approx(7.0 * one)
+
+
+def turning_after(motion, *, duration=10.0, time=2.0, steps=2000, quaternion=False):
+    """The angle to come of a body whose velocity and acceleration are given at each time."""
+    size = 4 if quaternion else 2
+    state = SimpleNamespace(velocities=np.zeros(size), accelerations=np.zeros(size))
+    node = Node(0, "", 0, size, 2.0, displacements=2, quaternion=quaternion)
+    problem = SimpleNamespace(nodes=(node,), current=state)
+    scales = SimpleNamespace(masses=[2.0], inertias=[2.0] * size)
+    turning = Turning(problem, scales, duration, foreseen=3.0)
+    for i in range(1, steps + 1):
+        state.velocities, state.accelerations = motion(i * time / steps)
+        found = turning.stepped(time / steps)
+    return found
+
+
+def circling(t, w=5.0):
+    velocity = np.array([-np.sin(w * t), np.cos(w * t)])
+    return velocity, w * np.array([-velocity[1], velocity[0]])
+
+
+def swinging(t, w=5.0):
+    """An ellipse to and fro: to one side and back, with a still smaller circle."""
+    return (
+        np.array([np.cos(w * t), 0.01 * np.sin(w * t)]),
+        w * np.array([-np.sin(w * t), 0.01 * np.cos(w * t)]),
+    )
+
+
+def test_a_circle_goes_on_to_be_turned():
+    assert turning_after(circling) == pytest.approx(3.0 * 2.0 * 5.0)  # thrice as long as so far
+    assert turning_after(circling, duration=5.0) == pytest.approx(3.0 * 5.0)
+    assert turning_after(circling, duration=2.0) == pytest.approx(0.0, abs=1e-9)
+
+
+def test_a_swing_comes_back():
+    assert turning_after(swinging) == pytest.approx(0.02 * turning_after(circling), rel=0.05)
+    assert turning_after(lambda t: (np.zeros(2), np.ones(2))) == 0.0
+
+
+def test_euler_parameters_turn_too():
+    def motion(t):
+        velocity, acceleration = circling(t)
+        return np.array([0.0, *velocity, 0.0]), np.array([0.0, *acceleration, 0.0])
+
+    assert turning_after(motion, quaternion=True) == pytest.approx(30.0)

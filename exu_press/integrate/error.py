@@ -20,6 +20,9 @@ __all__ = ["BodyError", "ErrorPerStep", "FirstOrderError", "JointError", "StepEr
 EPSILON = 1.1e-16
 """Last digit of a number, over it."""
 
+LOOK_EVERY = 8
+"""Steps after which turning velocities are looked at, as that takes half as long as a step."""
+
 LEAST_PENETRATION = 1e-3
 """Over the clearance, up to which a penetration counts as this."""
 
@@ -107,21 +110,29 @@ class Turning:
             self._roots[i, : sizes[i]] = [math.sqrt(scales.inertias[k]) for k in places]
         self._turned = np.zeros((count, most, most))  # times squares of speeds
         self._squares = 0.0  # of speeds, over time
-        self._time = 0.0
+        self._time = self._looked = 0.0
+        self._steps = 0
+        self._angle = 0.0
 
     def stepped(self, step: float) -> float:
         """Return the angle still to come, rad, after an accepted step (s)."""
         self._time += step
-        if not len(self._nodes):
-            return 0.0
+        self._steps += 1
+        if len(self._nodes) and not self._steps % LOOK_EVERY:
+            self._angle = self._look(self._time - self._looked)
+            self._looked = self._time
+        return self._angle
+
+    def _look(self, span: float) -> float:
+        """Return the angle still to come, rad, after a span of time (s) with these velocities."""
         masses = np.array(self._scales.masses)[self._nodes]
         weights = self._roots / np.sqrt(np.where(masses > 0.0, masses, math.inf))[:, None]
         speeds = weights * self._state.velocities[self._places]
         changes = weights * self._state.accelerations[self._places]
-        self._squares += step * float(np.square(speeds).sum(axis=1).max())
+        self._squares += span * float(np.square(speeds).sum(axis=1).max())
         if self._squares == 0.0:
             return 0.0
-        products = step * speeds[:, :, None] * changes[:, None, :]
+        products = span * speeds[:, :, None] * changes[:, None, :]
         self._turned += products - products.transpose(0, 2, 1)
         turned = math.sqrt(0.5 * float(np.square(self._turned).sum(axis=(1, 2)).max()))
         rest = min(self._duration - self._time, self._foreseen * self._time)

@@ -20,6 +20,9 @@ __all__ = ["BodyError", "ErrorPerStep", "FirstOrderError", "JointError", "StepEr
 EPSILON = 1.1e-16
 """Last digit of a number, over it."""
 
+LARGER = 4.0
+"""Over the kinetic energy of a change, from where that of the filtered one is of last digits."""
+
 LOOK_EVERY = 8
 """Steps after which turning velocities are looked at, as that takes half as long as a step."""
 
@@ -504,9 +507,18 @@ class StepError:
         for i, change in enumerate(changes):
             right[: len(change), i] = np.dot(mass, change)
         right *= (1.0 - solver.alphaM) / (1.0 - solver.alphaF)
+        size, before = len(changes[0]), _kinetic(np.array(changes).T, mass)
         try:
-            filtered = np.linalg.solve(jacobian, right)[: len(changes[0])]
+            filtered = np.linalg.solve(jacobian, right)[:size]
+            if not self._joints and not _kinetic(filtered, mass) <= LARGER * before:
+                # masses and springs make nothing larger, but constraints that nearly say the same
+                filtered = np.linalg.lstsq(jacobian, right, rcond=None)[0][:size]
         except np.linalg.LinAlgError:  # constraints that say the same
             return list(changes)
         found: list[list[float]] = filtered.T.tolist()
         return found
+
+
+def _kinetic(changes: Any, mass: Any) -> float:
+    """Return the sum of squares of changes, (n, k), in the kinetic norm."""
+    return float(np.sum(changes * np.dot(mass, changes)))

@@ -79,7 +79,7 @@ EXAMPLES = {
         # rounding decides which constraints are redundant: finer fixed steps become worse again
         "TestModels/fourBarMechanismRedundant.py",
         change=redundant,
-        finest=1e-4,
+        finest=1e-5,
         twin="four-bar in space",
     ),
     "Bricard": Example(bricard, 1.0, 1.0, "TestModels/bricardMechanism.py", change=redundant),

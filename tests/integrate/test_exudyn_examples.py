@@ -52,3 +52,10 @@ def test_what_turns_many_times_is_no_phase_ahead(name):
     end = 0.5 * EXAMPLES[name].end
     done = run(EXAMPLES[name], tolerance=1e-4, end=end)
     assert error(done, fine(name, 1e-5, end)) < 8e-4
+
+
+def test_redundant_constraints_are_no_error():
+    """The filter's last digits made errors of 1e12, and the run stopped at 1.24 s."""
+    done = run(EXAMPLES["four-bar, redundant"], tolerance=1e-5, end=1.3)
+    assert done.outcome.status is Status.COMPLETED, done.outcome.reason
+    assert done.rejected < 10

@@ -507,10 +507,10 @@ class StepError:
         for i, change in enumerate(changes):
             right[: len(change), i] = np.dot(mass, change)
         right *= (1.0 - solver.alphaM) / (1.0 - solver.alphaF)
-        size, before = len(changes[0]), _kinetic(np.array(changes).T, mass)
+        size, before = len(changes[0]), np.array(changes).T
         try:
             filtered = np.linalg.solve(jacobian, right)[:size]
-            if not self._joints and not _kinetic(filtered, mass) <= LARGER * before:
+            if not self._joints and _larger(filtered, before, mass):
                 # masses and springs make nothing larger, but constraints that nearly say the same
                 filtered = np.linalg.lstsq(jacobian, right, rcond=None)[0][:size]
         except np.linalg.LinAlgError:  # constraints that say the same
@@ -519,6 +519,7 @@ class StepError:
         return found
 
 
-def _kinetic(changes: Any, mass: Any) -> float:
-    """Return the sum of squares of changes, (n, k), in the kinetic norm."""
-    return float(np.sum(changes * np.dot(mass, changes)))
+def _larger(after: Any, before: Any, mass: Any) -> bool:
+    """Return whether changes, (n, k), have far more kinetic energy than before, if any."""
+    energies = [float(np.sum(changes * np.dot(mass, changes))) for changes in (after, before)]
+    return not energies[0] <= LARGER * energies[1]

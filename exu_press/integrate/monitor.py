@@ -118,7 +118,7 @@ class Monitor:
                 self._estimate.start = fitted[0].tolist()
         task.scales.begin(task.solver.GetSystemMassMatrix())
         now = self._accelerations.tolist()
-        self._newton.begin(now)
+        self._newton.begin()
         self.resolution.begin(now)
 
     def _before_step(self, mbs: exu.MainSystem, end: float) -> bool:
@@ -163,7 +163,7 @@ class Monitor:
             step, now = end - self._time, self._accelerations.tolist()
             self._time = end
             self.control.accept(step)
-            self._newton.stepped(step, now)
+            self._newton.stepped(step)
             self.resolution.stepped(end, step, now)
         step = self.control.next_step(end)
         if step != self._iteration.currentStepSize:  # to set it takes longer than to ask for it

@@ -31,6 +31,10 @@ BALANCE = 0.2
 PATIENCE = 4
 """Newton iterations after which rounding is thought of; most steps take one or two."""
 
+WORN = 0.3
+"""Of what a kept Jacobian may leave of the forces: where a step leaves more, the next has a fresh
+one. What it leaves grows from step to step, and to let it fail costs an iteration."""
+
 REACH = 2.0
 """Over the last step, how far ahead its rate of change is believed by the predictor."""
 
@@ -49,8 +53,9 @@ class Newton:
         self._positions, self._velocities = current.positions, current.velocities
         self._accelerations, self._multipliers = current.accelerations, current.multipliers
         self._multipliers_before = problem.start.multipliers
-        self._expected: Any = np.zeros(len(current.positions))
-        self._change: Any = np.zeros(len(current.positions))
+        size = len(current.positions)
+        self._expected, self._change = np.zeros(size), np.zeros(size)
+        self._floats: Any = self._expected.data  # to get or set one takes a third of the time
         # where they begin among the coordinates, their reference values, their displacements
         self._quaternions: list[tuple[int, list[float], Any]] = []
         for node in problem.nodes:
@@ -60,58 +65,53 @@ class Newton:
                 reference: list[float] = problem.reference[four].tolist()
                 self._quaternions.append((first, reference, current.positions[four]))
         self._ratio = self._beta = self._gamma = 0.0
-        self._now: list[float] = []  # accelerations at the end of the last accepted step
-        self._rate: list[float] = []  # of change, in the last step
+        self._now, self._rate = np.zeros(size), np.zeros(size)  # at the last step's end, over it
         self._last = 0.0  # size of the last step, s
         self._given = 0.0  # Newton's absolute tolerance of the settings, N
         self._accepted = 0.0  # now, N
 
-    def begin(self, accelerations: list[float]) -> None:
-        """Be told of all coordinates' accelerations at the start, when the solver is ready."""
+    def begin(self) -> None:
+        """Start from the current state, when the solver is ready."""
         solver = self._solver
         self._ratio = (1.0 - solver.alphaF) / (1.0 - solver.alphaM)
         self._beta, self._gamma = solver.newmarkBeta, solver.newmarkGamma
         self._given = self._accepted = solver.newton.absoluteTolerance
-        self._now = accelerations
+        self._now[:] = self._accelerations
 
-    def stepped(self, step: float, accelerations: list[float]) -> None:
-        """Be told of all coordinates' accelerations at the end of an accepted step (s)."""
-        before = self._now
-        self._rate = [(accelerations[i] - before[i]) / step for i in range(len(before))]
-        self._last, self._now = step, accelerations
+    def stepped(self, step: float) -> None:
+        """Be told that the current state is the end of an accepted step (s)."""
+        np.subtract(self._accelerations, self._now, out=self._rate)
+        self._rate /= step
+        self._last, self._now[:] = step, self._accelerations
 
     def before_residual(self, step: float, iteration: int) -> None:
         """Set what an iteration of a step (s) starts from, and where it may end."""
         if not iteration:
             self._advance(step)
-            self._accept(self._begin_jacobian() * self._tolerance())
+            self._accept(self._begin_jacobian(step, self._tolerance()))
         elif iteration == 1 and self._jacobian is not None:
             self._jacobian.renew()
         elif iteration == PATIENCE and self._joints is not None:
             rounding = self._rounding * self._joints.damping * self._scales.speed
             self._accept(max(self._tolerance(), rounding))
 
-    def _begin_jacobian(self) -> float:
-        """Return how much less than usual may be left, with a kept Jacobian."""
+    def _begin_jacobian(self, step: float, usual: float) -> float:
+        """Return what a step (s) may leave of the forces, N: less with a kept Jacobian."""
         if self._jacobian is None:
-            return 1.0
-        self._jacobian.begin_try()
-        return self._kept_balance if self._jacobian.kept else 1.0
+            return usual
+        less = self._kept_balance * usual
+        return less if self._jacobian.keep(step, WORN * less) else usual
 
     def _advance(self, step: float) -> None:
         """Add the expected accelerations to a state that was advanced without any.
 
         As Newton's method adds an increment of them.
         """
-        values, rate, change = self._now, self._rate, self._change
-        if rate:
-            ahead = min(step, REACH * self._last)
-            values = [values[i] + ahead * rate[i] for i in range(len(rate))]
+        expected, change = self._expected, self._change
+        np.multiply(self._rate, min(step, REACH * self._last), out=expected)
+        expected += self._now
         by_q = step * step * self._ratio * self._beta
-        if self._quaternions:
-            values = self._on_the_sphere(values, by_q)
-        expected = self._expected
-        expected[:] = values
+        self._put_on_the_sphere(by_q)
         np.multiply(expected, by_q, out=change)
         self._positions += change
         np.multiply(expected, step * self._ratio * self._gamma, out=change)
@@ -119,21 +119,18 @@ class Newton:
         self._accelerations[:] = expected
         self._multipliers[:] = self._multipliers_before
 
-    def _on_the_sphere(self, values: list[float], by_q: float) -> list[float]:
-        """Return expected accelerations with which Euler parameters have unit length.
-
-        In floats: half as long as arrays of four take.
-        """
-        values = values.copy()
+    def _put_on_the_sphere(self, by_q: float) -> None:
+        """Change expected accelerations to those with which Euler parameters have unit length."""
+        floats = self._floats
         for first, reference, displacement in self._quaternions:
-            moved: list[float] = displacement.tolist()
-            turned = [reference[k] + moved[k] + by_q * values[first + k] for k in range(4)]
-            vector = np.array(turned)
-            length = math.sqrt(float(vector.dot(vector)))
-            longer = (1.0 / length - 1.0) / by_q
+            turned: list[float] = displacement.tolist()
+            square = 0.0
             for k in range(4):
-                values[first + k] += longer * turned[k]
-        return values
+                turned[k] += reference[k] + by_q * floats[first + k]
+                square += turned[k] * turned[k]
+            longer = (1.0 / math.sqrt(square) - 1.0) / by_q
+            for k in range(4):
+                floats[first + k] += longer * turned[k]
 
     def _tolerance(self) -> float:
         """Return to what Newton's method is to balance forces, N."""
@@ -155,40 +152,40 @@ class FlexibleJacobian:
     step. The masses, the clearance joints' slopes and the constraints' directions are those of the
     state at hand.
 
-    To put the matrix together and factorise it takes nearly half of a step. So one serves several
-    steps of one size; where an iteration with it does not balance the forces, the next one gets a
-    fresh one. Without clearance joints steps are long, and the constraints' directions change too
+    To put the matrix together and factorise it takes nearly as long as a step. So one serves steps
+    of one size as long as it balances their forces; where an iteration does not, the next one gets
+    a fresh one. Without clearance joints steps are long, and the constraints' directions change too
     much from one to the next.
-
-    Attributes:
-        kept: whether the step under way is tried with that of an earlier one.
     """
 
     def __init__(self, task: Task) -> None:
         """Let the solver of a task take this Jacobian instead of its own."""
-        self._iteration: Any = task.solver.it
         self._convergence: Any = task.solver.conv
         self._joints = task.problem.joints
-        self.kept = False
-        self._most = 0 if self._joints is None else task.tuning.jacobian_steps
-        self._step, self._age = 0.0, 0  # the step that the last one was made for, and steps since
+        self._kept = False  # whether the step under way is tried with that of an earlier one
+        self._step = 0.0  # that the last one was made for
         self._bodies: Array | None = None
         self._factors = 0.0, 0.0  # of stiffness and damping, and what they make of them
         self._combined: Array = np.zeros((0, 0))
         self._jacobian: Array = np.zeros((0, 0))
         task.solver.SetUserFunctionComputeNewtonJacobian(task.problem.mbs, self._compute)
 
-    def begin_try(self) -> None:
-        """Choose whether the step that is about to be tried starts with the one there is."""
-        step = self._iteration.currentStepSize
+    def keep(self, step: float, most: float) -> bool:
+        """Return whether the step about to be tried starts with the Jacobian there is.
+
+        Args:
+            step: its size, s.
+            most: the last step may have left of the forces, N.
+        """
         same = abs(step - self._step) <= SAME * step
-        self.kept = same and self._age < self._most
-        self._age += 1
-        self._convergence.jacobianUpdateRequested = not self.kept
+        balanced = self._joints is not None and bool(self._convergence.residual <= most)
+        self._kept = same and balanced
+        self._convergence.jacobianUpdateRequested = not self._kept
+        return self._kept
 
     def renew(self) -> None:
         """Let the next iteration of the step have a fresh one, if it was tried with a kept one."""
-        if self.kept:
+        if self._kept:
             self._convergence.jacobianUpdateRequested = True
 
     def _compute(self, solver: Any, mbs: exu.MainSystem, settings: exu.SimulationSettings) -> bool:
@@ -198,7 +195,7 @@ class FlexibleJacobian:
             self._bodies = self._differentiated(solver, mbs)
             self._jacobian = np.zeros((size + solver.GetAEsize(),) * 2)
         step, jacobian = solver.it.currentStepSize, self._jacobian
-        self._step, self._age = step, 0
+        self._step = step
         by_q, by_q_t = solver.newmarkBeta * step * step, solver.newmarkGamma * step
         inertia = (1.0 - solver.alphaM) / (1.0 - solver.alphaF)
         bodies = jacobian[:size, :size]

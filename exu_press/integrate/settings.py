@@ -74,8 +74,8 @@ class Tuning:
             damped contact hands the error on a thousandfold.
         kept_steps: within so many of the longest steps, 45 degrees of the crank, errors that a film
             keeps may add up to the tolerance.
-        jacobian_steps: of one size, which one Jacobian of flexible bodies serves at most.
-        kept_balance: to which part of what is usual a kept Jacobian is to balance the forces.
+        kept_balance: to which part of what is usual a kept Jacobian of flexible bodies is to
+            balance the forces; 0.0 keeps none.
         refit: a step shorter than this, over the one that constrained velocities fit, makes them
             fit anew.
         largest_jump: of an inertia force within one step, over the run's largest one, from where
@@ -96,7 +96,6 @@ class Tuning:
     penetration: float = 0.0625
     kept_steps: float = 30.0
 
-    jacobian_steps: int = 10
     kept_balance: float = 0.3
 
     refit: float = 0.35

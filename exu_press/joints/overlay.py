@@ -27,6 +27,8 @@ __all__ = ["JointOverlay", "overlay_of"]
 
 REGISTRY = "exu_press_joints"
 
+START = exu.ConfigurationType.StartOfStep
+
 Block = list[float] | NDArray[np.float64] | None
 """A joint's Jacobian over its own coordinates, by rows; None where nothing acts."""
 
@@ -48,6 +50,7 @@ class JointOverlay:
         self.evaluations = 0
         self.item: int | None = None
         self._mbs = mbs
+        self._data: Any = mbs.systemData
         self.nodes: dict[int, int] = {}
         self.size = 0
         self._step: tuple[float, float] | None = None  # start and end of the last try, s
@@ -297,7 +300,7 @@ class JointOverlay:
         """Tell the joints about the step that is being tried."""
         if self._step is not None and self._step[1] == time:
             return
-        start = self._mbs.systemData.GetTime(exu.ConfigurationType.StartOfStep)
+        start = self._data.GetTime(START)
         accepted = self._step is None or start != self._step[0] or start == self._step[1]
         self._step = start, time
         for joint in self.joints:

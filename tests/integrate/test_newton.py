@@ -137,10 +137,10 @@ def test_one_serves_several_steps_and_changes_no_answer(monkeypatch):
 
     monkeypatch.setattr(FlexibleJacobian, "_compute", counted)
     runs = []
-    for most in (0, 10):
+    for balance in (0.0, Tuning().kept_balance):
         model = Scene(bodies=flexible_press(modes=4), revolutions=0.15).build()
         made.append(0)
-        runs.append(record(model, model.solve(tuning=Tuning(jacobian_steps=most))))
+        runs.append(record(model, model.solve(tuning=Tuning(kept_balance=balance))))
     fresh, kept = runs
     assert made[0] >= fresh.info["steps"]
     assert made[1] < 0.6 * kept.info["steps"]

@@ -10,8 +10,8 @@ from math import log
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fe_models.arrays import Array
 from fe_models.errors import InputError
 from fe_models.part import Part
 
@@ -26,7 +26,6 @@ __all__ = [
     "relative_errors",
 ]
 
-Array = NDArray[np.float64]
 MODE_NUMBERS = (2, 5, 6, 10, 16)  # the "five typical" of the paper's section 4, Figs. 8 and 9
 PUBLISHED_HZ = {
     "crank": (538.192, 2221.68, 2334.63, 5080.91, 7633.93),

@@ -13,12 +13,11 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
+from fe_models.arrays import Array
 from fe_models.mesh import generate_mesh
 from fe_models.part import Part
 
 __all__ = ["FaceMotion", "FullModel", "full_model", "rigid_motions"]
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

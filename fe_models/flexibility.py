@@ -9,13 +9,11 @@ statics of all finite elements this says how far any of them can be spared.
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fe_models.arrays import Array
 from fe_models.errors import InputError
 
 __all__ = ["Statics", "moved_in_plane", "shares"]
-
-Array = NDArray[np.float64]
 
 STIFF = 1e-6
 """Of the largest flexibility: combinations of loads that give way less are left out."""

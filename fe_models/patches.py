@@ -5,14 +5,12 @@ from typing import Any
 
 import numpy as np
 from netgen.occ import OCCException  # type: ignore[import-untyped]
-from numpy.typing import NDArray
 
+from fe_models.arrays import Array
 from fe_models.dimensions import Box, Patch, Sides
 from fe_models.errors import InputError
 
 __all__ = ["name_patches"]
-
-Array = NDArray[np.float64]
 
 NEAR = 1e-4
 """m: how far a face may lie outside of a box; drawings are rounded to tenths of a mm."""

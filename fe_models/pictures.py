@@ -10,13 +10,13 @@ from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from fe_models.arrays import Array
 from fe_models.clamped import MODE_NUMBERS, clamped_modes
 from fe_models.part import Part
 from fe_models.solid_view import facing, turned_view
 
 __all__ = ["draw_mode_shapes"]
 
-Array = NDArray[np.float64]
 DEFLECTION = 0.07  # of the part's largest extent, at the mode's largest displacement
 TURN, TILT = np.radians(-35.0), np.radians(22.0)  # of the view, about y and then about x
 PLAIN = (0.64, 0.70, 0.76)

@@ -11,11 +11,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fe_models.arrays import Array
 from fe_models.errors import InputError
 
 __all__ = ["ReducedInterface", "ReducedPart"]
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

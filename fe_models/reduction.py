@@ -15,15 +15,14 @@ from typing import Any
 import numpy as np
 import scipy.linalg
 import scipy.sparse as sp
-from numpy.typing import NDArray
 
+from fe_models.arrays import Array
 from fe_models.errors import InputError
 from fe_models.part import MOTIONS, Part
 from fe_models.reduced import ReducedInterface, ReducedPart
 
 __all__ = ["METHODS", "Reduction", "reduce_model", "reduce_part"]
 
-Array = NDArray[np.float64]
 METHODS = ("craig_bampton", "free")
 PLANE = {"x", "y", "rz"}
 USUAL_MODES = 20

@@ -15,11 +15,11 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 from scipy.sparse.linalg import LinearOperator, eigsh
 
+from fe_models.arrays import Array
 from fe_models.elasticity import FullModel, rigid_motions
 
 __all__ = ["Cholesky", "SaddleSolver", "lowest_modes"]
 
-Array = NDArray[np.float64]
 SEED = 20  # of the eigensolver's start vector: any, but always the same
 
 

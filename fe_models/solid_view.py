@@ -3,9 +3,9 @@
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["facing", "turned_view"]
+from fe_models.arrays import Array
 
-Array = NDArray[np.float64]
+__all__ = ["facing", "turned_view"]
 
 LIGHT = np.array([-0.35, 0.65, 0.67])
 """Where it comes from: right, up, towards the eye."""

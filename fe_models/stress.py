@@ -3,13 +3,12 @@
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fe_models.arrays import Array
 from fe_models.material import Material
 
 __all__ = ["nodal_stress"]
 
-Array = NDArray[np.float64]
 EDGES = ((0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3))  # Netgen's order of edge midpoints
 
 

@@ -157,7 +157,7 @@ def paper(
         )
 
     rows = dict(zip(unique, run_all(observe, tasks, "runs"), strict=True))
-    size = 0.06 if quick else 0.02
+    size = 0.1 if quick else 0.02
     parts = {entry.part: max(entry.mode_numbers) for entry in published().frequencies}
     meshed = [{"part": p, "mesh_size": size, "modes": modes} for p, modes in parts.items()]
     found = run_all(part_frequencies, meshed, "parts")

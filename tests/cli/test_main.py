@@ -76,10 +76,3 @@ def test_ctrl_c_in_a_command(monkeypatch, capsys):
     assert main(["doctor"]) == 130
     assert capsys.readouterr().err == "exu-press: interrupted\n"
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
-
-
-def test_until_then_nothing_is_loaded_that_takes_time():
-    slow = {"numpy", "scipy", "exudyn", "importlib.metadata"}
-    code = f"import sys, exu_press.cli; print({slow} & set(sys.modules))"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
-    assert done.stdout == "set()\n"

@@ -102,17 +102,6 @@ def test_a_printed_column_can_be_asked_for(tmp_path, capsys):
         assert column in capsys.readouterr().out.splitlines()[0]
 
 
-def test_another_studys_directory(tmp_path, capsys):
-    out = str(tmp_path / "o")
-    arguments = ["--workers", "1", "--quiet", "--no-pictures", "--out", out]
-    assert main(["sweep", study(tmp_path), *arguments]) == 0
-    before = {p.name: p.read_bytes() for p in (tmp_path / "o").iterdir()}
-    assert main(["sweep", study(tmp_path, speeds=(100.0,)), *arguments]) == 2
-    message = capsys.readouterr().err
-    assert "belongs to another study" in message and message.count("\n") == 1
-    assert before == {p.name: p.read_bytes() for p in (tmp_path / "o").iterdir()}
-
-
 def test_ctrl_c_keeps_what_is_finished(tmp_path):
     speeds = [100.0 + n for n in range(200)]
     command = [str(Path(sys.executable).with_name("exu-press")), "sweep"]

@@ -152,17 +152,6 @@ def test_state_agrees_with_the_generalised_forces(pairs):
         assert state.power == pytest.approx(terms.sum(), abs=1e-11 * np.abs(terms).sum())
 
 
-@pytest.mark.parametrize("pairs", FILMS.values(), ids=FILMS)
-def test_power_of_a_film_is_never_positive(pairs):
-    """The printed Eq. 35a would fail here: it feeds energy in."""
-    rng = random.Random(7)
-    for _ in range(1000):
-        made = pairs()[:1]
-        joint, q, q_t = random_joint(made, rng)
-        state = joint.state([*q, *GROUND], [*q_t, *GROUND])
-        assert state.power <= 0.0, (q, q_t)
-
-
 @pytest.mark.parametrize(
     "pairs", [DRY["without friction"], DRY["steady friction"]], ids=["frictionless", "friction"]
 )

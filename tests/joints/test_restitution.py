@@ -1,4 +1,4 @@
-"""A mass that bounces in a real Exudyn joint delivers the restitution that the literature says."""
+"""A mass that bounces in a real Exudyn joint delivers the restitution that its law alone does."""
 
 import exudyn as exu
 import numpy as np
@@ -14,15 +14,6 @@ from exu_press.laws.contact import (
     step_damping,
 )
 from exu_press.laws.friction import no_friction
-
-WANTED = (0.1, 0.5, 0.9)
-DELIVERED = {  # exact for F = K delta^n (1 + chi rate / v0): ln[(1+chi)/(1-chi e)] = chi (1+e)
-    "hunt_crossley": (0.5158, 0.6630, 0.9090),
-    "lankarani_nikravesh": (0.6653, 0.7252, 0.9132),
-    "flores": (0.0694, 0.4704, 0.8939),
-    "gonthier": (0.1010, 0.4877, 0.8764),
-    "hu_guo": (0.0741, 0.4877, 0.8999),
-}
 
 
 def bounce(contact, mass, speed, duration, step=1e-6, clearance=1e-4):
@@ -43,18 +34,18 @@ def bounce(contact, mass, speed, duration, step=1e-6, clearance=1e-4):
     return -np.asarray(mbs.GetSensorStoredData(velocity))[:, 1].min() / speed
 
 
-@pytest.mark.parametrize("law", DELIVERED)
-@pytest.mark.parametrize("index", range(3))
-def test_hysteretic_laws(law, index):
-    contact = DAMPING_LAWS[law](hertz(1e10), restitution=WANTED[index])
-    delivered = bounce(contact, mass=1.0, speed=0.5, duration=1.2e-3)
-    assert delivered == pytest.approx(DELIVERED[law][index], abs=1e-3)
+@pytest.mark.parametrize("law", sorted({*DAMPING_LAWS} - {"step"}))
+@pytest.mark.parametrize("wanted", [0.1, 0.9])
+def test_hysteretic_laws(law, wanted):
+    contact = DAMPING_LAWS[law](hertz(1e10), restitution=wanted)
+    expected = delivered_restitution(contact, mass=1.0, speed=0.5)
+    assert bounce(contact, 1.0, 0.5, 1.2e-3) == pytest.approx(expected, abs=1e-3)
 
 
-@pytest.mark.parametrize(("speed", "expected"), [(0.1, 0.51842), (1.0, 0.41655)])
-def test_step_damping(speed, expected):
-    """K 1e8, n 1.5, c_max 1e3, d_max 1e-4, m 1."""
+@pytest.mark.parametrize("speed", [0.1, 1.0])
+def test_step_damping(speed):
     contact = step_damping(hertz(1e8), damping_max=1e3, damping_depth=1e-4)
+    expected = delivered_restitution(contact, 1.0, speed)
     assert bounce(contact, 1.0, speed, 6e-3, step=2e-6) == pytest.approx(expected, abs=1e-3)
 
 

@@ -17,23 +17,26 @@ def momentum_rows(model):
     return (model.mass @ rigid_motions(model.nodes, model.nodes.mean(axis=0))).T
 
 
-def compliance(part, model, load, method, modes):
-    """The work of a load in equilibrium on the displacement it causes: reduced over full."""
-    reduced = reduce_model(part, model, Reduction(modes=modes, method=method, stress=False))
+def errors(part, model, load, method, counts):
+    """What modes miss of the work of a load in equilibrium on the displacement it causes."""
     full_work = load @ SaddleSolver(model, momentum_rows(model)).solve(load, None)
-    modal = np.array([load @ mode for mode in full_modes(part, model, method, modes).T])
-    return float((modal**2 / np.diag(reduced.stiffness_matrix)).sum() / full_work)
+    found = []
+    for count in counts:
+        frequencies, modes = full_modes(part, model, method, count)
+        work = ((load @ modes / (2.0 * np.pi * frequencies)) ** 2).sum()
+        found.append(1.0 - work / full_work)
+    return found
 
 
 def full_modes(part, model, method, modes):
-    """The modes over all nodes (a reduced part keeps the surface alone)."""
+    """Frequencies and modes over all nodes (a reduced part keeps the surface alone)."""
     from fe_models.reduction import _craig_bampton_basis, _free_basis, _orthogonalise
 
     if method == "free":
         basis = _free_basis(model, modes)[0]
     else:
         basis = _craig_bampton_basis(part, model, modes)[0]
-    return _orthogonalise(model, basis, modes)[1]
+    return _orthogonalise(model, basis, modes)
 
 
 def bending_load(model):
@@ -60,30 +63,26 @@ def in_equilibrium(model, load):
 
 
 def test_static_bending_under_an_interface_load_is_exact(crank, crank_model):
-    ratio = compliance(crank, crank_model, bending_load(crank_model), "craig_bampton", 20)
-    # not 1 to the last digit: the balancing inertia load is spread over the body
-    assert ratio == pytest.approx(1.0, abs=2e-5)
+    (error,) = errors(crank, crank_model, bending_load(crank_model), "craig_bampton", [20])
+    assert abs(error) < 2e-5  # not 0: the balancing inertia load is spread over the body
 
 
 def test_static_error_falls_with_the_number_of_modes(crank, crank_model):
     load = middle_load(crank_model)
-    errors = [
-        1.0 - compliance(crank, crank_model, load, "craig_bampton", modes)
-        for modes in (4, 8, 13, 20, 40)
-    ]
-    assert all(a >= b >= 0.0 for a, b in itertools.pairwise(errors)), errors
-    assert errors[-1] < 0.01 < errors[2], errors
+    found = errors(crank, crank_model, load, "craig_bampton", (4, 8, 13, 20, 40))
+    assert all(a >= b >= 0.0 for a, b in itertools.pairwise(found)), found
+    assert found[-1] < 0.01 < found[2], found
 
 
 def test_free_modes_are_the_slower_way(crank, crank_model):
     load = bending_load(crank_model)
-    errors = [1.0 - compliance(crank, crank_model, load, "free", modes) for modes in (2, 8, 20, 40)]
-    assert all(a > b > 0.0 for a, b in itertools.pairwise(errors)), errors
-    assert errors[-1] > 0.002, "static modes would not be worth having"
+    found = errors(crank, crank_model, load, "free", (2, 8, 20, 40))
+    assert all(a > b > 0.0 for a, b in itertools.pairwise(found)), found
+    assert found[-1] > 0.002, "static modes would not be worth having"
 
 
 def test_modes_are_mass_normal_and_free_of_rigid_motion(linkage, linkage_model, reduced_linkage):
-    modes = full_modes(linkage, linkage_model, "craig_bampton", 20)
+    _, modes = full_modes(linkage, linkage_model, "craig_bampton", 20)
     mass, stiffness = linkage_model.mass, linkage_model.stiffness
     assert modes.T @ (mass @ modes) == pytest.approx(np.eye(20), abs=1e-10)
     squares = np.diag((2 * np.pi * reduced_linkage.frequencies) ** 2)

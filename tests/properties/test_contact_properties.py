@@ -64,15 +64,6 @@ def test_contact_is_continuous(contact, depth, rate, impact):
         assert abs(contact.force(*near, impact)[0] - here) <= 1e-7 * size
 
 
-@settings(max_examples=100, deadline=None)
-@given(contact=contacts, rate=speeds, impact=impacts)
-def test_contact_begins_with_no_force(contact, rate, impact):
-    assert contact.force(0.0, rate, impact) == (0.0, 0.0, 0.0)
-    # opening, the damping may take away all of the force at 1e-9 m
-    deep = max(abs(contact.force(1e-9, rate, impact)[0]), contact.stiffness.force(1e-9)[0])
-    assert abs(contact.force(1e-15, rate, impact)[0]) <= 1e-3 * deep
-
-
 coefficients = st.tuples(logarithmic(1e-4, 10.0), logarithmic(1.0, 10.0)).map(
     lambda pair: (pair[0] * pair[1], pair[0])
 )

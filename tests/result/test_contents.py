@@ -124,16 +124,6 @@ def test_channels(original, changed, name, change, message):
         Result.load(changed(None, {name: change}))
 
 
-@pytest.mark.parametrize("command", ["view", "report"])
-def test_commands_say_it_in_one_line(changed, command, capsys, tmp_path):
-    path = changed({"info": "[1]"})
-    options = ["--save", str(tmp_path / "x.png")] if command == "view" else []
-    assert main([command, str(path), *options]) == 2
-    told = capsys.readouterr().err
-    wrong = "info = [1]: allowed is a table"
-    assert told == f"exu-press: {path}: not a result of exu_press, or damaged: {wrong}\n"
-
-
 def test_hostile_text_is_text_in_a_report(original, changed, tmp_path):
     """Formulas that cannot be set and a script in the reason of a stop."""
     why = r"$\frac{$ or $x_$ <script>alert(1)</script>"

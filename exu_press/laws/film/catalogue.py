@@ -1,4 +1,4 @@
-"""The film laws by name, with their stated range and their cavitation condition."""
+"""The film laws by name, with the range of widths that they are meant for."""
 
 import math
 from collections.abc import Callable
@@ -15,13 +15,11 @@ __all__ = ["FILM_LAWS", "FilmEntry"]
 
 @dataclass(frozen=True, slots=True)
 class FilmEntry:
-    """A film law: its factory, the L/D it is meant for, how it cavitates, where it comes from."""
+    """A film law: its factory and the L/D that it is meant for."""
 
     factory: Callable[[float], FilmLaw]
     """Takes L/D; a long bearing ignores it. What is outside its range it refuses (`finite`)."""
     length_to_diameter: tuple[float, float]
-    cavitation: str
-    source: str
 
     def suits(self, length_to_diameter: float) -> bool:
         """Whether L/D lies in the range that the law's source states."""
@@ -31,21 +29,9 @@ class FilmEntry:
 
 FILM_LAWS = MappingProxyType(
     {
-        "pinkus": FilmEntry(
-            lambda _: pinkus(),
-            (2.0, math.inf),
-            "half film (Gumbel), approximate in its extent",
-            "Pinkus and Sternlicht 1961, corrected",
-        ),
-        "pi_film": FilmEntry(
-            lambda _: pi_film(), (2.0, math.inf), "half film (Gumbel)", "Sommerfeld 1904, Gumbel"
-        ),
-        "short": FilmEntry(short, (0.0, 0.5), "half film (Gumbel)", "Ocvirk 1952"),
-        "finite": FilmEntry(
-            finite,
-            (0.1, 4.0),
-            "Swift and Stieber, oil supplied along the widest gap",
-            "Reynolds' equation tabulated; Butenschoen 1976",
-        ),
+        "pinkus": FilmEntry(lambda _: pinkus(), (2.0, math.inf)),
+        "pi_film": FilmEntry(lambda _: pi_film(), (2.0, math.inf)),
+        "short": FilmEntry(short, (0.0, 0.5)),
+        "finite": FilmEntry(finite, (0.1, 4.0)),
     }
 )

@@ -1,4 +1,4 @@
-"""What every film law owes: dissipation, exact derivatives, a regular centre, NaN outside."""
+"""What every film law owes: exact derivatives, a regular centre; tests/properties has the rest."""
 
 import math
 import random
@@ -8,21 +8,15 @@ import pytest
 
 from exu_press.laws.film import (
     FILM_LAWS,
-    dissipated,
     film_scale,
     finite,
     pi_film,
-    pinkus,
     short,
     with_asperities,
 )
 
-LAWS = {
-    "pinkus": pinkus(),
-    "pi_film": pi_film(),
-    "short": short(0.4),
+LAWS = {name: entry.factory(0.4) for name, entry in FILM_LAWS.items()} | {
     "finite_1": finite(1.0),
-    "finite_0.71": finite(0.71),
     "finite_4": finite(4.0),
     "mixed_pi_film": with_asperities(pi_film(), 0.05),
     "mixed_finite": with_asperities(finite(0.71), 0.05),
@@ -36,13 +30,6 @@ def states(count, highest=0.999, seed=1):
         eps = min(rng.choice([rng.random(), 1.0 - 10.0 ** rng.uniform(-3, 0)]), highest)
         speed, turn = 10.0 ** rng.uniform(-3, 3), rng.uniform(0, 2 * math.pi)
         yield eps, speed * math.cos(turn), speed * math.sin(turn)
-
-
-@EVERY
-def test_dissipative_at_1000_random_states(law):
-    for eps, eps_dot, eps_w in states(1000):
-        force = law(eps, eps_dot, eps_w)
-        assert dissipated(force, eps_dot, eps_w) > 0.0
 
 
 @EVERY
@@ -135,12 +122,6 @@ def test_no_jump_where_squeeze_or_rotation_vanishes(law, eps):
         assert abs(a[1] - b[1]) < 1e-6 * size
 
 
-@pytest.mark.parametrize("name", ["pinkus", "pi_film", "short", "finite_1"])
-@pytest.mark.parametrize("eps", [1.0, 1.5, -0.1, math.nan])
-def test_nan_outside_the_film(name, eps):
-    assert all(map(math.isnan, LAWS[name](eps, 1.0, 1.0)))
-
-
 @EVERY
 def test_nan_speed_gives_nan_force(law):
     assert math.isnan(law(0.5, math.nan, 1.0)[0])
@@ -151,8 +132,6 @@ def test_catalogue_builds_every_law():
     for entry in FILM_LAWS.values():
         law = entry.factory(0.5)
         assert law(0.5, 0.0, 0.5)[0] < 0.0 < law(0.5, 0.0, 0.5)[1]
-        assert entry.cavitation
-        assert entry.source
     assert FILM_LAWS["short"].suits(0.25)
     assert not FILM_LAWS["short"].suits(1.0)
 

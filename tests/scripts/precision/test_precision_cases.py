@@ -1,7 +1,5 @@
 """The study on its cheapest cases, and its table of cases."""
 
-import itertools
-
 import pytest
 
 from exu_press import InputError
@@ -30,12 +28,6 @@ def test_fixed_steps_are_of_second_order_where_lubricated(report):
     assert order["error_position"] == pytest.approx(2.0, abs=0.1)
 
 
-def test_the_error_follows_the_tolerance(report):
-    errors = [r.error_position for r in rows(report, "slider_crank_lubricated_0.1mm", "tolerance")]
-    assert all(b < 1.01 * a for a, b in itertools.pairwise(errors))
-    assert errors[-1] < 0.1 * errors[0]
-
-
 def test_peers_are_there_or_left_out_with_a_reason(report):
     for peer in ("SciPy Radau", "SciPy BDF", "SciPy LSODA", "CVODE", "IDA", "numbalsoda LSODA"):
         shown = rows(report, "slider_crank_lubricated_0.1mm", peer)
@@ -53,12 +45,6 @@ def test_references_are_known_ten_times_better_than_what_is_told(report):
         difference = report.cases[row.case]["reference"]["difference"]
         if row.resolved("error_position") is not None:
             assert row.error_position > 10.0 * difference["position"]
-
-
-def test_the_table_holds_every_run(report):
-    text = "\n".join(report.lines())
-    assert text.count("completed") + text.count("failed") >= len(report.rows)
-    assert "Radau" in text and report.machine["processor"] in text
 
 
 def test_every_case_has_its_own_name():

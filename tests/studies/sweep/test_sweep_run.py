@@ -1,12 +1,8 @@
-"""Sweeps of real scenes: left alone, killed, in another's directory."""
+"""Sweeps of real scenes: left alone, taken up again, in another's directory."""
 
 import json
-import os
-import signal
 import subprocess
 import sys
-import time
-from pathlib import Path
 
 import pytest
 
@@ -102,74 +98,6 @@ def test_a_damaged_study_beside_the_rows_is_another_one(tmp_path):
         sweep(study, tmp_path)
 
 
-STUDY = """
-[scene]
-joints.crank_pin = "lubricated"
-revolutions = 0.05
-[grid]
-joints.crank_pin.clearance = [5e-5, 1e-4, 2e-4, 3e-4]
-speed_rpm = [200.0, 300.0, 400.0]
-"""
-
-
-def start(directory):
-    (directory / "study.toml").write_text(STUDY)
-    command = [str(Path(sys.executable).with_name("exu-press")), "sweep", "study.toml"]
-    return subprocess.Popen(
-        [*command, "--workers", "2", "--out", "out", "--no-pictures"],
-        cwd=directory,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-    )
-
-
-def until_rows(process, directory, enough):
-    path = directory / "out" / "runs.jsonl"
-    end = time.monotonic() + 60.0
-    while not path.exists() or path.read_bytes().count(b"\n") < enough:
-        assert process.poll() is None and time.monotonic() < end, "too late"
-        time.sleep(0.005)
-
-
-def workers_of(process):
-    files = Path(f"/proc/{process.pid}/task").glob("*/children")
-    return [int(word) for file in files for word in file.read_text().split()]
-
-
-def test_a_sweep_killed_twice_equals_an_undisturbed_one(tmp_path):
-    """A worker and then the parent by kill -9, a torn line, the same command: bit by bit."""
-    calm, killed = tmp_path / "calm", tmp_path / "killed"
-    for directory in (calm, killed):
-        directory.mkdir()
-    process = start(calm)
-    out, errors = process.communicate(timeout=120)
-    assert process.returncode == 0, errors
-    assert "12 runs: 12 completed" in out
-
-    process = start(killed)
-    until_rows(process, killed, 2)
-    os.kill(workers_of(process)[0], signal.SIGKILL)
-    until_rows(process, killed, 5)
-    process.kill()
-    process.communicate()
-    rows = killed / "out" / "runs.jsonl"
-    done = rows.read_bytes().count(b"\n")
-    assert 5 <= done < 12
-    with rows.open("ab") as file:
-        file.write(b'{"key": "half a li')
-    process = start(killed)
-    out, errors = process.communicate(timeout=120)
-    assert process.returncode == 0, errors
-    assert f"{done} of 12 are there" in errors
-
-    tables = [(d / "out" / "table.csv").read_text().splitlines() for d in (calm, killed)]
-    kept = len(tables[0][0].split(",")) - len(RUN_TIMES)  # the times of computing stand last
-    texts = [[line.rsplit(",", len(RUN_TIMES))[0] for line in table] for table in tables]
-    assert texts[0] == texts[1]
-    assert len(texts[0]) == 13 and len(texts[0][0].split(",")) == kept
-
-
 def test_a_worker_does_not_share_memory_of_runs(tmp_path):
     """One worker after many runs gives what a fresh one gives."""
     scenes = [LUBRICATED.replace("speed_rpm", speed) for speed in (200.0, 300.0, 400.0)]
@@ -222,14 +150,3 @@ for run in range({runs}):
         early = megabytes()
 print(early, megabytes())
 """
-
-
-def test_a_cluster_gives_the_same_bits(tmp_path):
-    distributed = pytest.importorskip("distributed")
-    study = Study(scene=LUBRICATED, list={"speed_rpm": [200.0, 300.0, 400.0]})
-    with distributed.LocalCluster(
-        n_workers=2, threads_per_worker=1, host="127.0.0.1", dashboard_address=None
-    ) as cluster:
-        there = sweep(study, tmp_path / "there", dask=cluster.scheduler_address)
-    here = sweep(study, tmp_path / "here", workers=1)
-    assert without_times(there) == without_times(here)

@@ -33,9 +33,11 @@ def test_run_writes_summary_and_result(tmp_path, capsys):
     assert re.search(r"peak acceleration, m/s\^2 +\S+ \+- \S+\n", capsys.readouterr().out)
 
 
-def test_errors_can_be_left_out(tmp_path):
+def test_errors_and_words_can_be_left_out(tmp_path, capsys):
     assert main(["run", "press", *QUICK, "--quiet", "--out", str(tmp_path)]) == 0
     assert not {"errors", "errors_from"} & set(json.loads((tmp_path / "summary.json").read_text()))
+    captured = capsys.readouterr()
+    assert captured.out == captured.err == ""
 
 
 def test_pictures_of_an_earlier_run_do_not_stay(tmp_path):
@@ -61,12 +63,6 @@ def test_a_warning_is_seen_on_the_terminal_and_in_the_summary(tmp_path, capsys):
     assert main(["run", "press", *QUICK, "--set", "film.law=finite", "--out", str(tmp_path)]) == 0
     assert json.loads((tmp_path / "summary.json").read_text())["warnings"] == []
     assert capsys.readouterr().err == ""
-
-
-def test_quiet_prints_nothing(tmp_path, capsys):
-    assert main(["run", "press", *QUICK, "--quiet", "--out", str(tmp_path)]) == 0
-    captured = capsys.readouterr()
-    assert captured.out == captured.err == ""
 
 
 def test_early_stop_is_status_3_and_keeps_what_was_computed(tmp_path, capsys):

@@ -98,7 +98,7 @@ def run_command(command: str, place: Path, shortened: list[str]) -> list[Path]:
             words.append("--no-pictures")  # longer than the run; tests/plots has them
         if words[1] in ("run", "compare") and "--within" not in words:
             words.append("--no-error")  # as long as the run; tests/confidence has them
-            words += shortened if "revolutions=" not in command else []
+            words += shortened if "revolutions=0.0" not in command else []
     run(words, place)
     return [place / value for option, value in pairwise(words) if option in ("--out", "--save")]
 

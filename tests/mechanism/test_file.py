@@ -180,28 +180,6 @@ def test_a_body_on_nothing():
     assert refusal(changed(("[groups]", more))) == "bodies.idle: no joint and no guide holds it"
 
 
-def test_names_given_twice_are_no_toml(tmp_path):
-    path = tmp_path / "twice.toml"
-    path.write_text(TEXT + "[joints.shaft]\nat = [0, 0]\n")
-    with pytest.raises(InputError, match=r"twice\.toml: not a TOML file"):
-        load_mechanism(path)
-
-
-def test_a_file_that_is_not_there(tmp_path):
-    with pytest.raises(InputError, match=r"none\.toml: cannot be read \(No such file"):
-        load_mechanism(tmp_path / "none.toml")
-
-
-def test_a_folder_and_a_picture_are_no_mechanism_files(tmp_path):
-    folder, picture = tmp_path / "folder.toml", tmp_path / "picture.toml"
-    folder.mkdir()
-    picture.write_bytes(bytes(range(256)))
-    with pytest.raises(InputError, match=r"folder\.toml: cannot be read \(Is a directory"):
-        load_mechanism(folder)
-    with pytest.raises(InputError, match=r"picture\.toml: not a TOML file"):
-        load_mechanism(picture)
-
-
 def test_a_refusal_names_the_file(tmp_path):
     path = tmp_path / "press.toml"
     path.write_text(changed(("mass = 3.0", "")))

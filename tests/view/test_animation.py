@@ -16,7 +16,7 @@ def visible_texts(figure):
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_no_label_is_clipped(runs, animation, name):
+def test_no_label_is_clipped_and_no_names_of_bodies_overlap(runs, animation, name):
     picture = animation(runs[name], instants(runs[name], frames=5))
     painter = Painter(picture, 100.0)
     painter.paint(3)
@@ -26,13 +26,6 @@ def test_no_label_is_clipped(runs, animation, name):
         box = text.get_window_extent(renderer)
         assert box.x0 >= -1 and box.y0 >= -1, text.get_text()
         assert box.x1 <= width + 1 and box.y1 <= height + 1, text.get_text()
-
-
-@pytest.mark.parametrize("name", CASES)
-def test_names_of_bodies_do_not_overlap(runs, animation, name):
-    picture = animation(runs[name], instants(runs[name], frames=3))
-    Painter(picture, 100.0)
-    renderer = picture.figure.canvas.get_renderer()
     boxes = [text.get_window_extent(renderer) for text in picture.figure.axes[0].texts]
     for one, two in itertools.combinations(boxes, 2):
         assert not one.overlaps(two)

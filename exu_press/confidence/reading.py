@@ -1,7 +1,6 @@
 """What is left open by reading loads at steps, which is in all runs alike."""
 
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
 
@@ -41,12 +40,9 @@ def overshot(run: Result) -> Result:
     """
     if len(run.time) < 2:
         return run
-    begun = {
-        name: replace(channel, values=np.concatenate([channel.values[:1], channel.values]))
-        for name, channel in run.channels.items()
-    }
-    begun["time"].values[1] += AT_ONCE * (run.time[1] - run.time[0])
-    return _with_loads(replace(run, channels=begun), _overshot)
+    begun = {name: np.concatenate([run[name][:1], run[name]]) for name in run}
+    begun["time"][1] += AT_ONCE * (run.time[1] - run.time[0])
+    return _with_loads(run.with_values(begun), _overshot)
 
 
 def unbalanced(run: Result) -> Result:
@@ -57,21 +53,15 @@ def unbalanced(run: Result) -> Result:
     """
     if not has_balance(run):
         return run
-    given = run.channels["energy_input"]
-    missed = given.values - run["energy_stored"] - run["energy_dissipated"]
-    more = replace(given, values=given.values + np.abs(missed).max())
-    return replace(run, channels={**run.channels, "energy_input": more})
+    given = run["energy_input"]
+    missed = given - run["energy_stored"] - run["energy_dissipated"]
+    return run.with_values({"energy_input": given + np.abs(missed).max()})
 
 
 def _with_loads(run: Result, change: Callable[[Array, Array], Array]) -> Result:
     """Return a run with other loads: change(time (n,), values (n, ...))."""
-    channels = {
-        name: replace(channel, values=change(run.time, channel.values))
-        if any(word in name for word in LOADS)
-        else channel
-        for name, channel in run.channels.items()
-    }
-    return replace(run, channels=channels)
+    loads = [name for name in run if any(word in name for word in LOADS)]
+    return run.with_values({name: change(run.time, run[name]) for name in loads})
 
 
 def _averaged(time: Array, values: Array) -> Array:

@@ -1,7 +1,5 @@
 """Parts of a run's record."""
 
-from dataclasses import replace
-
 import numpy as np
 
 from exu_press.result import Result
@@ -13,11 +11,7 @@ def window(run: Result, begin: float, end: float) -> Result:
     """Return a run's record between two instants, s, both of them included."""
     first = int(np.searchsorted(run.time, begin * (1.0 - 1e-12)))
     last = int(np.searchsorted(run.time, end * (1.0 + 1e-12), side="right"))
-    channels = {
-        name: replace(channel, values=channel.values[first:last])
-        for name, channel in run.channels.items()
-    }
-    return replace(run, channels=channels)
+    return run.with_values({name: run[name][first:last] for name in run})
 
 
 def until(run: Result, end: float) -> Result:

@@ -1,7 +1,7 @@
 """What came out of one run: channels over time, how it ended, and the scene it came from."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -85,6 +85,11 @@ class Result(Contents):
     def clearance_joints(self) -> tuple[str, ...]:
         """Names of the joints with clearance."""
         return tuple(name for name, joint in self.joints.items() if joint.kind != "ideal")
+
+    def with_values(self, values: Mapping[str, Array]) -> "Result":
+        """Return the run with other values of some of its channels, by their names."""
+        changed = {name: replace(self.channels[name], values=new) for name, new in values.items()}
+        return replace(self, channels={**self.channels, **changed})
 
     def summary(self) -> dict[str, Any]:
         """Return the dictionary of summary.json."""

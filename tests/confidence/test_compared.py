@@ -33,10 +33,8 @@ def of_stroke(run, reference, error):
 
 def longer(run, part):
     """Return a run whose slider moves further, by this part."""
-    channel = run.channels["slider_position"]
-    values = channel.values[0] + (channel.values - channel.values[0]) * (1.0 + part)
-    channels = {**run.channels, "slider_position": dataclasses.replace(channel, values=values)}
-    return dataclasses.replace(run, channels=channels)
+    place = run["slider_position"]
+    return run.with_values({"slider_position": place[0] + (place - place[0]) * (1.0 + part)})
 
 
 @pytest.mark.parametrize("part", [0.01, -0.01])
@@ -64,10 +62,8 @@ def test_what_alternates_in_the_reference_is_open(run):
     """Of a peak that alternates by 4 % from step to step, nobody knows more than that."""
     name = "joints.shaft.peak_force"
     value = figures(run.summary())[name]
-    channel = run.channels["shaft_force"]
     signs = np.where(np.arange(len(run.time)) % 2, 1.0, -1.0)[:, None]
-    loud = dataclasses.replace(channel, values=channel.values * (1.0 + 0.04 * signs))
-    reference = dataclasses.replace(run, channels={**run.channels, "shaft_force": loud})
+    reference = run.with_values({"shaft_force": run["shaft_force"] * (1.0 + 0.04 * signs)})
     told = {"error": 0.0, "determined": True, "low": value, "high": value}
     stating = dataclasses.replace(run, info={**run.info, "errors": {name: told}})
     (found,) = compared(stating, reference)

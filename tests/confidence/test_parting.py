@@ -1,7 +1,5 @@
 """From when on two runs of a scene have nothing in common."""
 
-import dataclasses
-
 import numpy as np
 import pytest
 
@@ -22,13 +20,11 @@ def run():
 
 def moved(result, column, amount):
     """Return a run whose slider moves away, from next to nothing on to `amount` at its end."""
-    channel = result.channels["body_position"]
-    values = channel.values.copy()
+    values = result["body_position"].copy()
     values[:, result.bodies.index("slider"), column] += amount * np.geomspace(
         1e-6, 1.0, len(values)
     )
-    channels = {**result.channels, "body_position": dataclasses.replace(channel, values=values)}
-    return dataclasses.replace(result, channels=channels)
+    return result.with_values({"body_position": values})
 
 
 def test_a_body_that_is_elsewhere_between_its_ways_has_parted(run):

@@ -1,7 +1,5 @@
 """What reading a record at its steps leaves open."""
 
-import dataclasses
-
 import numpy as np
 import pytest
 
@@ -18,11 +16,7 @@ def run():
 
 
 def with_force(result, values):
-    channel = result.channels["shaft_force"]
-    return dataclasses.replace(
-        result,
-        channels={**result.channels, "shaft_force": dataclasses.replace(channel, values=values)},
-    )
+    return result.with_values({"shaft_force": values})
 
 
 def test_what_alternates_is_taken_away(run):

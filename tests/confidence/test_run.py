@@ -1,7 +1,5 @@
 """Runs tell how far their figures can be believed."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -75,16 +73,14 @@ def test_a_run_that_has_not_parted_itself_tells_a_larger_error():
     """Its companion has, of which it is three times as near to the truth."""
     scene = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=0.1)
     result = simulate(scene)
-    channels = dict(result.channels)
-    journal, force = channels["crank_pin_eccentricity"], channels["crank_pin_force"]
     clearance = scene.joints["crank_pin"].clearance
     late = (result.time > 0.5 * result.time[-1])[:, None]
-    channels["crank_pin_force"] = replace(force, values=force.values * np.where(late, 1e3, 1.0))
+    force = result["crank_pin_force"] * np.where(late, 1e3, 1.0)
     found = {}
     for part in (0.2, 0.6, 1.2):
-        away = np.where(late, part * clearance, 0.0) * [1.0, 0.0]
-        channels["crank_pin_eccentricity"] = replace(journal, values=journal.values + away)
-        found[part] = errors_of(result, [(4.0, replace(result, channels=channels))])
+        away = result["crank_pin_eccentricity"] + np.where(late, part * clearance, 0.0) * [1.0, 0.0]
+        beside = {"crank_pin_force": force, "crank_pin_eccentricity": away}
+        found[part] = errors_of(result, [(4.0, result.with_values(beside))])
     least, more, most = (
         one["errors"]["joints.crank_pin.peak_force"]["error"] for one in found.values()
     )
@@ -98,13 +94,14 @@ def test_what_companions_did_before_the_horizon_widens_no_bounds():
     scene = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=0.1)
     result = simulate(scene)
     part = result.time / result.time[-1]
-    beside = dict(result.channels)
-    for name, changed in {
-        "crank_pin_eccentricity": np.where(part > 0.9, 2e-4, 0.0)[:, None] * [1.0, 0.0],
-        "crank_pin_force": np.where(part > 0.95, 1e7, 0.0)[:, None] * [1.0, 0.0],
-    }.items():
-        beside[name] = replace(beside[name], values=beside[name].values + changed)
-    other = replace(result, channels=beside)
+    beside = {
+        name: result[name] + np.where(part > begin, more, 0.0)[:, None] * [1.0, 0.0]
+        for name, begin, more in (
+            ("crank_pin_eccentricity", 0.9, 2e-4),
+            ("crank_pin_force", 0.95, 1e7),
+        )
+    }
+    other = result.with_values(beside)
     errors = errors_of(result, [(4.0, other), (8.0, other)])["errors"]
     force = errors["joints.crank_pin.peak_force"]
     peak = result.summary()["joints"]["crank_pin"]["peak_force"]

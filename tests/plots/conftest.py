@@ -37,10 +37,7 @@ def results() -> dict[str, Result]:
 
 def cut(result: Result, count: int) -> Result:
     """Return a run as an interruption leaves it."""
-    channels = {
-        name: dataclasses.replace(channel, values=channel.values[:count])
-        for name, channel in result.channels.items()
-    }
     reason = "interrupted at t = 0.0125 s, crank angle 18.00 deg"
     info = {**result.info, "status": "interrupted", "reason": reason}
-    return dataclasses.replace(result, channels=channels, info=info)
+    cut = result.with_values({name: result[name][:count] for name in result})
+    return dataclasses.replace(cut, info=info)

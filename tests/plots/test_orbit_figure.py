@@ -1,5 +1,3 @@
-import dataclasses
-
 import numpy as np
 import pytest
 from matplotlib.text import Text
@@ -45,12 +43,11 @@ def test_a_circle_is_round_and_a_large_path_is_whole(results):
 
 
 def test_balls_that_move_sideways_are_both_shown(results):
-    channels = dict(results["dry"].channels)
-    for name, shift in (("ball_left", 1e-5), ("ball_right", 2e-5)):
-        channel = channels[f"{name}_eccentricity"]
-        moved = channel.values + shift * np.array([1.0, 0.0, 0.0])
-        channels[f"{name}_eccentricity"] = dataclasses.replace(channel, values=moved)
-    figure = orbit_figure(dataclasses.replace(results["dry"], channels=channels))
+    moved = {
+        name: results["dry"][name] + [shift, 0.0, 0.0]
+        for name, shift in (("ball_left_eccentricity", 1e-5), ("ball_right_eccentricity", 2e-5))
+    }
+    figure = orbit_figure(results["dry"].with_values(moved))
     assert {"Ball, left", "Ball, right"} <= set(titled(figure))
 
 

@@ -59,12 +59,9 @@ def test_the_clock(runs, animation):
 
 
 def test_a_run_that_stopped_early_says_so(runs, animation):
-    cut = {
-        name: dataclasses.replace(channel, values=channel.values[:40])
-        for name, channel in runs["press"].channels.items()
-    }
-    info = {**runs["press"].info, "status": "interrupted", "reason": "interrupted at t = 1 ms"}
-    stopped = dataclasses.replace(runs["press"], channels=cut, info=info)
+    cut = runs["press"].with_values({name: runs["press"][name][:40] for name in runs["press"]})
+    info = {**cut.info, "status": "interrupted", "reason": "interrupted at t = 1 ms"}
+    stopped = dataclasses.replace(cut, info=info)
     texts = [
         text.get_text() for text in visible_texts(animation(stopped, instants(stopped)).figure)
     ]
@@ -72,9 +69,5 @@ def test_a_run_that_stopped_early_says_so(runs, animation):
 
 
 def test_a_record_of_one_instant_can_be_shown(runs, animation):
-    cut = {
-        name: dataclasses.replace(channel, values=channel.values[:1])
-        for name, channel in runs["press"].channels.items()
-    }
-    one = dataclasses.replace(runs["press"], channels=cut)
+    one = runs["press"].with_values({name: runs["press"][name][:1] for name in runs["press"]})
     Painter(animation(one, moment(one)), 50.0).paint(1)

@@ -1,7 +1,6 @@
 """What is read off a run, on motions that are known."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -27,11 +26,7 @@ def with_motion(result, time, position, velocity, acceleration):
         "slider_acceleration": acceleration,
     }
     at = np.clip(np.searchsorted(result.time, time), 0, len(result.time) - 1)
-    channels = {
-        name: replace(channel, values=values.get(name, channel.values[at]))
-        for name, channel in result.channels.items()
-    }
-    return replace(result, channels=channels)
+    return result.with_values({name: values.get(name, result[name][at]) for name in result})
 
 
 def test_the_ideal_press_is_the_closed_form_under_every_model(ideal):

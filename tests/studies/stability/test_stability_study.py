@@ -63,12 +63,8 @@ def run():
     return simulate(Scene.from_dict(SHORT).replace(DRY))
 
 
-def changed(result, **channels):
-    given = {
-        name: dataclasses.replace(result.channels[name], values=values)
-        for name, values in channels.items()
-    }
-    return dataclasses.replace(result, channels={**result.channels, **given})
+def changed(result, **values):
+    return result.with_values(values)
 
 
 def failed(result):

@@ -23,7 +23,7 @@ SCENES = {
         "mechanism": "press",
         "joints": {"crank_pin": "dry"},
         "bodies": flexible_press(modes=4),
-        "revolutions": 0.25,
+        "revolutions": 0.15,
         "solver": {"tolerance": 1e-2},
     },
 }

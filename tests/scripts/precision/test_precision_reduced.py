@@ -1,17 +1,12 @@
 """The package's hand-reduced slider-crank against the tests' own one, which shares no code."""
 
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
+from independent.reduced_slider_crank import ReducedSliderCrank
 
 from exu_press import InputError, Scene
 from precision.compiled import compile_model, has_numba
 from precision.reduced import numbers_of, rate_of, start_of
-
-sys.path.append(str(Path(__file__).parents[2]))
-from independent.reduced_slider_crank import ReducedSliderCrank
 
 PINS = {"dry": "lugre_steady", "lubricated": "pinkus"}
 

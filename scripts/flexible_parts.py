@@ -37,8 +37,7 @@ for name, published in PUBLISHED_HZ.items():
         print(f"{shape:34} " + "".join(f"{hz[n - 1]:9.1f}" for n in MODE_NUMBERS))
         print(f"{'':34} " + "".join(f"{e:+9.1%}" for e in errors) + f"  {rms:7.1%}")
 for name in PUBLISHED_HZ:
-    part = shipped_part(name, mesh_size) if quick else shipped_part(name)
-    draw_mode_shapes(part, out / f"modes_{name}.png")
+    draw_mode_shapes(shipped_part(name, mesh_size), out / f"modes_{name}.png")
 
 
 def figures(run: Result) -> dict[str, float]:

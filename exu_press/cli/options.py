@@ -6,6 +6,8 @@ import textwrap
 from collections.abc import Iterable
 from pathlib import Path
 
+from exu_press.checks import nearest
+from exu_press.errors import InputError
 from exu_press.scene import Scene, load_scene
 
 __all__ = [
@@ -87,5 +89,11 @@ def shipped_names() -> list[str]:
 
 def scene_path(given: str) -> Path:
     """Return the file of a scene, or of the shipped one of this name."""
-    shipped = SHIPPED / f"{given}.toml"
-    return shipped if not Path(given).exists() and shipped.exists() else Path(given)
+    path, names = Path(given), shipped_names()
+    if path.exists() or path.suffix:
+        return path
+    if given not in names:
+        raise InputError(
+            f"{given}: no such scene{nearest(given, names)}; allowed are a file, {', '.join(names)}"
+        )
+    return SHIPPED / f"{given}.toml"

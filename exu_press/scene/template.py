@@ -2,7 +2,7 @@
 
 import dataclasses
 import textwrap
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from exu_press.checks import Table
 from exu_press.scene.bodies import Flexible
@@ -43,21 +43,28 @@ def _lines(scene: Scene) -> Iterator[str]:
                 name = list(value)[-1]
                 example = scene.replace(f"joints.{name}", "dry")
                 shown = joint_lines(example.joints, example.laws, True)[1:]
-                yield from ("", *(f"# {line}" for line in shown))
+                yield from ("", *_not_in_use(shown))
         elif field.name == "load":
-            yield from ("", *(f"# {line}".rstrip("# ") for line in _loads()))
+            yield from ("", *_not_in_use(_loads()))
         elif field.name == "bodies":
-            yield from ("", *(f"# {line}" for line in _a_flexible_body(scene)))
+            yield from ("", *_not_in_use(_a_flexible_body(scene)))
         elif isinstance(value, Table):
             yield from ("", f"[{field.name}]", *table_lines(value, True, absent=True))
         elif (kind := TABLES.get(field.name)) is not None and field.name not in OF_MECHANISMS:
             told = (kind.__doc__ or "").splitlines()[0]
             lines = f"[{field.name}]  # {told}", *table_lines(kind(), True, absent=True)
-            yield from ("", *(f"# {line.removeprefix('# ')}" for line in lines))
+            yield from ("", *_not_in_use(lines))
 
 
 OF_MECHANISMS = ("press", "slider_crank")
 """Tables of other mechanisms than the scene's, which it could not use."""
+
+
+def _not_in_use(lines: Iterable[str]) -> Iterator[str]:
+    """Yield lines as comments; one that is a comment already keeps the place of its meaning."""
+    for line in lines:
+        absent = line.startswith("# ")
+        yield line.replace("  #", "    #", 1) if absent else f"# {line}".rstrip("# ")
 
 
 def _loads() -> Iterator[str]:
@@ -72,7 +79,7 @@ def _loads() -> Iterator[str]:
     }
     for name, load in examples.items():
         yield f"[load.{name}]  # {words[name]}"
-        yield from (line.removeprefix("# ") for line in load_lines(load, True, absent=True))
+        yield from load_lines(load, True, absent=True)
         yield ""
 
 
@@ -85,8 +92,7 @@ def _a_flexible_body(scene: Scene) -> Iterator[str]:
     name = "linkage" if shipped else free[-1]
     example = Flexible("linkage" if shipped else "my_part.step")
     yield f"[bodies.{name}]  # A flexible body: any one of the mechanism; rigid without it."
-    for line in body_lines(example, True, absent=True):
-        yield line.removeprefix("# ")
+    yield from body_lines(example, True, absent=True)
 
 
 def _all_joints(joints: Joints) -> list[str]:

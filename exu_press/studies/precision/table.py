@@ -62,11 +62,7 @@ def case_lines(name: str, case: Mapping[str, Any], rows: Sequence[Row]) -> list[
         "* one run, not the median of three",
         f"  reference: {reference['method']}; {_difference(reference)}",
         *columns([HEAD, *(_cells(row) for row in rows)], INDENT),
-        *(
-            f"  {row.solver} {row.setting} {row.value:g}: {row.reason}"
-            for row in rows
-            if row.reason
-        ),
+        *(f"  {row.solver} {_setting(row)}: {row.reason}" for row in rows if row.reason),
         *(_late_lines(rows) if case["horizon"] < case["duration"] else ()),
     ]
 
@@ -133,7 +129,7 @@ def _cells(row: Row) -> tuple[str, ...]:
     counts = (row.steps, row.rejected_steps, row.newton_iterations, row.law_evaluations)
     return (
         row.solver,
-        f"{row.value:g}{' s' if row.setting == 'step' else ''}",
+        _setting(row),
         *(_error(row, name) for name in ERRORS),
         f"{row.wall_time:.3g}" + ("" if len(row.wall_times) > 1 else "*"),
         f"{row.cpu_time:.3g}",
@@ -141,6 +137,10 @@ def _cells(row: Row) -> tuple[str, ...]:
         _number(per_step, 3),
         row.status,
     )
+
+
+def _setting(row: Row) -> str:
+    return f"{row.value:g}{' s' if row.setting == 'step' else ''}"
 
 
 def _error(row: Row, name: str) -> str:

@@ -10,7 +10,6 @@ from sphinx_parts.scripts import NUMBERS, SavedPictures, gallery_sources
 project = "exu_press"
 author = "the authors of exu_press"
 project_copyright = author
-exclude_patterns = ["pictures/README.md"]
 html_theme = "furo"
 html_title = "exu_press"
 html_show_sphinx = False

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from exu_press.arrays import Array
 from exu_press.integrate.problem import Problem
 from exu_press.integrate.scales import FoundScales
 from exu_press.integrate.settings import SAME, Task, Tuning
@@ -294,7 +295,6 @@ class JointError:
         limit: float,
         drift: float,
         rounding: float,
-        tuning: Tuning,
     ) -> None:
         """Take a joint and its scales.
 
@@ -304,12 +304,10 @@ class JointError:
             drift: the same over the step, m/s, where a film alone lies between the surfaces: it
                 keeps what each step leaves, always on the same side, so that errors add up.
             rounding: of positions, as it alternates, m; no error below it counts as 1.
-            tuning: numbers.
         """
         self._joint = joint
         self._limit = limit
         self._rounding = rounding
-        self._penetration = tuning.penetration
         self._drift = drift if joint.reach == math.inf else math.inf
 
     def error(self, step: float, left: float = 0.0) -> float:
@@ -325,7 +323,7 @@ class JointError:
         error = missed / max(min(self._limit, self._drift * step), rounding)
         depth = math.hypot(*place) - joint.reach
         if depth > 0.0:
-            relative = max(LEAST_PENETRATION, self._penetration * depth / joint.clearance)
+            relative = max(LEAST_PENETRATION, depth / joint.clearance)
             error = max(error, abs(along) / max(relative * self._limit, rounding))
         return error
 
@@ -392,6 +390,7 @@ class StepError:
         self._step = 0.0  # last tried, s
         self._first_order: FirstOrderError | None = None
         self._joints: list[JointError] = []
+        self._made, self._kept = 0, np.zeros((0, 0))  # Jacobians so far, inverse of the last one
 
     def __call__(self, step: float) -> float:
         """Return the error of the step (s) that ends in the current state."""
@@ -476,10 +475,10 @@ class StepError:
             self._turning = Turning(problem, self._scales, duration, tuning.foreseen)
         else:
             whole = self._per_step.whole
-            of_bodies = ErrorPerStep(tuning.beside_joints * whole)
+            of_bodies = ErrorPerStep(tuning.beside_joints * self._tolerance)
             per_time = task.tolerance / (tuning.kept_steps * task.largest)
             self._joints = [
-                JointError(j, whole * j.clearance, per_time * j.clearance, noise, tuning)
+                JointError(j, whole * j.clearance, per_time * j.clearance, noise)
                 for j in problem.joints.joints
             ]
         start = self.start or problem.start.accelerations.tolist()
@@ -490,33 +489,39 @@ class StepError:
 
         By far where a mechanism passes a position in which two of them nearly say the same.
         """
-        jacobian = np.asarray(self._solver.GetSystemJacobian())
-        size, count = len(self._accelerations), self._solver.GetAEsize()
-        of_constraints = np.eye(len(jacobian), count, count - len(jacobian))
         try:
-            moved = np.abs(np.linalg.solve(jacobian, of_constraints)[:size]).sum(axis=1)
+            inverse = self._inverse()
         except np.linalg.LinAlgError:  # constraints that say the same
             return 0.0
+        size, count = len(self._accelerations), self._solver.GetAEsize()
+        moved = np.abs(inverse[:size, len(inverse) - count :]).sum(axis=1)
         return EPSILON * self._scales.length * self._scales.norm(moved.tolist())
 
     def _filtered(self, *changes: list[float]) -> list[list[float]]:
         """Return what Newton's matrix, M (1 - alpha_m)/(1 - alpha_f) + ..., leaves of changes."""
         solver = self._solver
-        jacobian, mass = np.asarray(solver.GetSystemJacobian()), solver.GetSystemMassMatrix()
-        right = np.zeros((len(jacobian), len(changes)))
-        for i, change in enumerate(changes):
-            right[: len(change), i] = np.dot(mass, change)
-        right *= (1.0 - solver.alphaM) / (1.0 - solver.alphaF)
-        size, before = len(changes[0]), np.array(changes).T
+        before, mass = np.array(changes).T, solver.GetSystemMassMatrix()
+        size = len(before)
+        right = np.dot(mass, before) * ((1.0 - solver.alphaM) / (1.0 - solver.alphaF))
         try:
-            filtered = np.linalg.solve(jacobian, right)[:size]
+            inverse = self._inverse()
+            filtered = np.dot(inverse[:size, :size], right)
             if not self._joints and _larger(filtered, before, mass):
                 # masses and springs make nothing larger, but constraints that nearly say the same
-                filtered = np.linalg.lstsq(jacobian, right, rcond=None)[0][:size]
+                right = np.vstack([right, np.zeros((len(inverse) - size, len(changes)))])
+                filtered = np.linalg.lstsq(solver.GetSystemJacobian(), right, rcond=None)[0][:size]
         except np.linalg.LinAlgError:  # constraints that say the same
             return list(changes)
         found: list[list[float]] = filtered.T.tolist()
         return found
+
+    def _inverse(self) -> Array:
+        """Return that of Newton's matrix, which may be the one of an earlier step."""
+        made = self._solver.it.newtonJacobiCount
+        if made != self._made:
+            self._kept = np.linalg.inv(self._solver.GetSystemJacobian())
+            self._made = made
+        return self._kept
 
 
 def _larger(after: Any, before: Any, mass: Any) -> bool:

@@ -18,6 +18,7 @@ from exu_press.integrate.constraints import (
     start_rates,
 )
 from exu_press.integrate.error import StepError
+from exu_press.integrate.modes import ModalMass
 from exu_press.integrate.newton import Newton
 from exu_press.integrate.settings import Task
 from exu_press.integrate.stepping import FixedSteps, Resolution, StepControl
@@ -67,6 +68,7 @@ class Monitor:
         self._task, self._progress = task, progress
         self._constraints = Constraints(task)
         self._step_change = StepChange(task, self._constraints)
+        self._modal_mass = ModalMass(task)
         self._newton = Newton(task)
         self._estimate = StepError(task)
         self.control: StepControl | FixedSteps = (
@@ -102,6 +104,7 @@ class Monitor:
             with self._catching_interrupts():
                 yield
         finally:
+            self._modal_mass.fit(0.0)
             for place, function in zip(places, self._users, strict=True):
                 place(function)
 
@@ -127,6 +130,7 @@ class Monitor:
         if not self.tries % 16 and time.monotonic() > self._next_update:
             self._next_update = time.monotonic() + SECONDS_BETWEEN_UPDATES
             self._progress.update(end - self._start)
+        self._modal_mass.fit(end - self._time)
         self._step_change.before_try(self._time, end - self._time)
         self.over_budget = self.tries >= self.max_steps
         if self._users[0] and not self._users[0](mbs, end):

@@ -10,6 +10,7 @@ import numpy as np
 
 from exu_press.arrays import Array
 from exu_press.errors import InputError
+from exu_press.integrate.modes import modal_item
 from exu_press.joints import overlay_of
 from exu_press.joints.overlay import JointOverlay
 
@@ -159,7 +160,9 @@ class Problem:
         others = (
             kind
             for number, kind in enumerate(kinds)
-            if not kind.startswith("Joint") and kind not in RIGID_OR_MODAL and number != joints.item
+            if not kind.startswith("Joint")
+            and kind not in RIGID_OR_MODAL
+            and number not in (joints.item, modal_item(mbs))
         )
         modal = "FFRFreducedOrder" in kinds and all(
             kind.startswith("ConnectorCoordinate") and "Spring" not in kind for kind in others

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+from exu_press.integrate.modes import follow_modes
 from exu_press.mechanism import Motion
 from exu_press.model.bodies import add_bodies
 from exu_press.model.drive import add_drive, hold_flexible_bodies
@@ -89,6 +90,8 @@ def _assembled(
     }
     drive = add_drive(system)
     loads = add_loads(system)
+    if system.flexible:
+        follow_modes(system.mbs)
     add_sensors(system, ideal | {"drive": drive}, guides)
     system.mbs.Assemble()
     return Model(

@@ -145,7 +145,7 @@ def test_in_its_play_a_soft_slider_touches_with_what_its_guide_holds(slider):
     assert np.abs(held[:, 2] - result["slider_tilt"]).max() > 3e-7
     assert np.abs(result["guide_force"]).max() > 100.0
     summary = result.summary()
-    assert summary["energy"]["residual"] < 5e-4
+    assert summary["energy"]["residual"] < 1e-3
     assert 0.0 < summary["guides"]["slider"]["dissipated"] <= summary["energy"]["dissipated"]
 
 

@@ -1,0 +1,104 @@
+"""Flexible bodies that vibrate at their own frequencies, in ten steps a period as in a hundred.
+
+Generalized-alpha slows vibrations down: what has the frequency omega takes omega (1 - kappa
+(h omega)^2 / 2) in steps of h, with kappa = 1/6 + 3/4 (alpha_f - alpha_m)^2. What an impact leaves
+vibrating is soon out of phase by that, and decides on how the next impact comes. But a mode's
+stiffness K is known beforehand. If it acts on q - kappa h^2 q_tt instead of on q, errors of phase
+go with h^4. That is the same as another mass of the modes,
+
+    M - kappa h^2 K,
+
+with which forces at rest stay what they are. For a spectral radius of 1 it is the method of Fox and
+Goodwin for the modes alone, Newmark's with beta = 1/12. Modes for which steps are too long keep
+their mass. The energies of a run are those of M.
+
+Source: L. Fox and E. T. Goodwin, Some new methods for the numerical integration of ordinary
+differential equations, Mathematical Proceedings of the Cambridge Philosophical Society 45 (1949);
+T. J. R. Hughes, The Finite Element Method (1987), 9.1.
+"""
+
+from typing import TYPE_CHECKING, Any
+
+import exudyn as exu
+import numpy as np
+from exudyn.itemInterface import ObjectGenericODE2, VObjectGenericODE2
+from scipy.linalg import block_diag, eigh
+
+from exu_press.arrays import Array
+
+if TYPE_CHECKING:
+    from exu_press.integrate.settings import Task
+
+__all__ = ["ModalMass", "follow_modes", "modal_item"]
+
+REGISTRY = "exu_press_modes"
+FLEXIBLE = "FFRFreducedOrder"
+
+
+def follow_modes(mbs: exu.MainSystem) -> None:
+    """Let `solve_dynamic` follow what impacts in clearance joints leave vibrating.
+
+    To be called before `mbs.Assemble()`, when all ObjectFFRFreducedOrder are there. It adds one
+    item without mass over their modes, which `solve_dynamic` gives the mass that belongs to the
+    step, with clearance joints and with fixed steps. Other solvers are not concerned.
+
+    Args:
+        mbs: the system.
+    """
+    nodes = [item["nodeNumbers"][1] for item in _bodies(mbs)]
+    if nodes:
+        item = ObjectGenericODE2(nodeNumbers=nodes, visualization=VObjectGenericODE2(show=False))
+        mbs.variables[REGISTRY] = int(mbs.AddObject(item))
+
+
+def modal_item(mbs: exu.MainSystem) -> int | None:
+    """Return the number of the item that `follow_modes` has added."""
+    found: int | None = mbs.variables.get(REGISTRY)
+    return found
+
+
+class ModalMass:
+    """What the modes' mass is changed by in steps of a size."""
+
+    def __init__(self, task: "Task") -> None:
+        """Take what is solved.
+
+        Where steps follow a smooth motion, all modes keep their mass: what they carry would have to
+        change with each step's size.
+        """
+        self._mbs = mbs = task.problem.mbs
+        self._solver, self._part = task.solver, task.tuning.modal_mass
+        smooth = task.problem.joints is None and not task.fixed
+        self._item = None if smooth else modal_item(mbs)
+        self._step = 0.0
+        self._squares: Array = np.zeros(0)  # of the frequencies, 1/s^2
+        self._weights: Array = np.zeros((0, 0))  # M times the modes of K and M
+        if self._item is not None:
+            within = [int(node) for node in mbs.GetObject(self._item)["nodeNumbers"]]
+            bodies = [item for item in _bodies(mbs) if int(item["nodeNumbers"][1]) in within]
+            stiffness, mass = (
+                block_diag(*(item[name].Convert2DenseMatrix() for item in bodies))
+                for name in ("stiffnessMatrixReduced", "massMatrixReduced")
+            )
+            self._squares, modes = eigh(stiffness, mass)
+            self._weights = mass @ modes
+
+    def fit(self, step: float) -> None:
+        """Let the modes have the mass that belongs to a step, s; 0.0 leaves them their own."""
+        if self._item is None or step == self._step:
+            return
+        self._step = step
+        offset = self._solver.alphaF - self._solver.alphaM
+        kappa = self._part * (1.0 / 6.0 + 0.75 * offset * offset)
+        squares = kappa * step * step * self._squares
+        mass = exu.MatrixContainer()
+        changes = self._weights * (-squares / (1.0 + squares)) @ self._weights.T
+        mass.SetWithDenseMatrix(changes, useDenseMatrix=False)
+        self._mbs.SetObjectParameter(self._item, "massMatrix", mass)
+
+
+def _bodies(mbs: exu.MainSystem) -> list[dict[str, Any]]:
+    """Return Exudyn's dictionaries of the flexible bodies of a system."""
+    data: Any = mbs.systemData
+    items = [mbs.GetObject(number) for number in range(data.NumberOfObjects())]
+    return [item for item in items if item["objectType"] == FLEXIBLE]

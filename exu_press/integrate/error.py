@@ -83,8 +83,8 @@ class Turning:
 
     What a speed is off by makes the place be off by more and more, unless the motion comes back, as
     a vibration does. After a turn by an angle, in radians, the velocity there is off by so many
-    times the error of the speed. So velocities may be off by less, if they are to turn by more than
-    a radian yet.
+    times the error of the speed. So speeds may be off by less, if velocities are to turn by more
+    than a radian yet; what is off across the velocity turns with it, and adds up to nothing.
 
     The angle so far is that between velocity and acceleration over time, with its sign, in the
     kinetic norm; each instant counts with the square of the largest speed then, as what nearly
@@ -153,6 +153,7 @@ class BodyError:
         change: of the accelerations' rate, by the step last tried, in SI over seconds.
         rate: of the accelerations' change, in the step last tried.
         turning: angle by which velocities are to turn yet, rad: `Turning`.
+        velocities: of all coordinates, where they are to turn by more than a radian.
     """
 
     def __init__(
@@ -180,6 +181,7 @@ class BodyError:
         self.rate: list[float] = []
         self.change: list[float] = []
         self.turning = 0.0
+        self.velocities: list[float] = []
         self._bend: list[float] = []  # second derivative of the accelerations
         self._bend_before: list[float] = []
         self._size = self._size_before = 0.0  # of the bend, its largest norm
@@ -215,8 +217,13 @@ class BodyError:
             step: s.
             left: what its constraints leave open of positions, m.
         """
-        limit = self._limit(step, max(self._noise, left), max(1.0, self.turning))
-        return self._constant * step * step * self._scales.norm(change) / limit
+        noise = max(self._noise, left)
+        missed = self._constant * step * step
+        error = missed * self._scales.norm(change) / self._limit(step, noise, 1.0)
+        if self.turning > 1.0:
+            along = self._scales.along(change, self.velocities)
+            error = max(error, missed * along / self._limit(step, noise, self.turning))
+        return error
 
     def of_positions(self, rate: list[float], step: float) -> float:
         """Return the error that goes with positions, where constraints take that of velocities.
@@ -400,6 +407,8 @@ class StepError:
         bodies, scales, now = self._bodies, self._scales, self._accelerations.tolist()
         if scales.resting:
             scales.set_out(self._velocities.tolist(), now)
+        if bodies.turning > 1.0:
+            bodies.velocities = self._velocities.tolist()
         error, left = bodies.tried(now, step), 0.0
         if error > 1.0:
             if self._turning is None:

@@ -134,6 +134,20 @@ class FoundScales:
             squares[i] = squares[i] / mass if mass > 0.0 else 0.0
         return squares
 
+    def along(self, vector: list[float], velocities: list[float]) -> float:
+        """Return the largest part of a vector along a body's velocity, in the kinetic norm."""
+        products = [vector[i] * velocities[i] for i in range(len(vector))]
+        speeds, largest = self.squares(velocities), 0.0
+        i = 0
+        for end, mass, square in zip(self._ends, self.masses, speeds, strict=True):
+            total = 0.0
+            while i < end:
+                total += self.inertias[i] * products[i]
+                i += 1
+            if 0.0 < mass < math.inf and square > 0.0:
+                largest = max(largest, abs(total) / (mass * math.sqrt(square)))
+        return largest
+
     def _sums(self, vector: list[float]) -> list[float]:
         """Return the sum of inertia times square over each node's coordinates."""
         found: list[float] = []

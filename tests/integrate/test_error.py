@@ -205,13 +205,16 @@ def test_constraints_leave_what_positions_miss_along_a_circle():
     assert error.of_positions([0.0, w * w, 0.0], h) == pytest.approx((w * h) ** 3 / 6.0 / 1e-3)
 
 
-def test_what_is_to_turn_yet_may_be_off_by_less():
+def test_what_is_to_turn_yet_may_be_off_by_less_along_its_way():
     error = errors()
-    one = error.tried([1.0, 0.0, 0.0], 0.01)
+    one = error.tried([3.0, 4.0, 0.0], 0.01)
+    error.velocities = [0.0, 7.0, 0.0]
     error.turning = 0.5
     assert error.error(error.change, 0.01) == one
-    error.turning = 7.0
-    assert error.error(error.change, 0.01) == pytest.approx(7.0 * one)
+    error.turning = 10.0
+    assert error.error(error.change, 0.01) == pytest.approx(10.0 * 0.8 * one)
+    error.velocities = [4.0, -3.0, 0.0]
+    assert error.error(error.change, 0.01) == one
 
 
 def turning_after(motion, *, duration=10.0, time=2.0, steps=2000, quaternion=False):

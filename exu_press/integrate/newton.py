@@ -31,10 +31,6 @@ BALANCE = 0.2
 PATIENCE = 4
 """Newton iterations after which rounding is thought of; most steps take one or two."""
 
-WORN = 0.3
-"""Of what a kept Jacobian may leave of the forces: where a step leaves more, the next has a fresh
-one. What it leaves grows from step to step, and to let it fail costs an iteration."""
-
 REACH = 2.0
 """Over the last step, how far ahead its rate of change is believed by the predictor."""
 
@@ -47,7 +43,7 @@ class Newton:
         problem = task.problem
         self._solver, self._joints, self._scales = task.solver, problem.joints, task.scales
         self._part = BALANCE * task.tolerance
-        self._rounding, self._kept_balance = task.tuning.rounding, task.tuning.kept_balance
+        self._rounding = task.tuning.rounding
         self._jacobian = FlexibleJacobian(task) if problem.modal_stiffness else None
         current = problem.current
         self._positions, self._velocities = current.positions, current.velocities
@@ -88,19 +84,14 @@ class Newton:
         """Set what an iteration of a step (s) starts from, and where it may end."""
         if not iteration:
             self._advance(step)
-            self._accept(self._begin_jacobian(step, self._tolerance()))
+            if self._jacobian is not None:
+                self._jacobian.begin(step, self._tolerance())
+            self._accept(self._tolerance())
         elif iteration == 1 and self._jacobian is not None:
             self._jacobian.renew()
         elif iteration == PATIENCE and self._joints is not None:
             rounding = self._rounding * self._joints.damping * self._scales.speed
             self._accept(max(self._tolerance(), rounding))
-
-    def _begin_jacobian(self, step: float, usual: float) -> float:
-        """Return what a step (s) may leave of the forces, N: less with a kept Jacobian."""
-        if self._jacobian is None:
-            return usual
-        less = self._kept_balance * usual
-        return less if self._jacobian.keep(step, WORN * less) else usual
 
     def _advance(self, step: float) -> None:
         """Add the expected accelerations to a state that was advanced without any.
@@ -161,6 +152,7 @@ class FlexibleJacobian:
     def __init__(self, task: Task) -> None:
         """Let the solver of a task take this Jacobian instead of its own."""
         self._convergence: Any = task.solver.conv
+        self._worn = task.tuning.worn
         self._joints = task.problem.joints
         self._kept = False  # whether the step under way is tried with that of an earlier one
         self._step = 0.0  # that the last one was made for
@@ -170,18 +162,18 @@ class FlexibleJacobian:
         self._jacobian: Array = np.zeros((0, 0))
         task.solver.SetUserFunctionComputeNewtonJacobian(task.problem.mbs, self._compute)
 
-    def keep(self, step: float, most: float) -> bool:
-        """Return whether the step about to be tried starts with the Jacobian there is.
+    def begin(self, step: float, usual: float) -> None:
+        """Choose whether the step about to be tried starts with the Jacobian there is.
 
         Args:
             step: its size, s.
-            most: the last step may have left of the forces, N.
+            usual: what a step may leave of the forces, N.
         """
         same = abs(step - self._step) <= SAME * step
+        most = self._worn * usual
         balanced = self._joints is not None and bool(self._convergence.residual <= most)
         self._kept = same and balanced
         self._convergence.jacobianUpdateRequested = not self._kept
-        return self._kept
 
     def renew(self) -> None:
         """Let the next iteration of the step have a fresh one, if it was tried with a kept one."""

@@ -72,8 +72,8 @@ class Tuning:
             (`exu_press.integrate.modes`).
         kept_steps: within so many of the longest steps, 45 degrees of the crank, errors that a film
             keeps may add up to the tolerance.
-        kept_balance: to which part of what is usual a kept Jacobian of flexible bodies is to
-            balance the forces; 0.0 keeps none.
+        worn: a Jacobian of flexible bodies serves steps of one size until one leaves more than this
+            of what a step may leave of the forces; 0.0 makes one for each step.
         refit: a step shorter than this, over the one that constrained velocities fit, makes them
             fit anew.
         largest_jump: of an inertia force within one step, over the run's largest one, from where
@@ -94,7 +94,7 @@ class Tuning:
     modal_mass: float = 1.0
     kept_steps: float = 30.0
 
-    kept_balance: float = 0.3
+    worn: float = 0.3
 
     refit: float = 0.35
 

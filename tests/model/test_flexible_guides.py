@@ -122,7 +122,7 @@ def test_stiff_it_hits_its_ways_as_the_rigid_slider(slider, body):
     for channel in ("slider_lateral", "slider_tilt", "guide_force", "guide_moment", "guide_loss"):
         there = np.interp(result.time, other.time, other[channel])
         assert np.abs(result[channel] - there).max() < 1e-2 * np.abs(there).max(), channel
-        assert result[channel][-1] == pytest.approx(there[-1], abs=1e-4 * np.abs(there).max()), (
+        assert result[channel][-1] == pytest.approx(there[-1], abs=3e-4 * np.abs(there).max()), (
             channel
         )
 

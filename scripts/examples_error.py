@@ -8,6 +8,7 @@ the finest. Run with: python scripts/examples_error.py [--quick] [--only NAME]
 
 import argparse
 import itertools
+import sys
 import time as clock
 
 import exudyn
@@ -18,6 +19,7 @@ from exudyn_examples import EXAMPLES
 from exudyn_examples.measure import error, run
 
 TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
+ENDED = Status.COMPLETED, Status.UNDER_RESOLVED
 FIXED = [100 * 4**k for k in range(6)]  # numbers of fixed steps
 
 
@@ -59,7 +61,7 @@ def at_equal_error(found, missed):
 
 
 def cell(done, missed, tolerance, faster):
-    if done.outcome.status not in (Status.COMPLETED, Status.UNDER_RESOLVED):
+    if done.outcome.status not in ENDED:
         return f"{done.outcome.status.value:>22s}"
     gain = "      " if np.isnan(faster) else f"{faster:5.1f}x"
     return f"{missed / tolerance:8.2g} {done.steps:6d} {gain}"
@@ -82,6 +84,8 @@ def main():
         end = example.short if options.quick else example.end
         its = [t for t in tolerances if t >= example.finest]
         fine = run(EXAMPLES[example.twin or name], tolerance=0.1 * its[-1], end=end)
+        if fine.outcome.status not in ENDED:
+            sys.exit(f"{name}: no reference: {fine.outcome.reason}")
         runs = [run(example, tolerance=t, end=end) for t in its]
         errors = [error(done, fine, example.positions) for done in runs]
         found = fixed_steps(example, end, fine, min(errors))

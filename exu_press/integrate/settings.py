@@ -57,9 +57,9 @@ class Tuning:
         many_steps: times tolerance^(-1/2), the number of steps of a run from which on each may
             miss less, as their errors add up (`exu_press.integrate.error`).
         foreseen: over the time so far, for how long velocities are believed to turn on likewise, to
-            one side: errors of speeds add up to errors of places then. With 1 a crank that a torque
-            runs up is twice as far off; without a limit the first swing of a pendulum, which might
-            be a turn, has six times the steps.
+            one side: errors of speeds add up to errors of places then. With 1 a rotor that a torque
+            runs up is twice as far off; without a limit a bar that falls on a hinge, which might go
+            on to turn, takes twice the steps.
         velocity_constant: of generalized-alpha's local error h^3 times the second derivative of the
             acceleration: 0.083 to 0.077 for spectral radii at infinity of 1 to 0.8, doubled.
         rounding: of positions and speeds, over the largest one, in each step: times 1 / (1 -

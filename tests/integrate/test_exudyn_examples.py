@@ -8,18 +8,21 @@ from exu_press import Status
 from exudyn_examples import EXAMPLES
 from exudyn_examples.measure import error, run
 
+ENDED = Status.COMPLETED, Status.UNDER_RESOLVED
+
 
 @cache
 def fine(name, tolerance, end):
-    return run(EXAMPLES[EXAMPLES[name].twin or name], tolerance=tolerance, end=end)
+    done = run(EXAMPLES[EXAMPLES[name].twin or name], tolerance=tolerance, end=end)
+    assert done.outcome.status in ENDED, done.outcome.reason
+    return done
 
 
 def follows(name, tolerance, finest, end, most=10.0):
     example = EXAMPLES[name]
     done = run(example, tolerance=tolerance, end=end)
     # impacts of hard balls are found, but their peaks are not to be trusted at loose tolerances
-    ends = (Status.COMPLETED, Status.UNDER_RESOLVED)
-    assert done.outcome.status in ends[: 1 + example.positions], done.outcome.reason
+    assert done.outcome.status in ENDED[: 1 + example.positions], done.outcome.reason
     reference = fine(name, 0.1 * max(finest, example.finest), end)
     assert 0.01 < error(done, reference, example.positions) / tolerance < most
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from scipy.linalg.lapack import dgetrf, dgetrs
 
 from exu_press.arrays import Array
 from exu_press.integrate.problem import Problem
@@ -397,7 +398,9 @@ class StepError:
         self._step = 0.0  # last tried, s
         self._first_order: FirstOrderError | None = None
         self._joints: list[JointError] = []
-        self._made, self._kept = 0, np.zeros((0, 0))  # Jacobians so far, inverse of the last one
+        self._made = 0  # Jacobians so far, and what the last one factorises into
+        self._factors: Any = None
+        self._pivots: Any = None
 
     def __call__(self, step: float) -> float:
         """Return the error of the step (s) that ends in the current state."""
@@ -498,39 +501,40 @@ class StepError:
 
         By far where a mechanism passes a position in which two of them nearly say the same.
         """
+        size, count = len(self._accelerations), self._solver.GetAEsize()
+        whole = len(self._solver.GetSystemJacobian())
         try:
-            inverse = self._inverse()
+            moved = np.abs(self._solved(np.eye(whole, count, count - whole))[:size]).sum(axis=1)
         except np.linalg.LinAlgError:  # constraints that say the same
             return 0.0
-        size, count = len(self._accelerations), self._solver.GetAEsize()
-        moved = np.abs(inverse[:size, len(inverse) - count :]).sum(axis=1)
         return EPSILON * self._scales.length * self._scales.norm(moved.tolist())
 
     def _filtered(self, *changes: list[float]) -> list[list[float]]:
         """Return what Newton's matrix, M (1 - alpha_m)/(1 - alpha_f) + ..., leaves of changes."""
         solver = self._solver
         before, mass = np.array(changes).T, solver.GetSystemMassMatrix()
-        size = len(before)
-        right = np.dot(mass, before) * ((1.0 - solver.alphaM) / (1.0 - solver.alphaF))
+        jacobian, size = solver.GetSystemJacobian(), len(before)
+        right = np.zeros((len(jacobian), len(changes)))
+        right[:size] = np.dot(mass, before) * ((1.0 - solver.alphaM) / (1.0 - solver.alphaF))
         try:
-            inverse = self._inverse()
-            filtered = np.dot(inverse[:size, :size], right)
+            filtered = self._solved(right)[:size]
             if not self._joints and _larger(filtered, before, mass):
                 # masses and springs make nothing larger, but constraints that nearly say the same
-                right = np.vstack([right, np.zeros((len(inverse) - size, len(changes)))])
-                filtered = np.linalg.lstsq(solver.GetSystemJacobian(), right, rcond=None)[0][:size]
+                filtered = np.linalg.lstsq(jacobian, right, rcond=None)[0][:size]
         except np.linalg.LinAlgError:  # constraints that say the same
             return list(changes)
         found: list[list[float]] = filtered.T.tolist()
         return found
 
-    def _inverse(self) -> Array:
-        """Return that of Newton's matrix, which may be the one of an earlier step."""
+    def _solved(self, right: Array) -> Any:
+        """Return the solution with Newton's matrix, which may be the one of an earlier step."""
         made = self._solver.it.newtonJacobiCount
         if made != self._made:
-            self._kept = np.linalg.inv(self._solver.GetSystemJacobian())
+            self._factors, self._pivots, singular = dgetrf(self._solver.GetSystemJacobian())
+            if singular:
+                raise np.linalg.LinAlgError
             self._made = made
-        return self._kept
+        return dgetrs(self._factors, self._pivots, right)[0]
 
 
 def _larger(after: Any, before: Any, mass: Any) -> bool:

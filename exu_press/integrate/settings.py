@@ -90,7 +90,7 @@ class Tuning:
 
     velocity_constant: float = 2.0 / 12.0
     rounding: float = 4e-15
-    beside_joints: float = 0.05
+    beside_joints: float = 0.1
     modal_mass: float = 1.0
     kept_steps: float = 30.0
 

@@ -112,7 +112,7 @@ PLAY = {
 @pytest.mark.parametrize("body", [{"youngs_modulus": 1e4 * STEEL}, {"modes": 0}])
 def test_stiff_it_hits_its_ways_as_the_rigid_slider(slider, body):
     """With both ends, on both sides, and with friction beside its middle."""
-    run = {**RUN, "solver": {"tolerance": 1e-5}, "revolutions": 0.1}
+    run = {**RUN, "solver": {"tolerance": 1e-6}, "revolutions": 0.1}
     load = {"push": {**PUSH, "face": BOTTOM}}
     flexible, rigid = with_rigid(slider(body=body, load=load, guide=PLAY, **run))
     result, other = simulate(flexible), simulate(rigid)

@@ -62,23 +62,28 @@ def test_the_nearest_one_is_first():
 @way
 def test_no_process_and_no_file_is_left_behind(by, forks, monkeypatch):
     by(forks)
-    monkeypatch.setattr(companions_of, "plan", lambda _: {4.0: LONG, 8.0: LONG})
+    monkeypatch.setattr(companions_of, "plan", lambda _: {0.5: LONG, 8.0: LONG})
     begun = time.monotonic()
     with Companions(LONG) as companions:
-        directory, process = companions._directory, companions._process.pid
+        directory, processes = companions._directory, [p.pid for p in companions._processes]
     assert time.monotonic() - begun < 10.0
     assert not directory.exists()
-    with pytest.raises(ProcessLookupError):
-        os.kill(process, 0)
+    assert len(processes) == 2
+    for process in processes:
+        with pytest.raises(ProcessLookupError):
+            os.kill(process, 0)
 
 
 @posix
 @way
-def test_a_process_that_is_killed_says_so(by, forks, monkeypatch):
+@pytest.mark.parametrize("number", [0, 1])
+def test_a_process_that_is_killed_says_so(by, forks, number, monkeypatch):
     by(forks)
-    monkeypatch.setattr(companions_of, "plan", lambda _: {4.0: SHORT, 8.0: LONG})
+    scenes = {0.5: SHORT, 4.0: SHORT, 8.0: SHORT}
+    scenes[(0.5, 4.0)[number]] = LONG
+    monkeypatch.setattr(companions_of, "plan", lambda _: scenes)
     with Companions(LONG) as companions:
-        os.kill(companions._process.pid, signal.SIGTERM)
+        os.kill(companions._processes[number].pid, signal.SIGTERM)
         with pytest.raises(RuntimeError, match=r"companion run failed \(-15\)"):
             list(companions.results())
 
@@ -126,7 +131,9 @@ def test_ctrl_c_ends_both_at_once(tmp_path):
         os.killpg(run.pid, 0)
 
 
-def test_impacts_have_three_beside_flexible_bodies_too():
+def test_impacts_on_flexible_bodies_have_a_finer_companion():
+    """Coarser runs do not follow the vibrations: peaks agree at 1e-3 and 4e-3, 1.5 % off both."""
     bodies = flexible_press(modes=4)
-    assert list(plan(Scene(bodies=bodies))) == [4.0, 8.0, 16.0]
-    assert list(plan(Scene(bodies=bodies, joints={}))) == [4.0, 8.0]
+    assert list(plan(Scene(bodies=bodies))) == [0.5, 8.0]
+    assert list(plan(Scene(bodies=bodies, solver={"tolerance": 3e-3}))) == [0.25, 8.0]
+    assert min(plan(Scene(bodies=bodies, joints={}))) > 1.0

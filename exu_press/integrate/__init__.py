@@ -1,8 +1,9 @@
 """Integration: Exudyn's generalized-alpha with steps by tolerance, for any Exudyn system."""
 
+from exu_press.integrate.modes import follow_modes
 from exu_press.integrate.outcome import Advice, Outcome, Status
 from exu_press.integrate.scales import Scales
 from exu_press.integrate.settings import Tuning
 from exu_press.integrate.solve import solve_dynamic
 
-__all__ = ["Advice", "Outcome", "Scales", "Status", "Tuning", "solve_dynamic"]
+__all__ = ["Advice", "Outcome", "Scales", "Status", "Tuning", "follow_modes", "solve_dynamic"]

@@ -8,9 +8,10 @@ go with h^4. That is the same as another mass of the modes,
 
     M - kappa h^2 K,
 
-with which forces at rest stay what they are. For a spectral radius of 1 it is the method of Fox and
-Goodwin for the modes alone, Newmark's with beta = 1/12. Modes for which steps are too long keep
-their mass. The energies of a run are those of M.
+with which forces at rest stay what they are. Each mode of a body has m / (1 + kappa (h omega)^2),
+which is the same to this order, and positive in steps of any size. For a spectral radius of 1 it is
+the method of Fox and Goodwin for the modes alone, Newmark's with beta = 1/12. The energies of a run
+are those of M.
 
 Source: L. Fox and E. T. Goodwin, Some new methods for the numerical integration of ordinary
 differential equations, Mathematical Proceedings of the Cambridge Philosophical Society 45 (1949);

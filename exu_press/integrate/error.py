@@ -9,9 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.linalg.lapack import dgetrf, dgetrs
 
-from exu_press.arrays import Array
 from exu_press.integrate.problem import Problem
 from exu_press.integrate.scales import FoundScales
 from exu_press.integrate.settings import SAME, Task, Tuning
@@ -398,9 +396,6 @@ class StepError:
         self._step = 0.0  # last tried, s
         self._first_order: FirstOrderError | None = None
         self._joints: list[JointError] = []
-        self._made = 0  # Jacobians so far, and what the last one factorises into
-        self._factors: Any = None
-        self._pivots: Any = None
 
     def __call__(self, step: float) -> float:
         """Return the error of the step (s) that ends in the current state."""
@@ -501,10 +496,11 @@ class StepError:
 
         By far where a mechanism passes a position in which two of them nearly say the same.
         """
+        jacobian = np.asarray(self._solver.GetSystemJacobian())
         size, count = len(self._accelerations), self._solver.GetAEsize()
-        whole = len(self._solver.GetSystemJacobian())
+        of_constraints = np.eye(len(jacobian), count, count - len(jacobian))
         try:
-            moved = np.abs(self._solved(np.eye(whole, count, count - whole))[:size]).sum(axis=1)
+            moved = np.abs(np.linalg.solve(jacobian, of_constraints)[:size]).sum(axis=1)
         except np.linalg.LinAlgError:  # constraints that say the same
             return 0.0
         return EPSILON * self._scales.length * self._scales.norm(moved.tolist())
@@ -513,11 +509,11 @@ class StepError:
         """Return what Newton's matrix, M (1 - alpha_m)/(1 - alpha_f) + ..., leaves of changes."""
         solver = self._solver
         before, mass = np.array(changes).T, solver.GetSystemMassMatrix()
-        jacobian, size = solver.GetSystemJacobian(), len(before)
+        jacobian, size = np.asarray(solver.GetSystemJacobian()), len(before)
         right = np.zeros((len(jacobian), len(changes)))
         right[:size] = np.dot(mass, before) * ((1.0 - solver.alphaM) / (1.0 - solver.alphaF))
         try:
-            filtered = self._solved(right)[:size]
+            filtered = np.linalg.solve(jacobian, right)[:size]
             if not self._joints and _larger(filtered, before, mass):
                 # masses and springs make nothing larger, but constraints that nearly say the same
                 filtered = np.linalg.lstsq(jacobian, right, rcond=None)[0][:size]
@@ -525,16 +521,6 @@ class StepError:
             return list(changes)
         found: list[list[float]] = filtered.T.tolist()
         return found
-
-    def _solved(self, right: Array) -> Any:
-        """Return the solution with Newton's matrix, which may be the one of an earlier step."""
-        made = self._solver.it.newtonJacobiCount
-        if made != self._made:
-            self._factors, self._pivots, singular = dgetrf(self._solver.GetSystemJacobian())
-            if singular:
-                raise np.linalg.LinAlgError
-            self._made = made
-        return dgetrs(self._factors, self._pivots, right)[0]
 
 
 def _larger(after: Any, before: Any, mass: Any) -> bool:

@@ -18,17 +18,13 @@ differential equations, Mathematical Proceedings of the Cambridge Philosophical 
 T. J. R. Hughes, The Finite Element Method (1987), 9.1.
 """
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import exudyn as exu
 import numpy as np
 from exudyn.itemInterface import ObjectGenericODE2, VObjectGenericODE2
-from scipy.linalg import block_diag, eigh
 
 from exu_press.arrays import Array
-
-if TYPE_CHECKING:
-    from exu_press.integrate.settings import Task
 
 __all__ = ["ModalMass", "follow_modes", "modal_item"]
 
@@ -61,28 +57,27 @@ def modal_item(mbs: exu.MainSystem) -> int | None:
 class ModalMass:
     """What the modes' mass is changed by in steps of a size."""
 
-    def __init__(self, task: "Task") -> None:
-        """Take what is solved.
+    def __init__(self, mbs: exu.MainSystem, solver: Any, part: float) -> None:
+        """Take a system.
 
-        Where steps follow a smooth motion, all modes keep their mass: what they carry would have to
-        change with each step's size.
+        Args:
+            mbs: the system.
+            solver: that advances it.
+            part: of what keeps the frequencies; 0.0 leaves the modes their own mass.
         """
-        self._mbs = mbs = task.problem.mbs
-        self._solver, self._part = task.solver, task.tuning.modal_mass
-        smooth = task.problem.joints is None and not task.fixed
-        self._item = None if smooth else modal_item(mbs)
+        self._mbs, self._solver, self._part = mbs, solver, part
+        self._item = modal_item(mbs) if part > 0.0 else None
         self._step = 0.0
         self._squares: Array = np.zeros(0)  # of the frequencies, 1/s^2
         self._weights: Array = np.zeros((0, 0))  # M times the modes of K and M
         if self._item is not None:
             within = [int(node) for node in mbs.GetObject(self._item)["nodeNumbers"]]
             bodies = [item for item in _bodies(mbs) if int(item["nodeNumbers"][1]) in within]
-            stiffness, mass = (
-                block_diag(*(item[name].Convert2DenseMatrix() for item in bodies))
-                for name in ("stiffnessMatrixReduced", "massMatrixReduced")
-            )
-            self._squares, modes = eigh(stiffness, mass)
-            self._weights = mass @ modes
+            stiffness = _diagonal([item["stiffnessMatrixReduced"] for item in bodies])
+            root = np.linalg.cholesky(_diagonal([item["massMatrixReduced"] for item in bodies]))
+            inverse = np.linalg.inv(root)
+            self._squares, modes = np.linalg.eigh(inverse @ stiffness @ inverse.T)
+            self._weights = root @ modes
 
     def fit(self, step: float) -> None:
         """Let the modes have the mass that belongs to a step, s; 0.0 leaves them their own."""
@@ -96,6 +91,16 @@ class ModalMass:
         changes = self._weights * (-squares / (1.0 + squares)) @ self._weights.T
         mass.SetWithDenseMatrix(changes, useDenseMatrix=False)
         self._mbs.SetObjectParameter(self._item, "massMatrix", mass)
+
+
+def _diagonal(containers: list[Any]) -> Array:
+    """Return a matrix with those of Exudyn's containers along its diagonal."""
+    blocks = [container.Convert2DenseMatrix() for container in containers]
+    ends = np.cumsum([len(block) for block in blocks])
+    found = np.zeros((ends[-1], ends[-1]))
+    for block, end in zip(blocks, ends, strict=True):
+        found[end - len(block) : end, end - len(block) : end] = block
+    return found
 
 
 def _bodies(mbs: exu.MainSystem) -> list[dict[str, Any]]:

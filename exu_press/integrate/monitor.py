@@ -68,7 +68,10 @@ class Monitor:
         self._task, self._progress = task, progress
         self._constraints = Constraints(task)
         self._step_change = StepChange(task, self._constraints)
-        self._modal_mass = ModalMass(task)
+        # where steps follow a smooth motion, what modes carry would change with each step's size
+        smooth = task.problem.joints is None and not task.fixed
+        modal_mass = 0.0 if smooth else task.tuning.modal_mass
+        self._modal_mass = ModalMass(task.problem.mbs, task.solver, modal_mass)
         self._newton = Newton(task)
         self._estimate = StepError(task)
         self.control: StepControl | FixedSteps = (

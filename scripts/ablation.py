@@ -25,7 +25,13 @@ GRID = 4000  # instants at which runs are compared
 FINER = 1e-2
 BUDGET = 50_000  # steps; a variant that needs more counts as stopped
 
-OFF = {"factor_max": 1e9, "beside_joints": 1e9, "modal_mass": 0.0, "refit": 0.0}
+OFF = {
+    "factor_max": 1e9,
+    "beside_joints": 1.0,
+    "penetration": 1e9,
+    "modal_mass": 0.0,
+    "refit": 0.0,
+}
 """Numbers at which their rule does nothing."""
 
 

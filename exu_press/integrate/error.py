@@ -301,6 +301,7 @@ class JointError:
         limit: float,
         drift: float,
         rounding: float,
+        penetration: float,
     ) -> None:
         """Take a joint and its scales.
 
@@ -310,8 +311,11 @@ class JointError:
             drift: the same over the step, m/s, where a film alone lies between the surfaces: it
                 keeps what each step leaves, always on the same side, so that errors add up.
             rounding: of positions, as it alternates, m; no error below it counts as 1.
+            penetration: what that may be off by, over itself, as a part of the same of an
+                eccentricity, over the clearance.
         """
         self._joint = joint
+        self._penetration = penetration
         self._limit = limit
         self._rounding = rounding
         self._drift = drift if joint.reach == math.inf else math.inf
@@ -329,7 +333,7 @@ class JointError:
         error = missed / max(min(self._limit, self._drift * step), rounding)
         depth = math.hypot(*place) - joint.reach
         if depth > 0.0:
-            relative = max(LEAST_PENETRATION, depth / joint.clearance)
+            relative = max(LEAST_PENETRATION, self._penetration * depth / joint.clearance)
             error = max(error, abs(along) / max(relative * self._limit, rounding))
         return error
 
@@ -476,20 +480,23 @@ class StepError:
         noise = self._scales.alternating(tuning.rounding, self._solver.alphaF)
         if len(problem.start.rates):
             self._first_order = FirstOrderError(problem, self._per_step)
-        of_bodies = self._per_step
+        per_step = self._per_step
         if problem.joints is None:
             duration = task.end - task.start
             self._turning = Turning(problem, self._scales, duration, tuning.foreseen)
         else:
             whole = self._per_step.whole
-            of_bodies = ErrorPerStep(tuning.beside_joints * self._tolerance)
+            of_bodies, penetration = tuning.beside_joints * whole, tuning.penetration
+            if problem.modes and tuning.modal_mass > 0.0:
+                of_bodies, penetration = tuning.vibrating * self._tolerance, 1.0
+            per_step = ErrorPerStep(of_bodies)
             per_time = task.tolerance / (tuning.kept_steps * task.largest)
             self._joints = [
-                JointError(j, whole * j.clearance, per_time * j.clearance, noise)
+                JointError(j, whole * j.clearance, per_time * j.clearance, noise, penetration)
                 for j in problem.joints.joints
             ]
         start = self.start or problem.start.accelerations.tolist()
-        return BodyError(start, of_bodies, self._scales, tuning, noise)
+        return BodyError(start, per_step, self._scales, tuning, noise)
 
     def _left_in_constraints(self) -> float:
         """Return how far the last digits of constraints move a body, m.

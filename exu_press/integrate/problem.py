@@ -115,6 +115,7 @@ class Problem:
         reference: positions that those of a state are added to.
         nodes: of the second-order coordinates, in their order.
         joints: the system's clearance joints, if it has any.
+        modes: whether flexible bodies vibrate at their own frequencies (`follow_modes`).
         modal_stiffness: whether all stiffness is that of flexible bodies' modes.
         switching: whether there are data variables or general contacts, which Exudyn iterates on
             after Newton's method.
@@ -131,6 +132,7 @@ class Problem:
     reference: Array
     nodes: tuple[Node, ...]
     joints: JointOverlay | None
+    modes: bool
     modal_stiffness: bool
     switching: bool
     untold_rates: bool
@@ -178,6 +180,7 @@ class Problem:
             reference=reference,
             nodes=nodes,
             joints=joints if joints.joints else None,
+            modes=modal_item(mbs) is not None,
             modal_stiffness=modal,
             switching=data.DataSize() > 0 or mbs.NumberOfGeneralContacts() > 0,
             untold_rates=_untold_rates(mbs, objects),

@@ -66,8 +66,15 @@ class Tuning:
             spectral radius)^2, over the step's square, it is what alternates in accelerations.
             Measured at radii of 0.8 and 0.9 and steps of 2 and 10 us on a governor of rods and
             springs.
-        beside_joints: of the tolerance, what a body's velocity may be off by in a step of a system
-            with clearance joints. Impacts leave flexible bodies vibrating for thousands of steps.
+        beside_joints: what a body's velocity may be off by in a step of a system with clearance
+            joints, over what an eccentricity may.
+        penetration: what a penetration may be off by, over itself, as a part of what an
+            eccentricity in free flight may be off by over the clearance. The impact that ends a
+            damped contact hands the error on a thousandfold.
+        vibrating: of the tolerance, what a body's velocity may be off by in a step where impacts
+            leave flexible bodies vibrating at their own frequencies, which the estimate takes for
+            an error. Penetrations may be off by as much of themselves there as eccentricities of
+            the clearance.
         modal_mass: what the modes' mass is changed by, over what keeps their frequencies
             (`exu_press.integrate.modes`).
         kept_steps: within so many of the longest steps, 45 degrees of the crank, errors that a film
@@ -90,7 +97,9 @@ class Tuning:
 
     velocity_constant: float = 2.0 / 12.0
     rounding: float = 4e-15
-    beside_joints: float = 0.1
+    beside_joints: float = 1.0 / 6.0
+    penetration: float = 0.0625
+    vibrating: float = 0.1
     modal_mass: float = 1.0
     kept_steps: float = 30.0
 

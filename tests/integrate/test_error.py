@@ -129,13 +129,13 @@ def error_of(missed, *, place, reach=CLEARANCE, drift=math.inf, step=1e-4):
         eccentricity=there,
         relative_velocity=(0.0, 0.0),
     )
-    return JointError(joint, LIMIT, drift, 1e-14).error(step)
+    return JointError(joint, LIMIT, drift, 1e-14, TUNING.penetration).error(step)
 
 
 def test_a_penetration_counts_against_itself():
     deep = (CLEARANCE + 5e-6, 0.0)
     across = error_of((1e-10, 0.0), place=deep)
-    assert across == pytest.approx(0.1 / 0.05, rel=1e-3)
+    assert across == pytest.approx(0.1 / (TUNING.penetration * 0.05), rel=1e-3)
     assert error_of((0.0, 1e-10), place=deep) == pytest.approx(0.1)
     assert error_of((1e-10, 0.0), place=(5e-5, 0.0)) == pytest.approx(0.1)
 

@@ -112,7 +112,7 @@ SYSTEMS: dict[str, Callable] = {
     "press ideal": partial(scene, joints={}, revolutions=0.5),
     "press lubricated": partial(scene, revolutions=0.15),
     "press dry": partial(scene, joints=DRY, revolutions=0.15),
-    "press flexible": partial(scene, joints={}, bodies=flexible_press(), revolutions=0.1),
+    "press flexible": partial(scene, bodies=flexible_press(modes=8), revolutions=0.12),
     "slider-crank dry": partial(
         scene, mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=0.15
     ),

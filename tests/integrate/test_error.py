@@ -222,8 +222,9 @@ def turning_after(motion, *, duration=10.0, time=2.0, steps=2000, quaternion=Fal
     size = 4 if quaternion else 2
     state = SimpleNamespace(velocities=np.zeros(size), accelerations=np.zeros(size))
     node = Node(0, "", 0, size, 2.0, displacements=2, quaternion=quaternion)
-    problem = SimpleNamespace(nodes=(node,), current=state)
-    scales = SimpleNamespace(masses=[2.0], inertias=[2.0] * size)
+    problem = SimpleNamespace(nodes=(node,), current=state, length=1.0)
+    scales = FoundScales(Scales(speed=1.0, force=1.0), problem, longest=1.0)
+    scales.masses, scales.inertias = [2.0], [2.0] * size
     turning = Turning(problem, scales, duration, foreseen=3.0)
     for i in range(1, steps + 1):
         state.velocities, state.accelerations = motion(i * time / steps)

@@ -84,9 +84,10 @@ class Newton:
         """Set what an iteration of a step (s) starts from, and where it may end."""
         if not iteration:
             self._advance(step)
+            usual = self._tolerance()
             if self._jacobian is not None:
-                self._jacobian.begin(step, self._tolerance())
-            self._accept(self._tolerance())
+                self._jacobian.begin(step, usual)
+            self._accept(usual)
         elif iteration == 1 and self._jacobian is not None:
             self._jacobian.renew()
         elif iteration == PATIENCE and self._joints is not None:

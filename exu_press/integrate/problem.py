@@ -157,14 +157,14 @@ class Problem:
             raise InputError("mbs is not assembled: call mbs.Assemble() first")
         data: Any = mbs.systemData
         objects = [mbs.GetObject(number) for number in range(data.NumberOfObjects())]
-        joints = overlay_of(mbs)
+        joints, modes = overlay_of(mbs), modal_item(mbs)
         kinds = [item["objectType"] for item in objects]
         others = (
             kind
             for number, kind in enumerate(kinds)
             if not kind.startswith("Joint")
             and kind not in RIGID_OR_MODAL
-            and number not in (joints.item, modal_item(mbs))
+            and number not in (joints.item, modes)
         )
         modal = "FFRFreducedOrder" in kinds and all(
             kind.startswith("ConnectorCoordinate") and "Spring" not in kind for kind in others
@@ -180,7 +180,7 @@ class Problem:
             reference=reference,
             nodes=nodes,
             joints=joints if joints.joints else None,
-            modes=modal_item(mbs) is not None,
+            modes=modes is not None,
             modal_stiffness=modal,
             switching=data.DataSize() > 0 or mbs.NumberOfGeneralContacts() > 0,
             untold_rates=_untold_rates(mbs, objects),

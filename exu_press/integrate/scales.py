@@ -96,7 +96,7 @@ class FoundScales:
         """Be told of a state."""
         if self.fixed:
             return
-        energies, masses = self._sums(velocities), self.masses
+        energies, masses = self._sums(velocities, velocities), self.masses
         speed_2 = 0.0
         for i in range(len(masses)):
             if energies[i] > self._energies[i]:
@@ -128,7 +128,7 @@ class FoundScales:
 
     def squares(self, vector: list[float]) -> list[float]:
         """Return the squares of each body's kinetic norm of a vector over all coordinates."""
-        squares, masses = self._sums(vector), self.masses
+        squares, masses = self._sums(vector, vector), self.masses
         for i in range(len(squares)):
             mass = masses[i]
             squares[i] = squares[i] / mass if mass > 0.0 else 0.0
@@ -136,28 +136,22 @@ class FoundScales:
 
     def along(self, vector: list[float], velocities: list[float]) -> float:
         """Return the largest part of a vector along a body's velocity, in the kinetic norm."""
-        products = [vector[i] * velocities[i] for i in range(len(vector))]
-        speeds, largest = self.squares(velocities), 0.0
-        i = 0
-        for end, mass, square in zip(self._ends, self.masses, speeds, strict=True):
-            total = 0.0
-            while i < end:
-                total += self.inertias[i] * products[i]
-                i += 1
+        products, squares = self._sums(vector, velocities), self.squares(velocities)
+        largest = 0.0
+        for product, mass, square in zip(products, self.masses, squares, strict=True):
             if 0.0 < mass < math.inf and square > 0.0:
-                largest = max(largest, abs(total) / (mass * math.sqrt(square)))
+                largest = max(largest, abs(product) / (mass * math.sqrt(square)))
         return largest
 
-    def _sums(self, vector: list[float]) -> list[float]:
-        """Return the sum of inertia times square over each node's coordinates."""
+    def _sums(self, one: list[float], other: list[float]) -> list[float]:
+        """Return the sum of inertia times both vectors' values over each node's coordinates."""
         found: list[float] = []
         inertias = self.inertias
         i = 0
         for end in self._ends:
             total = 0.0
             while i < end:
-                value = vector[i]
-                total += inertias[i] * value * value
+                total += inertias[i] * one[i] * other[i]
                 i += 1
             found.append(total)
         return found

@@ -1,9 +1,8 @@
 """Integration: Exudyn's generalized-alpha with steps by tolerance, for any Exudyn system."""
 
-from exu_press.integrate.modes import follow_modes
-from exu_press.integrate.outcome import Advice, Outcome, Status
-from exu_press.integrate.scales import Scales
+from exu_press.integrate.problem import Scales
+from exu_press.integrate.scheme import follow_modes
 from exu_press.integrate.settings import Tuning
-from exu_press.integrate.solve import solve_dynamic
+from exu_press.integrate.solve import Advice, Outcome, Status, solve_dynamic
 
 __all__ = ["Advice", "Outcome", "Scales", "Status", "Tuning", "follow_modes", "solve_dynamic"]

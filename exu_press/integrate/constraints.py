@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.arrays import Array
-from exu_press.integrate.settings import SAME, SWITCHED, Task
+from exu_press.integrate.settings import SAME, SWITCHED, Task, inertia_factor
 
 __all__ = ["Constraints", "StepChange", "fit_data", "fit_start", "start_rates"]
 
@@ -384,7 +384,7 @@ class StepChange:
         solver = self._solver
         jacobian = np.asarray(solver.GetSystemJacobian())
         directions, forces = jacobian[-count:, :size], jacobian[:size, :size]
-        inertia = (1.0 - solver.alphaM) / (1.0 - solver.alphaF) * solver.GetSystemMassMatrix()
+        inertia = inertia_factor(solver) * solver.GetSystemMassMatrix()
         found = self._mended(0.5 * (forces + forces.T), directions)
         for change in found:
             if change @ forces @ change < MORE * (change @ inertia @ change):

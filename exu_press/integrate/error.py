@@ -10,9 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.integrate.problem import Problem
-from exu_press.integrate.scales import FoundScales
-from exu_press.integrate.settings import SAME, Task, Tuning
+from exu_press.integrate.problem import FoundScales, Problem
+from exu_press.integrate.settings import SAME, Task, Tuning, inertia_factor
 from exu_press.joints.joint import ClearanceJoint
 
 __all__ = ["BodyError", "ErrorPerStep", "FirstOrderError", "JointError", "StepError", "Turning"]
@@ -518,7 +517,7 @@ class StepError:
         before, mass = np.array(changes).T, solver.GetSystemMassMatrix()
         jacobian, size = np.asarray(solver.GetSystemJacobian()), len(before)
         right = np.zeros((len(jacobian), len(changes)))
-        right[:size] = np.dot(mass, before) * ((1.0 - solver.alphaM) / (1.0 - solver.alphaF))
+        right[:size] = np.dot(mass, before) * inertia_factor(solver)
         try:
             filtered = np.linalg.solve(jacobian, right)[:size]
             if not self._joints and _larger(filtered, before, mass):

@@ -18,8 +18,7 @@ from exu_press.integrate.constraints import (
     start_rates,
 )
 from exu_press.integrate.error import StepError
-from exu_press.integrate.modes import ModalMass
-from exu_press.integrate.newton import Newton
+from exu_press.integrate.scheme import ModalMass, Newton
 from exu_press.integrate.settings import Task
 from exu_press.integrate.stepping import FixedSteps, Resolution, StepControl
 from exu_press.progress import Progress

@@ -13,10 +13,9 @@ from typing import Any
 import exudyn as exu
 
 from exu_press.errors import InputError
-from exu_press.integrate.problem import Problem
-from exu_press.integrate.scales import FoundScales, Scales
+from exu_press.integrate.problem import FoundScales, Problem, Scales
 
-__all__ = ["SAME", "SWITCHED", "Task", "Tuning", "prepared", "refuse_unusable"]
+__all__ = ["SAME", "SWITCHED", "Task", "Tuning", "inertia_factor", "prepared", "refuse_unusable"]
 
 SAME = 1e-6
 """Steps that differ by less, relative, are one size: the clock's last digits."""
@@ -76,7 +75,7 @@ class Tuning:
             an error. Penetrations may be off by as much of themselves there as eccentricities of
             the clearance.
         modal_mass: what the modes' mass is changed by, over what keeps their frequencies
-            (`exu_press.integrate.modes`).
+            (`exu_press.integrate.scheme`).
         kept_steps: within so many of the longest steps, 45 degrees of the crank, errors that a film
             keeps may add up to the tolerance.
         worn: a Jacobian of flexible bodies serves steps of one size until one leaves more than this
@@ -156,6 +155,12 @@ class Task:
             usual = of_film if problem.lubricated else tuning.first_step * largest
             self.first = max(integration.initialStepSize or usual, self.smallest)
         self.first = min(self.first, largest)
+
+
+def inertia_factor(solver: Any) -> float:
+    """Return by what masses count in Newton's matrix, (1 - alpha_m)/(1 - alpha_f)."""
+    factor: float = (1.0 - solver.alphaM) / (1.0 - solver.alphaF)
+    return factor
 
 
 def refuse_unusable(settings: exu.SimulationSettings, tolerance: float | None) -> None:

@@ -1,23 +1,124 @@
-"""Advance any assembled Exudyn system with a tolerance instead of a step."""
+"""Advance any assembled Exudyn system with a tolerance instead of a step, and say how it ended.
 
+The words of `Advice` are those for any Exudyn system. A scene's own (`exu_press.solving`) name its
+keys.
+"""
+
+import math
 import time as clock
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import dataclass
+from enum import Enum
+from typing import Any
 
 import exudyn as exu
 from threadpoolctl import threadpool_limits
 
 from exu_press.integrate.monitor import Monitor
-from exu_press.integrate.outcome import Advice, Outcome, how_it_ended
-from exu_press.integrate.problem import Problem
-from exu_press.integrate.scales import Scales
+from exu_press.integrate.problem import Problem, Scales
 from exu_press.integrate.settings import Task, Tuning, prepared, refuse_unusable
+from exu_press.integrate.stepping import Unresolved
+from exu_press.joints.joint import ClearanceJoint
 from exu_press.progress import Progress
 
-__all__ = ["solve_dynamic"]
+__all__ = ["Advice", "Outcome", "Status", "solve_dynamic"]
 
 NO_SCALES = Scales()
 DEFAULTS = Tuning()
+
+SPENT = 1e-3
+"""Film thickness over clearance at which a run that gets no further has lost its film."""
+
+
+class Status(Enum):
+    """How a run ended; everything but COMPLETED makes exit status 3.
+
+    UNDER_RESOLVED reached its end too, but its steps did not resolve its impacts: its peaks are not
+    to be trusted. The others are early stops.
+    """
+
+    COMPLETED = "completed"
+    UNDER_RESOLVED = "under-resolved"
+    INTERRUPTED = "interrupted"
+    FILM_BROKE_DOWN = "film broke down"
+    STEP_TOO_SMALL = "step below minimum"
+    TOO_MANY_STEPS = "too many steps"
+    NOT_CONVERGED = "not converged"
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """Status, reason and statistics of an integration.
+
+    Attributes:
+        status: how it ended.
+        reason: when, where, why, and what to try; empty when completed.
+        end_time: the time reached, s.
+        wall_time: the integration alone, s.
+        steps: accepted steps.
+        rejected_steps: steps that were repeated with half the size.
+        newton_iterations: of all steps.
+        law_evaluations: how often the clearance joints' forces were asked for.
+    """
+
+    status: Status
+    reason: str
+    end_time: float
+    wall_time: float
+    steps: int
+    rejected_steps: int
+    newton_iterations: int
+    law_evaluations: int
+
+
+class Advice:
+    """Words for the places and the settings of a system."""
+
+    def __init__(self, problem: Problem, by_tolerance: bool) -> None:
+        """Speak of a problem, stepped by tolerance or with fixed steps."""
+        self.problem, self.by_tolerance = problem, by_tolerance
+
+    @property
+    def setting(self) -> str:
+        """What makes steps larger or smaller."""
+        return "tolerance" if self.by_tolerance else "step"
+
+    def place(self, time: float) -> str:
+        """Return where the run was at a time, s."""
+        return f"at t = {time:.6g} s"
+
+    def joint(self, joint: ClearanceJoint) -> str:
+        """Return what a clearance joint is called."""
+        assert self.problem.joints is not None
+        return self.problem.joints.number(joint)
+
+    def film(self) -> str:
+        """Return what helps a film that broke down."""
+        return "a mixed film (contact=, asperity_onset=), or a larger viscosity or length"
+
+    def smallest(self) -> str:
+        """Return what helps where steps became too small."""
+        return "a larger tolerance or a smaller settings.timeIntegration.minimumStepSize"
+
+    def budget(self) -> str:
+        """Return what helps where too many steps were needed."""
+        return f"an earlier end time, a larger {self.setting} or max_steps"
+
+    def convergence(self) -> str:
+        """Return what helps where Newton's method did not converge."""
+        return f"a smaller {self.setting}"
+
+    def cause(self) -> str:
+        """Return what is known of the system that explains why it does not get on, or nothing."""
+        function: Any = self.problem.mbs.GetPreStepUserFunction()
+        if function == 0:
+            return ""
+        return " (a pre-step function that changes constraints: offsetUserFunction instead)"
+
+    def resolution(self, worst: Unresolved) -> str:
+        """Return what resolves a run that leapt over its impacts."""
+        return f"a {self.setting} ten times smaller"
 
 
 def _never(time: float) -> float:
@@ -102,7 +203,7 @@ def solve_dynamic(
         wall_time = clock.perf_counter() - begun
         reached = problem.data.GetTime()
         progress.update(reached - task.start)
-    status, reason = how_it_ended(task, monitor, words, time=reached, failure=failure)
+    status, reason = _how_it_ended(task, monitor, words, time=reached, failure=failure)
     return Outcome(
         status=status,
         reason=reason,
@@ -124,3 +225,78 @@ def _silent_console() -> Iterator[None]:
         yield
     finally:
         exu.config.printToConsole = before
+
+
+def _how_it_ended(
+    task: Task, monitor: Monitor, advice: Advice, *, time: float, failure: str
+) -> tuple[Status, str]:
+    """Return status and reason of a run.
+
+    Args:
+        task: what was to be solved.
+        monitor: of the run.
+        advice: words for what to try.
+        time: reached, s.
+        failure: what Exudyn said, if it failed.
+    """
+    problem, smallest = task.problem, task.smallest
+    gone = (time - task.start) / (task.end - task.start)
+    if gone >= 1.0 - 1e-9:
+        worst = monitor.resolution.worst()
+        if worst is None:
+            return Status.COMPLETED, ""
+        return Status.UNDER_RESOLVED, (
+            f"under-resolved {advice.place(worst.time)}: {worst.jump:.0%} of the largest inertia "
+            f"force ({problem.nodes[worst.node].name}) within a step of {worst.step:.2g} s; peaks "
+            f"are the step's; try {advice.resolution(worst)}"
+        )
+    where = advice.place(time)
+    if monitor.interrupted:
+        return Status.INTERRUPTED, f"interrupted {where}"
+    if not monitor.go_on:
+        return Status.INTERRUPTED, f"stopped by a user function {where}"
+    if monitor.over_budget:
+        return Status.TOO_MANY_STEPS, (
+            f"{monitor.max_steps} steps were used up {where}, {gone:.1%} of the run; try "
+            f"{advice.budget()}{advice.cause()}"
+        )
+    for joint, ratio in _spent_films(problem):
+        return Status.FILM_BROKE_DOWN, (
+            f"film broke down {where}, eccentricity ratio {ratio:.4f} ({advice.joint(joint)}); "
+            f"try {advice.film()}"
+        )
+    busiest = _busiest_joint(problem, advice)
+    if not monitor.control.error <= 1.0:
+        return Status.STEP_TOO_SMALL, (
+            f"the tolerance needs a step below {smallest:.2g} s {where}{busiest}; try "
+            f"{advice.smallest()}{advice.cause()}"
+        )
+    said = f" [{failure.strip().splitlines()[0]}]" if failure.strip() else ""
+    return Status.NOT_CONVERGED, (
+        f"Newton's method did not converge {where}{busiest}, down to a step of {smallest:.2g} s; "
+        f"try {advice.convergence()}{advice.cause()}{said}"
+    )
+
+
+def _spent_films(problem: Problem) -> Iterator[tuple[ClearanceJoint, float]]:
+    """Yield the films that end the run, with their eccentricity ratios at its end."""
+    if problem.joints is None:
+        return
+    for joint in problem.joints.joints:
+        if joint.reach < math.inf:
+            continue  # what lies beyond the film is in its model
+        if joint.outside is not None:
+            yield joint, joint.outside
+        else:
+            gap = problem.joints.state(joint).gap
+            if gap < SPENT * joint.clearance:
+                yield joint, 1.0 - gap / joint.clearance
+
+
+def _busiest_joint(problem: Problem, advice: Advice) -> str:
+    """Return in words which clearance joint carries the largest force at the end, if one does."""
+    if problem.joints is None:
+        return ""
+    states = [(math.hypot(*problem.joints.state(j).force), j) for j in problem.joints.joints]
+    force, joint = max(states, key=lambda s: s[0] if math.isfinite(s[0]) else -1.0)
+    return f", {advice.joint(joint)} carrying {force:.3g} N"

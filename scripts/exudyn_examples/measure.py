@@ -8,8 +8,7 @@ import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 
 from exu_press import solve_dynamic
-from exu_press.integrate.problem import Problem
-from exu_press.integrate.scales import weights
+from exu_press.integrate.problem import Problem, weights
 
 __all__ = ["Run", "error", "run"]
 

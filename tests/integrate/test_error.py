@@ -5,11 +5,11 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from stand_in import problem_at
 
 from exu_press import Scene, simulate
 from exu_press.integrate.error import BodyError, ErrorPerStep, JointError, Turning
-from exu_press.integrate.problem import Node
-from exu_press.integrate.scales import FoundScales, Scales
+from exu_press.integrate.problem import FoundScales, Node, Scales
 from exu_press.integrate.settings import Tuning
 from exu_press.joints.path import Path
 from exu_press.scene import flexible_press
@@ -21,14 +21,8 @@ NOISE = 1e-13
 def errors(velocity_limit=1e-3, masses=(2.0,)):
     """Errors of bodies that rest at first; each of one mass and a moment of inertia of 0.5."""
     rest = np.zeros(3 * len(masses))
-    state = SimpleNamespace(positions=rest, velocities=rest, accelerations=rest)
-    problem = SimpleNamespace(
-        nodes=tuple(Node(i, "", 3 * i, 3, mass) for i, mass in enumerate(masses)),
-        current=state,
-        reference=rest,
-        length=1.0,
-        joints=None,
-    )
+    nodes = (Node(i, "", 3 * i, 3, mass) for i, mass in enumerate(masses))
+    problem = problem_at(nodes, rest)
     scales = FoundScales(Scales(speed=1.0, force=1.0), problem, longest=1.0)
     scales.begin(np.diag([value for mass in masses for value in (mass, mass, 0.5)]))
     return BodyError(
@@ -220,9 +214,9 @@ def test_what_is_to_turn_yet_may_be_off_by_less_along_its_way():
 def turning_after(motion, *, duration=10.0, time=2.0, steps=2000, quaternion=False):
     """The angle to come of a body whose velocity and acceleration are given at each time."""
     size = 4 if quaternion else 2
-    state = SimpleNamespace(velocities=np.zeros(size), accelerations=np.zeros(size))
     node = Node(0, "", 0, size, 2.0, displacements=2, quaternion=quaternion)
-    problem = SimpleNamespace(nodes=(node,), current=state, length=1.0)
+    problem = problem_at([node], np.zeros(size))
+    state = problem.current
     scales = FoundScales(Scales(speed=1.0, force=1.0), problem, longest=1.0)
     scales.masses, scales.inertias = [2.0], [2.0] * size
     turning = Turning(problem, scales, duration, foreseen=3.0)

@@ -6,8 +6,7 @@ import exudyn as exu
 import pytest
 
 from exu_press import InputError, Scene
-from exu_press.integrate.problem import Problem
-from exu_press.integrate.scales import Scales
+from exu_press.integrate.problem import Problem, Scales
 from exu_press.integrate.settings import Task, Tuning, prepared, refuse_unusable
 from exudyn_examples import EXAMPLES
 

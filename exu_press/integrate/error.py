@@ -375,7 +375,8 @@ class StepError:
     that is too much, what counts is the part that Newton's matrix lets through: constraints, films
     and contacts undo the rest within the step (L. F. Shampine's filter for stiff systems, see
     Hairer and Wanner, Solving Ordinary Differential Equations II, IV.8). Without films and contacts
-    also velocities that follow from constraints, at each instant against the tolerance itself.
+    also velocities that follow from constraints, at each instant against the tolerance itself. What
+    rounding moves in an equilibrium is no error.
 
     Clearance joints: what the eccentricity changes by, less the integral of its rate, against the
     joint's clearance and penetration, in films against the clearance and the time: `JointError`.
@@ -397,6 +398,7 @@ class StepError:
         self._bodies: BodyError | None = None
         self._turning: Turning | None = None
         self._step = 0.0  # last tried, s
+        self._noise = 0.0  # rounded positions in accelerations, times the step's square, m
         self._first_order: FirstOrderError | None = None
         self._joints: list[JointError] = []
 
@@ -406,12 +408,15 @@ class StepError:
             self._bodies = self._first_look()
         self._step = step
         bodies, scales, now = self._bodies, self._scales, self._accelerations.tolist()
-        if scales.resting:
+        if scales.resting and scales.norm(now) * step * step > self._noise:
             scales.set_out(self._velocities.tolist(), now)
+        still = scales.resting
         if bodies.turning > 1.0:
             bodies.velocities = self._velocities.tolist()
         error, left = bodies.tried(now, step), 0.0
-        if error > 1.0:
+        if still:
+            error = 0.0
+        elif error > 1.0:
             if self._turning is None:
                 (change,) = self._filtered(bodies.change)
                 error = bodies.error(change, step)
@@ -421,7 +426,7 @@ class StepError:
             if error > 1.0 and self._joints:
                 left = self._left_in_constraints()
                 error = bodies.error(change, step, left)
-        if not self._joints:  # else impacts and films need finer steps, by far
+        if not (still or self._joints):  # whose impacts and films need finer steps, by far
             offset = self._relative(bodies.offset(step))
             if not self._switching:  # whose accelerations jump
                 offset = max(offset, bodies.curvature(step, self._tolerance))
@@ -476,7 +481,7 @@ class StepError:
     def _first_look(self) -> BodyError:
         """Return the bodies' errors from the first step's beginning on; look at the rest too."""
         task, problem, tuning = self._task, self._task.problem, self._task.tuning
-        noise = self._scales.alternating(tuning.rounding, self._solver.alphaF)
+        noise = self._noise = self._scales.alternating(tuning.rounding, self._solver.alphaF)
         if len(problem.start.rates):
             self._first_order = FirstOrderError(problem, self._per_step)
         per_step = self._per_step

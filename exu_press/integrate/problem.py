@@ -52,6 +52,9 @@ MATERIAL_POINTS = {
 
 LIE_GROUP = "RigidBodyRotVecLG"
 
+REST = 1e-9
+"""Over its length, what a system moves by in the longest step up to which it is at rest."""
+
 ALONG_CABLES = "JointSliding", "JointSliding2D"
 """Joints one of whose algebraic unknowns is a place along a cable, m."""
 
@@ -317,7 +320,9 @@ class FoundScales:
     """The scales of a run so far.
 
     A system at rest has no speed yet: what its first accelerations make of it within the largest
-    step counts instead, or on their way through the widest clearance.
+    step counts instead, or on their way through the widest clearance. In an equilibrium these are
+    rounded forces over masses: what moves a billionth of its length in the largest step is the
+    least that counts (`REST`).
 
     Attributes:
         speed: m/s.
@@ -325,6 +330,7 @@ class FoundScales:
         inertias: of the coordinates, kg where they are displacements.
         length: of the coordinates whose last digits are rounded, m.
         fixed: whether all is given.
+        rest: speed up to which the system is at rest, m/s; 0.0 where all is given.
         masses: of the nodes, kg, infinite for what has no say; where the system gives none, the
             node's largest kinetic energy over half the square of `speed`.
     """
@@ -338,6 +344,7 @@ class FoundScales:
             longest: step, s.
         """
         self._given, self._problem, self._longest = given, problem, longest
+        self.rest = 0.0
         self.length = problem.length
         self.masses: list[float] = []
         self._ends = [node.start + node.size for node in problem.nodes]
@@ -361,6 +368,7 @@ class FoundScales:
         self.fixed = True not in self._own and None not in given
         if self.fixed:
             return
+        self._begin_at_rest()
         velocities = problem.current.velocities.tolist()
         accelerations = problem.current.accelerations.tolist()
         largest, time = self.norm(accelerations), self._longest
@@ -369,10 +377,29 @@ class FoundScales:
         self.update([time * value for value in accelerations], accelerations)
         self.update(velocities, accelerations)
 
+    def _begin_at_rest(self) -> None:
+        """Take what displaces all bodies by a billionth of their length for the least that counts.
+
+        Where nothing is displaced any speed will do, as energies count.
+        """
+        per_length = REST / self._longest
+        self.rest = per_length * self.length
+        if self._given.speed is None:
+            self.speed = self.rest if False in self._own else 1.0
+        if self._given.force is None:
+            lengths = [self.length if mass > 0.0 else 1.0 for mass in self.masses]
+            inertias = self._sums([1.0] * len(self.inertias), [1.0] * len(self.inertias))
+            weighed = [
+                length * (mass or inertia)
+                for length, mass, inertia in zip(lengths, self.masses, inertias, strict=True)
+                if mass < math.inf
+            ]
+            self.force = per_length / self._longest * math.hypot(*weighed)
+
     @property
     def resting(self) -> bool:
         """Whether the system moves by less than a billionth of its length in the longest step."""
-        return self.speed * self._longest <= 1e-9 * self.length
+        return self.speed <= self.rest
 
     def set_out(self, velocities: list[float], accelerations: list[float]) -> None:
         """Be told of a state that a step was tried to, in which a system may have left its rest."""
@@ -392,8 +419,6 @@ class FoundScales:
                 speed_2 = max(speed_2, energies[i] / masses[i])
         if self._given.speed is None:
             self.speed = max(self.speed, math.sqrt(speed_2))
-            if self.speed == 0.0 and True in self._own:
-                self.speed = 1.0  # nothing is displaced: any speed will do, energies count
         square = self.speed * self.speed
         for i in range(len(masses)):
             if self._own[i]:

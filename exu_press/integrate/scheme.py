@@ -48,6 +48,7 @@ class Newton:
         """Guide the solver of a task."""
         problem = task.problem
         self._solver, self._joints, self._scales = task.solver, problem.joints, task.scales
+        self._mbs, self._reference = problem.mbs, problem.reference
         self._part = BALANCE * task.tolerance
         self._rounding = task.tuning.rounding
         self._jacobian = FlexibleJacobian(task) if problem.modal_stiffness else None
@@ -96,9 +97,32 @@ class Newton:
             self._accept(usual)
         elif iteration == 1 and self._jacobian is not None:
             self._jacobian.renew()
-        elif iteration == PATIENCE and self._joints is not None:
-            rounding = self._rounding * self._joints.damping * self._scales.speed
-            self._accept(max(self._tolerance(), rounding))
+        elif iteration == PATIENCE:
+            self._accept(max(self._tolerance(), self._rounded()))
+
+    def _rounded(self) -> float:
+        """Return what the last digits of the state make of forces, N."""
+        if self._joints is not None:
+            return self._rounding * self._joints.damping * self._scales.speed
+        size, forces = self._residual()
+        state = self._positions, self._multipliers
+        before = [np.array(part) for part in state]
+        for part, whole in zip(state, (before[0] + self._reference, before[1]), strict=True):
+            part[0::2] += self._rounding * whole[0::2]
+            part[1::2] -= self._rounding * whole[1::2]
+        changed = np.linalg.norm(self._residual()[1] - forces)
+        for part, as_it_was in zip(state, before, strict=True):
+            part[:] = as_it_was
+        return size * float(changed / np.linalg.norm(forces)) if size > 0.0 else 0.0
+
+    def _residual(self) -> tuple[float, Array]:
+        """Return what forces and constraints leave in the current state, N, and it by coordinate.
+
+        The latter are scaled with the step, but all alike.
+        """
+        solver = self._solver
+        size = solver.ComputeNewtonResidual(self._mbs, self._mbs.sys["simulationSettings"])
+        return size, np.array(solver.GetSystemResidual())
 
     def _advance(self, step: float) -> None:
         """Add the expected accelerations to a state that was advanced without any.

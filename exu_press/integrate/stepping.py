@@ -146,6 +146,7 @@ class Resolution:
 
     Loads and prescribed motions of other systems may jump themselves, and steps end on that within
     what the tolerance leaves: a jump that changes no speed by a tenth of it is none of the step's.
+    In an equilibrium rounded forces come and go, and move nothing.
     """
 
     def __init__(self, task: Task) -> None:
@@ -191,7 +192,7 @@ class Resolution:
 
     def worst(self) -> Unresolved | None:
         """Return the step with the largest change of an inertia force, if it is too large."""
-        least = self._least * self._scales.speed
+        least = max(self._least * self._scales.speed, self._scales.rest)
         felt = [found for found in self._jumps if found[-1] > least]
         if self._steps < 2 or not felt:
             return None

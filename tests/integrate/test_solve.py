@@ -34,7 +34,9 @@ from exu_press.laws.contact import hertz, hunt_crossley, hysteretic
 from exu_press.laws.film import pinkus
 from exu_press.laws.friction import no_friction
 from exudyn_examples import EXAMPLES
+from exudyn_examples.flexible import cables, hold, weight
 from exudyn_examples.other import stick_slip
+from exudyn_examples.planar import bar, pin
 
 POSITION = exu.OutputVariableType.Coordinates
 TOLERANCES = [1e-2, 1e-3, 1e-4, 1e-5]
@@ -286,6 +288,38 @@ def test_a_load_that_jumps_at_a_tight_tolerance():
     mbs.Assemble()
     outcome = solve_dynamic(mbs, settings(0.12), tolerance=1e-6)
     assert outcome.status is not Status.STEP_TOO_SMALL, outcome.reason
+
+
+def hanging(mbs):
+    """Two bars below each other."""
+    before, place = mbs.AddObject(items.ObjectGround()), (0.0, 0.0)
+    for i in range(2):
+        body, half, _ = bar(mbs, (0.0, -i), (0.0, -i - 1.0), 1.0)
+        pin(mbs, before, place, body, (-half, 0.0))
+        before, place = body, (half, 0.0)
+    mbs.Assemble()
+
+
+def sagging(mbs):
+    """A stiff clamped cable in its static equilibrium."""
+    nodes, bodies = cables(mbs, 2.1e8, 1e-3, 1e-3)
+    for body in bodies:
+        weight(mbs, body)
+    hold(mbs, nodes[0], (0, 1, 3))
+    mbs.Assemble()
+    mbs.SolveStatic(settings(1.0), updateInitialValues=True)
+
+
+@pytest.mark.parametrize("system", [hanging, sagging])
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-5])
+def test_an_equilibrium_is_at_rest(system, tolerance):
+    """Rounded forces were to be balanced to a part of the next to nothing that they accelerate."""
+    mbs = exu.SystemContainer().AddSystem()
+    system(mbs)
+    outcome = solve_dynamic(mbs, settings(1.0), tolerance=tolerance)
+    assert outcome.status is Status.COMPLETED, outcome.reason
+    assert outcome.steps < 130 and outcome.rejected_steps == 0
+    assert np.abs(mbs.systemData.GetODE2Coordinates_t()).max() < 1e-9
 
 
 def unassembled():

@@ -254,7 +254,7 @@ def _nodes(
 ) -> tuple[Node, ...]:
     """Return the nodes with second-order coordinates, in the order of these."""
     data: Any = mbs.systemData
-    translating = {item["nodeNumber"] for item in objects if item["objectType"] == "Mass1D"}
+    translating = {int(item["nodeNumber"]) for item in objects if item["objectType"] == "Mass1D"}
     carriers = {
         int(item["nodeNumbers"][1]): int(item["nodeNumbers"][0])
         for item in objects

@@ -47,6 +47,18 @@ def test_what_a_system_has_is_seen(name, switching, untold, quaternions):
     assert problem.joints is None and not problem.lubricated
 
 
+def test_a_mass_on_a_line_is_displaced_and_a_rotor_is_not():
+    """Exudyn's node numbers are not equal to integers in a set."""
+    mbs = exu.SystemContainer().AddSystem()
+    nodes = [mbs.AddNode(items.Node1D(referenceCoordinates=[0.5])) for _ in range(2)]
+    mbs.AddObject(items.ObjectMass1D(mass=1.0, nodeNumber=nodes[0]))
+    mbs.AddObject(items.ObjectRotationalMass1D(inertia=1.0, nodeNumber=nodes[1]))
+    mbs.Assemble()
+    problem = Problem.of(mbs)
+    assert [node.displacements for node in problem.nodes] == [1, 0]
+    assert problem.length == 0.5
+
+
 def test_nodes_that_are_not_named_have_no_say():
     problem = problem_of("slider-crank", {1: ("rod", 4.0)})
     assert [node.mass for node in problem.nodes] == [np.inf, 4.0, np.inf]

@@ -492,7 +492,8 @@ class StepError:
             whole = self._per_step.whole
             of_bodies, penetration = tuning.beside_joints * whole, tuning.penetration
             if problem.modes and tuning.modal_mass > 0.0:
-                of_bodies, penetration = tuning.vibrating * self._tolerance, 1.0
+                of_bodies = tuning.vibrating * self._tolerance
+                penetration = tuning.vibrating_penetration
             per_step = ErrorPerStep(of_bodies)
             per_time = task.tolerance / (tuning.kept_steps * task.largest)
             self._joints = [

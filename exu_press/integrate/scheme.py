@@ -93,10 +93,10 @@ class Newton:
             self._advance(step)
             usual = self._tolerance()
             if self._jacobian is not None:
-                self._jacobian.begin(step, usual)
+                self._jacobian.begin(step)
             self._accept(usual)
-        elif iteration == 1 and self._jacobian is not None:
-            self._jacobian.renew()
+        elif iteration == 2 and self._jacobian is not None:
+            self._jacobian.wears()
         elif iteration == PATIENCE:
             self._accept(max(self._tolerance(), self._rounded()))
 
@@ -174,17 +174,17 @@ class FlexibleJacobian:
     step. The masses, the clearance joints' slopes and the constraints' directions are those of the
     state at hand.
 
-    To put the matrix together and factorise it takes nearly as long as a step. So one serves steps
-    of one size as long as it balances their forces; where an iteration does not, the next one gets
-    a fresh one. Without clearance joints steps are long, and the constraints' directions change too
-    much from one to the next.
+    To put the matrix together and factorise it takes as long as two iterations. So one serves steps
+    of one size until one of them needs a second iteration, which it still serves; a third one, or
+    the next step, gets a fresh one. Without clearance joints steps are long, and the constraints'
+    directions change too much from one to the next.
     """
 
     def __init__(self, task: Task) -> None:
         """Let the solver of a task take this Jacobian instead of its own."""
         self._convergence: Any = task.solver.conv
-        self._worn = task.tuning.worn
         self._joints = task.problem.joints
+        self._serves = False  # whether it has balanced each step in one iteration
         self._kept = False  # whether the step under way is tried with that of an earlier one
         self._step = 0.0  # that the last one was made for
         self._bodies: Array | None = None
@@ -193,21 +193,15 @@ class FlexibleJacobian:
         self._jacobian: Array = np.zeros((0, 0))
         task.solver.SetUserFunctionComputeNewtonJacobian(task.problem.mbs, self._compute)
 
-    def begin(self, step: float, usual: float) -> None:
-        """Choose whether the step about to be tried starts with the Jacobian there is.
-
-        Args:
-            step: its size, s.
-            usual: what a step may leave of the forces, N.
-        """
-        same = abs(step - self._step) <= SAME * step
-        most = self._worn * usual
-        balanced = self._joints is not None and bool(self._convergence.residual <= most)
-        self._kept = same and balanced
+    def begin(self, step: float) -> None:
+        """Choose whether the step (s) about to be tried starts with the Jacobian there is."""
+        self._kept = self._serves and abs(step - self._step) <= SAME * step
         self._convergence.jacobianUpdateRequested = not self._kept
+        self._serves = self._joints is not None
 
-    def renew(self) -> None:
-        """Let the next iteration of the step have a fresh one, if it was tried with a kept one."""
+    def wears(self) -> None:
+        """Be told that a step needs a second iteration; if that does not do, make a fresh one."""
+        self._serves = False
         if self._kept:
             self._convergence.jacobianUpdateRequested = True
 
@@ -294,6 +288,8 @@ class ModalMass:
         self._step = 0.0
         self._squares: Array = np.zeros(0)  # of the frequencies, 1/s^2
         self._weights: Array = np.zeros((0, 0))  # M times the modes of K and M
+        self._places: Any = None  # where it changes
+        self._entries: Array = np.zeros((0, 3))  # rows, columns and values there
         if self._item is not None:
             within = [int(node) for node in mbs.GetObject(self._item)["nodeNumbers"]]
             bodies = [item for item in _bodies(mbs) if int(item["nodeNumbers"][1]) in within]
@@ -302,6 +298,8 @@ class ModalMass:
             inverse = np.linalg.inv(root)
             self._squares, modes = np.linalg.eigh(inverse @ stiffness @ inverse.T)
             self._weights = root @ modes
+            self._places = np.nonzero(np.abs(self._weights) @ np.abs(self._weights.T))
+            self._entries = np.column_stack([*self._places, np.zeros(len(self._places[0]))])
 
     def fit(self, step: float) -> None:
         """Let the modes have the mass that belongs to a step, s; 0.0 leaves them their own."""
@@ -311,9 +309,10 @@ class ModalMass:
         offset = self._solver.alphaF - self._solver.alphaM
         kappa = self._part * (1.0 / 6.0 + 0.75 * offset * offset)
         squares = kappa * step * step * self._squares
-        mass = exu.MatrixContainer()
         changes = self._weights * (-squares / (1.0 + squares)) @ self._weights.T
-        mass.SetWithDenseMatrix(changes, useDenseMatrix=False)
+        self._entries[:, 2] = changes[self._places]
+        mass, size = exu.MatrixContainer(), len(changes)
+        mass.SetWithSparseMatrix(self._entries, size, size)
         self._mbs.SetObjectParameter(self._item, "massMatrix", mass)
 
 

@@ -72,14 +72,12 @@ class Tuning:
             damped contact hands the error on a thousandfold.
         vibrating: of the tolerance, what a body's velocity may be off by in a step where impacts
             leave flexible bodies vibrating at their own frequencies, which the estimate takes for
-            an error. Penetrations may be off by as much of themselves there as eccentricities of
-            the clearance.
+            an error.
+        vibrating_penetration: instead of `penetration` there.
         modal_mass: what the modes' mass is changed by, over what keeps their frequencies
             (`exu_press.integrate.scheme`).
         kept_steps: within so many of the longest steps, 45 degrees of the crank, errors that a film
             keeps may add up to the tolerance.
-        worn: a Jacobian of flexible bodies serves steps of one size until one leaves more than this
-            of what a step may leave of the forces; 0.0 makes one for each step.
         refit: a step shorter than this, over the one that constrained velocities fit, makes them
             fit anew.
         largest_jump: of an inertia force within one step, over the run's largest one, from where
@@ -98,11 +96,10 @@ class Tuning:
     rounding: float = 4e-15
     beside_joints: float = 1.0 / 6.0
     penetration: float = 0.0625
-    vibrating: float = 0.1
+    vibrating: float = 0.15
+    vibrating_penetration: float = 0.6
     modal_mass: float = 1.0
     kept_steps: float = 30.0
-
-    worn: float = 0.3
 
     refit: float = 0.35
 

@@ -141,10 +141,11 @@ def test_one_serves_several_steps_and_changes_no_answer(monkeypatch):
 
     monkeypatch.setattr(FlexibleJacobian, "_compute", counted)
     runs = []
-    for worn in (0.0, Tuning().worn):
+    for same in (-1.0, scheme.SAME):
+        monkeypatch.setattr(scheme, "SAME", same)
         model = Scene(bodies=flexible_press(modes=4), revolutions=0.15).build()
         made.append(0)
-        runs.append(record(model, model.solve(tuning=Tuning(worn=worn))))
+        runs.append(record(model, model.solve()))
     fresh, kept = runs
     assert made[0] >= fresh.info["steps"]
     assert made[1] < 0.6 * kept.info["steps"]

@@ -18,7 +18,14 @@ from numpy.typing import NDArray
 from exu_press.arrays import Array
 from exu_press.integrate.settings import SAME, SWITCHED, Task, inertia_factor
 
-__all__ = ["Constraints", "StepChange", "fit_data", "fit_start", "start_rates"]
+__all__ = [
+    "Constraints",
+    "StepChange",
+    "fit_data",
+    "fit_start",
+    "start_rates",
+    "start_without_mass",
+]
 
 Flags = NDArray[np.bool_]
 
@@ -42,6 +49,9 @@ AHEAD = 1.0 / 64.0
 
 MORE = 0.999
 """Of what masses resist a change with: to which part forces resist it too, but for rounding."""
+
+MASSLESS = 1e-12
+"""Over the largest mass, up to which a coordinate has none."""
 
 CHANGE_ITERATIONS = 3
 """To velocities and positions that fit the constraints; each leaves some hundredths."""
@@ -227,6 +237,72 @@ def start_rates(task: Task) -> None:
         task.solver.ComputeODE1RHS(problem.mbs)
         rates = np.array(task.solver.GetSystemResidual())[before : before + size]
         problem.current.rates[:] = problem.start.rates[:] = rates
+
+
+class _WithoutMass:
+    """What has no mass goes as springs and dampers push it: its velocity balances their forces.
+
+    Attributes:
+        free: directions without mass that constraints leave free, (k, n).
+    """
+
+    def __init__(self, task: Task, constraints: Constraints) -> None:
+        """Look for what has no mass; the solver has computed the mass matrix of the state."""
+        self._solver, self._mbs, self._current = task.solver, task.problem.mbs, task.problem.current
+        self._mass = mass = np.array(task.solver.GetSystemMassMatrix())
+        held = [constraints.directions()] if constraints.count else []
+        scaled = mass / (np.abs(mass).max(initial=0.0) or 1.0)
+        _, found, directions = np.linalg.svd(np.vstack([scaled, *held]))
+        self.free = directions[np.count_nonzero(found > MASSLESS * found.max(initial=0.0)) :]
+
+    def balance(self) -> Array:
+        """Change the velocities of the current state so; return the others' accelerations."""
+        velocities, free, forces = self._current.velocities, self.free, self._forces()
+        size, slopes = np.abs(velocities).max() or 1.0, []
+        for direction in free:
+            velocities += size * direction
+            slopes.append(free @ (self._forces() - forces) / size)
+            velocities -= size * direction
+        velocities -= np.linalg.lstsq(np.array(slopes).T, free @ forces, rcond=MASSLESS)[0] @ free
+        found: Array = np.linalg.lstsq(self._mass, self._forces(), rcond=MASSLESS)[0]
+        return found
+
+    def _forces(self) -> Array:
+        """Return what acts on the coordinates, but constraints."""
+        self._solver.ComputeODE2RHS(self._mbs)
+        return np.array(self._solver.GetSystemResidual())[: len(self._mass)]
+
+
+def start_without_mass(task: Task, constraints: Constraints) -> tuple[Array, Array] | None:
+    """Set accelerations at the start, and velocities of what has no mass, if there is any.
+
+    Exudyn starts with accelerations of zero then. Those of what has no mass are known from its
+    velocities a little ahead.
+
+    The solver has computed the mass matrix of the state.
+
+    Returns:
+        The accelerations, and that nothing prescribes their rate; None where all has mass.
+    """
+    if not task.problem.nodes:
+        return None
+    massless, data = _WithoutMass(task, constraints), task.problem.data
+    if not len(massless.free):
+        return None
+    current, ahead = task.problem.current, LOOK_AHEAD * task.first
+    accelerations = massless.balance()
+    positions, velocities = np.array(current.positions), np.array(current.velocities)
+    current.positions += ahead * velocities
+    current.velocities += ahead * accelerations
+    data.SetTime(task.start + ahead)
+    expected = np.array(current.velocities)
+    massless.balance()
+    accelerations += (current.velocities - expected) / ahead
+    data.SetTime(task.start)
+    for state in (current, task.problem.start):
+        state.positions[:], state.velocities[:] = positions, velocities
+        state.accelerations[:] = accelerations
+    return accelerations, np.zeros_like(accelerations)
 
 
 def fit_data(task: Task) -> None:

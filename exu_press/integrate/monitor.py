@@ -9,6 +9,7 @@ from types import FrameType
 from typing import Any
 
 import exudyn as exu
+import numpy as np
 
 from exu_press.integrate.constraints import (
     Constraints,
@@ -16,6 +17,7 @@ from exu_press.integrate.constraints import (
     fit_data,
     fit_start,
     start_rates,
+    start_without_mass,
 )
 from exu_press.integrate.error import StepError
 from exu_press.integrate.scheme import ModalMass, Newton
@@ -43,6 +45,8 @@ class Monitor:
         control: of the steps.
         resolution: of the impacts.
         go_on: False once a function of the user's own asked to stop.
+        without_mass: whether Exudyn found no accelerations to start with, as coordinates have no
+            mass.
     """
 
     def __init__(
@@ -62,7 +66,7 @@ class Monitor:
         """
         self.tries = self.steps = 0
         self.interrupted = self.over_budget = False
-        self.go_on = True
+        self.go_on, self.without_mass = True, False
         self.max_steps = max_steps
         self._task, self._progress = task, progress
         self._constraints = Constraints(task)
@@ -116,7 +120,9 @@ class Monitor:
         start_rates(task)
         task.solver.ComputeMassMatrix(task.problem.mbs)
         if not task.fixed:  # within a fixed step, motions may change by less than rounding
-            fitted = fit_start(task, self._constraints)
+            resting = not self._accelerations.any()  # or Exudyn's sparse solver found none
+            found = start_without_mass(task, self._constraints) if resting else None
+            fitted = fit_start(task, self._constraints) or found
             fit_data(task)
             if fitted is not None:
                 self._step_change.start_from(*fitted)
@@ -163,6 +169,9 @@ class Monitor:
 
     def _after_step(self, mbs: exu.MainSystem, end: float) -> bool:
         if self.tries == 0:  # Exudyn calls at the start too
+            if not np.isfinite(self._accelerations).all():
+                self.without_mass = True
+                return False
             self._begin()
         else:
             self.steps += 1

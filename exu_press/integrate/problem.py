@@ -385,7 +385,8 @@ class FoundScales:
         per_length = REST / self._longest
         self.rest = per_length * self.length
         if self._given.speed is None:
-            self.speed = self.rest if False in self._own else 1.0
+            displaced = any(0.0 < mass < math.inf for mass in self.masses)
+            self.speed = self.rest if displaced else 1.0
         if self._given.force is None:
             lengths = [self.length if mass > 0.0 else 1.0 for mass in self.masses]
             inertias = self._sums([1.0] * len(self.inertias), [1.0] * len(self.inertias))

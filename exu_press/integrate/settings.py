@@ -214,6 +214,7 @@ def prepared(settings: exu.SimulationSettings, problem: Problem, smallest: float
     """
     integration = settings.timeIntegration
     newton, discontinuous = integration.newton, integration.discontinuous
+    alpha = integration.generalizedAlpha
     linear = settings.linearSolver
     wanted: list[tuple[Any, str, Any]] = [
         (newton, "useModifiedNewton", True),
@@ -229,6 +230,7 @@ def prepared(settings: exu.SimulationSettings, problem: Problem, smallest: float
         (integration, "minimumStepSize", smallest),
         (integration, "adaptiveStepRecoverySteps", 2**30),  # growth is decided in `stepping`
         (integration, "verboseMode", 0),
+        (alpha, "computeInitialAccelerations", alpha.computeInitialAccelerations),
     ]
     if not problem.switching:
         wanted.append((discontinuous, "maxIterations", 1))

@@ -194,7 +194,11 @@ def solve_dynamic(
             threadpool_limits(1),
         ):
             try:
-                if not solver.SolveSystem(mbs, settings):
+                solved = solver.SolveSystem(mbs, settings)
+                if monitor.without_mass:
+                    settings.timeIntegration.generalizedAlpha.computeInitialAccelerations = False
+                    solved = solver.SolveSystem(mbs, settings)
+                if not solved:
                     failure = solver.GetErrorString()
             except exu.ExudynError as error:
                 failure = str(error)

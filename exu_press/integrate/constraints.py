@@ -37,6 +37,9 @@ LOOK_AHEAD = 0.01
 """How far ahead of the start constraints are asked, over the largest step; motions are smooth in
 it."""
 
+REDUNDANT = 1e-8
+"""Singular value of constraints' directions of length 1, below which one repeats others."""
+
 START_ITERATIONS = 4
 """Of Newton's method to positions that fit the constraints."""
 
@@ -65,6 +68,7 @@ class Constraints:
         problem = task.problem
         self._mbs, self._solver, self._data = problem.mbs, task.solver, problem.data
         self._current, self._untold = problem.current, problem.untold_rates
+        self._start = problem.start
         self._of_velocities: Flags | None = None
 
     @property
@@ -81,6 +85,19 @@ class Constraints:
     def directions(self) -> Array:
         """Return the rate of each one's violation with the coordinates it holds, (count, n)."""
         return self._jacobian(1.0, 0.0) + self._jacobian(0.0, 1.0)
+
+    def redundant(self) -> int:
+        """Return how many of them say the same as others, where the step under way begins."""
+        if not self.count:
+            return 0
+        positions = self._current.positions
+        tried = np.array(positions)
+        positions[:] = self._start.positions
+        directions = self.directions()
+        positions[:] = tried
+        lengths = np.sqrt(np.square(directions).sum(axis=1))
+        held = directions[lengths > 0.0] / lengths[lengths > 0.0, None]  # else switched off
+        return len(held) - int(np.linalg.matrix_rank(held, tol=REDUNDANT))
 
     def _jacobian(self, of_positions: float, of_velocities: float) -> Array:
         solver, size = self._solver, len(self._current.positions)

@@ -44,6 +44,7 @@ class Monitor:
         over_budget: whether all of `max_steps` were used up.
         control: of the steps.
         resolution: of the impacts.
+        constraints: of the system.
         go_on: False once a function of the user's own asked to stop.
         without_mass: whether Exudyn found no accelerations to start with, as coordinates have no
             mass.
@@ -69,8 +70,8 @@ class Monitor:
         self.go_on, self.without_mass = True, False
         self.max_steps = max_steps
         self._task, self._progress = task, progress
-        self._constraints = Constraints(task)
-        self._step_change = StepChange(task, self._constraints)
+        self.constraints = Constraints(task)
+        self._step_change = StepChange(task, self.constraints)
         # where steps follow a smooth motion, what modes carry would change with each step's size
         smooth = task.problem.joints is None and not task.fixed
         modal_mass = 0.0 if smooth else task.tuning.modal_mass
@@ -121,8 +122,8 @@ class Monitor:
         task.solver.ComputeMassMatrix(task.problem.mbs)
         if not task.fixed:  # within a fixed step, motions may change by less than rounding
             resting = not self._accelerations.any()  # or Exudyn's sparse solver found none
-            found = start_without_mass(task, self._constraints) if resting else None
-            fitted = fit_start(task, self._constraints) or found
+            found = start_without_mass(task, self.constraints) if resting else None
+            fitted = fit_start(task, self.constraints) or found
             fit_data(task)
             if fitted is not None:
                 self._step_change.start_from(*fitted)

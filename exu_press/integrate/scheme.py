@@ -105,6 +105,8 @@ class Newton:
         if self._joints is not None:
             return self._rounding * self._joints.damping * self._scales.speed
         size, forces = self._residual()
+        if not 0.0 < size < math.inf:
+            return 0.0
         state = self._positions, self._multipliers
         before = [np.array(part) for part in state]
         for part, whole in zip(state, (before[0] + self._reference, before[1]), strict=True):
@@ -113,7 +115,7 @@ class Newton:
         changed = np.linalg.norm(self._residual()[1] - forces)
         for part, as_it_was in zip(state, before, strict=True):
             part[:] = as_it_was
-        return size * float(changed / np.linalg.norm(forces)) if size > 0.0 else 0.0
+        return size * float(changed / np.linalg.norm(forces))
 
     def _residual(self) -> tuple[float, Array]:
         """Return what forces and constraints leave in the current state, N, and it by coordinate.

@@ -13,10 +13,11 @@ from enum import Enum
 from typing import Any
 
 import exudyn as exu
+import numpy as np
 from threadpoolctl import threadpool_limits
 
 from exu_press.integrate.monitor import Monitor
-from exu_press.integrate.problem import Problem, Scales
+from exu_press.integrate.problem import Node, Problem, Scales
 from exu_press.integrate.settings import Task, Tuning, prepared, refuse_unusable
 from exu_press.integrate.stepping import Unresolved
 from exu_press.joints.joint import ClearanceJoint
@@ -108,6 +109,14 @@ class Advice:
     def convergence(self) -> str:
         """Return what helps where Newton's method did not converge."""
         return f"a smaller {self.setting}"
+
+    def redundancy(self, redundant: int) -> str:
+        """Return what helps where so many constraints say the same as others."""
+        return (
+            f"{redundant} constraint{'s say' if redundant > 1 else ' says'} the same as others: "
+            "leave out what they repeat, or settings.linearSolver.solverType = EigenDense with "
+            "ignoreSingularJacobian = True"
+        )
 
     def cause(self) -> str:
         """Return what is known of the system that explains why it does not get on, or nothing."""
@@ -275,11 +284,47 @@ def _how_it_ended(
             f"the tolerance needs a step below {smallest:.2g} s {where}{busiest}; try "
             f"{advice.smallest()}{advice.cause()}"
         )
+    found = _what_is_wrong(task, monitor, advice, time)
+    if found:
+        return Status.NOT_CONVERGED, f"Newton's method did not converge {where}: {found}"
     said = f" [{failure.strip().splitlines()[0]}]" if failure.strip() else ""
     return Status.NOT_CONVERGED, (
         f"Newton's method did not converge {where}{busiest}, down to a step of {smallest:.2g} s; "
         f"try {advice.convergence()}{advice.cause()}{said}"
     )
+
+
+def _what_is_wrong(task: Task, monitor: Monitor, advice: Advice, time: float) -> str:
+    """Return what of a system keeps Newton's method from converging after a time, s, or nothing."""
+    problem = task.problem
+    if problem.joints is None:  # whose films may have forces beyond all numbers
+        for node in _without_forces(task, time):
+            return f"what acts on {node.name} is no number there; look at loads and user functions"
+    redundant = monitor.constraints.redundant()
+    if redundant and not problem.mbs.sys["simulationSettings"].linearSolver.ignoreSingularJacobian:
+        return advice.redundancy(redundant)
+    if monitor.without_mass and not monitor.steps:
+        names = (
+            n.name for n, m in zip(problem.nodes, task.scales.masses, strict=True) if m == math.inf
+        )
+        return f"nothing holds what has no mass ({', '.join(names)})"
+    return ""
+
+
+def _without_forces(task: Task, time: float) -> Iterator[Node]:
+    """Yield the nodes whose forces are no numbers right after a time, s."""
+    problem, solver = task.problem, task.solver
+    current, start = problem.current, problem.start
+    tried = np.array(current.positions), np.array(current.velocities)
+    current.positions[:], current.velocities[:] = start.positions, start.velocities
+    problem.data.SetTime(time + task.smallest)
+    solver.ComputeODE2RHS(problem.mbs)
+    forces = np.array(solver.GetSystemResidual())[: len(current.positions)]
+    problem.data.SetTime(time)
+    current.positions[:], current.velocities[:] = tried
+    for node in problem.nodes:
+        if not np.isfinite(forces[node.start : node.start + node.size]).all():
+            yield node
 
 
 def _spent_films(problem: Problem) -> Iterator[tuple[ClearanceJoint, float]]:

@@ -322,6 +322,47 @@ def test_an_equilibrium_is_at_rest(system, tolerance):
     assert np.abs(mbs.systemData.GetODE2Coordinates_t()).max() < 1e-9
 
 
+def triangle(mbs):
+    """A bar between two pins on the ground, which hold its length twice."""
+    ground, (body, half, _) = mbs.AddObject(items.ObjectGround()), bar(mbs, (0, 0), (1, 0), 1.0)
+    pin(mbs, ground, (0.0, 0.0), body, (-half, 0.0))
+    pin(mbs, body, (half, 0.0), ground, (1.0, 0.0))
+
+
+def bricard(mbs):
+    """Its joints say nothing of their free axes, in rows of their own."""
+    EXAMPLES["Bricard"].build(mbs)
+
+
+def pushed(force, mass=1.0):
+    def build(mbs):
+        node = mbs.AddNode(items.Node1D(referenceCoordinates=[0.0], name="ram"))
+        mbs.AddObject(items.ObjectMass1D(mass=mass, nodeNumber=node))
+        at = mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=0))
+        mbs.AddLoad(items.LoadCoordinate(markerNumber=at, load=1.0, loadUserFunction=force))
+
+    return build
+
+
+@pytest.mark.parametrize(
+    ("build", "reason"),
+    [
+        (triangle, "at t = 0 s: 1 constraint says the same as others"),
+        (bricard, "1 constraint says the same as others.*ignoreSingularJacobian"),
+        (pushed(lambda mbs, time, load: np.nan if time > 0.1 else 1.0), "t = 0.1 s.* acts on ram"),
+        (pushed(lambda mbs, time, load: 1.0, mass=0.0), r"holds what has no mass \(ram\)"),
+    ],
+)
+def test_what_keeps_newtons_method_from_converging_is_named(build, reason):
+    """It was a smaller tolerance that was to be tried."""
+    mbs = exu.SystemContainer().AddSystem()
+    build(mbs)
+    mbs.Assemble()
+    outcome = solve_dynamic(mbs, settings(0.3))
+    assert outcome.status is Status.NOT_CONVERGED
+    assert re.search(reason, outcome.reason), outcome.reason
+
+
 def unassembled():
     mbs = exu.SystemContainer().AddSystem()
     mbs.AddNode(items.NodePoint())

@@ -96,7 +96,7 @@ class Tuning:
     rounding: float = 4e-15
     beside_joints: float = 1.0 / 6.0
     penetration: float = 0.0625
-    vibrating: float = 0.15
+    vibrating: float = 0.18
     vibrating_penetration: float = 0.6
     modal_mass: float = 1.0
     kept_steps: float = 30.0

@@ -14,6 +14,7 @@ from exudyn_examples.other import (
     cradle,
     hydraulics,
     lugre,
+    maxwell,
     regularized,
     stick_slip,
     watch,
@@ -32,6 +33,7 @@ from exudyn_examples.spatial import (
     flyball_governor,
     four_bar_3d,
     heavy_top,
+    kinematic_tree,
     rolling_disc,
     rotor,
 )
@@ -95,6 +97,7 @@ EXAMPLES = {
     ),
     "rotor run-up": Example(rotor, 10.0, 2.0, "Examples/rigidRotor3Drunup.py"),
     "heavy top": Example(heavy_top, 0.5, 0.1, "TestModels/heavyTop.py"),
+    "kinematic tree": Example(kinematic_tree, 1.0, 0.5, "Examples/kinematicTreeAndMBS.py"),
     "rolling disc": Example(rolling_disc, 1.0, 0.5, "TestModels/createRollingDiscTest.py"),
     "convex roll": Example(
         # its dampers jerk it where it touches
@@ -106,6 +109,7 @@ EXAMPLES = {
         finest=1e-5,
         positions=True,
     ),
+    "massless point": Example(maxwell, 2.0, 0.5, "a spring that ends at a damper"),
     "friction band": Example(regularized, 1.0, 0.5, "Examples/massSpringFrictionInteractive.py"),
     "bouncing ball": Example(
         # its contact does not converge to less than a hundredth of a newton

@@ -9,7 +9,7 @@ from exudyn.utilities import InertiaSphere
 
 from exudyn_examples.example import GRAVITY
 
-__all__ = ["bouncing_ball", "cradle", "hydraulics", "lugre", "stick_slip", "watch"]
+__all__ = ["bouncing_ball", "cradle", "hydraulics", "lugre", "maxwell", "stick_slip", "watch"]
 
 
 def mass_1d(mbs, mass, place=0.0, velocity=0.0):
@@ -43,6 +43,22 @@ def stick_slip(mbs):
             stickingDamping=100.0,
         )
     )
+
+
+def maxwell(mbs):
+    """A mass on two springs; one ends at a damper, in a point without mass."""
+    ground, mass = mass_1d(mbs, 1.0, place=0.2)
+    _, point = mass_1d(mbs, 0.0)
+    for ends, stiffness, damping in (
+        ((ground, mass), 50.0, 0.0),
+        ((mass, point), 100.0, 0.0),
+        ((point, ground), 0.0, 10.0),
+    ):
+        mbs.AddObject(
+            items.ObjectConnectorCoordinateSpringDamper(
+                markerNumbers=list(ends), stiffness=stiffness, damping=damping
+            )
+        )
 
 
 def regularized(mbs):

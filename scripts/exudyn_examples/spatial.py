@@ -19,6 +19,7 @@ __all__ = [
     "flyball_governor",
     "four_bar_3d",
     "heavy_top",
+    "kinematic_tree",
     "rolling_disc",
     "rotor",
 ]
@@ -161,6 +162,61 @@ def heavy_top(mbs, node_type=exu.NodeType.RotationEulerParameters):
         nodeType=node_type,
     )
     mbs.CreateSphericalJoint(itemNumbers=[ground, top], position=[0.0, 0.0, 0.0])
+
+
+def kinematic_tree(mbs):
+    """An arm in coordinates of its joints, whose second one slides on a spring; it holds a ball."""
+    length, links = 0.8, 3
+    link = InertiaCuboid(density=1000.0, sideLengths=[length, 0.05, 0.05])
+    link = link.Translated([0.5 * length, 0.0, 0.0])
+    turns, inertias = exu.Matrix3DList(), exu.Matrix3DList()
+    offsets, centres = exu.Vector3DList(), exu.Vector3DList()
+    for i in range(links):
+        turns.Append(np.eye(3))
+        inertias.Append(link.InertiaCOM())
+        offsets.Append([length if i else 0.0, 0.0, 0.0])
+        centres.Append(link.COM())
+    rest = [0.0] * links
+    node = mbs.AddNode(
+        items.NodeGenericODE2(
+            referenceCoordinates=rest,
+            initialCoordinates=rest,
+            initialCoordinates_t=rest,
+            numberOfODE2Coordinates=links,
+        )
+    )
+    joint = exu.JointType
+    arm = mbs.AddObject(
+        items.ObjectKinematicTree(
+            nodeNumber=node,
+            jointTypes=[joint.RevoluteZ, joint.PrismaticX, joint.RevoluteZ],
+            linkParents=np.arange(links) - 1,
+            jointTransformations=turns,
+            jointOffsets=offsets,
+            linkInertiasCOM=inertias,
+            linkCOMs=centres,
+            linkMasses=[link.Mass()] * links,
+            gravity=DOWN,
+            jointPositionOffsetVector=rest,
+            jointVelocityOffsetVector=rest,
+            jointPControlVector=[0.0, 500.0, 0.0],
+            jointDControlVector=[0.0, 5.0, 0.0],
+        )
+    )
+    ball = mbs.CreateRigidBody(
+        referencePosition=[links * length, -0.2, 0.0],
+        inertia=exu.utilities.InertiaSphere(mass=1.0, radius=0.05),
+        gravity=DOWN,
+    )
+    ends = [
+        mbs.AddMarker(
+            items.MarkerKinematicTreeRigid(
+                objectNumber=arm, linkNumber=links - 1, localPosition=[length, 0.0, 0.0]
+            )
+        ),
+        mbs.AddMarker(items.MarkerBodyRigid(bodyNumber=ball, localPosition=[0.0, 0.2, 0.0])),
+    ]
+    mbs.AddObject(items.ObjectJointSpherical(markerNumbers=ends, constrainedAxes=[1, 1, 1]))
 
 
 def rolling_disc(mbs):

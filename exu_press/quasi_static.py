@@ -11,9 +11,9 @@ from typing import Any
 
 import exudyn as exu
 import numpy as np
-from threadpoolctl import threadpool_limits
 
 from exu_press.arrays import Array
+from exu_press.threads import one_thread
 
 __all__ = ["quasi_static_motion"]
 
@@ -43,8 +43,7 @@ def quasi_static_motion(
         coordinate: the drive's angle among all coordinates.
         speed: of the drive, rad/s.
     """
-    # a hundred rows: further threads only wait for each other; of limp bodies values overflow
-    with threadpool_limits(1), np.errstate(over="ignore", invalid="ignore"):
+    with one_thread(), np.errstate(over="ignore", invalid="ignore"):  # limp bodies
         balance = _Balance(mbs, drive, coordinate)
         rate = speed * _differentiation(ANGLES)
         q = np.zeros((len(ANGLES), balance.size))

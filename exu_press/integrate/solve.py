@@ -14,7 +14,6 @@ from typing import Any
 
 import exudyn as exu
 import numpy as np
-from threadpoolctl import threadpool_limits
 
 from exu_press.integrate.monitor import Monitor
 from exu_press.integrate.problem import Node, Problem, Scales
@@ -22,6 +21,7 @@ from exu_press.integrate.settings import Task, Tuning, prepared, refuse_unusable
 from exu_press.integrate.stepping import Unresolved
 from exu_press.joints.joint import ClearanceJoint
 from exu_press.progress import Progress
+from exu_press.threads import one_thread
 
 __all__ = ["Advice", "Outcome", "Status", "solve_dynamic"]
 
@@ -200,7 +200,7 @@ def solve_dynamic(
             monitor.attached(),
             prepared(settings, problem, task.smallest),
             _silent_console(),
-            threadpool_limits(1),
+            one_thread(),
         ):
             try:
                 solved = solver.SolveSystem(mbs, settings)

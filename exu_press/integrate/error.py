@@ -398,7 +398,6 @@ class StepError:
         self._bodies: BodyError | None = None
         self._turning: Turning | None = None
         self._step = 0.0  # last tried, s
-        self._noise = 0.0  # rounded positions in accelerations, times the step's square, m
         self._first_order: FirstOrderError | None = None
         self._joints: list[JointError] = []
 
@@ -408,9 +407,9 @@ class StepError:
             self._bodies = self._first_look()
         self._step = step
         bodies, scales, now = self._bodies, self._scales, self._accelerations.tolist()
-        if scales.resting and scales.norm(now) * step * step > self._noise:
+        still = scales.resting and scales.still(self._velocities.tolist())
+        if scales.resting and not still:
             scales.set_out(self._velocities.tolist(), now)
-        still = scales.resting
         if bodies.turning > 1.0:
             bodies.velocities = self._velocities.tolist()
         error, left = bodies.tried(now, step), 0.0
@@ -481,7 +480,7 @@ class StepError:
     def _first_look(self) -> BodyError:
         """Return the bodies' errors from the first step's beginning on; look at the rest too."""
         task, problem, tuning = self._task, self._task.problem, self._task.tuning
-        noise = self._noise = self._scales.alternating(tuning.rounding, self._solver.alphaF)
+        noise = self._scales.alternating(tuning.rounding, self._solver.alphaF)
         if len(problem.start.rates):
             self._first_order = FirstOrderError(problem, self._per_step)
         per_step = self._per_step

@@ -52,9 +52,6 @@ MATERIAL_POINTS = {
 
 LIE_GROUP = "RigidBodyRotVecLG"
 
-REST = 1e-9
-"""Over its length, what a system moves by in the longest step up to which it is at rest."""
-
 ALONG_CABLES = "JointSliding", "JointSliding2D"
 """Joints one of whose algebraic unknowns is a place along a cable, m."""
 
@@ -321,8 +318,8 @@ class FoundScales:
 
     A system at rest has no speed yet: what its first accelerations make of it within the largest
     step counts instead, or on their way through the widest clearance. In an equilibrium these are
-    rounded forces over masses: what moves a billionth of its length in the largest step is the
-    least that counts (`REST`).
+    rounded forces over masses: what has moved no faster than rounded positions do in the first step
+    is still.
 
     Attributes:
         speed: m/s.
@@ -330,20 +327,31 @@ class FoundScales:
         inertias: of the coordinates, kg where they are displacements.
         length: of the coordinates whose last digits are rounded, m.
         fixed: whether all is given.
-        rest: speed up to which the system is at rest, m/s; 0.0 where all is given.
+        rest: speed up to which the system is still, m/s; 0.0 where that is not known.
         masses: of the nodes, kg, infinite for what has no say; where the system gives none, the
             node's largest kinetic energy over half the square of `speed`.
     """
 
-    def __init__(self, given: Scales, problem: Problem, longest: float) -> None:
+    def __init__(
+        self,
+        given: Scales,
+        problem: Problem,
+        longest: float,
+        first: float = math.inf,
+        stir: float = 0.0,
+    ) -> None:
         """Take what is given; the rest is found from `begin` on.
 
         Args:
             given: scales.
             problem: what is solved.
             longest: step, s.
+            first: step, s.
+            stir: what rounded positions make of accelerations, times the step's square, over the
+                length.
         """
         self._given, self._problem, self._longest = given, problem, longest
+        self._first, self._stir = first, stir
         self.rest = 0.0
         self.length = problem.length
         self.masses: list[float] = []
@@ -363,12 +371,12 @@ class FoundScales:
         self._own = [mass == 0.0 for mass in masses]
         self._energies = [0.0 for _ in masses]
         positions = (problem.current.positions + problem.reference).tolist()
-        self.length = max(self.length, self.norm(positions)) or 1.0  # where all is zero
+        known = max(self.length, self.norm(positions))
+        self.length = known or 1.0  # where all is zero
         given = self._given.speed, self._given.force
         self.fixed = True not in self._own and None not in given
         if self.fixed:
             return
-        self._begin_at_rest()
         velocities = problem.current.velocities.tolist()
         accelerations = problem.current.accelerations.tolist()
         largest, time = self.norm(accelerations), self._longest
@@ -376,31 +384,22 @@ class FoundScales:
             time = min(time, math.sqrt(4.0 * problem.joints.widest / largest))
         self.update([time * value for value in accelerations], accelerations)
         self.update(velocities, accelerations)
-
-    def _begin_at_rest(self) -> None:
-        """Take what displaces all bodies by a billionth of their length for the least that counts.
-
-        Where nothing is displaced any speed will do, as energies count.
-        """
-        per_length = REST / self._longest
-        self.rest = per_length * self.length
-        if self._given.speed is None:
-            displaced = any(0.0 < mass < math.inf for mass in self.masses)
-            self.speed = self.rest if displaced else 1.0
-        if self._given.force is None:
-            lengths = [self.length if mass > 0.0 else 1.0 for mass in self.masses]
-            inertias = self._sums([1.0] * len(self.inertias), [1.0] * len(self.inertias))
-            weighed = [
-                length * (mass or inertia)
-                for length, mass, inertia in zip(lengths, self.masses, inertias, strict=True)
-                if mass < math.inf
-            ]
-            self.force = per_length / self._longest * math.hypot(*weighed)
+        if not known and self.speed > 0.0:  # as far as it gets in ten runs of a hundred steps
+            self.length = min(1.0, 1e3 * self.speed * self._longest)
+        if known and not any(self._own) and self._given.speed is None:
+            self.rest = self._stir * known / self._first
+            if self._given.force is None:
+                weighed = math.hypot(*(mass for mass in masses if mass < math.inf))
+                self.force = max(self.force, weighed * self._stir * known / self._longest**2)
 
     @property
     def resting(self) -> bool:
         """Whether the system moves by less than a billionth of its length in the longest step."""
-        return self.speed <= self.rest
+        return self.speed * self._longest <= 1e-9 * self.length
+
+    def still(self, velocities: list[float]) -> bool:
+        """Return whether nothing has moved yet, in a state either, but what rounding moves."""
+        return self.speed <= self.rest and self.norm(velocities) <= self.rest
 
     def set_out(self, velocities: list[float], accelerations: list[float]) -> None:
         """Be told of a state that a step was tried to, in which a system may have left its rest."""
@@ -420,6 +419,8 @@ class FoundScales:
                 speed_2 = max(speed_2, energies[i] / masses[i])
         if self._given.speed is None:
             self.speed = max(self.speed, math.sqrt(speed_2))
+            if self.speed == 0.0 and True in self._own:
+                self.speed = 1.0  # nothing is displaced: any speed will do, energies count
         square = self.speed * self.speed
         for i in range(len(masses)):
             if self._own[i]:

@@ -141,7 +141,6 @@ class Task:
         self.start, self.end = integration.startTime, integration.endTime
         self.spectral_radius = integration.generalizedAlpha.spectralRadius
         self.largest = largest = (self.end - self.start) / integration.numberOfSteps
-        self.scales = FoundScales(scales, problem, largest)
         self.smallest = integration.minimumStepSize
         room = 10.0 * self.smallest  # to repeat a film's first step in, before rounding shows
         if self.fixed:
@@ -152,6 +151,8 @@ class Task:
             usual = of_film if problem.lubricated else tuning.first_step * largest
             self.first = max(integration.initialStepSize or usual, self.smallest)
         self.first = min(self.first, largest)
+        stir = tuning.rounding / (1.0 - min(self.spectral_radius, 0.95)) ** 2
+        self.scales = FoundScales(scales, problem, largest, self.first, stir)
 
 
 def inertia_factor(solver: Any) -> float:

@@ -192,7 +192,8 @@ class Resolution:
 
     def worst(self) -> Unresolved | None:
         """Return the step with the largest change of an inertia force, if it is too large."""
-        least = max(self._least * self._scales.speed, self._scales.rest)
+        speed = self._scales.speed
+        least = self._least * speed if speed > self._scales.rest else math.inf
         felt = [found for found in self._jumps if found[-1] > least]
         if self._steps < 2 or not felt:
             return None

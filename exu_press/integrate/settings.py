@@ -36,6 +36,9 @@ SWITCHED = 0.5
 """Above it a switch is iterated on: Exudyn's GeneralContact says 1 where a contact has opened or
 closed, and its usual limit of 1 lets what has opened go on to pull."""
 
+SHORTEST_RUN = 1e-7
+"""Of which the 1e-10 s by which Exudyn may end it early are a thousandth, s."""
+
 IMPLICIT = "GeneralizedAlpha"
 
 
@@ -178,6 +181,12 @@ def refuse_unusable(settings: exu.SimulationSettings, tolerance: float | None) -
         raise InputError(
             f"settings.timeIntegration.endTime = {end!r}: allowed is a time after startTime = "
             f"{start!r} s"
+        )
+    if end - start < SHORTEST_RUN:
+        raise InputError(
+            f"settings.timeIntegration.endTime = {end!r}, startTime = {start!r}: allowed is a run "
+            f"of {SHORTEST_RUN:g} s or more, as Exudyn may end it 1e-10 s early; count time in "
+            "another unit"
         )
     solver = str(integration.solverType).rsplit(".", 1)[-1]
     if solver != IMPLICIT:

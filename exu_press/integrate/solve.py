@@ -32,6 +32,10 @@ SPENT = 1e-3
 """Film thickness over clearance at which a run that gets no further has lost its film."""
 
 
+EXUDYN_ENDS = 1e-10
+"""Before its end, at most how early Exudyn ends a run, s."""
+
+
 class Status(Enum):
     """How a run ended; everything but COMPLETED makes exit status 3.
 
@@ -121,9 +125,9 @@ class Advice:
     def cause(self) -> str:
         """Return what is known of the system that explains why it does not get on, or nothing."""
         function: Any = self.problem.mbs.GetPreStepUserFunction()
-        if function == 0:
-            return ""
-        return " (a pre-step function that changes constraints: offsetUserFunction instead)"
+        if function != 0:
+            return " (a pre-step function that changes constraints: offsetUserFunction instead)"
+        return " (or a prescribed motion without jumps)" if self.problem.untold_rates else ""
 
     def resolution(self, worst: Unresolved) -> str:
         """Return what resolves a run that leapt over its impacts."""
@@ -254,7 +258,8 @@ def _how_it_ended(
     """
     problem, smallest = task.problem, task.smallest
     gone = (time - task.start) / (task.end - task.start)
-    if gone >= 1.0 - 1e-9:
+    exudyn_ended = not failure and 0.0 < task.end - time <= EXUDYN_ENDS and monitor.go_on
+    if gone >= 1.0 - 1e-9 or exudyn_ended:
         worst = monitor.resolution.worst()
         if worst is None:
             return Status.COMPLETED, ""

@@ -273,6 +273,26 @@ def test_constraints_that_a_pre_step_function_moves_are_named():
     assert "offsetUserFunction" in outcome.reason
 
 
+def test_a_prescribed_motion_that_jumps_is_thought_of():
+    """No step is short enough for a cable whose end is given another speed at once."""
+    mbs = exu.SystemContainer().AddSystem()
+    nodes, _ = cables(mbs, 2.1e8)
+    hold(mbs, nodes[0], (0,))
+    ends = [
+        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=coordinate))
+        for node, coordinate in ((mbs.AddNode(items.NodePointGround()), 0), (nodes[0], 1))
+    ]
+
+    def push(mbs, time, item, offset):
+        return max(0.0, time - 0.01)
+
+    mbs.AddObject(items.ObjectConnectorCoordinate(markerNumbers=ends, offsetUserFunction=push))
+    mbs.Assemble()
+    outcome = solve_dynamic(mbs, settings(0.02), tolerance=1e-4)
+    assert outcome.status is Status.STEP_TOO_SMALL
+    assert outcome.end_time == pytest.approx(0.01) and "without jumps" in outcome.reason
+
+
 def test_a_load_that_jumps_at_a_tight_tolerance():
     """Steps of 20 ns ended in what rounded positions make alternate."""
     mbs = exu.SystemContainer().AddSystem()
@@ -358,7 +378,7 @@ def turning(node):
 def test_small_and_fast_motions_are_not_at_rest():
     """Those of nanometres, of a system whose size the coordinates do not tell, and of a rotor."""
     assert oscillator(sliding, 0.5, 1e-6, 500.0, 0.02) < 1e-2
-    assert oscillator(sliding, 0.0, 1e-5, 1.1e6, 1e-5) < 1e-2
+    assert oscillator(sliding, 0.0, 1e-5, 1.1e8, 1e-7) < 1e-2, "Exudyn ends it 1e-10 s early"
     assert oscillator(turning, 0.0, 3.0, 5.3, 2.0, beside=True) < 1e-2
 
 
@@ -482,6 +502,7 @@ def state_of(mbs):
             "spectralRadius = 0.0",
         ),
         (lambda: pendulum()[0], with_settings(endTime=np.inf), 1e-3, "endTime = inf"),
+        (lambda: pendulum()[0], with_settings(endTime=1e-8), 1e-3, "a run of 1e-07 s or more"),
         (lambda: pendulum()[0], settings(1.0), "1e-3", "tolerance = '1e-3': allowed is"),
         (lambda: pendulum()[0], settings(1.0), np.nan, "tolerance = nan: allowed is"),
         (lambda: dry_journal(0.01), settings(1.0), 1e-3, "eccentricity of 0.01 m"),

@@ -91,10 +91,9 @@ class Newton:
         """Set what an iteration of a step (s) starts from, and where it may end."""
         if not iteration:
             self._advance(step)
-            usual = self._tolerance()
+            self._accept(self._tolerance())
             if self._jacobian is not None:
                 self._jacobian.begin(step)
-            self._accept(usual)
         elif iteration == 2 and self._jacobian is not None:
             self._jacobian.wears()
         elif iteration == PATIENCE:

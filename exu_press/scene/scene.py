@@ -37,6 +37,9 @@ __all__ = ["Scene", "mechanism_of"]
 
 RPM = math.pi / 30  # rad/s
 
+SHORTEST_RUN = 1e-7
+"""s, as `solve_dynamic` takes it."""
+
 ONLY_WHERE_GIVEN = ("drive", "guide")
 """Tables that a scene without them does not have: constant speed, ideal guides."""
 
@@ -79,6 +82,11 @@ class Scene(Table):
         """Check the keys, refuse what the scene does not use and fill in what it does."""
         object.__setattr__(self, "mechanism", _asked(self.mechanism))
         super().__post_init__()
+        if self.duration < SHORTEST_RUN:
+            raise InputError(
+                f"revolutions = {self.revolutions:g} at speed_rpm = {self.speed_rpm:g} is a run of "
+                f"{self.duration:g} s: allowed is {SHORTEST_RUN:g} s or more"
+            )
         unused = unused_keys(
             {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
         )

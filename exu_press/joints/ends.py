@@ -80,7 +80,9 @@ class BodyEnd:
             self._modal, translation, rotation = modes
             self._both = np.vstack([translation, rotation])
             self.indices += range(self._modal, self._modal + translation.shape[1])
-        self._modes: list[float] = self._both.T.ravel().tolist()  # six numbers for each mode
+        self._modes: list[tuple[float, float, float, float, float, float]] = [
+            (x, y, z, a, b, c) for x, y, z, a, b, c in self._both.T.tolist()
+        ]
         self._moving = np.eye(6, len(self.indices))
         self._moving[:, self._moved :] = 0.0
         self.position: Vector = (0.0, 0.0, 0.0)
@@ -116,19 +118,18 @@ class BodyEnd:
         if modes:
             shift_x = shift_y = shift_z = drift_x = drift_y = drift_z = 0.0
             turn_x = turn_y = turn_z = 0.0
-            for m in range(0, len(modes), 6):
+            for t_x, t_y, t_z, r_x, r_y, r_z in modes:
                 value, rate = q[k], q_t[k]
                 k += 1
-                t_x, t_y, t_z = modes[m], modes[m + 1], modes[m + 2]
                 shift_x += t_x * value
                 shift_y += t_y * value
                 shift_z += t_z * value
                 drift_x += t_x * rate
                 drift_y += t_y * rate
                 drift_z += t_z * rate
-                turn_x += modes[m + 3] * rate
-                turn_y += modes[m + 4] * rate
-                turn_z += modes[m + 5] * rate
+                turn_x += r_x * rate
+                turn_y += r_y * rate
+                turn_z += r_z * rate
             along += shift_x
             across += shift_y
             up += shift_z
@@ -166,15 +167,8 @@ class BodyEnd:
         if modes:
             f_x, f_y, f_z = turned_back(self.rotation, force)
             m_x, m_y, m_z = turned_back(self.rotation, moment)
-            for m in range(0, len(modes), 6):
-                out[k] += (
-                    modes[m] * f_x
-                    + modes[m + 1] * f_y
-                    + modes[m + 2] * f_z
-                    + modes[m + 3] * m_x
-                    + modes[m + 4] * m_y
-                    + modes[m + 5] * m_z
-                )
+            for t_x, t_y, t_z, r_x, r_y, r_z in modes:
+                out[k] += t_x * f_x + t_y * f_y + t_z * f_z + r_x * m_x + r_y * m_y + r_z * m_z
                 k += 1
 
     def rates(self) -> tuple[Array, Array]:

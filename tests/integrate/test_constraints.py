@@ -12,6 +12,7 @@ from scipy.integrate import solve_ivp
 from exu_press import Scene, Status, simulate, solve_dynamic
 from exu_press.integrate.constraints import StepChange
 from exu_press.integrate.stepping import FixedSteps, StepControl
+from exudyn_examples import EXAMPLES
 
 CURRENT = exu.ConfigurationType.Current
 
@@ -105,27 +106,7 @@ SOLVERS = exu.LinearSolverType.EXUdense, exu.LinearSolverType.EigenSparse
 def test_a_point_without_mass_moves_as_its_damper_lets_it(solver):
     """Newton's method stopped at once; Exudyn alone is 4 % off in 400 steps."""
     mbs = exu.SystemContainer().AddSystem()
-    ground = mbs.AddNode(items.NodePointGround())
-    nodes = [
-        mbs.AddNode(items.Node1D(referenceCoordinates=[0.0], initialCoordinates=[place]))
-        for place in (0.2, 0.0)
-    ]
-    for node, mass in zip(nodes, (1.0, 0.0), strict=True):
-        mbs.AddObject(items.ObjectMass1D(mass=mass, nodeNumber=node))
-    still, body, point = (
-        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=0))
-        for node in (ground, *nodes)
-    )
-    for pair, stiffness, damping in (
-        ((still, body), 50.0, 0.0),
-        ((body, point), 100.0, 0.0),
-        ((point, still), 0.0, 10.0),
-    ):
-        mbs.AddObject(
-            items.ObjectConnectorCoordinateSpringDamper(
-                markerNumbers=list(pair), stiffness=stiffness, damping=damping
-            )
-        )
+    EXAMPLES["massless point"].build(mbs)
     mbs.Assemble()
     times, speeds = [], []
 

@@ -23,6 +23,7 @@ from setuptools.command.build_ext import build_ext
 
 MODULES = [
     "integrate/constraints",
+    "integrate/contact",
     "integrate/error",
     "integrate/monitor",
     "integrate/problem",

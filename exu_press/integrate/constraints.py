@@ -11,17 +11,15 @@ what generalized-alpha carries over (`StepChange`).
 
 import math
 
-import exudyn as exu
 import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.arrays import Array
-from exu_press.integrate.settings import SAME, SWITCHED, Task, inertia_factor
+from exu_press.integrate.settings import SAME, Task, inertia_factor
 
 __all__ = [
     "Constraints",
     "StepChange",
-    "fit_data",
     "fit_start",
     "start_rates",
     "start_without_mass",
@@ -320,24 +318,6 @@ def start_without_mass(task: Task, constraints: Constraints) -> tuple[Array, Arr
         state.positions[:], state.velocities[:] = positions, velocities
         state.accelerations[:] = accelerations
     return accelerations, np.zeros_like(accelerations)
-
-
-def fit_data(task: Task) -> None:
-    """Let data variables fit the start, where they are a guess that contact or friction denies.
-
-    Some contacts of Exudyn's, as of convex rolls, compare with the step's start alone, so that a
-    first step with another gap than the guessed one would never settle, however short.
-    """
-    data, where = task.problem.data, exu.ConfigurationType
-    guess = np.array(data.GetDataCoordinates(where.Current))
-    if not len(guess):
-        return
-    mbs = task.problem.mbs
-    denied = task.solver.PostNewton(mbs, mbs.sys["simulationSettings"])
-    if denied > SWITCHED:
-        data.SetDataCoordinates(data.GetDataCoordinates(where.Current), where.StartOfStep)
-    else:
-        data.SetDataCoordinates(guess, where.Current)
 
 
 class StepChange:

@@ -14,11 +14,11 @@ import numpy as np
 from exu_press.integrate.constraints import (
     Constraints,
     StepChange,
-    fit_data,
     fit_start,
     start_rates,
     start_without_mass,
 )
+from exu_press.integrate.contact import Gaps, fit_data
 from exu_press.integrate.error import StepError
 from exu_press.integrate.scheme import ModalMass, Newton
 from exu_press.integrate.settings import Task
@@ -77,6 +77,7 @@ class Monitor:
         modal_mass = 0.0 if smooth else task.tuning.modal_mass
         self._modal_mass = ModalMass(task.problem.mbs, task.solver, modal_mass)
         self._newton = Newton(task)
+        self._gaps = Gaps(task.problem)
         self._estimate = StepError(task)
         self.control: StepControl | FixedSteps = (
             FixedSteps(task) if task.fixed else StepControl(task, self._estimate, next_corner)
@@ -178,6 +179,7 @@ class Monitor:
             self.steps += 1
             step, now = end - self._time, self._accelerations.tolist()
             self._time = end
+            self._gaps.close()
             self.control.accept(step)
             self._newton.stepped(step)
             self.resolution.stepped(end, step, now)

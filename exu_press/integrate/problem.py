@@ -132,6 +132,7 @@ class Problem:
         current: state at the end of the step that is tried.
         start: state at its start.
         reference: positions that those of a state are added to.
+        kinds: types of the objects, in their order.
         nodes: of the second-order coordinates, in their order.
         joints: the system's clearance joints, if it has any.
         modes: whether flexible bodies vibrate at their own frequencies (`follow_modes`).
@@ -149,6 +150,7 @@ class Problem:
     current: State
     start: State
     reference: Array
+    kinds: tuple[str, ...]
     nodes: tuple[Node, ...]
     joints: JointOverlay | None
     modes: bool
@@ -197,6 +199,7 @@ class Problem:
             current=State(data, exu.ConfigurationType.Current),
             start=State(data, exu.ConfigurationType.StartOfStep),
             reference=reference,
+            kinds=tuple(kinds),
             nodes=nodes,
             joints=joints if joints.joints else None,
             modes=modes is not None,

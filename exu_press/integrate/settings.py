@@ -5,6 +5,7 @@ each of them buys in error and run time. Exudyn's settings are put back after th
 """
 
 import math
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -39,7 +40,8 @@ closed, and its usual limit of 1 lets what has opened go on to pull."""
 SHORTEST_RUN = 1e-7
 """Of which the 1e-10 s by which Exudyn may end it early are a thousandth, s."""
 
-IMPLICIT = "GeneralizedAlpha"
+IMPLICIT = "GeneralizedAlpha", "TrapezoidalIndex2"
+"""Exudyn's solvers that take the same settings; the second one is the first with other numbers."""
 
 
 @dataclass(frozen=True)
@@ -165,11 +167,11 @@ def inertia_factor(solver: Any) -> float:
 
 
 def refuse_unusable(settings: exu.SimulationSettings, tolerance: float | None) -> None:
-    """Refuse what cannot be integrated.
+    """Refuse what cannot be integrated; warn where another method is taken than asked for.
 
     Raises:
         InputError: the tolerance lies outside its range, the run has no end, or the integrator is
-            not Exudyn's generalized-alpha for second-order systems.
+            not one of Exudyn's implicit ones.
     """
     integration = settings.timeIntegration
     low, high = TOLERANCES
@@ -189,10 +191,10 @@ def refuse_unusable(settings: exu.SimulationSettings, tolerance: float | None) -
             "another unit"
         )
     solver = str(integration.solverType).rsplit(".", 1)[-1]
-    if solver != IMPLICIT:
+    if solver not in IMPLICIT:
         raise InputError(
-            f"settings.timeIntegration.solverType = {solver}: allowed is {IMPLICIT}, whose local "
-            "error is known"
+            f"settings.timeIntegration.solverType = {solver}: allowed is {IMPLICIT[0]}, whose "
+            "local error is known"
         )
     alpha = integration.generalizedAlpha
     if not 0.0 < alpha.spectralRadius <= 1.0:
@@ -201,11 +203,12 @@ def refuse_unusable(settings: exu.SimulationSettings, tolerance: float | None) -
             f"{alpha.spectralRadius!r}: allowed is a number above 0.0, up to 1.0; with 0.0 no step "
             "can be changed without ringing"
         )
-    if alpha.useNewmark or alpha.useIndex2Constraints:
-        raise InputError(
-            "settings.timeIntegration.generalizedAlpha: useNewmark and useIndex2Constraints are "
-            "not allowed; the error estimate and the changes of step are generalized-alpha's, with "
-            "constraints of index 3"
+    if solver != IMPLICIT[0] or alpha.useNewmark or alpha.useIndex2Constraints:
+        warnings.warn(
+            "the settings ask for Newmark's method or constraints of index 2: solved with "
+            f"{IMPLICIT[0]}, constraints of index 3 and spectralRadius = {alpha.spectralRadius:g}, "
+            "whose local error is known",
+            stacklevel=3,
         )
 
 
@@ -241,6 +244,8 @@ def prepared(settings: exu.SimulationSettings, problem: Problem, smallest: float
         (integration, "adaptiveStepRecoverySteps", 2**30),  # growth is decided in `stepping`
         (integration, "verboseMode", 0),
         (alpha, "computeInitialAccelerations", alpha.computeInitialAccelerations),
+        (alpha, "useNewmark", False),
+        (alpha, "useIndex2Constraints", False),
     ]
     if not problem.switching:
         wanted.append((discontinuous, "maxIterations", 1))

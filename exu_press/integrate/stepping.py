@@ -5,7 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from exu_press.integrate.error import StepError
-from exu_press.integrate.settings import Task
+from exu_press.integrate.settings import SAME, Task
 
 __all__ = ["FixedSteps", "Resolution", "StepControl", "Unresolved"]
 
@@ -33,6 +33,9 @@ class StepControl:
         self.error = 0.0
         self._estimate, self._next_corner = estimate, next_corner
         self._end, self._smallest, self._largest = task.end, task.smallest, task.largest
+        # a step is told as a difference of two times, whose last digits are rounded
+        latest = max(abs(task.start), abs(task.end))
+        self._no_shorter = task.smallest * (1.0 + SAME) + 2.0 * math.ulp(latest)
         tuning = task.tuning
         self._safety = tuning.safety
         self._factor_max, self._factor_min = tuning.factor_max, tuning.factor_min
@@ -41,7 +44,7 @@ class StepControl:
     def shorter(self, step: float) -> float:
         """Return with which step to repeat one just tried, s, or 0.0 where it is good enough."""
         error = self._estimate(step)
-        if error > 1.0 and step <= self._smallest * (1.0 + 1e-9):
+        if error > 1.0 and step <= self._no_shorter:
             error = min(error, self._estimate.of_jump(step))
         self.error = error
         if error <= 1.0:

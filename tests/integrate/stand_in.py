@@ -24,6 +24,7 @@ def problem_at(nodes, velocities, accelerations=None, joints=None, length=1.0):
     )
     state = State(data, exu.ConfigurationType.Current)
     return Problem(
+        kinds=(),
         mbs=None,
         data=data,
         current=state,

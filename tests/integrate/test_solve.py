@@ -471,6 +471,27 @@ def state_of(mbs):
 
 
 @pytest.mark.parametrize(
+    "keys",
+    [
+        {"solverType": exu.DynamicSolverType.TrapezoidalIndex2},
+        {"generalizedAlpha__useNewmark": True},
+    ],
+)
+def test_another_implicit_method_is_switched_to_generalized_alpha_with_a_warning(keys):
+    mbs, node = pendulum()
+    solve_dynamic(mbs, settings(0.2))
+    expected = mbs.GetNodeOutput(node, exu.OutputVariableType.Coordinates)
+    mbs, node = pendulum()
+    chosen = with_settings(**keys)
+    chosen.timeIntegration.endTime = 0.2
+    before = chosen.timeIntegration.generalizedAlpha.useNewmark
+    with pytest.warns(UserWarning, match="solved with GeneralizedAlpha"):
+        assert solve_dynamic(mbs, chosen).status is Status.COMPLETED
+    assert mbs.GetNodeOutput(node, exu.OutputVariableType.Coordinates).tolist() == expected.tolist()
+    assert chosen.timeIntegration.generalizedAlpha.useNewmark == before
+
+
+@pytest.mark.parametrize(
     ("system", "chosen", "tolerance", "message"),
     [
         (unassembled, settings(1.0), 1e-3, "not assembled"),
@@ -482,18 +503,6 @@ def state_of(mbs):
             with_settings(solverType=exu.DynamicSolverType.RK44),
             1e-3,
             "solverType = RK44",
-        ),
-        (
-            lambda: pendulum()[0],
-            with_settings(solverType=exu.DynamicSolverType.TrapezoidalIndex2),
-            1e-3,
-            "solverType = TrapezoidalIndex2",
-        ),
-        (
-            lambda: pendulum()[0],
-            with_settings(generalizedAlpha__useNewmark=True),
-            1e-3,
-            "useNewmark",
         ),
         (
             lambda: pendulum()[0],

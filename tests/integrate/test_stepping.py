@@ -5,11 +5,13 @@ import math
 import re
 from types import SimpleNamespace
 
+import exudyn as exu
+import exudyn.utilities as items
 import numpy as np
 import pytest
 from patched import PATCHED
 
-from exu_press import Result, Scene, simulate
+from exu_press import Result, Scene, Status, simulate, solve_dynamic
 from exu_press.cli import main
 from exu_press.integrate.settings import Tuning
 from exu_press.integrate.stepping import FixedSteps, StepControl
@@ -180,3 +182,29 @@ def test_steps_end_on_corners_and_the_end():
     times = np.cumsum(sizes)
     assert np.abs(times - 2.3e-3).min() < 1e-15 and times[-1] == pytest.approx(5.1e-3)
     assert min(sizes) > 0.5e-3, "nothing little is left before one"
+
+
+def test_a_load_that_jumps_late_in_a_run_is_passed():
+    """The smallest step, 1e-8 s, is told as a difference of times with an error of 1e-5 of it."""
+    mbs = exu.SystemContainer().AddSystem()
+    still = mbs.AddNode(items.NodePointGround())
+    node = mbs.AddNode(items.Node1D(referenceCoordinates=[0.0]))
+    mbs.AddObject(items.ObjectMass1D(nodeNumber=node, mass=1.0))
+    ends = [
+        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=number, coordinate=0))
+        for number in (still, node)
+    ]
+    mbs.AddObject(items.ObjectConnectorCoordinateSpringDamper(markerNumbers=ends, stiffness=100.0))
+    mbs.AddLoad(
+        items.LoadCoordinate(
+            markerNumber=ends[1],
+            load=0.0,
+            loadUserFunction=lambda mbs, time, load: 1.0 if time < 600.123 else -1e3,
+        )
+    )
+    mbs.Assemble()
+    settings = exu.SimulationSettings()
+    settings.timeIntegration.startTime, settings.timeIntegration.endTime = 600.0, 601.0
+    settings.solution.file.write = False
+    outcome = solve_dynamic(mbs, settings, tolerance=1e-3)
+    assert outcome.status is Status.COMPLETED, outcome.reason

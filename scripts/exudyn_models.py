@@ -1,0 +1,111 @@
+"""How well `solve_dynamic` does in the place of `SolveDynamic`, in all of Exudyn's own scripts.
+
+Takes the folder of a checkout of github.com/jgerstmayr/EXUDYN, and runs every script of
+main/pythonDev/Examples and TestModels that solves a motion with an implicit solver, up to the end
+of the first one: with the user's own steps, with two finer ones as references, with a tolerance
+and steps of at most a hundredth of the run, and with the tolerance and the user's steps as the
+largest. Each run is a process of its own. What is in OUT is not run again.
+
+Error: of velocities in the kinetic norm over the largest speed, the worst of 20 instants; the
+references' own error is what they differ by.
+Run with: python scripts/exudyn_models.py CHECKOUT OUT [--only NAME ...] [--tolerance 1e-3]
+"""
+
+import argparse
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from exudyn_models.table import Model, table
+
+FOLDERS = "main/pythonDev/Examples", "main/pythonDev/TestModels"
+ONE_RUN = Path(__file__).parent / "exudyn_models" / "one_run.py"
+FINER = (16, 8, 4, 2, 1, 0.5)
+
+
+def run(script, variant, file, limit):
+    """Run a script, unless that has been done, and return what it did."""
+    if not file.exists():
+        file.parent.mkdir(parents=True, exist_ok=True)
+        command = [sys.executable, str(ONE_RUN), str(script), json.dumps(variant), str(file)]
+        said = ""
+        try:
+            done = subprocess.run(
+                command,
+                timeout=limit,
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.PIPE,
+                text=True,
+                errors="replace",
+            )
+            said = (done.stderr.strip().splitlines() or [f"exit {done.returncode}"])[-1]
+            status = "crashed"
+        except subprocess.TimeoutExpired:
+            status = "time limit"
+        if not file.exists():
+            found = {"status": status, "reason": said[:300], "seconds": limit}
+            np.savez(file, found=json.dumps(found), rows=np.zeros(0))
+    with np.load(file) as kept:
+        arrays = {name: kept[name] for name in kept.files}
+    return {**json.loads(str(arrays.pop("found"))), **arrays}
+
+
+def references(script, folder, user, limit):
+    """The user's run, and two runs with finer steps, as fine as the time allows."""
+    if user["status"] != "completed":
+        return None
+    for times in FINER:
+        if user["seconds"] * times < 0.5 * limit:
+            two = [
+                run(script, {"times": part}, folder / f"fixed_{part:g}.npz", limit)
+                for part in (times, times / 2)
+            ]
+            if all(one["status"] == "completed" for one in two):
+                return two
+    return None
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("checkout", type=Path)
+    parser.add_argument("out", type=Path)
+    parser.add_argument("--only", nargs="*", default=[], help="names of scripts")
+    parser.add_argument("--tolerance", type=float, default=1e-3)
+    parser.add_argument("--limit", type=float, default=20.0, help="of each run, s")
+    parser.add_argument("--again", action="store_true", help="run what has a tolerance again")
+    parser.add_argument("--drop-in", action="store_true", help="with the user's steps as well")
+    options = parser.parse_args()
+    scripts = [path for folder in FOLDERS for path in (options.checkout / folder).glob("*.py")]
+    models = []
+    for script in sorted(scripts, key=lambda path: path.stem):
+        if options.only and script.stem not in options.only:
+            continue
+        if "SolveDynamic" not in script.read_text(encoding="utf-8", errors="replace"):
+            continue
+        folder = options.out.resolve() / script.stem
+        user = run(script.resolve(), {"times": 1}, folder / "fixed_1.npz", options.limit)
+        fine = references(script.resolve(), folder, user, options.limit)
+        if user["status"] in ("explicit", "no dynamic solution"):
+            continue
+        variants = {"tolerance": {"tolerance": options.tolerance, "steps": 100}}
+        if options.drop_in:
+            variants["drop_in"] = {"tolerance": options.tolerance}
+        runs = {}
+        for name, variant in variants.items():
+            file = folder / f"{name}_{options.tolerance:g}.npz"
+            if options.again:
+                file.unlink(missing_ok=True)
+            if fine:
+                runs[name] = run(script.resolve(), variant, file, options.limit)
+        models.append(Model(script.stem, user, fine, runs))
+        if fine:
+            print(models[-1].line(options.tolerance), flush=True)
+    print(table(models, options.tolerance))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,1 @@
+"""Runs the scripts of a checkout of Exudyn, and says how far they are off."""

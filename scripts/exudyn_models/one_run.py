@@ -1,0 +1,175 @@
+"""Run one script of Exudyn's up to the end of its first dynamic solution, and keep what it did.
+
+A process of its own, as scripts print, open windows, crash and hang:
+python scripts/exudyn_models/one_run.py SCRIPT VARIANT FILE, with VARIANT as JSON: `tolerance` and
+`steps` (of the settings, at most), or `times`, by which the user's own steps are made finer.
+"""
+
+import builtins
+import json
+import math
+import os
+import random
+import resource
+import runpy
+import sys
+import time as clock
+from pathlib import Path
+
+import exudyn as exu
+import exudyn.plot
+import exudyn.solver
+import exudyn.utilities
+import numpy as np
+
+from exu_press import InputError, solve_dynamic
+from exu_press.integrate.problem import Problem, weights
+
+SAMPLES = 20
+MEMORY = 6 << 30  # bytes
+CURRENT = exu.ConfigurationType.Current
+IMPLICIT = exu.DynamicSolverType.GeneralizedAlpha, exu.DynamicSolverType.TrapezoidalIndex2
+
+
+class Record:
+    """Velocities and first-order coordinates at the instants, by cubics between steps."""
+
+    def __init__(self, mbs, start, end):
+        self.data, self.steps = mbs.systemData, -1
+        self.times = np.linspace(start, end, SAMPLES + 1)[1:]
+        self.rows, self.before = [], None
+        self.close = 1e-9 * (end - start)
+        own = mbs.GetPostStepUserFunction()
+        self.own = own["function"] if isinstance(own, dict) else None
+
+    def state(self):
+        data = self.data
+        rates = data.GetODE2Coordinates_t, data.GetODE1Coordinates
+        slopes = data.GetODE2Coordinates_tt, data.GetODE1Coordinates_t
+        return [
+            np.concatenate([np.array(part(CURRENT)) for part in parts]) for parts in (rates, slopes)
+        ]
+
+    def __call__(self, mbs, time):
+        self.steps += 1
+        value, slope = self.state()
+        while len(self.rows) < SAMPLES and time >= self.times[len(self.rows)] - self.close:
+            at = self.times[len(self.rows)]
+            if self.before is None or time - at < self.close:
+                self.rows.append(value)
+                continue
+            begin, old, old_slope = self.before
+            h = time - begin
+            s = (at - begin) / h
+            self.rows.append(
+                old * (1 + 2 * s) * (1 - s) ** 2
+                + value * s * s * (3 - 2 * s)
+                + h * s * (1 - s) * ((1 - s) * old_slope - s * slope)
+            )
+        self.before = time, value, slope
+        return self.own(mbs, time) if self.own else True
+
+
+def quiet():
+    """No windows, no pictures, no files."""
+
+    def nothing(*args, **keys):
+        return True
+
+    for name in ("Start", "Stop", "DoIdleTasks", "RedrawAndSaveImage", "SendRedrawSignal"):
+        setattr(exu.Renderer, name, nothing)
+    for name in ("StartRenderer", "StopRenderer", "DoRendererIdleTasks"):
+        setattr(exu, name, nothing)
+    for name in ("SolutionViewer", "PlotSensor", "WaitForUserToContinue", "DrawSystemGraph"):
+        if hasattr(exu.MainSystem, name):
+            setattr(exu.MainSystem, name, nothing)
+    exudyn.plot.PlotSensor = exudyn.utilities.PlotSensor = nothing
+    for name in ("sin", "cos", "tan", "sqrt", "pi", "exp"):  # earlier versions export them
+        setattr(builtins, name, getattr(math, name))
+    random.seed(1)
+    np.random.seed(1)
+    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+
+
+def replace(variant, file):
+    """Put our run in the place of Exudyn's."""
+    theirs = exu.SolveDynamic
+
+    def solve(mbs, *args, **keys):
+        given = {**dict(zip(("simulationSettings", "solverType"), args, strict=False)), **keys}
+        settings = given.get("simulationSettings") or exu.SimulationSettings()
+        integration = settings.timeIntegration
+        solver = given.get("solverType") or integration.solverType
+        if solver not in IMPLICIT:
+            finish(file, {"status": "explicit", "solver": str(solver)})
+        if not mbs.systemIsConsistent:
+            mbs.Assemble()
+        settings.solution.file.write = False
+        integration.verboseMode = 0
+        settings.displayComputationTime = settings.displayStatistics = False
+        settings.timeIntegration.simulateInRealtime = False
+        users = integration.numberOfSteps
+        if "times" in variant:
+            integration.numberOfSteps = max(SAMPLES, round(users * variant["times"]))
+        elif variant.get("steps"):
+            integration.numberOfSteps = variant["steps"]
+        record = Record(mbs, integration.startTime, integration.endTime)
+        mbs.SetPostStepUserFunction(record)
+        found = {"users_steps": users, "end": integration.endTime, "reason": ""}
+        found["unknowns"] = mbs.systemData.ODE2Size() + mbs.systemData.ODE1Size()
+        begun = clock.process_time()
+        try:
+            if "times" in variant:
+                theirs(mbs, settings, solver)
+                found["status"] = "completed"
+            else:
+                integration.solverType = solver
+                outcome = solve_dynamic(mbs, settings, tolerance=variant["tolerance"])
+                found["status"], found["reason"] = outcome.status.value, outcome.reason
+                found["tries"] = outcome.steps + outcome.rejected_steps
+        except InputError as error:
+            found["status"], found["reason"] = "refused", str(error)
+        except exu.ExudynError as error:
+            found["status"] = "failed"
+            found["reason"] = f"{type(error).__name__}: {str(error).strip()[:300]}"
+        found["seconds"] = clock.process_time() - begun
+        found["steps"], found["reached"] = record.steps, mbs.systemData.GetTime()
+        finish(file, found, mbs, record.rows)
+
+    exu.SolveDynamic = exudyn.solver.SolveDynamic = exu.MainSystem.SolveDynamic = solve
+    if hasattr(exudyn.utilities, "SolveDynamic"):
+        exudyn.utilities.SolveDynamic = solve
+
+
+def finish(file, found, mbs=None, rows=()):
+    arrays = {"rows": np.array(rows)}
+    if mbs is not None:
+        try:
+            problem = Problem.of(mbs)
+            matrix = mbs.sys["dynamicSolver"].GetSystemMassMatrix()
+            inertias, masses = weights(problem.nodes, matrix)
+            sizes = [node.size for node in problem.nodes]
+            arrays["body"] = np.repeat(np.arange(len(sizes)), sizes)
+            mass = np.array(masses)[arrays["body"]] if sizes else np.zeros(0)
+            mass[mass == 0.0] = np.nan  # no displacements: its own largest velocity is the scale
+            arrays["weight"] = np.sqrt(np.array(inertias) / mass)
+        except Exception as error:  # then no tolerance run is possible either
+            found["no_weights"] = str(error)
+    np.savez(file, found=json.dumps(found), **arrays)
+    os._exit(0)
+
+
+def main():
+    script, variant, file = sys.argv[1:]
+    quiet()
+    replace(json.loads(variant), file)
+    folder = str(Path(script).parent)
+    os.chdir(folder)
+    sys.path[0] = folder
+    sys.argv = [script]
+    runpy.run_path(script, run_name="__main__")
+    finish(file, {"status": "no dynamic solution"})
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,124 @@
+"""Errors, classes and speeds of the models."""
+
+from collections import Counter
+from dataclasses import dataclass
+
+import numpy as np
+
+__all__ = ["Model", "table"]
+
+ENDED = "completed", "under-resolved"
+AGREE = 3e-3
+"""Of two references, up to which an error is counted."""
+
+CLASSES = (
+    "within one tolerance",
+    "within ten tolerances",
+    "within the references' own error",
+    "within a hundred tolerances",
+    "more than a hundred tolerances off",
+    "stopped",
+    "refused",
+    "cut off at the time limit",
+    "crashed",
+    "no figure, as the references disagree",
+)
+
+
+def error(one, fine):
+    """Return the largest error of any body's velocity, or of a first-order coordinate."""
+    rows, exact = one["rows"], fine["rows"]
+    if "weight" not in fine or rows.shape != exact.shape or not len(rows):
+        return np.nan
+    weight, body = fine["weight"], fine["body"]
+    size = len(weight)
+    missed = rows - exact
+    found = 0.0
+    owned = ~np.isnan(weight)
+    if owned.any():
+        square = np.where(owned, weight, 0.0) ** 2
+        parts = np.unique(body, return_index=True)[1]
+        norms = [
+            np.add.reduceat(square * part[:, :size] ** 2, parts, axis=1) for part in (missed, exact)
+        ]
+        scale = norms[1].max()
+        found = np.sqrt(norms[0].max() / scale) if scale > 0.0 else 0.0
+    for i in (*np.flatnonzero(~owned), *range(size, rows.shape[1])):
+        scale = np.abs(exact[:, i]).max()
+        if scale > 0.0:
+            found = max(found, np.abs(missed[:, i]).max() / scale)
+    return float(found)
+
+
+@dataclass
+class Model:
+    """A script and its runs."""
+
+    name: str
+    user: dict
+    fine: list | None
+    runs: dict
+
+    @property
+    def own(self):
+        """Return the references' own error; nan where there is none."""
+        return error(self.fine[1], self.fine[0]) if self.fine else np.nan
+
+    def comparable(self):
+        """Return whether there is something to compare with."""
+        return self.fine is not None and np.isfinite(self.own)
+
+    def found(self, variant="tolerance"):
+        """Return the error of a run."""
+        return error(self.runs[variant], self.fine[0])
+
+    def kind(self, tolerance, variant="tolerance"):
+        """Return the class of a run, as an index."""
+        run = self.runs[variant]
+        if run["status"] == "refused":
+            return 6
+        if run["status"] == "time limit":
+            return 7
+        if run["status"] == "crashed":
+            return 8
+        if run["status"] not in ENDED:
+            return 5
+        found = self.found(variant)
+        if found <= tolerance:
+            return 0
+        if found <= 10 * tolerance:
+            return 1
+        if found <= 3.0 * self.own:
+            return 2
+        if self.own > AGREE:
+            return 9
+        return 3 if found <= 100 * tolerance else 4
+
+    def line(self, tolerance):
+        """Return a line about the model."""
+        text = f"{self.name:44s} {self.user['unknowns']:5d} own {self.own:8.1e}"
+        for variant, run in self.runs.items():
+            fixed = self.user["seconds"]
+            kind = CLASSES[self.kind(tolerance, variant)] if self.comparable() else "-"
+            text += f" | {run.get('steps', 0):6d} of {run.get('tries', 0):6d} "
+            text += f"({self.user['steps']:6d}) {run.get('seconds', 0.0):6.2f} s ({fixed:6.2f}) "
+            text += f"{self.found(variant) / tolerance:8.2g} {kind}; {run['status']} "
+            text += run["reason"][:160]
+        return text
+
+
+def table(models, tolerance):
+    """Return how many models are in which class, and how long they took."""
+    comparable = [model for model in models if model.comparable() and model.runs]
+    lines = [f"{len(models)} models with an implicit solver, {len(comparable)} comparable"]
+    for variant in comparable[0].runs if comparable else ():
+        kinds = [model.kind(tolerance, variant) for model in comparable]
+        counts = Counter(kinds)
+        lines.append(f"\n{variant} {tolerance:g}:")
+        lines += [f"{counts[i]:5d}  {name}" for i, name in enumerate(CLASSES)]
+        ended = [m for m, kind in zip(comparable, kinds, strict=True) if kind < 5]
+        ratios = [m.runs[variant]["seconds"] / max(m.user["seconds"], 1e-3) for m in ended]
+        if ratios:
+            low, most = np.percentile(ratios, [50, 95])
+            lines.append(f"processor time over the user's run: median {low:.2g}, 95 % {most:.2g}")
+    return "\n".join(lines)

@@ -1,0 +1,76 @@
+"""Exudyn's own contacts: what they start from, and gaps that close exactly where a step ends."""
+
+import exudyn as exu
+import exudyn.utilities as items
+import pytest
+
+from exu_press import Status, solve_dynamic
+
+SPEED = 10.0  # m/s, of every ball
+RESTITUTION = 0.7
+RADIUS = 0.1  # m
+
+
+def balls(*gaps):
+    """Balls of 1.6 kg that fly down to fixed ones, from these gaps (m); all gaps are guessed."""
+    mbs = exu.SystemContainer().AddSystem()
+    nodes = []
+    for i, gap in enumerate(gaps):
+        still = mbs.AddNode(items.NodePointGround(referenceCoordinates=[i, -2.0 * RADIUS, 0.0]))
+        ball = mbs.CreateRigidBody(
+            referencePosition=[i, gap, 0.0],
+            initialVelocity=[0.0, -SPEED, 0.0],
+            inertia=items.InertiaSphere(1.6, RADIUS),
+        )
+        nodes.append(mbs.GetObject(ball)["nodeNumber"])
+        ends = [
+            mbs.AddMarker(items.MarkerNodeRigid(nodeNumber=number)) for number in (still, nodes[-1])
+        ]
+        guess = [0.1, 0.0, 0.0, 0.0]
+        data = mbs.AddNode(
+            items.NodeGenericData(initialCoordinates=guess, numberOfDataCoordinates=4)
+        )
+        mbs.AddObject(
+            items.ObjectContactSphereSphere(
+                markerNumbers=ends,
+                nodeNumber=data,
+                spheresRadii=[RADIUS, RADIUS],
+                contactStiffness=1e6,
+                impactModel=2,
+                restitutionCoefficient=RESTITUTION,
+            )
+        )
+    mbs.Assemble()
+    return mbs, nodes
+
+
+def rebound(*gaps, end=0.1):
+    """The speeds with which balls from these gaps rebound, m/s."""
+    mbs, nodes = balls(*gaps)
+    settings = exu.SimulationSettings()
+    settings.timeIntegration.endTime, settings.solution.file.write = end, False
+    settings.timeIntegration.numberOfSteps = 100
+    outcome = solve_dynamic(mbs, settings, tolerance=1e-3)
+    assert outcome.status is Status.COMPLETED, outcome.reason
+    return [mbs.GetNodeOutput(n, exu.OutputVariableType.Velocity)[1] for n in nodes]
+
+
+def test_a_ball_does_not_pass_a_contact_that_closes_exactly_where_a_step_ends():
+    """The gap is then 0.0, which Exudyn takes for neither open nor closed."""
+    assert rebound(0.5) == pytest.approx([RESTITUTION * SPEED], rel=2e-3)
+
+
+def test_guesses_that_exudyn_mends_itself_are_left_alone():
+    """By the change it tells with which speed surfaces meet; one ball touches to the last digit."""
+    mbs, _ = balls(-1e-3, 0.0)
+    started = []
+
+    def look(mbs, time):
+        started.append(mbs.systemData.GetDataCoordinates(exu.ConfigurationType.StartOfStep))
+        return True
+
+    mbs.SetPreStepUserFunction(look)
+    settings = exu.SimulationSettings()
+    settings.timeIntegration.endTime, settings.solution.file.write = 1e-3, False
+    assert solve_dynamic(mbs, settings).status is Status.COMPLETED
+    assert list(started[0][0::4]) == [0.1, 0.1]

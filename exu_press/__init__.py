@@ -65,7 +65,8 @@ _HOMES = {
 
 WORKERS.update(
     build=lambda scene: importlib.import_module("exu_press.graphics").build_with_graphics(scene),
-    summary=lambda result: importlib.import_module("exu_press.observe").summary(result),
+    quantity=lambda result: importlib.import_module("exu_press.quantities").value_of(*result),
+    summary=lambda result: importlib.import_module("exu_press.quantities").summary(result),
 )
 
 

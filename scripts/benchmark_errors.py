@@ -14,8 +14,8 @@ import time
 from collections.abc import Callable
 
 from exu_press import Result, Scene, simulate
-from exu_press.confidence import simulate_with_errors
 from exu_press.scene import flexible_press
+from exu_press.verification import simulate_with_errors
 
 SCENES = {
     "press, two revolutions": Scene(),

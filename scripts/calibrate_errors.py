@@ -24,9 +24,9 @@ from typing import Any
 import numpy as np
 
 from exu_press import Result, Scene, simulate
-from exu_press.confidence import simulate_with_errors
-from exu_press.confidence.compared import compared
 from exu_press.scene import flexible_press
+from exu_press.verification import simulate_with_errors
+from exu_press.verification.compared import compared
 
 REFERENCES = (1e-7, 1e-6, 1e-5)
 """Tolerances, of which the finest is taken whose run is not expected to take longer than LONGEST.
@@ -76,7 +76,7 @@ def references(run: Result, cost: float) -> tuple[str, list[Result]]:
     """
     assert run.scene.solver is not None and run.scene.solver.tolerance is not None
     tolerance = run.scene.solver.tolerance
-    if run.info["errors_from"] is None:
+    if run.info["horizon"] is None:
         for finest in REFERENCES:
             if 0.5 * cost * (tolerance / finest) ** GROWTH < LONGEST:
                 break
@@ -109,7 +109,7 @@ def judged(scene: Scene) -> dict[str, Any]:
         "scene": in_words(scene),
         "status": run.info["status"],
         "reference": words,
-        "horizon": run.info["errors_from"],
+        "horizon": run.info["horizon"],
         "seconds": time.process_time() - begun,
         "figures": rows,
     }

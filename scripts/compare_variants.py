@@ -6,9 +6,9 @@ Run with: python scripts/compare_variants.py [--quick]
 import argparse
 
 from exu_press import Scene, simulate
-from exu_press.observe.table import comparison_lines
 from exu_press.output import output_directory
 from exu_press.plots import save_comparison
+from exu_press.quantities.table import comparison_lines
 from exu_press.studies.compare import variants
 
 parser = argparse.ArgumentParser(description=__doc__)
@@ -16,4 +16,4 @@ parser.add_argument("--quick", action="store_true", help="a tenth of a revolutio
 scene = Scene(revolutions=0.1 if parser.parse_args().quick else 2.0)
 results = {label: simulate(variant) for label, variant in variants(scene).items()}
 save_comparison(results, output_directory("out/compare_variants"))
-print("\n".join(comparison_lines({label: run.summary() for label, run in results.items()})))
+print("\n".join(comparison_lines(results)))

@@ -11,10 +11,12 @@ from pathlib import Path
 
 from exu_press import Result, Scene, simulate
 from exu_press.columns import columns
-from exu_press.confidence.companions import plan
-from exu_press.confidence.run import errors_of
-from exu_press.observe.uncertain import uncertain
+from exu_press.quantities import Placed, Quantity
+from exu_press.quantities.kind import LOAD, MOTION
+from exu_press.quantities.uncertain import uncertain
 from exu_press.scene import flexible_press
+from exu_press.verification.companions import plan
+from exu_press.verification.run import errors_of
 from fe_models import clamped_frequencies, draw_mode_shapes, shipped_part
 from fe_models.clamped import MODE_NUMBERS, PUBLISHED_HZ, relative_errors
 
@@ -42,8 +44,10 @@ for name in PUBLISHED_HZ:
 
 def figures(run: Result) -> dict[str, float]:
     """Return the columns of the last table that a run has, in their units."""
-    peaks = run.summary()["peak_acceleration"]
-    found = {"acceleration": peaks["resolved"], "mean_1ms": peaks["mean_1ms"]}
+    found = {
+        "acceleration": run.quantity("peak_acceleration.resolved").value,
+        "mean_1ms": run.quantity("peak_acceleration.mean_1ms").value,
+    }
     if "crank_pin_deflection" in run:
         found["deflection"] = 1e6 * abs(run["crank_pin_deflection"]).max()
         stress = [part["von_mises"] for part in run.info["stress"].values()]
@@ -51,13 +55,22 @@ def figures(run: Result) -> dict[str, float]:
     return found
 
 
+KINDS = {"acceleration": LOAD, "mean_1ms": LOAD, "deflection": MOTION, "stress": MOTION}
+COLUMNS = {
+    name: Placed(
+        Quantity(name, "", name, kind, lambda run, _, name=name: run.once(figures).get(name))
+    )
+    for name, kind in dict(
+        acceleration=LOAD, mean_1ms=LOAD, deflection=MOTION, stress=MOTION
+    ).items()
+}
 rows = [("lubricated press, 240 rpm", "m/s^2", "over 1 ms", "um", "MPa")]
 scene = Scene(revolutions=0.01 if quick else 0.2)
 flexible = scene.replace(bodies=flexible_press())
 second = scene.replace(bodies={"crank": "crank_2", "linkage": "linkage_2"})
 for label, case in (("rigid", scene), ("flexible", flexible), ("flexible, second shapes", second)):
     result, beside = simulate(case), plan(case).items()
-    told = errors_of(result, ((r, simulate(one)) for r, one in beside), figures)["errors"]
+    told = errors_of(result, ((r, simulate(one)) for r, one in beside), COLUMNS)["errors"]
     texts = [uncertain(value, told[name]) for name, value in figures(result).items()]
     rows.append((label, *texts, *[""] * (4 - len(texts))))
 print("", *columns(rows), sep="\n")

@@ -7,9 +7,9 @@ import argparse
 import sys
 
 from exu_press import Scene, simulate
-from exu_press.observe.table import run_lines
 from exu_press.output import output_directory
 from exu_press.plots import save_pictures
+from exu_press.quantities.table import run_lines
 
 parser = argparse.ArgumentParser(description=__doc__)
 parser.add_argument("--quick", action="store_true", help="a tenth of a revolution")
@@ -28,6 +28,6 @@ result = simulate(scene)
 out = output_directory("out/run_press")
 result.save(out / "run.nc")
 save_pictures(result, out)
-print("\n".join(run_lines(result.summary())))
+print("\n".join(run_lines(result)))
 if not result.completed:
     sys.exit(result.info["reason"])

@@ -99,7 +99,9 @@ def test_both_balls_carry_the_same_force_and_together_the_slider():
 def test_summary_shows_the_published_numbers():
     """Stroke 26.19 mm, 17.84 m/s^2 and 0.441 m/s at 240 rpm, bottom dead centre at 0.47 m."""
     summary = run("press").summary()
-    assert summary["stroke"] == pytest.approx(26.19e-3, abs=0.02e-3)
-    assert summary["peak_acceleration"]["resolved"] == pytest.approx(17.84, abs=0.05)
-    assert summary["peak_velocity"] == pytest.approx(0.441, abs=1e-3)
-    assert summary["bottom_dead_centre"] == pytest.approx(0.47, abs=1e-7)
+    assert summary["quantities"]["stroke"]["value"] == pytest.approx(26.19e-3, abs=0.02e-3)
+    assert summary["quantities"]["peak_acceleration.resolved"]["value"] == pytest.approx(
+        17.84, abs=0.05
+    )
+    assert summary["quantities"]["peak_velocity"]["value"] == pytest.approx(0.441, abs=1e-3)
+    assert summary["quantities"]["bottom_dead_centre"]["value"] == pytest.approx(0.47, abs=1e-7)

@@ -11,6 +11,7 @@ from docutils import nodes
 from docutils.parsers.rst import Directive
 
 from exu_press import Scene
+from exu_press.quantities import CATALOGUE
 from exu_press.scene import DryJoint, Flexible
 from exu_press.scene.load import LOAD_KINDS
 from exu_press.scene.usage import TABLES
@@ -20,6 +21,7 @@ def setup(app: Any) -> dict[str, Any]:
     """Add the directives."""
     app.add_directive("scene-keys", SceneKeys)
     app.add_directive("commands", Commands)
+    app.add_directive("quantities", Quantities)
     return {"parallel_read_safe": True}
 
 
@@ -48,6 +50,16 @@ class SceneKeys(Directive):
             section += table_of(rows)
             found.append(section)
         return found
+
+
+class Quantities(Directive):
+    """Every quantity with its unit and meaning."""
+
+    def run(self) -> list[nodes.Node]:
+        """Return one table."""
+        rows = [("name", "unit", "meaning", "kind")]
+        rows += [(q.at("NAME"), q.unit, q.meaning, q.kind.name) for q in CATALOGUE]
+        return [table_of(rows)]
 
 
 class Commands(Directive):

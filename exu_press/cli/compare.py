@@ -12,15 +12,15 @@ from exu_press.cli.options import (
     shipped_names,
     show_warnings,
 )
-from exu_press.confidence import simulate_with_errors
 from exu_press.errors import InputError
-from exu_press.observe.differences import difference_lines
-from exu_press.observe.table import comparison_lines
 from exu_press.output import output_directory, remove_pictures, write_json
+from exu_press.quantities.differences import difference_lines
+from exu_press.quantities.table import comparison_lines
 from exu_press.result import Result
 from exu_press.scene import Scene, load_scene
 from exu_press.simulation import simulate
 from exu_press.studies.compare import variants
+from exu_press.verification import simulate_with_errors
 
 __all__ = ["EXAMPLE", "add_arguments", "execute"]
 
@@ -67,7 +67,7 @@ def execute(options: argparse.Namespace) -> int:
 
         save_comparison(results, directory)
     if not options.quiet:
-        print("\n".join([*comparison_lines(summaries), *difference_lines(summaries)]))
+        print("\n".join([*comparison_lines(results), *difference_lines(results)]))
         show_warnings(f"{label}: {w}" for label, s in summaries.items() for w in s["warnings"])
         print(f"written to {directory}")
     stopped = {label: s["reason"] for label, s in summaries.items() if s["reason"]}

@@ -11,13 +11,13 @@ from exu_press.cli.options import (
     scene_of,
     show_warnings,
 )
-from exu_press.confidence import deliver, simulate_with_errors
-from exu_press.confidence.told import delivered_lines
 from exu_press.errors import InputError
-from exu_press.observe.table import run_lines
 from exu_press.output import output_directory, remove_pictures, write_json
+from exu_press.quantities.table import run_lines
 from exu_press.scene.assumptions import assumed_line
 from exu_press.simulation import simulate
+from exu_press.verification import deliver, simulate_with_errors
+from exu_press.verification.told import delivered_lines
 
 __all__ = ["EXAMPLE", "add_arguments", "execute"]
 
@@ -66,7 +66,7 @@ def execute(options: argparse.Namespace) -> int:
     written = [directory / "run.nc", directory / "summary.json"]
     if not options.quiet:  # before the pictures, which take longer than a short run
         assumed = textwrap.wrap(assumed_line(scene), 100, subsequent_indent="  ")
-        print("\n".join([*run_lines(summary), *found, *assumed]), flush=True)
+        print("\n".join([*run_lines(result), *found, *assumed]), flush=True)
         show_warnings(summary["warnings"])
     if not options.no_pictures:
         from exu_press.plots import save_pictures

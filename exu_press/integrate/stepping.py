@@ -145,7 +145,7 @@ class Resolution:
     1e-3 to 1e-5 s: above 0.8 the joints' peak forces were off by 9 to 90 %, seldom less; between
     0.65 and 0.8 by 2 to 17 %. Below, steps say nothing against a peak, and nothing for it either:
     an error that an earlier impact left may have grown by then. How far a figure is off its stated
-    error says (see `exu_press.confidence`).
+    error says (see `exu_press.verification`).
 
     Loads and prescribed motions of other systems may jump themselves, and steps end on that within
     what the tolerance leaves: a jump that changes no speed by a tenth of it is none of the step's.

@@ -6,11 +6,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from exu_press.observe.energy import energy_residual
 from exu_press.plots.canvas import angle_axis, curve, legend_above, new_figure
 from exu_press.plots.scales import note
 from exu_press.plots.sides import joint_titles
 from exu_press.plots.style import COLOURS, GREY, colour_of, styled
+from exu_press.quantities.energy import energy_residual
 from exu_press.result import Result
 
 __all__ = ["energy_figure"]

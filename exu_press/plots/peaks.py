@@ -6,9 +6,9 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from exu_press.arrays import Array
-from exu_press.observe.uncertain import uncertain
 from exu_press.plots.canvas import crank_degrees
 from exu_press.plots.style import colour_of
+from exu_press.quantities.uncertain import uncertain
 from exu_press.result import Result
 from exu_press.result.info import Error
 

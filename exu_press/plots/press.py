@@ -8,7 +8,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from exu_press.arrays import Array
-from exu_press.observe import DeadCentre, bottom_dead_centres, ideal_bottom_angle
 from exu_press.piecewise import evaluate, hermite, integral
 from exu_press.plots.canvas import (
     angle_axis,
@@ -23,6 +22,7 @@ from exu_press.plots.scales import note, widen
 from exu_press.plots.slider import averaged
 from exu_press.plots.style import GREY, IDEAL, colour_of, styled
 from exu_press.plots.words import joint_in_words
+from exu_press.quantities import DeadCentre, bottom_dead_centres, ideal_bottom_angle
 from exu_press.result import Result
 from exu_press.result.channel import guide_channel
 from exu_press.scene import mechanism_of

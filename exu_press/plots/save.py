@@ -9,7 +9,6 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
 
-from exu_press.observe.energy import has_balance
 from exu_press.output import replacing
 from exu_press.plots.energy import energy_figure
 from exu_press.plots.force import force_figure
@@ -17,6 +16,7 @@ from exu_press.plots.orbit import orbit_figure
 from exu_press.plots.press import press_figure
 from exu_press.plots.slider import slider_figure
 from exu_press.plots.style import DPI, look
+from exu_press.quantities.energy import has_balance
 from exu_press.result import Result
 
 __all__ = ["save_comparison", "save_figure", "save_figures", "save_pictures"]

@@ -8,17 +8,13 @@ import numpy as np
 
 from exu_press.arrays import Array
 from exu_press.plots.typesetting import typeset
+from exu_press.quantities.catalogue import declared
 from exu_press.studies.sweep.units import meaning_of, unit_of
 
 __all__ = ["in_unit", "setting", "words"]
 
 PREFIXES = {-9: "n", -6: "u", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 PREFIXED = ("m", "s", "N", "N m", "J", "W", "Pa")
-NAMES = {
-    "min_film": "least film thickness",
-    "mean_1ms": "mean over 1 ms",
-    "differentiated_1khz": "differentiated, 1 kHz",
-}
 
 
 def in_unit(name: str, values: Array) -> tuple[Array, str]:
@@ -41,19 +37,23 @@ def words(name: str) -> str:
     """Return what a column is.
 
     >>> words("joints.balls.clearance"), words("joints.crank_pin.peak_force")
-    ('balls, radial clearance', 'crank pin, peak force')
+    ('balls, radial clearance', 'crank pin: joint force, max')
     >>> words("speed_rpm"), words("load.blanking.force")
     ('crank speed', 'blanking, peak force')
     >>> words("guide.clearance")
     'clearance on each side of a guided body'
     """
+    if (placed := declared(name)) is not None:
+        quantity, at = placed.quantity, placed.at.replace("_", " ")
+        title = quantity.title if quantity.title and not quantity.under else quantity.meaning
+        return f"{at}: {title}" if at else title
     parts = name.removeprefix("joints.").removeprefix("load.").split(".")
     meaning = re.sub(r" \(A-\d+\)|;.*", "", meaning_of(name))  # the assumption, what else is said
     if meaning.startswith(("of ", "on ")):
         meaning = f"{parts[-1].replace('_', ' ')} {meaning}"
     if name.startswith(("joints.", "load.")) and meaning:
         return f"{parts[0].replace('_', ' ')}, {meaning}"
-    return meaning or ", ".join(NAMES.get(p, p.replace("_", " ")) for p in parts)
+    return meaning or ", ".join(part.replace("_", " ") for part in parts)
 
 
 def setting(name: str, value: Any) -> str:

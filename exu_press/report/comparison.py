@@ -5,9 +5,9 @@ from pathlib import Path
 from typing import Any
 
 from exu_press.errors import InputError
-from exu_press.observe.table import comparison_cells
 from exu_press.plots import save_comparison
 from exu_press.plots.words import describe
+from exu_press.quantities.table import comparison_cells
 from exu_press.report.html import page, picture, table, warnings
 from exu_press.report.run import scene_parts, warnings_of
 from exu_press.result import Result
@@ -25,7 +25,7 @@ def comparison_report(file: Path) -> str:
     """Return the page of a comparison, from comparison.json and the variants' run.nc beside it."""
     results = {label: Result.load(path) for label, path in _runs(file).items()}
     summaries = {label: result.summary() for label, result in results.items()}
-    head, *rows = comparison_cells(summaries)
+    head, *rows = comparison_cells(results)
     with tempfile.TemporaryDirectory() as folder:
         shown = [
             picture(path, CAPTIONS.get(path.stem, path.stem))

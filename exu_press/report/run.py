@@ -1,17 +1,19 @@
 """The report of one run."""
 
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from exu_press.observe.table import comparison_cells
-from exu_press.observe.uncertain import uncertain
 from exu_press.plots import save_pictures
 from exu_press.plots.words import describe
+from exu_press.quantities import Quantity, value_of
+from exu_press.quantities.cost import COSTS
+from exu_press.quantities.energy import BALANCE, has_balance
+from exu_press.quantities.table import comparison_cells, shown_value
 from exu_press.report.html import details, page, paragraph, picture, table, warnings
 from exu_press.report.joints import joint_table
 from exu_press.result import Result
@@ -34,19 +36,6 @@ CAPTIONS = {
 MOST_NUMBERS = 4
 """Numbers of a list that are shown one by one."""
 
-STATISTICS = (
-    "end_time",
-    "wall_time",
-    "total_time",
-    "steps",
-    "rejected_steps",
-    "newton_iterations",
-    "law_evaluations",
-    "coordinates",
-    "bodies",
-    "connectors",
-)
-
 
 def run_report(result: Result, source: str) -> str:
     """Return the page of a run.
@@ -56,16 +45,16 @@ def run_report(result: Result, source: str) -> str:
         source: name of its file, to be shown.
     """
     summary = result.summary()
-    numbers = comparison_cells({"": summary})[1:]
+    numbers = comparison_cells({"": result})[1:]
     return page(
         describe([result.scene], 200),
         f"{source}: {summary['status']} at t = {summary['end_time']:.6g} s, "
         f"crank angle {np.degrees(result['crank_angle'][-1]):.1f}°",
         [
             ("Warnings", warnings(warnings_of(summary))),
-            ("Results", table(("quantity", "value"), numbers) + joint_table(summary)),
+            ("Results", table(("quantity", "value"), numbers) + joint_table(result)),
             ("Pictures", _pictures(result)),
-            ("Energy and solver", _energy(summary) + _statistics(summary)),
+            ("Energy and solver", _energy(result) + _statistics(result)),
             *scene_parts(result.scene),
         ],
     )
@@ -123,36 +112,30 @@ def _pictures(result: Result) -> str:
     return "\n".join(shown)
 
 
-def _energy(summary: Mapping[str, Any]) -> str:
+def _energy(result: Result) -> str:
     """Return the balance at the end."""
-    energy = summary["energy"]
-    if energy["input"] is None:
+    if not has_balance(result):
         return ""
-    errors = summary.get("errors", {})
-    rows = [
-        [words, f"{uncertain(energy[name], errors.get(f'energy.{name}'), digits=6)} J"]
-        for name, words in (
-            ("input", "put in by drive and loads"),
-            ("stored", "stored (change)"),
-            ("dissipated", "dissipated"),
-        )
-    ]
-    if energy["residual"] is not None:
-        words = "largest residual, of the largest of these over the run"
-        rows.append([words, f"{energy['residual']:.2g}"])
-    return table(("", "value"), rows, "Energy since the start")
+    return _listed(result, BALANCE, "Energy")
 
 
-def _statistics(summary: Mapping[str, Any]) -> str:
+def _statistics(result: Result) -> str:
     """Return what the integration took, and with what."""
-    units = {"end_time": " s", "wall_time": " s", "total_time": " s"}
+    versions = [[f"version of {name}", text] for name, text in result.info["versions"].items()]
+    return _listed(result, COSTS, "Solver", versions)
+
+
+def _listed(
+    result: Result, quantities: Iterable[Quantity], title: str, more: list[list[str]] | None = None
+) -> str:
+    """Return a table of quantities in words, those that the run does not have left out."""
+    values = [(quantity, value_of(result, quantity.name)) for quantity in quantities]
     rows = [
-        [name.replace("_", " "), f"{summary[name]:.6g}{units.get(name, '')}"]
-        for name in STATISTICS
-        if name in summary
+        [quantity.meaning, f"{shown_value(quantity, value)} {quantity.shown or quantity.unit}"]
+        for quantity, value in values
+        if value.value is not None
     ]
-    rows += [[f"version of {name}", text] for name, text in summary["versions"].items()]
-    return table(("", "value"), rows, "Solver")
+    return table(("", "value"), [*rows, *(more or [])], title)
 
 
 def _row(name: str, value: Any, *rest: str) -> list[str]:

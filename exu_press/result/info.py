@@ -57,13 +57,13 @@ class Errors(TypedDict):
 
     Attributes:
         errors: by the figure's dotted name.
-        errors_from: instant after which the motion amplifies errors beyond the figures, s.
-        amplification: of a difference of motions, 1/s.
+        horizon: instant after which the motion amplifies errors beyond the figures, s.
+        lyapunov_exponent: of a difference of motions, 1/s.
     """
 
     errors: dict[str, Error]
-    errors_from: float | None
-    amplification: float | None
+    horizon: float | None
+    lyapunov_exponent: float | None
 
 
 class Info(TypedDict):
@@ -89,8 +89,8 @@ class Info(TypedDict):
         own_items: number of objects and loads that the user added to the model.
         versions: of Python and packages, by name.
         errors: as in `Errors`, in runs that were asked for them.
-        errors_from: the same.
-        amplification: the same.
+        horizon: the same.
+        lyapunov_exponent: the same.
     """
 
     status: str
@@ -110,5 +110,5 @@ class Info(TypedDict):
     own_items: int
     versions: dict[str, str]
     errors: NotRequired[dict[str, Error]]
-    errors_from: NotRequired[float | None]
-    amplification: NotRequired[float | None]
+    horizon: NotRequired[float | None]
+    lyapunov_exponent: NotRequired[float | None]

@@ -96,6 +96,14 @@ class Result(Contents):
         found: dict[str, Any] = WORKERS["summary"](self)
         return found
 
+    def quantity(self, name: str) -> Any:
+        """Return one quantity, an `exu_press.quantities.Value`, by its full name.
+
+        Raises:
+            InputError: the run's scene has no such quantity.
+        """
+        return WORKERS["quantity"]((self, name))
+
     def save(self, path: str | Path) -> None:
         """Write everything to a NetCDF file; an existing one is replaced only when complete."""
         from exu_press.result.netcdf import write

@@ -5,12 +5,13 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicHermiteSpline
 
 from exu_press.arrays import Array
-from exu_press.observe import differentiated_peak, mean_peak, peak
-from exu_press.observe.clearance import TOUCH
+from exu_press.quantities import Placed, Quantity, differentiated_peak, mean_peak, peak
+from exu_press.quantities.contact_time import TOUCH
+from exu_press.quantities.kind import LOAD, MOTION, SHARE
 from exu_press.result import Result
 from exu_press.scene import IdealJoint, Scene, mechanism_of
 
-__all__ = ["DATUM", "MODELS", "OBSERVED", "permanent_contact", "readings", "span_of"]
+__all__ = ["DATUM", "MODELS", "OBSERVED", "declared", "permanent_contact", "readings", "span_of"]
 
 MODELS = ("resolved", "mean_1ms", "differentiated_1khz")
 """Of observing accelerations: the integrator's own steps, means over 1 ms, 1 kHz samples."""
@@ -66,6 +67,18 @@ def readings(result: Result) -> dict[str, float]:
         **_joints(result, inside),
     }
     return {name: float(value) for name, value in found.items() if value is not None}
+
+
+def declared(result: Result) -> dict[str, Placed]:
+    """Return the measures of a run as quantities, of which errors are known."""
+    return {name: Placed(_quantity(name)) for name in readings(result)}
+
+
+def _quantity(name: str) -> Quantity:
+    kind = LOAD if "acceleration" in name or "power" in name else MOTION
+    if "share" in name:
+        kind = SHARE
+    return Quantity(name, "", name, kind, lambda run, _: run.once(readings).get(name))
 
 
 def _oscillation_frequency(result: Result, time: Array, motion: CubicHermiteSpline) -> float | None:

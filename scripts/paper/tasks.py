@@ -3,11 +3,11 @@
 from pathlib import Path
 from typing import Any
 
-from exu_press.confidence.companions import plan
-from exu_press.confidence.run import errors_of
 from exu_press.scene import Scene
 from exu_press.simulation import simulate
-from paper.readings import readings
+from exu_press.verification.companions import plan
+from exu_press.verification.run import errors_of
+from paper.readings import declared, readings
 
 __all__ = ["COARSER", "observe", "part_frequencies"]
 
@@ -33,11 +33,11 @@ def observe(arguments: dict[str, Any]) -> dict[str, Any]:
         path.parent.mkdir(parents=True, exist_ok=True)
         result.save(path)
     row = {key: result.info[key] for key in ("status", "reason")}
-    row["residual"] = result.summary()["energy"]["residual"]
+    row["residual"] = result.quantity("energy.residual").value
     if result.time[-1] < scene.duration * (1.0 - 1e-9):
         return {**row, "values": {}}
     companions = ((ratio, simulate(other)) for ratio, other in plan(scene).items())
-    errors = errors_of(result, companions, readings)["errors"]
+    errors = errors_of(result, companions, declared(result))["errors"]
     values = {
         name: {"value": value} | {key: errors[name][key] for key in ("low", "high", "determined")}
         for name, value in readings(result).items()

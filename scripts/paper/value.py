@@ -4,7 +4,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from exu_press.observe.uncertain import uncertain
+from exu_press.quantities.uncertain import uncertain
 
 __all__ = ["Value", "distance", "product"]
 

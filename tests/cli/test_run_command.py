@@ -7,16 +7,12 @@ import pytest
 
 from exu_press import Result
 from exu_press.cli import main
-from exu_press.confidence.figures import figures
 from exu_press.output import PICTURES
 
 QUICK = ["--set", "revolutions=0.02", "--no-pictures", "--no-error"]
 KEYS = {
-    "status", "reason", "end_time", "wall_time", "total_time", "steps", "rejected_steps",
-    "newton_iterations", "law_evaluations", "coordinates", "bodies", "connectors", "own_items",
-    "peak_acceleration", "peak_velocity", "stroke", "bottom_dead_centre", "joints", "strokes",
-    "slider_tilt", "slider_lateral", "drive", "loads", "shaking", "guides",
-    "energy", "versions", "scene", "warnings", "errors", "errors_from", "amplification",
+    "status", "reason", "end_time", "warnings", "quantities", "horizon", "lyapunov_exponent",
+    "strokes", "stress", "solids", "cost", "own_items", "versions", "scene",
 }  # fmt: skip
 
 
@@ -25,17 +21,18 @@ def test_run_writes_summary_and_result(tmp_path, capsys):
     assert main(["run", "press", *with_errors, "--out", str(tmp_path / "a" / "b")]) == 0
     summary = json.loads((tmp_path / "a" / "b" / "summary.json").read_text())
     assert set(summary) == KEYS
-    assert set(summary["errors"]) == set(figures(summary))
-    kinds = {name: joint["kind"] for name, joint in summary["joints"].items()}
-    assert {name for name, kind in kinds.items() if kind == "dry"} == {"ball_left", "ball_right"}
-    assert kinds["crank_pin"] == "lubricated"
+    values = summary["quantities"]
+    known = {name for name, entry in values.items() if entry["error"] is not None}
+    there = {name for name, entry in values.items() if entry["value"] is not None}
+    assert known == there - {"energy.residual"}
     assert Result.load(tmp_path / "a" / "b" / "run.nc").summary() == summary
     assert re.search(r"peak acceleration, m/s\^2 +\S+ \+- \S+\n", capsys.readouterr().out)
 
 
 def test_errors_and_words_can_be_left_out(tmp_path, capsys):
     assert main(["run", "press", *QUICK, "--quiet", "--out", str(tmp_path)]) == 0
-    assert not {"errors", "errors_from"} & set(json.loads((tmp_path / "summary.json").read_text()))
+    summary = json.loads((tmp_path / "summary.json").read_text())
+    assert {entry["error"] for entry in summary["quantities"].values()} == {None}
     captured = capsys.readouterr()
     assert captured.out == captured.err == ""
 
@@ -111,7 +108,7 @@ def test_compare_shows_the_variants_side_by_side(tmp_path, capsys):
     header = capsys.readouterr().out.splitlines()[0].split()
     assert header == ["ideal", "dry", "lubricated"]
     comparison = json.loads((tmp_path / "comparison.json").read_text())
-    assert {joint["kind"] for joint in comparison["ideal"]["joints"].values()} == {"ideal"}
+    assert comparison["ideal"]["scene"]["joints"] == {}
     for label in header:
         assert (tmp_path / label / "run.nc").exists()
 

@@ -243,7 +243,7 @@ def test_a_change_of_step_leaves_journals_where_they_are_in_their_films():
     pin = {"kind": "lubricated", "clearance": 5e-5, "radius": 0.035}
     scene = Scene(mechanism="six_bar", speed_rpm=60.0, revolutions=0.5, joints={"wrist_pin": pin})
     loose, tight = (simulate(scene.replace("solver.tolerance", part)) for part in (1e-2, 1e-4))
-    forces = [run.summary()["joints"]["wrist_pin"]["peak_force"] for run in (loose, tight)]
+    forces = [run.quantity("joints.wrist_pin.peak_force").value for run in (loose, tight)]
     assert forces[1] == pytest.approx(forces[0], rel=4e-3)  # 16 % too large
 
 

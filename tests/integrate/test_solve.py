@@ -599,8 +599,8 @@ def test_summary_of_a_breakdown_is_complete(broken):
     summary = broken.summary()
     assert summary["status"] == "film broke down"
     assert summary["reason"] == broken.info["reason"]
-    assert summary["rejected_steps"] > 0, "the step was halved before giving up"
-    assert 0.9 < summary["joints"]["crank_pin"]["max_eccentricity_ratio"] < 1.0
+    assert summary["cost"]["rejected_steps"] > 0, "the step was halved before giving up"
+    assert 0.9 < summary["quantities"]["joints.crank_pin.max_eccentricity_ratio"]["value"] < 1.0
     json.dumps(summary, allow_nan=False)
 
 
@@ -677,8 +677,8 @@ def test_interrupted_command_exits_with_3(tmp_path):
     assert "stopped early: interrupted at t = " in done.stderr
     summary = json.loads((tmp_path / "summary.json").read_text(encoding="utf-8"))
     assert summary["status"] == "interrupted"
-    assert summary["steps"] > 10
-    assert Result.load(tmp_path / "run.nc").info["steps"] == summary["steps"]
+    assert summary["cost"]["steps"] > 10
+    assert Result.load(tmp_path / "run.nc").info["steps"] == summary["cost"]["steps"]
 
 
 DRY = {"mechanism": "slider_crank", "joints": {"crank_pin": "dry"}, "revolutions": 0.1}

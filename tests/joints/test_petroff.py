@@ -83,5 +83,5 @@ def test_drive_and_balance_bear_the_drag():
     speed = scene.angular_speed
     assert result["crank_pin_loss"][-1] == pytest.approx(PETROFF * speed**2 * 0.25, rel=0.1)
     summary = result.summary()
-    assert summary["energy"]["input"] > 0.9 * PETROFF * speed**2 * 0.25
-    assert summary["energy"]["residual"] < 2e-3
+    assert summary["quantities"]["energy.input"]["value"] > 0.9 * PETROFF * speed**2 * 0.25
+    assert summary["quantities"]["energy.residual"]["value"] < 2e-3

@@ -151,7 +151,7 @@ def eccentric(crank_pin, balls):
 def test_energy_balance_with_what_guides_store_and_lose(crank_pin, balls):
     """With the default tolerance; measured 3e-5 ... 2e-4 of the largest work."""
     result = eccentric(crank_pin, balls)
-    assert result.summary()["energy"]["residual"] < 5e-4
+    assert result.quantity("energy.residual").value < 5e-4
     names = [name for name in result if name.endswith("guide_loss")]
     assert len(names) == 5
     lost = np.sum([result[name] for name in names], axis=0)
@@ -177,8 +177,8 @@ def test_without_springs_stored_energy_the_balance_would_not_close():
 
 def test_the_slider_tilts_and_moves_sideways():
     result = eccentric("lubricated", "dry")
-    assert 1e-6 < result.summary()["slider_tilt"] < 1e-3
-    assert 1e-8 < result.summary()["slider_lateral"] < 1e-4
+    assert 1e-6 < result.quantity("slider_tilt").value < 1e-3
+    assert 1e-8 < result.quantity("slider_lateral").value < 1e-4
 
 
 def test_the_balls_paths_are_planar():
@@ -201,5 +201,5 @@ def test_guide_force_is_the_springs():
 
 def test_flexible_press():
     result = run(bodies=flexible_press(), revolutions=0.02, guide={})
-    assert result.summary()["energy"]["residual"] < 1e-2
+    assert result.quantity("energy.residual").value < 1e-2
     assert np.abs(result["slide_guide_force"]).max() > 1.0

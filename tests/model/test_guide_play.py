@@ -53,9 +53,9 @@ def test_the_losses_are_the_work_of_friction(pressed):
     assert pressed["guide_loss"][-1] == pytest.approx(work, rel=1e-2)
     assert pressed["guide_loss"][-1] > 20.0
     summary = pressed.summary()
-    assert summary["energy"]["residual"] < 1e-4
-    assert summary["guides"]["slider"]["dissipated"] == pressed["guide_loss"][-1]
-    assert summary["guides"]["slider"]["peak_friction"] > 1e3
+    assert summary["quantities"]["energy.residual"]["value"] < 1e-4
+    assert summary["quantities"]["guides.slider.dissipated"]["value"] == pressed["guide_loss"][-1]
+    assert summary["quantities"]["guides.slider.peak_friction"]["value"] > 1e3
 
 
 def test_the_slider_has_its_play_and_what_the_ways_give(pressed):
@@ -75,10 +75,13 @@ def test_the_balance_of_the_press_closes(friction):
     result = simulate(Scene(revolutions=0.15, guide=guide))
     assert result.completed
     summary = result.summary()
-    assert summary["energy"]["residual"] < 1e-4
-    lost = sum(one["dissipated"] for one in summary["guides"].values())
+    assert summary["quantities"]["energy.residual"]["value"] < 1e-4
+    guides = [guide.body for guide in mechanism_of(result.scene).guides]
+    lost = sum(result.quantity(f"guides.{name}.dissipated").value for name in guides)
     joints = sum(result[f"{name}_loss"][-1] for name in result.clearance_joints)
-    assert lost + joints == pytest.approx(summary["energy"]["dissipated"], rel=1e-9)
+    assert lost + joints == pytest.approx(
+        summary["quantities"]["energy.dissipated"]["value"], rel=1e-9
+    )
 
 
 @pytest.mark.parametrize("mechanism", ["eccentric_press", "six_bar"])
@@ -86,8 +89,9 @@ def test_any_mechanisms_guides_have_it(mechanism):
     guide = {"clearance": 5e-5, "friction": "coulomb"}
     result = simulate(Scene(mechanism=mechanism, joints={}, revolutions=0.3, guide=guide))
     assert result.completed
-    assert result.summary()["energy"]["residual"] < 1e-3
-    assert any(one["peak_friction"] > 0.0 for one in result.summary()["guides"].values())
+    assert result.quantity("energy.residual").value < 1e-3
+    guides = [guide.body for guide in mechanism_of(result.scene).guides]
+    assert any(result.quantity(f"guides.{name}.peak_friction").value > 0.0 for name in guides)
 
 
 def test_what_is_refused_and_dropped():

@@ -6,12 +6,12 @@ import pytest
 from matplotlib.figure import Figure
 
 from exu_press import Scene, simulate
-from exu_press.observe.table import run_lines
 from exu_press.plots.busiest import busiest, rest_lines
 from exu_press.plots.energy import energy_figure
 from exu_press.plots.force import force_figure
 from exu_press.plots.orbit import orbit_figure
 from exu_press.plots.words import describe
+from exu_press.quantities.table import run_lines
 from exu_press.view import Animation, moment
 from exu_press.view.animation import SIZE
 
@@ -28,7 +28,7 @@ def twelve():
 
 def test_the_largest_forces_are_drawn_and_every_other_joint_is_in_the_table(twelve):
     drawn, rest = busiest([twelve], twelve.clearance_joints, "eccentricity", 3)
-    peak = {name: joint["peak_force"] for name, joint in twelve.summary()["joints"].items()}
+    peak = {n: twelve.quantity(f"joints.{n}.peak_force").value for n in twelve.clearance_joints}
     assert len(drawn) == 3
     assert min(peak[name] for name in drawn) >= max(peak[name] for name in rest)
     head, *lines = rest_lines(twelve, rest)
@@ -79,10 +79,10 @@ def one_ball():
 
 
 def test_a_joint_of_the_right_side_alone_is_printed():
-    (line,) = [x for x in run_lines(one_ball().summary()) if x.startswith("joint force")]
+    (line,) = [x for x in run_lines(one_ball()) if x.startswith("joint force")]
     assert "ball right" in line and "crank pin" in line
 
 
 def test_many_joints_are_counted_in_the_terminal(twelve):
-    (line,) = [x for x in run_lines(twelve.summary()) if x.startswith("joint force")]
+    (line,) = [x for x in run_lines(twelve) if x.startswith("joint force")]
     assert " more" in line and len(line) < 110

@@ -15,10 +15,12 @@ def told(results):
     run = results["dry"]
     summary = run.summary()
     values = {
-        "peak_acceleration.resolved": summary["peak_acceleration"]["resolved"],
-        "peak_acceleration.mean_1ms": summary["peak_acceleration"]["mean_1ms"],
-        "drive.peak_torque": summary["drive"]["peak_torque"],
-        "joints.crank_pin.peak_force": summary["joints"]["crank_pin"]["peak_force"],
+        "peak_acceleration.resolved": summary["quantities"]["peak_acceleration.resolved"]["value"],
+        "peak_acceleration.mean_1ms": summary["quantities"]["peak_acceleration.mean_1ms"]["value"],
+        "drive.peak_torque": summary["quantities"]["drive.peak_torque"]["value"],
+        "joints.crank_pin.peak_force": summary["quantities"]["joints.crank_pin.peak_force"][
+            "value"
+        ],
     }
     errors = {
         name: {"error": 0.1 * v, "determined": True, "low": 0.9 * v, "high": 1.1 * v}

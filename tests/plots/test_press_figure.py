@@ -58,10 +58,12 @@ def test_elastic_guides_show_tilt_and_the_stroke(results):
         "Loads",
     ]
     assert "µrad" in shown["Slider tilt"].get_ylabel()
-    centre = result.summary()["strokes"]
+    tilts = [stroke["tilt"] for stroke in result.summary()["strokes"]]
     (dot,) = (line for line in shown["Slider tilt"].lines if line.get_marker() == "o")
-    assert dot.get_ydata() == pytest.approx(1e6 * np.array(centre["tilts"]))
-    assert f"mm: {1e3 * centre['mean']:.6g}" in shown["Bottom dead centre"].get_title("right")
+    assert dot.get_ydata() == pytest.approx(1e6 * np.array(tilts))
+    assert f"mm: {1e3 * result.quantity('strokes.mean').value:.6g}" in shown[
+        "Bottom dead centre"
+    ].get_title("right")
 
 
 def test_guides_are_one_curve_of_the_energy_picture(results):

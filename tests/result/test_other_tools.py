@@ -68,5 +68,8 @@ def test_scalars_as_a_frame(result, data):
 
 def test_summary_as_a_frame(result):
     pandas = pytest.importorskip("pandas")
-    row = pandas.json_normalize(result.summary()).iloc[0]
-    assert row["peak_acceleration.mean_1ms"] == result.summary()["peak_acceleration"]["mean_1ms"]
+    frame = pandas.DataFrame(result.summary()["quantities"]).T
+    assert (
+        frame.loc["peak_acceleration.mean_1ms", "value"]
+        == result.quantity("peak_acceleration.mean_1ms").value
+    )

@@ -116,5 +116,5 @@ def test_guides_in_any_direction_may_be_elastic():
     later = result.time > 0.01  # the spring starts relaxed and rings
     means = [np.mean(one["guide_force"][later]) for one in (result, ideal)]
     assert means[0] == pytest.approx(means[1], rel=0.05)
-    assert abs(result.summary()["energy"]["residual"]) < 1e-3
-    assert abs(ideal.summary()["energy"]["residual"]) < 1e-3
+    assert abs(result.quantity("energy.residual").value) < 1e-3
+    assert abs(ideal.quantity("energy.residual").value) < 1e-3

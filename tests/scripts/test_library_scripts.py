@@ -16,7 +16,7 @@ def test_run_press(tmp_path):
     out = tmp_path / "out" / "run_press"
     result = Result.load(out / "run.nc")
     assert result.completed
-    assert f"{1e3 * result.summary()['stroke']:.5g}" in printed
+    assert f"{1e3 * result.quantity('stroke').value:.5g}" in printed
     assert {"slider.png", "orbit.png", "force.png"} <= {path.name for path in out.glob("*.png")}
 
 

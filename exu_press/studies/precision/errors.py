@@ -12,7 +12,7 @@ import numpy as np
 from scipy.spatial.distance import directed_hausdorff
 
 from exu_press.arrays import Array
-from exu_press.observe.clearance import TOUCH
+from exu_press.quantities.contact_time import TOUCH
 from exu_press.studies.precision.trajectory import Trajectory
 
 __all__ = ["INSTANTS_APART", "Errors", "Late", "errors_of", "instants_until", "late_of"]

@@ -4,10 +4,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from statistics import median
 
-from exu_press.confidence import simulate_with_errors
-from exu_press.confidence.compared import compared
 from exu_press.scene import Scene
 from exu_press.simulation import simulate
+from exu_press.verification import simulate_with_errors
+from exu_press.verification.compared import compared
 
 __all__ = ["Stated", "stated_errors"]
 

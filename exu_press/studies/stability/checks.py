@@ -8,14 +8,14 @@ from typing import Any
 import numpy as np
 
 from exu_press.arrays import Array
-from exu_press.confidence.compared import compared
 from exu_press.integrate import Tuning
 from exu_press.laws.film.contract import film_scale
 from exu_press.mechanism import GROUND
-from exu_press.observe.energy import energy_residual, energy_scale
+from exu_press.quantities.energy import energy_residual, energy_scale
 from exu_press.result import Result
 from exu_press.scene import LubricatedJoint, Scene, mechanism_of
 from exu_press.scene.laws import contact_law
+from exu_press.verification.compared import compared
 
 __all__ = ["RESIDUAL_LIMIT", "Check", "agreement", "checks_of"]
 

@@ -7,19 +7,13 @@ import numpy as np
 
 from exu_press.columns import columns
 from exu_press.errors import InputError
+from exu_press.quantities import Place, Quantity
+from exu_press.quantities.catalogue import declared
 from exu_press.studies.sweep.table import Table
 from exu_press.studies.sweep.units import unit_of
 
 __all__ = ["shown", "table_lines"]
 
-USUAL = (
-    "peak_acceleration.resolved",
-    "joints.crank_pin.peak_force",
-    "joints.ball_left.peak_force",
-    "joints.crank_pin.min_film",
-    "bottom_dead_centre",
-    "energy.dissipated",
-)
 MOST_COLUMNS = 4
 NO_CHANGE = 1e-6
 """Relative."""
@@ -58,17 +52,38 @@ def shown(table: Table, wanted: Sequence[str] = ()) -> tuple[str, ...]:
             raise InputError(
                 f"--show {name}: allowed are {', '.join(numeric) or 'none, as no run has a number'}"
             )
-    there = [name for name in USUAL if name in table.columns and _changes(table, name)]
-    return tuple(wanted) or tuple(there[:MOST_COLUMNS])
+    return tuple(wanted) or _changing_most(table)
 
 
-def _changes(table: Table, name: str) -> bool:
-    """Return whether a column has numbers that differ by more than rounding."""
+def _changing_most(table: Table) -> tuple[str, ...]:
+    """Return the quantities that change most, each at one place, as far as tables show them.
+
+    Of joints those with clearance count, if there are any. The order is the catalogue's.
+    """
+    loose = table.study.scene.joints.with_clearance
+    most: dict[Quantity, tuple[float, str]] = {}
+    for name in table.columns:
+        placed = declared(name)
+        if placed is None or not (placed.quantity.title and placed.quantity.kind.has_error):
+            continue
+        if placed.quantity.place is Place.JOINT and loose and placed.at not in loose:
+            continue
+        if (change := _change(table, name)) > NO_CHANGE:
+            before, _ = most.get(placed.quantity, (0.0, ""))
+            if change > before * (1.0 + NO_CHANGE):
+                most[placed.quantity] = change, name
+    chosen = {name for _, name in sorted(most.values(), reverse=True)[:MOST_COLUMNS]}
+    return tuple(name for name in table.columns if name in chosen)
+
+
+def _change(table: Table, name: str) -> float:
+    """Return by how much a column's numbers differ, over the largest; 1 of a single run."""
     if not table.is_numeric(name):
-        return False
+        return 0.0
     values = table.numbers(name)
     values = values[np.isfinite(values)]
-    return bool(len(values) == 1 or np.ptp(values) > NO_CHANGE * np.abs(values).max())
+    largest = float(np.abs(values).max(initial=0.0))
+    return (1.0 if len(values) == 1 else float(np.ptp(values)) / largest) if largest else 0.0
 
 
 def _head(name: str) -> str:

@@ -8,6 +8,8 @@ from typing import Any
 from exu_press.batch import FILE, locked, run_batch
 from exu_press.errors import InputError
 from exu_press.output import output_directory, write_json
+from exu_press.quantities import values_of
+from exu_press.result import Result
 from exu_press.scene import Scene
 from exu_press.stored import from_json
 from exu_press.studies.sweep.study import Study
@@ -76,18 +78,26 @@ def sweep(
 
 
 def run_scene(arguments: dict[str, Any]) -> dict[str, Any]:
-    """Run {"scene": ...}, with "save": file and "errors": True if wanted; return its summary."""
-    from exu_press.confidence import simulate_with_errors
+    """Run {"scene": ...}, with "save": file and "errors": True if wanted; return its row."""
     from exu_press.simulation import simulate
+    from exu_press.verification import simulate_with_errors
 
     scene = Scene.from_dict(arguments["scene"])
     wanted = arguments.get("errors")
     result = simulate_with_errors(scene, beside=False) if wanted else simulate(scene)
     if "save" in arguments:
         result.save(arguments["save"])
-    summary = result.summary()
-    del summary["scene"]
-    return summary
+    return row_of(result)
+
+
+def row_of(result: Result) -> dict[str, Any]:
+    """Return what a study keeps of a run: how it ended, its quantities and their errors."""
+    info, values = result.info, values_of(result)
+    row: dict[str, Any] = {name: info[name] for name in ("status", "reason", "end_time")}
+    row |= {name: value.value for name, value in values.items()}
+    if "errors" in info:
+        row |= {name: info[name] for name in ("errors", "horizon", "lyapunov_exponent")}
+    return row
 
 
 def _file_is_whole(arguments: Mapping[str, Any]) -> bool:

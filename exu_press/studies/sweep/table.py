@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.errors import InputError
-from exu_press.observe.uncertain import uncertain
 from exu_press.output import replacing
+from exu_press.quantities.uncertain import uncertain
 from exu_press.stored import shown
 from exu_press.studies.sweep.points import flat
 from exu_press.studies.sweep.study import Study
@@ -25,7 +25,7 @@ Value = str | float | bool | None
 COLUMN_NAME = re.compile(r"[\w.-]+", re.ASCII)
 """Of a column: what NetCDF takes for a name."""
 
-RUN_TIMES = ("wall_time", "total_time")
+RUN_TIMES = ("cost.wall_time", "cost.total_time")
 """Columns that differ from run to run of the same scene; they stand last."""
 
 

@@ -5,50 +5,34 @@ from collections.abc import Mapping
 from typing import Any
 
 from exu_press.checks import Table
+from exu_press.quantities.catalogue import declared
 from exu_press.scene import DryJoint, Flexible, Scene
 from exu_press.scene.load import LOAD_KINDS
 from exu_press.scene.usage import TABLES
 
 __all__ = ["meaning_of", "unit_of"]
 
-UNITS = {
-    "peak_acceleration": "m/s^2",
-    "peak_velocity": "m/s",
-    "stroke": "m",
-    "bottom_dead_centre": "m",
-    "peak_force": "N",
-    "peak_penetration": "m",
-    "min_film": "m",
-    "end_time": "s",
-    "wall_time": "s",
-    "total_time": "s",
-    "energy.input": "J",
-    "energy.dissipated": "J",
-    "energy.stored": "J",
-    "work": "J",
-}
-"""Of the summary's entries; a name stands for whatever begins or ends with it."""
-
 
 def unit_of(name: str) -> str:
-    """Return the SI unit of a scene's key or of a summary's entry, or nothing.
+    """Return the SI unit of a scene's key or of a quantity, or nothing.
 
-    >>> unit_of("joints.balls.clearance"), unit_of("joints.ball_left.peak_force"), unit_of("steps")
+    >>> unit_of("joints.balls.clearance"), unit_of("joints.ball_left.peak_force"), unit_of("status")
     ('m', 'N', '')
     """
+    if (placed := declared(name)) is not None:
+        return placed.quantity.unit
     metadata = _metadata(name)
-    if metadata is not None:
-        return str(metadata["unit"])
-    found = (u for n, u in UNITS.items() if name.startswith(n) or name.endswith(f".{n}"))
-    return next(found, "")
+    return "" if metadata is None else str(metadata["unit"])
 
 
 def meaning_of(name: str) -> str:
-    """Return what a scene's key is, or nothing.
+    """Return the meaning of a scene's key or of a quantity, or nothing.
 
     >>> meaning_of("speed_rpm")
     'crank speed; with [drive] at the start'
     """
+    if (placed := declared(name)) is not None:
+        return placed.quantity.meaning
     metadata = _metadata(name)
     return "" if metadata is None else str(metadata["meaning"])
 

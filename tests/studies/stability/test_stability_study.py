@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
-from exu_press.confidence import with_errors
 from exu_press.studies.stability import Report, Row, extremes, stability
 from exu_press.studies.stability import judge as judging
 from exu_press.studies.stability.cases import PAIRS
 from exu_press.studies.stability.checks import agreement, checks_of
 from exu_press.studies.stability.judge import finer, judge
+from exu_press.verification import with_errors
 
 SHORT = {"mechanism": "slider_crank", "revolutions": 0.04}
 DRY = {"joints.crank_pin": "dry"}
@@ -112,7 +112,7 @@ def test_agreement_sees_a_difference_that_is_not_stated(run, channel, factor, na
 def test_a_difference_that_is_stated_is_right(run):
     """Bounds of a figure that is not determined hold 19 in 20 runs: 1.5 times as far is allowed."""
     told = with_errors(run, beside=False)
-    value = told.summary()["stroke"]
+    value = told.quantity("stroke").value
     off = changed(run, slider_position=1.1 * run["slider_position"])
     for half, determined, right in (
         (0.2 * value, True, True),

@@ -25,12 +25,10 @@ def test_the_table_holds_the_summaries(tmp_path):
     table = sweep(study, tmp_path, workers=1)
     assert table["file"] == ("runs/1.nc", "runs/2.nc")
     for run, scene in enumerate(study.scenes):
-        summary = simulate(scene).summary()
+        result = simulate(scene)
         assert table["status"][run] == "completed"
-        assert table["bottom_dead_centre"][run] == summary["bottom_dead_centre"]
-        assert table["energy.input"][run] == summary["energy"]["input"]
-        assert table["peak_acceleration.resolved"][run] == summary["peak_acceleration"]["resolved"]
-        assert table["versions.exudyn"][run] == summary["versions"]["exudyn"]
+        for name in ("bottom_dead_centre", "energy.input", "peak_acceleration.resolved"):
+            assert table[name][run] == result.quantity(name).value
         assert Result.load(tmp_path / table["file"][run]).scene == scene
     assert {path.name for path in tmp_path.iterdir()} >= {"table.csv", "table.nc", "study.json"}
 

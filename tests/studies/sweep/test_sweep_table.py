@@ -17,10 +17,11 @@ ROWS = [
     {
         "status": "completed",
         "reason": "",
-        "wall_time": 1.25,
-        "steps": 10,
+        "cost.wall_time": 1.25,
+        "cost.steps": 10,
         "bottom_dead_centre": 0.1 + 0.2,
-        "joints": {"crank_pin": {"min_film": None, "peak_force": 1e3}},
+        "joints.crank_pin.min_film": None,
+        "joints.crank_pin.peak_force": 1e3,
         "list": [1.0, 2.0],
         "flag": True,
     },
@@ -44,8 +45,8 @@ def table():
 
 def test_what_varies_comes_first_and_times_last(table):
     names = list(table.columns)
-    assert names[:5] == ["speed_rpm", "status", "reason", "file", "steps"]
-    assert names[-1] == "wall_time"
+    assert names[:5] == ["speed_rpm", "status", "reason", "file", "cost.steps"]
+    assert names[-1] == "cost.wall_time"
     assert table["joints.crank_pin.peak_force"] == (1e3, None, None)
     assert table["scene.speed_rpm"] == (200.0, 300.0, 400.0)
     assert "list" not in names
@@ -60,7 +61,7 @@ def test_csv_reads_back_bit_by_bit(table, tmp_path):
     assert rows[1]["reason"] == ROWS[1]["reason"]
     assert [float(row["bottom_dead_centre"]) for row in (rows[0], rows[2])] == [0.1 + 0.2, math.pi]
     assert rows[1]["bottom_dead_centre"] == rows[0]["joints.crank_pin.min_film"] == ""
-    assert rows[0]["flag"] == "true" and rows[0]["steps"] == "10"
+    assert rows[0]["flag"] == "true" and rows[0]["cost.steps"] == "10"
 
 
 def test_netcdf_reads_back(table, tmp_path):
@@ -75,8 +76,8 @@ def test_netcdf_reads_back(table, tmp_path):
 
 
 def test_what_is_shown(table):
-    assert shown(table) == ("joints.crank_pin.peak_force", "bottom_dead_centre")
-    assert shown(table, ["steps"]) == ("steps",)
+    assert shown(table) == ("bottom_dead_centre", "joints.crank_pin.peak_force")
+    assert shown(table, ["cost.steps"]) == ("cost.steps",)
     with pytest.raises(InputError, match=r"--show status: allowed are .*bottom_dead_centre"):
         shown(table, ["status"])
 
@@ -85,13 +86,13 @@ def test_the_table_in_a_terminal(table):
     head, first, second, third, *rest = table_lines(table)
     assert head.split() == [
         "speed_rpm",
-        "joints.crank_pin.peak_force,",
-        "N",
         "bottom_dead_centre,",
         "m",
+        "joints.crank_pin.peak_force,",
+        "N",
         "status",
     ]
-    assert first.split() == ["200", "1000", "0.3", "completed"]
+    assert first.split() == ["200", "0.3", "1000", "completed"]
     assert second.split() == ["300", "-", "-", "failed"]
     assert third.endswith("film broke down")
     assert rest[0] == "3 runs: 1 completed, 1 failed, 1 film broke down"

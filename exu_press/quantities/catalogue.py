@@ -1,0 +1,124 @@
+"""Every quantity of the package, and those of the user's own."""
+
+from dataclasses import dataclass
+
+from exu_press.checks import nearest
+from exu_press.errors import InputError
+from exu_press.quantities.cost import COSTS
+from exu_press.quantities.energy import BALANCE
+from exu_press.quantities.fatigue import BODIES
+from exu_press.quantities.joints import JOINTS
+from exu_press.quantities.press import DRIVE, GUIDES, LOADS, SHAKING
+from exu_press.quantities.quantity import Place, Quantity
+from exu_press.quantities.reading import Reading
+from exu_press.quantities.slider import SLIDER, STROKES
+from exu_press.scene import Scene, mechanism_of
+from exu_press.scene.applied import applied_loads
+
+__all__ = ["CATALOGUE", "Placed", "add", "declared", "quantities_of", "quantity_of"]
+
+CATALOGUE: list[Quantity] = [
+    *SLIDER,
+    *JOINTS,
+    *STROKES,
+    *DRIVE,
+    *SHAKING,
+    *LOADS,
+    *GUIDES,
+    *BODIES,
+    *BALANCE,
+    *COSTS,
+]
+"""In the order of tables."""
+
+
+@dataclass(frozen=True)
+class Placed:
+    """A quantity of one scene, at its place.
+
+    Attributes:
+        quantity: as it is declared.
+        at: name of the joint, guide, load or body; "" of the run.
+    """
+
+    quantity: Quantity
+    at: str = ""
+
+    @property
+    def name(self) -> str:
+        """Its full name."""
+        return self.quantity.at(self.at)
+
+    def read(self, run: Reading) -> float | int | None:
+        """Return its value, None where the run is too short to have it."""
+        found: float | int | None = self.quantity.read(run, self.at)
+        return found
+
+
+def add(quantity: Quantity) -> Quantity:
+    """Declare a quantity of one's own; every run read from now on has it.
+
+    Raises:
+        InputError: there is one of this name and place.
+    """
+    for other in CATALOGUE:
+        if (other.place, other.name) == (quantity.place, quantity.name):
+            raise InputError(
+                f"quantity {quantity.name}: is declared already; allowed is another name"
+            )
+    CATALOGUE.append(quantity)
+    return quantity
+
+
+def declared(name: str) -> Placed | None:
+    """Return the quantity of a full name, whatever the scene; None where there is none.
+
+    >>> declared("joints.crank_pin.peak_force").quantity.unit
+    'N'
+    """
+    place, _, rest = name.partition(".")
+    at, _, inner = rest.partition(".")
+    for quantity in CATALOGUE:
+        if quantity.place is Place.RUN and quantity.name == name:
+            return Placed(quantity)
+        if (quantity.place.value, quantity.name) == (place, inner):
+            return Placed(quantity, at)
+    return None
+
+
+def quantities_of(scene: Scene) -> dict[str, Placed]:
+    """Return every quantity that a run of a scene has, by its full name; known before it runs."""
+    places = _places(scene)
+    placed = (
+        Placed(quantity, at)
+        for quantity in CATALOGUE
+        for at in places[quantity.place]
+        if quantity.has(scene, at)
+    )
+    return {one.name: one for one in placed}
+
+
+def quantity_of(scene: Scene, name: str) -> Placed:
+    """Return one quantity of a scene by its full name.
+
+    Raises:
+        InputError: the scene has no such quantity.
+    """
+    found = quantities_of(scene)
+    if name not in found:
+        raise InputError(
+            f"quantity {name!r}: this scene has none of this name{nearest(name, found)}; "
+            f"allowed are {', '.join(found)}"
+        )
+    return found[name]
+
+
+def _places(scene: Scene) -> dict[Place, tuple[str, ...]]:
+    mechanism = mechanism_of(scene)
+    return {
+        Place.RUN: ("",),
+        Place.JOINT: tuple(joint.name for joint in mechanism.joints),
+        Place.GUIDE: tuple(guide.body for guide in mechanism.guides),
+        Place.LOAD: tuple(applied_loads(scene)),
+        Place.BODY: tuple(scene.bodies),
+    }

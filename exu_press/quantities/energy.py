@@ -1,0 +1,96 @@
+"""Quantities of the energy balance: how much, and how well it closes."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from exu_press.arrays import Array
+from exu_press.quantities.kind import ENERGY, FLOW, MEASURE
+from exu_press.quantities.quantity import Quantity
+from exu_press.quantities.reading import Reading
+from exu_press.result import Result
+
+__all__ = ["BALANCE", "energy_residual", "energy_scale", "has_balance"]
+
+PARTS = ("input", "stored", "dissipated")
+
+NOTHING = 1e-9
+"""J; the last digits of a megajoule of kinetic energy change by as much."""
+
+
+def has_balance(result: Result) -> bool:
+    """Return whether the balance of a run is known."""
+    return "energy_input" in result
+
+
+def energy_scale(result: Result) -> float:
+    """Return the largest energy, J, that was put in, exchanged with what is stored, or dissipated.
+
+    Since the start and in either direction: a rotor that runs down is put nothing in.
+    """
+    return max(float(np.abs(values).max()) for values in _balance(result).values())
+
+
+def energy_residual(result: Result) -> float | None:
+    """Return the worst that the balance misses over the run, relative to `energy_scale`.
+
+    None where there is no balance, or next to no energy that it could be relative to.
+    """
+    if not has_balance(result) or energy_scale(result) < NOTHING:
+        return None
+    given, stored, lost = _balance(result).values()
+    return float(np.abs(given - stored - lost).max()) / energy_scale(result)
+
+
+def _balance(result: Result) -> dict[str, Array]:
+    return {name: result[f"energy_{name}"] for name in PARTS}
+
+
+def _end(part: str) -> Callable[[Reading, str], float | None]:
+    """Return a reader of the end of a balance's channel, None where the user's own items have part.
+
+    What those put in, store and dissipate is not known.
+    """
+    return lambda run, _: float(run[f"energy_{part}"][-1]) if has_balance(run.result) else None
+
+
+BALANCE = (
+    Quantity(
+        "energy.input",
+        "J",
+        "energy that drive and loads put in",
+        FLOW,
+        _end("input"),
+        title="energy put in",
+        signed=True,
+        cumulative=True,
+    ),
+    Quantity(
+        "energy.stored",
+        "J",
+        "change of the stored energy",
+        ENERGY,
+        _end("stored"),
+        signed=True,
+        cumulative=True,
+    ),
+    Quantity(
+        "energy.dissipated",
+        "J",
+        "energy that joints, guides and flexible bodies dissipate",
+        ENERGY,
+        _end("dissipated"),
+        title="energy dissipated",
+        headline=True,
+        cumulative=True,
+    ),
+    Quantity(
+        "energy.residual",
+        "",
+        "largest misfit of the energy balance, over the largest energy in it",
+        MEASURE,
+        lambda run, _: energy_residual(run.result),
+        title="energy residual",
+        digits=2,
+    ),
+)

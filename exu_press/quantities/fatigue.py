@@ -1,0 +1,126 @@
+"""How long flexible bodies last: rainflow cycles of their stress, an S-N curve, Miner's sum."""
+
+import math
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from exu_press.quantities.kind import LOAD, MOTION
+from exu_press.quantities.quantity import Extreme, Place, Quantity
+from exu_press.quantities.reading import Reading
+from exu_press.scene import Flexible, Scene
+from exu_press.scene.bodies import require_rainflow
+
+__all__ = ["BODIES", "damage"]
+
+
+def _stressed(scene: Scene, body: str) -> bool:
+    return body in scene.bodies
+
+
+def _lasting(scene: Scene, body: str) -> bool:
+    return body in scene.bodies and scene.bodies[body].woehler_stress is not None
+
+
+def _peak_stress(run: Reading, body: str) -> float | None:
+    worst = run.result.info.get("stress", {}).get(body)
+    return None if worst is None else worst["von_mises"]
+
+
+def _of_cycles(
+    read: Callable[[list[tuple[float, float]], float, Flexible], float | None],
+) -> Callable[[Reading, str], float | None]:
+    """Return a reader of the cycles of a body's stress in the last whole revolutions.
+
+    Cycles of the stress at the most stressed place are counted by ASTM E1049-85, as of a history
+    that repeats: from its largest value on. Their mean is not regarded, and no amplitude is too
+    small to count (elementary Miner's rule).
+
+    Args:
+        read: of (amplitude, Pa, number) of the cycles, the number of revolutions and the body.
+    """
+
+    def value(run: Reading, body: str) -> float | None:
+        stress = run.channel(f"{body}_stress")
+        if run.whole is None or stress is None:
+            return None
+        inside = run.time >= run.whole
+        angle, stress = run["crank_angle"][inside], stress[inside]
+        revolutions = float(angle[-1] - angle[0]) / (2.0 * math.pi)
+        first = int(np.argmax(stress))
+        cycles = require_rainflow().extract_cycles([*stress[first:], *stress[: first + 1]])
+        found = [(0.5 * width, count) for width, _, count, *_ in cycles]
+        return read(found, revolutions, run.result.scene.bodies[body])
+
+    return value
+
+
+def _life(cycles: list[tuple[float, float]], revolutions: float, body: Flexible) -> float | None:
+    taken = damage(cycles, body)
+    return revolutions / taken if taken else None
+
+
+BODIES = (
+    Quantity(
+        "peak_stress",
+        "Pa",
+        "largest von Mises stress of the flexible body",
+        LOAD,
+        _peak_stress,
+        Place.BODY,
+        _stressed,
+        title="von Mises stress, max",
+        shown="MPa",
+        extreme=Extreme.LARGEST,
+    ),
+    Quantity(
+        "fatigue.largest_amplitude",
+        "Pa",
+        "largest amplitude of the stress cycles",
+        LOAD,
+        _of_cycles(lambda cycles, _, __: max((width for width, _ in cycles), default=0.0)),
+        Place.BODY,
+        _lasting,
+    ),
+    Quantity(
+        "fatigue.cycles",
+        "",
+        "number of stress cycles a revolution",
+        MOTION,
+        _of_cycles(lambda cycles, turns, _: float(sum(count for _, count in cycles)) / turns),
+        Place.BODY,
+        _lasting,
+    ),
+    Quantity(
+        "fatigue.damage",
+        "",
+        "Miner's sum a revolution, 1 at the end of life",
+        MOTION,
+        _of_cycles(lambda cycles, turns, body: damage(cycles, body) / turns),
+        Place.BODY,
+        _lasting,
+    ),
+    Quantity(
+        "fatigue.life",
+        "",
+        "revolutions until Miner's sum is 1",
+        MOTION,
+        _of_cycles(_life),
+        Place.BODY,
+        _lasting,
+        title="life, revolutions",
+    ),
+)
+
+
+def damage(cycles: Sequence[tuple[float, float]], body: Flexible) -> float:
+    """Return Miner's sum of (amplitude in Pa, number) over the Woehler line, 1 at the end of life.
+
+    >>> line = Flexible("linkage", woehler_stress=1e8, woehler_cycles=1e6, woehler_slope=5.0)
+    >>> damage([(1e8, 1e6)], line), damage([(2e8, 1e6)], line)
+    (1.0, 32.0)
+    """
+    assert body.woehler_stress is not None
+    amplitudes, numbers = np.array(cycles, dtype=float).reshape(-1, 2).T
+    relative = (amplitudes / body.woehler_stress) ** body.woehler_slope
+    return float((numbers * relative).sum() / body.woehler_cycles)

@@ -1,0 +1,151 @@
+"""Quantities of joints: eccentricity, force, film and contact."""
+
+import numpy as np
+
+from exu_press.arrays import Array
+from exu_press.quantities.contact_time import contacts, share_of_contact
+from exu_press.quantities.kind import COUNT, ENERGY, LOAD, MOTION, SHARE
+from exu_press.quantities.quantity import Extreme, Place, Quantity
+from exu_press.quantities.reading import Reading
+from exu_press.result import JointRecord
+from exu_press.scene import IdealJoint, Scene
+
+__all__ = ["IMPACTS", "JOINTS"]
+
+
+def _loose(scene: Scene, joint: str) -> bool:
+    """Return whether a joint has clearance."""
+    return not isinstance(scene.joints[joint], IdealJoint)
+
+
+def _lubricated(scene: Scene, joint: str) -> bool:
+    return scene.joints[joint].kind == "lubricated"
+
+
+def _touching(scene: Scene, joint: str) -> bool:
+    """Return whether a joint's surfaces may touch."""
+    described = scene.joints[joint]
+    return not isinstance(described, IdealJoint) and described.onset is not None
+
+
+def _record(run: Reading, joint: str) -> JointRecord:
+    return run.result.joints[joint]
+
+
+def _depth(run: Reading, joint: str) -> Array:
+    """Return the penetration beyond the contact onset, (n,), m."""
+    described = run.result.scene.joints[joint]
+    assert not isinstance(described, IdealJoint) and described.onset is not None
+    return described.onset - _record(run, joint).gap
+
+
+def _peak_force(run: Reading, joint: str) -> float | None:
+    if joint not in run.result.joints:  # of several ideal joints only some are recorded
+        return None
+    return float(np.linalg.norm(_record(run, joint).force, axis=1).max())
+
+
+IMPACTS = Quantity(
+    "impacts",
+    "",
+    "number of times that the surfaces begin to touch",
+    COUNT,
+    lambda run, joint: contacts(_depth(run, joint)),
+    Place.JOINT,
+    _touching,
+    title="impacts",
+    cumulative=True,
+)
+
+JOINTS = (
+    Quantity(
+        "max_eccentricity_ratio",
+        "",
+        "largest eccentricity over the radial clearance",
+        MOTION,
+        lambda run, joint: float(
+            _record(run, joint).distance.max() / _record(run, joint).clearance
+        ),
+        Place.JOINT,
+        _loose,
+        title="eccentricity ratio, max",
+        extreme=Extreme.LARGEST,
+        headline=True,
+    ),
+    Quantity(
+        "peak_force",
+        "N",
+        "largest force between journal and bearing",
+        LOAD,
+        _peak_force,
+        Place.JOINT,
+        title="joint force, max",
+        shown="kN",
+        extreme=Extreme.LARGEST,
+        headline=True,
+    ),
+    Quantity(
+        "peak_penetration",
+        "m",
+        "largest penetration of the surfaces",
+        MOTION,
+        lambda run, joint: float(max(0.0, -_record(run, joint).gap.min())),
+        Place.JOINT,
+        _touching,
+        title="penetration, max",
+        shown="um",
+        extreme=Extreme.LARGEST,
+    ),
+    Quantity(
+        "min_film",
+        "m",
+        "least film thickness, 0 where surfaces touch",
+        MOTION,
+        lambda run, joint: float(max(0.0, _record(run, joint).gap.min())),
+        Place.JOINT,
+        _lubricated,
+        title="film thickness, min",
+        shown="um",
+        extreme=Extreme.LEAST,
+    ),
+    IMPACTS,
+    Quantity(
+        "share_free_flight",
+        "",
+        "share of time in which the surfaces do not touch",
+        SHARE,
+        lambda run, joint: 1.0 - share_of_contact(run.time, _depth(run, joint)),
+        Place.JOINT,
+        _touching,
+    ),
+    Quantity(
+        "share_contact",
+        "",
+        "share of time in which the surfaces touch",
+        SHARE,
+        lambda run, joint: share_of_contact(run.time, _depth(run, joint)),
+        Place.JOINT,
+        _touching,
+        title="share in contact",
+    ),
+    Quantity(
+        "dissipated",
+        "J",
+        "energy that contact, friction and film have dissipated",
+        ENERGY,
+        lambda run, joint: float(run[f"{joint}_loss"][-1]),
+        Place.JOINT,
+        _loose,
+        cumulative=True,
+    ),
+    Quantity(
+        "mean_power",
+        "W",
+        "mean power that the joint dissipates, over whole revolutions",
+        LOAD,
+        lambda run, joint: run.rate(run[f"{joint}_loss"]),
+        Place.JOINT,
+        _loose,
+        signed=True,
+    ),
+)

@@ -1,0 +1,80 @@
+"""Kinds of quantities: from this follows how exactly a run can tell one."""
+
+from dataclasses import dataclass
+
+__all__ = [
+    "COST",
+    "COUNT",
+    "ENERGY",
+    "FLOW",
+    "INSTANT",
+    "LOAD",
+    "MEASURE",
+    "MOMENT",
+    "MOTION",
+    "RESULTANT",
+    "SHARE",
+    "Kind",
+]
+
+ROUNDING = 1e-9
+"""Of a quantity, what no two runs agree to better than."""
+
+
+@dataclass(frozen=True)
+class Kind:
+    """What the least error of a quantity is, however well runs agree.
+
+    Attributes:
+        name: in one word.
+        has_error: whether runs at other tolerances tell its error.
+        relative: least error over the value.
+        absolute: least error, in the quantity's unit.
+        of_forces: least error over the run's largest force, in the unit of the quantity over N.
+        of_energies: least error over the run's largest energy.
+        from_accelerations: whether the first step leaves an error of its own in it.
+    """
+
+    name: str
+    has_error: bool = True
+    relative: float = ROUNDING
+    absolute: float = 0.0
+    of_forces: float = 0.0
+    of_energies: float = 0.0
+    from_accelerations: bool = False
+
+
+MOTION = Kind("motion")
+"""Follows from positions and velocities."""
+
+LOAD = Kind("load", relative=1e-5, from_accelerations=True)
+"""Follows from accelerations, as forces, torques and powers do."""
+
+RESULTANT = Kind("resultant", relative=1e-5, of_forces=2e-8, from_accelerations=True)
+"""Is a sum in which large forces cancel. The rounding of positions leaves of_forces of them in
+steps of a microsecond (1e-8 was measured at 1 rpm)."""
+
+MOMENT = Kind("moment", relative=0.0, of_forces=1e-7)
+"""Is a moment of forces that balance each other; their arms are rounded, by of_forces in m."""
+
+ENERGY = Kind("energy", relative=0.0, of_energies=1e-6)
+"""Is stored or dissipated: a difference of larger amounts."""
+
+FLOW = Kind("work")
+"""Is work that drive or loads put in."""
+
+SHARE = Kind("share", relative=0.0, absolute=1e-4)
+"""Is a share of time: touches are told apart by steps, which in free flight are the longest ones
+allowed in all runs."""
+
+COUNT = Kind("count")
+"""Is a whole number."""
+
+INSTANT = Kind("instant", has_error=False)
+"""Is an instant of a peak: two that are nearly as high may change places."""
+
+MEASURE = Kind("measure of error", has_error=False)
+"""Says itself how good a run is."""
+
+COST = Kind("cost", has_error=False)
+"""Is what the run took."""

@@ -1,0 +1,296 @@
+"""Quantities of drive, frame and guides: what press builders look at."""
+
+from collections.abc import Callable, Iterator
+
+import numpy as np
+
+from exu_press.arrays import Array
+from exu_press.mechanism import Guide
+from exu_press.quantities.acceleration import mean_peak_of, peak
+from exu_press.quantities.kind import ENERGY, FLOW, LOAD, MOMENT, MOTION, RESULTANT
+from exu_press.quantities.quantity import Extreme, Place, Quantity, always
+from exu_press.quantities.reading import Reading
+from exu_press.result.channel import guide_channel
+from exu_press.scene import Scene, mechanism_of
+
+__all__ = ["DRIVE", "GUIDES", "LOADS", "SHAKING"]
+
+RUBBING = 0.1
+"""Coefficient of friction of guides that have none, for what they would dissipate."""
+
+
+def _motor(scene: Scene, _: str) -> bool:
+    return scene.drive is not None
+
+
+def _counterweight(scene: Scene, _: str) -> bool:
+    return bool(mechanism_of(scene).counterweight)
+
+
+def _frictionless(scene: Scene, _: str = "") -> bool:
+    """Return whether there are guides, all of them without friction."""
+    guides = mechanism_of(scene).guides
+    rubbing = scene.guide is not None and bool(scene.guide.clearance)
+    return bool(guides) and not (rubbing and scene.guide and scene.guide.friction != "none")
+
+
+def _guide(run: Reading, body: str) -> Guide:
+    return next(guide for guide in run.mechanism.guides if guide.body == body)
+
+
+def _of_guide(run: Reading, body: str, quantity: str) -> Array | None:
+    """Return a channel of a guide, None where the run does not have it."""
+    name = f"{guide_channel(run.mechanism, body)}_{quantity}"
+    return run.channel(name)
+
+
+def _guide_peak(quantity: str) -> Callable[[Reading, str], float | None]:
+    """Return a reader of the largest magnitude of a guide's channel."""
+
+    def read(run: Reading, body: str) -> float | None:
+        values = _of_guide(run, body, quantity)
+        return None if values is None else peak(values)
+
+    return read
+
+
+def _sliding_power(run: Reading, body: str) -> float | None:
+    """Return the mean of side force times sliding speed, W."""
+    force = _of_guide(run, body, "force")
+    if force is None or len(run.time) < 2:
+        return None
+    position = run["body_position"][:, run.result.bodies.index(body), :2]
+    speed = np.gradient(position @ np.array(_guide(run, body).direction), run.time)
+    return run.mean(np.abs(force * speed))
+
+
+def _if_guides_rubbed(run: Reading, _: str) -> float | None:
+    powers = [_sliding_power(run, guide.body) for guide in run.mechanism.guides]
+    return None if None in powers else RUBBING * sum(p for p in powers if p is not None)
+
+
+def _guide_loss(run: Reading, body: str) -> Array:
+    lost = _of_guide(run, body, "loss")
+    return np.zeros_like(run.time) if lost is None else lost
+
+
+def _fluctuation(run: Reading, _: str) -> float | None:
+    """Return the largest less the smallest crank speed, over the mean one."""
+    mean = run.mean(run["crank_speed"])
+    if run.whole is None or not mean:
+        return None
+    return float(np.ptp(run["crank_speed"][run.time >= run.whole])) / abs(mean)
+
+
+def _mean_speed(run: Reading, _: str) -> float | None:
+    mean = run.mean(run["crank_speed"])
+    return None if mean is None else mean * 30.0 / np.pi
+
+
+DRIVE = (
+    Quantity(
+        "drive.peak_torque",
+        "N m",
+        "largest torque that turns the crank",
+        LOAD,
+        lambda run, _: peak(run["drive_torque"]),
+        title="drive torque, max",
+        shown="kN m",
+        extreme=Extreme.LARGEST,
+    ),
+    Quantity(
+        "drive.peak_torque_mean_1ms",
+        "N m",
+        "largest torque that turns the crank, averaged over 1 ms",
+        LOAD,
+        lambda run, _: mean_peak_of(run.time, run["drive_torque"]),
+        extreme=Extreme.LARGEST,
+    ),
+    Quantity(
+        "drive.mean_torque",
+        "N m",
+        "mean torque that turns the crank, over whole revolutions",
+        LOAD,
+        lambda run, _: run.mean(run["drive_torque"]),
+        signed=True,
+    ),
+    Quantity(
+        "drive.peak_power",
+        "W",
+        "largest power of the drive",
+        LOAD,
+        lambda run, _: peak(run["drive_power"]),
+        extreme=Extreme.LARGEST,
+    ),
+    Quantity(
+        "drive.mean_power",
+        "W",
+        "mean power of the drive, over whole revolutions",
+        LOAD,
+        lambda run, _: run.mean(run["drive_power"]),
+        title="drive power, mean",
+        signed=True,
+    ),
+    Quantity(
+        "drive.guide_friction_power",
+        "W",
+        f"mean power that guides without friction would dissipate with a coefficient of {RUBBING}",
+        LOAD,
+        _if_guides_rubbed,
+        has=_frictionless,
+        title=f"guides of mu {RUBBING} would add",
+        under=True,
+    ),
+    Quantity(
+        "drive.mean_speed_rpm",
+        "rpm",
+        "mean crank speed, over whole revolutions",
+        MOTION,
+        _mean_speed,
+        has=_motor,
+        title="crank speed, mean",
+    ),
+    Quantity(
+        "drive.fluctuation",
+        "",
+        "largest less smallest crank speed over the mean one, over whole revolutions",
+        MOTION,
+        _fluctuation,
+        has=_motor,
+        title="coefficient of fluctuation",
+        under=True,
+    ),
+)
+
+
+def _resultants() -> Iterator[Quantity]:
+    """Yield the peaks of sums over the mechanism, across and up, with their means over 1 ms."""
+    titles = {
+        "shaking.vertical": ("vertical shaking force, max", False),
+        "shaking.vertical_mean_1ms": ("mean over 1 ms", True),
+        "shaking.without_counterweight.vertical_mean_1ms": ("without counterweight", True),
+    }
+    sums = (
+        ("shaking", "shaking_force", "shaking force", always),
+        (
+            "shaking.without_counterweight",
+            "shaking_force_without_counterweight",
+            "shaking force without the counterweight",
+            _counterweight,
+        ),
+        ("shaking.frame", "frame_force", "force on the frame", always),
+    )
+    for prefix, channel, words, has in sums:
+        for column, direction in enumerate(("horizontal", "vertical")):
+            for ending, also in (("", ""), ("_mean_1ms", ", averaged over 1 ms")):
+                name = f"{prefix}.{direction}{ending}"
+                title, under = titles.get(name, ("", False))
+
+                def read(
+                    run: Reading,
+                    _: str,
+                    channel: str = channel,
+                    column: int = column,
+                    mean: str = ending,
+                ) -> float | None:
+                    force = run[channel][:, column]
+                    return mean_peak_of(run.time, force) if mean else peak(force)
+
+                yield Quantity(
+                    name,
+                    "N",
+                    f"largest {direction} {words}{also}, in either direction",
+                    RESULTANT,
+                    read,
+                    has=has,
+                    title=title,
+                    shown="kN",
+                    under=under,
+                    extreme=Extreme.LARGEST,
+                )
+
+
+SHAKING = tuple(_resultants())
+
+LOADS = (
+    Quantity(
+        "peak_force",
+        "N",
+        "largest force of the load",
+        LOAD,
+        lambda run, load: peak(run[f"load_{load}_force"]),
+        Place.LOAD,
+        title="load, max",
+        shown="kN",
+        extreme=Extreme.LARGEST,
+    ),
+    Quantity(
+        "work",
+        "J",
+        "work that the load puts in",
+        FLOW,
+        lambda run, load: float(run[f"load_{load}_work"][-1]),
+        Place.LOAD,
+        title="work that it put in",
+        under=True,
+        signed=True,
+        cumulative=True,
+    ),
+)
+
+GUIDES = (
+    Quantity(
+        "peak_force",
+        "N",
+        "largest force across the guide",
+        LOAD,
+        _guide_peak("force"),
+        Place.GUIDE,
+        extreme=Extreme.LARGEST,
+    ),
+    Quantity(
+        "sliding_power",
+        "W",
+        "mean of side force times sliding speed, over whole revolutions: times a coefficient of "
+        "friction, what the guide dissipates",
+        LOAD,
+        _sliding_power,
+        Place.GUIDE,
+    ),
+    Quantity(
+        "peak_friction",
+        "N",
+        "largest friction along the guide",
+        LOAD,
+        _guide_peak("friction"),
+        Place.GUIDE,
+        extreme=Extreme.LARGEST,
+    ),
+    Quantity(
+        "peak_moment",
+        "N m",
+        "largest moment of the guide on its body",
+        MOMENT,
+        _guide_peak("moment"),
+        Place.GUIDE,
+        extreme=Extreme.LARGEST,
+    ),
+    Quantity(
+        "dissipated",
+        "J",
+        "energy that the guide has dissipated",
+        ENERGY,
+        lambda run, body: float(_guide_loss(run, body)[-1]),
+        Place.GUIDE,
+        cumulative=True,
+    ),
+    Quantity(
+        "mean_power",
+        "W",
+        "mean power that the guide dissipates, over whole revolutions",
+        LOAD,
+        lambda run, body: run.rate(_guide_loss(run, body)),
+        Place.GUIDE,
+        signed=True,
+    ),
+)

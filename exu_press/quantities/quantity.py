@@ -1,0 +1,102 @@
+"""A quantity of interest: declared once, read by everything that shows, compares or varies it."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import Enum
+from typing import Any
+
+from exu_press.quantities.kind import Kind
+from exu_press.quantities.reading import Reading
+from exu_press.scene import Scene
+
+__all__ = ["Extreme", "Place", "Quantity", "always"]
+
+
+class Place(Enum):
+    """What a quantity belongs to; the value begins its full name."""
+
+    RUN = ""
+    JOINT = "joints"
+    GUIDE = "guides"
+    LOAD = "loads"
+    BODY = "bodies"
+
+
+class Extreme(Enum):
+    """Of what the quantity is an extreme over the run; the run continued can only exceed it."""
+
+    NONE = "none"
+    LARGEST = "largest"
+    LEAST = "least"
+
+
+PREFIXES = {"u": 1e6, "m": 1e3, "k": 1e-3, "M": 1e-6, "": 1.0}
+
+
+def always(scene: Scene, place: str) -> bool:
+    """Say that every scene with such a place has the quantity."""
+    return True
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """One number of a run.
+
+    Attributes:
+        name: within its place, as "peak_force" of a joint; dotted where it has variants.
+        unit: SI; "" where it has none.
+        meaning: one sentence or phrase.
+        kind: from which its error follows.
+        read: returns it from a reading and the name of the place ("" of the run); None where the
+            run is too short to have it.
+        place: what it belongs to.
+        has: whether a scene has it at a place, known before it runs.
+        title: of its line in tables, without unit; "" where it is in none.
+        shown: the unit in which tables show it; the SI unit unless given.
+        digits: shown where no error is known.
+        under: whether its line is a detail of the line above.
+        signed: whether it may be below zero.
+        extreme: of what it is an extreme.
+        headline: whether it is among those that everybody looks at first.
+        cumulative: whether it adds up over a run.
+    """
+
+    name: str
+    unit: str
+    meaning: str
+    kind: Kind
+    read: Callable[[Reading, str], Any]
+    place: Place = Place.RUN
+    has: Callable[[Scene, str], bool] = always
+    title: str = ""
+    shown: str = ""
+    digits: int = 4
+    under: bool = False
+    signed: bool = False
+    extreme: Extreme = Extreme.NONE
+    headline: bool = False
+    cumulative: bool = False
+
+    def at(self, place: str) -> str:
+        """Return the full name at a place.
+
+        >>> from exu_press.quantities import CATALOGUE
+        >>> next(q for q in CATALOGUE if q.name == "min_film").at("crank_pin")
+        'joints.crank_pin.min_film'
+        """
+        return (
+            f"{self.place.value}.{place}.{self.name}" if self.place is not Place.RUN else self.name
+        )
+
+    @property
+    def scale(self) -> float:
+        """Factor from the SI unit to the one that tables show."""
+        if not self.shown or self.shown == self.unit:
+            return 1.0
+        return PREFIXES[self.shown.removesuffix(self.unit)]
+
+    @property
+    def head(self) -> str:
+        """Its title with the unit that is shown."""
+        unit = self.shown or self.unit
+        return f"{self.title}, {unit}" if unit else self.title

@@ -1,0 +1,82 @@
+"""A run as quantities read it, with what several of them need worked out once."""
+
+from collections.abc import Callable
+from functools import cached_property
+from typing import Any, TypeVar
+
+import numpy as np
+
+from exu_press.arrays import Array
+from exu_press.mechanism import Mechanism
+from exu_press.piecewise import integral
+from exu_press.quantities.dead_centre import DeadCentre, bottom_dead_centres
+from exu_press.result import Result
+from exu_press.scene import mechanism_of
+
+__all__ = ["Reading"]
+
+Read = TypeVar("Read")
+
+
+class Reading:
+    """A run and what is worked out of it once."""
+
+    def __init__(self, result: Result) -> None:
+        """Take the run."""
+        self.result = result
+        self._found: dict[Any, Any] = {}
+
+    def __getitem__(self, channel: str) -> Array:
+        """Return the values of a channel."""
+        return self.result[channel]
+
+    def channel(self, name: str) -> Array | None:
+        """Return the values of a channel, None where the run does not have it."""
+        found = self.result.channels.get(name)
+        return None if found is None else found.values
+
+    def once(self, read: Callable[[Result], Read]) -> Read:
+        """Return what a function makes of the run; it is asked once, however many quantities do."""
+        if read not in self._found:
+            self._found[read] = read(self.result)
+        found: Read = self._found[read]
+        return found
+
+    @property
+    def time(self) -> Array:
+        """Instants, (n,), s."""
+        return self.result.time
+
+    @cached_property
+    def mechanism(self) -> Mechanism:
+        """The mechanism of the scene."""
+        return mechanism_of(self.result.scene)
+
+    @cached_property
+    def dead_centres(self) -> list[DeadCentre]:
+        """The bottom dead centre of every stroke."""
+        return bottom_dead_centres(self.result)
+
+    @cached_property
+    def whole(self) -> float | None:
+        """Instant from which to the end the crank turns whole revolutions, s, or None."""
+        angle = self["crank_angle"]
+        turns = np.floor((angle[-1] - angle[0]) / (2 * np.pi) + 1e-6)
+        if turns < 1.0:
+            return None
+        begin = float(np.interp(angle[-1] - 2 * np.pi * turns, angle, self.time))
+        return max(float(self.time[0]), begin)
+
+    def mean(self, values: Array) -> float | None:
+        """Return the mean of a channel (n,) over the last whole revolutions, None without one."""
+        return self.rate(integral(self.time, values))
+
+    def rate(self, amount: Array) -> float | None:
+        """Return the mean rate of change of a channel (n,) over the last whole revolutions.
+
+        Over a part of one it tells what the mechanism stores: None then.
+        """
+        if self.whole is None:
+            return None
+        change = amount[-1] - np.interp(self.whole, self.time, amount)
+        return float(change / (self.time[-1] - self.whole))

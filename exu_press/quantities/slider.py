@@ -1,0 +1,153 @@
+"""Quantities of the slider's motion."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from exu_press.quantities.acceleration import differentiated_peak, mean_peak, peak
+from exu_press.quantities.kind import LOAD, MOTION
+from exu_press.quantities.quantity import Extreme, Quantity
+from exu_press.quantities.reading import Reading
+from exu_press.scene import Scene, mechanism_of
+
+__all__ = ["SLIDER", "STROKES"]
+
+
+def _guided_softly(scene: Scene, _: str) -> bool:
+    """Return whether the slider's guide lets it tilt: what rigid guides leave is rounding."""
+    mechanism = mechanism_of(scene)
+    return any(
+        guide.body == mechanism.slider and (guide.lateral or guide.tilting or guide.ways)
+        for guide in mechanism.guides
+    )
+
+
+def _of_strokes(
+    read: Callable[["np.ndarray[tuple[int], np.dtype[np.float64]]"], float], least: int
+) -> Callable[[Reading, str], float | None]:
+    """Return a reader of the dead centres' positions, None of fewer strokes than the least."""
+
+    def value(run: Reading, _: str) -> float | None:
+        positions = np.array([centre.position for centre in run.dead_centres])
+        return float(read(positions)) if len(positions) >= least else None
+
+    return value
+
+
+SLIDER = (
+    Quantity(
+        "stroke",
+        "m",
+        "distance between the slider's highest and lowest position",
+        MOTION,
+        lambda run, _: float(np.ptp(run["slider_position"])),
+        title="stroke",
+        shown="mm",
+        digits=5,
+        extreme=Extreme.LARGEST,
+        headline=True,
+    ),
+    Quantity(
+        "bottom_dead_centre",
+        "m",
+        "lowest position of the slider",
+        MOTION,
+        lambda run, _: float(run["slider_position"].min()),
+        title="bottom dead centre",
+        shown="mm",
+        digits=6,
+        signed=True,
+    ),
+    Quantity(
+        "peak_velocity",
+        "m/s",
+        "largest speed of the slider",
+        MOTION,
+        lambda run, _: peak(run["slider_velocity"]),
+        title="peak velocity",
+        extreme=Extreme.LARGEST,
+        headline=True,
+    ),
+    Quantity(
+        "peak_acceleration.resolved",
+        "m/s^2",
+        "largest acceleration of the slider, as the integrator resolves it",
+        LOAD,
+        lambda run, _: peak(run["slider_acceleration"]),
+        title="peak acceleration",
+        extreme=Extreme.LARGEST,
+        headline=True,
+    ),
+    Quantity(
+        "peak_acceleration.mean_1ms",
+        "m/s^2",
+        "largest acceleration of the slider, averaged over 1 ms",
+        LOAD,
+        lambda run, _: mean_peak(run.time, run["slider_velocity"]),
+        title="mean over 1 ms",
+        under=True,
+        extreme=Extreme.LARGEST,
+        headline=True,
+    ),
+    Quantity(
+        "peak_acceleration.differentiated_1khz",
+        "m/s^2",
+        "largest second difference of the slider's displacement, sampled at 1 kHz",
+        LOAD,
+        lambda run, _: differentiated_peak(
+            run.time, run["slider_position"], run["slider_velocity"]
+        ),
+        title="differentiated, 1 kHz",
+        under=True,
+        extreme=Extreme.LARGEST,
+        headline=True,
+    ),
+)
+
+STROKES = (
+    Quantity(
+        "strokes.mean",
+        "m",
+        "mean of the strokes' bottom dead centres",
+        MOTION,
+        _of_strokes(np.mean, 1),
+        signed=True,
+    ),
+    Quantity(
+        "strokes.range",
+        "m",
+        "distance between the highest and the lowest bottom dead centre of the strokes",
+        MOTION,
+        _of_strokes(np.ptp, 2),
+        title="dead centres differ by",
+        shown="um",
+        extreme=Extreme.LARGEST,
+    ),
+    Quantity(
+        "strokes.standard_deviation",
+        "m",
+        "standard deviation of the strokes' bottom dead centres",
+        MOTION,
+        _of_strokes(lambda positions: positions.std(ddof=1), 2),
+    ),
+    Quantity(
+        "slider_tilt",
+        "rad",
+        "largest tilt of the slider in its guide",
+        MOTION,
+        lambda run, _: peak(run["slider_tilt"]),
+        has=_guided_softly,
+        title="slider tilt, max",
+        shown="urad",
+        extreme=Extreme.LARGEST,
+    ),
+    Quantity(
+        "slider_lateral",
+        "m",
+        "largest displacement of the slider across its guide",
+        MOTION,
+        lambda run, _: peak(run["slider_lateral"]),
+        has=_guided_softly,
+        extreme=Extreme.LARGEST,
+    ),
+)

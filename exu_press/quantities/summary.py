@@ -1,0 +1,54 @@
+"""The dictionary of summary.json."""
+
+from typing import Any
+
+import numpy as np
+
+from exu_press.quantities.catalogue import quantities_of
+from exu_press.quantities.dead_centre import bottom_dead_centres
+from exu_press.quantities.kind import COST
+from exu_press.quantities.value import values_of
+from exu_press.quantities.warnings import run_warnings
+from exu_press.result import Result
+
+__all__ = ["summary"]
+
+
+def summary(result: Result) -> dict[str, Any]:
+    """Return how a run ended, its quantities with their errors, its cost, and its scene.
+
+    Plain numbers, texts, lists and dictionaries.
+    """
+    info, values = result.info, values_of(result)
+    declared = quantities_of(result.scene)
+    costs = {name for name, placed in declared.items() if placed.quantity.kind is COST}
+    return {
+        "status": info["status"],
+        "reason": info["reason"],
+        "end_time": info["end_time"],
+        "warnings": run_warnings(result),
+        "quantities": {n: value.to_dict() for n, value in values.items() if n not in costs},
+        "horizon": info.get("horizon"),
+        "lyapunov_exponent": info.get("lyapunov_exponent"),
+        "strokes": _strokes(result),
+        "stress": info.get("stress", {}),
+        "solids": info.get("solids", {}),
+        "cost": {
+            name.removeprefix("cost."): values[name].value for name in declared if name in costs
+        },
+        "own_items": info["own_items"],
+        "versions": info["versions"],
+        "scene": result.scene.to_dict(),
+    }
+
+
+def _strokes(result: Result) -> list[dict[str, float]]:
+    """Return the bottom dead centre of every stroke."""
+    return [
+        {
+            "position": centre.position,
+            "crank_angle_deg": float(np.degrees(centre.crank_angle)),
+            "tilt": float(np.interp(centre.time, result.time, result["slider_tilt"])),
+        }
+        for centre in bottom_dead_centres(result)
+    ]

@@ -1,0 +1,124 @@
+"""Runs as a table: what a person reads in a terminal or a report."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from exu_press.columns import columns
+from exu_press.quantities.catalogue import CATALOGUE
+from exu_press.quantities.kind import LOAD
+from exu_press.quantities.quantity import Place, Quantity
+from exu_press.quantities.uncertain import uncertain
+from exu_press.quantities.value import Value, values_of
+from exu_press.result import Result
+from exu_press.scene import mechanism_of
+
+__all__ = ["comparison_cells", "comparison_lines", "run_lines", "shown_value"]
+
+MOST_PLACES = 3
+"""Joints, guides or bodies that a line names: those with the largest loads."""
+
+ALIKE = 1e-2
+"""Members of a group that differ by less, relatively, are shown as one."""
+
+HORIZON = "predictability horizon, ms"
+
+Row = tuple[str, list[str]]
+
+
+def shown_value(quantity: Quantity, value: Value) -> str:
+    """Return a value in the unit that tables show, with its error where that is known."""
+    told: Any = None if value.error is None else value.to_dict()
+    return uncertain(value.value, told, quantity.scale, quantity.digits)
+
+
+def comparison_cells(results: Mapping[str, Result]) -> list[list[str]]:
+    """Return the lines of a table as texts: the head, then a quantity a line, one column a run."""
+    runs = {label: values_of(result) for label, result in results.items()}
+    cells = [
+        ["", *results],
+        ["status", *(str(result.info["status"]) for result in results.values())],
+        [HORIZON, *(uncertain(r.info.get("horizon"), None, 1e3) for r in results.values())],
+    ]
+    unit = ""
+    for quantity in CATALOGUE:
+        if quantity.title:
+            cell = _at_places if quantity.place is not Place.RUN else _of_run
+            texts = [cell(quantity, results[label], values) for label, values in runs.items()]
+            cells.append([_head(quantity, unit), *texts])
+            unit = quantity.shown or quantity.unit
+    return [line for line in cells if set(line[1:]) != {"-"}]
+
+
+def comparison_lines(results: Mapping[str, Result]) -> list[str]:
+    """Return a table, one column a run."""
+    return columns(comparison_cells(results))
+
+
+def run_lines(result: Result) -> list[str]:
+    """Return one run's quantities, a line each."""
+    return comparison_lines({"": result})[1:]
+
+
+def _head(quantity: Quantity, unit: str) -> str:
+    """Return the head of a line; the unit of a detail is that of the line above unless it differs.
+
+    Args:
+        quantity: of the line.
+        unit: shown in the line above.
+    """
+    own = quantity.shown or quantity.unit
+    words = quantity.title + f", {own}" * bool(own and not (quantity.under and own == unit))
+    return f"  {words}" if quantity.under else words
+
+
+def _of_run(quantity: Quantity, _: Result, values: Mapping[str, Value]) -> str:
+    value = values.get(quantity.name)
+    return "-" if value is None else shown_value(quantity, value)
+
+
+def _at_places(quantity: Quantity, result: Result, values: Mapping[str, Value]) -> str:
+    """Return a quantity at its places; alike members of a group as one, the busiest only."""
+    names = _names(values, quantity.place)
+    found = {at: values[name] for at in names if (name := quantity.at(at)) in values}
+    found = {at: value for at, value in found.items() if value.value is not None}
+    words = dict(zip(found, (at.replace("_", " ") for at in found), strict=True))
+    for group, members in mechanism_of(result.scene).groups.items():
+        there = [at for at in members if at in found] if quantity.place is Place.JOINT else []
+        if len(there) == len(members) and _alike([found[at] for at in there]):
+            largest = max(there, key=lambda at: abs(found[at].value or 0.0))
+            words[largest] = group.replace("_", " ")
+            for at in there:
+                if at != largest:
+                    del words[at]
+    loose = result.clearance_joints
+    busiest = sorted(words, key=lambda at: (at not in loose, -_load(values, quantity.place, at)))
+    busiest = busiest[:MOST_PLACES]
+    texts = [f"{words[at]} {shown_value(quantity, found[at])}" for at in words if at in busiest]
+    rest = len(words) - len(texts)
+    return ", ".join([*texts, *[f"{rest} more"] * (rest > 0)]) or "-"
+
+
+def _names(values: Mapping[str, Value], place: Place) -> list[str]:
+    """Return the joints, guides, loads or bodies that have quantities."""
+    begin = f"{place.value}."
+    return list(
+        dict.fromkeys(
+            name.removeprefix(begin).split(".")[0] for name in values if name.startswith(begin)
+        )
+    )
+
+
+def _load(values: Mapping[str, Value], place: Place, at: str) -> float:
+    """Return the largest load at a place, in its unit."""
+    loads = (
+        values[name].value
+        for quantity in CATALOGUE
+        if quantity.place is place and quantity.kind is LOAD and (name := quantity.at(at)) in values
+    )
+    return next((abs(load) for load in loads if load is not None), 0.0)
+
+
+def _alike(values: Sequence[Value]) -> bool:
+    """Return whether values are the same to a hundredth."""
+    numbers = [value.value or 0.0 for value in values]
+    return max(numbers) - min(numbers) <= ALIKE * max(map(abs, numbers), default=0.0)

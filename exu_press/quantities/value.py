@@ -1,0 +1,79 @@
+"""The value of a quantity, with what is known of its error."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from exu_press.quantities.catalogue import Placed, quantities_of, quantity_of
+from exu_press.quantities.reading import Reading
+from exu_press.quantities.uncertain import uncertain
+from exu_press.result import Result
+
+__all__ = ["Value", "numbers_of", "value_of", "values_of"]
+
+
+@dataclass(frozen=True)
+class Value:
+    """One quantity of one run.
+
+    Attributes:
+        name: full.
+        value: in SI, None where the run is too short to have it.
+        unit: SI.
+        error: absolute; None where none was asked for.
+        low: least value that it may have, or None.
+        high: largest value that it may have, or None.
+        determined: whether the scene determines it; None where no error was asked for.
+    """
+
+    name: str
+    value: float | int | None
+    unit: str
+    error: float | None = None
+    low: float | None = None
+    high: float | None = None
+    determined: bool | None = None
+
+    def __str__(self) -> str:
+        """Return value, error and unit as people write them."""
+        told = None if self.error is None else self.to_dict()
+        return f"{uncertain(self.value, told)} {self.unit}".strip()
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the entry of summary.json."""
+        entries = ("value", "unit", "error", "low", "high", "determined")
+        return {entry: getattr(self, entry) for entry in entries}
+
+
+def value_of(result: Result, name: str) -> Value:
+    """Return one quantity of a run by its full name.
+
+    Raises:
+        InputError: the run's scene has no such quantity.
+    """
+    return _value(result, quantity_of(result.scene, name), Reading(result))
+
+
+def values_of(result: Result) -> dict[str, Value]:
+    """Return every quantity of a run by its full name."""
+    run = Reading(result)
+    return {
+        name: _value(result, placed, run) for name, placed in quantities_of(result.scene).items()
+    }
+
+
+def numbers_of(result: Result, declared: Mapping[str, Placed]) -> dict[str, float]:
+    """Return the values of quantities of a run by name; those that it is too short for left out.
+
+    Args:
+        result: of the run.
+        declared: quantities of its scene, by name.
+    """
+    run = Reading(result)
+    found = {name: placed.read(run) for name, placed in declared.items()}
+    return {name: float(value) for name, value in found.items() if value is not None}
+
+
+def _value(result: Result, placed: Placed, run: Reading) -> Value:
+    told: Any = result.info.get("errors", {}).get(placed.name, {})
+    return Value(placed.name, placed.read(run), placed.quantity.unit, **told)

@@ -1,0 +1,80 @@
+"""What a reader of a run should know before believing its figures."""
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from exu_press.mechanism.holding import holding_of
+from exu_press.quantities.energy import energy_residual
+from exu_press.result import Result
+from exu_press.scene import Scene, mechanism_of
+from exu_press.scene.warnings import scene_warnings
+
+__all__ = ["run_warnings"]
+
+RESIDUAL = 0.01
+"""Of the energy exchanged; beyond this the energy balance casts doubt on the integration."""
+
+ALIKE = 0.01
+"""Of mass and inertia, and of the mechanism's size: what a solid may differ by unsaid."""
+
+NEARLY_TOUCHING = 0.95
+"""Eccentricity ratio from which a film is thinner than its law is good for."""
+
+
+def run_warnings(result: Result) -> list[str]:
+    """Return the warnings of summary.json: about the run's quantities, then about its scene."""
+    found, scene = [], result.scene
+    residual = energy_residual(result)
+    if result.info["own_items"]:
+        found.append(
+            "no energy balance: what your own items put in, store and dissipate is not known"
+        )
+    if residual is not None and residual > RESIDUAL:
+        found.append(
+            f"the energy balance misses {residual:.2g} of the energy: try a smaller "
+            "solver.tolerance or solver.step"
+        )
+    for name, joint in result.joints.items():
+        if joint.kind == "lubricated":
+            ratio = float(joint.distance.max() / joint.clearance)
+            if ratio > NEARLY_TOUCHING:
+                found.append(
+                    f"{name.replace('_', ' ')}: eccentricity ratio up to {ratio:.3f}; film laws "
+                    "for smooth surfaces are hardly valid there"
+                )
+    return [*found, *_held_twice(scene), *_solids(result), *scene_warnings(scene)]
+
+
+def _held_twice(scene: Scene) -> Iterator[str]:
+    """Yield the ideal joints between which forces cannot be told apart."""
+    holding = holding_of(mechanism_of(scene), scene.joints.ideal)
+    if holding.twice:
+        names = ", ".join(name.replace("_", " ") for name in holding.redundant)
+        yield (
+            f"{names}: other ideal joints hold the same at most crank angles; the motion is right, "
+            "but how joints divide the forces among them is not determined; give one of them "
+            "clearance"
+        )
+
+
+def _solids(result: Result) -> Iterator[str]:
+    """Yield what of a flexible body's solid differs from the mechanism's body."""
+    scene = result.scene
+    mechanism = mechanism_of(scene)
+    solids: Mapping[str, Mapping[str, Any]] = result.info.get("solids", {})
+    for name, solid in solids.items():
+        body, away = mechanism.body(name), math.hypot(*solid["centre_of_mass"])
+        flywheel = 0.0 if scene.drive is None or name != mechanism.crank else scene.drive.inertia
+        said = [
+            f"{what} {solid[what]:.4g} {unit} for {meant:.4g}"
+            for what, unit, meant in (
+                ("mass", "kg", body.mass),
+                ("inertia", "kg m^2", body.inertia - flywheel),
+            )
+            if abs(solid[what] - meant) > ALIKE * meant
+        ]
+        if away > ALIKE * mechanism.size:
+            said.append(f"a centre of mass {1e3 * away:.3g} mm from the mechanism's")
+        if said:
+            yield f"bodies.{name}: the solid's own values are taken: {', '.join(said)}"

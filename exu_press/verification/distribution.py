@@ -1,0 +1,128 @@
+"""What is determined of figures where motion is chaotic: their distribution over revolutions."""
+
+import math
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from exu_press.errors import InputError
+from exu_press.progress import Progress
+from exu_press.quantities import quantities_of
+from exu_press.quantities.value import numbers_of
+from exu_press.result.windows import revolutions_of
+from exu_press.scene import Scene
+from exu_press.simulation import simulate
+
+__all__ = ["LEAST_REVOLUTIONS", "Distribution", "distributions", "percentiles"]
+
+PERCENTILES = (5.0, 50.0, 95.0)
+
+CONFIDENCE = 0.9
+
+AT_A_TIME = 8
+"""Revolutions of a run, of which the first is left out: it still knows how the run began."""
+
+LEAST_REVOLUTIONS = 59
+"""Revolutions: the largest of fewer is below the 95th percentile in more than one case of twenty,
+so that this has no upper bound of that confidence."""
+
+MOST_REVOLUTIONS = 126
+"""Revolutions after which it is enough, however wide the confidence still is."""
+
+GOLDEN = 180.0 * (5.0**0.5 - 1.0)
+"""deg; multiples of it lie evenly about a revolution, however many there are."""
+
+
+@dataclass(frozen=True)
+class Distribution:
+    """A figure's values over revolutions.
+
+    Attributes:
+        revolutions: how many.
+        percentiles: percentile -> the value, and between which values it lies with a confidence of
+            90 %, in the figure's unit.
+    """
+
+    revolutions: int
+    percentiles: dict[float, tuple[float, float, float]]
+
+
+def percentiles(values: Sequence[float]) -> dict[float, tuple[float, float, float]]:
+    """Return the percentiles of samples, each with the bounds of its confidence.
+
+    As many samples lie below a percentile as successes are among so many trials, whatever the
+    distribution is; so two of the ordered samples are its bounds (H. A. David, H. N. Nagaraja,
+    Order Statistics, Wiley 2003, 7.1). Of fewer than LEAST_REVOLUTIONS samples the outermost ones
+    are, with less confidence. Revolutions that follow each other are not independent of each other
+    for sure; where motion is chaotic, the next one remembers little.
+    """
+    ordered, count = np.sort(values), len(values)
+    tail = 0.5 * (1.0 - CONFIDENCE)
+    found = {}
+    for percent in PERCENTILES:
+        p = percent / 100.0
+        below = [math.comb(count, k) * p**k * (1.0 - p) ** (count - k) for k in range(count + 1)]
+        low, high = np.searchsorted(np.cumsum(below), [tail, 1.0 - tail])
+        bounds = float(ordered[max(low - 1, 0)]), float(ordered[min(high, count - 1)])
+        found[percent] = float(np.percentile(ordered, percent)), *bounds
+    return found
+
+
+def distributions(
+    scene: Scene,
+    names: Collection[str],
+    within: float,
+    *,
+    least: int = LEAST_REVOLUTIONS,
+    most: int = MOST_REVOLUTIONS,
+    quiet: bool = True,
+) -> dict[str, Distribution]:
+    """Return the distribution of figures over revolutions and starts.
+
+    Runs from other crank angles are added until there are `least` revolutions, and the medians are
+    known within what is asked for, or there are `most`.
+
+    Args:
+        scene: with the tolerance to run it at; its own length and start do not count.
+        names: dotted, of figures; those that add up over a run, and those that one revolution does
+            not have, are left out.
+        within: relative.
+        least: revolutions.
+        most: revolutions.
+        quiet: False shows the progress.
+
+    Raises:
+        InputError: a run stopped early.
+    """
+    declared = {
+        name: one
+        for name, one in quantities_of(scene).items()
+        if name in names and not one.quantity.cumulative
+    }
+    values: dict[str, list[float]] = {name: [] for name in declared}
+    found: dict[str, Distribution] = {}
+    count, start = 0, 0
+    with Progress("distribution", most, "revolutions", quiet=quiet) as progress:
+        while values and count < most:
+            angle = (scene.start_angle_deg + GOLDEN * start) % 360.0
+            run = simulate(scene.replace({"revolutions": AT_A_TIME, "start_angle_deg": angle}))
+            if not run.completed:
+                raise InputError(f"no distribution, as a run {run.info['reason']}")
+            each = [numbers_of(one, declared) for one in revolutions_of(run)[1:]]
+            values = {
+                name: [*so_far, *(one[name] for one in each)]
+                for name, so_far in values.items()
+                if all(name in one for one in each)
+            }
+            count, start = count + len(each), start + 1
+            progress.update(count)
+            found = {name: Distribution(count, percentiles(all_)) for name, all_ in values.items()}
+            if count >= least and all(_known(one, within) for one in found.values()):
+                break
+    return found
+
+
+def _known(found: Distribution, within: float) -> bool:
+    median, low, high = found.percentiles[50.0]
+    return max(high - median, median - low) <= within * abs(median)

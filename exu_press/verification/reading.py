@@ -1,0 +1,79 @@
+"""What is left open by reading loads at steps, which is in all runs alike."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from exu_press.arrays import Array
+from exu_press.quantities.energy import has_balance
+from exu_press.result import Result
+
+__all__ = ["OF_FIRST_STEP", "overshot", "smoothed", "unbalanced"]
+
+LOADS = frozenset({"m/s^2", "N", "N m", "W"})
+"""Units of the channels that follow from accelerations."""
+
+OF_FIRST_STEP = 0.25
+"""Of a load's change in the first step, its overshoot: 0.07 to 0.18 were measured with films."""
+
+AT_ONCE = 1e-6
+"""Of the first step: an instant so soon after the start."""
+
+
+def smoothed(run: Result) -> Result:
+    """Return a run whose loads are averaged, at each step, with the line through its neighbours.
+
+    The constraints of generalized-alpha leave loads that alternate from step to step, most so at
+    the start and in the small steps of impacts; this takes the alternating part away. Of a peak
+    that lies between steps it takes twice what it may be higher than the steps say. So the
+    difference of a figure of the two is what reading it leaves open.
+    """
+    return _with_loads(run, _averaged)
+
+
+def overshot(run: Result) -> Result:
+    """Return a run with a further instant, just after the start, at which films have their loads.
+
+    Within the first step they take them up, none can tell when, with an overshoot that its end does
+    not show: OF_FIRST_STEP of what it changes.
+    """
+    if len(run.time) < 2:
+        return run
+    begun = {name: np.concatenate([run[name][:1], run[name]]) for name in run}
+    begun["time"][1] += AT_ONCE * (run.time[1] - run.time[0])
+    return _with_loads(run.with_values(begun), _overshot)
+
+
+def unbalanced(run: Result) -> Result:
+    """Return a run that is put in as much more energy as its balance misses at worst.
+
+    The energy put in is the integral of a power that is read at steps. Where it flows back and
+    forth, as over whole revolutions, errors cancel at the end, which is luck.
+    """
+    if not has_balance(run):
+        return run
+    given = run["energy_input"]
+    missed = given - run["energy_stored"] - run["energy_dissipated"]
+    return run.with_values({"energy_input": given + np.abs(missed).max()})
+
+
+def _with_loads(run: Result, change: Callable[[Array, Array], Array]) -> Result:
+    """Return a run with other loads: change(time (n,), values (n, ...))."""
+    loads = [name for name, channel in run.channels.items() if channel.unit in LOADS]
+    return run.with_values({name: change(run.time, run[name]) for name in loads})
+
+
+def _averaged(time: Array, values: Array) -> Array:
+    """Return values (n, ...) averaged with their neighbours', but for the first and the last."""
+    if len(time) < 3:
+        return values
+    part = (time[1:-1] - time[:-2]) / (time[2:] - time[:-2])
+    part = part.reshape(-1, *[1] * (values.ndim - 1))
+    line = (1.0 - part) * values[:-2] + part * values[2:]
+    return np.concatenate([values[:1], 0.5 * (values[1:-1] + line), values[-1:]])
+
+
+def _overshot(_: Array, values: Array) -> Array:
+    """Return values (n, ...) whose second one is the third one, and more."""
+    second = values[2] + OF_FIRST_STEP * (values[2] - values[0])
+    return np.concatenate([values[:1], second[None], values[2:]])

@@ -1,0 +1,255 @@
+"""A run with the errors of its figures."""
+
+import warnings
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from exu_press.quantities import Extreme, Placed, Quantity, quantities_of
+from exu_press.quantities.kind import RESULTANT
+from exu_press.quantities.value import numbers_of
+from exu_press.result import Result
+from exu_press.result.info import Error, Errors
+from exu_press.result.windows import until, window
+from exu_press.scene import Scene
+from exu_press.simulation import simulate
+from exu_press.verification.companions import Companions, plan
+from exu_press.verification.estimate import (
+    AMPLIFIED,
+    SAFETY,
+    SAFETY_OF_STEPS,
+    converging,
+    scattered,
+)
+from exu_press.verification.parting import Parting, parting
+from exu_press.verification.reading import overshot, smoothed, unbalanced
+
+__all__ = ["errors_of", "simulate_with_errors", "with_errors"]
+
+Numbers = Mapping[float, Mapping[str, float]]
+"""Quantities of the run and its companions, by the ratio of their tolerance to the run's."""
+
+OF_THE_START = 1e-4
+"""Least error of loads over themselves where all runs agree: they are from the start then, and what
+the first step leaves of accelerations is in all of them."""
+
+OF_READING = 0.75
+"""Of what averaging with the neighbours takes of a quantity: a peak between steps may be higher by
+half of it, one of alternating loads is too high by all of it."""
+
+SAME = 1e-9
+"""Relative: a figure that has changed by less since the horizon is one from before it."""
+
+
+def simulate_with_errors(scene: Scene, *, quiet: bool = True, beside: bool = True) -> Result:
+    """Do what `simulate` does, with companion runs.
+
+    Args:
+        scene: what to simulate.
+        quiet: False shows the progress.
+        beside: the companions run in a further process meanwhile; else in this one afterwards, as
+            where all cores have their runs already.
+
+    Returns:
+        The result; `info` and summary have `errors`, quantity by quantity, `horizon` and
+        `lyapunov_exponent` too. Of a run that stopped early, or was stopped, nothing is known.
+    """
+    if not beside:
+        return with_errors(simulate(scene, quiet=quiet), beside=False)
+    with Companions(scene) as companions:
+        return _beside(simulate(scene, quiet=quiet), companions)
+
+
+def with_errors(result: Result, *, beside: bool = True) -> Result:
+    """Return a result with the errors of its figures, by companion runs of its scene.
+
+    Args:
+        result: of a run.
+        beside: the companions run in a further process, else in this one.
+    """
+    if not result.completed:
+        return _told(result, ())
+    if not beside:
+        return _told(result, ((r, simulate(scene)) for r, scene in plan(result.scene).items()))
+    with Companions(result.scene) as companions:
+        return _beside(result, companions)
+
+
+def _beside(result: Result, companions: Companions) -> Result:
+    """Return a result with its errors; without, with a warning, if the companions have failed."""
+    try:
+        return _told(result, companions.results() if result.completed else ())
+    except RuntimeError as error:
+        warnings.warn(f"no errors of the figures are known: {error}", stacklevel=3)
+        return _told(result, ())
+
+
+def _told(result: Result, companions: Iterable[tuple[float, Result]]) -> Result:
+    """Return a result that tells its errors."""
+    return replace(result, info={**result.info, **errors_of(result, companions)})
+
+
+def errors_of(
+    result: Result,
+    companions: Iterable[tuple[float, Result]],
+    declared: Mapping[str, Placed] | None = None,
+) -> Errors:
+    """Return what a summary says of errors.
+
+    Companions that stopped before the run itself did are left out; without any nothing is known.
+    Each is read as it comes, while the next one may still be on its way.
+
+    Args:
+        result: of a run.
+        companions: the same at other tolerances or steps, after their ratio to its own; the least
+            ratio, whose run is the nearest one, is first.
+        declared: quantities by name; those of the scene unless told.
+    """
+    if declared is None:
+        declared = quantities_of(result.scene)
+    told = {name: one for name, one in declared.items() if one.quantity.kind.has_error}
+
+    def read(run: Result) -> dict[str, float]:
+        return numbers_of(run, told)
+
+    end = float(result.time[-1])
+    parted: Parting | None = None
+    by_end: dict[float, dict[float, Mapping[str, float]]] = {}
+    after: dict[float, Mapping[str, float]] = {}
+    for ratio, companion in companions:
+        if companion.time[-1] < end * (1.0 - 1e-9):
+            continue
+        run = until(companion, end)
+        if parted is None:
+            parted = parting(result, run, ratio)
+            beside, horizon = (
+                end if instant is None else instant
+                for instant in (parted.beside, parted.growth.horizon)
+            )
+            by_end = {at: {1.0: read(until(result, at))} for at in (end, beside, horizon)}
+            after = {1.0: read(window(result, horizon, end))} if horizon < end else {}
+            reads = [read(changed(result)) for changed in (smoothed, overshot, unbalanced)]
+        for instant, found in by_end.items():
+            found[ratio] = read(until(run, instant))
+        if after:
+            after[ratio] = read(window(run, horizon, end))
+    if parted is None:
+        return {"errors": {}, "horizon": None, "lyapunov_exponent": None}
+    solver = result.scene.solver
+    safety = SAFETY if solver is not None and solver.step is None else SAFETY_OF_STEPS
+    until_then = {safety: by_end[beside], AMPLIFIED * safety: by_end[horizon]}
+    errors: dict[str, Error] = {}
+    sizes = _Sizes.of(by_end[end][1.0], told)
+    for name, value in by_end[end][1.0].items():
+        left_open = max(abs(value - changed[name]) for changed in reads)
+        quantity = told[name].quantity
+        least = _least(
+            quantity, [found[name] for found in by_end[end].values() if name in found], sizes
+        )
+        least += OF_READING * left_open
+        errors[name] = error = _error(name, quantity.extreme, by_end[end], until_then, after, least)
+        if value >= 0.0 and not quantity.signed:
+            error["low"] = max(error["low"], 0.0)
+    return {
+        "errors": errors,
+        "horizon": parted.growth.horizon,
+        "lyapunov_exponent": parted.growth.rate,
+    }
+
+
+def _error(
+    name: str,
+    extreme: Extreme,
+    now: Numbers,
+    until_then: Mapping[float, Numbers],
+    after: Numbers,
+    least: float,
+) -> Error:
+    """Return the error of a quantity.
+
+    Beyond the horizon, an extreme is that of the run continued as each companion goes on: what
+    companions did before, where the run is right, does not widen its bounds.
+
+    Args:
+        name: of the quantity.
+        extreme: of what it is an extreme.
+        now: of the whole motion.
+        until_then: safety of errors that go with the tolerance or the step -> the quantities until
+            the instant up to which it is enough; the last one is the horizon.
+        after: of the motion from the horizon on, where there is one.
+        least: least error.
+    """
+    values = {ratio: found[name] for ratio, found in now.items() if name in found}
+    if len(values) < 2:
+        return scattered([values[1.0], 0.0])
+    for safety, before in until_then.items():
+        begun = {r: before[r].get(name, np.nan) for r in values}
+        if all(abs(begun[r] - value) <= SAME * abs(value) for r, value in values.items()):
+            return converging(list(values.values()), list(values), least, safety)
+    later = {r: found.get(name, np.nan) for r, found in after.items() if r in values}
+    further = _further(extreme, values, begun, later) if later else None
+    if further is None:
+        return scattered(list(values.values()), least)
+    known = converging(list(begun.values()), list(values), least, safety)
+    continued = [further(begun[1.0], value) for value in later.values()]
+    of_before = abs(begun[1.0] - values[1.0]) <= SAME * abs(values[1.0])
+    told = scattered(continued, known["error"] if of_before else least)
+    if extreme is Extreme.LARGEST:
+        told["low"] = max(told["low"], known["low"])
+    else:
+        told["high"] = min(told["high"], known["high"])
+    return told
+
+
+def _further(
+    extreme: Extreme,
+    values: Mapping[float, float],
+    begun: Mapping[float, float],
+    later: Mapping[float, float],
+) -> Callable[[float, float], float] | None:
+    """Return max or min, if the quantity is that of its values in two parts of every run."""
+    found: Callable[[float, float], float] = max if extreme is Extreme.LARGEST else min
+    if extreme is Extreme.NONE or any(
+        not abs(found(begun[r], later[r]) - value) <= SAME * abs(value)
+        for r, value in values.items()
+    ):
+        return None
+    return found
+
+
+@dataclass(frozen=True)
+class _Sizes:
+    """The largest force, N, and the largest energy, J, of a run."""
+
+    force: float
+    energy: float
+
+    @staticmethod
+    def of(values: Mapping[str, float], told: Mapping[str, Placed]) -> "_Sizes":
+        """Return those among its quantities."""
+        found = {"N": 0.0, "J": 0.0}
+        for name, value in values.items():
+            unit = told[name].quantity.unit
+            if unit in found and told[name].quantity.kind is not RESULTANT:
+                found[unit] = max(found[unit], abs(value))
+        return _Sizes(found["N"], found["J"])
+
+
+def _least(quantity: Quantity, values: Sequence[float], run: _Sizes) -> float:
+    """Return the least error of a quantity, in its unit.
+
+    Args:
+        quantity: as it is declared.
+        values: of it, in all runs; the run's own first.
+        run: its largest force and energy.
+    """
+    if not any(values):
+        return 0.0
+    kind, size = quantity.kind, abs(values[0])
+    relative = kind.relative
+    if kind.from_accelerations and max(values) - min(values) <= kind.relative * size:
+        relative = OF_THE_START
+    return max(
+        relative * size, kind.absolute, kind.of_forces * run.force, kind.of_energies * run.energy
+    )

@@ -1,0 +1,51 @@
+"""What came of a wanted error, in words."""
+
+import math
+
+from exu_press.quantities import quantities_of
+from exu_press.quantities.joints import IMPACTS
+from exu_press.quantities.value import numbers_of
+from exu_press.result import Result
+from exu_press.verification.within import Delivered
+
+__all__ = ["delivered_lines"]
+
+
+def delivered_lines(delivered: Delivered, within: float) -> list[str]:
+    """Return what a tolerance delivers, and what no tolerance does, for the terminal."""
+    tolerance = delivered.tolerance
+    if not delivered.missed:
+        return [f"every figure asked for within {100 * within:.3g} %: tolerance {tolerance:.2g}"]
+    lines = _chaos(delivered.result)
+    for name, found in delivered.missed.items():
+        lines.append(
+            f"{name}: not within {100 * within:.3g} %, down to a tolerance of {tolerance:.2g}"
+        )
+        if found is None:
+            lines.append("  no distribution: it adds up, or one revolution does not have it")
+            continue
+        shown = "; ".join(
+            f"{percent:.0f} % below {value:.4g} ({low:.4g} to {high:.4g})"
+            for percent, (value, low, high) in found.percentiles.items()
+        )
+        lines.append(f"  over {found.revolutions} revolutions: {shown}")
+    return lines
+
+
+def _chaos(result: Result) -> list[str]:
+    """Return from when on errors exceed the figures, and how they grow."""
+    horizon, rate = result.info["horizon"], result.info["lyapunov_exponent"]
+    if horizon is None:
+        return []
+    angle = math.degrees(result.scene.angular_speed * horizon)
+    growth = ""
+    if rate is not None:
+        counted = {n: q for n, q in quantities_of(result.scene).items() if q.quantity is IMPACTS}
+        impacts = sum(numbers_of(result, counted).values()) / float(result.time[-1])
+        growth = f", and grow tenfold in {math.log(10.0) / rate * 1e3:.3g} ms"
+        if impacts > 0.0:
+            growth += f", {math.exp(rate / impacts):.2g}-fold an impact"
+    return [
+        f"errors exceed the figures from t = {horizon * 1e3:.4g} ms on, "
+        f"{angle:.0f} deg of the crank after the start{growth}"
+    ]

@@ -1,0 +1,104 @@
+"""Peak acceleration as three observers read it, on curves with known answers."""
+
+import numpy as np
+import pytest
+
+from exu_press.quantities import differentiated_peak, mean_peak, mean_peak_of, peak
+
+TIME = np.linspace(0.0, 0.1, 10001)
+
+
+def pulse(height, begin, length):
+    """Velocity and position of a body that a constant acceleration moves for a while."""
+    into = np.clip(TIME - begin, 0.0, length)
+    velocity = height * into
+    position = height * into**2 / 2 + height * length * np.clip(TIME - begin - length, 0.0, None)
+    return velocity, position
+
+
+def test_peak_is_the_largest_magnitude():
+    assert peak(np.array([1.0, -3.0, 2.0])) == 3.0
+
+
+@pytest.mark.parametrize("acceleration", [5.0, -5.0])
+def test_all_three_agree_on_a_constant_acceleration(acceleration):
+    velocity, position = acceleration * TIME, acceleration * TIME**2 / 2
+    assert mean_peak(TIME, velocity) == pytest.approx(5.0)
+    assert differentiated_peak(TIME, position, velocity) == pytest.approx(5.0)
+
+
+def test_an_impact_is_spread_over_the_window():
+    """1000 m/s^2 over 0.1 ms is 100 m/s^2 over 1 ms, wherever the window may fall."""
+    velocity, _ = pulse(1000.0, 0.0312345, 1e-4)
+    assert mean_peak(TIME, velocity) == pytest.approx(100.0, rel=1e-3)
+
+
+def test_window_can_be_chosen():
+    velocity, _ = pulse(1000.0, 0.03, 1e-4)
+    assert mean_peak(TIME, velocity, window=5e-4) == pytest.approx(200.0, rel=1e-3)
+    assert mean_peak(TIME, velocity, window=5e-5) == pytest.approx(1000.0, rel=1e-3)
+
+
+def test_mean_is_the_jump_of_velocity_over_the_window():
+    """Two opposite impacts within the window cancel."""
+    one, _ = pulse(1000.0, 0.03, 1e-4)
+    two, _ = pulse(1000.0, 0.0302, 1e-4)
+    assert mean_peak(TIME, one - two) == pytest.approx(100.0, rel=1e-3)
+    assert abs((one - two)[-1]) < 1e-12
+
+
+@pytest.mark.parametrize("step", [1e-5, 1e-3, 2.5e-3, 0.02])
+def test_mean_of_a_load_in_steps_longer_than_the_window(step):
+    """A ramp's largest mean is half a millisecond before its end, however long steps are."""
+    time = np.linspace(0.0, 0.02, round(0.02 / step) + 1)
+    assert mean_peak_of(time, 1000.0 * time) == pytest.approx(19.5)
+
+
+def test_mean_about_the_peak_of_a_load():
+    """A triangle's is in the middle of the window, which no step ends: 100 less a quarter ms's."""
+    time = np.array([0.0, 0.01, 0.02])
+    assert mean_peak_of(time, np.array([0.0, -100.0, 0.0])) == pytest.approx(97.5)
+    assert mean_peak_of(time[:1], time[:1]) is None
+
+
+def test_second_difference_of_an_impact_at_a_sample():
+    """A step of velocity dv on a sample reads dv * rate."""
+    velocity, position = pulse(1000.0, 0.03 - 5e-5, 1e-4)
+    read = differentiated_peak(TIME, position, velocity)
+    assert read == pytest.approx(100.0, rel=0.03)
+
+
+def test_second_difference_of_an_impact_between_samples_is_half():
+    velocity, position = pulse(1000.0, 0.0305 - 5e-5, 1e-4)
+    read = differentiated_peak(TIME, position, velocity)
+    assert read == pytest.approx(50.0, rel=0.03)
+
+
+def test_second_difference_of_a_sine():
+    """(2 sin(w T / 2) / T)^2 times the amplitude, for samples T apart."""
+    omega, rate = 2 * np.pi * 100.0, 1e3
+    position, velocity = 1e-3 * np.cos(omega * TIME), -1e-3 * omega * np.sin(omega * TIME)
+    expected = 1e-3 * (2 * np.sin(omega / rate / 2) * rate) ** 2
+    assert differentiated_peak(TIME, position, velocity) == pytest.approx(expected, rel=1e-6)
+
+
+def test_record_need_not_be_evenly_spaced_nor_start_at_zero():
+    rng = np.random.default_rng(1)
+    time = 7.0 + np.sort(np.concatenate([[0.0, 0.1], rng.uniform(0.0, 0.1, 3000)]))
+    into = time - 7.0
+    assert mean_peak(time, 5.0 * into) == pytest.approx(5.0)
+    assert differentiated_peak(time, 2.5 * into**2, 5.0 * into) == pytest.approx(5.0, rel=1e-6)
+
+
+def test_records_that_are_too_short_have_no_answer():
+    short = TIME[:50]  # 0.5 ms
+    assert mean_peak(short, short) is None
+    assert differentiated_peak(short, short, short) is None
+    assert differentiated_peak(TIME[:150], TIME[:150], TIME[:150]) is None
+
+
+def test_shortest_records_that_have_one():
+    exact = TIME[:101]  # 1 ms
+    assert mean_peak(exact, 5.0 * exact) == pytest.approx(5.0)
+    exact = TIME[:201]  # three samples
+    assert differentiated_peak(exact, 2.5 * exact**2, 5.0 * exact) == pytest.approx(5.0)

@@ -1,0 +1,73 @@
+"""The energy balance in numbers: relative to what, and where there is none."""
+
+import exudyn as exu
+import numpy as np
+import pytest
+from exudyn.itemInterface import LoadForceVector, MarkerBodyRigid
+
+from exu_press import Result, Scene
+from exu_press.plots.save import save_pictures
+from exu_press.quantities.energy import energy_residual
+from exu_press.result import record
+from exu_press.scene import flexible_press
+
+
+def _balance(given, stored, lost):
+    channels = {"energy_input": given, "energy_stored": stored, "energy_dissipated": lost}
+    return {name: np.array(values) for name, values in channels.items()}
+
+
+def test_a_rotor_that_runs_down_is_put_nothing_in():
+    """Relative to the work put in the residual would be 0, however wrong."""
+    closed = _balance([0.0, 0.0, 0.0], [0.0, -2.0, -4.0], [0.0, 2.0, 4.0])
+    open_ = _balance([0.0, 0.0, 0.0], [0.0, -2.0, -4.0], [0.0, 2.0, 3.0])
+    assert energy_residual(closed) == 0.0
+    assert energy_residual(open_) == pytest.approx(0.25)
+
+
+def test_where_nothing_moves_it_is_not_defined():
+    nothing = _balance([0.0, 1e-14], [0.0, -1e-14], [0.0, 0.0])
+    assert energy_residual(nothing) is None
+
+
+def test_the_user_s_own_load_leaves_no_balance(tmp_path):
+    """A kilonewton against the slider did 26 J of work that the balance missed."""
+    scene = Scene(joints={"crank_pin": "ideal", "balls": "ideal"}, revolutions=0.5)
+    model = scene.build()
+    marker = MarkerBodyRigid(bodyNumber=model.bodies["slider"])
+    load = LoadForceVector(markerNumber=model.mbs.AddMarker(marker), loadVector=[0.0, 1e3, 0.0])
+    model.mbs.AddLoad(load)
+    model.mbs.Assemble()
+    result = record(model, model.solve())
+    summary = result.summary()
+    assert summary["own_items"] == 1
+    energies = [v for name, v in summary["quantities"].items() if name.startswith("energy.")]
+    assert len(energies) == 4 and all(entry["value"] is None for entry in energies)
+    result.save(tmp_path / "run.nc")
+    result = Result.load(tmp_path / "run.nc")
+    assert not any(name.startswith("energy_") for name in result)
+    assert any("no energy balance" in warning for warning in summary["warnings"])
+    assert "energy.png" not in {path.name for path in save_pictures(result, tmp_path)}
+
+
+def test_sensors_of_one_s_own_change_nothing():
+    scene = Scene(joints={"crank_pin": "ideal", "balls": "ideal"}, revolutions=0.1)
+    model = scene.build()
+    output = exu.OutputVariableType.Position
+    sensor = {"sensorType": "Body", "outputVariableType": output, "storeInternal": True}
+    model.mbs.AddSensor(sensor | {"bodyNumber": model.bodies["slider"]})
+    model.mbs.Assemble()
+    result = record(model, model.solve())
+    assert result.info["own_items"] == 0
+    assert energy_residual(result) < 1e-3
+
+
+def test_damping_of_modes_is_an_entry_of_what_is_dissipated():
+    pytest.importorskip("ngsolve")
+    from exu_press import simulate
+
+    result = simulate(Scene(bodies=flexible_press(modes=4), revolutions=0.05))
+    losses = [result[name] for name in result if name.endswith("_loss")]
+    modal = result["crank_modes_loss"] + result["linkage_modes_loss"]
+    assert modal[-1] > 0.01 * result["energy_dissipated"][-1]
+    assert np.sum(losses, axis=0) == pytest.approx(result["energy_dissipated"], rel=1e-9)

@@ -1,0 +1,47 @@
+"""Quantities of joints: those that a kind of joint has, and their values on a run's channels."""
+
+import numpy as np
+import pytest
+
+from exu_press import Scene, simulate
+from exu_press.quantities import quantities_of, values_of
+
+FILM = {"kind": "lubricated", "film": {"at_contact": "mixed", "roughness": 1e-6}}
+
+
+def names(scene, joint):
+    begin = f"joints.{joint}."
+    return {name.removeprefix(begin) for name in quantities_of(scene) if name.startswith(begin)}
+
+
+def test_each_kind_of_joint_has_its_own():
+    loose = {"max_eccentricity_ratio", "peak_force", "dissipated", "mean_power"}
+    touching = {"peak_penetration", "impacts", "share_free_flight", "share_contact"}
+    dry = Scene(joints={"crank_pin": "dry"})
+    assert names(dry, "crank_pin") == loose | touching
+    assert names(dry, "shaft") == {"peak_force"}
+    assert names(Scene(joints={"crank_pin": "lubricated"}), "crank_pin") == loose | {"min_film"}
+    assert names(Scene(joints={"crank_pin": FILM}), "crank_pin") == loose | touching | {"min_film"}
+
+
+@pytest.fixture(scope="module")
+def run():
+    return simulate(Scene(joints={"crank_pin": FILM, "balls": "dry"}, revolutions=0.1))
+
+
+def test_values_are_those_of_the_channels(run):
+    gap = 1e-4 - np.linalg.norm(run["ball_left_eccentricity"], axis=1)
+    found = {name: value.value for name, value in values_of(run).items()}
+    assert found["joints.ball_left.peak_penetration"] == max(0.0, -gap.min())
+    assert found["joints.ball_left.max_eccentricity_ratio"] == pytest.approx(1.0 - gap.min() / 1e-4)
+    force = np.linalg.norm(run["ball_left_force"], axis=1).max()
+    assert found["joints.ball_left.peak_force"] == pytest.approx(force, rel=1e-12)
+    both = found["joints.ball_left.share_contact"] + found["joints.ball_left.share_free_flight"]
+    assert both == pytest.approx(1.0)
+    film = 1e-4 - np.linalg.norm(run["crank_pin_eccentricity"], axis=1)
+    assert found["joints.crank_pin.min_film"] == pytest.approx(max(0.0, film.min()))
+
+
+def test_values_are_plain_numbers(run):
+    for value in values_of(run).values():
+        assert value.value is None or type(value.value) in (int, float), value

@@ -1,0 +1,176 @@
+"""Bottom dead centres, drive, shaking and guides in the summary."""
+
+import json
+
+import numpy as np
+import pytest
+
+from exu_press import Scene, simulate
+from exu_press.quantities import lowest_of_strokes
+from exu_press.scene import mechanism_of
+
+
+def strokes(angle, depth, shift=0.3):
+    """Position and velocity of a slider whose lowest point comes `shift` rad late."""
+    return (
+        depth * np.cos(angle - shift),
+        -depth * np.sin(angle - shift),
+    )
+
+
+def test_minimum_lies_between_the_samples():
+    """Hermite's polynomials find it to the fourth power of the step: 0.1 rad here."""
+    angle = np.arange(0.0, 4 * np.pi, 0.1)
+    found = lowest_of_strokes(angle, angle, *strokes(angle, 1.0), about=np.pi)
+    assert len(found) == 2
+    for number, centre in enumerate(found):
+        assert centre.position == pytest.approx(-1.0, abs=1e-6)
+        assert centre.crank_angle == pytest.approx(np.pi + 0.3 + 2 * np.pi * number, abs=1e-3)
+        assert centre.time == centre.crank_angle
+    assert strokes(angle, 1.0)[0].min() > -1.0 + 1e-5
+
+
+@pytest.mark.parametrize(
+    ("begin", "end", "count"),
+    [
+        (0.0, 2.0, 0),
+        (0.0, 4.5, 0),
+        (0.0, 4.72, 1),
+        (1.56, 4.72, 1),
+        (2.0, 12.0, 1),
+        (-7.0, 12.0, 3),
+        (3.14, 3.14, 0),
+    ],
+)
+def test_a_stroke_counts_where_the_record_holds_a_quarter_turn_on_either_side(begin, end, count):
+    angle = np.linspace(begin, end, 500 if end > begin else 1)
+    assert len(lowest_of_strokes(angle, angle, *strokes(angle, 1.0), about=np.pi)) == count
+
+
+def test_scatter_of_strokes_of_known_depth():
+    angle = np.arange(0.0, 6 * np.pi, 0.02)
+    depth = np.array([1.0, 1.2, 1.1])[(angle // (2 * np.pi)).astype(int)]
+    found = lowest_of_strokes(angle, angle, *strokes(angle, depth), about=np.pi)
+    assert [c.position for c in found] == pytest.approx([-1.0, -1.2, -1.1], abs=1e-8)
+
+
+@pytest.fixture(scope="module")
+def run():
+    scene = {
+        "revolutions": 2.25,
+        "load": {"blanking": {"kind": "blanking", "force": 1e4, "offset": [0.1, 0.0]}},
+        "guide": {},
+    }
+    return simulate(Scene.from_dict({**scene, "joints": {"crank_pin": "lubricated"}}))
+
+
+def guides_of(scene):
+    return {guide.body for guide in mechanism_of(scene).guides}
+
+
+def test_strokes_tilt_and_guides(run):
+    summary = run.summary()
+    assert json.loads(json.dumps(summary, allow_nan=False)) == summary
+    positions = [stroke["position"] for stroke in summary["strokes"]]
+    spread = run.quantity("strokes.range").value
+    assert len(positions) == 2
+    assert spread == pytest.approx(np.ptp(positions))
+    assert run.quantity("strokes.standard_deviation").value == pytest.approx(spread / np.sqrt(2))
+    assert abs(run.quantity("strokes.mean").value - 0.47) < 1e-4
+    assert min(positions) == pytest.approx(run.quantity("bottom_dead_centre").value, abs=1e-7)
+    tilts = [abs(stroke["tilt"]) for stroke in summary["strokes"]]
+    assert run.quantity("slider_tilt").value >= max(tilts) > 0.0
+    guides = {"slider", "slide", "plunger_left", "plunger_right", "counterweight"}
+    assert guides_of(run.scene) == guides
+    assert run.quantity("guides.slider.peak_moment").value > 0.0
+    assert run.quantity("guides.slider.dissipated").value > 0.0
+    assert all(run.quantity(f"guides.{name}.peak_force").value > 0.0 for name in guides)
+
+
+def test_peaks_are_those_of_the_channels(run):
+    largest = np.linalg.norm(run["shaft_force"], axis=1).max()
+    expected = {
+        "joints.shaft.peak_force": pytest.approx(largest, rel=1e-12),
+        "guides.slider.peak_force": np.abs(run["guide_force"]).max(),
+        "shaking.vertical": np.abs(run["shaking_force"][:, 1]).max(),
+        "shaking.frame.horizontal": np.abs(run["frame_force"][:, 0]).max(),
+        "drive.peak_torque": np.abs(run["drive_torque"]).max(),
+    }
+    assert {name: run.quantity(name).value for name in expected} == expected
+    mean = run.quantity("shaking.vertical_mean_1ms").value
+    assert mean < run.quantity("shaking.vertical").value
+
+
+def test_means_are_over_the_last_whole_revolutions(run):
+    """Two of the 2.25 revolutions; the drive's power there balances what the rest takes."""
+    time = run.time
+    begin = time[-1] - 2 * 60 / 240
+
+    def change(values):
+        return values[-1] - np.interp(begin, time, values)
+
+    load = np.concatenate([[0.0], np.cumsum(np.diff(run["energy_input"]))])
+    power = run["drive_power"]
+    work = np.concatenate([[0.0], np.cumsum(np.diff(time) * (power[1:] + power[:-1]) / 2)])
+    assert run.quantity("drive.mean_power").value == pytest.approx(change(work) / 0.5)
+    assert power == pytest.approx(run["drive_torque"] * run.scene.angular_speed)
+    blanking = change(load) - change(work)  # what the load puts in
+    taken = change(run["energy_stored"]) + change(run["energy_dissipated"])
+    bound = 1e-3 * np.abs(run["energy_input"]).max()
+    assert abs(change(work) + blanking - taken) < bound
+    pin = run.quantity("joints.crank_pin.mean_power").value
+    assert pin == pytest.approx(change(run["crank_pin_loss"]) / 0.5)
+    guides = [run.quantity(f"guides.{n}.mean_power").value for n in guides_of(run.scene)]
+    lost = pin + sum(guides)
+    assert lost == pytest.approx(change(run["energy_dissipated"]) / 0.5)
+
+
+def test_what_guides_would_take_if_they_rubbed():
+    """Side forces times the ideal mechanism's speeds, over one revolution."""
+    scene = Scene(joints={}, revolutions=1.0)
+    result = simulate(scene)
+    motion = mechanism_of(scene).motion(result["crank_angle"], scene.angular_speed)
+    power = np.zeros_like(result.time)
+    for body in ("slider", "slide", "plunger_left", "plunger_right", "counterweight"):
+        name = "guide_force" if body == "slider" else f"{body}_guide_force"
+        power += np.abs(result[name] * motion[body].velocity[:, 1])
+    mean = np.trapezoid(power, result.time) / result.time[-1]
+    powers = [result.quantity(f"guides.{n}.sliding_power").value for n in guides_of(scene)]
+    assert sum(powers) == pytest.approx(mean, rel=1e-3)
+    assert result.quantity("drive.guide_friction_power").value == pytest.approx(0.1 * sum(powers))
+    assert mean > 100.0
+
+
+def test_power_of_an_ideal_drive_is_the_rate_of_stored_energy():
+    scene = {"joints": {}, "solver": {"step": 1e-4}, "revolutions": 0.5}
+    result = simulate(Scene.from_dict(scene))
+    rate = np.gradient(result["energy_stored"], result.time)
+    error = np.abs(result["drive_power"] - rate)[40:-1]
+    assert error.max() < 1e-3 * np.abs(rate).max()
+
+
+def test_a_short_run_has_no_means_and_no_dead_centres():
+    short = simulate(
+        Scene.from_dict({"revolutions": 0.02, "joints": {"crank_pin": "dry", "balls": "dry"}})
+    )
+    assert short.summary()["strokes"] == []
+    for name in ("strokes.mean", "strokes.range", "drive.mean_power"):
+        assert short.quantity(name).value is None
+    assert short.quantity("joints.crank_pin.mean_power").value is None
+    assert short.quantity("guides.slider.sliding_power").value is None
+
+
+@pytest.mark.parametrize(
+    ("mechanism", "guides"),
+    [("slider_crank", {"slider"}), ("four_bar", set()), ("eccentric_press", {"slide", "ram"})],
+)
+def test_every_mechanism_has_them(mechanism, guides):
+    """And a dead centre a stroke, wherever in the revolution the slider is lowest."""
+    scene = Scene(mechanism=mechanism, joints={}, revolutions=2.0, solver={"step": 1e-3})
+    result = simulate(scene)
+    assert guides_of(scene) == guides
+    assert result.quantity("shaking.vertical").value > 0.0
+    assert result.quantity("drive.peak_torque").value > 0.0
+    lowest = result.quantity("bottom_dead_centre").value
+    assert len(result.summary()["strokes"]) >= 1
+    assert result.quantity("strokes.mean").value == pytest.approx(lowest, abs=1e-5)

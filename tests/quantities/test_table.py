@@ -1,0 +1,30 @@
+"""What a person reads of a run."""
+
+from exu_press import Scene, simulate
+from exu_press.quantities.table import comparison_lines, run_lines
+
+
+def test_guides_without_friction_say_what_friction_would_take():
+    result = simulate(Scene(mechanism="slider_crank", joints={}, revolutions=1.0))
+    power = result.quantity("guides.slider.sliding_power").value
+    (line,) = (line for line in run_lines(result) if "guides of mu 0.1" in line)
+    assert float(line.split()[-1]) == float(f"{0.1 * power:.4g}")
+
+
+def test_members_of_a_group_that_are_alike_are_one():
+    result = simulate(Scene(joints={"balls": "dry"}, revolutions=0.02))
+    (line,) = (line for line in run_lines(result) if line.startswith("penetration"))
+    assert "balls" in line and "left" not in line
+
+
+def test_ideal_joints_have_their_forces_in_the_table():
+    ideal = simulate(Scene(mechanism="slider_crank", joints={}, revolutions=0.1))
+    dry = simulate(Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=0.02))
+    (line,) = (x for x in comparison_lines({"a": ideal, "b": dry}) if x.startswith("joint force"))
+    assert line.count("crank pin") == 2
+
+
+def test_a_detail_repeats_no_unit():
+    lines = run_lines(simulate(Scene(joints={}, revolutions=0.02)))
+    first = next(n for n, line in enumerate(lines) if line.startswith("peak acceleration, m/s^2 "))
+    assert lines[first + 1].startswith("  mean over 1 ms  ")

@@ -1,0 +1,31 @@
+"""A figure's error from the same figure at other tolerances."""
+
+import numpy as np
+import pytest
+
+from exu_press.verification.estimate import SAFETY, converging, scattered
+
+
+def test_errors_that_go_with_the_tolerance_are_found():
+    true, slope = 5.0, 0.01
+    ratios = [1.0, 4.0, 8.0, 16.0]
+    found = converging([true + slope * ratio for ratio in ratios], ratios)
+    assert found["error"] == pytest.approx(SAFETY * slope)
+    assert found["determined"]
+    assert found["low"] < true < found["high"]
+
+
+def test_two_values_that_agree_by_chance_do_not_hide_the_error():
+    assert converging([5.0, 5.0, 5.04], [1.0, 4.0, 8.0])["error"] >= SAFETY * 0.009
+
+
+@pytest.mark.parametrize("companions", [1, 2, 3])
+def test_nineteen_in_twenty_further_runs_lie_within_the_bounds(companions):
+    random = np.random.default_rng(1)
+    inside = 0
+    for _ in range(2000):
+        *runs, further = random.normal(1000.0, 50.0, companions + 2)
+        found = scattered(runs)
+        assert not found["determined"] or found["error"] <= 0.05 * runs[0]
+        inside += found["low"] <= further <= found["high"]
+    assert 0.935 < inside / 2000 < 0.965

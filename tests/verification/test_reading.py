@@ -1,0 +1,74 @@
+"""What reading a record at its steps leaves open."""
+
+import numpy as np
+import pytest
+
+from exu_press import Scene, simulate
+from exu_press.verification.reading import OF_FIRST_STEP, overshot, smoothed, unbalanced
+from exu_press.verification.run import errors_of
+
+SCENE = Scene(mechanism="slider_crank", revolutions=0.1)
+
+
+@pytest.fixture(scope="module")
+def run():
+    return simulate(SCENE)
+
+
+def with_force(result, values):
+    return result.with_values({"shaft_force": values})
+
+
+def test_what_alternates_is_taken_away(run):
+    signs = np.where(np.arange(len(run.time)) % 2, 1.0, -1.0)[:, None]
+    alternating = with_force(run, np.full((len(run.time), 2), 500.0) + 40.0 * signs)
+    found = smoothed(alternating)["shaft_force"]
+    assert found[1:-1] == pytest.approx(500.0)
+
+
+def test_of_a_smooth_peak_twice_what_lies_between_steps_is_taken(run):
+    """A parabola is higher between two steps than at them by an eighth of its second difference."""
+    curve = np.stack([1000.0 - 1e8 * (run.time - run.time[100]) ** 2] * 2, axis=1)
+    before, after = np.diff(run.time)[99:101]
+    taken = curve[100] - smoothed(with_force(run, curve))["shaft_force"][100]
+    assert taken == pytest.approx(0.5 * 1e8 * before * after)
+
+
+def test_what_a_film_may_do_within_the_first_step_is_open(run):
+    rising = np.full((len(run.time), 2), 500.0)
+    rising[0] = 100.0
+    found = overshot(with_force(run, rising))["shaft_force"]
+    assert np.abs(found).max() == pytest.approx(500.0 + OF_FIRST_STEP * 400.0)
+
+
+def test_a_film_may_take_up_its_load_at_once(run):
+    """Then the first step's area below the load is the second value's, not that of a triangle."""
+    falling = np.zeros((len(run.time), 2))
+    falling[0] = 100.0
+    found = overshot(with_force(run, falling))
+    area = np.trapezoid(found["shaft_force"][:, 0], found.time)
+    assert abs(area) < OF_FIRST_STEP * np.trapezoid(falling[:, 0], run.time) * 1.001
+    assert found["slider_position"][1] == run["slider_position"][0]
+    assert found.time[1] > found.time[0]
+
+
+def test_energy_is_as_unsure_as_its_balance(run):
+    missed = run["energy_input"] - run["energy_stored"] - run["energy_dissipated"]
+    more = unbalanced(run)["energy_input"] - run["energy_input"]
+    assert more == pytest.approx(np.abs(missed).max())
+
+
+def test_motion_is_left_alone(run):
+    found = smoothed(run)
+    for name in ("slider_position", "slider_velocity", "crank_pin_eccentricity", "energy_input"):
+        assert found[name] is run[name]
+
+
+def test_an_alternating_peak_is_stated_as_unsure(run):
+    """Where all runs have it, as at a start, no difference of theirs says so."""
+    signs = np.where(np.arange(len(run.time)) % 2, 1.0, -1.0)[:, None]
+    force = np.array([0.0, 500.0]) + signs * np.array([0.0, 40.0])
+    force[[0, 1, -1]] = 0.0, 500.0  # neither the first step nor the last one is the peak
+    loud = with_force(run, force)
+    told = errors_of(loud, [(4.0, loud), (8.0, loud)])["errors"]["joints.shaft.peak_force"]
+    assert told["error"] >= 0.5 * 39.0  # where steps grow, neighbours weigh differently

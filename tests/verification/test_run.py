@@ -1,0 +1,210 @@
+"""Runs tell how far their figures can be believed."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from exu_press import Result, Scene, simulate
+from exu_press.quantities import Placed, Quantity, quantities_of
+from exu_press.quantities.kind import MOTION
+from exu_press.quantities.value import numbers_of
+from exu_press.scene import flexible_press
+from exu_press.verification import simulate_with_errors, with_errors
+from exu_press.verification.companions import Companions, plan
+from exu_press.verification.estimate import AMPLIFIED
+from exu_press.verification.run import errors_of
+
+SCENES = {
+    "ideal": {"joints": {"crank_pin": "ideal"}, "revolutions": 0.5},
+    "film": {
+        "joints": {"crank_pin": {"kind": "lubricated", "clearance": 2e-5}},
+        "revolutions": 0.5,
+    },
+    "dry": {"joints": {"crank_pin": "dry"}, "revolutions": 0.4},
+    "steps": {"revolutions": 0.2, "solver": {"step": 2e-5}},
+    "flexible": {
+        "mechanism": "press",
+        "joints": {"crank_pin": "dry"},
+        "bodies": flexible_press(modes=4),
+        "revolutions": 0.15,
+        "solver": {"tolerance": 1e-2},
+    },
+}
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_stated_errors_cover_the_true_ones(name):
+    """Of at least nineteen in twenty figures, against a hundredth of the tolerance."""
+    scene = Scene.from_dict({"mechanism": "slider_crank", **SCENES[name]})
+    if scene.solver.step is not None:
+        finer = {"solver.step": scene.solver.step / 10.0}
+    else:
+        finer = {"solver.tolerance": scene.solver.tolerance / 100.0}
+    result = simulate(scene)
+    told = errors_of(result, [(r, simulate(other)) for r, other in plan(scene).items()])
+    declared = {n: q for n, q in quantities_of(scene).items() if q.quantity.kind.has_error}
+    finer_run = simulate(scene.replace(finer))
+    true, found = numbers_of(finer_run, declared), numbers_of(result, declared)
+    assert told["errors"].keys() == found.keys()
+    covered = [
+        abs(value - true[key]) <= told["errors"][key]["error"] + 1e-6 * abs(value)
+        for key, value in found.items()
+    ]
+    assert np.mean(covered) >= 0.95
+
+
+def test_errors_stand_in_the_summary_and_in_the_file(tmp_path):
+    scene = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=0.05)
+    result = simulate_with_errors(scene)
+    told = result.info["errors"]["peak_acceleration.resolved"]
+    assert set(told) == {"error", "determined", "low", "high"}
+    result.save(tmp_path / "run.nc")
+    assert Result.load(tmp_path / "run.nc").info["errors"] == result.info["errors"]
+    again = with_errors(simulate(scene)).info["errors"]
+    assert again["stroke"]["error"] == pytest.approx(result.quantity("stroke").error)
+
+
+def test_motions_that_part_leave_bounds():
+    """Companions whose journal is elsewhere: what happens later is not determined."""
+    scene = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=0.1)
+    result = simulate(scene)
+    other = simulate(scene.replace("joints.crank_pin.clearance", 2e-4))
+    told = errors_of(result, [(4.0, other)])
+    assert told["horizon"] is not None
+    assert not told["errors"]["joints.crank_pin.peak_force"]["determined"]
+
+
+def test_a_run_that_has_not_parted_itself_tells_a_larger_error():
+    """Its companion has, of which it is three times as near to the truth."""
+    scene = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=0.1)
+    result = simulate(scene)
+    clearance = scene.joints["crank_pin"].clearance
+    late = (result.time > 0.5 * result.time[-1])[:, None]
+    force = result["crank_pin_force"] * np.where(late, 1e3, 1.0)
+    found = {}
+    for part in (0.2, 0.6, 1.2):
+        away = result["crank_pin_eccentricity"] + np.where(late, part * clearance, 0.0) * [1.0, 0.0]
+        beside = {"crank_pin_force": force, "crank_pin_eccentricity": away}
+        found[part] = errors_of(result, [(4.0, result.with_values(beside))])
+    least, more, most = (
+        one["errors"]["joints.crank_pin.peak_force"]["error"] for one in found.values()
+    )
+    assert [one["horizon"] is None for one in found.values()] == [True, True, False]
+    assert more == pytest.approx(AMPLIFIED * least, rel=1e-3)
+    assert most > 3.0 * more
+
+
+def test_what_companions_did_before_the_horizon_widens_no_bounds():
+    """A peak does not fall below the one until then."""
+    scene = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=0.1)
+    result = simulate(scene)
+    part = result.time / result.time[-1]
+    beside = {
+        name: result[name] + np.where(part > begin, more, 0.0)[:, None] * [1.0, 0.0]
+        for name, begin, more in (
+            ("crank_pin_eccentricity", 0.9, 2e-4),
+            ("crank_pin_force", 0.95, 1e7),
+        )
+    }
+    other = result.with_values(beside)
+    errors = errors_of(result, [(4.0, other), (8.0, other)])["errors"]
+    force = errors["joints.crank_pin.peak_force"]
+    peak = result.quantity("joints.crank_pin.peak_force").value
+    assert force["low"] == pytest.approx(peak, rel=0.02)
+    assert force["high"] > 1e7
+
+
+def test_magnitudes_are_not_below_zero_and_energies_may_be():
+    """The bounds of two runs that have nothing in common are wide."""
+    scene = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=0.1)
+    other = simulate(scene.replace("joints.crank_pin.clearance", 4e-4))
+    errors = errors_of(simulate(scene), [(4.0, other)])["errors"]
+    assert errors["joints.crank_pin.peak_force"]["low"] == 0.0
+    assert errors["energy.stored"]["low"] < 0.0
+
+
+@pytest.mark.parametrize(
+    ("solver", "ratios"),
+    [
+        ({"tolerance": 1e-3}, [4.0, 8.0, 16.0]),
+        ({"tolerance": 0.01}, [2.0, 4.0, 8.0]),
+        ({"tolerance": 0.04}, [0.5, 2.0]),
+        ({"tolerance": 0.1}, [0.25, 0.5]),
+        ({"step": 1e-5}, [2.0, 3.0, 4.0]),
+    ],
+)
+def test_companions_are_coarser_where_that_is_allowed(solver, ratios):
+    assert list(plan(Scene(solver=solver))) == ratios
+
+
+def test_smooth_motion_has_fewer_companions_with_longer_steps():
+    smooth = Scene(joints={})
+    for scene in (smooth, smooth.replace("guide", {})):
+        assert list(plan(scene)) == [4.0, 8.0]
+        assert plan(scene)[4.0].solver.max_step_deg == 2.0 * scene.solver.max_step_deg
+    loose = smooth.replace("guide", {"clearance": 1e-5})
+    assert list(plan(loose)) == [4.0, 8.0, 16.0]
+    assert plan(loose)[4.0].solver.max_step_deg == loose.solver.max_step_deg
+
+
+def test_work_that_cancels_is_as_unsure_as_the_balance():
+    """Nothing is left of it after a revolution; that all runs agree on this is luck."""
+    run = simulate(
+        Scene(
+            mechanism="slider_crank",
+            speed_rpm=60.0,
+            joints={"crank_pin": "ideal"},
+            solver={"tolerance": 1e-3},
+        )
+    )
+    told = errors_of(run, [(4.0, run), (8.0, run)])["errors"]["energy.input"]
+    missed = np.abs(run["energy_input"] - run["energy_stored"] - run["energy_dissipated"]).max()
+    assert told["error"] > 0.5 * missed > 100.0 * abs(run["energy_input"][-1])
+
+
+def test_a_shaking_force_that_cancels_is_known_to_rounding():
+    """At 1 rpm what the rounding of positions leaves differs with the steps, not the tolerance."""
+    film = {"law": "pinkus"}
+    scene = Scene(mechanism="slider_crank", speed_rpm=1.0, revolutions=4e-4, film=film)
+    told = with_errors(simulate(scene), beside=False).info["errors"]
+    finer = simulate(scene.replace("solver.tolerance", 0.3 * scene.solver.tolerance))
+    name = "shaking.frame.horizontal_mean_1ms"
+    assert told[name]["low"] <= finer.quantity(name).value <= told[name]["high"]
+
+
+def test_a_run_is_not_lost_with_its_companions(monkeypatch):
+    """Their process may be ended from outside, as where memory is short."""
+
+    def fails(companions):
+        raise RuntimeError("a companion run failed (-9)")
+
+    monkeypatch.setattr(Companions, "results", fails)
+    scene = Scene(mechanism="slider_crank", joints={}, revolutions=0.02)
+    with pytest.warns(UserWarning, match=r"no errors of the figures are known: .*\(-9\)"):
+        result = simulate_with_errors(scene)
+    assert result.completed
+    assert result.info["errors"] == {}
+
+
+def test_errors_of_a_quantity_of_ones_own_are_those_of_the_declared_one():
+    scene = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=0.2)
+    result = simulate(scene)
+    companions = [(ratio, simulate(other)) for ratio, other in plan(scene).items()]
+    told = errors_of(result, companions)["errors"]
+    force = quantities_of(scene)["joints.crank_pin.peak_force"]
+    own = {"force": Placed(replace(force.quantity, name="force"), "crank_pin")}
+    mine = errors_of(result, companions, own)["errors"]["force"]
+    assert mine["error"] == pytest.approx(told["joints.crank_pin.peak_force"]["error"])
+    late = {
+        "late": Placed(
+            Quantity(
+                "late",
+                "m",
+                "needs half of the run",
+                MOTION,
+                lambda run, _: 1.0 if run.time[-1] > 0.02 else None,
+            )
+        )
+    }
+    assert set(errors_of(result, companions, late)["errors"]) == {"late"}

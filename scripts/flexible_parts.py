@@ -60,9 +60,7 @@ COLUMNS = {
     name: Placed(
         Quantity(name, "", name, kind, lambda run, _, name=name: run.once(figures).get(name))
     )
-    for name, kind in dict(
-        acceleration=LOAD, mean_1ms=LOAD, deflection=MOTION, stress=MOTION
-    ).items()
+    for name, kind in KINDS.items()
 }
 rows = [("lubricated press, 240 rpm", "m/s^2", "over 1 ms", "um", "MPa")]
 scene = Scene(revolutions=0.01 if quick else 0.2)

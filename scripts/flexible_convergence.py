@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from exu_press import Scene, load_scene, simulate
 from exu_press.columns import columns
 from exu_press.placed_part import IN_THE_PLANE, placed_parts
-from exu_press.plots.save import save_figure
+from exu_press.plots.file import save_figure
 from exu_press.plots.style import COLOURS, look
 from exu_press.scene import flexible_press
 

@@ -14,7 +14,18 @@ from exu_press.errors import InputError
 
 __all__ = ["main"]
 
-COMMANDS = ("new", "run", "compare", "sweep", "precision", "stability", "doctor", "view", "report")
+COMMANDS = (
+    "new",
+    "draw",
+    "run",
+    "compare",
+    "sweep",
+    "precision",
+    "stability",
+    "doctor",
+    "view",
+    "report",
+)
 """Modules beside this one; the one that is asked for is loaded, which takes up to a second."""
 
 INTERRUPTED = 130

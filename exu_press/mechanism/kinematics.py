@@ -8,6 +8,7 @@ Velocities and accelerations come from the same Jacobian, not from differences.
 """
 
 import math
+from collections.abc import Sequence
 from functools import lru_cache
 from typing import Any
 
@@ -18,6 +19,7 @@ from exu_press.arrays import Array
 from exu_press.errors import InputError
 from exu_press.mechanism.assur import Drawing, Group, Pose, groups_of, known_bodies, one_group_of
 from exu_press.mechanism.motion import Motion
+from exu_press.mechanism.refusal import MotionError
 
 __all__ = ["Kinematics", "kinematics_of"]
 
@@ -75,10 +77,11 @@ class Kinematics:
         )
         self.groups, loose = groups_of(drawing)
         if loose:
-            raise InputError(
+            raise MotionError(
                 f"{name}: the crank alone does not determine the motion of {_listed(loose)} in the "
                 "drawing; allowed are mechanisms with one degree of freedom, the crank's, drawn "
-                "in a position where no links that move each other lie in one line"
+                "in a position where no links that move each other lie in one line",
+                tuple(loose),
             )
         try:
             self._go_round()
@@ -156,7 +159,7 @@ class Kinematics:
                 step /= 2.0
                 if step < SHORTEST_STEP:
                     rates = found[-1][self.groups.index(lost.group)][1]
-                    raise self._refusal(lost, angle, rates) from None
+                    raise self._refusal(lost, angle, rates, found[-1]) from None
                 continue
             angle += step
             step = min(2.0 * step, LONGEST_STEP)
@@ -171,9 +174,10 @@ class Kinematics:
             turned = u[-1] - u[0]
             turned -= 2.0 * math.pi * group.winding() * np.round(turned / (2.0 * math.pi))
             if np.abs(turned).max() > DISAGREE:
-                raise InputError(
+                raise MotionError(
                     f"{self._name}: {_listed(group.bodies)} do not return to where they were "
-                    "after one revolution of the crank"
+                    "after one revolution of the crank",
+                    group.bodies,
                 )
 
     def _step(
@@ -218,18 +222,56 @@ class Kinematics:
             raise _LostError(group, int(np.argmax(crossed)))
         return inverse
 
-    def _refusal(self, lost: _LostError, angle: float, rates: Array) -> InputError:
-        """Return the error for a position in which a group cannot be followed."""
+    def _refusal(
+        self,
+        lost: _LostError,
+        angle: float,
+        rates: Array,
+        states: Sequence[tuple[Array, Array, Array]] = (),
+    ) -> MotionError:
+        """Return the error for a position in which a group cannot be followed.
+
+        `states` are the groups' coordinates and derivatives there, where they are known.
+        """
         where = f"at crank angle {math.degrees(angle) % 360.0:.4g} deg"
         bodies = _listed(lost.group.bodies)
         if lost.apart and not lost.group.square:
-            return InputError(
+            return MotionError(
                 f"{self._name}: joints and guides hold {bodies} more than once and do not agree "
-                f"{where}: one is too many, or what moves alike is not drawn exactly alike"
+                f"{where}: one is too many, or what moves alike is not drawn exactly alike",
+                lost.group.bodies,
+                angle,
+                self._places(angle, states),
             )
         fast = float(np.abs(rates).max()) > FAST
         does = "lock: they reach no further" if fast else "lock or branch"
-        return InputError(f"{self._name}: {bodies} {does} {where}")
+        return MotionError(
+            f"{self._name}: {bodies} {does} {where}",
+            lost.group.bodies,
+            angle,
+            self._places(angle, states),
+        )
+
+    def _places(
+        self, angle: float, states: Sequence[tuple[Array, Array, Array]]
+    ) -> dict[str, Array]:
+        """Return every body's (x, y, angle), m and rad, at a crank angle; none without states."""
+        if not states:
+            return {}
+        poses = self._crank(angle)
+        for group, (u, _, _) in zip(self.groups, states, strict=True):
+            group.place(poses, u)
+            group.settle(poses)
+        return {
+            name: np.array(
+                [
+                    self._size * poses[name].z.real,
+                    self._size * poses[name].z.imag,
+                    poses[name].angle,
+                ]
+            )
+            for name, *_ in self._drawing.bodies
+        }
 
 
 @lru_cache(maxsize=64)

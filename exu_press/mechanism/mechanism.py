@@ -191,16 +191,20 @@ class Mechanism:
         """Return the components (n,) of vectors (n, 2 or 3) in the output's direction."""
         return np.asarray(vectors[:, :2] @ np.array(self.output.direction))
 
-    def _kinematics(self) -> Kinematics:
-        """Return the kinematics of the geometry, which is all that they depend on."""
-        drawing = Drawing(
+    @property
+    def drawing(self) -> Drawing:
+        """The geometry alone."""
+        return Drawing(
             bodies=tuple((b.name, complex(*b.centre_of_mass), b.angle) for b in self.bodies),
             joints=tuple((j.name, complex(*j.at), j.journal, j.bearing) for j in self.joints),
             guides=tuple((guide.body, complex(*guide.direction)) for guide in self.guides),
             crank=self.crank,
             frame=GROUND,
         )
-        return kinematics_of(self.name, drawing, self.size)
+
+    def _kinematics(self) -> Kinematics:
+        """Return the kinematics of the geometry, which is all that they depend on."""
+        return kinematics_of(self.name, self.drawing, self.size)
 
 
 def _unit(direction: Point) -> Point:

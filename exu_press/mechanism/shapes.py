@@ -49,14 +49,20 @@ class Shape:
         return moved(self.outline, pose)
 
 
-def shapes_of(mechanism: Mechanism) -> dict[str, Shape]:
-    """Return every body's shape by name."""
-    height = float(np.ptp(swept(mechanism)[:, 1]))
+def shapes_of(mechanism: Mechanism, height: float | None = None) -> dict[str, Shape]:
+    """Return every body's shape by name.
+
+    Args:
+        mechanism: drawn.
+        height: of the mechanism, m; that of a revolution unless given.
+    """
+    if height is None:
+        height = float(np.ptp(swept(mechanism)[:, 1]))
     guided = {guide.body for guide in mechanism.guides}
     heaviest = max(body.mass for body in mechanism.bodies)
     shapes = {}
     for body in mechanism.bodies:
-        points = np.array(mechanism.points(body.name))
+        points = np.array(mechanism.points(body.name) or [(0.0, 0.0)])
         if body.name in guided:
             margin = BLOCK * height * float(np.cbrt(body.mass / heaviest))
             outline = _block(points, margin)

@@ -1,13 +1,22 @@
-"""Pictures of results, drawn without a display; the only package that imports matplotlib."""
+"""Pictures, drawn without a display; the only package that imports matplotlib.
 
-from exu_press.plots.energy import energy_figure
-from exu_press.plots.force import force_figure
-from exu_press.plots.orbit import orbit_figure
-from exu_press.plots.press import press_figure
-from exu_press.plots.save import save_comparison, save_pictures
-from exu_press.plots.slider import slider_figure
+Names are loaded on first access: the picture of a mechanism needs no result, and so no Exudyn.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from exu_press.plots.drawing import drawing_figure
+    from exu_press.plots.energy import energy_figure
+    from exu_press.plots.force import force_figure
+    from exu_press.plots.orbit import orbit_figure
+    from exu_press.plots.press import press_figure
+    from exu_press.plots.save import save_comparison, save_pictures
+    from exu_press.plots.slider import slider_figure
 
 __all__ = [
+    "drawing_figure",
     "energy_figure",
     "force_figure",
     "orbit_figure",
@@ -16,3 +25,11 @@ __all__ = [
     "save_pictures",
     "slider_figure",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """Load a public name from the module that is named as it is."""
+    if name not in __all__:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    home = "save" if name.startswith("save_") else name.removesuffix("_figure")
+    return getattr(import_module(f"{__name__}.{home}"), name)

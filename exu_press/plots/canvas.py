@@ -6,12 +6,12 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.text import Annotation
 
 from exu_press.arrays import Array
 from exu_press.plots.decimate import decimate
+from exu_press.plots.headed import headed_figure
 from exu_press.plots.scales import crank_angle_axis
-from exu_press.plots.words import describe, early_stops, plain
+from exu_press.plots.words import describe, early_stops
 from exu_press.result import Result
 from exu_press.scene import mechanism_of
 
@@ -22,7 +22,6 @@ __all__ = [
     "crank_degrees",
     "curve",
     "dead_centres",
-    "headed_figure",
     "legend_above",
     "new_figure",
 ]
@@ -40,17 +39,6 @@ def new_figure(heading: str, results: Mapping[str, Result], size: tuple[float, f
     scenes = [result.scene for result in results.values()]
     lines = [describe(scenes, letters), early_stops(results, letters)]
     return headed_figure(heading, "\n".join(filter(None, lines)), size)
-
-
-def headed_figure(heading: str, text: str, size: tuple[float, float]) -> Figure:
-    """Return a figure with a heading and a text below it; arguments as those of `new_figure`."""
-    figure = Figure(figsize=size, layout="constrained")
-    text = plain(f"\n{text}")  # an empty line, where the heading goes
-    below = figure.suptitle(text, x=0.012, ha="left", fontsize=9.5, linespacing=1.45)
-    figure.add_artist(
-        Annotation(heading, (0, 1), xycoords=below, va="top", fontsize=13, fontweight="bold")
-    ).set_in_layout(False)
-    return figure
 
 
 def crank_degrees(result: Result) -> Array:

@@ -12,7 +12,7 @@ from exu_press.plots.canvas import angle_axis, crank_degrees, curve, new_figure
 from exu_press.plots.peaks import mark_peak
 from exu_press.plots.scales import impact_scale, note
 from exu_press.plots.style import colour_of, styled
-from exu_press.plots.words import plain
+from exu_press.plots.typesetting import plain
 from exu_press.result import Result
 from exu_press.scene import mechanism_of
 

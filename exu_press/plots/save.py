@@ -1,25 +1,20 @@
-"""Pictures as PNG files."""
+"""All pictures of a run or a comparison, as PNG files."""
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
-import numpy as np
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from PIL import Image
 
-from exu_press.output import replacing
 from exu_press.plots.energy import energy_figure
+from exu_press.plots.file import save_figure
 from exu_press.plots.force import force_figure
 from exu_press.plots.orbit import orbit_figure
 from exu_press.plots.press import press_figure
 from exu_press.plots.slider import slider_figure
-from exu_press.plots.style import DPI, look
 from exu_press.quantities.energy import has_balance
 from exu_press.result import Result
 
-__all__ = ["save_comparison", "save_figure", "save_figures", "save_pictures"]
+__all__ = ["save_comparison", "save_figures", "save_pictures"]
 
 
 def save_pictures(result: Result, directory: str | Path) -> list[Path]:
@@ -55,19 +50,3 @@ def save_comparison(results: Mapping[str, Result], directory: str | Path) -> lis
 def save_figures(figures: Mapping[str, Figure], directory: str | Path) -> list[Path]:
     """Write figures by their names; return the files, NAME.png."""
     return [save_figure(drawn, Path(directory) / f"{name}.png") for name, drawn in figures.items()]
-
-
-def save_figure(figure: Figure, path: Path) -> Path:
-    """Write under a temporary name, then rename.
-
-    `Figure.savefig` would draw twice, the first time to find out what is on it.
-    """
-    figure.set_layout_engine("none")  # it has been laid out; not again
-    figure.set_dpi(DPI)
-    canvas: Any = FigureCanvasAgg(figure)
-    with look():
-        canvas.draw()
-    image = Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")
-    with replacing(path) as partial:
-        image.save(partial, format="png", dpi=(DPI, DPI), compress_level=4)
-    return path

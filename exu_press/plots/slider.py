@@ -13,7 +13,7 @@ from exu_press.plots.decimate import decimate
 from exu_press.plots.peaks import mark_peaks
 from exu_press.plots.scales import impact_scale, note, widen
 from exu_press.plots.style import IDEAL, colour_of, styled
-from exu_press.plots.words import plain
+from exu_press.plots.typesetting import plain
 from exu_press.result import Result
 from exu_press.scene import mechanism_of
 

@@ -12,8 +12,8 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from exu_press.plots.canvas import headed_figure
-from exu_press.plots.save import save_figure
+from exu_press.plots.file import save_figure
+from exu_press.plots.headed import headed_figure
 from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, styled
 from exu_press.studies.stability import Report, Row
 from exu_press.studies.stability.cases import PAIRS

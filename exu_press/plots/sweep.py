@@ -7,12 +7,13 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from exu_press.errors import InputError
-from exu_press.plots.canvas import headed_figure
-from exu_press.plots.save import save_figure
+from exu_press.plots.file import save_figure
+from exu_press.plots.headed import headed_figure
 from exu_press.plots.style import styled
 from exu_press.plots.sweep_panels import draw_curves, draw_map
 from exu_press.plots.sweep_words import setting, words
-from exu_press.plots.words import describe, plain
+from exu_press.plots.typesetting import plain
+from exu_press.plots.words import describe
 from exu_press.studies.sweep import Table
 from exu_press.studies.sweep.lines import shown
 

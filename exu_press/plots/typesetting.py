@@ -1,12 +1,17 @@
-"""Units as pictures and pages have them; terminals, CSV and NetCDF keep them in ASCII."""
+"""Texts as pictures and pages have them; terminals, CSV and NetCDF keep units in ASCII."""
 
 import re
 
-__all__ = ["typeset"]
+__all__ = ["plain", "typeset"]
 
 POWERS = str.maketrans("23", "\N{SUPERSCRIPT TWO}\N{SUPERSCRIPT THREE}")
 POWER = re.compile(r"(?<=\w)\^([23])(?!\w)")
 MICRO_UNIT = re.compile(r"(?<![\w./])u(?=(?:m|rad)(?![\w/]|\.\w))")
+
+
+def plain(text: str) -> str:
+    """Return a text as matplotlib draws it: as it stands, nothing in it a formula."""
+    return text.replace("$", r"\$")
 
 
 def typeset(text: str) -> str:

@@ -3,11 +3,12 @@
 import textwrap
 from collections.abc import Collection, Iterable, Mapping
 
+from exu_press.plots.typesetting import plain
 from exu_press.result import Result
 from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.applied import applied_loads
 
-__all__ = ["describe", "early_stops", "joint_in_words", "plain"]
+__all__ = ["describe", "early_stops", "joint_in_words"]
 
 FEW = 3
 """Joints or groups with clearance that are named one by one."""
@@ -55,11 +56,6 @@ def joint_in_words(name: str) -> str:
     for side in ("left", "right"):
         name = name.replace(f"_{side}", f", {side}")
     return plain(name.replace("_", " ").capitalize())
-
-
-def plain(text: str) -> str:
-    """Return a text as matplotlib draws it: as it stands, nothing in it a formula."""
-    return text.replace("$", r"\$")
 
 
 def _parts(scene: Scene, joints: Collection[str]) -> dict[str, str]:

@@ -18,7 +18,8 @@ from exu_press.plots.busiest import busiest, draw_rest
 from exu_press.plots.canvas import angle_words, dead_centres
 from exu_press.plots.scales import crank_angle_axis, impact_scale, note
 from exu_press.plots.style import GREY, look
-from exu_press.plots.words import describe, early_stops, plain
+from exu_press.plots.typesetting import plain
+from exu_press.plots.words import describe, early_stops
 from exu_press.result import Result
 from exu_press.view.curve_panel import CurvePanel
 from exu_press.view.flexible_panel import FlexiblePanel, Look

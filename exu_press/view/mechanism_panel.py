@@ -1,6 +1,5 @@
 """The mechanism from the front, to scale, with its guides, pivots and dead centres."""
 
-from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -10,6 +9,7 @@ from matplotlib.patches import Circle, Polygon
 from exu_press.arrays import Array
 from exu_press.mechanism import Mechanism
 from exu_press.mechanism.shapes import moved, shapes_of, swept_outlines
+from exu_press.plots.labels import spread
 from exu_press.plots.style import COLOURS, GREY
 from exu_press.plots.words import joint_in_words
 from exu_press.result import Result
@@ -153,7 +153,7 @@ def _draw_labels(
         for name in (body.name for body in mechanism.bodies)
         if not name.endswith("_left")
     }
-    heights = _spread([place[1] for place in named.values()], LINE * drawn)
+    heights = spread([place[1] for place in named.values()], LINE * drawn)
     for (words, place), y in zip(named.items(), heights, strict=True):
         axes.annotate(
             words,
@@ -163,22 +163,3 @@ def _draw_labels(
             va="center",
             arrowprops={"arrowstyle": "-", "color": "#9A9A9A", "linewidth": 0.6},
         )
-
-
-def _spread(heights: Iterable[float], least: float) -> list[float]:
-    """Return heights moved apart so that neighbours keep a distance, in the given order."""
-    wanted = np.array(list(heights))
-    order = np.argsort(wanted)
-    placed = wanted[order].copy()
-    for _ in range(200):
-        gaps = np.diff(placed)
-        short = np.flatnonzero(gaps < least * (1 - 1e-6))
-        if not len(short):
-            break
-        for index in short:
-            push = 0.5 * (least - (placed[index + 1] - placed[index]))
-            placed[index] -= push
-            placed[index + 1] += push
-    found = np.empty_like(placed)
-    found[order] = placed
-    return [float(value) for value in found]

@@ -5,7 +5,7 @@ from PIL import Image
 from exu_press.errors import InputError
 from exu_press.output import PICTURES
 from exu_press.plots import save_comparison, save_pictures
-from exu_press.plots.save import save_figure
+from exu_press.plots.file import save_figure
 
 EVERY = [f"{name}.png" for name in PICTURES["run"]]
 

@@ -4,7 +4,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from exu_press import Scene
-from exu_press.plots.words import describe, early_stops, joint_in_words, plain
+from exu_press.plots.typesetting import plain
+from exu_press.plots.words import describe, early_stops, joint_in_words
 from exu_press.scene import flexible_press
 
 

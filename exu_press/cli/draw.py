@@ -1,0 +1,219 @@
+"""Draw a mechanism before anything runs: names, mobility, stroke, dead centres, transmission."""
+
+import argparse
+import math
+import sys
+import textwrap
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from exu_press.checks import nearest, table_from
+from exu_press.cli.options import SHIPPED, shipped_names
+from exu_press.columns import columns
+from exu_press.errors import InputError
+from exu_press.mechanism import SHIPPED as MECHANISMS
+from exu_press.mechanism import (
+    Mechanism,
+    Press,
+    SliderCrank,
+    load_mechanism,
+    mechanism_from,
+    press,
+    shipped_mechanism,
+    slider_crank,
+)
+from exu_press.mechanism.examine import Examination, examine
+from exu_press.mechanism.transmission import alike
+from exu_press.toml import read_toml
+
+__all__ = ["EXAMPLE", "add_arguments", "execute"]
+
+EXAMPLE = "exu-press draw press --save press_drawing.png"
+
+BY_DIMENSIONS: dict[str, tuple[type, Any]] = {
+    "press": (Press, press),
+    "slider_crank": (SliderCrank, slider_crank),
+}
+
+SEPARATOR = "  \N{MIDDLE DOT}  "
+
+STEP = 30
+"""deg, between the rows of the table."""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the command's arguments."""
+    names = sorted({*BY_DIMENSIONS, *MECHANISMS, *shipped_names()})
+    parser.add_argument(
+        "path",
+        metavar="MECHANISM|SCENE",
+        help=f"a mechanism file, a scene file, or a shipped name: {', '.join(names)}",
+    )
+    parser.add_argument(
+        "--save",
+        metavar="PICTURE",
+        help="write the drawing and the curves over the crank angle as .png, .svg or .pdf",
+    )
+    parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
+
+
+def execute(options: argparse.Namespace) -> int:
+    """Print and draw what the drawing tells; return 0, or 2 where it does not move."""
+    target = None if options.save is None else Path(options.save)
+    if target is not None:
+        from exu_press.plots.file import check_picture
+
+        check_picture(target)
+    mechanism, speed = _asked(options.path)
+    examined = examine(mechanism)
+    summary = _summary(examined)
+    if not options.quiet:
+        print("\n".join([mechanism.name, *_parts(mechanism), *columns(summary, 2)]))
+        if examined.stroke is not None:
+            print("\n".join(["", *_table(examined, speed)]))
+    if target is not None:
+        from exu_press.plots.drawing import drawing_figure
+        from exu_press.plots.file import save_figure
+
+        few = [f"{name} {value}" for name, value in summary if "transmission" not in name]
+        lines = [SEPARATOR.join(few[place : place + 3]) for place in range(0, len(few), 3)]
+        save_figure(drawing_figure(examined, "\n".join(lines), speed), target)
+        if not options.quiet:
+            print(f"written: {target}")
+    for complaint in examined.complaints:
+        print(f"exu-press: {complaint}", file=sys.stderr)
+    return 2 if examined.complaints else 0
+
+
+def _asked(given: str) -> tuple[Mechanism, float | None]:
+    """Return the mechanism, and the crank's speed (rad/s) where a scene says it.
+
+    A scene is read as far as its mechanism goes: `Scene` refuses what is to be seen here.
+    """
+    path = Path(given)
+    if not path.exists() and not path.suffix:
+        if given in BY_DIMENSIONS or given in MECHANISMS:
+            return _named(given, {}), None
+        if given not in shipped_names():
+            names = sorted({*BY_DIMENSIONS, *MECHANISMS, *shipped_names()})
+            raise InputError(
+                f"{given}: no such mechanism or scene{nearest(given, names)}; allowed are a file, "
+                f"{', '.join(names)}"
+            )
+        path = SHIPPED / f"{given}.toml"
+    data = read_toml(path)
+    if "bodies" in data and "joints" in data and "crank" in data:
+        return load_mechanism(path), None
+    try:
+        return _of_scene(data, path.parent), _speed(data)
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
+
+
+def _of_scene(data: Mapping[str, Any], directory: Path) -> Mechanism:
+    """Return the mechanism that a scene names or holds."""
+    mechanism = data.get("mechanism", "press")
+    if isinstance(mechanism, Mapping):
+        return mechanism_from(mechanism)
+    if isinstance(mechanism, str) and mechanism.endswith(".toml"):
+        return load_mechanism(directory / mechanism)
+    return _named(mechanism, data)
+
+
+def _named(name: Any, data: Mapping[str, Any]) -> Mechanism:
+    """Return a shipped mechanism, with the dimensions that a scene gives it."""
+    if name in BY_DIMENSIONS:
+        table, build = BY_DIMENSIONS[name]
+        drawn: Mechanism = build(table_from(table, name, data.get(name, {})))
+        return drawn
+    if name not in MECHANISMS:
+        known = [*BY_DIMENSIONS, *MECHANISMS]
+        raise InputError(
+            f"mechanism = {name!r}: unknown{nearest(name, known)}; allowed are the path of a "
+            f"mechanism file, .toml, {', '.join(known)}"
+        )
+    return shipped_mechanism(name)
+
+
+def _speed(data: Mapping[str, Any]) -> float | None:
+    """Return a scene's speed, rad/s; None where it gives none."""
+    rpm = data.get("speed_rpm")
+    if rpm is None:
+        return None
+    if isinstance(rpm, bool) or not isinstance(rpm, int | float) or not 0.0 < rpm < math.inf:
+        raise InputError(f"speed_rpm = {rpm!r}: allowed is a number > 0 (rpm)")
+    return rpm * math.pi / 30
+
+
+def _parts(mechanism: Mechanism) -> list[str]:
+    """Return the names of bodies, joints and guides in lines."""
+    lines = []
+    for kind, names in (
+        ("bodies", [body.name for body in mechanism.bodies]),
+        ("joints", [joint.name for joint in mechanism.joints]),
+        ("guides", [guide.body for guide in mechanism.guides]),
+    ):
+        text = f"{kind} ({len(names)}): {', '.join(names) or 'none'}"
+        lines += textwrap.wrap(text, 98, initial_indent="  ", subsequent_indent="    ")
+    return lines
+
+
+def _summary(examined: Examination) -> list[tuple[str, str]]:
+    """Return mobility, stroke, dead centres and extremes, each with its name."""
+    mobility = examined.mobility
+    counted = (
+        f"{mobility.degrees} (3 x {mobility.bodies} bodies - 2 x {mobility.joints} joints "
+        f"- 2 x {mobility.guides} guides = {mobility.counted}"
+    )
+    spare = f"; redundant constraints: {mobility.redundant}" if mobility.redundant else ""
+    rows = [("mobility", f"{counted}{spare})")]
+    stroke = examined.stroke
+    if stroke is None:
+        return rows
+    rows.append((f"stroke of {examined.mechanism.slider}", f"{1e3 * stroke.length:.3f} mm"))
+    for centre in stroke.dead_centres:
+        place = f"position {1e3 * centre.position:.3f} mm"
+        which = "top" if centre.top else "bottom"
+        rows.append((f"{which} dead centre", f"{math.degrees(centre.angle):.3f} deg, {place}"))
+    fastest = int(np.abs(stroke.velocity).argmax())
+    most = float(np.abs(stroke.velocity[fastest]))
+    if most > 0.0:
+        rows.append(("velocity, max", f"{1e3 * most:.3f} mm/rad at {fastest} deg"))
+        rows.append(("mechanical advantage, min", f"{1 / most:.3f} N per N m at {fastest} deg"))
+    for name, values in alike(examined.transmission):
+        degrees = np.degrees(values)
+        low = f"{degrees.min():.2f} deg at {degrees.argmin()} deg"
+        rows.append(("transmission angle, min", f"{name}: {low}"))
+    return rows
+
+
+def _table(examined: Examination, speed: float | None) -> list[str]:
+    """Return position, velocity, mechanical advantage and least transmission angle in rows."""
+    stroke = examined.stroke
+    assert stroke is not None
+    unit, scale = ("mm/rad", 1e3) if speed is None else ("m/s", speed)
+    least = [np.degrees(values) for values in examined.transmission.values()]
+    rows = [
+        (
+            "crank angle, deg",
+            "position, mm",
+            f"velocity, {unit}",
+            "force per torque, 1/m",
+            "least transmission angle, deg",
+        )
+    ]
+    for place in range(0, 361, STEP):
+        advantage = stroke.mechanical_advantage[place]
+        rows.append(
+            (
+                f"{place}",
+                f"{1e3 * stroke.position[place]:.3f}",
+                f"{round(scale * float(stroke.velocity[place]), 4) + 0.0:.4f}",
+                f"{advantage:.2f}" if math.isfinite(advantage) else "infinite",
+                f"{min(values[place] for values in least):.2f}" if least else "-",
+            )
+        )
+    return columns(rows, right=True)

@@ -1,0 +1,100 @@
+"""The output over one revolution: stroke, dead centres, velocity, mechanical advantage."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from exu_press.arrays import Array
+from exu_press.mechanism.mechanism import Mechanism
+
+__all__ = ["DeadCentre", "Stroke", "stroke_of"]
+
+STEPS = 1440
+"""Crank angles of a revolution between which dead centres are looked for."""
+
+REST = 1e-9
+"""Velocity, relative to its peak, below which the output stands still."""
+
+
+@dataclass(frozen=True)
+class DeadCentre:
+    """A position in which the output turns back.
+
+    Attributes:
+        angle: of the crank from the drawing, rad, to rounding.
+        position: of the output, m.
+        top: whether it is a largest position, else a smallest one.
+    """
+
+    angle: float
+    position: float
+    top: bool
+
+
+@dataclass(frozen=True)
+class Stroke:
+    """The ideal output over a revolution; arrays over n crank angles.
+
+    Attributes:
+        angle: of the crank from the drawing, (n,), rad.
+        position: of the output, (n,), m.
+        velocity: per angular velocity of the crank, (n,), m/rad.
+        dead_centres: in the order of their crank angles.
+    """
+
+    angle: Array
+    position: Array
+    velocity: Array
+    dead_centres: tuple[DeadCentre, ...]
+
+    @property
+    def length(self) -> float:
+        """Distance of the largest and the smallest position, m."""
+        ends = [centre.position for centre in self.dead_centres]
+        return max([*ends, float(self.position.max())]) - min([*ends, float(self.position.min())])
+
+    @property
+    def mechanical_advantage(self) -> Array:
+        """Force of the output per torque of the crank without losses, omega / |v|, (n,), 1/m.
+
+        Power in is power out, T omega = F v. It is infinite in dead centres.
+        """
+        speed = np.abs(self.velocity)
+        with np.errstate(divide="ignore"):
+            return np.asarray(np.where(speed > REST * speed.max(), 1.0 / speed, np.inf))
+
+
+def stroke_of(mechanism: Mechanism, angle: Array) -> Stroke:
+    """Return the ideal output for crank angles (n,), rad, and its dead centres of a revolution.
+
+    Raises:
+        InputError: the crank does not turn through a revolution.
+    """
+    position, velocity, _ = mechanism.ideal_slider(angle, 1.0)
+    return Stroke(angle, position, velocity, _dead_centres(mechanism))
+
+
+def _dead_centres(mechanism: Mechanism) -> tuple[DeadCentre, ...]:
+    """Return where the velocity changes its sign, by bisection from the angles between."""
+    angle = (np.arange(STEPS + 1) - 0.5) * 2.0 * np.pi / STEPS
+    _, velocity, _ = mechanism.ideal_slider(angle, 1.0)
+    moves = np.flatnonzero(np.abs(velocity) > REST * np.abs(velocity).max())
+    if not len(moves):
+        return ()
+    signs = np.sign(velocity[moves])
+    before = np.flatnonzero(signs[1:] != signs[:-1])
+    low, high, sign = angle[moves[before]], angle[moves[before + 1]], signs[before]
+    for _ in range(50):
+        middle = 0.5 * (low + high)
+        same = np.sign(mechanism.ideal_slider(middle, 1.0)[1]) == sign
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    found = 0.5 * (low + high)
+    found = np.where(np.abs(np.sin(0.5 * found)) < 1e-12, 0.0, found % (2.0 * np.pi))
+    if not len(found):
+        return ()
+    position = mechanism.ideal_slider(found, 1.0)[0]
+    centres = [
+        DeadCentre(float(a), float(p), bool(up > 0.0))
+        for a, p, up in zip(found, position, sign, strict=True)
+    ]
+    return tuple(sorted(centres, key=lambda centre: centre.angle))

@@ -1,0 +1,96 @@
+"""Transmission angles of a mechanism's dyads over the crank angle.
+
+A dyad is two bodies that are found together: two links (RRR), or a link and a body on a guide
+(RRP). The transmission angle of the former is the acute angle between the two links, that of the
+latter the acute angle between the link and the normal of the guide [1]_. A link drives its body
+best at 90 deg; at 0 deg the dyad locks. 40 to 50 deg is the least that textbooks recommend.
+
+References
+----------
+.. [1] J. J. Uicker, G. R. Pennock, J. E. Shigley, Theory of Machines and Mechanisms, 5th ed.,
+   Oxford University Press 2017, sections 1.10 and 3.18.
+"""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from exu_press.arrays import Array
+from exu_press.mechanism.assur import groups_of
+from exu_press.mechanism.mechanism import Mechanism
+from exu_press.mechanism.parts import GROUND, Joint
+
+__all__ = ["alike", "transmission_angles"]
+
+
+def transmission_angles(mechanism: Mechanism, angle: Array) -> dict[str, Array]:
+    """Return transmission angles (n,), rad, by the name of the joint inside each dyad.
+
+    Bodies that close together in larger groups have none.
+
+    Args:
+        mechanism: with one degree of freedom.
+        angle: (n,) crank angles from the drawing's, rad.
+
+    Raises:
+        InputError: the crank does not turn through a revolution.
+    """
+    motion = mechanism.motion(angle, 1.0)
+    guides = {guide.body: guide for guide in mechanism.guides}
+
+    def path(joint: Joint) -> Array:
+        (body, point), _ = sorted(mechanism.ends(joint), key=lambda end: end[0] == GROUND)
+        return motion[body].at(point).position[:, :2]
+
+    found: dict[str, Array] = {}
+    for group in groups_of(mechanism.drawing)[0]:
+        if len(group.bodies) != 2:
+            continue
+        inner, outer = _joints(mechanism, group.bodies)
+        links = [body for body in group.bodies if body not in guides]
+        if len(inner) != 1 or any(len(outer[body]) != 1 for body in links) or not links:
+            continue
+        at = path(inner[0])
+        lines = [path(outer[body][0]) - at for body in links]
+        if len(lines) == 1:
+            guided = next(body for body in group.bodies if body in guides)
+            lines.append(np.broadcast_to(np.array(guides[guided].across), at.shape))
+        one, other = lines
+        across = np.abs(one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0])
+        found[inner[0].name] = np.arctan2(across, np.abs((one * other).sum(axis=1)))
+    return found
+
+
+def _joints(
+    mechanism: Mechanism, dyad: tuple[str, ...]
+) -> tuple[list[Joint], dict[str, list[Joint]]]:
+    """Return the joints between a dyad's bodies, and those of each with bodies before it."""
+    groups, _ = groups_of(mechanism.drawing)
+    before = {GROUND, mechanism.crank}
+    for group in groups:
+        if group.bodies == dyad:
+            break
+        before.update(group.bodies)
+    inner = [j for j in mechanism.joints if {j.journal, j.bearing} == set(dyad)]
+    outer = {
+        body: [
+            j
+            for j in mechanism.joints_of(body)
+            if (j.bearing if j.journal == body else j.journal) in before
+        ]
+        for body in dyad
+    }
+    return inner, outer
+
+
+def alike(transmission: Mapping[str, Array]) -> list[tuple[str, Array]]:
+    """Return transmission angles, the smallest first, joints with the same one together."""
+    found: list[tuple[list[str], Array]] = []
+    for name, values in transmission.items():
+        same = next((names for names, other in found if np.allclose(values, other)), None)
+        if same is None:
+            found.append(([name], values))
+        else:
+            same.append(name)
+    found.sort(key=lambda each: float(each[1].min()))
+    return [(", ".join(names), values) for names, values in found]

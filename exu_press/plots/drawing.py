@@ -1,0 +1,220 @@
+"""A mechanism before anything runs: its drawing, named, and the kinematics of its output."""
+
+import textwrap
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Polygon
+from matplotlib.ticker import NullFormatter, StrMethodFormatter
+
+from exu_press.arrays import Array
+from exu_press.mechanism import Mechanism
+from exu_press.mechanism.examine import Examination
+from exu_press.mechanism.parts import GROUND
+from exu_press.mechanism.shapes import shapes_of
+from exu_press.mechanism.transmission import alike
+from exu_press.plots.headed import headed_figure
+from exu_press.plots.labels import spread
+from exu_press.plots.style import GREY, RUN, colour_of, styled
+from exu_press.plots.typesetting import plain
+
+__all__ = ["drawing_figure"]
+
+WRONG = "#C00000"
+EDGE = "#333333"
+
+LEAST_ANGLE = 40.0
+"""deg; transmission angles below it are shaded."""
+
+HIGHEST = 200.0
+"""The mechanical advantage is drawn up to this multiple of its smallest value."""
+
+MOST_TRANSMISSIONS = 6
+"""More joints than this are not told apart by colours; those with the smallest angles are drawn."""
+
+
+@styled
+def drawing_figure(examined: Examination, text: str, speed: float | None = None) -> Figure:
+    """Return the drawing with names and, where the crank turns, what follows over the crank angle.
+
+    Bodies, joints and guides that are wrong are red; where links lock at a crank angle the drawing
+    shows them there, too.
+
+    Args:
+        examined: the mechanism.
+        text: about it, in lines.
+        speed: of the crank, rad/s; velocities are per radian of the crank without it.
+    """
+    figure = headed_figure(f"Drawing of {examined.mechanism.name}", text, (14.0, 8.6))
+    if examined.stroke is None:
+        _draw(figure.subplots(), examined)
+        return figure
+    grid = figure.add_gridspec(4, 2, width_ratios=(1.35, 1.0))
+    _draw(figure.add_subplot(grid[:, 0]), examined)
+    panels = [figure.add_subplot(grid[row, 1]) for row in range(4)]
+    _curves(panels, examined, speed)
+    return figure
+
+
+def _draw(axes: Axes, examined: Examination) -> None:
+    """Draw bodies, joints and guides with their names; the wrong ones in red."""
+    mechanism = examined.mechanism
+    drawn = {b.name: np.array([*b.centre_of_mass, b.angle]) for b in mechanism.bodies}
+    shapes = shapes_of(mechanism, mechanism.size)
+    refusal = examined.refusal
+    axes.set_aspect("equal", adjustable="box", anchor="C")
+    if examined.stroke is not None:
+        _draw_paths(axes, examined)
+    for body in sorted(mechanism.bodies, key=lambda body: shapes[body.name].role != "block"):
+        wrong = body.name in examined.wrong_bodies
+        patch = Polygon(
+            shapes[body.name].moved(drawn[body.name]),
+            facecolor=shapes[body.name].colour,
+            edgecolor=WRONG if wrong else EDGE,
+            linewidth=2.0 if wrong else 0.9,
+            alpha=0.85,
+        )
+        axes.add_patch(patch)
+    if refusal is not None and refusal.angle and refusal.poses:
+        for name, pose in refusal.poses.items():
+            colour = WRONG if name in examined.wrong_bodies else GREY
+            outline = shapes[name].moved(pose)
+            axes.add_patch(Polygon(outline, fill=False, edgecolor=colour, linestyle="--"))
+    axes.set_title(_complaints(examined), color=WRONG, fontsize=9.5, fontweight="normal")
+    for joint in mechanism.joints:
+        colour = WRONG if joint.name in examined.wrong_joints else EDGE
+        style = "s" if joint.on_frame else "o"
+        axes.plot(*joint.at, style, color="white", markeredgecolor=colour, markersize=7)
+    for body in mechanism.bodies:
+        axes.plot(*body.centre_of_mass, "+", color=GREY, markersize=5, zorder=4)
+    for guide in mechanism.guides:
+        at = np.array(mechanism.body(guide.body).centre_of_mass)
+        ends = [at + sign * 0.16 * mechanism.size * np.array(guide.direction) for sign in (-1, 1)]
+        colour = WRONG if guide.body in examined.wrong_guides else GREY
+        axes.plot(*np.array(ends).T, color=colour, linewidth=1.2, linestyle="-.", zorder=0.8)
+    axes.autoscale_view()
+    axes.margins(0.05)
+    axes.set(xlabel="x, m", ylabel="y, m")
+    _draw_names(axes, examined)
+
+
+def _complaints(examined: Examination) -> str:
+    """Return in lines what is wrong, and what is dashed."""
+    texts = [*examined.complaints]
+    if examined.refusal is not None and examined.refusal.angle and examined.refusal.poses:
+        texts.append(f"dashed: at crank angle {np.degrees(examined.refusal.angle):.4g} deg")
+    return plain("\n".join(line for text in texts for line in textwrap.wrap(text, 150)))
+
+
+def _draw_paths(axes: Axes, examined: Examination) -> None:
+    """Draw the paths of the joints, and the output where it turns back."""
+    mechanism, stroke = examined.mechanism, examined.stroke
+    assert stroke is not None
+    motion = mechanism.motion(np.append(stroke.angle, stroke.angle[:1]), 1.0)
+    for joint in mechanism.joints:
+        (body, point), _ = sorted(mechanism.ends(joint), key=lambda end: end[0] == GROUND)
+        path = motion[body].at(point).position
+        axes.plot(*path[:, :2].T, color="#B9C6D2", linewidth=0.9, zorder=0.7)
+    shape = shapes_of(mechanism, mechanism.size)[mechanism.slider]
+    angles = np.array([centre.angle for centre in stroke.dead_centres])
+    if len(angles):
+        for pose in mechanism.motion(angles, 1.0)[mechanism.slider].position:
+            outline = Polygon(shape.moved(pose), fill=False, edgecolor=GREY, linestyle=":")
+            axes.add_patch(outline)
+
+
+def _draw_names(axes: Axes, examined: Examination) -> None:
+    """Name joints at the left and bodies at the right, each with a line to its place."""
+    mechanism = examined.mechanism
+    places: dict[tuple[float, float], list[str]] = {}
+    for joint in mechanism.joints:
+        places.setdefault(joint.at, []).append(joint.name)
+    joints = {", ".join(names): np.array(at) for at, names in places.items()}
+    wrong_joints = [n for n in joints if set(n.split(", ")) & set(examined.wrong_joints)]
+    guided = {guide.body for guide in mechanism.guides}
+    bodies = {
+        f"{body.name} (guided)" if body.name in guided else body.name: _middle(mechanism, body.name)
+        for body in mechanism.bodies
+    }
+    wrong = [n for n in bodies if n.removesuffix(" (guided)") in examined.wrong_bodies]
+    (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
+    room = 0.45 * max(right - left, top - bottom)
+    short = max(0.0, 0.5 * (0.9 * (right - left + 2.0 * room) - (top - bottom)))
+    axes.set(xlim=(left - room, right + room), ylim=(bottom - short, top + short))
+    _column(axes, joints, wrong_joints, left - 0.02 * room, "right")
+    _column(axes, bodies, wrong, right + 0.02 * room, "left")
+
+
+def _column(
+    axes: Axes, named: Mapping[str, Array], wrong: Sequence[str], x: float, side: str
+) -> None:
+    """Write names in a column, spread over the height of the drawing."""
+    low, high = axes.get_ylim()
+    heights = spread([float(at[1]) for at in named.values()], 0.033 * (high - low))
+    for (name, at), y in zip(named.items(), heights, strict=True):
+        colour = WRONG if name in wrong else "black"
+        axes.annotate(
+            plain(name),
+            (float(at[0]), float(at[1])),
+            (x, y),
+            fontsize=8.5,
+            color=colour,
+            ha=side,
+            va="center",
+            arrowprops={"arrowstyle": "-", "color": "#9A9A9A", "linewidth": 0.5},
+        )
+
+
+def _middle(mechanism: Mechanism, body: str) -> Array:
+    """Return the middle of a body's joints in the drawing; its centre of mass without joints."""
+    points = [joint.at for joint in mechanism.joints_of(body)]
+    return np.asarray(np.mean(points or [mechanism.body(body).centre_of_mass], axis=0))
+
+
+def _curves(panels: Sequence[Axes], examined: Examination, speed: float | None) -> None:
+    """Draw position, velocity, mechanical advantage and transmission angles of the output."""
+    stroke = examined.stroke
+    assert stroke is not None
+    angle = np.degrees(stroke.angle)
+    output = plain(examined.mechanism.slider)
+    position, velocity, advantage, transmission = panels
+    position.plot(angle, 1e3 * stroke.position, color=RUN)
+    position.set(title=f"Position of {output}", ylabel="mm")
+    for centre in stroke.dead_centres:
+        at = float(np.degrees(centre.angle))
+        position.plot(at, 1e3 * centre.position, "o", color=RUN, markersize=4)
+    if speed is None:
+        velocity.plot(angle, 1e3 * stroke.velocity, color=RUN)
+        velocity.set(title="Velocity per radian of the crank", ylabel="mm/rad")
+    else:
+        velocity.plot(angle, speed * stroke.velocity, color=RUN)
+        velocity.set(title=f"Velocity at {speed * 30.0 / np.pi:g} rpm", ylabel="m/s")
+    least = float(stroke.mechanical_advantage.min())
+    advantage.plot(angle, stroke.mechanical_advantage, color=RUN)
+    advantage.set(title="Mechanical advantage: force per torque of the crank", ylabel="N per N m")
+    if np.isfinite(least):
+        advantage.set(yscale="log", ylim=(0.7 * least, HIGHEST * least))
+        advantage.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+        advantage.yaxis.set_minor_formatter(NullFormatter())
+    curves = alike(examined.transmission)
+    for index, (name, values) in enumerate(curves[:MOST_TRANSMISSIONS]):
+        degrees = np.degrees(values)
+        transmission.plot(angle, degrees, color=colour_of(index), label=plain(name))
+    transmission.axhspan(0.0, LEAST_ANGLE, color=WRONG, alpha=0.06, linewidth=0)
+    transmission.set(title="Transmission angle", ylabel="deg", ylim=(0.0, 92.0))
+    transmission.set_yticks([0, 30, 60, 90])
+    transmission.set_xlabel("crank angle from the drawing, deg")
+    if curves:
+        transmission.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2)
+    else:
+        transmission.text(
+            180.0, 45.0, "no dyads: its bodies close in larger groups", ha="center", color=GREY
+        )
+    for panel in panels:
+        panel.set_xlim(0.0, 360.0)
+        panel.set_xticks(range(0, 361, 60))
+        for centre in stroke.dead_centres:
+            at = float(np.degrees(centre.angle))
+            panel.axvline(at, color=GREY, linewidth=0.9, linestyle=(0, (1, 2)), zorder=0.9)

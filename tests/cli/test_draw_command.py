@@ -1,0 +1,82 @@
+"""exu-press draw: text and picture, also of drawings that do not move."""
+
+import subprocess
+import sys
+
+import pytest
+
+from exu_press.cli.main import main
+from exu_press.mechanism import SliderCrank, mechanism_lines, slider_crank
+
+
+@pytest.fixture
+def drawn(tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text("\n".join(mechanism_lines(slider_crank(SliderCrank()))), encoding="utf-8")
+    return path
+
+
+def test_a_mechanism_file_is_described(drawn, capsys):
+    assert main(["draw", str(drawn)]) == 0
+    out = capsys.readouterr().out
+    for part in ("crank_pin", "60.000 mm", "180.000 deg", "wrist_pin: 85.51 deg at 90 deg"):
+        assert part in out
+
+
+@pytest.mark.parametrize("kind", ["png", "svg", "pdf"])
+def test_a_picture_is_written(drawn, kind, capsys):
+    target = drawn.with_suffix(f".{kind}")
+    assert main(["draw", str(drawn), "--save", str(target)]) == 0
+    begins = {"png": b"\x89PNG", "svg": b"<?xml", "pdf": b"%PDF"}[kind]
+    assert target.read_bytes().startswith(begins)
+
+
+def test_a_scene_has_its_speed_and_its_dimensions(tmp_path, capsys):
+    scene = tmp_path / "scene.toml"
+    scene.write_text(
+        'mechanism = "slider_crank"\nspeed_rpm = 60\n[slider_crank]\ncrank_radius = 0.05\n'
+    )
+    assert main(["draw", str(scene)]) == 0
+    out = capsys.readouterr().out
+    assert "100.000 mm" in out
+    assert "m/s" in out
+
+
+def test_a_drawing_that_is_refused_is_drawn_and_told(drawn, capsys):
+    text = drawn.read_text().replace("[guides.slider]\ndirection = [0.0, 1.0]\n", "")
+    drawn.write_text(text)
+    scene = drawn.with_name("scene.toml")
+    scene.write_text(f'mechanism = "{drawn.name}"\n')
+    target = drawn.with_suffix(".png")
+    assert main(["draw", str(scene), "--save", str(target)]) == 2
+    err = capsys.readouterr().err
+    assert "rod" in err
+    assert "slider" in err
+    assert target.stat().st_size > 10000
+
+
+def test_wrong_input_is_told_in_one_line(drawn, capsys):
+    for words, part in (
+        (["pres"], "press"),
+        (["missing.toml"], "missing.toml"),
+        ([str(drawn), "--save", "a.gif"], ".svg"),
+    ):
+        assert main(["draw", *words]) == 2
+        err = capsys.readouterr().err
+        assert part in err
+        assert err.count("\n") == 1
+
+
+def test_neither_exudyn_nor_matplotlib_is_loaded_for_the_text(tmp_path):
+    code = (
+        "import sys\nfrom exu_press.cli import main\n"
+        "assert main(sys.argv[1:]) == 0\n"
+        "print(*(n for n in ('exudyn', 'matplotlib') if n in sys.modules), sep=',')"
+    )
+
+    def loaded(*more):
+        words = [sys.executable, "-c", code, "draw", "press", "--quiet", *more]
+        return subprocess.run(words, capture_output=True, text=True, check=True).stdout.strip()
+
+    assert loaded() == ""
+    assert loaded("--save", str(tmp_path / "press.png")) == "matplotlib"

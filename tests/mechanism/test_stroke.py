@@ -1,0 +1,60 @@
+"""Stroke, dead centres and mechanical advantage against the slider-crank's closed forms."""
+
+import math
+
+import numpy as np
+import pytest
+from drawings import four_bar, slider_crank
+
+from exu_press.mechanism import Press, SliderCrank, press
+from exu_press.mechanism import slider_crank as shipped_slider_crank
+from exu_press.mechanism.stroke import stroke_of
+
+ANGLES = np.radians(np.arange(0.0, 361.0))
+R, L = 0.1, 0.4
+
+
+def test_a_slider_crank_in_line_has_a_stroke_of_two_radii():
+    size = SliderCrank(crank_radius=0.05, rod_length=0.2)
+    found = stroke_of(shipped_slider_crank(size), ANGLES)
+    assert found.length == pytest.approx(0.1, abs=1e-15)
+    top, bottom = found.dead_centres
+    assert (top.top, bottom.top) == (True, False)
+    assert top.angle == pytest.approx(0.0, abs=1e-12)
+    assert bottom.angle == pytest.approx(math.pi, abs=1e-12)
+
+
+def test_an_offset_slider_crank_turns_back_where_rod_and_crank_are_in_line():
+    """Stroke sqrt((l + r)^2 - e^2) - sqrt((l - r)^2 - e^2)."""
+    offset, at = 0.05, 0.7
+    found = stroke_of(slider_crank(offset=offset, crank=R, rod=L, at=at), ANGLES)
+    far, near = (math.sqrt((L + sign * R) ** 2 - offset**2) for sign in (1, -1))
+    assert found.length == pytest.approx(far - near, abs=1e-14)
+    outer = math.asin(offset / (L + R))
+    inner = math.asin(offset / (L - R)) + math.pi
+    expected = sorted((angle - at) % (2 * math.pi) for angle in (outer, inner))
+    assert [centre.angle for centre in found.dead_centres] == pytest.approx(expected, abs=1e-11)
+
+
+def test_mechanical_advantage_is_the_crank_s_speed_over_the_slider_s():
+    found = stroke_of(slider_crank(crank=R, rod=L, at=0.0), ANGLES)
+    swing = R * np.sin(ANGLES)
+    velocity = -swing - swing * R * np.cos(ANGLES) / np.sqrt(L**2 - swing**2)
+    assert found.velocity == pytest.approx(velocity, abs=1e-13)
+    moving = np.abs(velocity) > 1e-6
+    product = found.mechanical_advantage[moving] * np.abs(velocity[moving])
+    assert product == pytest.approx(1.0, abs=1e-8)
+    assert np.all(np.isinf(found.mechanical_advantage[~moving]))
+
+
+def test_velocity_is_the_derivative_of_the_position():
+    found = stroke_of(four_bar(), ANGLES)
+    change = np.diff(found.position)
+    mean = 0.5 * (found.velocity[1:] + found.velocity[:-1]) * np.diff(ANGLES)
+    assert change == pytest.approx(mean, abs=1e-5 * np.ptp(found.position))
+
+
+def test_dead_centres_are_those_of_the_mechanism():
+    mechanism = press(Press())
+    top, bottom = stroke_of(mechanism, ANGLES).dead_centres
+    assert (top.angle, bottom.angle) == pytest.approx(mechanism.dead_centres, abs=1e-4)

@@ -6,11 +6,14 @@ v [m/s] -> (mu, dmu/dv [s/m]); `LuGre` carries the bristle's deflection as a sta
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import copysign, exp, tanh
+from math import copysign, exp, sqrt, tanh
 
 from exu_press.laws.contact_parameters import demand, not_negative, positive
 
 __all__ = ["Friction", "LuGre", "coulomb", "lugre_steady", "no_friction", "stribeck"]
+
+PASSIVE = 4.0 * sqrt(2.0 * exp(1.0))
+"""sigma_1 v_d / mu_k: the largest one with which LuGre's bristle makes no energy."""
 
 Friction = Callable[[float], tuple[float, float]]
 
@@ -189,14 +192,27 @@ class LuGre:
         g = \mu_k + (\mu_s - \mu_k) e^{-|v / v_s|^\gamma}
 
     .. math::
-        \mu = \sigma_0 z + \sigma_1 \dot z + \sigma_2 v
+        \mu = \sigma_0 z + \sigma_1(v)\, \dot z + \sigma_2 v, \qquad
+        \sigma_1(v) = \sigma_1 e^{-(v / v_d)^2}, \qquad
+        v_d = 4 \sqrt{2 e}\, \mu_k / \sigma_1
+
+    With a constant damping of the bristle, as printed, the model makes energy [2]_: a relaxed
+    bristle gives mu = sigma_1 v at any speed. The published cure is a damping that falls with the
+    speed [3]_. The power that is neither stored in the bristle nor viscous,
+
+    .. math::
+        \mu v - \frac{d}{dt} \frac{\sigma_0 z^2}{2} = |v| \left[ \frac{(\sigma_0 z)^2}{g}
+        - \frac{\sigma_1(v) v \sigma_0 z}{g} + \sigma_1(v) |v| \right],
+
+    is a square in sigma_0 z and not negative where sigma_1(v) |v| <= 4 g. The largest v_d for which
+    this holds at every speed, with g at its least value mu_k, is the one above.
 
     Parameters
     ----------
     mu_static : mu_s [-], at least mu_kinetic
     mu_kinetic : mu_k [-], positive
     sigma_0 : stiffness of the bristle [1/m], positive
-    sigma_1 : its damping [s/m], not negative
+    sigma_1 : its damping [s/m] at rest, not negative
     sigma_2 : viscous friction [s/m], not negative
     stribeck_velocity : v_s [m/s], positive
     stribeck_exponent : gamma [-], 0 < gamma <= 10
@@ -208,7 +224,8 @@ class LuGre:
     Notes
     -----
     Range: any speed. In steady sliding mu is `lugre_steady`, for small displacements it is the
-    spring sigma_0.
+    spring sigma_0. At a constant normal force it is passive, step by step, too. A normal force that
+    grows stretches the bristles that it adds, as the model has it: that is work of nobody.
 
     Examples
     --------
@@ -221,6 +238,10 @@ class LuGre:
     ----------
     .. [1] Canudas de Wit, C., H. Olsson, K. J. Astrom, and P. Lischinsky. "A New Model for Control
        of Systems with Friction." IEEE Trans. Autom. Control 40 (1995): 419-425.
+    .. [2] Barabanov, N., and R. Ortega. "Necessary and Sufficient Conditions for Passivity of the
+       LuGre Friction Model." IEEE Trans. Autom. Control 45 (2000): 830-832.
+    .. [3] Olsson, H., K. J. Astrom, C. Canudas de Wit, M. Gafvert, and P. Lischinsky. "Friction
+       Models and Friction Compensation." European Journal of Control 4 (1998): 176-195.
     """
 
     mu_static: float
@@ -252,10 +273,15 @@ class LuGre:
         implicit = 1.0 + h * relaxation
         z_dot = (v - relaxation * z0) / implicit
         z1 = z0 + h * z_dot
-        mu = self.sigma_0 * z1 + self.sigma_1 * z_dot + self.sigma_2 * v
+        part = v * self.sigma_1 / (PASSIVE * self.mu_kinetic)  # v / v_d
+        damping = self.sigma_1 * exp(-part * part)
+        mu = self.sigma_0 * z1 + damping * z_dot + self.sigma_2 * v
         direction = copysign(1.0, v) if v != 0.0 else 0.0
         z_dot_slope = (1.0 - direction * relaxation_slope * z1) / implicit
-        return mu, (self.sigma_0 * h + self.sigma_1) * z_dot_slope + self.sigma_2, z1
+        slope = (self.sigma_0 * h + damping) * z_dot_slope + self.sigma_2
+        if v != 0.0:
+            slope -= 2.0 * part * part / v * damping * z_dot
+        return mu, slope, z1
 
     def rate(self, v: float, z: float) -> float:
         """z_dot [m/s] of the bristle's differential equation."""

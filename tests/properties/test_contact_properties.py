@@ -118,3 +118,33 @@ def test_bristle_stays_within_its_largest_deflection(bristle, v, bent, h):
     assert math.isfinite(mu)
     assert math.isfinite(slope)
     assert abs(z) <= largest * (1.0 + 1e-9)
+
+
+bristles = st.builds(
+    lambda kinetic, more, stiffness, damping, viscous, speed, exponent: LuGre(
+        kinetic * (1.0 + more), kinetic, stiffness, damping, viscous, speed, exponent
+    ),
+    logarithmic(1e-3, 1.0),
+    st.floats(0.0, 3.0),
+    logarithmic(1e3, 1e7),
+    st.one_of(st.just(0.0), logarithmic(1e-2, 1e5)),
+    st.one_of(st.just(0.0), logarithmic(1e-3, 1.0)),
+    logarithmic(1e-5, 1.0),
+    st.floats(0.1, 5.0),
+)
+signed_speeds = st.builds(
+    lambda sign, size: sign * size, st.sampled_from([-1.0, 1.0]), logarithmic(1e-7, 10.0)
+)
+
+
+@settings(max_examples=300, deadline=None)
+@given(bristles, st.lists(st.tuples(signed_speeds, logarithmic(1e-8, 1e-2)), max_size=30))
+def test_a_bristle_makes_no_energy(friction, history):
+    """Work done on it is never less than what it stores, in any history of sliding."""
+    z = 0.0
+    for v, h in history:
+        mu, _, z_next = friction.advance(v, z, h)
+        stored = 0.5 * friction.sigma_0 * (z_next**2 - z**2)
+        work = mu * v * h
+        assert work - stored >= -1e-12 * (abs(work) + abs(stored))
+        z = z_next

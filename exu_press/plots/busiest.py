@@ -8,10 +8,16 @@ from matplotlib.axes import Axes
 from exu_press.columns import columns
 from exu_press.plots.peaks import with_error
 from exu_press.plots.sides import joint_titles
-from exu_press.plots.style import GREY
 from exu_press.result import Result
 
 __all__ = ["busiest", "draw_rest", "rest_lines"]
+
+
+LETTER = 0.61
+"""Width of a monospaced letter over its size."""
+
+SMALLEST = 6.0
+"""Points; a longer table goes beyond its panel."""
 
 
 def busiest(
@@ -53,16 +59,27 @@ def rest_lines(result: Result, rest: Mapping[str, str]) -> list[str]:
 
 
 def draw_rest(axes: Axes, result: Result, rest: Mapping[str, str], size: float) -> None:
-    """Write the table of the joints that are not drawn into a panel of its own."""
+    """Write the table of the joints that are not drawn into a panel of its own.
+
+    Args:
+        axes: the panel.
+        result: of the run.
+        rest: the joints, each with its title.
+        size: of the letters, points; smaller where the panel is too narrow for them.
+    """
     axes.set_axis_off()
+    lines = rest_lines(result, rest)
+    figure = axes.get_figure(root=True)
+    assert figure is not None
+    room = 72.0 * axes.get_position().width * figure.get_figwidth()
+    size = min(size, max(SMALLEST, room / (LETTER * max(map(len, lines)))))
     text = axes.text(
         0.0,
         1.0,
-        "\n".join(rest_lines(result, rest)),
+        "\n".join(lines),
         transform=axes.transAxes,
         va="top",
         fontsize=size,
-        color=GREY,
         family="monospace",
     )
     text.set_in_layout(False)  # its length is no reason to move the panels above it

@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from exu_press.arrays import Array
+from exu_press.mechanism import Mechanism
 from exu_press.piecewise import evaluate, hermite, integral
 from exu_press.plots.canvas import (
     angle_axis,
@@ -23,6 +24,7 @@ from exu_press.plots.slider import averaged
 from exu_press.plots.style import GREY, IDEAL, colour_of, styled
 from exu_press.plots.words import joint_in_words
 from exu_press.quantities import DeadCentre, bottom_dead_centres, ideal_bottom_angle
+from exu_press.quantities.uncertain import significant
 from exu_press.result import Result
 from exu_press.result.channel import guide_channel
 from exu_press.scene import mechanism_of
@@ -30,8 +32,11 @@ from exu_press.scene.applied import applied_loads
 
 __all__ = ["press_figure"]
 
-ABOUT = 12.0
-"""How far about bottom dead centre the strokes are shown, deg."""
+ABOUT = (12.0, 10.0, 8.0, 6.0, 5.0, 4.0, 3.0, 2.0, 1.0, 0.5)
+"""How far about bottom dead centre the strokes may be shown, deg."""
+
+RISE = 50e-6
+"""m; the ideal slider rises no more where they are shown, so that micrometres are seen."""
 
 BESIDE = {
     "slider_tilt": ("Slider tilt", "counter-clockwise", "µrad"),
@@ -158,9 +163,10 @@ def _draw(
 def _strokes(axes: Axes, result: Result, centres: list[DeadCentre]) -> None:
     """Draw every stroke about its bottom dead centre, and the ideal one."""
     mean = float(np.mean([centre.position for centre in centres]))
-    from_centre = np.linspace(-ABOUT, ABOUT, 200)
     mechanism = mechanism_of(result.scene)
     bottom = np.degrees(ideal_bottom_angle(mechanism))
+    about = _about(mechanism, bottom)
+    from_centre = np.linspace(-about, about, 200)
     ideal = mechanism.ideal_slider(np.radians(bottom + from_centre), 1.0)[0]
     axes.plot(
         from_centre,
@@ -184,7 +190,7 @@ def _strokes(axes: Axes, result: Result, centres: list[DeadCentre]) -> None:
         axes.plot(near - turn, height, color=colour, linewidth=1.1, label=label)
         place = np.degrees(centre.crank_angle) - turn, 1e6 * (centre.position - mean)
         axes.plot(*place, "o", color=colour, markersize=4)
-    axes.set(xlim=(-ABOUT, ABOUT), title="Bottom dead centre")
+    axes.set(xlim=(-about, about), title="Bottom dead centre")
     axes.set(
         xlabel="crank angle from bottom dead centre, deg", ylabel="slider above its lowest, µm"
     )
@@ -192,6 +198,14 @@ def _strokes(axes: Axes, result: Result, centres: list[DeadCentre]) -> None:
     axes.legend(loc="upper center", ncols=3)
     told = with_error(result, "strokes.mean", mean, 1e3, 6)
     note(axes, f"lowest, mm: {told}{_scatter(result, centres)}")
+
+
+def _about(mechanism: Mechanism, bottom: float) -> float:
+    """Return how far about bottom dead centre (deg) the strokes are shown, deg."""
+    ends = np.radians([[bottom - about, bottom, bottom + about] for about in ABOUT])
+    height = mechanism.ideal_slider(ends.ravel(), 1.0)[0].reshape(ends.shape)
+    flat = np.flatnonzero(height[:, [0, 2]].max(axis=1) - height[:, 1] <= RISE)
+    return ABOUT[flat[0]] if len(flat) else ABOUT[-1]
 
 
 def _scatter(result: Result, centres: list[DeadCentre]) -> str:
@@ -224,4 +238,4 @@ def _at_dead_centres(
     widen(axes, 1e-3)
     if centres and dead_centres({"": result}):
         most = float(np.abs(at).max())
-        note(axes, f"dots: bottom dead centres, at most {most:.2g} {unit}")
+        note(axes, f"dots: bottom dead centres, at most {significant(most, 2)} {unit}")

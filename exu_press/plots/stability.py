@@ -24,6 +24,9 @@ __all__ = ["save_stability", "stability_figure"]
 RESIDUALS = (1e-7, RESIDUAL_LIMIT)
 """Energy residuals at the ends of the colours."""
 
+SQUARE = 7.0
+"""Height of the matrix of pairs with its names, inch."""
+
 MARKERS: Mapping[str, Mapping[str, Any]] = {
     "right": {"marker": "o", "s": 42, "linewidths": 0.0},
     "stopped": {"marker": "s", "s": 48, "color": "white", "edgecolors": "black", "linewidths": 1.4},
@@ -44,16 +47,17 @@ def stability_figure(report: Report) -> Figure:
     single = [row for row in report.rows if row.axis != PAIRS]
     pairs = [row for row in report.rows if row.axis == PAIRS]
     lines = list(dict.fromkeys(map(_line, single)))
-    height = 2.2 + 0.23 * max(len(lines), 20)
-    size = (15.0 if pairs else 9.5, height)
-    figure = headed_figure("Stiff and extreme cases", _words(report), size)
-    left, *right = figure.subplots(1, 2 if pairs else 1, squeeze=False).flat
+    height = 1.0 + 0.23 * max(len(lines), 20)
+    heights = [height, SQUARE] if pairs else [height]
+    figure = headed_figure("Stiff and extreme cases", _words(report), (9.5, 1.6 + sum(heights)))
+    panels = figure.subplots(len(heights), 1, squeeze=False, height_ratios=heights).flat
+    upper, *lower = panels
     colours = ScalarMappable(LogNorm(*RESIDUALS, clip=True), PATH_COLOURS)
     if single:
-        _draw_axes(left, single, lines, colours)
+        _draw_axes(upper, single, lines, colours)
     if pairs:
-        _draw_pairs(right[0], pairs, colours)
-    bar = figure.colorbar(colours, ax=[left, *right], location="bottom", shrink=0.35, aspect=40)
+        _draw_pairs(lower[0], pairs, colours)
+    bar = figure.colorbar(colours, ax=[upper, *lower], location="bottom", shrink=0.5, aspect=40)
     bar.set_label("energy residual, relative to the largest energy put in, stored or dissipated")
     handles: list[Artist] = [
         Line2D(
@@ -93,10 +97,10 @@ def _draw_axes(
             _mark(axes, place, height, row, colours)
         ends = dict.fromkeys([along[0].value, along[-1].value])
         axes.annotate(
-            " to ".join(filter(None, ends)), (len(along) - 0.4, height), fontsize=7, va="center",
+            " to ".join(filter(None, ends)), (len(along) - 0.4, height), fontsize=8.5, va="center",
             color=GREY,
         )  # fmt: skip
-    axes.set_yticks(range(len(lines)), [f"{axis}: {base}" for axis, base in lines], fontsize=8)
+    axes.set_yticks(range(len(lines)), [f"{axis}: {base}" for axis, base in lines], fontsize=9.5)
     axes.set(xlim=(-0.7, most + 4.0), ylim=(len(lines) - 0.4, -0.6), xticks=[])
     axes.set_title("Along each axis")
     axes.grid(False)
@@ -108,8 +112,8 @@ def _draw_pairs(axes: Axes, rows: Sequence[Row], colours: ScalarMappable) -> Non
     for row in rows:
         across, down = (names.index(name) for name in row.value.split(" + "))
         _mark(axes, min(across, down), max(across, down), row, colours)
-    axes.set_xticks(range(len(names)), names, rotation=60, ha="right", fontsize=8)
-    axes.set_yticks(range(len(names)), names, fontsize=8)
+    axes.set_xticks(range(len(names)), names, rotation=60, ha="right", fontsize=9.5)
+    axes.set_yticks(range(len(names)), names, fontsize=9.5)
     axes.set(xlim=(-0.6, len(names) - 0.4), ylim=(len(names) - 0.4, -0.6))
     axes.set_title(f"Two extremes at once: {rows[0].name.rpartition(', ')[2]}")
 

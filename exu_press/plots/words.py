@@ -7,6 +7,7 @@ from exu_press.plots.typesetting import plain
 from exu_press.result import Result
 from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.applied import applied_loads
+from exu_press.scene.tables import ElasticGuide
 
 __all__ = ["describe", "early_stops", "joint_in_words"]
 
@@ -24,7 +25,8 @@ def describe(scenes: Iterable[Scene], width: int = 130) -> str:
     """
     scenes = list(scenes)
     joints = dict.fromkeys(name for scene in scenes for name in scene.joints.grouped)
-    each = [_parts(scene, joints) for scene in scenes]
+    same = len({str(_of_many(scene)) for scene in scenes}) == 1
+    each = [_parts(scene, joints, grouped=same or len(joints) > FEW) for scene in scenes]
     keys = dict.fromkeys(key for parts in each for key in parts)
     shared: list[str] = []
     for key in keys:
@@ -58,8 +60,8 @@ def joint_in_words(name: str) -> str:
     return plain(name.replace("_", " ").capitalize())
 
 
-def _parts(scene: Scene, joints: Collection[str]) -> dict[str, str]:
-    """Return phrases by what they are about; of the joints and groups that are named."""
+def _parts(scene: Scene, joints: Collection[str], *, grouped: bool) -> dict[str, str]:
+    """Return phrases by their subject; joints of one kind and clearance in one, or each alone."""
     parts = {
         "mechanism": mechanism_of(scene).name.replace("_", " ").capitalize(),
         "bodies": _of_bodies(scene),
@@ -67,16 +69,24 @@ def _parts(scene: Scene, joints: Collection[str]) -> dict[str, str]:
     }
     if not joints:
         parts["joints"] = "all joints ideal"
-    parts |= _of_each(scene, joints) if len(joints) <= FEW else _of_many(scene)
+    parts |= _of_many(scene) if grouped else _of_each(scene, joints)
     parts |= _of_loads(scene)
     if scene.drive is not None:
         motor = scene.drive
         parts["drive"] = f"motor of {motor.rated_torque:g} N m, flywheel {motor.inertia:g} kg m²"
     if scene.guide is not None:
-        parts["guides"] = "guides elastic"
+        parts["guides"] = _of_guides(scene.guide)
     if scene.press is not None and not scene.press.counterweight:
         parts["counterweight"] = "no counterweight"
     return parts
+
+
+def _of_guides(guide: ElasticGuide) -> str:
+    """Return clearance and friction of the guides, which are elastic without a clearance."""
+    if guide.clearance is None:
+        return "guides elastic"
+    words = f"guides with clearance {guide.clearance * 1e3:g} mm"
+    return words if guide.friction == "none" else f"{words} and {guide.friction} friction"
 
 
 def _of_bodies(scene: Scene) -> str:
@@ -121,7 +131,7 @@ def _of_many(scene: Scene) -> dict[str, str]:
     for name, joint in scene.joints.grouped.items():
         alike.setdefault((joint.kind, joint.clearance), []).append(name.replace("_", " "))
     return {
-        f"{kind} {clearance}": f"{', '.join(names)} {kind}, {clearance * 1e3:g} mm"
+        f"{kind} {clearance}": f"{', '.join(names)} {kind}, clearance {clearance * 1e3:g} mm"
         for (kind, clearance), names in alike.items()
     }
 

@@ -4,10 +4,24 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-__all__ = ["uncertain"]
+__all__ = ["significant", "uncertain"]
 
 MOST_DIGITS = 7
 """Digits to which a figure is exact: with a smaller error it is shown without."""
+
+
+LARGEST_WRITTEN_OUT = 1e12
+"""Larger numbers keep their exponent."""
+
+
+def significant(value: float, digits: int) -> str:
+    """Return a number with so many significant digits; a large one is written out.
+
+    >>> significant(331.7, 2), significant(167100.0, 4), significant(3.2e-7, 2)
+    ('330', '167100', '3.2e-07')
+    """
+    text = f"{value:.{digits}g}"
+    return f"{float(text):.0f}" if "e+" in text and abs(value) < LARGEST_WRITTEN_OUT else text
 
 
 def uncertain(
@@ -32,13 +46,13 @@ def uncertain(
     if value is None:
         return "-"
     if error is None:
-        return f"{value * scale:.{digits}g}"
+        return significant(value * scale, digits)
     if not error["determined"]:
         low, high = error["low"] * scale, error["high"] * scale
         return f"{_rounded(low, high)} to {_rounded(high, high)}, not determined"
     spread, shown = error["error"] * scale, value * scale
     if spread <= abs(shown) * 10.0**-MOST_DIGITS:
-        return f"{shown:.{digits if isinstance(value, float) else MOST_DIGITS}g} exact"
+        return f"{significant(shown, digits if isinstance(value, float) else MOST_DIGITS)} exact"
     places = 1 - math.floor(math.log10(spread))
     return f"{_places(shown, places)} +- {_places(spread, places)}"
 

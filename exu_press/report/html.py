@@ -35,11 +35,23 @@ thead th { border-bottom: 1px solid #888; }
 tbody tr:nth-child(even) { background: #f5f7f9; }
 tbody th { font-weight: 400; white-space: pre; }
 figure { margin: 1rem 0; }
-figure img { max-width: 100%; height: auto; }
+figure { overflow-x: auto; }
+figure img { max-width: 100%; height: auto; cursor: zoom-in; }
+figure input { position: absolute; opacity: 0; }
+figure input:focus-visible + img { outline: 3px solid #0072b2; }
+figure input:checked + img { max-width: none; cursor: zoom-out; }
 figcaption { color: #555; font-size: 0.9rem; }
 summary { cursor: pointer; }
 code { font-family: ui-monospace, "DejaVu Sans Mono", monospace; font-size: 0.92em; }
 nav a { margin-right: 1.2rem; }
+@media (max-width: 600px) {
+  body { padding: 0.5rem 0.7rem 2rem; }
+  h1 { font-size: 1.15rem; }
+  table { font-size: 0.8rem; }
+  th, td { padding-right: 0.5rem; overflow-wrap: anywhere; }
+  thead th, tbody th, td { min-width: 4.5rem; }
+  tbody th { white-space: pre-wrap; }
+}
 @media print { section { break-inside: avoid; } }
 </style>
 </head>
@@ -105,10 +117,11 @@ def details(words: str, inner: str) -> str:
 
 
 def picture(path: Path, words: str) -> str:
-    """Return a PNG file's content as a figure, with what it shows in words."""
+    """Return a PNG file's content as a figure with a caption; a tap shows it in full size."""
     data = base64.b64encode(path.read_bytes()).decode("ascii")
     return (
-        f'<figure><img src="data:image/png;base64,{data}" alt="{_text(words)}">'
+        f'<figure><label><input type="checkbox" aria-label="full size: {_text(words)}">'
+        f'<img src="data:image/png;base64,{data}" alt="{_text(words)}"></label>'
         f"<figcaption>{_text(words)}</figcaption></figure>"
     )
 

@@ -107,10 +107,10 @@ class Animation:
         )
         self.panels.append(MechanismPanel(figure.add_subplot(columns[0]), result, self.instants))
         if joints:
-            heights = [1.0] * len(joints) + [0.055 * (len(rest) + 2)] * bool(rest)
+            heights = [1.0] * len(joints) + [0.085 * (len(rest) + 2)] * bool(rest)
             rows = columns[1].subgridspec(len(heights), 1, hspace=0.16, height_ratios=heights)
             if rest:
-                draw_rest(figure.add_subplot(rows[-1]), result, rest, 5.7)
+                draw_rest(figure.add_subplot(rows[-1]), result, rest, 9.0)
             for index, (name, title) in enumerate(joints.items()):
                 axes = figure.add_subplot(rows[index])
                 self.panels.append(JointPanel(axes, result, name, title, self.instants))

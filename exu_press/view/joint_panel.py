@@ -9,6 +9,7 @@ from matplotlib.patches import Circle, FancyArrowPatch
 
 from exu_press.arrays import Array
 from exu_press.plots.style import COLOURS, GREY, RUN
+from exu_press.quantities.uncertain import significant
 from exu_press.result import Result
 from exu_press.scene import mechanism_of
 from exu_press.view.instants import Instants
@@ -17,9 +18,12 @@ from exu_press.view.panel import animated
 
 __all__ = ["JointPanel"]
 
-BORE, JOURNAL = 1.0, 0.55
-CLEARANCE = BORE - JOURNAL
+BORE = 1.0
+CLEARANCE = 0.45
 """The drawn clearance; the journal touches the bore where the eccentricity ratio is 1."""
+
+RIM = 1.18
+"""The bearing's outside, up to which the journal may sink into the bore."""
 
 SMALL_PATH = 0.2
 """Paths within this eccentricity ratio are shown once more, magnified."""
@@ -52,11 +56,14 @@ class JointPanel:
         self._revolution = 60.0 / result.scene.speed_rpm
         self._time = result.time
 
+        reach = float(self._distance[shown].max())
+        self._drawn = drawn = drawn_clearance(reach)
+        self._radius = radius = BORE - drawn
         axes.set_aspect("equal", adjustable="box")
         axes.set_axis_off()
         axes.set(xlim=(-1.25, 2.15), ylim=(-1.6, 1.5))
         axes.set_title(f"{title}, {joint.kind}, clearance {radial * 1e6:.4g} µm", fontsize=9.5)
-        axes.add_patch(Circle((0, 0), 1.18, facecolor=STEEL, edgecolor=EDGE, linewidth=0.8))
+        axes.add_patch(Circle((0, 0), RIM, facecolor=STEEL, edgecolor=EDGE, linewidth=0.8))
         inside = OIL if joint.kind == "lubricated" else "white"
         axes.add_patch(Circle((0, 0), BORE, facecolor=inside, edgecolor=EDGE, linewidth=0.8))
         axes.text(
@@ -67,11 +74,11 @@ class JointPanel:
             color=GREY,
             va="top",
         )
-        self._journal = Circle((0, 0), JOURNAL, facecolor=METAL, edgecolor=EDGE, linewidth=0.9)
+        self._journal = Circle((0, 0), radius, facecolor=METAL, edgecolor=EDGE, linewidth=0.9)
         axes.add_patch(self._journal)
         (self._spoke,) = axes.plot([], [], color="#8C6D1F", linewidth=1.6)
         circle = axes.add_patch(
-            Circle((0, 0), CLEARANCE, fill=False, edgecolor=MARKED, linewidth=1.1, linestyle="--")
+            Circle((0, 0), drawn, fill=False, edgecolor=MARKED, linewidth=1.1, linestyle="--")
         )
         (self._path,) = axes.plot([], [], color=RUN, linewidth=0.8)
         (self._centre,) = axes.plot([], [], "o", markersize=4.5, color=RUN, markeredgecolor="white")
@@ -82,7 +89,6 @@ class JointPanel:
         self._words = axes.text(-1.22, 1.44, "", fontsize=8.5, va="center", ha="left")
         extra: list[Any] = []
         self._zoom: tuple[Line2D, Line2D] | None = None
-        reach = float(self._distance[shown].max())
         if reach < SMALL_PATH:
             extra = self._draw_zoom(axes, 1.25 * max(reach, 1e-6))
         self.artists = animated(
@@ -106,7 +112,9 @@ class JointPanel:
         zoom.axhline(0.0, color="#D0D0D0", linewidth=0.6)
         zoom.axvline(0.0, color="#D0D0D0", linewidth=0.6)
         width = 2e6 * half * self._clearance
-        zoom.set_title(f"path,\n{width:.2g} µm wide", fontsize=7, fontweight="normal", pad=2.5)
+        zoom.set_title(
+            f"path,\n{significant(width, 2)} µm wide", fontsize=7, fontweight="normal", pad=2.5
+        )
         (path,) = zoom.plot([], [], color=RUN, linewidth=0.8)
         (centre,) = zoom.plot([], [], "o", markersize=3.5, color=RUN)
         self._zoom = path, centre
@@ -119,13 +127,13 @@ class JointPanel:
         begin = np.searchsorted(self._time, self._time[step] - self._revolution)
         path = self._ratio[max(int(begin), self._first) : step + 1]
         x, y = self._ratio[step]
-        place = CLEARANCE * np.array([x, y])
-        self._path.set_data(*(CLEARANCE * path.T))
+        place = self._drawn * np.array([x, y])
+        self._path.set_data(*(self._drawn * path.T))
         self._centre.set_data([place[0]], [place[1]])
         self._journal.set_center((float(place[0]), float(place[1])))
         if not self._ball:
             turn = self._turn[step]
-            tip = JOURNAL * np.array([-np.sin(turn), np.cos(turn)])
+            tip = self._radius * np.array([-np.sin(turn), np.cos(turn)])
             self._spoke.set_data(
                 [place[0] + 0.72 * tip[0], place[0] + tip[0]],
                 [place[1] + 0.72 * tip[1], place[1] + tip[1]],
@@ -151,6 +159,21 @@ class JointPanel:
         return f"e/c = {distance:.3f},  {named},  F = {_in_newtons(force)}"
 
 
+def drawn_clearance(reach: float) -> float:
+    """Return the clearance in the drawing, where the bore's radius is 1.
+
+    A journal that sinks deep into its bearing is drawn with less of it, so that it stays inside the
+    bearing's rim.
+
+    Args:
+        reach: largest eccentricity ratio that is shown.
+
+    >>> drawn_clearance(1.1), round(drawn_clearance(1.9), 6)
+    (0.45, 0.2)
+    """
+    return min(CLEARANCE, (RIM - BORE) / max(reach - 1.0, 1e-9))
+
+
 def _journal_angle(result: Result, name: str) -> Array:
     """Return how far the journal's body is turned, (n,), rad."""
     joints = mechanism_of(result.scene).joints
@@ -169,5 +192,5 @@ def _legend(body: str, largest: float, still: bool) -> str:
 def _in_newtons(force: float) -> str:
     """Return a force in kN, a small one in N."""
     if abs(force) < 100.0:
-        return f"{force:.3g} N"
-    return f"{force / 1e3:.3g} kN" if abs(force) < 9.995e5 else f"{force / 1e3:.0f} kN"
+        return f"{significant(force, 3)} N"
+    return f"{significant(force / 1e3, 3)} kN" if abs(force) < 9.995e5 else f"{force / 1e3:.0f} kN"

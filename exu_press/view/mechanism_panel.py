@@ -4,10 +4,12 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Polygon
 
 from exu_press.arrays import Array
 from exu_press.mechanism import Mechanism
+from exu_press.mechanism.parts import Point
 from exu_press.mechanism.shapes import moved, shapes_of, swept_outlines
 from exu_press.plots.labels import spread
 from exu_press.plots.style import COLOURS, GREY
@@ -57,7 +59,7 @@ class MechanismPanel:
             xlim=(left - 0.03 * unit, high[0] + 0.33 * unit),
             ylim=(low[1] - 0.03 * unit, high[1] + 0.03 * unit),
         )
-        _draw_labels(axes, mechanism, self._poses, float(high[0]), unit)
+        self._leaders = _draw_labels(axes, mechanism, self._poses, float(high[0]), unit)
         self._bodies: dict[str, Polygon] = {}
         for body in order:
             self._bodies[body.name] = patch = Polygon(
@@ -80,7 +82,8 @@ class MechanismPanel:
         )
         marked.set_markeredgewidth(2.2)
         self._pins, self._marked, self._split = pins, marked, len(ideal)
-        self.artists = animated(*self._bodies.values(), pins, marked)
+        leaders = [line for line, _ in self._leaders.values()]
+        self.artists = animated(*self._bodies.values(), pins, marked, *leaders)
 
     def _layer(self, body: str) -> int:
         """Return what lies behind what: the slider, other blocks, links, and the crank in front."""
@@ -92,6 +95,8 @@ class MechanismPanel:
         """Bring every body to its pose."""
         for name, patch in self._bodies.items():
             patch.set_xy(self._shapes[name].moved(self._poses[name][frame]))
+        for name, (line, (x, y)) in self._leaders.items():
+            line.set_data(*np.array([self._poses[name][frame][:2], (x, y)]).T)
         places = np.array(
             [moved(np.array([point]), self._poses[body][frame])[0] for body, point in self._joints]
         )
@@ -144,22 +149,22 @@ def _draw_dead_centres(axes: Axes, mechanism: Mechanism, outline: Array, unit: f
 
 def _draw_labels(
     axes: Axes, mechanism: Mechanism, places: dict[str, Array], right: float, unit: float
-) -> None:
-    """Name the bodies at the right, each once, with a line to it."""
+) -> dict[str, tuple[Line2D, Point]]:
+    """Name the bodies at the right, each once; return by body the line to it and where it begins.
+
+    The other end follows the body from frame to frame.
+    """
     panel = axes.get_window_extent()
     drawn = max(np.ptp(axes.get_ylim()), np.ptp(axes.get_xlim()) * panel.height / panel.width)
     named = {
-        joint_in_words(name.removesuffix("_right")).lower(): places[name].mean(axis=0)[:2]
-        for name in (body.name for body in mechanism.bodies)
-        if not name.endswith("_left")
+        body.name: joint_in_words(body.name.removesuffix("_right")).lower()
+        for body in mechanism.bodies
+        if not body.name.endswith("_left")
     }
-    heights = spread([place[1] for place in named.values()], LINE * drawn)
-    for (words, place), y in zip(named.items(), heights, strict=True):
-        axes.annotate(
-            words,
-            place,
-            (right + 0.12 * unit, y),
-            fontsize=8.5,
-            va="center",
-            arrowprops={"arrowstyle": "-", "color": "#9A9A9A", "linewidth": 0.6},
-        )
+    heights = spread([float(places[name][:, 1].mean()) for name in named], LINE * drawn)
+    leaders: dict[str, tuple[Line2D, Point]] = {}
+    for (name, words), y in zip(named.items(), heights, strict=True):
+        axes.text(right + 0.12 * unit, y, words, fontsize=8.5, va="center")
+        (line,) = axes.plot([], [], color="#9A9A9A", linewidth=0.6)
+        leaders[name] = line, (right + 0.11 * unit, y)
+    return leaders

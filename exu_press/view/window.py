@@ -15,6 +15,9 @@ from exu_press.view.instants import Instants
 
 __all__ = ["Player", "show"]
 
+WINDOW_DPI = 84
+"""Of a new window: its 1075 x 605 pixels and its tools fit a screen of 1366 x 768."""
+
 HEADLESS = ("agg", "pdf", "ps", "svg", "pgf", "cairo", "template")
 
 
@@ -130,7 +133,7 @@ def show(result: Result, instants: Instants, flexible: Look | None = None) -> No
     """
     import matplotlib.pyplot as plt
 
-    figure: Figure = plt.figure("exu-press view", figsize=SIZE)
+    figure: Figure = plt.figure("exu-press view", figsize=SIZE, dpi=WINDOW_DPI)
     backend = matplotlib.get_backend().lower()
     if backend in HEADLESS:
         plt.close(figure)

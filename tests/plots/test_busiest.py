@@ -57,8 +57,8 @@ def test_panels_are_few(twelve, draw, most):
 
 def test_titles_name_them_by_kind(twelve):
     words = describe([twelve.scene])
-    assert "crank pin, slide pin, pivots lubricated, 0.1 mm" in words
-    assert "knuckles, plunger pins, balls dry, 0.1 mm" in words
+    assert "crank pin, slide pin, pivots lubricated, clearance 0.1 mm" in words
+    assert "knuckles, plunger pins, balls dry, clearance 0.1 mm" in words
     titles = _titles(Animation(twelve, moment(twelve), Figure(figsize=SIZE)).figure)
     kinds = {name.split(",")[0]: joint.kind for name, joint in _titled(twelve)}
     magnified = [title for title in titles if "clearance" in title]

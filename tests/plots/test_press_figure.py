@@ -2,7 +2,9 @@ import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
+from exu_press.mechanism import Press, SliderCrank, press, slider_crank
 from exu_press.plots import energy_figure, press_figure
+from exu_press.plots.press import _about
 
 ALWAYS = ["Shaking force", "Power of the drive", "Guides"]
 
@@ -82,3 +84,9 @@ def test_a_motors_speed_and_loads_have_panels_and_a_rocker_no_dead_centre():
     labels = [text.get_text() for text in shown["Loads"].get_xticklabels()]
     assert labels and not any("DC" in label for label in labels)
     assert shown["Loads"].get_xlabel() == "crank angle, deg"
+
+
+def test_strokes_are_shown_where_micrometres_are_seen():
+    """Of a slider-crank r (1 + r / l) phi^2 / 2 = 50 um at 3.2 deg; the press dwells for longer."""
+    assert _about(slider_crank(SliderCrank()), 180.0) == 3.0
+    assert _about(press(Press()), 180.0) == 12.0

@@ -20,13 +20,23 @@ def test_a_scene_in_words():
         "Press",
         "rigid bodies",
         "200 rpm",
-        "crank pin lubricated",
-        "crank pin radial clearance 0.05 mm",
-        "balls dry",
-        "ball radial clearance 0.1 mm",
+        "crank pin lubricated, clearance 0.05 mm",
+        "balls dry, clearance 0.1 mm",
         "blanking force 10 kN",
     ):
         assert part in words
+
+
+def test_joints_alike_are_named_together_once():
+    words = describe([Scene(joints={"crank_pin": "dry", "balls": "dry"})])
+    assert "crank_pin, balls dry".replace("_", " ") in words
+    assert words.count("clearance") == 1
+
+
+def test_guides_with_clearance_are_not_called_elastic():
+    words = describe([Scene(guide={"clearance": 2e-5, "friction": "coulomb"})])
+    assert "guides with clearance 0.02 mm and coulomb friction" in words
+    assert "elastic" not in words
 
 
 def test_guides_counterweight_and_an_eccentric_load():

@@ -18,7 +18,7 @@ from exu_press.result import Result
 from exu_press.scene import Scene
 from exu_press.simulation import simulate
 
-VOID = {"meta", "link", "img", "br"}
+VOID = {"meta", "link", "img", "br", "input"}
 
 
 class Page(HTMLParser):

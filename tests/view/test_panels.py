@@ -10,7 +10,13 @@ from exu_press.mechanism.shapes import moved
 from exu_press.scene import mechanism_of
 from exu_press.view import instants
 from exu_press.view.curve_panel import CurvePanel
-from exu_press.view.joint_panel import CLEARANCE, JointPanel, _in_newtons
+from exu_press.view.joint_panel import (
+    CLEARANCE,
+    RIM,
+    JointPanel,
+    _in_newtons,
+    drawn_clearance,
+)
 from exu_press.view.mechanism_panel import MechanismPanel, poses
 
 
@@ -58,6 +64,30 @@ def test_the_journal_stands_at_its_eccentricity(runs, animation):
             picture.show(frame)
             ratio = result[f"{name}_eccentricity"][shown.step[frame], :2] / 1e-4
             assert panel._journal.center == pytest.approx(CLEARANCE * ratio)
+
+
+def test_lines_to_the_names_follow_their_bodies(runs, animation):
+    result, shown = runs["press"], instants(runs["press"], frames=5)
+    picture = animation(result, shown)
+    (panel,) = panels(picture, MechanismPanel)
+    begins = {}
+    for frame in (0, 4):
+        picture.show(frame)
+        for name, (line, begin) in panel._leaders.items():
+            ends = np.array(line.get_data()).T
+            assert ends[0] == pytest.approx(panel._poses[name][frame][:2])
+            assert ends[1] == pytest.approx(begin)
+            begins.setdefault(name, []).append(ends[0])
+            assert line in panel.artists
+    assert np.ptp(begins["slider"], axis=0)[1] > 0.005
+
+
+@pytest.mark.parametrize("reach", [0.0, 1.0, 1.39, 1.41, 2.0, 30.0])
+def test_a_journal_stays_inside_the_rim_and_touches_the_bore_in_contact(reach):
+    drawn = drawn_clearance(reach)
+    radius = 1.0 - drawn
+    assert 0.0 < drawn <= CLEARANCE
+    assert drawn * reach + radius <= RIM + 1e-12
 
 
 def test_no_impact_is_lost_between_frames(runs, animation):

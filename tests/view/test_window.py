@@ -11,6 +11,13 @@ from exu_press.view import Animation, instants, window
 from exu_press.view.animation import SIZE
 
 
+def test_a_new_window_fits_a_small_laptop():
+    """Of 1366 x 768 pixels, title, tools and the desktop's bar take 130."""
+    width, height = (window.WINDOW_DPI * inch for inch in SIZE)
+    assert width <= 1366
+    assert height <= 768 - 130
+
+
 @pytest.fixture
 def player(runs):
     figure = Figure(figsize=SIZE, dpi=50)

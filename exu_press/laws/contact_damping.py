@@ -82,7 +82,7 @@ class NormalContact:
         touch of this contact, kept until it is over; not read unless `needs_impact_speed`.
         """
         if penetration <= 0.0:
-            return 0.0, 0.0, 0.0
+            return (0.0, 0.0, 0.0) if rate == rate else (rate, rate, rate)
         elastic, slope = self.stiffness.force(penetration)
         damping, by_penetration, by_rate = self.damping(
             penetration, rate, impact_speed, elastic, slope
@@ -94,12 +94,12 @@ class NormalContact:
 
     def elastic_energy(self, penetration: float) -> float:
         """Energy [J] stored at this penetration [m]."""
-        return self.stiffness.energy(penetration) if penetration > 0.0 else 0.0
+        return 0.0 if penetration <= 0.0 else self.stiffness.energy(penetration)
 
     def dissipated_power(self, penetration: float, rate: float, impact_speed: float) -> float:
         """Power [W] lost: rate (F_N - elastic force); never negative in any law of this module."""
         if penetration <= 0.0:
-            return 0.0
+            return 0.0 if rate == rate else rate
         force, _, _ = self.force(penetration, rate, impact_speed)
         return rate * (force - self.stiffness.force(penetration)[0])
 
@@ -248,7 +248,7 @@ def hysteretic(
     def damping(
         _penetration: float, rate: float, impact_speed: float, elastic: float, slope: float
     ) -> tuple[float, float, float]:
-        per_rate = wanted / (impact_speed if impact_speed > slowest_impact else slowest_impact)
+        per_rate = wanted / (slowest_impact if impact_speed <= slowest_impact else impact_speed)
         return elastic * per_rate * rate, slope * per_rate * rate, elastic * per_rate
 
     return NormalContact(stiffness, damping, needs_impact_speed=True, tension=tension)

@@ -1,12 +1,22 @@
-"""Elastic part of the normal contact: force and energy against penetration."""
+"""Elastic part of the normal contact: force and energy against penetration.
+
+Newton's method may try a penetration of any size, or one that is no number: the force is then
+infinite or no number, and the step is repeated.
+"""
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import asinh, pi, sinh, sqrt
+from math import asinh, inf, pi, sinh, sqrt
 
 from exu_press.laws.contact_parameters import demand, positive
 
 __all__ = ["Stiffness", "cylindrical", "hertz", "hertz_stiffness"]
+
+BEYOND = 1e27
+"""m; its eleventh power is still a number."""
+
+DEEPEST = 1e150
+"""Penetration over clearance up to which the terms of the energy are numbers."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,10 +109,12 @@ def hertz(stiffness: float, exponent: float = 1.5) -> Stiffness:
     n_minus_1, n_plus_1 = exponent - 1.0, exponent + 1.0
 
     def force(penetration: float) -> tuple[float, float]:
-        secant = stiffness * penetration**n_minus_1
+        secant = inf if penetration > BEYOND else stiffness * penetration**n_minus_1
         return secant * penetration, exponent * secant
 
     def energy(penetration: float) -> float:
+        if penetration > BEYOND:
+            return inf
         return float(stiffness * penetration**n_plus_1 / n_plus_1)
 
     return Stiffness(force, energy)
@@ -168,6 +180,8 @@ def cylindrical(modulus: float, length: float, clearance: float) -> Stiffness:
                 + ratio * (1 / 12 + ratio * (-5 / 88 + ratio * (35 / 832 - ratio * 21 / 640)))
             )
             return float(scale * clearance**2 * ratio**2.5 * series)
+        if ratio > DEEPEST:
+            return inf
         t = asinh(sqrt(ratio))
         bracket = 0.375 * t - 0.25 * sinh(2.0 * t) + sinh(4.0 * t) / 32.0
         return 2.0 * scale * clearance**2 * bracket

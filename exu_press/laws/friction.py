@@ -24,7 +24,7 @@ def no_friction() -> Friction:
     >>> no_friction()(0.1)
     (0.0, 0.0)
     """
-    return lambda v: (0.0, 0.0)
+    return lambda v: (0.0, 0.0) if v == v else (v, v)
 
 
 def coulomb(mu_kinetic: float, regularisation_velocity: float) -> Friction:
@@ -126,7 +126,7 @@ def stribeck(
 
     def friction(v: float) -> tuple[float, float]:
         direction = tanh(v / regularisation_velocity)
-        decay = (abs(v) / stribeck_velocity) ** stribeck_exponent
+        decay = _decay(abs(v) / stribeck_velocity, stribeck_exponent)
         peak = rise * exp(-decay)
         g, v_times_slope = mu_kinetic + peak, -stribeck_exponent * decay * peak  # as in LuGre
         slope = g * (1.0 - direction * direction) / regularisation_velocity + viscous
@@ -289,9 +289,14 @@ class LuGre:
 
     def _curve(self, v: float) -> tuple[float, float]:
         """Stribeck's curve (g, v dg/dv); the product is finite at v = 0 for every exponent."""
-        decay = (abs(v) / self.stribeck_velocity) ** self.stribeck_exponent
+        decay = _decay(abs(v) / self.stribeck_velocity, self.stribeck_exponent)
         peak = (self.mu_static - self.mu_kinetic) * exp(-decay)
         return self.mu_kinetic + peak, -self.stribeck_exponent * decay * peak
+
+
+def _decay(ratio: float, exponent: float) -> float:
+    """A power of a speed over Stribeck's, up to 1e30: no machine is faster, and it is a number."""
+    return float(min(ratio, 1e30) ** exponent if ratio == ratio else ratio)
 
 
 def _demand_curve(

@@ -39,9 +39,11 @@ class LoadCurve:
             self._corners = tuple(place + shift for shift in shifts for place in self.places)
 
     def __call__(self, place: float) -> float:
-        """Return the force, N."""
+        """Return the force, N; of a place that is no number, none either."""
         x, f = self._x, self._f
         place = self._within(place)
+        if place != place:
+            return place
         if place <= x[0]:
             return f[0]
         if place >= x[-1]:

@@ -51,7 +51,7 @@ def equilibrium(
         if name in model.rigid:
             force = held(name)[0] * (1.0 if joint.journal == name else -1.0)
             words = f"{joint.name.replace('_', ' ')}: force on journal"
-            found[f"{joint.name}_force"] = vectors(force, "N", words, spherical=False)
+            found[f"{joint.name}_force"] = vectors(force, "N", words, joint.spherical)
     return found
 
 

@@ -45,13 +45,14 @@ def _of_several_faces(channels: Mapping[str, Channel], model: Model) -> dict[str
     Face by face they are in the channels, too, numbered.
     """
     found = {}
+    spherical = {joint.name for joint in model.mechanism.joints if joint.spherical}
     for part in model.parts.values():
         for joint, faces in part.faces.items():
             each = [f"{joint}_{number}_force" for number in range(1, len(faces) + 1)]
             if len(each) > 1 and each[0] in channels:
                 force = np.sum([channels[name].values for name in each], axis=0)
                 words = f"{joint.replace('_', ' ')}: force on journal"
-                found[f"{joint}_force"] = Channel(force, "N", words, "plane")
+                found[f"{joint}_force"] = vectors(force, "N", words, joint in spherical)
     return found
 
 

@@ -118,3 +118,19 @@ def test_a_stiff_table_is_a_spring():
     there = np.interp(held.time, loaded.time, loaded["slider_position"])
     assert np.abs(there - held["slider_position"]).max() < 2e-6
     assert loaded.info["newton_iterations"] < 2.0 * held.info["newton_iterations"]
+
+
+def test_a_try_that_is_no_number_is_repeated():
+    """Newton's method tries eccentricities beyond a film's clearance: all that follows is nan."""
+    scene = Scene(
+        mechanism="eccentric_press",
+        speed_rpm=60.0,
+        revolutions=1.0,
+        joints={"crank_pin": "lubricated", "balls": "dry"},
+        film={"at_contact": "stop", "viscosity": 0.003},
+        load={"cushion": {"kind": "table", "slider_position": [0, 0.02], "force": [4e4, 0]}},
+        solver={"tolerance": 3e-2},
+    )
+    result = simulate(scene)
+    assert result.completed
+    assert result.quantity("energy.residual").value < 1e-3

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
+from exu_press.mechanism import shipped_mechanism
 from exu_press.mechanism.holding import holding_of
 from exu_press.scene import flexible_press
 
@@ -72,3 +73,16 @@ def test_forces_are_those_of_constraints(name, monkeypatch):
         if channel.endswith("modes_loss") or by_modes:  # squares of small rates, 1e-8 J
             scale *= 10.0
         assert free[channel][settled] == pytest.approx(expected, abs=3e-4 * scale), channel
+
+
+def test_a_ball_on_the_frame_that_is_ideal_has_a_force_in_space():
+    drawn = shipped_mechanism("four_bar")
+    joints = tuple(replace(j, shape="spherical") if j.name == "pivot" else j for j in drawn.joints)
+    flat, ball = (
+        simulate(Scene(mechanism=m, joints={}, revolutions=0.05))
+        for m in (drawn, replace(drawn, joints=joints))
+    )
+    force = ball["pivot_force"]
+    assert force.shape == (len(ball.time), 3)
+    assert np.abs(force[:, :2] - flat["pivot_force"]).max() < 1e-9 * np.abs(force).max()
+    assert not force[:, 2].any()

@@ -84,7 +84,7 @@ def finite(length_to_diameter: float) -> FilmLaw:
     last = len(ys) - 2
 
     def law(eps: float, eps_dot: float, eps_w: float) -> FilmForce:
-        if not 0.0 <= eps < 1.0 or not math.isfinite(eps_dot + eps_w):
+        if not 0.0 <= eps < 1.0 or not math.isfinite(abs(eps_dot) + abs(eps_w)):
             return OUTSIDE
         if abs(eps_dot) + abs(eps_w) < AT_REST:
             eps_dot = AT_REST

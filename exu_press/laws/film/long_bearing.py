@@ -47,7 +47,7 @@ def pinkus() -> FilmLaw:
     """
 
     def law(eps: float, eps_dot: float, eps_w: float) -> FilmForce:
-        if not 0.0 <= eps < 1.0:
+        if not 0.0 <= eps < 1.0 or not math.isfinite(abs(eps_dot) + abs(eps_w)):
             return OUTSIDE
         if abs(eps_dot) + abs(eps_w) < AT_REST:
             eps_dot = AT_REST
@@ -121,7 +121,7 @@ def pi_film() -> FilmLaw:
     """
 
     def law(eps: float, eps_dot: float, eps_w: float) -> FilmForce:
-        if not 0.0 <= eps < 1.0:
+        if not 0.0 <= eps < 1.0 or not math.isfinite(abs(eps_dot) + abs(eps_w)):
             return OUTSIDE
         if abs(eps_dot) + abs(eps_w) < AT_REST:
             eps_dot = AT_REST

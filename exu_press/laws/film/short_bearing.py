@@ -63,7 +63,7 @@ def short(length_to_diameter: float) -> FilmLaw:
     p = 4.0 * length_to_diameter**2
 
     def law(eps: float, eps_dot: float, eps_w: float) -> FilmForce:
-        if not 0.0 <= eps < 1.0:
+        if not 0.0 <= eps < 1.0 or not math.isfinite(abs(eps_dot) + abs(eps_w)):
             return OUTSIDE
         if abs(eps_dot) + abs(eps_w) < AT_REST:
             eps_dot = AT_REST

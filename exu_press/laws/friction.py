@@ -232,7 +232,7 @@ class LuGre:
     >>> friction = LuGre(1.5, 1.0, 1e5, 316.2, 0.4, 1e-3, 2.0)
     >>> mu, slope, z1 = friction.advance(v=1e-3, z0=0.0, h=1e-3)
     >>> round(mu, 6), round(z1 * 1e6, 6)
-    (0.384184, 0.922115)
+    (0.383849, 0.922115)
 
     References
     ----------

@@ -139,6 +139,8 @@ class DryPair(Pair):
         self.approach = Approach()
         self._step = 0.0
         self._next_bristle = 0.0
+        self._sliding: float | None = None
+        self._sliding_before: float | None = None
 
     def load(
         self, e: float, e_dot: float, v_t: float, omega_j: float, omega_b: float
@@ -150,13 +152,16 @@ class DryPair(Pair):
         sliding = v_t + self.radius * omega_j - (self.radius + e) * omega_b
         friction = self.friction
         if isinstance(friction, LuGre):
-            mu, slope, bristle = friction.advance(sliding, self.bristle, self._step)
+            mu, slope, bristle = friction.advance(
+                sliding, self.bristle, self._step, self._sliding_before
+            )
         else:
             mu, slope = friction(sliding)
             bristle = 0.0
         speed = 0.0
         if self.stateful:
             self._next_bristle = bristle
+            self._sliding = sliding
             speed = self.approach.speed(penetration, e_dot)
             if penetration <= 0.0:
                 return None
@@ -200,12 +205,14 @@ class DryPair(Pair):
         """Keep bristle deflection and approach speed of the last step if it was accepted."""
         if accepted:
             self.bristle = self._next_bristle
+            self._sliding_before = self._sliding
             self.approach.accept()
         self._step = step
 
     def reset(self) -> None:
         """Relax the bristle."""
         self.bristle = self._next_bristle = 0.0
+        self._sliding = self._sliding_before = None
         self.approach.reset()
 
 

@@ -42,6 +42,8 @@ class SpatialSpherical:
         self.lubricated = False
         self._approach = Approach()
         self._next_bristle: Array = np.zeros(3)
+        self._sliding: Array | None = None
+        self._sliding_before: Array | None = None
         self._e = self._step = 0.0
         self.reset()
 
@@ -51,6 +53,7 @@ class SpatialSpherical:
             depth = self._e - self.reach
             self.path.go_on(self.eccentricity, self.relative_velocity, self._step, depth)
             self._bristle = self._next_bristle
+            self._sliding_before = self._sliding
             self._approach.accept()
         self._step = step
 
@@ -61,6 +64,7 @@ class SpatialSpherical:
         self._n, self._relative = np.array([1.0, 0.0, 0.0]), np.zeros(3)
         self._bristle = np.zeros(3)
         self._next_bristle = self._bristle
+        self._sliding = self._sliding_before = None
         self._approach.reset()
         self._touching = False
 
@@ -146,6 +150,7 @@ class SpatialSpherical:
         sliding = self._surface - n * (n @ self._surface)
         rate = float(n @ self._relative)
         self._mu, by_sliding, bristle = self._coefficient(sliding)
+        self._sliding = sliding
         self._next_bristle = bristle
         speed = self._approach.speed(penetration, rate)
         if self._touching:
@@ -180,12 +185,13 @@ class SpatialSpherical:
         friction, step = self._friction, self._step
         bristle = self._bristle - self._n * (self._n @ self._bristle)
         deflection = float(along @ bristle)
-        mu, slope, end = friction.advance(speed, deflection, step)
-        _, _, decay = friction.advance(speed, 1.0, step)
-        _, _, rest = friction.advance(speed, 0.0, step)
+        start = float(along @ self._sliding_before) if self._sliding_before is not None else None
+        mu, slope, end = friction.advance(speed, deflection, step, start)
+        _, _, decay = friction.advance(speed, 1.0, step, start)
+        _, _, rest = friction.advance(speed, 0.0, step, start)
         aside = (bristle - deflection * along) * (decay - rest)
-        rate = (aside - (bristle - deflection * along)) / step if step > 0.0 else np.zeros(3)
-        vector = mu * along + friction.sigma_0 * aside + friction.sigma_1 * rate
+        rate = aside * (friction.rate(speed, 1.0) - speed)
+        vector = mu * along + friction.sigma_0 * aside + friction.damping(speed)[0] * rate
         return vector, slope * np.eye(3), end * along + aside
 
 

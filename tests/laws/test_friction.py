@@ -69,6 +69,27 @@ def test_canudas_de_wit_1995_stick_slip_by_advance_is_first_order() -> None:
     assert orders == pytest.approx([1.0, 1.0], abs=0.06)
 
 
+def test_the_bristle_is_of_second_order() -> None:
+    """In a given, smooth motion with reversals, against its differential equation."""
+    friction = LuGre(0.24, 0.21, 7e3, 400.0, 0.0, 0.01, 2.0)
+
+    def speed(t: float) -> float:
+        return 0.05 * math.sin(40.0 * t) + 0.06
+
+    def stepped(count: int) -> float:
+        z, h = 0.0, 0.1 / count
+        for i in range(count):
+            z = friction.advance(speed((i + 1) * h), z, h, speed(i * h))[2]
+        return z
+
+    exact = solve_ivp(
+        lambda t, z: [friction.rate(speed(t), z[0])], (0.0, 0.1), [0.0], rtol=1e-11, atol=1e-16
+    ).y[0, -1]
+    errors = [abs(stepped(count) - exact) for count in (200, 400, 800)]
+    orders = [math.log2(a / b) for a, b in itertools.pairwise(errors)]
+    assert orders == pytest.approx([2.0, 2.0], abs=0.1)
+
+
 def test_canudas_de_wit_1995_presliding_loop_closes() -> None:
     """Force swept to 95 % of the break-away force and back, slowly: micrometres, a closed loop."""
     corners = ([0, 1, 3, 5, 7, 9], [0, 1.425, -1.425, 1.425, -1.425, 1.425])

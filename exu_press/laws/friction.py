@@ -303,7 +303,8 @@ class LuGre:
     def damping(self, v: float) -> tuple[float, float]:
         """sigma_1(v) [s/m] and its derivative [s^2/m^2]."""
         falling = self.sigma_1 / (PASSIVE * self.mu_kinetic)  # 1 / v_d
-        found = self.sigma_1 * exp(-((falling * v) ** 2))
+        part = falling * v
+        found = self.sigma_1 * exp(-part * part)
         return found, -2.0 * falling * falling * v * found
 
     def rate(self, v: float, z: float) -> float:

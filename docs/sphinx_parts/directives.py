@@ -26,7 +26,9 @@ def setup(app: Any) -> dict[str, Any]:
 
 
 class SceneKeys(Directive):
-    """Every table of a scene with its keys."""
+    """Every table of a scene with its keys; its text is for readers of the source."""
+
+    has_content = True
 
     def run(self) -> list[nodes.Node]:
         """Return a section a table."""
@@ -63,7 +65,9 @@ class Quantities(Directive):
 
 
 class Commands(Directive):
-    """What exu-press and each of its commands print for --help."""
+    """What exu-press and each of its commands print for --help; its text is for source readers."""
+
+    has_content = True
 
     def run(self) -> list[nodes.Node]:
         """Return a section a command."""

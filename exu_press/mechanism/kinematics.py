@@ -78,9 +78,9 @@ class Kinematics:
         self.groups, loose = groups_of(drawing)
         if loose:
             raise MotionError(
-                f"{name}: the crank alone does not determine the motion of {_listed(loose)} in the "
-                "drawing; allowed are mechanisms with one degree of freedom, the crank's, drawn "
-                "in a position where no links that move each other lie in one line",
+                f"{name}: {_listed(loose)} can move although the crank stands still; allowed is "
+                "one degree of freedom. Add the missing joint or guide. If none is missing, draw a "
+                "position in which no two connected links lie in one line",
                 tuple(loose),
             )
         try:
@@ -238,7 +238,7 @@ class Kinematics:
         if lost.apart and not lost.group.square:
             return MotionError(
                 f"{self._name}: joints and guides hold {bodies} more than once and do not agree "
-                f"{where}: one is too many, or what moves alike is not drawn exactly alike",
+                f"{where}. Remove the redundant one, or draw parts that move alike exactly alike",
                 lost.group.bodies,
                 angle,
                 self._places(angle, states),

@@ -138,7 +138,7 @@ DRIVE = (
         LOAD,
         _if_guides_rubbed,
         has=_frictionless,
-        title=f"guides of mu {RUBBING} would add",
+        title=f"guide friction at mu {RUBBING}",
         under=True,
     ),
     Quantity(

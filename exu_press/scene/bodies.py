@@ -86,13 +86,13 @@ class Flexible(Table):
     )
     flexibility_error: float | None = key(
         None,
-        "instead of modes: those that leave no more of the flexibility out",
+        "instead of modes: largest relative error of the static flexibility",
         above=0,
         at_most=0.5,
     )
     method: str = key("craig_bampton", "reduction", choices=("craig_bampton", "free"))
-    damping_ratio: float = key(0.02, "of every mode", at_least=0, at_most=0.9)
-    mesh_size: float = key(0.03, "of the tetrahedra", "m", at_least=0.001, at_most=0.1)
+    damping_ratio: float = key(0.02, "damping ratio of every mode", at_least=0, at_most=0.9)
+    mesh_size: float = key(0.03, "size of the tetrahedra", "m", at_least=0.001, at_most=0.1)
     youngs_modulus: float | None = key(
         None, "the shipped part's, or steel's 2.1e11, unless given", "Pa", above=0
     )
@@ -103,14 +103,16 @@ class Flexible(Table):
         None, "the shipped part's, or steel's 7850, unless given", "kg/m^3", above=0
     )
     origin: tuple[float, float] | None = key(
-        None, "of the solid in the drawing; [0, 0], or fitted where all faces have names", "m"
+        None,
+        "place of the solid's origin in the drawing; [0, 0], or fitted if all faces have names",
+        "m",
     )
     angle_deg: float | None = key(
-        None, "of the solid's x axis in the drawing; 0, or fitted likewise", "deg"
+        None, "direction of the solid's x axis in the drawing; 0, or fitted likewise", "deg"
     )
     woehler_stress: float | None = key(
         None,
-        "amplitude that the material stands woehler_cycles of; gives the body a life",
+        "stress amplitude endured for woehler_cycles; the summary then has the fatigue life",
         "Pa",
         above=0,
     )

@@ -26,19 +26,19 @@ class _Placed(Table):
     point beside the middle of these moves with their mean motion.
     """
 
-    body: str | None = key(None, "on which it acts; the mechanism's output unless given")
+    body: str | None = key(None, "body that it acts on; the mechanism's output unless given")
     offset: tuple[float, float] | None = key(
         None,
-        "of the point from the body's centre of mass, as drawn; 0 unless given",
+        "place of the force, from the body's centre of mass, as drawn; 0 unless given",
         "m",
         numbers=2,
     )
-    joint: str | None = key(None, "of the body, at whose centre it acts, instead of offset")
+    joint: str | None = key(None, "joint of the body, whose centre it acts at; instead of offset")
     face: tuple[Face, ...] | None = key(
-        None, "of a flexible body, in whose middle it acts: its name, or {x, y, z}", also=tuple
+        None, "face of a flexible body, in whose middle it acts: its name, or {x, y, z}", also=tuple
     )
     direction: tuple[float, float] | None = key(
-        None, "of a positive force; the output's unless given", numbers=2
+        None, "direction of a positive force; the output's unless given", numbers=2
     )
 
     def __post_init__(self) -> None:

@@ -88,7 +88,9 @@ class Motor(Table):
 
     table: ClassVar[str] = "drive"
     rated_torque: float = key(400.0, "at rated speed", "N m", above=0)
-    slip: float = key(0.05, "of the rated speed below that without load", above=0, at_most=1)
+    slip: float = key(
+        0.05, "(speed without load - rated speed) / speed without load", above=0, at_most=1
+    )
     no_load_speed_rpm: float | None = key(
         None, "without torque; speed_rpm unless given", "rpm", above=0
     )
@@ -107,7 +109,7 @@ class Motor(Table):
 
 @dataclass(frozen=True)
 class ElasticGuide(Table):
-    """Elastic instead of ideal guides (A-9): springs that hold a body's x and angle, each alone.
+    """Elastic instead of ideal guides (A-9): one spring across the guide and one against tilting.
 
     With a clearance a body's two ends, `length` apart, touch the ways instead, each with half the
     lateral stiffness and damping, and rub on them.
@@ -121,11 +123,11 @@ class ElasticGuide(Table):
     lateral_stiffness: float = key(1e9, "of every guide", "N/m", above=0)
     length: float = key(0.5, "of every guide, for its tilting stiffness", "m", above=0)
     tilting_stiffness: float | None = key(
-        None, "of every guide, instead of what its length makes", "N m/rad", above=0
+        None, "of every guide; from its length unless given", "N m/rad", above=0
     )
     clearance: float | None = key(
         None,
-        "on each side of a guided body; its two ends then touch and leave the ways",
+        "on each side of a guided body, whose two ends make contact with the guideways",
         "m",
         above=0,
     )

@@ -91,3 +91,20 @@ def test_setup_command_on_a_bare_machine(line, tmp_path):
     subprocess.run(["git", "clone", "--quiet", str(pages.ROOT), str(clone)], check=True)
     done = subprocess.run(line, shell=True, cwd=clone, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_tables_that_the_site_makes_are_explained_in_the_checkout():
+    made = r"^```\{(?:scene-keys|commands)\}\n(.*?)^```"
+    texts = [
+        found[1] for page in pages.PAGES for found in re.finditer(made, page.read_text(), re.M | re.S)
+    ]
+    assert len(texts) == 2
+    assert all("exu-press" in text for text in texts)
+
+
+def test_goals_stand_in_the_theory_alone():
+    """Pages for users state facts."""
+    told = re.compile(r"\bNOT MET\b|\bgoals?\b|\bthe aims?\b", re.IGNORECASE)
+    for_users = [page for page in pages.PAGES if "theory" not in page.parts]
+    found = {page.name: told.findall(page.read_text()) for page in for_users}
+    assert {name: words for name, words in found.items() if words} == {}

@@ -36,3 +36,7 @@ def test_builds_without_a_warning(tmp_path):
     )
     assert done.returncode == 0, done.stderr
     assert (tmp_path / "site" / "gallery" / "run_press.html").exists()
+    keys = (tmp_path / "site" / "reference" / "scene.html").read_text(encoding="utf-8")
+    section = keys.partition('<section id="keys-of-every-table">')[2]
+    assert 'id="keys-at-the-top"' in section
+    assert "Without it, run" not in keys

@@ -7,7 +7,7 @@ from exu_press.quantities.table import comparison_lines, run_lines
 def test_guides_without_friction_say_what_friction_would_take():
     result = simulate(Scene(mechanism="slider_crank", joints={}, revolutions=1.0))
     power = result.quantity("guides.slider.sliding_power").value
-    (line,) = (line for line in run_lines(result) if "guides of mu 0.1" in line)
+    (line,) = (line for line in run_lines(result) if "guide friction at mu 0.1" in line)
     assert float(line.split()[-1]) == float(f"{0.1 * power:.4g}")
 
 

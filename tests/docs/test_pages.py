@@ -94,10 +94,8 @@ def test_setup_command_on_a_bare_machine(line, tmp_path):
 
 
 def test_tables_that_the_site_makes_are_explained_in_the_checkout():
-    made = r"^```\{(?:scene-keys|commands)\}\n(.*?)^```"
-    texts = [
-        found[1] for page in pages.PAGES for found in re.finditer(made, page.read_text(), re.M | re.S)
-    ]
+    made = re.compile(r"^```\{(?:scene-keys|commands)\}\n(.*?)^```", re.MULTILINE | re.DOTALL)
+    texts = [found[1] for page in pages.PAGES for found in made.finditer(page.read_text())]
     assert len(texts) == 2
     assert all("exu-press" in text for text in texts)
 

@@ -27,6 +27,7 @@ MODULES = [
     "integrate/error",
     "integrate/monitor",
     "integrate/problem",
+    "integrate/sampling",
     "integrate/scheme",
     "integrate/stepping",
     "joints/ends",

@@ -12,7 +12,11 @@ Run with: python scripts/exudyn_models.py CHECKOUT OUT [--only NAME ...] [--tole
 """
 
 import argparse
+import contextlib
 import json
+import math
+import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -23,6 +27,9 @@ from exudyn_models.table import Model, table
 
 FOLDERS = "main/pythonDev/Examples", "main/pythonDev/TestModels"
 ONE_RUN = Path(__file__).parent / "exudyn_models" / "one_run.py"
+BUSY = 5.0
+"""Times the limit of processor time, after which a run is ended on a busy machine."""
+
 FINER = (16, 8, 4, 2, 1, 0.5)
 
 
@@ -31,21 +38,24 @@ def run(script, variant, file, limit):
     if not file.exists():
         file.parent.mkdir(parents=True, exist_ok=True)
         command = [sys.executable, str(ONE_RUN), str(script), json.dumps(variant), str(file)]
+        command.append(str(math.ceil(limit)))
         said = ""
+        one = subprocess.Popen(
+            command,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            text=True,
+            errors="replace",
+            start_new_session=True,
+        )
         try:
-            done = subprocess.run(
-                command,
-                timeout=limit,
-                stdin=subprocess.DEVNULL,
-                stdout=subprocess.DEVNULL,
-                stderr=subprocess.PIPE,
-                text=True,
-                errors="replace",
-            )
-            said = (done.stderr.strip().splitlines() or [f"exit {done.returncode}"])[-1]
-            status = "crashed"
+            said = (one.communicate(timeout=BUSY * limit)[1].strip().splitlines() or [""])[-1]
+            status = "time limit" if one.returncode == -signal.SIGXCPU else "crashed"
         except subprocess.TimeoutExpired:
             status = "time limit"
+        with contextlib.suppress(ProcessLookupError):  # what the script has started itself
+            os.killpg(one.pid, signal.SIGKILL)
         if not file.exists():
             found = {"status": status, "reason": said[:300], "seconds": limit}
             np.savez(file, found=json.dumps(found), rows=np.zeros(0))
@@ -75,7 +85,7 @@ def main():
     parser.add_argument("out", type=Path)
     parser.add_argument("--only", nargs="*", default=[], help="names of scripts")
     parser.add_argument("--tolerance", type=float, default=1e-3)
-    parser.add_argument("--limit", type=float, default=20.0, help="of each run, s")
+    parser.add_argument("--limit", type=float, default=20.0, help="processor time of each run, s")
     parser.add_argument("--again", action="store_true", help="run what has a tolerance again")
     parser.add_argument("--drop-in", action="store_true", help="with the user's steps as well")
     options = parser.parse_args()

@@ -20,6 +20,7 @@ from exu_press.integrate.constraints import (
 )
 from exu_press.integrate.contact import Gaps, fit_data
 from exu_press.integrate.error import StepError
+from exu_press.integrate.sampling import Event, Sampling
 from exu_press.integrate.scheme import ModalMass, Newton
 from exu_press.integrate.settings import Task
 from exu_press.integrate.stepping import FixedSteps, Resolution, StepControl
@@ -56,6 +57,8 @@ class Monitor:
         next_corner: Callable[[float], float],
         progress: Progress,
         max_steps: int,
+        sample: float | None = None,
+        event: Callable[[Any, float], float] | None = None,
     ) -> None:
         """Watch a run.
 
@@ -64,6 +67,8 @@ class Monitor:
             next_corner: time -> the next instant at which a load has a corner, s, or infinity.
             progress: is shown ten times a second.
             max_steps: budget.
+            sample: period of a pre-step function, s; None: the largest step, 0.0: every step.
+            event: function of the system and the time, s; steps end where its sign changes.
         """
         self.tries = self.steps = 0
         self.interrupted = self.over_budget = False
@@ -79,8 +84,18 @@ class Monitor:
         self._newton = Newton(task)
         self._gaps = Gaps(task.problem)
         self._estimate = StepError(task)
+        samples = task.problem.mbs.GetPreStepUserFunction() != 0 and not task.fixed
+        period = (task.largest if sample is None else sample) if samples else 0.0
+        self._sampling = Sampling(task, self.constraints, period)
+        self._event = Event(task, event)
+
+        def next_stop(time: float) -> float:
+            return min(next_corner(time), self._sampling.next(time))
+
         self.control: StepControl | FixedSteps = (
-            FixedSteps(task) if task.fixed else StepControl(task, self._estimate, next_corner)
+            FixedSteps(task)
+            if task.fixed
+            else StepControl(task, self._estimate, next_stop if samples else next_corner)
         )
         self.resolution = Resolution(task)
         self._iteration: Any = task.solver.it  # holds the step
@@ -133,6 +148,7 @@ class Monitor:
         now = self._accelerations.tolist()
         self._newton.begin()
         self.resolution.begin(now)
+        self._event.begin(task.start)
 
     def _before_step(self, mbs: exu.MainSystem, end: float) -> bool:
         """Return whether to go on."""
@@ -143,7 +159,7 @@ class Monitor:
         self._modal_mass.fit(end - self._time)
         self._step_change.before_try(self._time, end - self._time)
         self.over_budget = self.tries >= self.max_steps
-        if self._users[0] and not self._users[0](mbs, end):
+        if self._users[0] and not self._sampling.call(self._users[0], mbs, self._time, end):
             self.go_on = False
         return self.go_on and not (self.interrupted or self.over_budget)
 
@@ -166,7 +182,7 @@ class Monitor:
             return ACCEPTED
         if self._step_change.start_over(step):
             return [2.0, step]
-        shorter = self.control.shorter(step)
+        shorter = self.control.shorter(step) or self._event.shorter(step, self._time + step)
         return [2.0, shorter] if shorter > 0.0 else ACCEPTED
 
     def _after_step(self, mbs: exu.MainSystem, end: float) -> bool:
@@ -181,6 +197,9 @@ class Monitor:
             self._time = end
             self._gaps.close()
             self.control.accept(step)
+            self._event.accept()
+            if self._event.passed:
+                self.control.restart()
             self._newton.stepped(step)
             self.resolution.stepped(end, step, now)
         step = self.control.next_step(end)

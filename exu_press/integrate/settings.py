@@ -166,11 +166,13 @@ def inertia_factor(solver: Any) -> float:
     return factor
 
 
-def refuse_unusable(settings: exu.SimulationSettings, tolerance: float | None) -> None:
+def refuse_unusable(
+    settings: exu.SimulationSettings, tolerance: float | None, sample: float | None = None
+) -> None:
     """Refuse what cannot be integrated; warn where another method is taken than asked for.
 
     Raises:
-        InputError: the tolerance lies outside its range, the run has no end, or the integrator is
+        InputError: the tolerance or the period lies outside its range, the run has no end, or the integrator is
             not one of Exudyn's implicit ones.
     """
     integration = settings.timeIntegration
@@ -190,6 +192,8 @@ def refuse_unusable(settings: exu.SimulationSettings, tolerance: float | None) -
             f"of {SHORTEST_RUN:g} s or more, as Exudyn may end it 1e-10 s early; count time in "
             "another unit"
         )
+    if sample is not None and not 0.0 <= sample < math.inf:
+        raise InputError(f"sample = {sample!r}: allowed is a period in seconds, or 0.0")
     solver = str(integration.solverType).rsplit(".", 1)[-1]
     if solver not in IMPLICIT:
         raise InputError(

@@ -15,6 +15,7 @@ from typing import Any
 import exudyn as exu
 import numpy as np
 
+from exu_press.errors import InputError
 from exu_press.integrate.monitor import Monitor
 from exu_press.integrate.problem import Node, Problem, Scales
 from exu_press.integrate.settings import Task, Tuning, prepared, refuse_unusable
@@ -147,6 +148,8 @@ def solve_dynamic(
     scales: Scales = NO_SCALES,
     tuning: Tuning = DEFAULTS,
     next_corner: Callable[[float], float] = _never,
+    sample: float | None = None,
+    event: Callable[[exu.MainSystem, float], float] | None = None,
     bodies: Mapping[int, tuple[str, float]] | None = None,
     advice: Callable[[Problem, bool], Advice] = Advice,
     max_steps: int = 1_000_000,
@@ -172,6 +175,12 @@ def solve_dynamic(
         tuning: the numbers of step control, to vary them.
         next_corner: time (s) -> the next instant at which a load has a corner, s, or infinity;
             steps end on them.
+        sample: period of the system's pre-step function, s. Steps end on its multiples, and the
+            function is called once for each of them, with its end, as in fixed steps of that size:
+            what a controller sets is held. None: the largest step. 0.0: before every step, as are
+            always functions that change what constraints prescribe.
+        event: function (system, time in s) -> number; steps end where it changes its sign, within
+            a millionth of the largest step. Not with fixed steps.
         bodies: node number -> name and mass (kg) of its body; nodes that are not named have no say
             in errors. None: all nodes have one.
         advice: makes the words for early stops.
@@ -188,7 +197,9 @@ def solve_dynamic(
             contact deeper than its laws hold; the system is left as it was.
         exudyn.ExudynError: a user function failed.
     """
-    refuse_unusable(settings, tolerance)
+    refuse_unusable(settings, tolerance, sample)
+    if event is not None and tolerance is None:
+        raise InputError("event: allowed with a tolerance, as fixed steps end on their grid")
     problem = Problem.of(mbs, bodies)
     words = advice(problem, tolerance is not None)
     if problem.joints is not None:
@@ -196,7 +207,7 @@ def solve_dynamic(
     task = Task(problem, settings, tolerance, scales, tuning)
     solver, failure = task.solver, ""
     with Progress("run", task.end - task.start, quiet=quiet) as progress:
-        monitor = Monitor(task, next_corner, progress, max_steps)
+        monitor = Monitor(task, next_corner, progress, max_steps, sample, event)
         mbs.sys["dynamicSolver"], mbs.sys["simulationSettings"] = solver, settings
         begun = clock.perf_counter()
         # matrices of a hundred rows: further threads only wait for each other

@@ -39,7 +39,11 @@ class StepControl:
         tuning = task.tuning
         self._safety = tuning.safety
         self._factor_max, self._factor_min = tuning.factor_max, tuning.factor_min
-        self._step = task.first
+        self._step = self._first = task.first
+
+    def restart(self) -> None:
+        """Go on as at the start, where the motion is about to change."""
+        self._step = min(self._step, self._first)
 
     def shorter(self, step: float) -> float:
         """Return with which step to repeat one just tried, s, or 0.0 where it is good enough."""
@@ -95,6 +99,9 @@ class FixedSteps:
         self.error = 0.0
         self._step, self._start = task.largest, task.start
         self._size = self._next = task.first
+
+    def restart(self) -> None:
+        """Keep the grid."""
 
     def shorter(self, step: float) -> float:
         """Return 0.0: every step is good enough."""

@@ -1,7 +1,7 @@
 """Run one script of Exudyn's up to the end of its first dynamic solution, and keep what it did.
 
 A process of its own, as scripts print, open windows, crash and hang:
-python scripts/exudyn_models/one_run.py SCRIPT VARIANT FILE, with VARIANT as JSON: `tolerance` and
+python scripts/exudyn_models/one_run.py SCRIPT VARIANT FILE SECONDS, with VARIANT as JSON: `tolerance` and
 `steps` (of the settings, at most), or `times`, by which the user's own steps are made finer.
 """
 
@@ -124,7 +124,10 @@ def replace(variant, file):
                 found["status"] = "completed"
             else:
                 integration.solverType = solver
-                outcome = solve_dynamic(mbs, settings, tolerance=variant["tolerance"])
+                period = (integration.endTime - integration.startTime) / users
+                outcome = solve_dynamic(
+                    mbs, settings, tolerance=variant["tolerance"], sample=period
+                )
                 found["status"], found["reason"] = outcome.status.value, outcome.reason
                 found["tries"] = outcome.steps + outcome.rejected_steps
         except InputError as error:
@@ -160,8 +163,9 @@ def finish(file, found, mbs=None, rows=()):
 
 
 def main():
-    script, variant, file = sys.argv[1:]
+    script, variant, file, limit = sys.argv[1:]
     quiet()
+    resource.setrlimit(resource.RLIMIT_CPU, (int(limit), int(limit) + 1))
     replace(json.loads(variant), file)
     folder = str(Path(script).parent)
     os.chdir(folder)

@@ -1,0 +1,129 @@
+"""Pre-step functions are called on their grid, and steps end where events are."""
+
+import exudyn as exu
+import exudyn.utilities as items
+import numpy as np
+import pytest
+
+from exu_press import InputError, Status, solve_dynamic
+
+PERIOD = 0.02  # s
+
+
+def mass(before=None, force=0.0):
+    """A mass of a kilogram on a line, its load, and its coordinate's constraint, inactive."""
+    mbs = exu.SystemContainer().AddSystem()
+    node = mbs.AddNode(items.Node1D(referenceCoordinates=[0.0]))
+    mbs.AddObject(items.ObjectMass1D(nodeNumber=node, mass=1.0))
+    at = mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=0))
+    load = mbs.AddLoad(items.LoadCoordinate(markerNumber=at, load=force))
+    if before is not None:
+        mbs.SetPreStepUserFunction(before(load))
+    mbs.Assemble()
+    return mbs
+
+
+def settings(end=1.0):
+    chosen = exu.SimulationSettings()
+    chosen.timeIntegration.endTime, chosen.solution.file.write = end, False
+    chosen.timeIntegration.numberOfSteps = 20
+    return chosen
+
+
+def velocity(mbs):
+    return mbs.systemData.GetODE2Coordinates_t()[0]
+
+
+def test_a_controller_is_sampled_on_its_grid_and_its_output_is_held():
+    """v' = 1 - K v(t_k): v_k+1 = v_k + T (1 - K v_k), as with fixed steps of the period."""
+    called = []
+
+    def controller(load):
+        def control(mbs, time):
+            called.append(time)
+            mbs.SetLoadParameter(load, "load", 1.0 - 20.0 * velocity(mbs))
+            return True
+
+        return control
+
+    mbs = mass(controller)
+    outcome = solve_dynamic(mbs, settings(0.2), tolerance=1e-4, sample=PERIOD)
+    assert outcome.status is Status.COMPLETED, outcome.reason
+    assert called == pytest.approx(PERIOD * np.arange(1, 11))
+    expected = 0.0
+    for _ in called:
+        expected += PERIOD * (1.0 - 20.0 * expected)
+    assert velocity(mbs) == pytest.approx(expected, rel=1e-3)
+
+
+def test_without_a_period_the_largest_step_is_one():
+    """A switch that is on within a thousandth of a step of the grid's middle is not missed."""
+    times = []
+
+    def switch(load):
+        def look(mbs, time):
+            times.append(time)
+            if abs(time - 0.5) < 1e-4:
+                mbs.SetLoadParameter(load, "load", 2.0)
+            return True
+
+        return look
+
+    mbs = mass(switch)
+    assert solve_dynamic(mbs, settings(), tolerance=1e-4).status is Status.COMPLETED
+    assert times == pytest.approx(np.arange(1, 21) / 20.0)
+    assert velocity(mbs) == pytest.approx(2.0 * 0.55, rel=1e-3)
+
+
+def test_a_function_that_prescribes_a_motion_is_called_before_every_step():
+    mbs = exu.SystemContainer().AddSystem()
+    still = mbs.AddNode(items.NodePointGround())
+    node = mbs.AddNode(items.Node1D(referenceCoordinates=[0.0]))
+    mbs.AddObject(items.ObjectMass1D(nodeNumber=node, mass=1.0))
+    ends = [
+        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=number, coordinate=0))
+        for number in (still, node)
+    ]
+    held = mbs.AddObject(items.ObjectConnectorCoordinate(markerNumbers=ends))
+    times = []
+
+    def move(mbs, time):
+        times.append(time)
+        mbs.SetObjectParameter(held, "offset", 0.1 * time**3)
+        return True
+
+    mbs.SetPreStepUserFunction(move)
+    mbs.Assemble()
+    solve_dynamic(mbs, settings(), max_steps=200)
+    assert len(times) > 25
+
+
+def test_a_step_ends_right_behind_an_event():
+    """x = t^2 / 2 passes 0.1 m at sqrt(0.2) s, where its load is turned round."""
+    mbs = mass(force=1.0)
+    turned = []
+
+    def turn(mbs, time):
+        if not turned and mbs.systemData.GetODE2Coordinates()[0] >= 0.1:
+            turned.append(time)
+            mbs.SetLoadParameter(0, "load", -1.0)
+        return True
+
+    mbs.SetPostStepUserFunction(turn)
+    outcome = solve_dynamic(
+        mbs,
+        settings(),
+        tolerance=1e-4,
+        event=lambda mbs, time: mbs.systemData.GetODE2Coordinates()[0] - 0.1,
+    )
+    assert outcome.status is Status.COMPLETED, outcome.reason
+    (time,) = turned
+    assert time == pytest.approx(np.sqrt(0.2), abs=1e-6)
+    assert velocity(mbs) == pytest.approx(2.0 * np.sqrt(0.2) - 1.0, abs=2e-4)
+
+
+def test_what_cannot_be_sampled_is_refused():
+    with pytest.raises(InputError, match="sample = -1"):
+        solve_dynamic(mass(), settings(), sample=-1.0)
+    with pytest.raises(InputError, match="event: allowed with a tolerance"):
+        solve_dynamic(mass(), settings(), tolerance=None, event=lambda mbs, time: 1.0)

@@ -172,8 +172,8 @@ def refuse_unusable(
     """Refuse what cannot be integrated; warn where another method is taken than asked for.
 
     Raises:
-        InputError: the tolerance or the period lies outside its range, the run has no end, or the integrator is
-            not one of Exudyn's implicit ones.
+        InputError: the tolerance or the period lies outside its range, the run has no end, or the
+            integrator is not one of Exudyn's implicit ones.
     """
     integration = settings.timeIntegration
     low, high = TOLERANCES

@@ -1,8 +1,9 @@
 """Run one script of Exudyn's up to the end of its first dynamic solution, and keep what it did.
 
 A process of its own, as scripts print, open windows, crash and hang:
-python scripts/exudyn_models/one_run.py SCRIPT VARIANT FILE SECONDS, with VARIANT as JSON: `tolerance` and
-`steps` (of the settings, at most), or `times`, by which the user's own steps are made finer.
+python scripts/exudyn_models/one_run.py SCRIPT VARIANT FILE SECONDS, with VARIANT as JSON:
+`tolerance` and `steps` (of the settings, at most), or `times`, by which the user's own steps are
+made finer.
 """
 
 import builtins

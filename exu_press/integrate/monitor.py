@@ -84,7 +84,7 @@ class Monitor:
         self._newton = Newton(task)
         self._gaps = Gaps(task.problem)
         self._estimate = StepError(task)
-        samples = task.problem.mbs.GetPreStepUserFunction() != 0 and not task.fixed
+        samples = bool(_function(task.problem.mbs.GetPreStepUserFunction())) and not task.fixed
         period = (task.largest if sample is None else sample) if samples else 0.0
         self._sampling = Sampling(task, self.constraints, period)
         self._event = Event(task, event)

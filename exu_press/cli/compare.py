@@ -12,6 +12,7 @@ from exu_press.cli.options import (
     shipped_names,
     show_warnings,
 )
+from exu_press.columns import columns
 from exu_press.errors import InputError
 from exu_press.output import output_directory, remove_pictures, write_json
 from exu_press.quantities.differences import difference_lines
@@ -19,7 +20,7 @@ from exu_press.quantities.table import comparison_lines
 from exu_press.result import Result
 from exu_press.scene import Scene, load_scene
 from exu_press.simulation import simulate
-from exu_press.studies.compare import variants
+from exu_press.studies.compare import different_keys, variants
 from exu_press.verification import simulate_with_errors
 
 __all__ = ["EXAMPLE", "add_arguments", "execute"]
@@ -67,6 +68,8 @@ def execute(options: argparse.Namespace) -> int:
 
         save_comparison(results, directory)
     if not options.quiet:
+        scenes = {label: result.scene for label, result in results.items()}
+        print("\n".join([*columns(different_keys(scenes)), ""]))
         print("\n".join([*comparison_lines(results), *difference_lines(results)]))
         show_warnings(f"{label}: {w}" for label, s in summaries.items() for w in s["warnings"])
         print(f"written to {directory}")

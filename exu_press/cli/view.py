@@ -38,7 +38,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--colour",
         choices=("displacement", "stress"),
-        help="what the colours of flexible bodies show (default: displacement)",
+        help="quantity that the colours of flexible bodies show (default: displacement)",
     )
     parser.add_argument(
         "--exaggerate",

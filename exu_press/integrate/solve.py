@@ -119,7 +119,7 @@ class Advice:
         """Return what helps where so many constraints say the same as others."""
         return (
             f"{redundant} constraint{'s say' if redundant > 1 else ' says'} the same as others: "
-            "leave out what they repeat, or settings.linearSolver.solverType = EigenDense with "
+            "leave out the redundant ones, or settings.linearSolver.solverType = EigenDense with "
             "ignoreSingularJacobian = True"
         )
 
@@ -315,7 +315,7 @@ def _what_is_wrong(task: Task, monitor: Monitor, advice: Advice, time: float) ->
     problem = task.problem
     if problem.joints is None:  # whose films may have forces beyond all numbers
         for node in _without_forces(task, time):
-            return f"what acts on {node.name} is no number there; look at loads and user functions"
+            return f"the force on {node.name} is no number there; check loads and user functions"
     redundant = monitor.constraints.redundant()
     if redundant and not problem.mbs.sys["simulationSettings"].linearSolver.ignoreSingularJacobian:
         return advice.redundancy(redundant)
@@ -323,7 +323,7 @@ def _what_is_wrong(task: Task, monitor: Monitor, advice: Advice, time: float) ->
         names = (
             n.name for n, m in zip(problem.nodes, task.scales.masses, strict=True) if m == math.inf
         )
-        return f"nothing holds what has no mass ({', '.join(names)})"
+        return f"nothing holds the coordinates without mass ({', '.join(names)})"
     return ""
 
 

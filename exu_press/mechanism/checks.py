@@ -14,8 +14,8 @@ Kind = TypeVar("Kind")
 
 SHAPES = ("revolute", "spherical")
 
-TAKEN = {GROUND: "stands still", DRIVE: "turns a flexible crank"}
-"""Names of what a system has besides the mechanism's bodies."""
+TAKEN = {GROUND: "the frame", DRIVE: "the disc that turns a flexible crank"}
+"""Names of further bodies of a system."""
 
 RECORDED = ("drive", "frame", "guide", "shaking")
 OF_BODIES = ("guide", "modes")
@@ -56,7 +56,7 @@ def check(
     _once("guides", [guide.body for guide in guides])
     for taken, what in TAKEN.items():
         if taken in names:
-            raise InputError(f"bodies.{taken}: the name of what {what}; allowed is another one")
+            raise InputError(f"bodies.{taken}: this name means {what}; allowed is another one")
     for body in bodies:
         where = f"bodies.{body.name}"
         _positive(f"{where}.mass", body.mass, "kg")

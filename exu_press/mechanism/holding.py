@@ -303,7 +303,7 @@ def _half_held(joint: Joint, first: _Selection, second: _Selection) -> HalfHeld:
                 best = apart, HalfHeld(body, angles[0])
     if best is None or best[0] > KEPT:
         raise InputError(
-            f"joints.{joint.name}: other joints hold half of it, in a direction that neither "
-            f"{joint.journal} nor {joint.bearing} keeps; allowed is such a joint with clearance"
+            f"joints.{joint.name}: one of its constraints is redundant, in a direction that turns "
+            f"with neither {joint.journal} nor {joint.bearing}; give it clearance"
         )
     return best[1]

@@ -118,7 +118,7 @@ def _hold_along(system: System, joint: Joint, half: HalfHeld, flexible: str) -> 
     axes = [round(abs(c), 9) for c in (math.cos(angle), math.sin(angle))]
     if half.body not in {*guided, GROUND} or sorted(axes) != [0.0, 1.0]:
         raise InputError(
-            f"bodies.{flexible}: other joints hold half of joints.{joint.name}; allowed is a "
+            f"bodies.{flexible}: one constraint of joints.{joint.name} is redundant; allowed is a "
             "rigid body there, such a joint with clearance, or one between guides along x or y"
         )
     markers = [system.joint_marker(joint, *end) for end in system.mechanism.ends(joint)]

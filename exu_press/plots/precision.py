@@ -70,7 +70,7 @@ def precision_figure(report: Report, name: str) -> Figure:
     handles: list[Artist] = [
         Line2D([], [], label=s, **_style(s, index)) for index, s in enumerate(_in_order(series))
     ]
-    handles.append(Patch(color=SHADE, label="below what the\nreference can tell"))
+    handles.append(Patch(color=SHADE, label="below the error\nof the reference"))
     key.legend(handles=handles, loc="upper left", handlelength=2.6, borderaxespad=0.0)
     return figure
 

@@ -252,7 +252,7 @@ GUIDES = (
         "sliding_power",
         "W",
         "mean of side force times sliding speed, over whole revolutions: times a coefficient of "
-        "friction, what the guide dissipates",
+        "power that the guide dissipates by friction",
         LOAD,
         _sliding_power,
         Place.GUIDE,

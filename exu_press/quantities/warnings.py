@@ -27,9 +27,7 @@ def run_warnings(result: Result) -> list[str]:
     found, scene = [], result.scene
     residual = energy_residual(result)
     if result.info["own_items"]:
-        found.append(
-            "no energy balance: what your own items put in, store and dissipate is not known"
-        )
+        found.append("no energy balance: the energy of your own items is not known")
     if residual is not None and residual > RESIDUAL:
         found.append(
             f"the energy balance misses {residual:.2g} of the energy: try a smaller "

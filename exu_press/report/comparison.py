@@ -12,6 +12,7 @@ from exu_press.report.html import page, picture, table, warnings
 from exu_press.report.run import scene_parts, warnings_of
 from exu_press.result import Result
 from exu_press.stored import from_json, shown
+from exu_press.studies.compare import different_keys
 
 __all__ = ["comparison_report"]
 
@@ -26,6 +27,7 @@ def comparison_report(file: Path) -> str:
     results = {label: Result.load(path) for label, path in _runs(file).items()}
     summaries = {label: result.summary() for label, result in results.items()}
     head, *rows = comparison_cells(results)
+    keys, *changed = different_keys({label: run.scene for label, run in results.items()})
     with tempfile.TemporaryDirectory() as folder:
         shown = [
             picture(path, CAPTIONS.get(path.stem, path.stem))
@@ -42,6 +44,7 @@ def comparison_report(file: Path) -> str:
         f"{', '.join(results)}; {file.parent.name}/{file.name}",
         [
             ("Warnings", warnings(told)),
+            ("Differences of the scenes", table(keys, changed)),
             ("Results", table(head, rows)),
             ("Pictures", "\n".join(shown)),
             *scene_parts(richest.scene),

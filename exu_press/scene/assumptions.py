@@ -63,7 +63,7 @@ ASSUMPTIONS = (
     Assumption(10, "contact does not pull", ("contact.tension",)),
     Assumption(11, "viscosity", ("film.viscosity",)),
     Assumption(12, "bearing length", ("film.length",)),
-    Assumption(13, "what a film does at eccentricity ratio 1", ("film.at_contact",)),
+    Assumption(13, "behaviour of a film at eccentricity ratio 1", ("film.at_contact",)),
     Assumption(
         14,
         "length and end of the blanking pulse",

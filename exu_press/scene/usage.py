@@ -57,6 +57,6 @@ def unused_keys(scene: Mapping[str, Any]) -> dict[str, str]:
     if peek(scene.get("guide"), "clearance") is None:
         found |= {f"guide.{name}": "guide.clearance is not given" for name in OF_THE_WAYS}
     else:
-        why = "guide.clearance is given: two ends bear what tilts"
+        why = "guide.clearance is given: the two ends of the body carry its tilting moment"
         found |= dict.fromkeys(("guide.tilting_stiffness", "guide.tilting_damping"), why)
     return found

@@ -57,7 +57,7 @@ class SceneAdvice(Advice):
         """Return what helps a film that broke down."""
         slips = self._slips()
         thicker = "film.at_contact = 'mixed', or a larger film.viscosity or film.length"
-        return f"what was meant instead of this: {slips}" if slips else thicker
+        return f"another value, as this one is hardly meant: {slips}" if slips else thicker
 
     def smallest(self) -> str:
         """Return what helps where steps became too small."""

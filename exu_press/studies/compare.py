@@ -1,10 +1,21 @@
-"""The variants of one scene."""
+"""The variants of one scene, and the keys in which scenes differ."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
 
 from exu_press.errors import InputError
 from exu_press.scene import Scene
 from exu_press.scene.joint import DEFAULT_KINDS
 
-__all__ = ["variants"]
+__all__ = ["different_keys", "variants"]
+
+MOST_KEYS = 20
+"""Keys that are listed one by one."""
+
+ABSENT, IDEAL = "-", "ideal"
+
+OPTIONAL = ("bodies.", "drive.", "guide.", "load.")
+"""Tables that a scene has or has not, by its user's choice."""
 
 
 def variants(scene: Scene) -> dict[str, Scene]:
@@ -37,3 +48,51 @@ def variants(scene: Scene) -> dict[str, Scene]:
             by_joint = {f"joints.{name}": kind for name, kind in change.items()}
             found[bodies + label] = base.replace(by_joint)
     return found
+
+
+def different_keys(scenes: Mapping[str, Scene]) -> list[list[str]]:
+    """Return the keys in which scenes differ as a table: the head, then a line for each key.
+
+    A table that only some scenes have is one line. Laws and dimensions that a scene does not use
+    follow from its joints and its mechanism, and have none.
+
+    Args:
+        scenes: by label.
+
+    Returns:
+        the head alone where the scenes are the same.
+    """
+    flat = [dict(_flat("", scene.to_dict())) for scene in scenes.values()]
+    rows: dict[str, list[str]] = {}
+    for key in sorted(dict.fromkeys(key for keys in flat for key in keys)):
+        usual = IDEAL if key.startswith("joints.") and key.endswith(".kind") else ABSENT
+        values = [_shown(keys[key]) if key in keys else usual for keys in flat]
+        if len({value for value in values if value != ABSENT}) > 1:
+            rows[key] = values
+        elif ABSENT in values and key.startswith(OPTIONAL):
+            parts = key.split(".")[: 1 if key.startswith(("drive", "guide")) else 2]
+            rows[f"[{'.'.join(parts)}]"] = [ABSENT if v == ABSENT else "given" for v in values]
+    told = [[key, *values] for key, values in rows.items()]
+    if (more := len(told) - MOST_KEYS) > 0:
+        told = [*told[:MOST_KEYS], [f"{more} more keys", *["..."] * len(flat)]]
+    return [["differences", *scenes], *told]
+
+
+def _flat(name: str, value: Any) -> Iterator[tuple[str, Any]]:
+    """Yield the keys of nested tables by their dotted names; a mechanism by its name alone."""
+    if not isinstance(value, Mapping):
+        yield name, value
+    elif name == "mechanism":
+        yield name, value["name"]
+    else:
+        for key, inner in value.items():
+            yield from _flat(f"{name}.{key}" if name else key, inner)
+
+
+def _shown(value: Any) -> str:
+    """Return a value as a table has it, and the length of a long list."""
+    if isinstance(value, Sequence) and not isinstance(value, str):
+        return ", ".join(map(_shown, value)) if len(value) < 4 else f"{len(value)} values"
+    if isinstance(value, bool):
+        return str(value).lower()
+    return f"{value:.10g}" if isinstance(value, float) else str(value)

@@ -33,7 +33,7 @@ def delivered_lines(delivered: Delivered, within: float) -> list[str]:
 
 
 def _chaos(result: Result) -> list[str]:
-    """Return from when on errors exceed the figures, and how they grow."""
+    """Return the instant after which errors are larger than the figures, and their growth."""
     horizon, rate = result.info["horizon"], result.info["lyapunov_exponent"]
     if horizon is None:
         return []
@@ -46,6 +46,6 @@ def _chaos(result: Result) -> list[str]:
         if impacts > 0.0:
             growth += f", {math.exp(rate / impacts):.2g}-fold an impact"
     return [
-        f"errors exceed the figures from t = {horizon * 1e3:.4g} ms on, "
+        f"estimated errors are larger than the figures after t = {horizon * 1e3:.4g} ms on, "
         f"{angle:.0f} deg of the crank after the start{growth}"
     ]

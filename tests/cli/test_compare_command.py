@@ -28,7 +28,9 @@ def test_scenes_and_a_result(mine, tmp_path, capsys):
     assert main(["compare", *given, *QUICK, "--out", str(out)]) == 0
     captured = capsys.readouterr()
     head = captured.out.splitlines()[0]
-    assert re.split("  +", head) == ["", "mine", "press", "first", "first 2"]
+    assert re.split("  +", head) == ["differences", "mine", "press", "first", "first 2"]
+    (mechanism,) = (line for line in captured.out.splitlines() if line.startswith("mechanism "))
+    assert re.split("  +", mechanism)[2:] == ["press"] * 3
     comparison = json.loads((out / "comparison.json").read_text())
     assert list(comparison) == ["mine", "press", "first", "first 2"]
     assert comparison["mine"]["scene"]["joints"]["wrist_pin"]["kind"] == "dry"

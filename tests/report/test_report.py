@@ -71,7 +71,18 @@ def test_pages_are_whole_and_load_nothing(parsed, name):
             ["Warnings", "Results", "Pictures", "Energy and solver", "Scene", "Assumptions"],
             6,
         ),
-        ("compare", ["Warnings", "Results", "Pictures", "Scene", "Assumptions"], 2),
+        (
+            "compare",
+            [
+                "Warnings",
+                "Differences of the scenes",
+                "Results",
+                "Pictures",
+                "Scene",
+                "Assumptions",
+            ],
+            2,
+        ),
         ("sweep", ["Warnings", "Pictures", "Runs", "Scene", "Assumptions"], 1),
     ],
 )

@@ -1,0 +1,62 @@
+"""The keys in which scenes differ."""
+
+from exu_press import Scene
+from exu_press.studies.compare import MOST_KEYS, different_keys, variants
+
+
+def rows(scenes):
+    head, *lines = different_keys(scenes)
+    assert head[1:] == list(scenes)
+    return {line[0]: line[1:] for line in lines}
+
+
+def test_the_same_scenes_have_none():
+    assert rows({"a": Scene(), "b": Scene()}) == {}
+
+
+def test_variants_differ_in_their_joints_alone():
+    found = rows(variants(Scene()))
+    assert found["joints.crank_pin.kind"] == ["ideal", "dry", "lubricated"]
+    assert found["joints.ball_left.kind"] == ["ideal", "dry", "dry"]
+    assert all(name.endswith(".kind") for name in found)
+
+
+def test_a_changed_number_and_a_table_that_one_scene_has():
+    base = Scene()
+    other = base.replace({"speed_rpm": 300.0, "joints.crank_pin.clearance": 5e-5, "guide": {}})
+    loaded = other.replace("load.punch", {"kind": "blanking", "force": 1e4})
+    found = rows({"a": base, "b": loaded})
+    assert found["speed_rpm"] == ["240", "300"]
+    assert found["joints.crank_pin.clearance"] == ["0.0001", "5e-05"]
+    assert found["[guide]"] == ["-", "given"] == found["[load.punch]"]
+    assert len(found) == 4
+
+
+def test_a_long_table_ends_with_the_number_of_further_keys():
+    sizes = {
+        key: 1.01 * value
+        for key, value in Scene().to_dict()["press"].items()
+        if key.endswith("_mass")
+    }
+    many = {f"press.{key}": value for key, value in sizes.items()}
+    friction = {
+        "friction.sigma_0": 1.0,
+        "friction.sigma_1": 1.0,
+        "friction.mu_static": 0.02,
+        "contact.stiffness": 1e9,
+        "contact.damping_max": 1.0,
+        "contact.damping_depth": 1.0,
+        "speed_rpm": 10.0,
+        "revolutions": 1.0,
+        "gravity": 1.0,
+        "start_angle_deg": 1.0,
+        "solver.tolerance": 0.01,
+        "film.length": 0.2,
+        "film.viscosity": 0.2,
+        "solver.max_step_deg": 1.0,
+        "press.bottom_dead_centre": 0.4,
+    }
+    changed = Scene().replace({**many, **friction})
+    _, *lines = different_keys({"a": Scene(), "b": changed})
+    assert len(lines) == MOST_KEYS + 1
+    assert lines[-1][0] == f"{len(many) + len(friction) - MOST_KEYS} more keys"

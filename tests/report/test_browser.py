@@ -67,6 +67,40 @@ def test_a_report_opens_whole_and_fits_a_laptop(pages, tmp_path, name):
     assert told["widest"] <= told["width"]
 
 
+TAP = """<script>
+addEventListener("load", () => {
+  const image = document.images[0];
+  const before = image.getBoundingClientRect().width;
+  image.click();
+  document.documentElement.dataset.told = JSON.stringify({
+    before: before,
+    after: image.getBoundingClientRect().width,
+    natural: image.naturalWidth,
+    scroll: document.documentElement.scrollWidth,
+    width: document.documentElement.clientWidth,
+  });
+});
+</script>"""
+
+
+@pytest.mark.parametrize("name", ["run", "compare", "sweep"])
+def test_a_report_fits_a_phone_and_a_tap_enlarges_a_picture(pages, tmp_path, name):
+    page = tmp_path / "page.html"
+    page.write_text(pages[name].read_text(encoding="utf-8").replace("</body>", f"{TAP}</body>"))
+    flags = [flag for flag in FLAGS if "window-size" not in flag] + ["--window-size=390,800"]
+    command = [BROWSER, *flags, f"--user-data-dir={tmp_path / 'profile'}", "--dump-dom"]
+    done = subprocess.run(
+        [*command, page.as_uri()], capture_output=True, text=True, timeout=120, check=True
+    )
+    found = re.search(r'data-told="([^"]*)"', done.stdout)
+    assert found is not None, "the page's script did not run"
+    told = json.loads(found[1].replace("&quot;", '"'))
+    assert told["width"] <= 500
+    assert told["scroll"] <= told["width"]
+    assert told["before"] < told["width"]
+    assert told["after"] == told["natural"] > 1000
+
+
 def test_the_browser_tells_errors(tmp_path):
     """What the test above relies on: a broken page is told from a good one."""
     page = tmp_path / "page.html"

@@ -121,7 +121,7 @@ def _checked(field: dataclasses.Field[Any], name: str, value: Any) -> Any:
         and (not meta["choices"] or value in meta["choices"])
     )
     if not right:
-        raise InputError(f"{name} = {value!r}: allowed is {_allowed(field)}")
+        raise InputError(f"{name} = {value!r:.200}: allowed is {_allowed(field)}")
     return value
 
 
@@ -152,13 +152,13 @@ def table_from(table: type[T], name: str, data: Any) -> T:
     if isinstance(data, table):
         return data
     if not isinstance(data, Mapping):
-        raise InputError(f"{name} = {data!r}: allowed is a table of keys")
+        raise InputError(f"{name} = {data!r:.200}: allowed is a table of keys")
     known = [field.name for field in dataclasses.fields(table)]  # type: ignore[arg-type]
     for given in data:
         if given not in known:
             path = f"{name}.{given}" if name else given
             raise InputError(
-                f"{path} = {data[given]!r}: "
+                f"{path} = {data[given]!r:.200}: "
                 + (
                     f"is {RENAMED[path]} now"
                     if path in RENAMED

@@ -4,13 +4,20 @@ import json
 import os
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
 from exu_press.errors import InputError
 
-__all__ = ["PICTURES", "output_directory", "remove_pictures", "replacing", "write_json"]
+__all__ = [
+    "PICTURES",
+    "check_writable",
+    "output_directory",
+    "remove_pictures",
+    "replacing",
+    "write_json",
+]
 
 PICTURES = {
     "run": ("slider", "orbit", "force", "press", "energy"),
@@ -55,7 +62,25 @@ def replacing(path: Path) -> Iterator[Path]:
     except OSError as error:
         raise InputError(f"{path}: cannot be written ({error.strerror})") from None
     finally:
-        partial.unlink(missing_ok=True)
+        with suppress(OSError):  # on a file system that became read-only
+            partial.unlink(missing_ok=True)
+
+
+def check_writable(path: Path) -> None:
+    """Refuse a file that cannot be written, before the work that it is to hold.
+
+    Raises:
+        InputError: there is no such directory, or nothing can be written into it.
+    """
+    if not path.parent.is_dir():
+        raise InputError(f"{path}: there is no directory {path.parent}")
+    if path.is_dir():
+        raise InputError(f"{path}: is a directory; allowed is a file")
+    try:
+        with tempfile.TemporaryFile(dir=path.parent):
+            pass
+    except OSError as error:
+        raise InputError(f"{path}: cannot be written ({error.strerror})") from None
 
 
 def write_json(path: Path, data: Any) -> None:

@@ -2,6 +2,9 @@
 
 __all__ = ["InputError"]
 
+MOST_LETTERS = 8000
+"""Of a message: lists of what is allowed have up to half of them."""
+
 
 class InputError(ValueError):
     """Something the user gave is wrong: the message says what, where, and what is allowed.
@@ -10,8 +13,12 @@ class InputError(ValueError):
     """
 
     def __str__(self) -> str:
-        """Return the message; what no terminal can show of a name in a file stands as in Python."""
-        return "".join(
-            letter if letter.isprintable() or letter == "\n" else repr(letter)[1:-1]
-            for letter in super().__str__()
-        )
+        """Return the message in one line, a very long one without its middle.
+
+        What no terminal can show of a name in a file stands as in Python.
+        """
+        text = super().__str__()
+        if len(text) > MOST_LETTERS:
+            half = MOST_LETTERS // 2
+            text = f"{text[:half]} [...] {text[-half:]}"
+        return "".join(letter if letter.isprintable() else repr(letter)[1:-1] for letter in text)

@@ -111,10 +111,15 @@ class StepFile:
 
     def _bytes(self) -> bytes:
         """Return the file's content if it is a STEP file at all."""
+        path = Path(self.path)
         try:
-            content = Path(self.path).read_bytes()
+            if path.exists() and not path.is_file():
+                raise InputError(f"STEP file {path}: is no regular file")
+            content = path.read_bytes()
         except OSError as error:
-            raise InputError(f"STEP file {self.path}: cannot be read ({error.strerror})") from error
+            raise InputError(f"STEP file {path}: cannot be read ({error.strerror})") from error
+        except ValueError as error:
+            raise InputError(f"STEP file {path}: cannot be read ({error})") from error
         if not content.lstrip().startswith(b"ISO-10303-21"):
             raise InputError(
                 f"STEP file {self.path}: is not one (a STEP file begins with ISO-10303-21)"

@@ -10,6 +10,7 @@ from netgen.occ import OCCGeometry as OccGeometry
 
 from fe_models.dimensions import Box, CrankDimensions, LinkageDimensions
 from fe_models.errors import InputError
+from fe_models.step_check import check_step
 
 __all__ = ["crank_shaft", "freeze", "from_step", "linkage", "thaw"]
 
@@ -60,6 +61,7 @@ def linkage(d: LinkageDimensions) -> Any:
 
 def from_step(path: Path, scale: float, faces: Mapping[str, Box]) -> Any:
     """Return the solid of a STEP file, scaled to m; faces wholly inside a box take its name."""
+    check_step(path)
     try:
         shape = OccGeometry(str(path)).shape
         solids = len(shape.solids)

@@ -47,6 +47,8 @@ class RowFile(AbstractContextManager["RowFile", None]):
             *lines, torn = text.split(b"\n")
             for number, line in enumerate(lines, start=1):
                 self._read(number, line)
+            if torn and not torn.startswith(b"{"):
+                self._read(len(lines) + 1, torn)
             if torn:
                 os.truncate(path, len(text) - len(torn))
             self._file = path.open("ab")
@@ -61,8 +63,8 @@ class RowFile(AbstractContextManager["RowFile", None]):
                     raise InputError(f"row.{name}: allowed is a text")
         except InputError as error:
             raise InputError(
-                f"{self._path}, line {number}: not a row of a batch ({error}); allowed is a "
-                "directory of its own for every batch"
+                f"{self._path}, line {number}: not a row of a batch ({error}); delete the line, "
+                "and its run is done again, or take another directory"
             ) from None
         self._found[record["key"]] = record["row"], record["time_limit"]
 

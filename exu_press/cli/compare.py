@@ -14,6 +14,7 @@ from exu_press.cli.options import (
 )
 from exu_press.columns import columns
 from exu_press.errors import InputError
+from exu_press.integrate import Status
 from exu_press.output import output_directory, remove_pictures, write_json
 from exu_press.quantities.differences import difference_lines
 from exu_press.quantities.table import comparison_lines
@@ -55,6 +56,8 @@ def execute(options: argparse.Namespace) -> int:
         if isinstance(one, Scene) and not options.quiet:
             print(f"{label} ...", file=sys.stderr)
         results[label] = run(one, quiet=options.quiet) if isinstance(one, Scene) else one
+        if results[label].info["status"] == Status.INTERRUPTED.value and isinstance(one, Scene):
+            break  # Ctrl-C means all of them
     summaries = {label: result.summary() for label, result in results.items()}
     for label, result in results.items():
         place = output_directory(directory / label.replace(" ", "_"))

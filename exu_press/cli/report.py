@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 
 from exu_press.errors import InputError
-from exu_press.output import replacing
+from exu_press.output import check_writable, replacing
 
 __all__ = ["EXAMPLE", "add_arguments", "execute"]
 
@@ -32,8 +32,7 @@ def execute(options: argparse.Namespace) -> int:
     target = Path(options.out) if options.out else file.parent / "report.html"
     if target.suffix.lower() not in (".html", ".htm"):
         raise InputError(f"--out {target}: allowed is a name ending in .html")
-    if not target.parent.is_dir():
-        raise InputError(f"--out {target}: there is no directory {target.parent}")
+    check_writable(target)
     text = report_of(kind, file)
     with replacing(target) as partial:
         partial.write_text(text, encoding="utf-8")

@@ -4,6 +4,7 @@ import argparse
 import sys
 from pathlib import Path
 
+from exu_press.batch.task import FAILED, TIME_LIMIT, WORKER_DIED
 from exu_press.cli.options import show_warnings
 from exu_press.errors import InputError
 from exu_press.output import remove_pictures
@@ -42,10 +43,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def execute(options: argparse.Namespace) -> int:
-    """Run the study; return 0, or 3 after Ctrl-C. Runs that fail are rows of the table."""
+    """Run the study; return 0, or 3 after Ctrl-C or if all runs failed. Failed runs are rows."""
     directory = Path(options.out or Path("out") / Path(options.study).stem)
     try:
-        _execute(options, directory)
+        return _execute(options, directory)
     except KeyboardInterrupt:
         print(
             f"exu-press: interrupted: finished runs are kept in {directory}; the same command "
@@ -53,16 +54,21 @@ def execute(options: argparse.Namespace) -> int:
             file=sys.stderr,
         )
         return 3
-    return 0
 
 
-def _execute(options: argparse.Namespace, directory: Path) -> None:
+def _execute(options: argparse.Namespace, directory: Path) -> int:
+    from exu_press.quantities import quantities_of
     from exu_press.studies.sweep import load_study, sweep, table_lines
 
     study = load_study(options.study)
     unknown = [key for key in options.over if key not in study.keys]
     if unknown:
         raise InputError(f"--over {unknown[0]}: allowed are {', '.join(study.keys)}")
+    for name in options.show:
+        if not any(name in quantities_of(scene) for scene in study.scenes):
+            raise InputError(
+                f"--show {name}: allowed are {', '.join(quantities_of(study.scenes[0]))}"
+            )
     table = sweep(study, directory, workers=options.workers, dask=options.dask, quiet=options.quiet)
     remove_pictures(directory, "sweep")
     written = ["table.csv", "table.nc"]
@@ -75,3 +81,7 @@ def _execute(options: argparse.Namespace, directory: Path) -> None:
         print("\n".join(table_lines(table, options.show)))
         show_warnings(warning for scene in study.scenes for warning in scene_warnings(scene))
         print("written:", ", ".join(written), f"in {directory}")
+    if set(table["status"]) <= {FAILED, TIME_LIMIT, WORKER_DIED}:
+        print(f"exu-press: no run reached an end: {table['reason'][0]}", file=sys.stderr)
+        return 3
+    return 0

@@ -212,7 +212,8 @@ class Monitor:
     @contextmanager
     def _catching_interrupts(self) -> Iterator[None]:
         """Let Ctrl-C end the run after the step under way, so that nothing is lost."""
-        if threading.current_thread() is not threading.main_thread():
+        ignored = signal.getsignal(signal.SIGINT) is signal.SIG_IGN
+        if ignored or threading.current_thread() is not threading.main_thread():
             yield
             return
 

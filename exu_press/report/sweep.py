@@ -16,6 +16,7 @@ from exu_press.scene.warnings import scene_warnings
 from exu_press.stored import LARGEST, from_json
 from exu_press.studies.sweep import Study, Table
 from exu_press.studies.sweep.lines import shown
+from exu_press.studies.sweep.table import cell
 from exu_press.studies.sweep.units import unit_of
 
 __all__ = ["sweep_report"]
@@ -70,7 +71,7 @@ def _table(file: Path) -> Table:
         raise InputError(f"{file}: not a sweep of exu_press: {error}") from None
     except (ValueError, TypeError, csv.Error):
         raise InputError(f"{file}: not a sweep of exu_press") from None
-    asked = {name: tuple(point[name] for point in study.points) for name in study.keys}
+    asked = {name: tuple(cell(point[name]) for point in study.points) for name in study.keys}
     if not {"status", "reason"} <= set(head) or any(table.get(n) != asked[n] for n in asked):
         raise InputError(f"{file}: does not belong to the study.json beside it")
     return Table(study, table)

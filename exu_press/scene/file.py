@@ -9,7 +9,7 @@ from exu_press.errors import InputError
 from exu_press.scene.bodies import STEP_FILES
 from exu_press.scene.loads import with_files_beside
 from exu_press.scene.scene import Scene
-from exu_press.toml import read_toml
+from exu_press.toml import parse_toml, read_toml
 
 __all__ = ["load_scene", "parse_assignment"]
 
@@ -66,3 +66,5 @@ def parse_assignment(text: str) -> tuple[str, Any]:
         return name, tomllib.loads(f"value = {value}")["value"]
     except tomllib.TOMLDecodeError:
         return name, value
+    except (RecursionError, ValueError):
+        return name, parse_toml(f"value = {value}", f"--set {name}")

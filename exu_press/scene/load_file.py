@@ -5,6 +5,7 @@ import math
 from pathlib import Path
 
 from exu_press.errors import InputError
+from exu_press.input_file import read_text
 from exu_press.scene.load import COLUMNS
 
 __all__ = ["read_load_table"]
@@ -22,12 +23,7 @@ def read_load_table(path: str | Path) -> dict[str, list[float]]:
             places that do not increase.
     """
     path = Path(path)
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read ({error.strerror})") from None
-    except UnicodeDecodeError:
-        raise InputError(f"{path}: not a text in UTF-8") from None
+    text = read_text(path)
     lines = [
         (number, line.strip())
         for number, line in enumerate(text.splitlines(), 1)
@@ -53,10 +49,9 @@ def read_load_table(path: str | Path) -> dict[str, list[float]]:
 
 def _numbers(where: str, line: str) -> tuple[float, float]:
     """Return the two numbers of a line."""
-    values = next(csv.reader([line]))
     try:
-        place, force = map(float, values)
-    except ValueError:
+        place, force = map(float, next(csv.reader([line])))
+    except (ValueError, csv.Error):
         raise InputError(f"{where}: {line[:80]!r}; allowed are two numbers") from None
     if not (math.isfinite(place) and math.isfinite(force)):
         raise InputError(f"{where}: {line[:80]!r}; allowed are finite numbers")

@@ -40,6 +40,9 @@ RPM = math.pi / 30  # rad/s
 SHORTEST_RUN = 1e-7
 """s, as `solve_dynamic` takes it."""
 
+LONGEST_RUN = 1e9
+"""s, thirty years."""
+
 ONLY_WHERE_GIVEN = ("drive", "guide")
 """Tables that a scene without them does not have: constant speed, ideal guides."""
 
@@ -63,7 +66,7 @@ class Scene(Table):
         also=Mechanism,
     )
     speed_rpm: float = key(240.0, "crank speed; with [drive] at the start", "rpm", above=0)
-    revolutions: float = key(2.0, "length of the run, at speed_rpm", above=0)
+    revolutions: float = key(2.0, "length of the run, at speed_rpm", above=0, at_most=1e7)
     start_angle_deg: float = key(0.0, "crank angle at the start", "deg")
     gravity: float = key(9.81, "gravitational acceleration, downwards", "m/s^2", at_least=0)
     joints: Joints = dataclasses.field(default=cast(Any, None))  # until its mechanism is known
@@ -82,10 +85,10 @@ class Scene(Table):
         """Check the keys, refuse what the scene does not use and fill in what it does."""
         object.__setattr__(self, "mechanism", _asked(self.mechanism))
         super().__post_init__()
-        if self.duration < SHORTEST_RUN:
+        if not SHORTEST_RUN <= self.duration <= LONGEST_RUN:
             raise InputError(
                 f"revolutions = {self.revolutions:g} at speed_rpm = {self.speed_rpm:g} is a run of "
-                f"{self.duration:g} s: allowed is {SHORTEST_RUN:g} s or more"
+                f"{self.duration:g} s: allowed are {SHORTEST_RUN:g} to {LONGEST_RUN:g} s"
             )
         unused = unused_keys(
             {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}

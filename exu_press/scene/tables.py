@@ -121,7 +121,7 @@ class ElasticGuide(Table):
 
     table: ClassVar[str] = "guide"
     lateral_stiffness: float = key(1e9, "of every guide", "N/m", above=0)
-    length: float = key(0.5, "of every guide, for its tilting stiffness", "m", above=0)
+    length: float = key(0.5, "of every guide, for its tilting stiffness", "m", above=0, at_most=100)
     tilting_stiffness: float | None = key(
         None, "of every guide; from its length unless given", "N m/rad", above=0
     )

@@ -80,8 +80,9 @@ def _beside(result: Result, companions: Companions) -> Result:
     """Return a result with its errors; without, with a warning, if the companions have failed."""
     try:
         return _told(result, companions.results() if result.completed else ())
-    except RuntimeError as error:
-        warnings.warn(f"no errors of the figures are known: {error}", stacklevel=3)
+    except (RuntimeError, KeyboardInterrupt) as error:  # the run itself is done: it is kept
+        why = "interrupted" if isinstance(error, KeyboardInterrupt) else str(error)
+        warnings.warn(f"no errors of the quantities are known: {why}", stacklevel=3)
         return _told(result, ())
 
 

@@ -14,7 +14,7 @@ from PIL import Image
 
 from exu_press.errors import InputError
 from exu_press.mechanism.shapes import COLOURS as BODIES
-from exu_press.output import replacing
+from exu_press.output import check_writable, replacing
 from exu_press.plots.style import COLOURS
 from exu_press.view.animation import Animation, Painter
 from exu_press.view.flexible_panel import COLOURS as SURFACES
@@ -33,6 +33,9 @@ KEPT_COLOURS = [
 NUMBER = re.compile(r"%0?\d*d")
 """In a file name: the frame's number, as in frame_%04d.png."""
 
+MOST_DIGITS = 9
+"""Of a frame's number."""
+
 ALLOWED = ".mp4, .gif, .png, or .png with the frame's number, as in frame_%04d.png"
 
 
@@ -47,8 +50,9 @@ def check_target(path: Path) -> None:
         raise InputError(f"--save {path}: allowed is a name ending in {ALLOWED}")
     if path.suffix.lower() == ".mp4":
         _ffmpeg(path)
-    if not path.parent.is_dir():
-        raise InputError(f"--save {path}: there is no directory {path.parent}")
+    if (number := NUMBER.search(path.name)) and int(number[0].strip("%d") or 0) > MOST_DIGITS:
+        raise InputError(f"--save {path}: allowed are at most {MOST_DIGITS} digits of a frame")
+    check_writable(path)
 
 
 def save_picture(animation: Animation, frame: int, path: Path) -> Path:

@@ -86,7 +86,14 @@ def test_a_column_that_is_not_there(tmp_path, capsys):
     assert main([*arguments, "--workers", "1", "--show", "nothing"]) == 2
     message = capsys.readouterr().err
     assert "--show nothing: allowed are" in message and message.count("\n") == 1
-    assert (tmp_path / "o" / "table.csv").exists()  # the runs are not lost for a wrong name
+    assert not (tmp_path / "o").exists()  # nothing is run for a wrong name
+
+
+def test_a_sweep_without_a_single_run_says_so(tmp_path, capsys):
+    path = study(tmp_path, top="time_limit = 0.001")
+    arguments = ["sweep", str(path), "--quiet", "--workers", "1", "--out", str(tmp_path / "o")]
+    assert main(arguments) == 3
+    assert "no run reached an end" in capsys.readouterr().err
 
 
 def test_a_printed_column_can_be_asked_for(tmp_path, capsys):

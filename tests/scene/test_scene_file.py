@@ -80,7 +80,7 @@ def test_not_toml(tmp_path, text):
 def test_not_a_text_file(tmp_path):
     path = tmp_path / "scene.toml"
     path.write_bytes(b"\xff\xfe\x00")
-    assert refusal(path).startswith(f"{path}: not a TOML file")
+    assert refusal(path).startswith(f"{path}: is not a text in UTF-8")
 
 
 def test_missing_file(tmp_path):
@@ -89,7 +89,7 @@ def test_missing_file(tmp_path):
 
 
 def test_directory_for_a_file(tmp_path):
-    assert refusal(tmp_path).startswith(f"{tmp_path}: cannot be read")
+    assert refusal(tmp_path).startswith(f"{tmp_path}: is a directory")
 
 
 @pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)

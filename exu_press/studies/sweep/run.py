@@ -17,7 +17,7 @@ from exu_press.studies.sweep.table import Table, table_of
 
 __all__ = ["run_scene", "sweep"]
 
-OURS = ("study.json", FILE, "table.csv", "table.nc")
+TABLES = ("table.csv", "table.nc")
 
 
 def sweep(
@@ -112,11 +112,12 @@ def _claim(directory: Path, study: Study) -> None:
     path = directory / "study.json"
     wanted = json.loads(json.dumps(study.to_dict()))
     if not path.exists():
-        taken = [name for name in OURS if (directory / name).exists()]
+        taken = [name for name in TABLES if (directory / name).exists()]
         if taken:
             raise InputError(
-                f"{directory}: holds {taken[0]} of something else; allowed is a directory of the "
-                "study's own"
+                f"{directory}: has {taken[0]} and no study.json, so that it may belong to another "
+                f"study; allowed is a directory of the study's own, or to delete "
+                f"{' and '.join(taken)}; runs of this study in {FILE} are kept"
             )
         write_json(path, wanted)
         return

@@ -17,8 +17,9 @@ from exu_press.quantities.uncertain import uncertain
 from exu_press.stored import shown
 from exu_press.studies.sweep.points import flat
 from exu_press.studies.sweep.study import Study
+from exu_press.toml import toml_text
 
-__all__ = ["RUN_TIMES", "Table", "table_of"]
+__all__ = ["RUN_TIMES", "Table", "cell", "table_of"]
 
 Value = str | float | bool | None
 
@@ -100,7 +101,8 @@ def table_of(study: Study, rows: Sequence[Mapping[str, Any]], files: Sequence[st
         zip(study.points, study.scenes, rows, strict=True)
     ):
         scalars = _scalars({**row, "scene": scene.to_dict()})
-        head = {**point, "status": scalars.pop("status"), "reason": scalars.pop("reason")}
+        given = {name: cell(value) for name, value in point.items()}
+        head = {**given, "status": scalars.pop("status"), "reason": scalars.pop("reason")}
         if files:
             head["file"] = files[number]
         times = {name: scalars.pop(name) for name in RUN_TIMES if name in scalars}
@@ -110,6 +112,11 @@ def table_of(study: Study, rows: Sequence[Mapping[str, Any]], files: Sequence[st
     )
     lines: list[dict[str, Value]] = [{**times, **scalars, **head} for head, scalars, times in each]
     return Table(study, {name: tuple(line.get(name) for line in lines) for name in names})
+
+
+def cell(value: Any) -> Value:
+    """Return what varies as a cell has it: a list or a table as TOML."""
+    return toml_text(value) if isinstance(value, (Mapping, list, tuple)) else value
 
 
 def _scalars(row: Mapping[str, Any]) -> dict[str, Any]:

@@ -25,6 +25,9 @@ LARGER = 4.0
 LOOK_EVERY = 8
 """Steps after which turning velocities are looked at, as that takes half as long as a step."""
 
+LATE = 0.99
+"""Of the largest value of late, what is left of it after a step."""
+
 LEAST_PENETRATION = 1e-3
 """Over the clearance, up to which a penetration counts as this."""
 
@@ -67,9 +70,16 @@ class ErrorPerStep:
             return cls(max(whole, 1e-2 * tolerance))
         return cls(whole, duration * math.sqrt(tolerance) / many_steps)
 
-    def at(self, step: float) -> float:
-        """Return what a step (s) may have of velocities."""
-        return self.whole if step >= self.shortest else self.whole * step / self.shortest
+    def at(self, step: float, most: float = math.inf) -> float:
+        """Return what a step (s) may have of velocities.
+
+        Args:
+            step: s.
+            most: to which the errors of all steps can add up, over what the run may have.
+        """
+        if step >= self.shortest:
+            return self.whole
+        return self.whole * min(1.0, max(step / self.shortest, 1.0 / most))
 
     def relaxing(self, step: float) -> float:
         """Return what a step (s) may have of first-order coordinates."""
@@ -141,6 +151,50 @@ class Turning:
         return max(0.0, rest) * turned / self._squares
 
 
+class Quiet:
+    """How fast a vibration is, that each step misses the same of: its velocity's amplitude, m/s.
+
+    All errors that steps make of a vibration add up to no more than the vibration itself. One whose
+    amplitude is below the tolerance need not be followed, however long it lasts; if what a step may
+    have shrank with the step there, steps would shrink until they resolve it, a thousandfold.
+
+    A vibration of the amplitude V and the angular frequency omega has the velocity's third
+    derivative b = omega^3 V. Its change from step to step, over the step and over b, is omega, and
+    2 / h where the step h is too long to tell. Both are the largest of late, as each is zero at
+    times.
+    """
+
+    def __init__(self, scales: FoundScales) -> None:
+        """Take the scales of the motion."""
+        self._scales = scales
+        self._before: list[float] = []
+        self._size = self._rate = 0.0
+        self._tried: tuple[list[float], float, float] = [], 0.0, 0.0
+
+    def amplitude(self, change: list[float], step: float) -> float:
+        """Return it, or infinity where it is not known yet.
+
+        Args:
+            change: of the accelerations' rate within a step, in SI over seconds.
+            step: s.
+        """
+        bend = [value / step for value in change]
+        size = max(self._scales.norm(bend), LATE * self._size)
+        rate = 0.0
+        if self._before:
+            turn = [a - b for a, b in zip(bend, self._before, strict=True)]
+            rate = max(self._scales.norm(turn) / step, LATE * self._rate)
+        self._tried = bend, size, rate
+        if rate <= 0.0:
+            return math.inf
+        omega = min(rate / size, 2.0 / step)
+        return size / (omega * omega * omega)
+
+    def accept(self) -> None:
+        """Remember the step last tried."""
+        self._before, self._size, self._rate = self._tried
+
+
 class BodyError:
     """Tells from the accelerations at three instants what a step missed; 1 is what it may.
 
@@ -161,6 +215,7 @@ class BodyError:
         scales: FoundScales,
         tuning: Tuning,
         noise: float,
+        tolerance: float = 1.0,
     ) -> None:
         """Take the bodies and the scales.
 
@@ -170,8 +225,9 @@ class BodyError:
             scales: of the motion, which knows the bodies.
             tuning: numbers.
             noise: what rounded positions make of accelerations, times the step's square, m.
+            tolerance: of the run.
         """
-        self._scales, self._per_step = scales, per_step
+        self._scales, self._per_step, self._tolerance = scales, per_step, tolerance
         self._noise = noise
         self._constant = tuning.velocity_constant
         self._before = self._now = accelerations
@@ -186,6 +242,8 @@ class BodyError:
         self._common = self._common_before = 0.0  # of the bends of two steps, likewise
         self._step = self._step_before = 0.0
         self._most = scales.norm(accelerations)  # so far, m/s^2
+        self._quiet = Quiet(scales)
+        self._share = math.inf  # of what errors can add up to, over what the run may have
 
     def tried(self, now: list[float], step: float) -> float:
         """Return the error of a step (s) that ends with these accelerations."""
@@ -197,6 +255,10 @@ class BodyError:
         else:
             part = step * self._part_changed(rate)
             self.change = [part * value for value in rate]
+        if step < self._per_step.shortest:
+            allowed = self._tolerance * self._scales.speed
+            if allowed > 0.0:
+                self._share = self._quiet.amplitude(self.change, step) / allowed
         return self.error(self.change, step)
 
     def _part_changed(self, rate: list[float]) -> float:
@@ -240,7 +302,7 @@ class BodyError:
 
     def _limit(self, step: float, noise: float, grows: float) -> float:
         """Return what a velocity may be off by in a step (s), m/s, if that grows by a factor."""
-        whole = self._per_step.at(step) * self._scales.speed
+        whole = self._per_step.at(step, self._share) * self._scales.speed
         return max(whole / grows, self._constant * noise / step)
 
     def of_jump(self) -> float:
@@ -285,6 +347,7 @@ class BodyError:
             self._bend_before = self._bend if self._rate_before else []
             self._most = max(self._most, self._scales.norm(self._now))
         self._before, self._rate_before = self._now, self.rate
+        self._quiet.accept()
 
 
 class JointError:
@@ -500,7 +563,7 @@ class StepError:
                 for j in problem.joints.joints
             ]
         start = self.start or problem.start.accelerations.tolist()
-        return BodyError(start, per_step, self._scales, tuning, noise)
+        return BodyError(start, per_step, self._scales, tuning, noise, self._tolerance)
 
     def _left_in_constraints(self) -> float:
         """Return how far the last digits of constraints move a body, m.

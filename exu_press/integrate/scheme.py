@@ -16,13 +16,16 @@ from exu_press.arrays import Array
 from exu_press.integrate.problem import FLEXIBLE, MODES, modal_item
 from exu_press.integrate.settings import SAME, Task, inertia_factor
 
-__all__ = ["FlexibleJacobian", "ModalMass", "Newton", "follow_modes"]
+__all__ = ["FlexibleJacobian", "LastingJacobian", "ModalMass", "Newton", "follow_modes"]
 
 BALANCE = 0.2
 """Of the tolerance, to which part of the usual forces Newton's method balances them."""
 
 PATIENCE = 4
 """Newton iterations after which rounding is thought of; most steps take one or two."""
+
+LONGEST_PAUSE = 64
+"""Steps without another try to keep a Jacobian."""
 
 REACH = 2.0
 """Over the last step, how far ahead its rate of change is believed by the predictor."""
@@ -51,7 +54,11 @@ class Newton:
         self._mbs, self._reference = problem.mbs, problem.reference
         self._part = BALANCE * task.tolerance
         self._rounding = task.tuning.rounding
-        self._jacobian = FlexibleJacobian(task) if problem.modal_stiffness else None
+        self._jacobian: FlexibleJacobian | LastingJacobian | None = None
+        if problem.modal_stiffness:
+            self._jacobian = FlexibleJacobian(task)
+        elif not task.every_jacobian:
+            self._jacobian = LastingJacobian(task)
         current = problem.current
         self._positions, self._velocities = current.positions, current.velocities
         self._accelerations, self._multipliers = current.accelerations, current.multipliers
@@ -94,8 +101,8 @@ class Newton:
             self._accept(self._tolerance())
             if self._jacobian is not None:
                 self._jacobian.begin(step)
-        elif iteration == 2 and self._jacobian is not None:
-            self._jacobian.wears()
+        elif iteration in (2, 3) and self._jacobian is not None:
+            self._jacobian.wears(iteration)
         elif iteration == PATIENCE:
             self._accept(max(self._tolerance(), self._rounded()))
 
@@ -165,6 +172,42 @@ class Newton:
             self._accepted = self._solver.newton.absoluteTolerance = residual
 
 
+class LastingJacobian:
+    """Keeps Newton's matrix from step to step, while steps have one size and it serves.
+
+    In large systems, and where it is differentiated through functions in Python, a Jacobian takes
+    as long as ten iterations or more. A kept one may take two iterations; a third one gets a fresh
+    one. Where that happens, the motion changes the matrix too fast, and fresh ones are made for as
+    many steps as have been tried in vain before, doubled.
+    """
+
+    def __init__(self, task: Task) -> None:
+        """Look at the solver of a task."""
+        self._convergence: Any = task.solver.conv
+        self._step = 0.0  # that it was made for
+        self._kept = False
+        self._pause, self._wait = 1, 0  # steps with fresh ones: after the next failure, and now
+
+    def begin(self, step: float) -> None:
+        """Choose whether the step (s) about to be tried starts with the Jacobian there is."""
+        self._kept = self._wait == 0 and abs(step - self._step) <= SAME * step
+        if not self._kept:
+            self._convergence.jacobianUpdateRequested = True
+            self._step = step
+        if self._wait:
+            self._wait -= 1
+
+    def wears(self, iteration: int) -> None:
+        """Be told that a step has needed so many iterations."""
+        if not self._kept:
+            return
+        if iteration == 2:
+            self._convergence.jacobianUpdateRequested = True
+        else:
+            self._kept, self._wait = False, self._pause
+            self._pause = min(2 * self._pause, LONGEST_PAUSE)
+
+
 class FlexibleJacobian:
     """Newton's matrix of a system with flexible bodies, which are differentiated but once.
 
@@ -200,7 +243,7 @@ class FlexibleJacobian:
         self._convergence.jacobianUpdateRequested = not self._kept
         self._serves = self._joints is not None
 
-    def wears(self) -> None:
+    def wears(self, iteration: int) -> None:
         """Be told that a step needs a second iteration; if that does not do, make a fresh one."""
         self._serves = False
         if self._kept:

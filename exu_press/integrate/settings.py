@@ -30,6 +30,9 @@ MOST_HALVED = 2.0**10
 RELATIVE_RESIDUAL = 1e-10
 """Of the first residual: where Newton's method ends if it cannot get further."""
 
+LARGE = 60
+"""Coordinates of a system in which a Jacobian takes far longer than an iteration."""
+
 TOLERANCES = 1e-8, 0.1
 """Between these a tolerance means something."""
 
@@ -126,6 +129,8 @@ class Task:
         largest: step, s.
         smallest: step, s.
         first: step, s.
+        every_jacobian: whether each step gets a fresh one: impacts change it all the time, and in
+            small systems it costs little.
         spectral_radius: at infinity, of generalized-alpha.
     """
 
@@ -156,6 +161,8 @@ class Task:
             usual = of_film if problem.lubricated else tuning.first_step * largest
             self.first = max(integration.initialStepSize or usual, self.smallest)
         self.first = min(self.first, largest)
+        impacts = problem.joints is not None or problem.switching
+        self.every_jacobian = self.fixed or impacts or len(problem.reference) < LARGE
         stir = tuning.rounding / (1.0 - min(self.spectral_radius, 0.95)) ** 2
         self.scales = FoundScales(scales, problem, largest, self.first, stir)
 
@@ -217,11 +224,12 @@ def refuse_unusable(
 
 
 @contextmanager
-def prepared(settings: exu.SimulationSettings, problem: Problem, smallest: float) -> Iterator[None]:
+def prepared(settings: exu.SimulationSettings, task: Task) -> Iterator[None]:
     """Set what step control needs in Exudyn's settings, and put everything back.
 
-    One Jacobian a step: with Exudyn's default (one as long as it seems to converge) dry contact
-    drifts by 4 % at 1e-4 s; a Jacobian an iteration costs more than the iterations it saves.
+    With clearance joints one Jacobian a step: with Exudyn's default (one as long as it seems to
+    converge) dry contact drifts by 4 % at 1e-4 s; a Jacobian an iteration costs more than the
+    iterations it saves.
 
     A contact of ours opens and closes within Newton's iterations, so nothing is left to iterate on.
     The step control's word counts: above 1 the step is repeated. Data variables of Exudyn's own
@@ -235,7 +243,7 @@ def prepared(settings: exu.SimulationSettings, problem: Problem, smallest: float
     linear = settings.linearSolver
     wanted: list[tuple[Any, str, Any]] = [
         (newton, "useModifiedNewton", True),
-        (newton, "modifiedNewtonJacUpdatePerStep", True),
+        (newton, "modifiedNewtonJacUpdatePerStep", task.every_jacobian),
         (newton, "modifiedNewtonContractivity", 0.5),
         (newton, "relativeTolerance", RELATIVE_RESIDUAL),
         (newton, "maxIterations", 25),
@@ -244,14 +252,14 @@ def prepared(settings: exu.SimulationSettings, problem: Problem, smallest: float
         (discontinuous, "useRecommendedStepSize", True),
         (integration, "adaptiveStep", True),
         (integration, "adaptiveStepDecrease", 0.5),
-        (integration, "minimumStepSize", smallest),
+        (integration, "minimumStepSize", task.smallest),
         (integration, "adaptiveStepRecoverySteps", 2**30),  # growth is decided in `stepping`
         (integration, "verboseMode", 0),
         (alpha, "computeInitialAccelerations", alpha.computeInitialAccelerations),
         (alpha, "useNewmark", False),
         (alpha, "useIndex2Constraints", False),
     ]
-    if not problem.switching:
+    if not task.problem.switching:
         wanted.append((discontinuous, "maxIterations", 1))
     if linear.solverType == exu.LinearSolverType.EXUdense:
         wanted.append((linear, "solverType", exu.LinearSolverType.EigenDense))

@@ -213,7 +213,7 @@ def solve_dynamic(
         # matrices of a hundred rows: further threads only wait for each other
         with (
             monitor.attached(),
-            prepared(settings, problem, task.smallest),
+            prepared(settings, task),
             _silent_console(),
             one_thread(),
         ):

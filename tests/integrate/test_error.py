@@ -3,12 +3,14 @@
 import math
 from types import SimpleNamespace
 
+import exudyn as exu
+import exudyn.utilities as items
 import numpy as np
 import pytest
 from stand_in import problem_at
 
-from exu_press import Scene, simulate
-from exu_press.integrate.error import BodyError, ErrorPerStep, JointError, Turning
+from exu_press import Scene, Status, simulate, solve_dynamic
+from exu_press.integrate.error import BodyError, ErrorPerStep, JointError, Quiet, Turning
 from exu_press.integrate.problem import FoundScales, Node, Scales
 from exu_press.integrate.settings import Tuning
 from exu_press.joints.path import Path
@@ -256,3 +258,45 @@ def test_euler_parameters_turn_too():
         return np.array([0.0, *velocity, 0.0]), np.array([0.0, *acceleration, 0.0])
 
     assert turning_after(motion, quaternion=True) == pytest.approx(30.0)
+
+
+def test_a_vibration_below_the_tolerance_is_not_followed_however_long_it_lasts():
+    """Beside a swing at 1 m/s something vibrates at 1600 Hz and 1e-5 m/s, for 3200 periods."""
+    mbs = exu.SystemContainer().AddSystem()
+    ground = mbs.AddNode(items.NodePointGround())
+    still = mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=ground, coordinate=0))
+    for omega, speed in ((2.0, 1.0), (1e4, 1e-5)):
+        node = mbs.AddNode(items.Node1D(referenceCoordinates=[0.0], initialVelocities=[speed]))
+        mbs.AddObject(items.ObjectMass1D(nodeNumber=node, mass=1.0))
+        at = mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=0))
+        mbs.AddObject(
+            items.ObjectConnectorCoordinateSpringDamper(
+                markerNumbers=[still, at], stiffness=omega**2
+            )
+        )
+    mbs.Assemble()
+    settings = exu.SimulationSettings()
+    settings.timeIntegration.endTime, settings.solution.file.write = 2.0, False
+    outcome = solve_dynamic(mbs, settings, tolerance=1e-3, max_steps=4000)
+    assert outcome.status is Status.COMPLETED, outcome.reason
+    speed = mbs.systemData.GetODE2Coordinates_t()[0]
+    assert speed == pytest.approx(math.cos(4.0), abs=2e-3)
+
+
+def test_the_amplitude_of_a_vibration_is_told_by_its_accelerations():
+    """v = V cos(omega t), sampled forty times a period; and where a step is too long to tell."""
+    nodes = (Node(0, "a", 0, 1, 1.0, 1),)
+    scales = FoundScales(Scales(1.0, 1.0), problem_at(nodes, np.zeros(1)), 1.0)
+    scales.begin(np.eye(1))
+    quiet, omega, step = Quiet(scales), 2.0 * math.pi, 1.0 / 40.0
+    assert quiet.amplitude([1.0], step) == math.inf
+    for i in range(60):
+        bend = 3.0 * omega**3 * math.sin(omega * i * step)  # of V = 3 m/s
+        found = quiet.amplitude([bend * step], step)
+        quiet.accept()
+    assert found == pytest.approx(3.0, rel=0.3)
+    quiet = Quiet(scales)
+    for i in range(60):
+        found = quiet.amplitude([(-1.0) ** i * 8.0], 1.0)
+        quiet.accept()
+    assert found == pytest.approx(1.0)

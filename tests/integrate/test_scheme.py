@@ -269,3 +269,36 @@ def test_systems_without_modes_get_no_item():
     follow_modes(mbs)
     assert modal_item(mbs) is None
     assert mbs.systemData.NumberOfObjects() == 0
+
+
+def test_the_jacobian_of_a_large_system_is_kept():
+    """A string of a hundred masses, whose force is a function: one Jacobian asks it 200 times."""
+    mbs, count, asked = exu.SystemContainer().AddSystem(), 100, []
+
+    def force(mbs, time, item, q, q_t):
+        asked.append(time)
+        q = np.concatenate([[0.0], q, [0.0]])
+        return 1e4 * (q[:-2] - 2.0 * q[1:-1] + q[2:])
+
+    shape = np.sin(np.pi * np.arange(1, count + 1) / (count + 1))
+    node = mbs.AddNode(
+        items.NodeGenericODE2(
+            referenceCoordinates=np.zeros(count),
+            initialCoordinates=shape,
+            initialCoordinates_t=np.zeros(count),
+            numberOfODE2Coordinates=count,
+        )
+    )
+    mbs.AddObject(
+        items.ObjectGenericODE2(
+            nodeNumbers=[node], massMatrix=np.eye(count), forceUserFunction=force
+        )
+    )
+    mbs.Assemble()
+    settings = exu.SimulationSettings()
+    settings.timeIntegration.endTime, settings.solution.file.write = 1.0, False
+    outcome = solve_dynamic(mbs, settings, tolerance=1e-3)
+    assert outcome.status is Status.COMPLETED, outcome.reason
+    omega = 200.0 * math.sin(math.pi / (2.0 * (count + 1)))
+    assert mbs.systemData.GetODE2Coordinates() == pytest.approx(shape * math.cos(omega), abs=2e-3)
+    assert len(asked) < 60 * outcome.steps

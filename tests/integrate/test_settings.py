@@ -48,9 +48,11 @@ def test_settings_are_put_back_even_after_an_error(name):
     EXAMPLES[name].build(mbs)
     mbs.Assemble()
     chosen = settings()
-    before, discontinuous = chosen.GetDictionary(), chosen.timeIntegration.discontinuous
-    own = discontinuous.maxIterations
-    with pytest.raises(ZeroDivisionError), prepared(chosen, Problem.of(mbs), 1e-7):
+    discontinuous = chosen.timeIntegration.discontinuous
+    own, before = discontinuous.maxIterations, chosen.GetDictionary()
+    task = Task(Problem.of(mbs), chosen, 1e-3, Scales(), Tuning())
+    task.smallest = 1e-7
+    with pytest.raises(ZeroDivisionError), prepared(chosen, task):
         assert chosen.timeIntegration.minimumStepSize == 1e-7
         assert chosen.linearSolver.solverType == exu.LinearSolverType.EigenDense
         assert discontinuous.maxIterations == (own if name == "stick-slip" else 1)

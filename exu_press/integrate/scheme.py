@@ -244,9 +244,9 @@ class FlexibleJacobian:
         self._serves = self._joints is not None
 
     def wears(self, iteration: int) -> None:
-        """Be told that a step needs a second iteration; if that does not do, make a fresh one."""
+        """Be told of a second iteration, or a third; for the latter, make a fresh one."""
         self._serves = False
-        if self._kept:
+        if self._kept and iteration == 2:
             self._convergence.jacobianUpdateRequested = True
 
     def _compute(self, solver: Any, mbs: exu.MainSystem, settings: exu.SimulationSettings) -> bool:

@@ -6,9 +6,9 @@ from functools import partial
 
 import exudyn as exu
 
-from exu_press.integrate import Outcome, Status
+from exu_press.integrate import Outcome, Scales, Status, Tuning
 from exu_press.integrate.problem import Problem
-from exu_press.integrate.settings import prepared
+from exu_press.integrate.settings import Task, prepared
 from exu_press.joints import overlay_of
 from exu_press.result import record
 from exu_press.scene import Scene
@@ -92,7 +92,9 @@ def _with_newton(scene: Scene, mode: str, step: float) -> Measured:
     silent, exu.config.printToConsole = exu.config.printToConsole, False
     start, cpu_start = time.perf_counter(), time.process_time()
     try:
-        with prepared(settings, Problem.of(model.mbs, None), SMALLEST):
+        task = Task(Problem.of(model.mbs), settings, None, Scales(), Tuning())
+        task.smallest = SMALLEST
+        with prepared(settings, task):
             newton.useModifiedNewton, newton.modifiedNewtonJacUpdatePerStep = NEWTON_MODES[mode]
             model.mbs.SolveDynamic(settings, showHints=False)
         status, reason = Status.COMPLETED, ""

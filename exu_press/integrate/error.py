@@ -255,7 +255,7 @@ class BodyError:
         else:
             part = step * self._part_changed(rate)
             self.change = [part * value for value in rate]
-        if step < self._per_step.shortest:
+        if last and step < self._per_step.shortest:
             allowed = self._tolerance * self._scales.speed
             if allowed > 0.0:
                 self._share = self._quiet.amplitude(self.change, step) / allowed

@@ -47,6 +47,10 @@ IMPLICIT = "GeneralizedAlpha", "TrapezoidalIndex2"
 """Exudyn's solvers that take the same settings; the second one is the first with other numbers."""
 
 
+NEWMARKS_RADIUS = 0.9
+"""Spectral radius, at most, of generalized-alpha in the place of Newmark's method."""
+
+
 @dataclass(frozen=True)
 class Tuning:
     """The numbers of step control, error estimate, predictor and step change.
@@ -149,7 +153,7 @@ class Task:
         self.fixed = tolerance is None
         self.tolerance = FIXED_STEPS if tolerance is None else tolerance
         self.start, self.end = integration.startTime, integration.endTime
-        self.spectral_radius = integration.generalizedAlpha.spectralRadius
+        self.spectral_radius = _spectral_radius(settings)
         self.largest = largest = (self.end - self.start) / integration.numberOfSteps
         self.smallest = integration.minimumStepSize
         room = 10.0 * self.smallest  # to repeat a film's first step in, before rounding shows
@@ -214,13 +218,26 @@ def refuse_unusable(
             f"{alpha.spectralRadius!r}: allowed is a number above 0.0, up to 1.0; with 0.0 no step "
             "can be changed without ringing"
         )
-    if solver != IMPLICIT[0] or alpha.useNewmark or alpha.useIndex2Constraints:
+    if _switched(settings):
         warnings.warn(
             "the settings ask for Newmark's method or constraints of index 2: solved with "
-            f"{IMPLICIT[0]}, constraints of index 3 and spectralRadius = {alpha.spectralRadius:g}, "
-            "whose local error is known",
+            f"{IMPLICIT[0]}, constraints of index 3 and spectralRadius = "
+            f"{_spectral_radius(settings):g}, whose local error is known",
             stacklevel=3,
         )
+
+
+def _switched(settings: exu.SimulationSettings) -> bool:
+    """Return whether the settings ask for another implicit method than ours."""
+    integration = settings.timeIntegration
+    alpha, solver = integration.generalizedAlpha, str(integration.solverType)
+    return bool(alpha.useNewmark or alpha.useIndex2Constraints or not solver.endswith(IMPLICIT[0]))
+
+
+def _spectral_radius(settings: exu.SimulationSettings) -> float:
+    """Return it; Newmark's method has none, and 1.0 does not damp constraints of index 3."""
+    given: float = settings.timeIntegration.generalizedAlpha.spectralRadius
+    return min(given, NEWMARKS_RADIUS) if _switched(settings) else given
 
 
 @contextmanager
@@ -256,6 +273,7 @@ def prepared(settings: exu.SimulationSettings, task: Task) -> Iterator[None]:
         (integration, "adaptiveStepRecoverySteps", 2**30),  # growth is decided in `stepping`
         (integration, "verboseMode", 0),
         (alpha, "computeInitialAccelerations", alpha.computeInitialAccelerations),
+        (alpha, "spectralRadius", task.spectral_radius),
         (alpha, "useNewmark", False),
         (alpha, "useIndex2Constraints", False),
     ]

@@ -7,11 +7,11 @@ import numbers
 import types
 import typing
 from collections.abc import Iterable, Mapping
-from typing import Any, ClassVar, TypeVar
+from typing import Any, ClassVar, Self, TypeVar
 
 from exu_press.errors import InputError
 
-__all__ = ["RENAMED", "Table", "key", "nearest", "table_from"]
+__all__ = ["RENAMED", "Table", "key", "nearest", "table_from", "table_with"]
 
 T = TypeVar("T")
 
@@ -40,11 +40,14 @@ def key(
     choices: tuple[str, ...] = (),
     also: type | None = None,
     numbers: int | None = None,
+    source: str = "",
+    example: float | None = None,
 ) -> Any:
     """Declare one key of a scene table: its default, meaning, unit and allowed range.
 
     `also` is a class whose objects are allowed as they are; `numbers` says that the value is a list
-    of so many numbers, of any number of them where that is 0.
+    of so many numbers, of any number of them where that is 0. `source` says where a default is
+    from that decides results; `example` is shown where a key has none and is needed.
     """
     metadata = {
         "meaning": meaning,
@@ -55,6 +58,8 @@ def key(
         "choices": choices,
         "also": also,
         "numbers": numbers,
+        "source": source,
+        "example": example,
     }
     return dataclasses.field(default=default, metadata=metadata)
 
@@ -84,6 +89,19 @@ class Table:
     """A table of the scene: frozen, and checked once, when it is made."""
 
     table: ClassVar[str] = ""
+
+    def __new__(cls, *values: Any, **keys: Any) -> Self:
+        """Remember which keys are given, so that a default gives way to a mechanism's own."""
+        made = super().__new__(cls)
+        names = [field.name for field in dataclasses.fields(cls)][: len(values)]
+        object.__setattr__(made, "_given", frozenset([*names, *keys]))
+        return made
+
+    @property
+    def given(self) -> dict[str, Any]:
+        """The keys that were given, and what they are."""
+        names: frozenset[str] = self._given  # type: ignore[attr-defined]
+        return {f.name: getattr(self, f.name) for f in dataclasses.fields(self) if f.name in names}
 
     def __post_init__(self) -> None:
         """Check every key; raise InputError for the first one that is not allowed."""
@@ -166,6 +184,13 @@ def table_from(table: type[T], name: str, data: Any) -> T:
                 )
             )
     return table(**data)
+
+
+def table_with(table: type[T], name: str, data: Any, usual: Mapping[str, Any]) -> T:
+    """Return the table `name` of a scene; what `data` does not give is as in `usual`."""
+    if isinstance(data, table):
+        data = typing.cast(Table, data).given
+    return table_from(table, name, {**usual, **data} if isinstance(data, Mapping) else data)
 
 
 def nearest(name: Any, known: Iterable[str]) -> str:

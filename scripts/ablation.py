@@ -19,6 +19,7 @@ import exudyn.utilities as items
 import numpy as np
 
 from exu_press import Scene, Status, Tuning, solve_dynamic
+from exu_press.mechanism.press import TABLE_2
 from exu_press.scene import flexible_press
 
 GRID = 4000  # instants at which runs are compared
@@ -114,10 +115,19 @@ SYSTEMS: dict[str, Callable] = {
     "press dry": partial(scene, joints=DRY, revolutions=0.15),
     "press flexible": partial(scene, bodies=flexible_press(modes=8), revolutions=0.12),
     "slider-crank dry": partial(
-        scene, mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=0.15
+        scene,
+        mechanism="slider_crank",
+        joints={"crank_pin": "dry"},
+        revolutions=0.15,
+        contact=TABLE_2["contact"],
+        friction=TABLE_2["friction"],
     ),
     "four-bar lubricated": partial(
-        scene, mechanism="four_bar", joints={"crank_pin": "lubricated"}, revolutions=0.2
+        scene,
+        mechanism="four_bar",
+        joints={"crank_pin": {"kind": "lubricated", "clearance": 1e-4, "radius": 0.07}},
+        film={"viscosity": 0.4, "length": 0.1},
+        revolutions=0.2,
     ),
     "pendulum": partial(system, build=pendulum, end=3.0),
     "triple pendulum": partial(system, build=partial(pendulum, links=3), end=1.0),

@@ -1,4 +1,4 @@
-"""What restitution contact parameters deliver: the press's defaults, and what c_max does to them.
+"""What restitution contact parameters deliver: the paper's, and what c_max does to them.
 
 Run with: python scripts/contact_restitution.py
 """
@@ -10,7 +10,7 @@ from exu_press.laws.contact import DAMPING_LAWS, delivered_restitution, hertz, s
 
 argparse.ArgumentParser(description=__doc__).parse_args()
 contact = Scene().contact
-assert contact is not None
+assert contact is not None and contact.stiffness and contact.damping_max and contact.damping_depth
 stiffness = hertz(contact.stiffness, contact.exponent)
 mass = 1347.0  # slider, kg
 speeds = (0.01, 0.1, 1.0)  # m/s
@@ -26,6 +26,6 @@ default = contact.damping_max
 for damping in (default, default / 100, default / 1000, default / 1e4, 0.01):
     law = step_damping(stiffness, damping, contact.damping_depth)
     name = f"step, damping_max = {damping:.4g} N s/m"
-    row(name + (" (default)" if damping == default else ""), law)
+    row(name + (" (Table 2)" if damping == default else ""), law)
 for name in ("hunt_crossley", "lankarani_nikravesh", "flores", "gonthier", "hu_guo"):
     row(f"{name}, wanted 0.5", DAMPING_LAWS[name](stiffness, restitution=0.5))

@@ -17,11 +17,13 @@ from independent.symmetric_press import SymmetricPress
 from scipy.interpolate import CubicHermiteSpline
 
 from exu_press import Scene, simulate
+from exu_press.mechanism.press import TABLE_2
 
 KINDS = {"pinkus": "lubricated", "lugre_steady": "dry"}
 SMALL = {"radius": 0.02, "clearance": 2e-5}
 LIGHT = {"stiffness": 1e9, "damping_max": 1e4}
 OIL = {"law": "pinkus", "viscosity": 0.1, "length": 0.02}
+DRY = {name: TABLE_2[name] for name in ("contact", "friction")}
 PAPERS = {"film": {"law": "pinkus"}}
 
 
@@ -38,7 +40,7 @@ def test_four_bar(pin, step):
     times = np.linspace(0.0, 0.05, 21)
     model = ReducedFourBar(pin, Numbers(**SMALL, **LIGHT, viscosity=0.1, length=0.02))
     expected = model.run(times, 1e-9)[1]
-    laws = {"film": OIL} if pin == "pinkus" else {"contact": LIGHT}
+    laws = {"film": OIL} if pin == "pinkus" else {**DRY, "contact": {**DRY["contact"], **LIGHT}}
     result = simulate(
         Scene(
             mechanism="four_bar",
@@ -72,6 +74,7 @@ def test_eccentric_press_with_two_clearance_joints(crank_pin, wrist_pin, bound):
     expected = ReducedEccentricPress(crank_pin, wrist_pin, numbers).run(times, 1e-9)[3]
     joints = {"crank_pin": KINDS[crank_pin], "wrist_pin": KINDS[wrist_pin]}
     laws = PAPERS if "pinkus" in (crank_pin, wrist_pin) else {}
+    laws = {**laws, **DRY} if "lugre_steady" in (crank_pin, wrist_pin) else laws
     step = 2e-5 if crank_pin == wrist_pin == "pinkus" else 5e-6
     result = simulate(
         Scene(

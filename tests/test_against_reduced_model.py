@@ -10,6 +10,7 @@ import pytest
 from independent.reduced_slider_crank import Numbers, ReducedSliderCrank
 
 from exu_press import Scene, simulate
+from exu_press.mechanism.press import TABLE_2
 
 REVOLUTION = 0.25
 INSTANTS = np.linspace(0.0, REVOLUTION, 26)
@@ -35,6 +36,11 @@ def exudyn(pin: str, step: float, friction: tuple[tuple[str, float], ...] = ()) 
     """Slider position at INSTANTS by the package."""
     lubricated = pin in FILMS
     law = {"film": {"law": pin}} if lubricated else {"friction": {"law": pin, **dict(friction)}}
+    if not lubricated:
+        law = {
+            "contact": TABLE_2["contact"],
+            "friction": {**TABLE_2["friction"], **law.get("friction", {})},
+        }
     scene = Scene.from_dict(
         {
             "mechanism": "slider_crank",

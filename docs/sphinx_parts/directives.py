@@ -13,6 +13,7 @@ from docutils.parsers.rst import Directive
 from exu_press import Scene
 from exu_press.quantities import CATALOGUE
 from exu_press.scene import DryJoint, Flexible
+from exu_press.scene.joint import LAW_TABLES
 from exu_press.scene.load import LOAD_KINDS
 from exu_press.scene.usage import TABLES
 
@@ -124,6 +125,8 @@ def _usual(name: str, kind: Any) -> Any:
     scenes = (Scene(), Scene(mechanism="slider_crank"))
     if kind is Scene:
         return scenes[0]
+    if name in LAW_TABLES:  # the scenes above have their mechanisms' own
+        return kind()
     if kind is Flexible:
         return Flexible("linkage")
     if kind in LOAD_KINDS.values():

@@ -39,7 +39,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="A",
         help="a scene file, the name of a shipped scene ("
         f"{', '.join(shipped_names())}), a {RESULT} or the directory of one; one scene alone is "
-        "compared with ideal, with dry and with lubricated joints",
+        "compared with ideal, with dry and, where it has a film, with lubricated joints",
     )
     add_run_arguments(parser)
     add_error_argument(parser)
@@ -103,4 +103,7 @@ def _compared(given: list[str], assignments: list[str]) -> Mapping[str, Scene | 
         return found
     if not scenes:
         raise InputError(f"{given[0]}: a result alone; allowed are two or more, or a scene alone")
-    return variants(scenes[0])
+    made = variants(scenes[0])
+    if not any(label.endswith("lubricated") for label in made):
+        print("lubricated: left out, as the scene has no film", file=sys.stderr)
+    return made

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 __all__ = ["EXAMPLE", "add_arguments", "execute", "run"]
 
-EXAMPLE = "exu-press stability slider_crank --key contact.damping_max --out out/stability"
+EXAMPLE = "exu-press stability slider_crank --key contact.modulus --out out/stability"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

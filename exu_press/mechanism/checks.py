@@ -8,9 +8,15 @@ from exu_press.checks import nearest
 from exu_press.errors import InputError
 from exu_press.mechanism.parts import DRIVE, GROUND, Body, Guide, Joint, Output
 
-__all__ = ["all_of", "check"]
+__all__ = ["all_of", "check", "check_defaults"]
 
 Kind = TypeVar("Kind")
+
+DEFAULTS = {
+    **dict.fromkeys(("clearance", "radius"), (int, float)),
+    **dict.fromkeys(("joints", "contact", "friction", "film"), (Mapping,)),
+}
+"""What a mechanism may give its scenes; their values are checked as a scene's own."""
 
 SHAPES = ("revolute", "spherical")
 
@@ -33,6 +39,21 @@ def all_of(kind: type[Kind], where: str, given: Any) -> tuple[Kind, ...]:
         if not isinstance(each, kind):
             raise InputError(f"{where}: {each!r:.80} is no {kind.__name__}, which alone is allowed")
     return found
+
+
+def check_defaults(defaults: Any) -> None:
+    """Raise InputError for the first default that no scene has."""
+    if not isinstance(defaults, Mapping):
+        raise InputError(f"defaults = {defaults!r}: allowed is a table of keys")
+    for key, value in defaults.items():
+        if key not in DEFAULTS:
+            raise InputError(
+                f"defaults.{key} = {value!r}: unknown key{nearest(key, DEFAULTS)}; allowed are "
+                f"{', '.join(DEFAULTS)}"
+            )
+        if not isinstance(value, DEFAULTS[key]):
+            kind = "a table of keys" if Mapping in DEFAULTS[key] else "a number"
+            raise InputError(f"defaults.{key} = {value!r}: allowed is {kind}")
 
 
 def check(

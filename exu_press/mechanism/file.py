@@ -15,6 +15,9 @@ bearing = "frame"
 direction = [0, 1]
 [groups]
 pins = ["crank_pin", "wrist_pin"]
+[defaults]
+radius = 0.03
+clearance = 5e-5
 """
 
 import math
@@ -52,7 +55,10 @@ PARTS: dict[str, tuple[type, tuple[str, ...], tuple[str, ...]]] = {
 """Tables of tables -> what each is made of, the keys it needs, and those it may have."""
 
 OUTPUT = ("body",), ("direction", "origin")
-TOP = ("name", "crank", "output", "bodies", "joints"), ("guides", "groups", "counterweight")
+TOP = (
+    ("name", "crank", "output", "bodies", "joints"),
+    ("guides", "groups", "counterweight", "defaults"),
+)
 """The same of the output's table and of the whole file."""
 
 
@@ -106,7 +112,13 @@ def mechanism_to_dict(mechanism: Mechanism) -> dict[str, Any]:
         name = fields(made)[0].name
         parts = getattr(mechanism, kind)
         data[kind] = {getattr(part, name): _plain(part, needed, others) for part in parts}
-    return data | {"groups": {name: [*members] for name, members in mechanism.groups.items()}}
+    data["groups"] = {name: [*members] for name, members in mechanism.groups.items()}
+    if mechanism.defaults:
+        data["defaults"] = {
+            key: dict(value) if isinstance(value, Mapping) else value
+            for key, value in mechanism.defaults.items()
+        }
+    return data
 
 
 def mechanism_lines(mechanism: Mechanism, prefix: str = "") -> list[str]:
@@ -118,14 +130,20 @@ def mechanism_lines(mechanism: Mechanism, prefix: str = "") -> list[str]:
     """
     data = mechanism_to_dict(mechanism)
     tables = {kind: data.pop(kind) for kind in (*PARTS, "groups")}
+    defaults = data.pop("defaults", {})
     lines = [f"[{prefix.removesuffix('.')}]"] if prefix else []
     lines += [f"{key} = {toml_text(value)}" for key, value in data.items()]
     for kind in PARTS:
         for name, table in tables[kind].items():
             lines += ["", f"[{prefix}{kind}.{name}]"]
             lines += [f"{key} = {toml_text(value)}" for key, value in table.items()]
-    lines += ["", f"[{prefix}groups]"] if tables["groups"] else []
-    return lines + [f"{name} = {toml_text(members)}" for name, members in tables["groups"].items()]
+    sizes = {key: value for key, value in defaults.items() if not isinstance(value, Mapping)}
+    tables = {"groups": tables["groups"], "defaults": sizes}
+    tables |= {f"defaults.{key}": value for key, value in defaults.items() if key not in sizes}
+    for name, table in tables.items():
+        lines += ["", f"[{prefix}{name}]"] if table else []
+        lines += [f"{key} = {toml_text(value)}" for key, value in table.items()]
+    return lines
 
 
 def _keys(

@@ -10,7 +10,7 @@ import numpy as np
 
 from exu_press.arrays import Array
 from exu_press.mechanism.assur import Drawing
-from exu_press.mechanism.checks import all_of, check
+from exu_press.mechanism.checks import all_of, check, check_defaults
 from exu_press.mechanism.kinematics import Kinematics, kinematics_of
 from exu_press.mechanism.motion import Motion
 from exu_press.mechanism.parts import GROUND, Body, Guide, Joint, Output, Point
@@ -35,6 +35,9 @@ class Mechanism:
         groups: names for several joints, which a scene gives clearance together.
         counterweight: names of the bodies that balance the others, without which the shaking force
             is recorded too.
+        defaults: what a scene of it has unless it says otherwise, in a scene's words: "clearance"
+            and "radius" of a joint, "joints" with their kinds where no joint is named, and keys of
+            "contact", "friction" and "film".
 
     Raises:
         InputError: names are used twice or unknown, a body has no mass, or what else cannot be.
@@ -49,6 +52,7 @@ class Mechanism:
     output: Output
     groups: Mapping[str, tuple[str, ...]] = field(default_factory=dict, hash=False)
     counterweight: tuple[str, ...] = ()
+    defaults: Mapping[str, Any] = field(default_factory=dict, hash=False)
 
     def __post_init__(self) -> None:
         """Check the drawing, fill in the inertia of uniform rods, make directions unit vectors."""
@@ -68,6 +72,7 @@ class Mechanism:
             self.groups,
             self.counterweight,
         )
+        check_defaults(self.defaults)
         self._set(
             counterweight=tuple(self.counterweight),
             bodies=tuple(

@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from exu_press.checks import Table, key
 from exu_press.errors import InputError
@@ -11,7 +11,34 @@ from exu_press.mechanism.draw import meet, middle, onto
 from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.parts import GROUND, Body, Guide, Joint, Output, Point, steel_cube
 
-__all__ = ["Press", "press"]
+__all__ = ["TABLE_2", "Press", "press"]
+
+TABLE_2: dict[str, Any] = {
+    "clearance": 1e-4,
+    "radius": 0.07,
+    "joints": {"crank_pin": "lubricated", "balls": "dry"},
+    "contact": {
+        "shape": "point",
+        "stiffness": 2.5545e10,
+        "exponent": 1.5,
+        "modulus": 1.1538e11,
+        "length": 0.1,
+        "damping": "step",
+        "damping_max": 2.5545e8,
+        "damping_depth": 1e-5,
+        "restitution": 0.5,
+    },
+    "friction": {
+        "law": "lugre_steady",
+        "mu_static": 0.01,
+        "mu_kinetic": 0.01,
+        "sigma_0": 1e5,
+        "sigma_1": 400.0,
+        "stribeck_velocity": 0.0176,  # 1 % of 0.07 m times 240 rpm
+    },
+    "film": {"viscosity": 0.4, "length": 0.1},
+}
+"""The paper's joints: Table 2 and A-11, A-12. They are this press's alone."""
 
 SIDES = {"right": 1, "left": -1}
 
@@ -166,6 +193,7 @@ def press(size: Press) -> Mechanism:
         output=Output("slider", origin=(0.0, slider_bottom - size.bottom_dead_centre)),
         groups=groups,
         counterweight=("counter_linkage", "counterweight") if size.counterweight else (),
+        defaults=TABLE_2,
     )
 
 

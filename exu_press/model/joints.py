@@ -46,7 +46,7 @@ def add_clearance_joint(
     journal, bearing = (_end(system, joint, *end) for end in system.mechanism.ends(joint))
     contact = None
     if kind.contact is not None:
-        contact = contact_law(kind.contact, kind.clearance, revolute=not joint.spherical)
+        contact = contact_law(kind, revolute=not joint.spherical)
     friction = no_friction() if kind.friction is None else friction_law(kind.friction)
     if isinstance(kind, DryJoint):
         assert contact is not None

@@ -10,12 +10,13 @@ from exu_press.quantities.kind import COST
 from exu_press.quantities.value import values_of
 from exu_press.quantities.warnings import run_warnings
 from exu_press.result import Result
+from exu_press.scene.assumptions import assumed
 
 __all__ = ["summary"]
 
 
 def summary(result: Result) -> dict[str, Any]:
-    """Return how a run ended, its quantities with their errors, its cost, and its scene.
+    """Return how a run ended, what was assumed, quantities with their errors, cost and scene.
 
     Plain numbers, texts, lists and dictionaries.
     """
@@ -27,6 +28,7 @@ def summary(result: Result) -> dict[str, Any]:
         "reason": info["reason"],
         "end_time": info["end_time"],
         "warnings": run_warnings(result),
+        "assumed": assumed(result.scene),
         "quantities": {n: value.to_dict() for n, value in values.items() if n not in costs},
         "horizon": info.get("horizon"),
         "lyapunov_exponent": info.get("lyapunov_exponent"),

@@ -18,7 +18,7 @@ from exu_press.report.html import details, page, paragraph, picture, table, warn
 from exu_press.report.joints import joint_table
 from exu_press.result import Result
 from exu_press.scene import Scene
-from exu_press.scene.assumptions import keys_of, used_assumptions
+from exu_press.scene.assumptions import engineering_values, keys_of, used_assumptions
 from exu_press.view import Animation, moment, save_picture
 from exu_press.view.animation import SIZE
 
@@ -72,6 +72,7 @@ def scene_parts(scene: Scene) -> list[tuple[str, str]]:
         [f"A-{assumption.number}", assumption.text, ", ".join(map(str, left))]
         for assumption, left in used_assumptions(scene).items()
     ]
+    assumed += [[key.source, key.meaning, str(key)] for key in engineering_values(scene)]
     head = ("key", "value", "unit", "meaning")
     given = (
         table(head, changed, "Keys that differ from their defaults")
@@ -83,10 +84,11 @@ def scene_parts(scene: Scene) -> list[tuple[str, str]]:
         (
             "Assumptions",
             paragraph(
-                "What the paper leaves out or misprints and this scene rests on. "
+                "What this scene does not give and rests on: engineering values with their source, "
+                "and numbered what the paper leaves out or misprints. "
                 "Each key can be set in the scene."
             )
-            + table(("", "assumption", "default assumed"), assumed),
+            + table(("source", "assumption", "default assumed"), assumed),
         ),
     ]
 

@@ -1,6 +1,7 @@
-"""What a scene leaves to its defaults, and which of these stand for what the paper does not say.
+"""What a scene leaves to its defaults, and which of these decide its results.
 
-The assumptions A-1 to A-14 are listed here once; meanings and defaults of keys are in tables.py.
+The assumptions A-1 to A-14, which stand for what the paper does not say, are listed here once;
+meanings, defaults and their sources are in tables.py.
 """
 
 import dataclasses
@@ -11,11 +12,21 @@ from typing import Any
 
 from exu_press.checks import Table
 from exu_press.mechanism import Mechanism
-from exu_press.scene.joint import DEFAULT_KINDS, Joint
-from exu_press.scene.scene import Scene
+from exu_press.scene.joint import LAW_TABLES, SIZES, Joint
+from exu_press.scene.scene import Scene, mechanism_of
+from exu_press.scene.tables import Contact, Friction
 from exu_press.scene.usage import TABLES, unused_keys
 
-__all__ = ["ASSUMPTIONS", "Assumption", "Key", "assumed_line", "keys_of", "used_assumptions"]
+__all__ = [
+    "ASSUMPTIONS",
+    "Assumption",
+    "Key",
+    "assumed",
+    "assumed_line",
+    "engineering_values",
+    "keys_of",
+    "used_assumptions",
+]
 
 
 @dataclass(frozen=True)
@@ -71,6 +82,9 @@ ASSUMPTIONS = (
     ),
 )
 
+OF_EVERY_SCENE = (9, 13, 14)
+"""Assumptions that other mechanisms than the paper's press rest on, too."""
+
 FIRST_OF_A_RUN = 10
 """From this assumption on they belong to a run; those before describe the machine."""
 
@@ -85,6 +99,7 @@ class Key:
         default: what it would be, had it not been given.
         unit: SI, as the scene's table says it.
         meaning: in words.
+        source: who gives the default, where that decides results.
     """
 
     name: str
@@ -92,6 +107,7 @@ class Key:
     default: Any
     unit: str
     meaning: str
+    source: str = ""
 
     @property
     def assumed(self) -> bool:
@@ -105,16 +121,18 @@ class Key:
 
 def keys_of(scene: Scene) -> dict[str, Key]:
     """Return every key that a scene uses, by name, with the default it would have."""
-    defaults = dict(_flat(_at_defaults(scene)))
+    defaults = {name: value for name, (value, _) in _flat(_at_defaults(scene))}
+    defaults |= _law_defaults(scene)
     kinds = {field.name: field.default for field in dataclasses.fields(Scene)}
     kinds |= {"film.at_contact": "stop", "press.counterweight": True}
     found = {}
     for name, (value, field) in _flat(scene):
-        default = kinds[name] if name in kinds else defaults.get(name, (None,))[0]
+        default = kinds[name] if name in kinds else defaults.get(name)
         if isinstance(value, Mechanism):
             value = f"{value.name}, the scene's own"
         meta = field.metadata
-        found[name] = Key(name, value, default, meta["unit"], meta["meaning"])
+        source = "" if name in _own_laws(scene) else meta["source"]
+        found[name] = Key(name, value, default, meta["unit"], meta["meaning"], source)
     found |= _joint_keys(scene)
     for name, body in scene.bodies.items():
         found |= _keys_in(f"bodies.{name}", body, {"flexible": ""})
@@ -131,6 +149,8 @@ def used_assumptions(scene: Scene) -> dict[Assumption, tuple[Key, ...]]:
     keys = keys_of(scene)
     used = {}
     for assumption in ASSUMPTIONS:
+        if scene.press is None and assumption.number not in OF_EVERY_SCENE:
+            continue
         left = tuple(key for name, key in keys.items() if _named(name, assumption))
         left = tuple(key for key in left if key.assumed)
         by_absence = assumption.keys == ("guide",) and scene.guide is None
@@ -144,32 +164,72 @@ def _named(key: str, assumption: Assumption) -> bool:
     return any(fnmatchcase(key, pattern) for pattern in assumption.keys)
 
 
-def assumed_line(scene: Scene) -> str:
-    """Return the defaults of laws and loads that were assumed, in one line; empty if none were."""
-    named = [
+def engineering_values(scene: Scene) -> list[Key]:
+    """Return the defaults that decide results and are neither the scene's nor its mechanism's."""
+    unread = set()
+    for name, given in (("contact", scene.contact), ("friction", scene.friction)):
+        unread |= {f"{name}.{key}" for key in _unread(given)}
+    keys = keys_of(scene).values()
+    return [key for key in keys if key.source and key.assumed and key.name not in unread]
+
+
+def _unread(table: Table | None) -> tuple[str, ...]:
+    """Return the keys with a source that the chosen laws do not read."""
+    if isinstance(table, Contact):
+        return ("restitution",) if table.damping == "step" else ()
+    if isinstance(table, Friction):
+        without = {"none": ("mu_static", "mu_kinetic"), "coulomb": ("mu_static",)}
+        return without.get(table.law, ())
+    return ()
+
+
+def assumed(scene: Scene) -> list[str]:
+    """Return the defaults of laws, loads and the start that were assumed, each with its source."""
+    numbered = [
         f"{key} (A-{assumption.number})"
         for assumption, keys in used_assumptions(scene).items()
         if assumption.number >= FIRST_OF_A_RUN
         for key in keys
     ]
+    return numbered + [f"{key} ({key.source})" for key in engineering_values(scene)]
+
+
+def assumed_line(scene: Scene) -> str:
+    """Return what was assumed, in one line; empty if nothing was."""
+    named = assumed(scene)
     return f"assumed: {', '.join(named)}" if named else ""
 
 
+def _own_laws(scene: Scene) -> set[str]:
+    """Return the keys of laws that the scene's mechanism has values of its own for."""
+    own = mechanism_of(scene).defaults
+    return {f"{law}.{key}" for law in LAW_TABLES for key in own.get(law, {})}
+
+
+def _law_defaults(scene: Scene) -> dict[str, Any]:
+    """Return what the keys of laws are where a scene does not give them."""
+    own = mechanism_of(scene).defaults
+    return {
+        f"{law}.{field.name}": own.get(law, {}).get(field.name, field.default)
+        for law, table in LAW_TABLES.items()
+        for field in dataclasses.fields(table)
+    }
+
+
 def _at_defaults(scene: Scene) -> Scene:
-    """Return a scene of the same kind in which nothing else is given."""
-    joints = {name: joint.kind for name, joint in scene.joints.items()}
-    kind: dict[str, Any] = {"mechanism": scene.mechanism, "joints": joints}
-    for name, key in (("film", "at_contact"), ("press", "counterweight")):
-        table = getattr(scene, name)
-        if table is not None:
-            kind[name] = {key: getattr(table, key)}
+    """Return a scene of the same mechanism and tables in which nothing else is given."""
+    kind: dict[str, Any] = {"mechanism": scene.mechanism, "joints": {}}
+    if scene.press is not None:
+        kind["press"] = {"counterweight": scene.press.counterweight}
     kind |= {name: {} for name in ("drive", "guide") if getattr(scene, name) is not None}
     return Scene.from_dict(kind)
 
 
 def _joint_keys(scene: Scene) -> dict[str, Key]:
     """Return the keys of the joints with clearance, and of those that are ideal against habit."""
-    usual = DEFAULT_KINDS.get(scene.shipped, {})
+    mechanism = mechanism_of(scene)
+    usual = mechanism.defaults.get("joints", {}) if scene.shipped else {}
+    sizes = {name: mechanism.defaults.get(name) for name in SIZES}
     by_joint = {j: kind for name, kind in usual.items() for j in scene.joints.members(name)}
     shown: dict[str, Joint] = {**scene.joints.grouped}
     shown |= {name: scene.joints[name] for name in by_joint if name in scene.joints.ideal}
@@ -178,7 +238,7 @@ def _joint_keys(scene: Scene) -> dict[str, Key]:
         place = f"joints.{name}"
         default = by_joint.get(scene.joints.members(name)[0], "ideal")
         found.append(Key(f"{place}.kind", joint.kind, default, "", "ideal, dry or lubricated"))
-        found += _keys_in(place, joint, {}).values()
+        found += _keys_in(place, joint, sizes).values()
         for field in dataclasses.fields(joint):
             own, law = getattr(joint, field.name), scene.laws.get(field.name)
             if own is not None and law is not None:

@@ -3,33 +3,27 @@
 import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal, cast
 
 from exu_press.checks import Table, key
 from exu_press.errors import InputError
-from exu_press.scene.laws import asperity_onset
-from exu_press.scene.tables import Contact, Film, Friction
+from exu_press.scene.tables import Contact, Film, Friction, asperity_onset
 
 __all__ = [
-    "DEFAULT_KINDS",
     "JOINT_KINDS",
     "LAW_TABLES",
+    "SIZES",
     "DryJoint",
     "IdealJoint",
     "Joint",
     "LubricatedJoint",
     "joint_dict",
     "keys_used",
+    "refuse_missing",
 ]
 
-DEFAULT_KINDS: dict[str, dict[str, str]] = {
-    "press": {"crank_pin": "lubricated", "balls": "dry"},
-    "slider_crank": {"crank_pin": "lubricated"},
-}
-"""The joints of a shipped mechanism in a scene without any [joints]; the others are ideal."""
-
-DEFAULT_CLEARANCE = 1e-4  # m, Table 2
-DEFAULT_RADIUS = 0.07  # m
+SIZES = ("clearance", "radius")
+"""What a joint with clearance needs; a mechanism may have one for all of them."""
 
 
 @dataclass(frozen=True)
@@ -42,13 +36,16 @@ class IdealJoint(Table):
 
 @dataclass(frozen=True)
 class DryJoint(Table):
-    """A joint whose journal or ball lies loose in its bearing or socket."""
+    """A joint whose journal or ball lies loose in its bearing or socket.
+
+    What is not given is None until the scene fills it in.
+    """
 
     kind: ClassVar[Literal["dry"]] = "dry"
-    clearance: float = key(DEFAULT_CLEARANCE, "radial clearance", "m", above=0)
-    radius: float = key(DEFAULT_RADIUS, "of the journal or ball", "m", above=0)
-    contact: Contact = dataclasses.field(default_factory=Contact)
-    friction: Friction = dataclasses.field(default_factory=Friction)
+    clearance: float = key(None, "radial clearance", "m", above=0, example=5e-5)
+    radius: float = key(None, "of the journal or ball", "m", above=0, example=0.03)
+    contact: Contact = dataclasses.field(default=cast(Any, None))
+    friction: Friction = dataclasses.field(default=cast(Any, None))
 
     def __post_init__(self) -> None:
         """Check the keys and that the journal is larger than its clearance."""
@@ -65,13 +62,14 @@ class DryJoint(Table):
 class LubricatedJoint(Table):
     """A journal in a bearing full of oil; with a mixed film its surfaces may touch as well.
 
-    Contact and friction are None where the film alone carries.
+    What is not given is None until the scene fills it in; contact and friction stay None where
+    the film alone carries.
     """
 
     kind: ClassVar[Literal["lubricated"]] = "lubricated"
-    clearance: float = key(DEFAULT_CLEARANCE, "radial clearance", "m", above=0)
-    radius: float = key(DEFAULT_RADIUS, "of the journal", "m", above=0)
-    film: Film = dataclasses.field(default_factory=Film)
+    clearance: float = key(None, "radial clearance", "m", above=0, example=5e-5)
+    radius: float = key(None, "of the journal", "m", above=0, example=0.03)
+    film: Film = dataclasses.field(default=cast(Any, None))
     contact: Contact | None = None
     friction: Friction | None = None
 
@@ -97,12 +95,36 @@ LAW_TABLES: dict[str, type[Table]] = {"contact": Contact, "friction": Friction, 
 
 def keys_used(kind: Any, at_contact: Any) -> tuple[str, ...]:
     """Return the keys of a joint of this kind beside the kind itself."""
-    size, touching = ("clearance", "radius"), ("contact", "friction")
+    touching = ("contact", "friction")
     if kind == "dry":
-        return size + touching
+        return SIZES + touching
     if kind == "lubricated":
-        return (*size, "film", *(touching if at_contact == "mixed" else ()))
+        return (*SIZES, "film", *(touching if at_contact == "mixed" else ()))
     return ()
+
+
+def refuse_missing(place: str, joint: Joint, *, revolute: bool) -> None:
+    """Raise InputError for the first key without a default that decides what a joint does."""
+    if isinstance(joint, IdealJoint):
+        return
+    needed: dict[str, tuple[Table, tuple[str, ...]]] = {"": (joint, SIZES)}
+    if joint.contact is not None:
+        step = ("damping_max", "damping_depth") if joint.contact.damping == "step" else ()
+        dry = isinstance(joint, DryJoint)
+        length = ("length",) if dry and revolute and joint.contact.shape == "cylindrical" else ()
+        needed["contact"] = (joint.contact, length + step)
+    if isinstance(joint, LubricatedJoint):
+        needed["film"] = (joint.film, ("viscosity", "length"))
+    for law, (table, keys) in needed.items():
+        for field in dataclasses.fields(table):
+            if field.name in keys and getattr(table, field.name) is None:
+                meta, name = field.metadata, f"{law}.{field.name}".lstrip(".")
+                where = f"in [{law}] or [{place}.{law}]" if law else f"in [{place}]"
+                raise InputError(
+                    f"{place} needs {name} ({meta['meaning']}, {meta['unit']}), which decides its "
+                    f"result and has no default; give it {where}, as in "
+                    f"{field.name} = {meta['example']:g}"
+                )
 
 
 def joint_dict(joint: Joint, laws: Mapping[str, Table | None]) -> dict[str, Any]:
@@ -119,12 +141,13 @@ def joint_dict(joint: Joint, laws: Mapping[str, Table | None]) -> dict[str, Any]
             for inner in dataclasses.fields(value)
             if usual is None or getattr(value, inner.name) != getattr(usual, inner.name)
         }
+        own = {key: each for key, each in own.items() if each is not None}
         found |= {field.name: own} if own else {}
     return found
 
 
 def _check_clearance(joint: DryJoint | LubricatedJoint) -> None:
-    if joint.clearance >= joint.radius:
+    if None not in (joint.clearance, joint.radius) and joint.clearance >= joint.radius:
         raise InputError(
             f"clearance = {joint.clearance!r}: allowed is a number < radius = {joint.radius!r}"
         )

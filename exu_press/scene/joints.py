@@ -4,7 +4,7 @@ import dataclasses
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
-from exu_press.checks import Table, nearest, table_from
+from exu_press.checks import Table, nearest, table_with
 from exu_press.errors import InputError
 from exu_press.scene.joint import (
     JOINT_KINDS,
@@ -15,6 +15,7 @@ from exu_press.scene.joint import (
     LubricatedJoint,
     joint_dict,
     keys_used,
+    refuse_missing,
 )
 from exu_press.scene.laws import contact_law, film_law, friction_law
 from exu_press.scene.tables import Film
@@ -119,6 +120,7 @@ def joints_of(
     spherical: Mapping[str, bool],
     groups: Mapping[str, tuple[str, ...]],
     laws: Laws,
+    sizes: Mapping[str, float],
 ) -> Joints:
     """Return every joint of a mechanism from what a scene gives.
 
@@ -130,10 +132,12 @@ def joints_of(
         spherical: every joint of it -> whether it is a ball in a socket.
         groups: names for several joints at once -> these joints.
         laws: the scene's own, for what a joint does not say.
+        sizes: the mechanism's clearance and radius, likewise, where it has them.
 
     Raises:
         InputError: there is no such joint or group, a joint lies in two groups that are given, a
-            key is not one of this kind of joint, or a law's parameters are outside its range.
+            key is not one of this kind of joint or is missing, or a law's parameters are outside
+            its range.
     """
     if not isinstance(given, Mapping):
         raise InputError(f"joints = {given!r}: allowed is a table of joints")
@@ -156,7 +160,7 @@ def joints_of(
     found = {}
     for joint, ball in spherical.items():
         shown = joint if joint in given else by_group.get(joint, joint)
-        found[joint] = _joint(shown, own.get(joint, {"kind": "ideal"}), laws, spherical=ball)
+        found[joint] = _joint(shown, own.get(joint, {"kind": "ideal"}), laws, sizes, spherical=ball)
     return Joints(found, mechanism, groups, [name for name, ball in spherical.items() if ball])
 
 
@@ -175,7 +179,14 @@ def keys_given(name: str, given: Any) -> dict[str, Any]:
     return dict(given)
 
 
-def _joint(name: str, given: Mapping[str, Any], laws: Laws, *, spherical: bool) -> Joint:
+def _joint(
+    name: str,
+    given: Mapping[str, Any],
+    laws: Laws,
+    sizes: Mapping[str, float],
+    *,
+    spherical: bool,
+) -> Joint:
     """Return one joint, checked."""
     place = f"joints.{name}"
     kinds = [kind for kind in JOINT_KINDS if not (spherical and kind == "lubricated")]
@@ -198,27 +209,22 @@ def _joint(name: str, given: Mapping[str, Any], laws: Laws, *, spherical: bool) 
         mixed = kind == "lubricated" and unused in ("contact", "friction")
         reason = "film.at_contact is 'stop'" if mixed else f"{place} is {kind!r}"
         raise InputError(f"{place}.{unused}: not used by this scene ({reason}); remove it")
-    values: dict[str, Any] = {
-        key: own[key] if key in own else given[key] for key in used if key in {**own, **given}
-    }
+    values: dict[str, Any] = {**sizes, **given, **own}
+    chosen: type[Any] = JOINT_KINDS[kind]
     try:
-        joint = JOINT_KINDS[kind](**values)
+        joint: Joint = chosen(**{key: values[key] for key in used if key in values})
     except InputError as error:
         raise InputError(f"{place}.{error}") from None
+    refuse_missing(place, joint, revolute=not spherical)
     _check_laws(place, joint, spherical)
     return joint
 
 
 def _law(place: str, law: str, given: Any, usual: Table) -> Table:
     """Return a joint's law: the scene's, but for what it says itself."""
-    kind = LAW_TABLES[law]
-    if given is None or isinstance(given, kind):
-        return given or usual
-    if not isinstance(given, Mapping):
-        raise InputError(f"{place}.{law} = {given!r}: allowed is a table of keys")
     complete = {field.name: getattr(usual, field.name) for field in dataclasses.fields(usual)}
     try:
-        return table_from(kind, law, {**complete, **given})
+        return table_with(LAW_TABLES[law], law, {} if given is None else given, complete)
     except InputError as error:
         raise InputError(f"{place}.{error}") from None
 
@@ -229,7 +235,7 @@ def _check_laws(place: str, joint: Joint, spherical: bool) -> None:
         return
     try:
         if joint.contact is not None:
-            contact_law(joint.contact, joint.clearance, revolute=not spherical)
+            contact_law(joint, revolute=not spherical)
         if joint.friction is not None:
             friction_law(joint.friction)
         if isinstance(joint, LubricatedJoint):

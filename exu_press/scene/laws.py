@@ -4,15 +4,15 @@ from collections.abc import Callable
 from typing import TypeVar
 
 from exu_press.errors import InputError
-from exu_press.laws.contact import DAMPING_LAWS, NormalContact, cylindrical, hertz
+from exu_press.laws.contact import DAMPING_LAWS, NormalContact, cylindrical, hertz, hertz_stiffness
 from exu_press.laws.film import FILM_LAWS, FilmLaw, with_asperities
 from exu_press.laws.friction import Friction as FrictionLaw
 from exu_press.laws.friction import LuGre, coulomb, lugre_steady, no_friction, stribeck
 from exu_press.mechanism import Spring
-from exu_press.scene.tables import Contact, ElasticGuide, Film, Friction
+from exu_press.scene.joint import DryJoint, LubricatedJoint
+from exu_press.scene.tables import ElasticGuide, Film, Friction, asperity_onset
 
 __all__ = [
-    "asperity_onset",
     "contact_law",
     "film_law",
     "friction_law",
@@ -23,23 +23,29 @@ __all__ = [
 T = TypeVar("T")
 
 
-def contact_law(table: Contact, clearance: float, *, revolute: bool) -> NormalContact:
-    """Return the normal contact of a joint; only a revolute one can be cylindrical.
+def contact_law(joint: DryJoint | LubricatedJoint, *, revolute: bool) -> NormalContact:
+    """Return the normal contact of a joint that has one; only a revolute one can be cylindrical.
 
     Args:
-        table: [contact] of the scene.
-        clearance: radial clearance of the joint, m.
+        joint: complete, as a scene has it.
         revolute: whether the joint is a journal in a bearing.
     """
+    table, clearance, radius = joint.contact, joint.clearance, joint.radius
+    assert table is not None
     if table.shape == "cylindrical" and revolute:
-        stiffness = cylindrical(table.modulus, table.length, clearance)
+        length = joint.film.length if isinstance(joint, LubricatedJoint) else None
+        length = length if table.length is None else table.length
+        assert length is not None
+        stiffness = cylindrical(table.modulus, length, clearance)
+    elif table.stiffness is None:  # 1 / R = 1 / radius - 1 / (radius + clearance)
+        curvature_radius = radius * (radius + clearance) / clearance
+        stiffness = hertz(hertz_stiffness(curvature_radius, table.modulus), table.exponent)
     else:
         stiffness = hertz(table.stiffness, table.exponent)
+    parameters: dict[str, float]
     if table.damping == "step":
-        parameters: dict[str, float] = {
-            "damping_max": table.damping_max,
-            "damping_depth": table.damping_depth,
-        }
+        assert table.damping_max is not None and table.damping_depth is not None
+        parameters = {"damping_max": table.damping_max, "damping_depth": table.damping_depth}
     else:
         parameters = {"restitution": table.restitution}
     law = DAMPING_LAWS[table.damping]
@@ -95,11 +101,6 @@ def film_law(table: Film, radius: float, clearance: float) -> FilmLaw:
             f"clearance = {clearance:g}"
         )
     return with_asperities(law, onset / clearance)
-
-
-def asperity_onset(table: Film) -> float | None:
-    """Return the gap at which the surfaces' asperities touch, m; None without mixed film."""
-    return table.roughness * table.asperity_onset if table.at_contact == "mixed" else None
 
 
 def _named(table: str, make: Callable[[], T]) -> T:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, ClassVar, cast
 
 from exu_press.above import WORKERS
-from exu_press.checks import Table, key, table_from
+from exu_press.checks import Table, key, table_from, table_with
 from exu_press.errors import InputError
 from exu_press.mechanism import (
     SHIPPED,
@@ -24,7 +24,7 @@ from exu_press.mechanism import (
 from exu_press.scene.bodies import DRIVE_FACE, GUIDE_FACE, Flexible, bodies_of, body_dict
 from exu_press.scene.changes import changed_keys
 from exu_press.scene.elastic import with_elastic_guides
-from exu_press.scene.joint import DEFAULT_KINDS, LAW_TABLES, joint_dict
+from exu_press.scene.joint import LAW_TABLES, SIZES, joint_dict
 from exu_press.scene.joint_changes import by_group, kinds_of, unused_laws
 from exu_press.scene.joints import Joints, joints_of
 from exu_press.scene.load import Load
@@ -95,6 +95,8 @@ class Scene(Table):
         )
         for name, table in TABLES.items():
             given = getattr(self, name)
+            if name in LAW_TABLES:  # their defaults are the mechanism's
+                continue
             if given is not None:
                 self._refuse(unused, name, given)
                 checked: Table = table_from(table, name, given)
@@ -102,7 +104,7 @@ class Scene(Table):
                 for field in dataclasses.fields(checked):
                     if (value := getattr(checked, field.name)) != field.default:
                         self._refuse(unused, f"{name}.{field.name}", value)
-            elif name not in unused and name not in (*ONLY_WHERE_GIVEN, *LAW_TABLES):
+            elif name not in unused and name not in ONLY_WHERE_GIVEN:
                 object.__setattr__(self, name, table())
         self._settle_joints()
         self._settle_bodies()
@@ -110,20 +112,26 @@ class Scene(Table):
 
     def _settle_joints(self) -> None:
         """Say what every joint of the mechanism is; a law that no joint has is refused."""
-        given, laws = self.joints, self.laws
+        given, laws, mechanism = self.joints, self.laws, mechanism_of(self)
+        usual = mechanism.defaults
         if given is None:
-            given = DEFAULT_KINDS.get(self.shipped, {})
+            given = usual.get("joints", {})
         object.__setattr__(self, "joints", None)
-        mechanism = mechanism_of(self)
         mechanism.require_turning()
-        usual = {name: LAW_TABLES[name]() if law is None else law for name, law in laws.items()}
+        complete = {
+            name: table_with(
+                LAW_TABLES[name], name, {} if law is None else law, usual.get(name, {})
+            )
+            for name, law in laws.items()
+        }
+        sizes = {name: usual[name] for name in SIZES if name in usual}
         spherical = {joint.name: joint.spherical for joint in mechanism.joints}
-        joints = joints_of(given, mechanism.name, spherical, mechanism.groups, usual)
+        joints = joints_of(given, mechanism.name, spherical, mechanism.groups, complete, sizes)
         object.__setattr__(self, "joints", joints)
         unused = unused_laws(kinds_of(joints, None))
         for name, law in laws.items():
             self._refuse(unused, name, law)
-            object.__setattr__(self, name, None if name in unused else usual[name])
+            object.__setattr__(self, name, None if name in unused else complete[name])
 
     def _settle_bodies(self) -> None:
         """Say which bodies are flexible."""
@@ -196,6 +204,12 @@ class Scene(Table):
                 **other.joints.to_dict(other.laws),
                 **{name: joint_dict(joint, self.laws) for name, joint in same.items()},
             }
+            own = mechanism_of(self).defaults  # which the other does not take over
+            for name in same:
+                data["joints"][name] = _beyond(data["joints"][name], own)
+            for name in LAW_TABLES:
+                if name in data:
+                    data[name] = _beyond(data[name], own.get(name, {}))
             groups = other.joints.groups
             there = {body.name for body in mechanism_of(other).bodies}
             data["bodies"] = {n: k for n, k in data.get("bodies", {}).items() if n in there}
@@ -262,6 +276,11 @@ def mechanism_of(scene: Scene) -> Mechanism:
     if scene.drive is not None:
         drawn = _with_flywheel(drawn, scene.drive.inertia)
     return drawn if scene.guide is None else with_elastic_guides(drawn, scene.guide)
+
+
+def _beyond(given: Mapping[str, Any], usual: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the keys that are not as usual."""
+    return {key: value for key, value in given.items() if usual.get(key) != value}
 
 
 def _with_flywheel(drawn: Mechanism, inertia: float) -> Mechanism:

@@ -1,4 +1,7 @@
-"""The tables of a scene file, one dataclass each; defaults are the assumptions A-1 .. A-14.
+"""The tables of a scene file, one dataclass each.
+
+Defaults are engineering values with their sources; a mechanism may have its own, as the paper's
+press has Table 2. What decides a result and has no such value is None until it is given.
 
 Every key says its meaning, unit and range once, here; messages and documentation are made from it.
 """
@@ -12,11 +15,14 @@ from exu_press.errors import InputError
 from exu_press.laws.contact import DAMPING_LAWS
 from exu_press.laws.film import FILM_LAWS
 
-__all__ = ["Contact", "ElasticGuide", "Film", "Friction", "Motor", "Solver"]
+__all__ = ["Contact", "ElasticGuide", "Film", "Friction", "Motor", "Solver", "asperity_onset"]
 
 FRICTION_LAWS = ("none", "coulomb", "stribeck", "lugre_steady", "lugre")
 DEFAULT_TOLERANCE = 1e-3
 AT_CONTACT = ("stop", "mixed")
+
+HERTZ = 1.5
+GREASED = "greased steel on steel, Marks' Handbook, 3.2"
 
 
 @dataclass(frozen=True)
@@ -25,17 +31,53 @@ class Contact(Table):
 
     table: ClassVar[str] = "contact"
     shape: str = key(
-        "point", "Hertz's point contact, or conformal pins", choices=("point", "cylindrical")
+        "cylindrical",
+        "conformal pins, or Hertz's point contact, as every ball has it",
+        choices=("point", "cylindrical"),
     )
-    stiffness: float = key(2.5545e10, "point: K of F = K delta^n", "N/m^n", above=0)
-    exponent: float = key(1.5, "point: n of F = K delta^n", at_least=1, at_most=3)
-    modulus: float = key(1.1538e11, "cylindrical: equivalent modulus (steel)", "Pa", above=0)
-    length: float = key(0.1, "cylindrical: length of the bearing", "m", above=0)
-    damping: str = key("step", "damping law", choices=tuple(DAMPING_LAWS))
-    damping_max: float = key(2.5545e8, "step: c_max", "N s/m", at_least=0)
-    damping_depth: float = key(1e-5, "step: d_max", "m", above=0)
-    restitution: float = key(0.5, "other damping laws: wanted restitution", above=0, at_most=1)
+    stiffness: float | None = key(
+        None,
+        "point: K of F = K delta^n; from radius, clearance and modulus unless given",
+        "N/m^n",
+        above=0,
+    )
+    exponent: float = key(HERTZ, "point: n of F = K delta^n", at_least=1, at_most=3)
+    modulus: float = key(
+        1.1538e11,
+        "equivalent modulus of both surfaces",
+        "Pa",
+        above=0,
+        source="steel on steel, 210 GPa, EN 1993-1-1, 3.2.6",
+    )
+    length: float | None = key(
+        None,
+        "cylindrical: length of the bearing; a film's unless given",
+        "m",
+        above=0,
+        example=0.05,
+    )
+    damping: str = key(
+        "hu_guo", "damping law", choices=tuple(DAMPING_LAWS), source="Hu and Guo 2015"
+    )
+    damping_max: float | None = key(None, "step: c_max", "N s/m", at_least=0, example=1e5)
+    damping_depth: float | None = key(None, "step: d_max", "m", above=0, example=1e-6)
+    restitution: float = key(
+        0.9,
+        "other damping laws: wanted restitution",
+        above=0,
+        at_most=1,
+        source="steel pins, Flores et al. 2008",
+    )
     tension: bool = key(False, "let the damping pull, as the printed law does (A-10)")
+
+    def __post_init__(self) -> None:
+        """Check the keys, and that a stiffness is given where it cannot be Hertz's."""
+        super().__post_init__()
+        if self.stiffness is None and self.exponent != HERTZ:
+            raise InputError(
+                f"contact.exponent = {self.exponent!r}: without contact.stiffness, which follows "
+                f"from Hertz, allowed is {HERTZ}"
+            )
 
 
 @dataclass(frozen=True)
@@ -43,13 +85,17 @@ class Friction(Table):
     """Friction of every joint whose surfaces may touch, Eqs. 27-33."""
 
     table: ClassVar[str] = "friction"
-    law: str = key("lugre_steady", "friction law", choices=FRICTION_LAWS)
-    mu_static: float = key(0.01, "static coefficient; law = 'none' for zero", above=0)
-    mu_kinetic: float = key(0.01, "kinetic coefficient; law = 'none' for zero", above=0)
+    law: str = key("coulomb", "friction law", choices=FRICTION_LAWS)
+    mu_static: float = key(
+        0.1, "static coefficient; law = 'none' for zero", above=0, source=GREASED
+    )
+    mu_kinetic: float = key(
+        0.1, "kinetic coefficient; law = 'none' for zero", above=0, source=GREASED
+    )
     sigma_0: float = key(1e5, "bristle stiffness per normal force", "1/m", above=0)
-    sigma_1: float = key(400.0, "bristle damping per normal force", "s/m", at_least=0)
+    sigma_1: float = key(316.0, "bristle damping per normal force", "s/m", at_least=0)
     sigma_2: float = key(0.0, "viscous coefficient per normal force", "s/m", at_least=0)
-    stribeck_velocity: float = key(0.0176, "v_s: 1 % of 0.07 m times 240 rpm", "m/s", above=0)
+    stribeck_velocity: float = key(0.01, "v_s", "m/s", above=0)
     stribeck_exponent: float = key(2.0, "gamma", above=0)
     regularisation_velocity: float = key(
         1e-4, "sgn(v) of laws without bristle is tanh(v / this)", "m/s", above=0
@@ -67,8 +113,8 @@ class Film(Table):
 
     table: ClassVar[str] = "film"
     law: str = key("finite", "film law", choices=tuple(FILM_LAWS))
-    viscosity: float = key(0.4, "dynamic viscosity (A-11)", "Pa s", above=0)
-    length: float = key(0.1, "bearing length (A-12)", "m", above=0)
+    viscosity: float = key(None, "dynamic viscosity (A-11)", "Pa s", above=0, example=0.09)
+    length: float = key(None, "bearing length (A-12)", "m", above=0, example=0.05)
     at_contact: str = key(
         "stop", "at eccentricity ratio 1: stop, or film and contact (A-13)", choices=AT_CONTACT
     )
@@ -188,6 +234,11 @@ class Solver(Table):
             )
         if self.tolerance is None and self.step is None:
             object.__setattr__(self, "tolerance", DEFAULT_TOLERANCE)
+
+
+def asperity_onset(table: Film) -> float | None:
+    """Return the gap at which the surfaces' asperities touch, m; None without mixed film."""
+    return table.roughness * table.asperity_onset if table.at_contact == "mixed" else None
 
 
 def _demand_static_friction(table: str, mu_static: float, mu_kinetic: float) -> None:

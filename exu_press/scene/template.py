@@ -41,7 +41,8 @@ def _lines(scene: Scene) -> Iterator[str]:
             yield from ("", *_all_joints(value), *joint_lines(value, scene.laws, True))
             if not value.grouped:  # an example
                 name = list(value)[-1]
-                example = scene.replace(f"joints.{name}", "dry")
+                dry = {"kind": "dry", "clearance": 5e-5, "radius": 0.03}
+                example = scene.replace({f"joints.{name}": dry, "contact": {"length": 0.05}})
                 shown = joint_lines(example.joints, example.laws, True)[1:]
                 yield from ("", *_not_in_use(shown))
         elif field.name == "load":

@@ -4,8 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from exu_press.errors import InputError
-from exu_press.scene import Scene
-from exu_press.scene.joint import DEFAULT_KINDS
+from exu_press.scene import LubricatedJoint, Scene, mechanism_of
 
 __all__ = ["different_keys", "variants"]
 
@@ -23,12 +22,13 @@ def variants(scene: Scene) -> dict[str, Scene]:
 
     These are the scene's joints with clearance, or those that its mechanism usually has; balls are
     dry beside lubricated pins. A scene with flexible bodies is compared with rigid ones too.
-    Clearances, loads and whatever else a variant uses are the scene's.
+    Clearances, loads and whatever else a variant uses are the scene's; a dry bearing is as long as
+    its film. Dry joints are not lubricated where neither scene nor mechanism has an oil.
 
     Raises:
         InputError: the scene has no joint with clearance, nor does its mechanism usually have one.
     """
-    names = list(scene.joints.grouped) or list(DEFAULT_KINDS.get(scene.shipped, {}))
+    names = list(scene.joints.grouped) or list(mechanism_of(scene).defaults.get("joints", {}))
     if not names:
         raise InputError(
             "joints: none has clearance, and so the scene has no variants; allowed is a scene with "
@@ -45,8 +45,13 @@ def variants(scene: Scene) -> dict[str, Scene]:
     found = {}
     for bodies, base in kinds.items():
         for label, change in joints.items():
-            by_joint = {f"joints.{name}": kind for name, kind in change.items()}
-            found[bodies + label] = base.replace(by_joint)
+            by_joint: dict[str, Any] = {f"joints.{name}": kind for name, kind in change.items()}
+            if label == "dry" and not _has_length(base, "contact"):
+                for name, joint in base.joints.grouped.items():
+                    if isinstance(joint, LubricatedJoint):
+                        by_joint[f"joints.{name}.contact.length"] = joint.film.length
+            if label != "lubricated" or _has_length(base, "film") or set(names) <= set(balls):
+                found[bodies + label] = base.replace(by_joint)
     return found
 
 
@@ -96,3 +101,10 @@ def _shown(value: Any) -> str:
     if isinstance(value, bool):
         return str(value).lower()
     return f"{value:.10g}" if isinstance(value, float) else str(value)
+
+
+def _has_length(scene: Scene, law: str) -> bool:
+    """Return whether a scene or its mechanism has the length of bearings for one of the laws."""
+    table = getattr(scene, law)
+    own = mechanism_of(scene).defaults.get(law, {})
+    return "length" in own or (table is not None and table.length is not None)

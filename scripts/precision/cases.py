@@ -3,6 +3,7 @@
 from typing import Any
 
 from exu_press.errors import InputError
+from exu_press.mechanism.press import TABLE_2
 from exu_press.scene import Film, Scene, flexible_press
 from exu_press.studies.precision.cases import STEPS, TOLERANCES, Case
 from precision.other_solvers import Reduced, Squeezer
@@ -12,6 +13,9 @@ __all__ = ["cases", "chosen"]
 
 PAPERS = Film(law="pinkus")
 """The paper's film, which the reduced model has."""
+
+DRY = {name: TABLE_2[name] for name in ("contact", "friction")}
+"""Its contact and friction."""
 
 SQUEEZER_STEPS = (1e-4, 3e-5, 1e-5, 3e-6, 1e-6)  # s
 
@@ -105,7 +109,7 @@ def chosen(names: list[str]) -> tuple[Case, ...]:
 
 def _slider_crank(pin: str, clearance: float | None = None) -> Scene:
     scene = Scene(mechanism="slider_crank", film=PAPERS, revolutions=1.0)
-    scene = scene.replace("joints.crank_pin", pin)
+    scene = scene.replace({"joints.crank_pin": pin, **(DRY if pin == "dry" else {})})
     return scene if clearance is None else scene.replace("joints.crank_pin.clearance", clearance)
 
 

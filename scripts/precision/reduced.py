@@ -11,7 +11,7 @@ from math import cos, exp, hypot, nan, pi, sin, sqrt, tanh
 from typing import Any, NamedTuple
 
 from exu_press.errors import InputError
-from exu_press.scene import Contact, DryJoint, IdealJoint, LubricatedJoint, Scene
+from exu_press.scene import DryJoint, IdealJoint, LubricatedJoint, Scene
 
 __all__ = ["Jit", "Numbers", "ScalarFunction", "is_reducible", "numbers_of", "rate_of", "start_of"]
 
@@ -61,7 +61,7 @@ def numbers_of(scene: Scene) -> Numbers:
         )
     size, pin = scene.slider_crank, scene.joints["crank_pin"]
     assert size is not None and not isinstance(pin, IdealJoint)
-    contact, friction, c = pin.contact or Contact(), pin.friction, pin.clearance
+    contact, friction, c = pin.contact, pin.friction, pin.clearance
     film = pin.film if isinstance(pin, LubricatedJoint) else None
     return Numbers(
         crank_radius=size.crank_radius,
@@ -74,10 +74,10 @@ def numbers_of(scene: Scene) -> Numbers:
         start_angle=scene.start_angle,
         clearance=c,
         radius=pin.radius,
-        stiffness=contact.stiffness,
-        exponent=contact.exponent,
-        damping_max=contact.damping_max,
-        damping_depth=contact.damping_depth,
+        stiffness=(contact.stiffness or 1.0) if contact else 1.0,
+        exponent=contact.exponent if contact else 1.0,
+        damping_max=(contact.damping_max or 0.0) if contact else 0.0,
+        damping_depth=(contact.damping_depth or 1.0) if contact else 1.0,
         mu_static=friction.mu_static if friction else 0.0,
         mu_kinetic=friction.mu_kinetic if friction else 0.0,
         sigma_2=friction.sigma_2 if friction else 0.0,

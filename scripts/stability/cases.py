@@ -9,6 +9,7 @@ from collections.abc import Iterable, Mapping
 from functools import cache
 from typing import Any
 
+from exu_press.mechanism.press import TABLE_2
 from exu_press.scene import Film, Scene, flexible_press
 from exu_press.studies.stability.cases import PAIRS, Case
 
@@ -25,13 +26,20 @@ BUDGET = 20_000
 LONG_BUDGET = 60_000
 """The same of whole revolutions with dry impacts, and of twenty with a film."""
 
+TOUCHING = {name: TABLE_2[name] for name in ("contact", "friction")}
+"""The paper's laws, on the slider-crank too."""
+
 BASES: Mapping[str, Changes] = {
     "press": {"joints.crank_pin": "dry"},
     "press lubricated": {"film.viscosity": 0.1},
     "press mixed": {"film.viscosity": 0.1, "film.at_contact": "mixed"},
-    "slider-crank": {"mechanism": "slider_crank", "joints.crank_pin": "dry"},
+    "slider-crank": {"mechanism": "slider_crank", "joints.crank_pin": "dry", **TOUCHING},
     "slider-crank lubricated": {"mechanism": "slider_crank"},
-    "slider-crank mixed": {"mechanism": "slider_crank", "film.at_contact": "mixed"},
+    "slider-crank mixed": {
+        "mechanism": "slider_crank",
+        "film.at_contact": "mixed",
+        **TOUCHING,
+    },
     "press ideal": {"joints.crank_pin": "ideal", "joints.balls": "ideal"},
     "slider-crank ideal": {"mechanism": "slider_crank", "joints.crank_pin": "ideal"},
 }

@@ -11,8 +11,8 @@ from exu_press.output import PICTURES
 
 QUICK = ["--set", "revolutions=0.02", "--no-pictures", "--no-error"]
 KEYS = {
-    "status", "reason", "end_time", "warnings", "quantities", "horizon", "lyapunov_exponent",
-    "strokes", "stress", "solids", "cost", "own_items", "versions", "scene",
+    "status", "reason", "end_time", "warnings", "assumed", "quantities", "horizon",
+    "lyapunov_exponent", "strokes", "stress", "solids", "cost", "own_items", "versions", "scene",
 }  # fmt: skip
 
 

@@ -10,7 +10,7 @@ SCENE = ["slider_crank", "--set", "revolutions=0.03"]
 
 
 def test_one_key_of_a_scene(tmp_path, capsys):
-    arguments = ["stability", *SCENE, "--key", "contact.damping_max", "--workers", "1"]
+    arguments = ["stability", *SCENE, "--key", "contact.modulus", "--workers", "1"]
     assert main([*arguments, "--out", str(tmp_path)]) == 0
     report = json.loads((tmp_path / "stability.json").read_text())
     assert report["counts"]["wrong"] == 0 and report["counts"]["right"] >= 1
@@ -19,8 +19,8 @@ def test_one_key_of_a_scene(tmp_path, capsys):
         "name", "axis", "value", "parameters", "verdict", "reason", "checks", "wall_time",
         "residual", "status", "steps",
     }  # fmt: skip
-    pushed = [case["parameters"]["contact"]["damping_max"] for case in report["cases"]]
-    assert len(pushed) == 6 and min(pushed) < 1e6 < 1e11 < max(pushed)
+    pushed = [case["parameters"]["contact"]["modulus"] for case in report["cases"]]
+    assert len(pushed) == 6 and min(pushed) < 1e9 < 1e13 < max(pushed)
     assert (tmp_path / "stability.png").stat().st_size > 10_000
     printed = capsys.readouterr().out
     assert "6 cases: " in printed

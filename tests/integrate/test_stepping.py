@@ -15,8 +15,15 @@ from exu_press import Result, Scene, Status, simulate, solve_dynamic
 from exu_press.cli import main
 from exu_press.integrate.settings import Tuning
 from exu_press.integrate.stepping import FixedSteps, StepControl
+from exu_press.mechanism.press import TABLE_2
 
-DRY = {"mechanism": "slider_crank", "joints": {"crank_pin": "dry"}, "revolutions": 0.1}
+DRY = {
+    "mechanism": "slider_crank",
+    "joints": {"crank_pin": "dry"},
+    "revolutions": 0.1,
+    "contact": TABLE_2["contact"],
+    "friction": TABLE_2["friction"],
+}
 REASON = re.compile(
     r"under-resolved at t = (\S+) s, crank angle (\S+) deg: (\d+)% of the largest inertia force "
     r"\((slider|rod)\) within a step of (\S+) s; peaks are the step's; "
@@ -105,7 +112,7 @@ def test_the_command_exits_with_3_and_does_not_speak_of_a_stop(tmp_path, capsys)
         "--set",
         "revolutions=0.05",
         "--set",
-        "solver.step=2e-4",
+        "solver.step=1e-3",
     ]
     assert main(["run", "slider_crank", *arguments, "--no-pictures", "--out", str(out)]) == 3
     error = capsys.readouterr().err

@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 import pytest
 from contacts import CASES, STIFFNESSES, chi_of
 from scipy.integrate import solve_ivp
@@ -109,3 +110,11 @@ def test_undamped_hertz_depth_and_duration() -> None:
 def test_bad_parameters_are_refused_by_name(make, name: str) -> None:
     with pytest.raises(ValueError, match=rf"^{name} = .*: allowed .*{name}"):
         make()
+
+
+def test_the_default_law_delivers_what_is_wanted():
+    """Hu and Guo's: to 0.013 from 0.5 to 1, and to 0.035 everywhere."""
+    wanted = np.linspace(0.01, 1.0, 100)
+    off = np.array([abs(restitution_of(1.5 * (1.0 - e) / e) - e) for e in wanted])
+    assert off.max() < 0.035
+    assert off[wanted >= 0.5].max() < 0.013

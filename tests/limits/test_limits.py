@@ -7,8 +7,10 @@ import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
+from exu_press.mechanism.press import TABLE_2
 from exu_press.scene import DryJoint
 
+POINT = {name: TABLE_2[name] for name in ("contact", "friction")}
 QUARTER = {"mechanism": "slider_crank", "revolutions": 0.25}
 
 
@@ -37,7 +39,8 @@ def falling(values):
 @pytest.mark.parametrize("pin", ["dry", "lubricated"])
 def test_no_clearance_is_the_ideal_joint(pin):
     """A dry joint gives way by (F / K)^(2/3) besides, here less than 1e-6 m."""
-    stiff = {"contact": {"stiffness": 2.5545e14}} if pin == "dry" else {}
+    laws = {"contact": {**POINT["contact"], "stiffness": 2.5545e14}, "friction": POINT["friction"]}
+    stiff = laws if pin == "dry" else {}
     clearances = (1e-3, 1e-4, 1e-6)
     apart = [
         from_ideal(run(joints={"crank_pin": {"kind": pin, "clearance": c}}, **stiff))
@@ -59,10 +62,11 @@ def test_no_viscosity_under_asperities_is_the_dry_joint():
     The last of a film goes slowly: squeezed to the asperities it is 1e5 times as stiff as in the
     middle, so that 1e-5 Pa s still cushion an impact.
     """
-    dry = run(joints={"crank_pin": DryJoint(clearance=1e-4 - 6e-7)})
+    dry = run(joints={"crank_pin": DryJoint(clearance=1e-4 - 6e-7)}, **POINT)
     apart = []
     for viscosity in (1e-3, 1e-4, 1e-5, 1e-6, 1e-8):
-        thin = run(film={"law": "pinkus", "viscosity": viscosity, "at_contact": "mixed"})
+        film = {"law": "pinkus", "viscosity": viscosity, "at_contact": "mixed"}
+        thin = run(film=film, **POINT)
         there = np.interp(thin["crank_angle"], dry["crank_angle"], dry["slider_position"])
         apart.append(np.abs(thin["slider_position"] - there).max())
     assert falling(apart)
@@ -76,7 +80,9 @@ def test_infinite_stiffness_does_not_blow_up(damping):
     depths = []
     for factor in (1e-2, 1e2, 1e6):
         result = run(
-            joints={"crank_pin": "dry"}, contact={"stiffness": 2.5545e10 * factor, **damping}
+            joints={"crank_pin": "dry"},
+            contact={**POINT["contact"], "stiffness": 2.5545e10 * factor, **damping},
+            friction=POINT["friction"],
         )
         summary = result.summary()
         depths.append(summary["quantities"]["joints.crank_pin.peak_penetration"]["value"])
@@ -94,7 +100,8 @@ def test_no_speed_is_the_static_solution():
                 "joints": {"crank_pin": "dry"},
                 "speed_rpm": 0.01,
                 "revolutions": 5e-5,  # 0.3 s
-                "contact": {"damping_max": 1e6},  # comes to rest within that
+                "contact": {**POINT["contact"], "damping_max": 1e6},  # comes to rest within that
+                "friction": POINT["friction"],
                 "solver": {"step": 1e-4},
             }
         )

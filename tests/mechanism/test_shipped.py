@@ -17,14 +17,13 @@ JOINTS = {
     "four_bar": {"crank_pin": PINS, "knuckle": PINS, "pivot": PINS},
     "six_bar": {"crank_pin": PINS, "coupler_pin": PINS, "pivot": PINS, "rod_pins": PINS},
 }
-LIGHT = {"stiffness": 1e9, "damping_max": 1e4}
 LAWS = {
     "andrews_squeezer": {
-        "contact": {"stiffness": 1e9, "damping_max": 10.0},
-        "film": {"length": 2e-3},
+        "contact": {"length": 2e-3},
+        "film": {"length": 2e-3, "viscosity": 0.4},
     },
-    "four_bar": {"contact": LIGHT, "film": {"length": 0.02, "viscosity": 0.1}},
-    "six_bar": {"film": {"length": 0.04, "viscosity": 0.1}},
+    "four_bar": {"contact": {"length": 0.02}, "film": {"length": 0.02, "viscosity": 0.1}},
+    "six_bar": {"contact": {"length": 0.04}, "film": {"length": 0.04, "viscosity": 0.1}},
 }
 
 

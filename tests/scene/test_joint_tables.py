@@ -21,7 +21,9 @@ def test_a_joint_that_is_not_named_is_ideal():
     scene = press(pivot_left="dry")
     names = [joint.name for joint in mechanism_of(scene).joints]
     assert list(scene.joints) == names, "every joint of the mechanism, in its order"
-    assert scene.joints["pivot_left"] == DryJoint()
+    assert scene.joints["pivot_left"] == DryJoint(
+        clearance=1e-4, radius=0.07, contact=scene.contact, friction=scene.friction
+    )
     others = {joint for name, joint in scene.joints.items() if name != "pivot_left"}
     assert others == {IdealJoint()}
 
@@ -54,7 +56,8 @@ def test_a_kind_a_table_and_a_dataclass_are_the_same():
         crank_pin=DryJoint(radius=0.05)
     )
     film = Film(law="finite", viscosity=0.1)
-    assert press(crank_pin=LubricatedJoint(film=film)).joints["crank_pin"].film == film
+    given = press(crank_pin=LubricatedJoint(film=film)).joints["crank_pin"].film
+    assert given == Film(law="finite", viscosity=0.1, length=0.1), "the length is the press's"
 
 
 def test_own_laws_differ_from_the_scenes():
@@ -155,7 +158,7 @@ def test_a_joint_in_two_groups_is_refused():
 
     pins, groups = {"a": False, "b": False}, {"all": ("a", "b"), "some": ("b",)}
     with pytest.raises(InputError, match="b lies in both"):
-        joints_of({"all": "dry", "some": "ideal"}, "mine", pins, groups, Scene().laws)
+        joints_of({"all": "dry", "some": "ideal"}, "mine", pins, groups, Scene().laws, {})
 
 
 def test_joints_must_be_a_table():

@@ -10,7 +10,8 @@ from exu_press.mechanism import Guide, mechanism_lines, shipped_mechanism
 from exu_press.scene import mechanism_of
 
 FOUR_BAR = shipped_mechanism("four_bar")
-JOINTS = {"knuckle": {"kind": "dry", "radius": 0.02, "clearance": 2e-5}}
+LENGTH = {"length": 0.02}
+JOINTS = {"knuckle": {"kind": "dry", "radius": 0.02, "clearance": 2e-5, "contact": LENGTH}}
 SHORT = {"revolutions": 0.01, "solver": {"step": 1e-5}}
 
 
@@ -20,6 +21,7 @@ def folder(tmp_path):
     (tmp_path / "my_press.toml").write_text("\n".join(mechanism_lines(FOUR_BAR)))
     lines = ['mechanism = "my_press.toml"', "revolutions = 0.01", "[solver]", "step = 1e-5"]
     lines += ["[joints.knuckle]", 'kind = "dry"', "radius = 0.02", "clearance = 2e-5"]
+    lines += ["contact = {length = 0.02}"]
     (tmp_path / "scene.toml").write_text("\n".join(lines))
     return tmp_path
 
@@ -47,7 +49,9 @@ def test_a_saved_scene_is_complete_without_the_mechanism_file(folder):
 
 def test_a_changed_scene_keeps_its_mechanism():
     scene = Scene(mechanism=FOUR_BAR, joints=JOINTS)
-    faster = scene.replace({"speed_rpm": 300.0, "joints.pivot": "lubricated"})
+    pivot = {"kind": "lubricated", "radius": 0.02, "clearance": 2e-5}
+    film = {"length": 0.02, "viscosity": 0.1}
+    faster = scene.replace({"speed_rpm": 300.0, "joints.pivot": pivot, "film": film})
     assert faster.mechanism == FOUR_BAR
     assert faster.joints["pivot"].kind == "lubricated"
     assert faster.joints["knuckle"] == scene.joints["knuckle"]

@@ -26,7 +26,7 @@ NUMBER_OF_EVERY_TABLE = [
     ("slider_crank.rod_length", CRANK),
     ("slider_crank.slider_mass", CRANK),
 ]
-MAY_BE_ABSENT = ("solver.step",)
+MAY_BE_ABSENT = ("solver.step", "contact.damping_max", "film.viscosity")
 NOT_A_NUMBER = [math.nan, math.inf, -math.inf, True, "1.0", [1.0], {}, None]
 
 
@@ -223,10 +223,11 @@ def test_defaults():
     scene = Scene()
     assert (scene.mechanism, scene.bodies) == ("press", {})
     assert (scene.speed_rpm, scene.revolutions, scene.start_angle_deg) == (240.0, 2.0, 0.0)
+    ball = DryJoint(clearance=1e-4, radius=0.07, contact=scene.contact, friction=scene.friction)
     assert scene.joints.with_clearance == {
-        "crank_pin": LubricatedJoint(clearance=1e-4, radius=0.07),
-        "ball_left": DryJoint(clearance=1e-4, radius=0.07),
-        "ball_right": DryJoint(clearance=1e-4, radius=0.07),
+        "crank_pin": LubricatedJoint(clearance=1e-4, radius=0.07, film=scene.film),
+        "ball_left": ball,
+        "ball_right": ball,
     }
     assert (scene.contact.stiffness, scene.contact.exponent) == (2.5545e10, 1.5)
     assert (scene.contact.damping_max, scene.contact.damping_depth) == (2.5545e8, 1e-5)

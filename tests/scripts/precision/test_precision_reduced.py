@@ -5,6 +5,7 @@ import pytest
 from independent.reduced_slider_crank import ReducedSliderCrank
 
 from exu_press import InputError, Scene
+from exu_press.mechanism.press import TABLE_2
 from precision.compiled import compile_model, has_numba
 from precision.reduced import numbers_of, rate_of, start_of
 
@@ -12,9 +13,10 @@ PINS = {"dry": "lugre_steady", "lubricated": "pinkus"}
 
 
 def scene(pin, **changes):
-    film = {"film": {"law": "pinkus"}} if pin == "lubricated" else {}
+    dry = {name: TABLE_2[name] for name in ("contact", "friction")}
+    laws = {"film": {"law": "pinkus"}} if pin == "lubricated" else dry
     joints = {"crank_pin": pin}
-    return Scene(mechanism="slider_crank", joints=joints, revolutions=1.0, **film, **changes)
+    return Scene(mechanism="slider_crank", joints=joints, revolutions=1.0, **{**laws, **changes})
 
 
 def states(pin, count=40):

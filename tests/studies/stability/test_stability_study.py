@@ -131,7 +131,7 @@ def test_a_difference_that_is_stated_is_right(run):
 
 def test_a_joint_that_never_touches_agrees():
     """Its force and penetration are zero, without an error and with nothing allowed."""
-    loose = {"kind": "dry", "clearance": 3e-3, "radius": 0.02}
+    loose = {"kind": "dry", "clearance": 3e-3, "radius": 0.02, "contact": {"length": 0.02}}
     scene = Scene(mechanism="four_bar", joints={"knuckle": loose}, revolutions=0.002)
     row = judge({"name": "loose", "scene": scene.to_dict()})
     assert row["verdict"] == judging.RIGHT, row["reason"]

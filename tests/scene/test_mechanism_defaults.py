@@ -1,0 +1,166 @@
+"""The paper's numbers rule the paper's press alone; other mechanisms have engineering values."""
+
+import dataclasses
+
+import pytest
+
+from exu_press import InputError, Scene, load_scene, simulate
+from exu_press.laws.contact import hertz_stiffness
+from exu_press.mechanism import mechanism_from, mechanism_lines, shipped_mechanism
+from exu_press.mechanism.press import TABLE_2
+from exu_press.scene import Contact, DryJoint, Film
+from exu_press.scene.assumptions import assumed
+from exu_press.scene.laws import contact_law
+from exu_press.scene.usage import TABLES
+from exu_press.studies.compare import variants
+
+FOUR_BAR = shipped_mechanism("four_bar")
+PIN = {"kind": "dry", "radius": 0.02, "clearance": 2e-5}
+OIL = {"viscosity": 0.1, "length": 0.02}
+
+
+def scene(**given):
+    keys = {"joints": {"knuckle": PIN}, "contact": {"length": 0.02}, **given}
+    return Scene(**{"mechanism": "four_bar", **keys})
+
+
+def test_no_default_is_the_papers():
+    for law in ("contact", "friction", "film"):
+        ours = {field.name: field.default for field in dataclasses.fields(TABLES[law])}
+        papers = TABLE_2[law].items() - {
+            ("exponent", 1.5),
+            ("modulus", 1.1538e11),
+            ("sigma_0", 1e5),
+        }
+        assert not papers & ours.items()
+    sizes = {field.name: field.default for field in dataclasses.fields(DryJoint)}
+    assert sizes["clearance"] is sizes["radius"] is None
+
+
+def test_the_paper_rules_its_press():
+    press = Scene(joints={"crank_pin": "dry"})
+    for law in ("contact", "friction"):
+        assert TABLE_2[law].items() <= dataclasses.asdict(getattr(press, law)).items()
+    assert Scene().film.viscosity == 0.4
+    assert Scene(contact=Contact(damping="flores")) == Scene(contact={"damping": "flores"})
+    assert Scene(contact=Contact(damping="flores")).contact.restitution == 0.5
+    asked = Scene(friction={"mu_static": 0.1, "mu_kinetic": 0.1}).friction
+    assert asked.mu_kinetic == 0.1, "what is given counts although it is a general default"
+    assert Scene(contact=Contact(restitution=0.9)).contact.restitution == 0.9
+
+
+def test_another_mechanism_does_not_take_the_papers_laws_over():
+    dry = Scene(joints={"crank_pin": "dry"}, contact={"restitution": 0.7})
+    other = dry.replace("mechanism", "slider_crank")
+    assert other.contact.damping == "hu_guo" and other.contact.stiffness is None
+    assert other.contact.restitution == 0.7, "what the scene gave stays"
+    assert other.friction == Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}).friction
+
+
+@pytest.mark.parametrize(
+    ("given", "key"),
+    [
+        ({"joints": {"knuckle": "dry"}}, "clearance"),
+        ({"joints": {"knuckle": {**PIN, "radius": None}}}, "radius"),
+        ({"contact": {}}, "contact.length"),
+        ({"contact": {"length": 0.02, "damping": "step"}}, "contact.damping_max"),
+        (
+            {"contact": {"length": 0.02, "damping": "step", "damping_max": 1e4}},
+            "contact.damping_depth",
+        ),
+    ],
+)
+def test_what_decides_the_result_is_asked_for(given, key):
+    with pytest.raises(InputError, match=rf"joints.knuckle needs {key} .* as in \w+ = \S+$"):
+        scene(**given)
+
+
+def test_a_film_needs_its_oil_and_its_length():
+    film = {"knuckle": {**PIN, "kind": "lubricated"}}
+    for name in OIL:
+        with pytest.raises(InputError, match=rf"joints.knuckle needs film.{name} "):
+            scene(joints=film, contact=None, film={k: v for k, v in OIL.items() if k != name})
+    whole = scene(joints=film, contact=None, film=Film(**OIL))
+    mixed = whole.replace("film.at_contact", "mixed")
+    law = contact_law(mixed.joints["knuckle"], revolute=True)
+    given = contact_law(scene().joints["knuckle"], revolute=True)
+    assert law.stiffness.force(1e-6) == given.stiffness.force(1e-6), "of the film's length"
+
+
+def test_a_ball_has_the_stiffness_of_its_sizes():
+    """1/R = 1/0.03 - 1/0.0301 m, steel on steel."""
+    press = Scene(
+        mechanism="eccentric_press",
+        joints={"balls": {"kind": "dry", "radius": 0.03, "clearance": 1e-4}},
+    )
+    law = contact_law(press.joints["ball_left"], revolute=False)
+    expected = hertz_stiffness(1.0 / (1.0 / 0.03 - 1.0 / 0.0301), 210e9 / (2 * (1 - 0.3**2)))
+    assert law.stiffness.force(1e-6)[0] == pytest.approx(expected * 1e-9, rel=1e-4)
+    with pytest.raises(InputError, match=r"contact.exponent = 2.0: .* allowed is 1.5"):
+        scene(contact={"exponent": 2.0, "length": 0.02})
+
+
+def test_a_mechanism_file_gives_sizes_and_laws_for_all_its_scenes(tmp_path):
+    defaults = {"radius": 0.02, "clearance": 2e-5, "contact": {"length": 0.02}}
+    own = dataclasses.replace(FOUR_BAR, defaults=defaults)
+    (tmp_path / "bar.toml").write_text("\n".join(mechanism_lines(own)))
+    (tmp_path / "scene.toml").write_text('mechanism = "bar.toml"\njoints.knuckle = "dry"\n')
+    loaded = load_scene(tmp_path / "scene.toml")
+    assert loaded.mechanism == own
+    assert loaded.joints["knuckle"] == scene().joints["knuckle"]
+    assert Scene.from_dict(loaded.to_dict()) == loaded
+    given = Scene(mechanism=own, joints={"knuckle": {"kind": "dry", "clearance": 5e-5}})
+    assert given.joints["knuckle"].clearance == 5e-5
+
+
+@pytest.mark.parametrize(
+    ("defaults", "message"),
+    [
+        ({"clearanc": 1e-5}, r"defaults.clearanc = 1e-05: unknown key \(did you mean 'clearance'"),
+        ({"film": 3}, "defaults.film = 3: allowed is a table"),
+        ({"radius": "wide"}, "defaults.radius = 'wide': allowed is a number"),
+        (3, "defaults = 3: allowed is a table"),
+    ],
+)
+def test_defaults_that_no_scene_has_are_refused(defaults, message):
+    with pytest.raises(InputError, match=message):
+        dataclasses.replace(FOUR_BAR, defaults=defaults)
+    data = {**Scene(mechanism=FOUR_BAR).to_dict()["mechanism"], "defaults": defaults}
+    with pytest.raises(InputError, match=message):
+        mechanism_from(data)
+
+
+def test_everything_assumed_is_named_with_its_source():
+    named = assumed(scene())
+    keys = {entry.partition(" = ")[0] for entry in named}
+    assert keys == {
+        "contact.modulus",
+        "contact.damping",
+        "contact.restitution",
+        "friction.mu_kinetic",
+    }
+    assert "contact.restitution = 0.9 (steel pins, Flores et al. 2008)" in named
+    given = scene(contact={"length": 0.02, "restitution": 0.8}, friction={"law": "none"})
+    assert {entry.partition(" = ")[0] for entry in assumed(given)} == {
+        "contact.modulus",
+        "contact.damping",
+    }
+    result = simulate(scene(revolutions=0.002))
+    assert result.summary()["assumed"] == named
+
+
+def test_what_the_mechanism_says_is_not_assumed():
+    assert assumed(Scene()) == [
+        "contact.tension = false (A-10)",
+        "film.viscosity = 0.4 Pa s (A-11)",
+        "film.length = 0.1 m (A-12)",
+        "film.at_contact = stop (A-13)",
+    ]
+
+
+def test_variants_of_a_film_are_dry_in_bearings_of_its_length():
+    joints = {"knuckle": {**PIN, "kind": "lubricated"}, "pivot": {**PIN, "kind": "lubricated"}}
+    made = variants(scene(joints=joints, contact=None, film=OIL))
+    assert made.keys() == {"ideal", "dry", "lubricated"}
+    assert made["dry"].joints["pivot"].contact.length == OIL["length"]
+    assert variants(scene()).keys() == {"ideal", "dry"}, "no oil is known"

@@ -26,6 +26,7 @@ MODULES = [
     "integrate/contact",
     "integrate/error",
     "integrate/monitor",
+    "integrate/output",
     "integrate/problem",
     "integrate/sampling",
     "integrate/scheme",

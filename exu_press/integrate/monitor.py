@@ -20,6 +20,7 @@ from exu_press.integrate.constraints import (
 )
 from exu_press.integrate.contact import Gaps, fit_data
 from exu_press.integrate.error import StepError
+from exu_press.integrate.output import OutputGrid
 from exu_press.integrate.sampling import Event, Sampling
 from exu_press.integrate.scheme import ModalMass, Newton
 from exu_press.integrate.settings import Task
@@ -83,6 +84,7 @@ class Monitor:
         self._modal_mass = ModalMass(task.problem.mbs, task.solver, modal_mass)
         self._newton = Newton(task)
         self._gaps = Gaps(task.problem)
+        self._output = OutputGrid(task)
         self._estimate = StepError(task)
         samples = bool(_function(task.problem.mbs.GetPreStepUserFunction())) and not task.fixed
         period = (task.largest if sample is None else sample) if samples else 0.0
@@ -149,6 +151,7 @@ class Monitor:
         self._newton.begin()
         self.resolution.begin(now)
         self._event.begin(task.start)
+        self._output.begin()
 
     def _before_step(self, mbs: exu.MainSystem, end: float) -> bool:
         """Return whether to go on."""
@@ -186,6 +189,8 @@ class Monitor:
         return [2.0, shorter] if shorter > 0.0 else ACCEPTED
 
     def _after_step(self, mbs: exu.MainSystem, end: float) -> bool:
+        if self._output.writing:
+            return True
         if self.tries == 0:  # Exudyn calls at the start too
             if not np.isfinite(self._accelerations).all():
                 self.without_mass = True
@@ -194,6 +199,7 @@ class Monitor:
         else:
             self.steps += 1
             step, now = end - self._time, self._accelerations.tolist()
+            self._output.stepped(self._time, end)
             self._time = end
             self._gaps.close()
             self.control.accept(step)

@@ -77,6 +77,16 @@ class Outcome:
     newton_iterations: int
     law_evaluations: int
 
+    def check(self) -> "Outcome":
+        """Return this outcome where the run was completed.
+
+        Raises:
+            RuntimeError: it was not; with the reason.
+        """
+        if self.status is not Status.COMPLETED:
+            raise RuntimeError(f"{self.status.value}: {self.reason}")
+        return self
+
 
 class Advice:
     """Words for the places and the settings of a system."""
@@ -153,6 +163,7 @@ def solve_dynamic(
     bodies: Mapping[int, tuple[str, float]] | None = None,
     advice: Callable[[Problem, bool], Advice] = Advice,
     max_steps: int = 1_000_000,
+    update_initial_values: bool = False,
     quiet: bool = True,
 ) -> Outcome:
     """Do what `mbs.SolveDynamic(settings)` does, with a tolerance instead of a step.
@@ -185,6 +196,8 @@ def solve_dynamic(
             in errors. None: all nodes have one.
         advice: makes the words for early stops.
         max_steps: a run that would need more, repeated ones too, stops.
+        update_initial_values: whether the next run starts where this one ends, as Exudyn's
+            `updateInitialValues`.
         quiet: False shows the progress on standard error.
 
     Returns:
@@ -231,6 +244,8 @@ def solve_dynamic(
         wall_time = clock.perf_counter() - begun
         reached = problem.data.GetTime()
         progress.update(reached - task.start)
+    if update_initial_values:
+        _start_from_here(mbs)
     status, reason = _how_it_ended(task, monitor, words, time=reached, failure=failure)
     return Outcome(
         status=status,
@@ -242,6 +257,14 @@ def solve_dynamic(
         newton_iterations=solver.it.newtonStepsCount,
         law_evaluations=problem.joints.evaluations if problem.joints else 0,
     )
+
+
+def _start_from_here(mbs: exu.MainSystem) -> None:
+    """Make the current state the one from which the next run starts."""
+    data: Any = mbs.systemData
+    initial = exu.ConfigurationType.Initial
+    data.SetSystemState(systemStateList=data.GetSystemState(), configuration=initial)
+    data.SetODE2Coordinates_tt(coordinates=data.GetODE2Coordinates_tt(), configuration=initial)
 
 
 @contextmanager

@@ -18,7 +18,13 @@ import time as clock
 from pathlib import Path
 
 import exudyn as exu
+import exudyn.advancedUtilities
+import exudyn.basicUtilities
+import exudyn.beams
+import exudyn.graphicsDataUtilities
+import exudyn.itemInterface
 import exudyn.plot
+import exudyn.rigidBodyUtilities
 import exudyn.solver
 import exudyn.utilities
 import numpy as np
@@ -26,6 +32,15 @@ import numpy as np
 from exu_press import InputError, solve_dynamic
 from exu_press.integrate.problem import Problem, weights
 
+EXPORTED = (
+    math,
+    exudyn.basicUtilities,
+    exudyn.advancedUtilities,
+    exudyn.rigidBodyUtilities,
+    exudyn.graphicsDataUtilities,
+    exudyn.beams,
+    exudyn.itemInterface,
+)
 SAMPLES = 20
 MEMORY = 6 << 30  # bytes
 CURRENT = exu.ConfigurationType.Current
@@ -85,8 +100,11 @@ def quiet():
         if hasattr(exu.MainSystem, name):
             setattr(exu.MainSystem, name, nothing)
     exudyn.plot.PlotSensor = exudyn.utilities.PlotSensor = nothing
-    for name in ("sin", "cos", "tan", "sqrt", "pi", "exp"):  # earlier versions export them
-        setattr(builtins, name, getattr(math, name))
+    for module in EXPORTED:  # by exudyn.utilities, in earlier versions
+        for name, value in vars(module).items():
+            if not name.startswith("_") and not hasattr(builtins, name):
+                setattr(builtins, name, value)
+    builtins.np, builtins.exudyn = np, exu
     random.seed(1)
     np.random.seed(1)
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))

@@ -1,0 +1,101 @@
+"""Rows of sensors lie on the settings' grid; a run can go on where another one ended."""
+
+import exudyn as exu
+import exudyn.utilities as items
+import numpy as np
+import pytest
+
+from exu_press import Status, solve_dynamic
+from exu_press.integrate.output import between
+
+OMEGA = 7.0  # 1/s
+
+
+def spring():
+    """A mass on a spring at a metre, x = cos(omega t), and its sensor."""
+    mbs = exu.SystemContainer().AddSystem()
+    node = mbs.AddNode(items.Node1D(referenceCoordinates=[0.0], initialCoordinates=[1.0]))
+    mbs.AddObject(items.ObjectMass1D(nodeNumber=node, mass=1.0))
+    ends = [
+        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=number, coordinate=0))
+        for number in (mbs.AddNode(items.NodePointGround()), node)
+    ]
+    mbs.AddObject(
+        items.ObjectConnectorCoordinateSpringDamper(markerNumbers=ends, stiffness=OMEGA**2)
+    )
+    sensors = [
+        mbs.AddSensor(
+            items.SensorNode(nodeNumber=node, storeInternal=True, outputVariableType=kind)
+        )
+        for kind in (exu.OutputVariableType.Coordinates, exu.OutputVariableType.Coordinates_t)
+    ]
+    mbs.Assemble()
+    return mbs, sensors
+
+
+def settings(end=1.0, period=0.01):
+    chosen = exu.SimulationSettings()
+    chosen.timeIntegration.endTime, chosen.solution.file.write = end, False
+    chosen.timeIntegration.numberOfSteps = 20
+    chosen.solution.sensors.writePeriod = period
+    return chosen
+
+
+@pytest.mark.parametrize("period", [0.01, 1e-3, 0.3])
+def test_rows_lie_on_the_grid_and_on_the_motion(period):
+    mbs, (position, velocity) = spring()
+    called = []
+    mbs.SetPostStepUserFunction(lambda mbs, time: called.append(time) or True)
+    outcome = solve_dynamic(mbs, settings(period=period), tolerance=1e-4)
+    assert outcome.check() is outcome
+    places, speeds = mbs.GetSensorStoredData(position), mbs.GetSensorStoredData(velocity)
+    grid = np.append(np.arange(0.0, 1.0 - 1e-9, period), 1.0)
+    assert places[:, 0] == pytest.approx(grid, abs=1e-9)
+    assert places[:, 1] == pytest.approx(np.cos(OMEGA * grid), abs=5e-4)
+    assert speeds[:, 1] == pytest.approx(-OMEGA * np.sin(OMEGA * grid), abs=5e-4 * OMEGA)
+    assert len(called) == outcome.steps + 1
+
+
+def test_every_step_is_written_with_a_period_of_zero():
+    mbs, (position, _) = spring()
+    outcome = solve_dynamic(mbs, settings(period=0.0))
+    assert len(mbs.GetSensorStoredData(position)) == outcome.steps + 1
+
+
+def test_the_grid_does_not_change_the_run():
+    runs = []
+    for period in (0.0, 1e-3):
+        mbs, _ = spring()
+        outcome = solve_dynamic(mbs, settings(period=period))
+        runs.append((outcome.steps, mbs.systemData.GetODE2Coordinates().tolist()))
+    assert runs[0] == runs[1]
+
+
+def test_within_a_step_a_polynomial_of_fourth_degree_is_met():
+    """x = t^4, whose acceleration's line is the only thing that misses."""
+
+    def state(t):
+        values = t**4, 4.0 * t**3, 12.0 * t**2, 2.0 * t, t**3, 3.0 * t**2
+        return [np.array([value]) for value in values]
+
+    found = between(0.3, 0.5, state(1.0), state(1.5))
+    exact = state(1.15)
+    for i in (0, 1, 3, 4):
+        assert found[i] == pytest.approx(exact[i], rel=1e-12)
+
+
+def test_a_run_goes_on_where_another_one_ended():
+    mbs, _ = spring()
+    for start in (0.0, 0.5):
+        chosen = settings(start + 0.5)
+        chosen.timeIntegration.startTime = start
+        solve_dynamic(mbs, chosen, tolerance=1e-4, update_initial_values=True).check()
+    assert mbs.systemData.GetODE2Coordinates()[0] == pytest.approx(np.cos(OMEGA), abs=1e-3)
+
+
+def test_an_early_stop_raises_where_it_is_checked():
+    mbs, _ = spring()
+    outcome = solve_dynamic(mbs, settings(), max_steps=10)
+    assert outcome.status is Status.TOO_MANY_STEPS
+    with pytest.raises(RuntimeError, match="too many steps: 10 steps were used up"):
+        outcome.check()

@@ -48,6 +48,7 @@ class Monitor:
         resolution: of the impacts.
         constraints: of the system.
         go_on: False once a function of the user's own asked to stop.
+        stalled: why the motion that was watched came to its end, or nothing.
         without_mass: whether Exudyn found no accelerations to start with, as coordinates have no
             mass.
     """
@@ -56,6 +57,7 @@ class Monitor:
         self,
         task: Task,
         next_corner: Callable[[float], float],
+        watch: Callable[[float], str],
         progress: Progress,
         max_steps: int,
         sample: float | None = None,
@@ -66,6 +68,7 @@ class Monitor:
         Args:
             task: what is solved.
             next_corner: time -> the next instant at which a load has a corner, s, or infinity.
+            watch: is asked after every step why the run is to end there, or nothing.
             progress: is shown ten times a second.
             max_steps: budget.
             sample: period of a pre-step function, s; None: the largest step, 0.0: every step.
@@ -74,6 +77,7 @@ class Monitor:
         self.tries = self.steps = 0
         self.interrupted = self.over_budget = False
         self.go_on, self.without_mass = True, False
+        self.stalled, self._watch = "", watch
         self.max_steps = max_steps
         self._task, self._progress = task, progress
         self.constraints = Constraints(task)
@@ -208,12 +212,13 @@ class Monitor:
                 self.control.restart()
             self._newton.stepped(step)
             self.resolution.stepped(end, step, now)
+        self.stalled = self._watch(end)
         step = self.control.next_step(end)
         if step != self._iteration.currentStepSize:  # to set it takes longer than to ask for it
             self._iteration.currentStepSize = step
         if self._users[3] and not self._users[3](mbs, end):
             self.go_on = False
-        return self.go_on
+        return self.go_on and not self.stalled
 
     @contextmanager
     def _catching_interrupts(self) -> Iterator[None]:

@@ -47,6 +47,7 @@ class Status(Enum):
     COMPLETED = "completed"
     UNDER_RESOLVED = "under-resolved"
     INTERRUPTED = "interrupted"
+    STALLED = "stalled"
     FILM_BROKE_DOWN = "film broke down"
     STEP_TOO_SMALL = "step below minimum"
     TOO_MANY_STEPS = "too many steps"
@@ -150,6 +151,11 @@ def _never(time: float) -> float:
     return float("inf")
 
 
+def _nothing(time: float) -> str:
+    """Return why a run is to end at a time, s."""
+    return ""
+
+
 def solve_dynamic(
     mbs: exu.MainSystem,
     settings: exu.SimulationSettings,
@@ -158,6 +164,7 @@ def solve_dynamic(
     scales: Scales = NO_SCALES,
     tuning: Tuning = DEFAULTS,
     next_corner: Callable[[float], float] = _never,
+    watch: Callable[[float], str] = _nothing,
     sample: float | None = None,
     event: Callable[[exu.MainSystem, float], float] | None = None,
     bodies: Mapping[int, tuple[str, float]] | None = None,
@@ -186,6 +193,8 @@ def solve_dynamic(
         tuning: the numbers of step control, to vary them.
         next_corner: time (s) -> the next instant at which a load has a corner, s, or infinity;
             steps end on them.
+        watch: time (s) -> why the motion has come to its end there, or nothing; is asked after
+            every step.
         sample: period of the system's pre-step function, s. Steps end on its multiples, and the
             function is called once for each of them, with its end, as in fixed steps of that size:
             what a controller sets is held. None: the largest step. 0.0: before every step, as are
@@ -220,7 +229,7 @@ def solve_dynamic(
     task = Task(problem, settings, tolerance, scales, tuning)
     solver, failure = task.solver, ""
     with Progress("run", task.end - task.start, quiet=quiet) as progress:
-        monitor = Monitor(task, next_corner, progress, max_steps, sample, event)
+        monitor = Monitor(task, next_corner, watch, progress, max_steps, sample, event)
         mbs.sys["dynamicSolver"], mbs.sys["simulationSettings"] = solver, settings
         begun = clock.perf_counter()
         # matrices of a hundred rows: further threads only wait for each other
@@ -302,6 +311,8 @@ def _how_it_ended(
             f"force ({problem.nodes[worst.node].name}) within a step of {worst.step:.2g} s; peaks "
             f"are the step's; try {advice.resolution(worst)}"
         )
+    if monitor.stalled:
+        return Status.STALLED, monitor.stalled
     where = advice.place(time)
     if monitor.interrupted:
         return Status.INTERRUPTED, f"interrupted {where}"

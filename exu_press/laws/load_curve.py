@@ -4,7 +4,7 @@ import math
 from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 
-__all__ = ["LoadCurve", "blanking_pulse"]
+__all__ = ["LoadCurve", "blanking_pulse", "closing"]
 
 
 class LoadCurve:
@@ -84,6 +84,46 @@ class LoadCurve:
             return place
         first = self.places[0]
         return first + (place - first) % self.period
+
+
+def closing(velocity: float, fade: float) -> float:
+    r"""Part of a forming force that acts at a velocity of the ram: none where it opens.
+
+    .. math::
+        p = \begin{cases} 0 & v \ge 0 \\ t^2 (3 - 2t), \quad t = -v / v_f & -v_f < v < 0 \\
+        1 & v \le -v_f \end{cases}
+
+    Metal that is formed resists the ram and does not push it back. A force that resists, times p,
+    takes out energy at every velocity, and it has no jump where the ram turns.
+
+    Parameters
+    ----------
+    velocity : v of the ram [m/s], positive where it opens
+    fade : v_f [m/s], positive
+
+    Returns
+    -------
+    p [-].
+
+    Notes
+    -----
+    Range: any velocity. The elastic part of the work, which the ram has back as tool and workpiece
+    unload, is left out.
+
+    Examples
+    --------
+    >>> [closing(velocity, 0.01) for velocity in (-0.2, -0.005, 0.0, 0.2)]
+    [1.0, 0.5, 0.0, 0.0]
+
+    References
+    ----------
+    .. [1] Lange, K. Handbook of Metal Forming. McGraw-Hill, 1985: forming energy is the area under
+       the curve of force over stroke.
+    """
+    if velocity >= 0.0:
+        return 0.0
+    t = -velocity / fade
+    return 1.0 if t >= 1.0 else t * t * (3.0 - 2.0 * t)  # also of no number
 
 
 def blanking_pulse(peak: float, rise: float, fall: float) -> tuple[list[float], list[float]]:

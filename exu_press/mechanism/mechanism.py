@@ -174,14 +174,22 @@ class Mechanism:
         up = velocity[np.abs(velocity) > 1e-9 * np.abs(velocity).max()] > 0.0
         if (up != np.roll(up, 1)).sum() != 2:
             return None
-        found = []
-        for near in (position.argmax(), position.argmin()):
-            at = angle[near]
-            for _ in range(3):
-                _, rate, bend = (part[0] for part in self.ideal_slider(np.array([at]), 1.0))
-                at -= rate / bend if bend else 0.0
-            found.append(float(at % (2.0 * np.pi)))
-        return found[0], found[1]
+        top, bottom = (self._turning(angle[at]) for at in (position.argmax(), position.argmin()))
+        return top, bottom
+
+    @cached_property
+    def bottom(self) -> float:
+        """Lowest position of the ideal output, m: heights count from there."""
+        angle = np.linspace(0.0, 2.0 * np.pi, 721)[:-1]
+        lowest = angle[self.ideal_slider(angle, 1.0)[0].argmin()]
+        return float(self.ideal_slider(np.array([self._turning(lowest)]), 1.0)[0][0])
+
+    def _turning(self, near: float) -> float:
+        """Return the crank angle, rad, close by at which the ideal output turns back."""
+        for _ in range(3):
+            _, rate, bend = (part[0] for part in self.ideal_slider(np.array([near]), 1.0))
+            near -= rate / bend if bend else 0.0
+        return float(near % (2.0 * np.pi))
 
     def travel(self, position: Array) -> Array:
         """Return the slider's positions (n,), m, of its centre's (n, 2 or 3)."""

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 from exu_press.integrate.scheme import follow_modes
 from exu_press.mechanism import Motion
 from exu_press.model.bodies import add_bodies
-from exu_press.model.drive import add_drive, hold_flexible_bodies
+from exu_press.model.drive import add_drive, crank_angle_of, hold_flexible_bodies
 from exu_press.model.guides import add_guide, add_ways
 from exu_press.model.joints import add_clearance_joint, add_ideal_joint
 from exu_press.model.loads import add_loads
@@ -105,6 +105,7 @@ def _assembled(
         rigid=system.rigid,
         clearance_joints=clearance,
         drive=drive,
+        crank_angle=crank_angle_of(system),
         loads=loads,
         ways=ways,
         sensors=system.sensors,

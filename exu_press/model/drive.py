@@ -1,15 +1,20 @@
 """What turns the crank, and holds flexible bodies in space."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from typing import Any
 
-from exudyn.itemInterface import LoadCoordinate, ObjectConnectorCoordinateSpringDamper
+import exudyn as exu
+from exudyn.itemInterface import ObjectConnectorCoordinateSpringDamper
 
 from exu_press.mechanism import Body, Motion
 from exu_press.mechanism.parts import DRIVE
 from exu_press.model.system import System
 from exu_press.rigid import RigidBody
 
-__all__ = ["add_drive", "hold_flexible_bodies", "turned_body"]
+__all__ = ["CrankAngle", "add_drive", "crank_angle_of", "hold_flexible_bodies", "turned_body"]
+
+CrankAngle = Callable[[], tuple[float, float]]
+"""The angle of what the drive turns, rad, and its angular velocity, rad/s, in the current state."""
 
 DISC_MASS = 1e-3
 """kg: what turns a flexible crank, on which it rests, weighs nothing; but masses are positive."""
@@ -18,24 +23,49 @@ DISC_MASS = 1e-3
 def add_drive(system: System) -> int:
     """Turn the crank: by a constraint on its angular velocity, or by a motor's torque.
 
-    The motor's torque is linear in the speed: that at rest, less what a damper takes.
+    Exudyn asks the motor's connector for its torque at speeds nearby, so that Newton's method knows
+    its slope.
     """
     scene, turned = system.scene, turned_body(system)
     if scene.drive is None:
         return system.hold(turned, "angle", velocityLevel=True, offset=scene.angular_speed)
-    angle = system.coordinate(turned, "angle")
-    torque = scene.drive.torque_at_rest
-    system.mbs.AddLoad(LoadCoordinate(markerNumber=angle, load=torque))
-    damper = ObjectConnectorCoordinateSpringDamper(
-        markerNumbers=[system.still, angle], damping=scene.drive.damping(scene.speed_rpm)
+    law = scene.drive.law(scene.speed_rpm)
+
+    def against(
+        mbs: Any, t: float, item: int, angle: float, speed: float, k: float, d: float, zero: float
+    ) -> float:
+        return -law(speed)[0]
+
+    function: Any = against
+    motor = ObjectConnectorCoordinateSpringDamper(
+        markerNumbers=[system.still, system.coordinate(turned, "angle")],
+        springForceUserFunction=function,
     )
-    return int(system.mbs.AddObject(damper))
+    return int(system.mbs.AddObject(motor))
 
 
 def turned_body(system: System) -> str:
     """Return the rigid body that the drive turns: the crank, or the disc of a flexible one."""
     crank = system.mechanism.crank
     return DRIVE if crank in system.flexible else crank
+
+
+def crank_angle_of(system: System) -> CrankAngle:
+    """Return what tells the crank's angle from the mechanism's zero, and its angular velocity."""
+    data: Any = system.mbs.systemData
+    turned, current = system.rigid[turned_body(system)], exu.ConfigurationType.Current
+    column = turned.coordinates.index("angle")
+    zero = float(turned.reference[2]) - system.mechanism.body(system.mechanism.crank).angle
+    index: list[int] = []  # among all coordinates: not known before the system is assembled
+
+    def angle() -> tuple[float, float]:
+        if not index:
+            index.append(system.mbs.GetNodeODE2Index(turned.node) + column)
+        (at,) = index
+        found = data.GetODE2Coordinates(current, False)[at]
+        return zero + float(found), float(data.GetODE2Coordinates_t(current, False)[at])
+
+    return angle
 
 
 def hold_flexible_bodies(system: System, start: Mapping[str, Motion]) -> dict[str, int]:

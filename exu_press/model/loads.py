@@ -8,12 +8,13 @@ import exudyn as exu
 import numpy as np
 from exudyn.itemInterface import LoadForceVector
 
-from exu_press.model.drive import turned_body
+from exu_press.mechanism import Mechanism
+from exu_press.model.drive import crank_angle_of
 from exu_press.model.system import System
 from exu_press.scene import Scene
-from exu_press.scene.applied import AppliedLoad
+from exu_press.scene.applied import AppliedLoad, applied_loads
 
-__all__ = ["Place", "add_loads", "next_corner"]
+__all__ = ["Place", "add_loads", "next_corner", "torque_wanted"]
 
 Place = Callable[[float], tuple[float, float]]
 """Of a load's curve: time -> the place where the load is now, and how fast that changes."""
@@ -39,7 +40,7 @@ def add_loads(system: System) -> dict[str, tuple[AppliedLoad, Place]]:
 def next_corner(loads: Mapping[str, tuple[AppliedLoad, Place]], scene: Scene, time: float) -> float:
     """Return the next instant at which a load has a corner, s, or infinity.
 
-    What a load over the slider's position, or a motor's crank angle, has before it is foreseen from
+    What a load over the output's height, or a motor's crank angle, has before it is foreseen from
     the speed now.
     """
     soonest = math.inf
@@ -55,13 +56,36 @@ def next_corner(loads: Mapping[str, tuple[AppliedLoad, Place]], scene: Scene, ti
     return soonest
 
 
+def torque_wanted(
+    mechanism: Mechanism, scene: Scene, places: Mapping[str, float], angle: float
+) -> float:
+    """Return the crank's torque that holds loads and weights, N m, by virtual work.
+
+    Args:
+        mechanism: ideal, and without friction.
+        scene: with the loads.
+        places: of the loads on their curves.
+        angle: of the crank, rad.
+    """
+    per_angle = mechanism.motion(np.array([angle]), 1.0)
+    wanted = 0.0
+    for body in mechanism.bodies:
+        wanted += body.mass * scene.gravity * float(per_angle[body.name].velocity[0, 1])
+    closes = float(mechanism.along(per_angle[mechanism.slider].velocity)[0]) < 0.0
+    for name, load in applied_loads(scene).items():
+        if load.fade is None or closes:
+            moved = per_angle[load.body].at(load.point).velocity[0, :2]
+            wanted -= load.curve(places[name]) * float(moved @ np.array(load.direction))
+    return wanted
+
+
 def _add_load(system: System, name: str, load: AppliedLoad, place: Place) -> None:
     """Press a point of a body, in a direction that stays; on a flexible one the faces carry it."""
     x, y = load.direction
-    curve = load.curve
+    velocity = _height(system) if load.fade is not None else None
 
-    def force(mbs: exu.MainSystem, t: float, load: Any) -> list[float]:
-        size = curve(place(t)[0])
+    def force(mbs: exu.MainSystem, t: float, _: Any) -> list[float]:
+        size = load.at(place(t)[0], velocity(t)[1] if velocity else 0.0)
         return [size * x, size * y, 0.0]
 
     function: Any = force
@@ -83,35 +107,18 @@ def _place(system: System, load: AppliedLoad) -> Place:
         return lambda time: (time, 1.0)
     if load.over == "crank_angle_deg":
         if scene.drive is not None:
-            return _crank_angle(system)
+            angle = crank_angle_of(system)
+            return lambda time: angle()
         start, speed = scene.start_angle, scene.angular_speed
         return lambda time: (start + speed * time, speed)
-    return _slider_position(system)
+    return _height(system)
 
 
-def _crank_angle(system: System) -> Place:
-    """Return what tells the crank's angle, rad, and angular velocity, of the current state."""
-    data: Any = system.mbs.systemData
-    turned, current = system.rigid[turned_body(system)], exu.ConfigurationType.Current
-    column = turned.coordinates.index("angle")
-    zero = float(turned.reference[2]) - system.mechanism.body(system.mechanism.crank).angle
-    index: list[int] = []  # among all coordinates: not known before the system is assembled
-
-    def place(time: float) -> tuple[float, float]:
-        if not index:
-            index.append(system.mbs.GetNodeODE2Index(turned.node) + column)
-        (at,) = index
-        angle = data.GetODE2Coordinates(current, False)[at]
-        return zero + float(angle), float(data.GetODE2Coordinates_t(current, False)[at])
-
-    return place
-
-
-def _slider_position(system: System) -> Place:
-    """Return what tells the slider's position, m, and velocity, m/s, of the current state."""
+def _height(system: System) -> Place:
+    """Return what tells the output's height, m, and velocity, m/s, of the current state."""
     mbs, output = system.mbs, system.mechanism.output
     x, y = output.direction
-    zero = output.origin[0] * x + output.origin[1] * y
+    zero = output.origin[0] * x + output.origin[1] * y + system.mechanism.bottom
     slider = output.body
     levels = exu.OutputVariableType.Position, exu.OutputVariableType.Velocity
     if slider in system.flexible:

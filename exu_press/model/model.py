@@ -1,5 +1,6 @@
 """An assembled Exudyn system and what its items are called."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -7,7 +8,8 @@ from typing import TYPE_CHECKING
 import exudyn as exu
 
 from exu_press.integrate import Outcome, Tuning
-from exu_press.model.loads import Place, next_corner
+from exu_press.model.drive import CrankAngle
+from exu_press.model.loads import Place, next_corner, torque_wanted
 from exu_press.rigid import RigidBody
 from exu_press.scene.applied import AppliedLoad
 from exu_press.solving import DEFAULTS, Assembled, solve
@@ -16,6 +18,10 @@ if TYPE_CHECKING:
     from exu_press.placed_part import PlacedPart
 
 __all__ = ["Model", "count_items"]
+
+STALLED = 0.01
+"""Of the speed at the start, or without load: a crank that is slower has stalled. Pressed by a
+forming force, which fades with the ram's speed, it goes on creeping."""
 
 
 @dataclass(frozen=True)
@@ -26,7 +32,8 @@ class Model(Assembled):
         SC: Exudyn's system container; its main system is `mbs`.
         bodies: name -> object number.
         rigid: name -> rigid body.
-        drive: object number of the constraint that turns the crank.
+        drive: object number of what turns the crank.
+        crank_angle: tells the crank's angle and angular velocity.
         loads: name -> load that acts, and what tells its place on its curve.
         parts: name -> flexible body's part; empty for rigid bodies.
         made: number of objects and loads that the scene was made of.
@@ -36,6 +43,7 @@ class Model(Assembled):
     bodies: dict[str, int]
     rigid: Mapping[str, RigidBody]
     drive: int
+    crank_angle: CrankAngle
     loads: Mapping[str, tuple[AppliedLoad, Place]]
     parts: Mapping[str, "PlacedPart"]
     made: int
@@ -60,6 +68,23 @@ class Model(Assembled):
     def next_corner(self, time: float) -> float:
         """Return the next instant at which a load has a corner, s, or infinity."""
         return next_corner(self.loads, self.scene, time)
+
+    def watch(self, time: float) -> str:
+        """Return why the press goes no further, after a step that ends at a time, s, or nothing."""
+        motor = self.scene.drive
+        if motor is None:
+            return ""
+        angle, speed = self.crank_angle()
+        if speed > STALLED * min(self.scene.angular_speed, motor.fastest(self.scene.speed_rpm)):
+            return ""
+        places = {name: place(time)[0] for name, (_, place) in self.loads.items()}
+        wanted = torque_wanted(self.mechanism, self.scene, places, angle)
+        there = motor.law(self.scene.speed_rpm)(speed)[0]
+        return (
+            f"the press stalled at t = {time:.6g} s, crank angle {math.degrees(angle) % 360.0:.2f} "
+            f"deg: loads and weights want {wanted:.4g} N m there, and the motor has {there:.4g} N "
+            "m; try a larger drive.inertia, or a motor of a larger torque"
+        )
 
 
 def count_items(mbs: exu.MainSystem) -> int:

@@ -73,7 +73,8 @@ def _parts(scene: Scene, joints: Collection[str], *, grouped: bool) -> dict[str,
     parts |= _of_loads(scene)
     if scene.drive is not None:
         motor = scene.drive
-        parts["drive"] = f"motor of {motor.rated_torque:g} N m, flywheel {motor.inertia:g} kg m²"
+        torque = motor.rated_torque if motor.table_torque is None else max(motor.table_torque)
+        parts["drive"] = f"motor of {torque:g} N m, flywheel {motor.inertia:g} kg m²"
     if scene.guide is not None:
         parts["guides"] = _of_guides(scene.guide)
     if scene.press is not None and not scene.press.counterweight:

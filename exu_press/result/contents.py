@@ -18,7 +18,8 @@ from exu_press.stored import shown
 __all__ = ["Contents"]
 
 EVERY_RUN = {
-    **dict.fromkeys(("time", "crank_angle", "crank_speed", "drive_torque", "drive_power"), ""),
+    **dict.fromkeys(("time", "crank_angle", "crank_speed"), ""),
+    **dict.fromkeys(("drive_torque", "drive_power", "crank_torque"), ""),
     **dict.fromkeys(("slider_position", "slider_velocity", "slider_acceleration"), ""),
     **dict.fromkeys(("slider_lateral", "slider_tilt"), ""),
     **dict.fromkeys(("frame_force", "shaking_force"), "plane"),

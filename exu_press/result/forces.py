@@ -23,10 +23,8 @@ def held_forces(model: Model) -> dict[str, Channel]:
         values = sensor(model, name, quantity)
         in_words = name.replace("_", " ")
         if name == "drive":
-            torque = -values[:, 0]
-            if model.scene.drive is not None:
-                torque += model.scene.drive.torque_at_rest
-            channels["drive_torque"] = Channel(torque, "N m", "torque that turns the crank")
+            words = "torque of the drive; a motor's turns flywheel and crank"
+            channels["drive_torque"] = Channel(-values[:, 0], "N m", words)
         elif name.endswith("_guide"):
             body = name.removesuffix("_guide")
             channels |= guide_channels(model, body, {quantity: -values[:, 0]})

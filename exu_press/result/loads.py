@@ -18,7 +18,7 @@ def record_loads(
     model: Model,
     time: Array,
     crank_angle: Array,
-    slider_position: Array,
+    slider: tuple[Array, Array],
     motions: Mapping[str, Motion],
 ) -> tuple[dict[str, Channel], Array]:
     """Return force, moment (where the load acts beside the middle) and work of every load.
@@ -27,7 +27,7 @@ def record_loads(
         model: integrated.
         time: (n,), s.
         crank_angle: of what the drive turns, (n,), rad.
-        slider_position: (n,), m.
+        slider: its position, (n,), m, and velocity, m/s.
         motions: of every body.
 
     Returns:
@@ -36,7 +36,7 @@ def record_loads(
     channels: dict[str, Channel] = {}
     all_work = np.zeros_like(time)
     for name, (load, _) in model.loads.items():
-        force = load.force(time, crank_angle, slider_position)
+        force = load.force(time, crank_angle, slider[0] - model.mechanism.bottom, slider[1])
         if load.body in model.parts:
             part = model.parts[load.body]
             velocity = carried_motion(model, load.body, part.loads[name], load.point)[1]

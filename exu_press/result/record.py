@@ -71,8 +71,8 @@ def record(model: Model, outcome: Outcome) -> Result:
     angle = scene.start_angle + scene.angular_speed * time
     if scene.drive is not None:
         angle = turned.position[:, 2] - drawn
-    slide = channels["slider_position"].values
-    loads, work_of_loads = record_loads(model, time, angle, slide, motions)
+    slider_motion = channels["slider_position"].values, channels["slider_velocity"].values
+    loads, work_of_loads = record_loads(model, time, angle, slider_motion, motions)
     channels |= loads
     in_ways, stored_in_ways, lost_in_ways = record_ways(model, time, position)
     channels |= in_ways
@@ -86,8 +86,9 @@ def record(model: Model, outcome: Outcome) -> Result:
         velocity[:, rigid],
         scene.gravity,
     )
-    if scene.drive is not None and DRIVE in model.nodes:  # its flywheel is on no body
-        stored += 0.5 * scene.drive.inertia * turned.velocity[:, 2] ** 2
+    flywheel = 0.0 if scene.drive is None else scene.drive.inertia
+    if DRIVE in model.nodes:  # its flywheel is on no body
+        stored += 0.5 * flywheel * turned.velocity[:, 2] ** 2
     dissipated = np.zeros_like(time)
     for more, kept, lost in (
         record_guides(model, time, position, velocity),
@@ -104,6 +105,11 @@ def record(model: Model, outcome: Outcome) -> Result:
     driven = work(time, torque, turned.velocity[:, 2]) + work_of_loads
     channels |= {
         "drive_power": Channel(torque * turned.velocity[:, 2], "W", "power of the drive"),
+        "crank_torque": Channel(
+            torque - flywheel * turned.acceleration[:, 2],
+            "N m",
+            "torque that turns the crank, behind the flywheel",
+        ),
         "body_position": Channel(position, "m, rad", "centres of mass and angles", "pose"),
     }
     if not model.own_items:  # what those put in, store and dissipate is not known

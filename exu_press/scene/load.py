@@ -12,7 +12,7 @@ from exu_press.scene.bodies import Face, patch_given
 
 __all__ = ["COLUMNS", "LOAD_KINDS", "BlankingLoad", "Load", "TableLoad"]
 
-COLUMNS = ("time", "crank_angle_deg", "slider_position")
+COLUMNS = ("time", "crank_angle_deg", "height")
 """What a table's forces are given over."""
 
 REVOLUTION = 2.0 * math.pi
@@ -78,6 +78,11 @@ class BlankingLoad(_Placed):
         """What the curve is given over."""
         return "crank_angle_deg"
 
+    @property
+    def closing(self) -> bool:
+        """Whether it acts while the output closes only."""
+        return False
+
     def curve(self, angular_speed: float) -> LoadCurve:
         """Return the force over the crank angle, rad, at a speed of the crank, rad/s."""
         assert self.force is not None
@@ -88,10 +93,12 @@ class BlankingLoad(_Placed):
 
 @dataclass(frozen=True)
 class TableLoad(_Placed):
-    """Forces over time, crank angle or the slider's position, straight lines between them.
+    """Forces over time, crank angle or the output's height, straight lines between them.
 
-    Over the crank angle they repeat every revolution, from the last point to the first; otherwise
-    the first and the last force go on beyond the table. Over a position they act both ways.
+    The height counts from the ideal bottom dead centre. Over the crank angle forces repeat every
+    revolution, from the last point to the first; otherwise the first and the last force go on
+    beyond the table. A forming force acts while the output closes. It fades as the output comes to
+    rest, over a thousandth of the ideal motion's largest speed.
     """
 
     kind: ClassVar[Literal["table"]] = "table"
@@ -99,9 +106,16 @@ class TableLoad(_Placed):
     crank_angle_deg: tuple[float, ...] | None = key(
         None, "of the forces, from the mechanism's zero", "deg", numbers=0
     )
-    slider_position: tuple[float, ...] | None = key(None, "of the forces", "m", numbers=0)
+    height: tuple[float, ...] | None = key(
+        None, "of the output above bottom dead centre", "m", numbers=0
+    )
     force: tuple[float, ...] | None = key(None, "positive in the direction", "N", numbers=0)
     factor: float = key(1.0, "times the table's forces")
+    acts: str | None = key(
+        None,
+        "while the output closes or both ways; over height 'closing' unless given, else 'both'",
+        choices=("closing", "both"),
+    )
 
     def __post_init__(self) -> None:
         """Check the keys; one column of increasing places, and a force at each."""
@@ -134,8 +148,13 @@ class TableLoad(_Placed):
         """What the curve is given over."""
         return next(name for name in COLUMNS if getattr(self, name) is not None)
 
+    @property
+    def closing(self) -> bool:
+        """Whether it acts while the output closes only."""
+        return (self.acts or ("closing" if self.over == "height" else "both")) == "closing"
+
     def curve(self, angular_speed: float) -> LoadCurve:
-        """Return the force over time, s, crank angle, rad, or slider position, m."""
+        """Return the force over time, s, crank angle, rad, or height, m."""
         assert self.force is not None
         places, forces = getattr(self, self.over), [self.factor * force for force in self.force]
         if self.over != "crank_angle_deg":

@@ -8,7 +8,10 @@ from exu_press.errors import InputError
 from exu_press.input_file import read_text
 from exu_press.scene.load import COLUMNS
 
-__all__ = ["read_load_table"]
+__all__ = ["MOVED", "read_load_table"]
+
+MOVED = "is height now, which counts from bottom dead centre, and acts = 'both' for a spring"
+"""What replaces the position of the slider."""
 
 HEADERS = " or ".join(f"'{name},force'" for name in COLUMNS)
 
@@ -32,7 +35,8 @@ def read_load_table(path: str | Path) -> dict[str, list[float]]:
     header = [name.strip() for name in lines[0][1].split(",")] if lines else []
     if len(header) != 2 or header[0] not in COLUMNS or header[1] != "force":
         shown = lines[0][1][:80] if lines else ""
-        raise InputError(f"{path}: header {shown!r}; allowed is {HEADERS}")
+        moved = f" (slider_position {MOVED})" if "slider_position" in header else ""
+        raise InputError(f"{path}: header {shown!r}; allowed is {HEADERS}{moved}")
     rows: list[tuple[float, float]] = []
     for number, line in lines[1:]:
         rows.append(_numbers(f"{path}, line {number}", line))

@@ -10,7 +10,7 @@ from exu_press.errors import InputError
 from exu_press.mechanism import Mechanism
 from exu_press.scene.bodies import face_dict
 from exu_press.scene.load import COLUMNS, LOAD_KINDS, BlankingLoad, Load, TableLoad
-from exu_press.scene.load_file import read_load_table
+from exu_press.scene.load_file import MOVED, read_load_table
 
 __all__ = ["changed_loads", "load_dict", "loads_of", "with_files_beside"]
 
@@ -123,6 +123,8 @@ def _load(where: str, given: Any) -> Load:
         known.append("file")
     for name in keys:
         if name not in known:
+            if kind == "table" and name == "slider_position":
+                raise InputError(f"slider_position: {MOVED}")
             raise InputError(
                 f"{name} = {keys[name]!r}: unknown key of kind {kind!r}{nearest(name, known)}; "
                 f"allowed are {', '.join(['kind', *known])}"

@@ -30,12 +30,10 @@ from exu_press.scene.joints import Joints, joints_of
 from exu_press.scene.load import Load
 from exu_press.scene.loads import load_dict, loads_of
 from exu_press.scene.save import save_scene
-from exu_press.scene.tables import Contact, ElasticGuide, Film, Friction, Motor, Solver
+from exu_press.scene.tables import RPM, Contact, ElasticGuide, Film, Friction, Motor, Solver
 from exu_press.scene.usage import TABLES, unused_keys
 
 __all__ = ["Scene", "mechanism_of"]
-
-RPM = math.pi / 30  # rad/s
 
 SHORTEST_RUN = 1e-7
 """s, as `solve_dynamic` takes it."""

@@ -8,17 +8,30 @@ Every key says its meaning, unit and range once, here; messages and documentatio
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import ClassVar
 
 from exu_press.checks import Table, key
 from exu_press.errors import InputError
 from exu_press.laws.contact import DAMPING_LAWS
 from exu_press.laws.film import FILM_LAWS
+from exu_press.laws.motor import MotorLaw, kloss, torque_table
 
-__all__ = ["Contact", "ElasticGuide", "Film", "Friction", "Motor", "Solver", "asperity_onset"]
+__all__ = [
+    "RPM",
+    "Contact",
+    "ElasticGuide",
+    "Film",
+    "Friction",
+    "Motor",
+    "Solver",
+    "asperity_onset",
+]
 
 FRICTION_LAWS = ("none", "coulomb", "stribeck", "lugre_steady", "lugre")
 DEFAULT_TOLERANCE = 1e-3
+USUAL_BREAKDOWN = 2.5  # of the rated torque
+RPM = math.pi / 30.0  # rad/s
 AT_CONTACT = ("stop", "mixed")
 
 HERTZ = 1.5
@@ -128,8 +141,8 @@ class Film(Table):
 class Motor(Table):
     """A motor with its flywheel instead of a crank at constant speed; all reduced to the crank.
 
-    Its torque is linear in the speed: rated_torque (1 - speed / no_load_speed) / slip. The run
-    starts at `speed_rpm`.
+    An induction motor by Kloss' formula, through the rated point up to the breakdown torque; or any
+    motor by a table of its torque. The run starts at `speed_rpm`.
     """
 
     table: ClassVar[str] = "drive"
@@ -137,20 +150,61 @@ class Motor(Table):
     slip: float = key(
         0.05, "(speed without load - rated speed) / speed without load", above=0, at_most=1
     )
+    breakdown_torque: float | None = key(
+        None,
+        "largest one; 2.5 rated_torque unless given (IEC 60034-1 asks for 1.6, catalogues have 2 "
+        "to 3.5)",
+        "N m",
+        above=0,
+    )
     no_load_speed_rpm: float | None = key(
         None, "without torque; speed_rpm unless given", "rpm", above=0
     )
+    table_speed_rpm: tuple[float, ...] | None = key(
+        None, "of a table of torques instead, which goes on at both ends", "rpm", numbers=0
+    )
+    table_torque: tuple[float, ...] | None = key(None, "at these speeds", "N m", numbers=0)
     inertia: float = key(50.0, "of flywheel, gear and motor", "kg m^2", above=0)
 
-    @property
-    def torque_at_rest(self) -> float:
-        """Torque at speed zero, N m."""
-        return self.rated_torque / self.slip
+    def __post_init__(self) -> None:
+        """Check the keys, the breakdown torque and the table."""
+        super().__post_init__()
+        given = self.breakdown_torque
+        if given is not None and given < self.rated_torque:
+            raise InputError(
+                f"drive.breakdown_torque = {given!r}: allowed is a number >= drive.rated_torque = "
+                f"{self.rated_torque!r}"
+            )
+        speeds, torques = self.table_speed_rpm or (), self.table_torque or ()
+        if self.table_speed_rpm is None and self.table_torque is None:
+            return
+        if len(speeds) != len(torques) or len(speeds) < 2:
+            raise InputError(
+                f"drive.table_speed_rpm, drive.table_torque: {len(speeds)} and {len(torques)} "
+                "values; allowed are at least two, as many of both"
+            )
+        for before, after in pairwise(speeds):
+            if not after > before:
+                raise InputError(
+                    f"drive.table_speed_rpm = {after!r} after {before!r}: allowed is increasing"
+                )
+        if speeds[-1] <= 0.0:
+            raise InputError(
+                f"drive.table_speed_rpm = {speeds[-1]!r} at the end: allowed is a number > 0"
+            )
 
-    def damping(self, speed_rpm: float) -> float:
-        """Return how fast the torque falls with the speed, N m s/rad."""
-        no_load_speed = (self.no_load_speed_rpm or speed_rpm) * math.pi / 30.0
-        return self.torque_at_rest / no_load_speed
+    def law(self, speed_rpm: float) -> MotorLaw:
+        """Return the torque over the speed of the crank, which starts at speed_rpm."""
+        if self.table_speed_rpm is not None and self.table_torque is not None:
+            return torque_table([speed * RPM for speed in self.table_speed_rpm], self.table_torque)
+        largest = self.breakdown_torque or USUAL_BREAKDOWN * self.rated_torque
+        return kloss(self.rated_torque, self.slip, largest, self.fastest(speed_rpm))
+
+    def fastest(self, speed_rpm: float) -> float:
+        """Return the speed without torque, or the table's last one, rad/s."""
+        if self.table_speed_rpm is not None:
+            return self.table_speed_rpm[-1] * RPM
+        return (self.no_load_speed_rpm or speed_rpm) * RPM
 
 
 @dataclass(frozen=True)

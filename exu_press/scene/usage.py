@@ -28,6 +28,9 @@ OF_THE_WAYS = (
 )
 """Keys of guides with clearance."""
 
+OF_KLOSS = ("rated_torque", "slip", "breakdown_torque", "no_load_speed_rpm")
+"""Keys of a motor without a table of its torque."""
+
 TABLES = {
     "contact": Contact,
     "friction": Friction,
@@ -59,4 +62,7 @@ def unused_keys(scene: Mapping[str, Any]) -> dict[str, str]:
     else:
         why = "guide.clearance is given: the two ends of the body carry its tilting moment"
         found |= dict.fromkeys(("guide.tilting_stiffness", "guide.tilting_damping"), why)
+    if peek(scene.get("drive"), "table_torque") is not None:
+        why = "drive.table_torque is given"
+        found |= {f"drive.{name}": why for name in OF_KLOSS}
     return found

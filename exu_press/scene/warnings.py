@@ -3,9 +3,12 @@
 import math
 from collections.abc import Iterator
 
+import numpy as np
+
 from exu_press.laws.film import FILM_LAWS
+from exu_press.scene.applied import applied_loads
 from exu_press.scene.joint import LubricatedJoint
-from exu_press.scene.scene import Scene
+from exu_press.scene.scene import Scene, mechanism_of
 
 __all__ = ["doubtful_sizes", "scene_warnings"]
 
@@ -20,15 +23,18 @@ SOFTEST, STIFFEST = 1e9, 1.2e12
 
 MILLI = 1e-3
 
+REACHED = 0.01
+"""Of a table's heights, that the output has at least where they are meant in m."""
+
 
 def scene_warnings(scene: Scene) -> list[str]:
     """Return what is allowed but hardly meant: the key, what was given, and what it changes."""
-    return [*doubtful_sizes(scene), *_film_law(scene)]
+    return [*doubtful_sizes(scene), *_film_law(scene), *_forming(scene)]
 
 
 def doubtful_sizes(scene: Scene) -> list[str]:
     """Return the warnings about sizes that may be slips of a unit."""
-    return [*_clearances(scene), *_viscosity(scene), *_stiffness(scene)]
+    return [*_clearances(scene), *_viscosity(scene), *_stiffness(scene), *_heights(scene)]
 
 
 def _clearances(scene: Scene) -> Iterator[str]:
@@ -76,6 +82,37 @@ def _stiffness(scene: Scene) -> Iterator[str]:
             f"bodies.{name}.youngs_modulus = {given:g} Pa is {side} Pa. Plastics have 1e9, steel "
             "has 2.1e11 and diamond 1.05e12. Deflections are in proportion to its inverse."
         )
+
+
+def _heights(scene: Scene) -> Iterator[str]:
+    """Yield tables over heights that the output never has, but for a small part."""
+    mechanism = mechanism_of(scene)
+    for name, load in applied_loads(scene).items():
+        if load.over != "height":
+            continue
+        low, high = load.curve.places[0], load.curve.places[-1]
+        angle = np.linspace(0.0, 2.0 * math.pi, 721)
+        stroke = float(mechanism.ideal_slider(angle, 1.0)[0].max()) - mechanism.bottom
+        if min(high, stroke) - max(low, 0.0) < REACHED * (high - low):
+            yield (
+                f"load.{name}.height from {low:g} to {high:g} m: the output is between 0 and "
+                f"{stroke:.4g} m above bottom dead centre. Beyond the table its first or last "
+                f"force goes on.{_slip(high, 1e-3 * stroke, stroke, 'm')}"
+            )
+
+
+def _forming(scene: Scene) -> Iterator[str]:
+    """Yield forces that act while the output closes, and help it."""
+    output = mechanism_of(scene).output
+    for name, load in applied_loads(scene).items():
+        if load.fade is None or load.body != output.body:
+            continue
+        along = sum(a * b for a, b in zip(load.direction, output.direction, strict=True))
+        if max(force * along for force in load.curve.forces) <= 0.0:
+            yield (
+                f"load.{name} acts while the output closes, and pushes the way it goes: it puts "
+                "energy in. A forming force is positive in the output's direction."
+            )
 
 
 def _slip(given: float, low: float, high: float, unit: str) -> str:

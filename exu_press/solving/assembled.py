@@ -40,3 +40,7 @@ class Assembled:
     def next_corner(self, time: float) -> float:
         """Return the next instant at which a load has a corner, s, or infinity."""
         raise NotImplementedError
+
+    def watch(self, time: float) -> str:
+        """Return why the press goes no further, after a step that ends at a time, s, or nothing."""
+        raise NotImplementedError

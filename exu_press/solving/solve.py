@@ -7,6 +7,7 @@ import exudyn as exu
 
 from exu_press.integrate import Outcome, Scales, Status, Tuning, solve_dynamic
 from exu_press.scene import Scene, mechanism_of
+from exu_press.scene.applied import applied_loads
 from exu_press.solving.advice import SceneAdvice, leapt_over_load
 from exu_press.solving.assembled import Assembled
 
@@ -38,6 +39,7 @@ def solve(model: Assembled, *, tuning: Tuning = DEFAULTS, quiet: bool = True) ->
         tolerance=solver.tolerance,
         scales=scales(scene),
         next_corner=model.next_corner,
+        watch=model.watch,
         # modes and drive: no say
         bodies={node: (name, masses.get(name, math.inf)) for name, node in model.nodes.items()},
         advice=lambda problem, by_tolerance: SceneAdvice(model, problem, by_tolerance),
@@ -65,6 +67,8 @@ def settings_for(scene: Scene, *, twice: bool = False) -> exu.SimulationSettings
     integration.endTime = scene.duration
     integration.minimumStepSize = solver.min_step
     integration.verboseMode = 0
+    if any(load.fade is not None for load in applied_loads(scene).values()):
+        integration.computeLoadsJacobian = 2  # by positions and velocities
     integration.generalizedAlpha.spectralRadius = solver.spectral_radius
     # For the 20 to 160 unknowns here no slower than the sparse one, and its matrix is read at once.
     settings.linearSolver.solverType = exu.LinearSolverType.EigenDense

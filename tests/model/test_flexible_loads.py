@@ -161,9 +161,9 @@ def test_the_balance_closes_only_with_the_bodys_own_motion(rocker):
     )
 
 
-def test_over_the_sliders_position_that_of_the_flexible_output_counts(rocker):
+def test_over_the_height_that_of_the_flexible_output_counts(rocker):
     """Its frame lies in the origin of the file, 0.39 m away: the balance would not close."""
-    spring = {"kind": "table", "slider_position": [0.0, 1.0], "force": [1e3, -1e3]}
+    spring = {"kind": "table", "height": [0.0, 1.0], "force": [1e3, -1e3], "acts": "both"}
     load = {"spring": {**spring, "direction": [1.0, 0.0], "face": TIP}}
     result = simulate(scene(rocker, load, revolutions=0.04, speed_rpm=100.0))
     assert result.completed

@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 from exu_press.laws.contact import DAMPING_LAWS, cylindrical, hertz
 from exu_press.laws.film import FILM_LAWS, with_asperities
 from exu_press.laws.friction import LuGre, coulomb, lugre_steady, no_friction, stribeck
-from exu_press.laws.load_curve import LoadCurve, blanking_pulse
+from exu_press.laws.load_curve import LoadCurve, blanking_pulse, closing
+from exu_press.laws.motor import kloss, torque_table
 
 STIFFNESSES = {
     "point": hertz(2.5e10),
@@ -41,6 +42,10 @@ LOADS = {
     "over the crank angle": LoadCurve([0.0, 1.0, 2.0], [0.0, 1e3, 0.0], 2.0 * math.pi),
     "blanking": LoadCurve(*blanking_pulse(1e4, 1e-3, 5e-4), 1.0),
 }
+DRIVES = {
+    "kloss": kloss(400.0, 0.05, 1e3, 25.0),
+    "table": torque_table([0.0, 20.0, 25.0], [300.0, 400.0, 0.0]),
+}
 
 LAWS = (
     {f"contact, {name}": (law.force, (1e-6, 0.1, 0.2)) for name, law in CONTACTS.items()}
@@ -50,6 +55,8 @@ LAWS = (
     | {f"friction, {name}": (law, (0.1,)) for name, law in FRICTIONS.items()}
     | {"friction, lugre": (BRISTLE.advance, (0.1, 1e-6, 1e-4))}
     | {f"load, {name}": (law, (0.05,)) for name, law in LOADS.items()}
+    | {"load, closing": (closing, (-1e-4, 1e-3))}
+    | {f"drive, {name}": (law, (20.0,)) for name, law in DRIVES.items()}
 )
 NOT_READ = {  # the speed of impact
     (f"{what}, step on a {shape}", 2) for what in ("contact", "loss") for shape in STIFFNESSES
@@ -88,5 +95,7 @@ def test_no_state_is_an_error(name, data):
     state = data.draw(st.tuples(*[anything for _ in usual]))
     if name == "friction, lugre":
         state = (*state[:2], abs(state[2]))  # a step is not negative
+    if name == "load, closing":
+        state = (state[0], 1e-3)  # a parameter
     answer = law(*state)
     assert all(isinstance(x, float) for x in (answer if isinstance(answer, tuple) else [answer]))

@@ -1,15 +1,18 @@
 """[load.NAME]: what a scene allows and fills in, tables as CSV, and what is refused."""
 
 import json
+import math
 
 import pytest
 
 from exu_press import InputError, Scene, load_scene
 from exu_press.scene import BlankingLoad, TableLoad, mechanism_of
 from exu_press.scene.applied import applied_loads
+from exu_press.scene.warnings import scene_warnings
 
 PULSE = {"kind": "blanking", "force": 1e4}
 TABLE = {"kind": "table", "time": [0.0, 0.1], "force": [0.0, 1e3]}
+HEIGHT = {"kind": "table", "height": [0.0, 0.02], "force": [2e5, 0.0]}
 
 
 def refusal(load, **scene):
@@ -115,6 +118,9 @@ def test_a_csv_file_that_is_none_is_refused_by_line(text, message, tmp_path):
         ({"a": {**PULSE, "offset": [0, "x"]}}, "allowed is a list of 2 numbers"),
         ({"a": {**PULSE, "direction": [0, 0]}}, "load.a.direction = [0, 0]: allowed is a direc"),
         ({"a": {**PULSE, "rise": 0.2, "fall": 0.06}}, "load.a.rise + fall = 0.26: allowed is at"),
+        ({"a": {**HEIGHT, "height": [0.02, 0.0]}}, "load.a.height = 0.0 after 0.02: allowed is i"),
+        ({"a": {**HEIGHT, "acts": "up"}}, "load.a.acts = 'up': allowed is one of 'closing'"),
+        ({"a": {**PULSE, "acts": "both"}}, "load.a.acts = 'both': unknown key of kind 'blanking'"),
         ({"a": {"kind": "table"}}, "load.a.nothing given: allowed is file, a CSV, or one of time"),
         ({"a": {**TABLE, "crank_angle_deg": [0, 1]}}, "time, crank_angle_deg, force given"),
         ({"a": {**TABLE, "file": "a.csv"}}, "load.a.file and force: allowed is one of the two"),
@@ -181,6 +187,44 @@ def test_a_joint_is_a_place_of_a_rigid_body_too():
     mechanism = mechanism_of(scene)
     ball = next(joint for joint in mechanism.joints if joint.name == "ball_left")
     assert applied_loads(scene)["a"].point == mechanism.body("slider").local(ball.at)
+
+
+def test_a_force_over_the_height_forms_unless_it_acts_both_ways():
+    def fade(**load):
+        scene = Scene(mechanism="eccentric_press", speed_rpm=60.0, load={"a": load})
+        return applied_loads(scene)["a"].fade
+
+    fastest = 2.0 * math.pi * 0.03  # of the crank pin; the ram is a little faster
+    assert fade(**HEIGHT) == pytest.approx(1e-3 * fastest, rel=0.01)
+    assert fade(**HEIGHT, acts="both") is None
+    assert fade(**TABLE) is None
+    assert fade(**TABLE, acts="closing") == fade(**HEIGHT)
+
+
+@pytest.mark.parametrize(
+    ("load", "message"),
+    [
+        ({"height": [0.0, 20.0]}, "from 0 to 20 m: the output is between 0 and 0.0"),
+        ({"height": [0.0, 20.0]}, "Was 0.02 m (20 mm) meant?"),
+        ({"height": [-0.157, -0.150]}, "from -0.157 to -0.15 m: the output is between"),
+        ({"height": [0.2, 0.3]}, "from 0.2 to 0.3 m: the output is between"),
+        ({"force": [-2e5, 0.0]}, "load.a acts while the output closes, and pushes the way it goes"),
+    ],
+)
+def test_what_is_hardly_meant(load, message):
+    scene = Scene(mechanism="eccentric_press", load={"a": HEIGHT | load})
+    assert any(message in told for told in scene_warnings(scene))
+    usual = Scene(mechanism="eccentric_press", load={"a": HEIGHT})
+    assert not any("load.a" in told for told in scene_warnings(usual))
+
+
+def test_the_position_of_the_slider_is_refused_and_the_height_named(tmp_path):
+    old = {"kind": "table", "slider_position": [0.0, 0.02], "force": [2e5, 0.0]}
+    assert "load.a.slider_position: is height now, which counts from bottom" in refusal({"a": old})
+    path = tmp_path / "force.csv"
+    path.write_text("slider_position,force\n0,1\n1,0\n")
+    told = refusal({"a": {"kind": "table", "file": str(path)}})
+    assert "allowed is 'time,force'" in told and "slider_position is height now" in told
 
 
 def test_the_old_spelling_is_refused_and_the_new_one_named():

@@ -40,7 +40,7 @@ RISE = 50e-6
 
 BESIDE = {
     "slider_tilt": ("Slider tilt", "counter-clockwise", "µrad"),
-    "slider_lateral": ("Slider sideways", "to the right", "µm"),
+    "slider_lateral": ("Slider sideways", "across its guide", "µm"),
 }
 
 CROWD = 8

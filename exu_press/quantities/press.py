@@ -6,6 +6,7 @@ import numpy as np
 
 from exu_press.arrays import Array
 from exu_press.mechanism import Guide
+from exu_press.piecewise import integral
 from exu_press.quantities.acceleration import mean_peak_of, peak
 from exu_press.quantities.kind import ENERGY, FLOW, LOAD, MOMENT, MOTION, RESULTANT
 from exu_press.quantities.quantity import Extreme, Place, Quantity, always
@@ -76,15 +77,20 @@ def _guide_loss(run: Reading, body: str) -> Array:
 
 def _fluctuation(run: Reading, _: str) -> float | None:
     """Return the largest less the smallest crank speed, over the mean one."""
-    mean = run.mean(run["crank_speed"])
-    if run.whole is None or not mean:
+    mean = _mean_speed(run, _)
+    if run.speed_from is None or not mean:
         return None
-    return float(np.ptp(run["crank_speed"][run.time >= run.whole])) / abs(mean)
+    speed = run["crank_speed"][run.time >= run.speed_from * (1.0 - 1e-12)]
+    return float(np.ptp(speed)) / abs(mean * np.pi / 30.0)
 
 
 def _mean_speed(run: Reading, _: str) -> float | None:
-    mean = run.mean(run["crank_speed"])
-    return None if mean is None else mean * 30.0 / np.pi
+    """Return the angle that the crank turns over the time that it takes, rpm."""
+    if run.speed_from is None:
+        return None
+    turned = integral(run.time, run["crank_speed"])
+    change = turned[-1] - np.interp(run.speed_from, run.time, turned)
+    return float(change / (run.time[-1] - run.speed_from)) * 30.0 / np.pi
 
 
 DRIVE = (
@@ -164,7 +170,7 @@ DRIVE = (
     Quantity(
         "drive.mean_speed_rpm",
         "rpm",
-        "mean crank speed, over whole revolutions",
+        "mean crank speed, over whole revolutions or a nominal one",
         MOTION,
         _mean_speed,
         has=_motor,
@@ -173,7 +179,8 @@ DRIVE = (
     Quantity(
         "drive.fluctuation",
         "",
-        "largest less smallest crank speed over the mean one, over whole revolutions",
+        "largest less smallest crank speed over the mean one, over whole revolutions or a nominal "
+        "one",
         MOTION,
         _fluctuation,
         has=_motor,

@@ -67,6 +67,17 @@ class Reading:
         begin = float(np.interp(angle[-1] - 2 * np.pi * turns, angle, self.time))
         return max(float(self.time[0]), begin)
 
+    @cached_property
+    def speed_from(self) -> float | None:
+        """Instant from which to the end the crank's speed is read, s, or None.
+
+        Of the last whole revolutions; where a motor lags in a run of one, of the nominal one.
+        """
+        period = 60.0 / self.result.scene.speed_rpm
+        if self.whole is None and self.time[-1] - self.time[0] >= period * (1.0 - 1e-9):
+            return float(self.time[-1] - period)
+        return self.whole
+
     def mean(self, values: Array) -> float | None:
         """Return the mean of a channel (n,) over the last whole revolutions, None without one."""
         return self.rate(integral(self.time, values))

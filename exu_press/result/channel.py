@@ -6,10 +6,10 @@ import numpy as np
 
 from exu_press.arrays import Array
 from exu_press.errors import InputError
-from exu_press.mechanism import Mechanism
+from exu_press.mechanism import Mechanism, Point
 from exu_press.stored import LARGEST
 
-__all__ = ["AXES", "Channel", "guide_channel"]
+__all__ = ["AXES", "Channel", "guide_channel", "positive"]
 
 AXES = {
     "": (),
@@ -53,3 +53,19 @@ class Channel:
 def guide_channel(mechanism: Mechanism, body: str) -> str:
     """Return what the channels of a body's guide begin with; the slider's is the guide."""
     return "guide" if body == mechanism.slider else f"{body}_guide"
+
+
+def positive(direction: Point) -> str:
+    """Return in words which way a unit vector of the drawing points.
+
+    >>> positive((0.0, 1.0)), positive((0.6, 0.8))
+    ('upwards', 'along [0.6, 0.8]')
+    """
+    x, y = (round(part, 9) + 0.0 for part in direction)
+    words = {
+        (0.0, 1.0): "upwards",
+        (0.0, -1.0): "downwards",
+        (1.0, 0.0): "to the right",
+        (-1.0, 0.0): "to the left",
+    }
+    return words.get((x, y), f"along [{x:.4g}, {y:.4g}]")

@@ -7,7 +7,7 @@ import numpy as np
 from exu_press.arrays import Array
 from exu_press.mechanism import GROUND
 from exu_press.model import Model
-from exu_press.result.channel import Channel, guide_channel
+from exu_press.result.channel import Channel, guide_channel, positive
 from exu_press.result.motion import body_motion, sensor
 
 __all__ = ["frame_force", "guide_channels", "held_forces", "vectors"]
@@ -93,10 +93,11 @@ def guide_channels(model: Model, body: str, loads: Mapping[str, Array]) -> dict[
         body: that it guides.
         loads: "force" (N), "moment" (N m), "friction" (N) and "loss" (J), as far as there are.
     """
+    guide = next(guide for guide in model.mechanism.guides if guide.body == body)
     words = {
-        "force": ("N", "force on the body, to the right"),
+        "force": ("N", f"force on the body, {positive(guide.across)}"),
         "moment": ("N m", "moment on the body, counter-clockwise"),
-        "friction": ("N", "friction on the body, along the guide"),
+        "friction": ("N", f"friction on the body, {positive(guide.direction)}"),
         "loss": ("J", "energy dissipated since the start"),
     }
     shown, in_words = guide_channel(model.mechanism, body), f"{body.replace('_', ' ')} guide"

@@ -10,7 +10,7 @@ import numpy as np
 from exu_press.integrate import Outcome
 from exu_press.mechanism.parts import DRIVE
 from exu_press.model import Model
-from exu_press.result.channel import Channel
+from exu_press.result.channel import Channel, positive
 from exu_press.result.energy import mechanical_energy, work
 from exu_press.result.equilibrium import equilibrium
 from exu_press.result.flexible import record_parts
@@ -41,6 +41,7 @@ def record(model: Model, outcome: Outcome) -> Result:
     slider, crank = names.index(mechanism.slider), names.index(mechanism.crank)
     turned = body_motion(model, DRIVE if DRIVE in model.nodes else mechanism.crank)
     drawn = mechanism.bodies[crank].angle
+    up, beside = positive(mechanism.output.direction), positive(mechanism.output.across)
     channels = {
         "time": Channel(time, "s", "time"),
         "crank_angle": Channel(
@@ -48,16 +49,16 @@ def record(model: Model, outcome: Outcome) -> Result:
         ),
         "crank_speed": Channel(turned.velocity[:, 2], "rad/s", "angular velocity of the drive"),
         "slider_position": Channel(
-            mechanism.travel(position[:, slider]), "m", "slider position, upwards"
+            mechanism.travel(position[:, slider]), "m", f"slider position, {up}"
         ),
         "slider_velocity": Channel(
-            mechanism.along(velocity[:, slider]), "m/s", "slider velocity, upwards"
+            mechanism.along(velocity[:, slider]), "m/s", f"slider velocity, {up}"
         ),
         "slider_acceleration": Channel(
-            mechanism.along(acceleration[:, slider]), "m/s^2", "slider acceleration, upwards"
+            mechanism.along(acceleration[:, slider]), "m/s^2", f"slider acceleration, {up}"
         ),
         "slider_lateral": Channel(
-            mechanism.beside(position[:, slider]), "m", "slider beside its guide, right"
+            mechanism.beside(position[:, slider]), "m", f"slider beside its guide, {beside}"
         ),
         "slider_tilt": Channel(
             position[:, slider, 2] - mechanism.bodies[slider].angle,

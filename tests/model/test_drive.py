@@ -103,6 +103,22 @@ def test_the_speed_fluctuates_as_a_model_of_one_coordinate_says():
     assert result.quantity("energy.residual").value < 1e-4
 
 
+def test_a_motor_that_lags_over_one_revolution_has_a_mean_speed():
+    """The crank turns less than a revolution in the time of a nominal one."""
+    weak = {"rated_torque": 40.0, "no_load_speed_rpm": 200.0, "inertia": 5.0}
+    scene = Scene(mechanism="slider_crank", joints={}, gravity=0.0, drive=weak, revolutions=1.0)
+    result = simulate(scene)
+    turned = result["crank_angle"][-1]
+    assert 1.5 * math.pi < turned < 2.0 * math.pi * 0.999
+    mean = turned / result.time[-1]
+    speed = result.quantity("drive.mean_speed_rpm").value
+    assert speed == pytest.approx(mean * 30 / math.pi, rel=1e-4)
+    assert result.quantity("drive.fluctuation").value == pytest.approx(
+        np.ptp(result["crank_speed"]) / mean, rel=1e-4
+    )
+    assert result.quantity("drive.mean_power").value is None
+
+
 def test_a_smaller_flywheel_fluctuates_more_and_a_huge_one_not():
     found = []
     for inertia in (5.0, 50.0, 5e6):

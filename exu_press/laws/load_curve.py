@@ -4,7 +4,10 @@ import math
 from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 
-__all__ = ["LoadCurve", "blanking_pulse", "closing"]
+__all__ = ["REVOLUTION", "LoadCurve", "PulseClock", "blanking_pulse", "closing"]
+
+
+REVOLUTION = 2.0 * math.pi
 
 
 class LoadCurve:
@@ -84,6 +87,64 @@ class LoadCurve:
             return place
         first = self.places[0]
         return first + (place - first) % self.period
+
+
+class PulseClock:
+    """Time since the beginning of a pulse that comes once a revolution of a crank of any speed.
+
+    The pulse lasts a time, not an angle. An angle at its beginning or its end fixes its place. An
+    end is foreseen from the speed at which the pulse begins.
+
+    >>> clock = PulseClock(0.2, 3.0, at_end=False, now=2.0, speed=5.0)
+    >>> clock.place(0.0, 2.0, 5.0), clock.place(0.3, 3.5, 5.0)
+    (-0.2, 0.1)
+    >>> clock.accept(0.3, 3.5, 5.0)  # it has begun, and goes on in time
+    >>> round(clock.place(0.35, 3.5, 0.0), 12)
+    0.15
+    """
+
+    def __init__(
+        self, duration: float, angle: float, *, at_end: bool, now: float, speed: float
+    ) -> None:
+        """Wait for the next pulse.
+
+        Args:
+            duration: of a pulse, s.
+            angle: of the crank at its beginning or end, rad, in any revolution.
+            at_end: whether that is at its end.
+            now: the crank's angle at the start, rad.
+            speed: its angular velocity there, rad/s.
+        """
+        self._duration, self._at_end = duration, at_end
+        ends = angle if at_end else angle + speed * duration
+        self._angle = angle + REVOLUTION * (
+            math.floor((now - ends) / REVOLUTION) + 1.0
+        )  # of the next pulse
+        self._begun: float | None = None
+
+    def place(self, time: float, angle: float, speed: float) -> float:
+        """Return the time since the beginning, s; negative before, minus infinity at rest.
+
+        Args:
+            time: s.
+            angle: of the crank, rad.
+            speed: of the crank, rad/s.
+        """
+        if self._begun is not None:
+            return time - self._begun
+        if speed <= 0.0:
+            return -math.inf
+        place = (angle - self._angle) / speed
+        return place + self._duration if self._at_end else place
+
+    def accept(self, time: float, angle: float, speed: float) -> None:
+        """Keep the state at the end of a step."""
+        place = self.place(time, angle, speed)
+        if self._begun is None and place >= 0.0:
+            self._begun = time - place
+        if self._begun is not None and place >= self._duration:
+            self._begun = None
+            self._angle += REVOLUTION
 
 
 def closing(velocity: float, fade: float) -> float:

@@ -107,6 +107,7 @@ def _assembled(
         drive=drive,
         crank_angle=crank_angle_of(system),
         loads=loads,
+        clocks=system.clocks,
         ways=ways,
         sensors=system.sensors,
         parts=system.parts,

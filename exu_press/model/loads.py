@@ -8,6 +8,7 @@ import exudyn as exu
 import numpy as np
 from exudyn.itemInterface import LoadForceVector
 
+from exu_press.laws.load_curve import PulseClock
 from exu_press.mechanism import Mechanism
 from exu_press.model.drive import crank_angle_of
 from exu_press.model.system import System
@@ -105,6 +106,8 @@ def _place(system: System, load: AppliedLoad) -> Place:
     scene = system.scene
     if load.over == "time":
         return lambda time: (time, 1.0)
+    if load.clock is not None:
+        return _since_the_beginning(system, load.clock)
     if load.over == "crank_angle_deg":
         if scene.drive is not None:
             angle = crank_angle_of(system)
@@ -112,6 +115,19 @@ def _place(system: System, load: AppliedLoad) -> Place:
         start, speed = scene.start_angle, scene.angular_speed
         return lambda time: (start + speed * time, speed)
     return _height(system)
+
+
+def _since_the_beginning(system: System, clock: Callable[[float, float], PulseClock]) -> Place:
+    """Return what tells the time since the beginning of a pulse, which the system's clocks keep."""
+    scene, crank = system.scene, crank_angle_of(system)
+    running = clock(scene.start_angle, scene.angular_speed)
+    system.clocks.append(running)
+
+    def place(time: float) -> tuple[float, float]:
+        since = running.place(time, *crank())
+        return since, 1.0 if since > -math.inf else 0.0
+
+    return place
 
 
 def _height(system: System) -> Place:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import exudyn as exu
 
 from exu_press.integrate import Outcome, Tuning
+from exu_press.laws.load_curve import PulseClock
 from exu_press.model.drive import CrankAngle
 from exu_press.model.loads import Place, next_corner, torque_wanted
 from exu_press.rigid import RigidBody
@@ -35,6 +36,7 @@ class Model(Assembled):
         drive: object number of what turns the crank.
         crank_angle: tells the crank's angle and angular velocity.
         loads: name -> load that acts, and what tells its place on its curve.
+        clocks: of pulses of loads.
         parts: name -> flexible body's part; empty for rigid bodies.
         made: number of objects and loads that the scene was made of.
     """
@@ -45,6 +47,7 @@ class Model(Assembled):
     drive: int
     crank_angle: CrankAngle
     loads: Mapping[str, tuple[AppliedLoad, Place]]
+    clocks: list[PulseClock]
     parts: Mapping[str, "PlacedPart"]
     made: int
 
@@ -75,6 +78,8 @@ class Model(Assembled):
         if motor is None:
             return ""
         angle, speed = self.crank_angle()
+        for clock in self.clocks:
+            clock.accept(time, angle, speed)
         if speed > STALLED * min(self.scene.angular_speed, motor.fastest(self.scene.speed_rpm)):
             return ""
         places = {name: place(time)[0] for name, (_, place) in self.loads.items()}

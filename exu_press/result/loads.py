@@ -17,7 +17,7 @@ __all__ = ["record_loads"]
 def record_loads(
     model: Model,
     time: Array,
-    crank_angle: Array,
+    crank: tuple[Array, Array],
     slider: tuple[Array, Array],
     motions: Mapping[str, Motion],
 ) -> tuple[dict[str, Channel], Array]:
@@ -26,7 +26,7 @@ def record_loads(
     Args:
         model: integrated.
         time: (n,), s.
-        crank_angle: of what the drive turns, (n,), rad.
+        crank: angle of what the drive turns, (n,), rad, and angular velocity, rad/s.
         slider: its position, (n,), m, and velocity, m/s.
         motions: of every body.
 
@@ -36,7 +36,7 @@ def record_loads(
     channels: dict[str, Channel] = {}
     all_work = np.zeros_like(time)
     for name, (load, _) in model.loads.items():
-        force = load.force(time, crank_angle, slider[0] - model.mechanism.bottom, slider[1])
+        force = load.force(time, crank, (slider[0] - model.mechanism.bottom, slider[1]))
         if load.body in model.parts:
             part = model.parts[load.body]
             velocity = carried_motion(model, load.body, part.loads[name], load.point)[1]

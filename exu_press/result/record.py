@@ -73,7 +73,9 @@ def record(model: Model, outcome: Outcome) -> Result:
     if scene.drive is not None:
         angle = turned.position[:, 2] - drawn
     slider_motion = channels["slider_position"].values, channels["slider_velocity"].values
-    loads, work_of_loads = record_loads(model, time, angle, slider_motion, motions)
+    loads, work_of_loads = record_loads(
+        model, time, (angle, turned.velocity[:, 2]), slider_motion, motions
+    )
     channels |= loads
     in_ways, stored_in_ways, lost_in_ways = record_ways(model, time, position)
     channels |= in_ways

@@ -1,13 +1,15 @@
 """The loads of a scene on their mechanism: where they act, which way, and how much when."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from exu_press.arrays import Array
-from exu_press.laws.load_curve import LoadCurve, closing
+from exu_press.laws.load_curve import LoadCurve, PulseClock, closing
 from exu_press.mechanism import Mechanism, Point
+from exu_press.scene.load import BlankingLoad
 from exu_press.scene.scene import Scene, mechanism_of
 
 __all__ = ["AppliedLoad", "applied_loads"]
@@ -27,8 +29,11 @@ class AppliedLoad:
         body: on which it acts.
         point: where, in the body's frame, m.
         direction: unit vector, in the frame, in which a positive force acts.
-        over: "time", "crank_angle_deg" or "height".
-        curve: the force over time, s, crank angle, rad, or the output's height, m.
+        over: "time", "crank_angle_deg", "height" or "pulse".
+        curve: the force over time, s, crank angle, rad, the output's height, m, or the time since
+            the beginning of a pulse, s.
+        clock: of a pulse, with the crank's angle and speed at the start -> what tells its
+            beginning.
         fade: of a force that acts while the output closes, the speed from which it acts in full,
             m/s; None where it acts both ways.
     """
@@ -40,16 +45,26 @@ class AppliedLoad:
     over: str
     curve: LoadCurve
     fade: float | None
+    clock: Callable[[float, float], PulseClock] | None = None
 
     def at(self, place: float, velocity: float) -> float:
         """Return the force, N, at a place on its curve and a velocity of the output, m/s."""
         force = self.curve(place)
         return force if self.fade is None else force * closing(velocity, self.fade)
 
-    def force(self, time: Array, crank_angle: Array, height: Array, velocity: Array) -> Array:
-        """Return the force in its direction, (n,), N, at instants (n,), s, rad, m and m/s."""
-        places = {"time": time, "crank_angle_deg": crank_angle, "height": height}
-        pairs = zip(places[self.over].tolist(), velocity.tolist(), strict=True)
+    def force(self, time: Array, crank: tuple[Array, Array], slider: tuple[Array, Array]) -> Array:
+        """Return the force in its direction, (n,), N, at instants (n,), s.
+
+        Args:
+            time: of the instants, from the start of the run for a pulse.
+            crank: its angle, rad, and angular velocity, rad/s.
+            slider: its height, m, and velocity, m/s.
+        """
+        if self.clock is not None:
+            place = _since(self.clock, time, *crank)
+        else:
+            place = {"time": time, "crank_angle_deg": crank[0], "height": slider[0]}[self.over]
+        pairs = zip(place.tolist(), slider[1].tolist(), strict=True)
         return np.array([self.at(*pair) for pair in pairs])
 
     def moment(self, force: Array, angle: Array) -> Array:
@@ -75,6 +90,17 @@ class AppliedLoad:
         return self.curve.peak / (self.curve.steepest * rate)
 
 
+def _since(
+    clock: Callable[[float, float], PulseClock], time: Array, angle: Array, speed: Array
+) -> Array:
+    """Return the times since the beginning of a pulse, (n,), s."""
+    running, places = clock(float(angle[0]), float(speed[0])), []
+    for state in zip(time.tolist(), angle.tolist(), speed.tolist(), strict=True):
+        places.append(running.place(*state))
+        running.accept(*state)
+    return np.array(places)
+
+
 def fastest(mechanism: Mechanism, angular_speed: float) -> float:
     """Return the largest speed of the ideal output, m/s."""
     angle = np.linspace(0.0, 2.0 * math.pi, 361)
@@ -93,14 +119,16 @@ def applied_loads(scene: Scene) -> dict[str, AppliedLoad]:
         place = (u + dx, v + dy)
         if load.joint is not None:
             place = next(joint.at for joint in mechanism.joints if joint.name == load.joint)
+        pulse = load if isinstance(load, BlankingLoad) and scene.drive is not None else None
         applied = AppliedLoad(
             kind=load.kind,
             body=body.name,
             point=body.local(place),
             direction=(x / length, y / length),
-            over=load.over,
-            curve=load.curve(scene.angular_speed),
+            over="pulse" if pulse else load.over,
+            curve=pulse.timed() if pulse else load.curve(scene.angular_speed),
             fade=FADE * fastest(mechanism, scene.angular_speed) if load.closing else None,
+            clock=pulse.clock if pulse else None,
         )
         if applied.curve.peak > 0.0:
             found[name] = applied

@@ -7,7 +7,7 @@ from typing import Any, ClassVar, Literal
 
 from exu_press.checks import Table, key
 from exu_press.errors import InputError
-from exu_press.laws.load_curve import LoadCurve, blanking_pulse
+from exu_press.laws.load_curve import REVOLUTION, LoadCurve, PulseClock, blanking_pulse
 from exu_press.scene.bodies import Face, patch_given
 
 __all__ = ["COLUMNS", "LOAD_KINDS", "BlankingLoad", "Load", "TableLoad"]
@@ -15,7 +15,8 @@ __all__ = ["COLUMNS", "LOAD_KINDS", "BlankingLoad", "Load", "TableLoad"]
 COLUMNS = ("time", "crank_angle_deg", "height")
 """What a table's forces are given over."""
 
-REVOLUTION = 2.0 * math.pi
+LOWEST = 180.0
+"""deg, where a pulse ends unless another place is given."""
 
 
 @dataclass(frozen=True)
@@ -57,21 +58,26 @@ class _Placed(Table):
 
 @dataclass(frozen=True)
 class BlankingLoad(_Placed):
-    """Triangular pulse, once a revolution (Eq. 36, A-14)."""
+    """Triangular pulse, once a revolution (Eq. 36, A-14); a motor's crank keeps its times, too."""
 
     kind: ClassVar[Literal["blanking"]] = "blanking"
     force: float | None = key(None, "peak force", "N", at_least=0)
     rise: float = key(1e-3, "time from zero to the peak (2 tau)", "s", above=0)
     fall: float = key(5e-4, "time from the peak to zero (tau)", "s", above=0)
     end_angle_deg: float = key(
-        180.0, "crank angle from the mechanism's zero at the end", "deg", above=0, at_most=360
+        LOWEST, "crank angle from the mechanism's zero at the end", "deg", above=0, at_most=360
+    )
+    start_angle_deg: float | None = key(
+        None, "the same at the beginning, instead of end_angle_deg", "deg", at_least=0, at_most=360
     )
 
     def __post_init__(self) -> None:
-        """Check the keys; there is a force."""
+        """Check the keys; there is a force, and one place."""
         super().__post_init__()
         if self.force is None:
             raise InputError("force: missing; allowed is a number >= 0 (peak force, N)")
+        if self.start_angle_deg is not None and self.end_angle_deg != LOWEST:
+            raise InputError("start_angle_deg and end_angle_deg: allowed is one of the two")
 
     @property
     def over(self) -> str:
@@ -87,8 +93,23 @@ class BlankingLoad(_Placed):
         """Return the force over the crank angle, rad, at a speed of the crank, rad/s."""
         assert self.force is not None
         times, forces = blanking_pulse(self.force, self.rise, self.fall)
-        begin = math.radians(self.end_angle_deg) - angular_speed * times[-1]
+        if self.start_angle_deg is not None:
+            begin = math.radians(self.start_angle_deg)
+        else:
+            begin = math.radians(self.end_angle_deg) - angular_speed * times[-1]
         return LoadCurve([begin + angular_speed * time for time in times], forces, REVOLUTION)
+
+    def timed(self) -> LoadCurve:
+        """Return the force over the time since the pulse's beginning, s."""
+        assert self.force is not None
+        return LoadCurve(*blanking_pulse(self.force, self.rise, self.fall))
+
+    def clock(self, now: float, speed: float) -> PulseClock:
+        """Return when it begins at a crank whose speed varies; its angle and speed at the start."""
+        begins = self.start_angle_deg
+        angle = math.radians(self.end_angle_deg if begins is None else begins)
+        lasts = self.rise + self.fall
+        return PulseClock(lasts, angle, at_end=begins is None, now=now, speed=speed)
 
 
 @dataclass(frozen=True)

@@ -58,7 +58,9 @@ def test_the_drive_takes_out_what_a_load_puts_in(name):
     angle = speed * result.time
     motion = mechanism_of(scene).motion(angle, speed)
     position, velocity, _ = mechanism_of(scene).ideal_slider(angle, speed)
-    force = load.force(result.time, angle, position - position.min(), velocity)
+    force = load.force(
+        result.time, (angle, result["crank_speed"]), (position - position.min(), velocity)
+    )
     power = force * (motion[load.body].at(load.point).velocity[:, :2] @ np.array(load.direction))
     without = np.interp(result.time, free.time, free["drive_torque"])
     changed = result["drive_torque"] - without

@@ -109,6 +109,10 @@ def test_a_csv_file_that_is_none_is_refused_by_line(text, message, tmp_path):
         ({"a": {**PULSE, "force": -1}}, "load.a.force = -1.0: allowed is a number >= 0"),
         ({"a": {**PULSE, "rise": 0}}, "load.a.rise = 0.0: allowed is a number > 0"),
         ({"a": {**PULSE, "end_angle_deg": 361}}, "load.a.end_angle_deg = 361.0: allowed"),
+        (
+            {"a": {**PULSE, "start_angle_deg": 90, "end_angle_deg": 100}},
+            "load.a.start_angle_deg and end_angle_deg: allowed is one of the two",
+        ),
         ({"a": {**PULSE, "time": [0, 1]}}, "load.a.time = [0, 1]: unknown key of kind 'blanking'"),
         ({"a": {**PULSE, "rize": 1.0}}, "unknown key of kind 'blanking' (did you mean 'rise'?)"),
         ({"a": {**PULSE, "body": "slidr"}}, "press has no such body (did you mean 'slider'?)"),

@@ -26,7 +26,6 @@ MODULES = [
     "integrate/contact",
     "integrate/error",
     "integrate/monitor",
-    "integrate/output",
     "integrate/problem",
     "integrate/sampling",
     "integrate/scheme",

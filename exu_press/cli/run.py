@@ -17,6 +17,7 @@ from exu_press.quantities.table import run_lines
 from exu_press.scene.assumptions import assumed_line
 from exu_press.simulation import simulate
 from exu_press.verification import deliver, simulate_with_errors
+from exu_press.verification.refine import refined
 from exu_press.verification.told import delivered_lines
 
 __all__ = ["EXAMPLE", "add_arguments", "execute"]
@@ -35,6 +36,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="find the tolerance that delivers this error, as in 1%%; where the motion is chaotic, "
         "the distribution over revolutions instead",
     )
+    parser.add_argument(
+        "--once",
+        action="store_true",
+        help="do not go on at a finer tolerance where headline quantities are not known within 5%%",
+    )
     parser.add_argument("--figure", metavar="NAME", help="--within is for this figure alone")
 
 
@@ -50,15 +56,18 @@ def execute(options: argparse.Namespace) -> int:
     """Run the scene; return 0, or 3 if it stopped early or was not resolved."""
     scene = scene_of(options)
     directory = output_directory(directory_of(options))
-    found = []
+    found: list[str] = []
     if options.within is not None:
         delivered = deliver(scene, options.within, options.figure, quiet=options.quiet)
         result, found = delivered.result, delivered_lines(delivered, options.within)
     elif options.figure is not None:
         raise InputError(f"--figure {options.figure}: only together with --within")
+    elif options.no_error:
+        result = simulate(scene, quiet=options.quiet)
+    elif options.once:
+        result = simulate_with_errors(scene, quiet=options.quiet)
     else:
-        run = simulate if options.no_error else simulate_with_errors
-        result = run(scene, quiet=options.quiet)
+        result = refined(scene, quiet=options.quiet, told=found.append)
     summary = result.summary()
     remove_pictures(directory, "run")
     result.save(directory / "run.nc")

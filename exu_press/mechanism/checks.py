@@ -13,6 +13,7 @@ __all__ = ["all_of", "check", "check_defaults"]
 Kind = TypeVar("Kind")
 
 DEFAULTS = {
+    "settle": (int, float),
     **dict.fromkeys(("clearance", "radius"), (int, float)),
     **dict.fromkeys(("joints", "contact", "friction", "film"), (Mapping,)),
 }

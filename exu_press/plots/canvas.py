@@ -59,10 +59,21 @@ def angle_axis(
 
     It is named below some of them, with its numbers.
     """
+    panels = list(panels)
     crank_angle_axis(panels, *angle_range(results), dead_centres(results))
+    _lighten_start(panels, results)
     for axes in named:
         axes.set_xlabel(angle_words(results))
         axes.tick_params(labelbottom=True)
+
+
+def _lighten_start(panels: Iterable[Axes], results: Mapping[str, Result]) -> None:
+    """Cover what is before the revolutions from which quantities are read."""
+    settled = {result.scene.settled for result in results.values()}
+    begin, end = angle_range(results)
+    if len(settled) == 1 and 0.0 < (turns := settled.pop()) < (end - begin) / 360.0:
+        for axes in panels:
+            axes.axvspan(begin, begin + 360.0 * turns, color="white", alpha=0.6, zorder=3, lw=0)
 
 
 def angle_words(results: Mapping[str, Result]) -> str:

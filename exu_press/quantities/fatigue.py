@@ -5,6 +5,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from exu_press.quantities.acceleration import peak
 from exu_press.quantities.kind import LOAD, MOTION
 from exu_press.quantities.quantity import Extreme, Place, Quantity
 from exu_press.quantities.reading import Reading
@@ -23,8 +24,8 @@ def _lasting(scene: Scene, body: str) -> bool:
 
 
 def _peak_stress(run: Reading, body: str) -> float | None:
-    worst = run.result.info.get("stress", {}).get(body)
-    return None if worst is None else worst["von_mises"]
+    stress = run.channel(f"{body}_stress")
+    return None if stress is None else peak(stress)
 
 
 def _of_cycles(

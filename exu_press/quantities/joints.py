@@ -10,7 +10,7 @@ from exu_press.quantities.reading import Reading
 from exu_press.result import JointRecord
 from exu_press.scene import IdealJoint, Scene
 
-__all__ = ["IMPACTS", "JOINTS"]
+__all__ = ["IMPACTS", "JOINTS", "START"]
 
 
 def _loose(scene: Scene, joint: str) -> bool:
@@ -39,11 +39,39 @@ def _depth(run: Reading, joint: str) -> Array:
     return described.onset - _record(run, joint).gap
 
 
+def _start(run: Reading, _: str) -> float | None:
+    """Return the largest joint force before what has settled, over the largest one in it."""
+    if run.result is run.run:
+        return None
+    before = run.run.time < run.time[0]
+    names = list(run.result.joints)
+    largest = [
+        max(float(np.linalg.norm(force, axis=1).max()) for force in forces)
+        for forces in (
+            [run.run.joints[name].force[before] for name in names],
+            [run.result.joints[name].force for name in names],
+        )
+    ]
+    return largest[0] / largest[1] if largest[1] else None
+
+
 def _peak_force(run: Reading, joint: str) -> float | None:
     if joint not in run.result.joints:  # of several ideal joints only some are recorded
         return None
     return float(np.linalg.norm(_record(run, joint).force, axis=1).max())
 
+
+START = Quantity(
+    "start_ratio",
+    "",
+    "largest joint force before quantities are read, over the largest one after it",
+    LOAD,
+    _start,
+    has=lambda scene, _: scene.settled > 0.0,
+    title="largest joint force of the start, over that",
+    under=True,
+    digits=3,
+)
 
 IMPACTS = Quantity(
     "impacts",
@@ -84,6 +112,7 @@ JOINTS = (
         extreme=Extreme.LARGEST,
         headline=True,
     ),
+    START,
     Quantity(
         "peak_penetration",
         "m",

@@ -11,6 +11,7 @@ from exu_press.mechanism import Mechanism
 from exu_press.piecewise import integral
 from exu_press.quantities.dead_centre import DeadCentre, bottom_dead_centres
 from exu_press.result import Result
+from exu_press.result.windows import settled
 from exu_press.scene import mechanism_of
 
 __all__ = ["Reading"]
@@ -19,11 +20,17 @@ Read = TypeVar("Read")
 
 
 class Reading:
-    """A run and what is worked out of it once."""
+    """A run and what is worked out of it once.
 
-    def __init__(self, result: Result) -> None:
-        """Take the run."""
-        self.result = result
+    Attributes:
+        run: all of it.
+        result: what has settled of it; quantities are read from this.
+    """
+
+    def __init__(self, run: Result) -> None:
+        """Take what has settled of a run."""
+        self.run = run
+        self.result = settled(run)
         self._found: dict[Any, Any] = {}
 
     def __getitem__(self, channel: str) -> Array:
@@ -51,6 +58,13 @@ class Reading:
     def mechanism(self) -> Mechanism:
         """The mechanism of the scene."""
         return mechanism_of(self.result.scene)
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """From which to which revolution it is read."""
+        first, *_, last = self["crank_angle"] if len(self.time) > 1 else [0.0, 0.0]
+        begin = self.run.scene.start_angle
+        return float(first - begin) / (2 * np.pi), float(last - begin) / (2 * np.pi)
 
     @cached_property
     def dead_centres(self) -> list[DeadCentre]:

@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 
 from exu_press.quantities.catalogue import quantities_of
-from exu_press.quantities.dead_centre import bottom_dead_centres
 from exu_press.quantities.kind import COST
+from exu_press.quantities.reading import Reading
 from exu_press.quantities.value import values_of
 from exu_press.quantities.warnings import run_warnings
 from exu_press.result import Result
@@ -29,6 +29,7 @@ def summary(result: Result) -> dict[str, Any]:
         "end_time": info["end_time"],
         "warnings": run_warnings(result),
         "assumed": assumed(result.scene),
+        "read_from": dict(zip(("from", "to"), Reading(result).span, strict=True)),
         "quantities": {n: value.to_dict() for n, value in values.items() if n not in costs},
         "horizon": info.get("horizon"),
         "lyapunov_exponent": info.get("lyapunov_exponent"),
@@ -52,5 +53,5 @@ def _strokes(result: Result) -> list[dict[str, float]]:
             "crank_angle_deg": float(np.degrees(centre.crank_angle)),
             "tilt": float(np.interp(centre.time, result.time, result["slider_tilt"])),
         }
-        for centre in bottom_dead_centres(result)
+        for centre in Reading(result).dead_centres
     ]

@@ -7,6 +7,7 @@ from exu_press.columns import columns
 from exu_press.quantities.catalogue import CATALOGUE
 from exu_press.quantities.kind import LOAD
 from exu_press.quantities.quantity import Place, Quantity
+from exu_press.quantities.reading import Reading
 from exu_press.quantities.uncertain import uncertain
 from exu_press.quantities.value import Value, values_of
 from exu_press.result import Result
@@ -37,6 +38,7 @@ def comparison_cells(results: Mapping[str, Result]) -> list[list[str]]:
     cells = [
         ["", *results],
         ["status", *(str(result.info["status"]) for result in results.values())],
+        ["read from revolutions", *map(_span, results.values())],
         [HORIZON, *(uncertain(r.info.get("horizon"), None, 1e3) for r in results.values())],
     ]
     unit = ""
@@ -57,6 +59,13 @@ def comparison_lines(results: Mapping[str, Result]) -> list[str]:
 def run_lines(result: Result) -> list[str]:
     """Return one run's quantities, a line each."""
     return comparison_lines({"": result})[1:]
+
+
+def _span(result: Result) -> str:
+    """Return from which revolutions a run's quantities are read."""
+    begin, end = Reading(result).span
+    start = "" if begin > 0.0 else ", with the start"
+    return f"{begin:.3g} to {end:.3g}{start}"
 
 
 def _head(quantity: Quantity, unit: str) -> str:

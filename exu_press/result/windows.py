@@ -2,9 +2,10 @@
 
 import numpy as np
 
+from exu_press.arrays import Array
 from exu_press.result.result import Result
 
-__all__ = ["revolutions_of", "until", "window"]
+__all__ = ["revolutions_of", "settled", "until", "window"]
 
 
 def window(run: Result, begin: float, end: float) -> Result:
@@ -12,6 +13,44 @@ def window(run: Result, begin: float, end: float) -> Result:
     first = int(np.searchsorted(run.time, begin * (1.0 - 1e-12)))
     last = int(np.searchsorted(run.time, end * (1.0 + 1e-12), side="right"))
     return run.with_values({name: run[name][first:last] for name in run})
+
+
+def settled(run: Result) -> Result:
+    """Return what quantities are read from: whole revolutions after those of `settle`.
+
+    All of it where the scene has nothing to settle, or where the run has not got so far; energies
+    count from where it begins. Of a part of a revolution at the end nothing is read, unless it is
+    the only one.
+    """
+    turns, start = run.scene.settled, run.scene.start_angle
+    angle = run["crank_angle"]
+    if not turns or len(angle) < 2:
+        return run
+    done = (angle[-1] - start) / (2.0 * np.pi) * (1.0 + 1e-9)
+    if done <= turns:
+        return run
+    whole = np.floor(done - turns + 1e-6)
+    last = turns + whole if whole else done
+    begin, end = np.interp(start + 2.0 * np.pi * np.array([turns, last]), angle, run.time)
+    part = _between(run, float(begin), float(end))
+    energies = [name for name, channel in part.channels.items() if channel.unit == "J"]
+    return part.with_values({name: part[name] - part[name][0] for name in energies})
+
+
+def _between(run: Result, begin: float, end: float) -> Result:
+    """Return a run's record between two instants, s, at which channels are interpolated."""
+    time, near = run.time, 1e-9 * (end - begin)
+    first, last = np.searchsorted(time, [begin + near, end - near])
+    at = [(max(i, 1), instant) for i, instant in ((first, begin), (last, end))]
+
+    def part(values: Array) -> Array:
+        ends = []
+        for i, instant in at:
+            share = (instant - time[i - 1]) / (time[i] - time[i - 1])
+            ends.append(values[i - 1] + share * (values[i] - values[i - 1]))
+        return np.concatenate([ends[0][None], values[first:last], ends[1][None]])
+
+    return run.with_values({name: part(run[name]) for name in run})
 
 
 def until(run: Result, end: float) -> Result:

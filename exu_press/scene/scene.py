@@ -65,6 +65,11 @@ class Scene(Table):
     )
     speed_rpm: float = key(240.0, "crank speed; with [drive] at the start", "rpm", above=0)
     revolutions: float = key(2.0, "length of the run, at speed_rpm", above=0, at_most=1e7)
+    settle: float | None = key(
+        None,
+        "revolutions before quantities are read; one in a run of two or more unless given",
+        at_least=0,
+    )
     start_angle_deg: float = key(0.0, "crank angle at the start", "deg")
     gravity: float = key(9.81, "gravitational acceleration, downwards", "m/s^2", at_least=0)
     joints: Joints = dataclasses.field(default=cast(Any, None))  # until its mechanism is known
@@ -87,6 +92,11 @@ class Scene(Table):
             raise InputError(
                 f"revolutions = {self.revolutions:g} at speed_rpm = {self.speed_rpm:g} is a run of "
                 f"{self.duration:g} s: allowed are {SHORTEST_RUN:g} to {LONGEST_RUN:g} s"
+            )
+        if self.settle is not None and self.settle >= self.revolutions:
+            raise InputError(
+                f"settle = {self.settle:g}: allowed is a number < revolutions = "
+                f"{self.revolutions:g}, or nothing is left to read"
             )
         unused = unused_keys(
             {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
@@ -243,6 +253,14 @@ class Scene(Table):
     def pin_speed(self) -> float:
         """Speed of the crank pin, m/s."""
         return self.angular_speed * mechanism_of(self).crank_radius
+
+    @property
+    def settled(self) -> float:
+        """Revolutions before quantities are read."""
+        if self.settle is not None:
+            return self.settle
+        usual = mechanism_of(self).defaults.get("settle", 1.0)
+        return float(usual) if self.revolutions >= 2.0 else 0.0
 
     @property
     def duration(self) -> float:

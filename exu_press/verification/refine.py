@@ -1,0 +1,74 @@
+"""A run whose headline quantities are not known well goes on at a finer tolerance."""
+
+import time
+from collections.abc import Callable
+
+from exu_press.quantities import quantities_of, values_of
+from exu_press.result import Result
+from exu_press.scene import Scene
+from exu_press.verification.run import simulate_with_errors
+
+__all__ = ["doubtful", "refined"]
+
+ENOUGH = 0.05
+"""Of a quantity: with a larger error it is not known well."""
+
+FINER = 4.0
+"""A tolerance is made finer by this factor at a time."""
+
+LONGER = 2.0
+"""A run takes this much longer then."""
+
+BUDGET = 3.0
+"""Of the time that the first run took, which finer ones may take together."""
+
+FINEST = 1e-6
+
+
+def doubtful(result: Result) -> list[str]:
+    """Return the headline quantities that are not determined, or known to worse than ENOUGH."""
+    values = values_of(result)
+    found = []
+    for name, placed in quantities_of(result.scene).items():
+        value = values[name]
+        if placed.quantity.headline and value.value and value.error is not None:
+            known = value.determined and value.error <= ENOUGH * abs(value.value)
+            found += [] if known else [name]
+    return found
+
+
+def refined(
+    scene: Scene, *, quiet: bool = True, told: Callable[[str], None] = lambda text: None
+) -> Result:
+    """Run a scene, and run it again at finer tolerances while that helps and the budget lasts.
+
+    Args:
+        scene: what to simulate.
+        quiet: False shows the progress.
+        told: is called with what is done next and why, or with what the user may do.
+    """
+    begin = time.perf_counter()
+    result = simulate_with_errors(scene, quiet=quiet)
+    took = first = time.perf_counter() - begin
+    spent = 0.0
+    while result.completed and (names := doubtful(result)):
+        solver = result.scene.solver
+        assert solver is not None
+        which = f"{names[0]}{f' and {len(names) - 1} more' if len(names) > 1 else ''}"
+        if solver.tolerance is None or solver.tolerance <= FINEST:
+            told(f"{which}: not known within {ENOUGH:.0%} with these steps")
+            break
+        finer = max(solver.tolerance / FINER, FINEST)
+        if spent + LONGER * took > BUDGET * first:
+            told(
+                f"{which}: not known within {ENOUGH:.0%}; a tolerance of {finer:.2g} "
+                f"(--set solver.tolerance={finer:.2g}) takes about {LONGER * took:.2g} s, and "
+                f"--within {ENOUGH:.0%} finds the tolerance, or the distribution over revolutions"
+            )
+            break
+        told(f"{which}: not known within {ENOUGH:.0%}; goes on at a tolerance of {finer:.2g}")
+        before = time.perf_counter()
+        result = simulate_with_errors(scene.replace("solver.tolerance", finer), quiet=quiet)
+        took = time.perf_counter() - before
+        spent += took
+    return result

@@ -1,0 +1,50 @@
+"""Quantities are read from whole revolutions after the start has settled."""
+
+import numpy as np
+import pytest
+
+from exu_press import InputError, Scene, simulate
+from exu_press.quantities.table import run_lines
+
+PIN = {"wrist_pin": {"kind": "dry", "clearance": 1e-4}}
+
+
+def crank(**keys):
+    return Scene(mechanism="slider_crank", joints=PIN, **keys)
+
+
+def test_one_revolution_where_a_run_has_two_and_none_in_the_paper_s_press():
+    assert crank(revolutions=2.0).settled == 1.0
+    assert crank(revolutions=1.9).settled == 0.0
+    assert crank(revolutions=1.9, settle=0.5).settled == 0.5
+    assert Scene(revolutions=5.0).settled == 0.0
+    with pytest.raises(InputError, match=r"settle = 2: allowed is a number < revolutions = 1"):
+        crank(revolutions=1.0, settle=2.0)
+
+
+@pytest.fixture(scope="module")
+def run():
+    return simulate(crank(revolutions=2.5, start_angle_deg=30.0))
+
+
+def test_peaks_and_energies_are_of_the_second_revolution(run):
+    turns = (run["crank_angle"] - run["crank_angle"][0]) / (2.0 * np.pi)
+    inside = (turns >= 1.0) & (turns <= 2.0)
+    assert run.summary()["read_from"] == pytest.approx({"from": 1.0, "to": 2.0}, abs=1e-6)
+    largest = np.abs(run["slider_acceleration"][inside]).max()
+    assert run.quantity("peak_acceleration.resolved").value == pytest.approx(largest)
+    lost = run["energy_dissipated"]
+    expected = np.interp(2.0, turns, lost) - np.interp(1.0, turns, lost)
+    assert run.quantity("energy.dissipated").value == pytest.approx(expected, rel=1e-6)
+    power = run.quantity("drive.mean_power").value
+    assert power == pytest.approx(run.quantity("energy.input").value / 0.25, rel=1e-3)
+
+
+def test_the_start_is_told(run):
+    force = np.linalg.norm(run["wrist_pin_force"], axis=1)
+    lines = run_lines(run)
+    assert any(line.startswith("read from revolutions") and "1 to 2" in line for line in lines)
+    assert run.quantity("start_ratio").value > 0.0
+    assert force.max() > 0.0
+    short = simulate(crank(revolutions=0.1))
+    assert any("with the start" in line for line in run_lines(short))

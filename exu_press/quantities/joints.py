@@ -4,7 +4,7 @@ import numpy as np
 
 from exu_press.arrays import Array
 from exu_press.quantities.contact_time import contacts, share_of_contact
-from exu_press.quantities.kind import COUNT, ENERGY, LOAD, MOTION, SHARE
+from exu_press.quantities.kind import COUNT, ENERGY, LOAD, MEASURE, MOTION, SHARE
 from exu_press.quantities.quantity import Extreme, Place, Quantity
 from exu_press.quantities.reading import Reading
 from exu_press.result import JointRecord
@@ -41,9 +41,9 @@ def _depth(run: Reading, joint: str) -> Array:
 
 def _start(run: Reading, _: str) -> float | None:
     """Return the largest joint force before what has settled, over the largest one in it."""
-    if run.result is run.run:
-        return None
     before = run.run.time < run.time[0]
+    if not before.any():
+        return None
     names = list(run.result.joints)
     largest = [
         max(float(np.linalg.norm(force, axis=1).max()) for force in forces)
@@ -65,7 +65,7 @@ START = Quantity(
     "start_ratio",
     "",
     "largest joint force before quantities are read, over the largest one after it",
-    LOAD,
+    MEASURE,
     _start,
     has=lambda scene, _: scene.settled > 0.0,
     title="largest joint force of the start, over that",

@@ -29,6 +29,7 @@ def settled(run: Result) -> Result:
     done = (angle[-1] - start) / (2.0 * np.pi) * (1.0 + 1e-9)
     if done <= turns:
         return run
+    turns = max(turns, (angle[0] - start) / (2.0 * np.pi))
     whole = np.floor(done - turns + 1e-6)
     last = turns + whole if whole else done
     begin, end = np.interp(start + 2.0 * np.pi * np.array([turns, last]), angle, run.time)

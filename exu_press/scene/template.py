@@ -34,7 +34,7 @@ def template(mechanism: str, shown: str = "") -> str:
 
 def _lines(scene: Scene) -> Iterator[str]:
     yield "# Lines that begin with # are not in use; every key can be left out: it has its default."
-    yield from table_lines(scene, True)
+    yield from table_lines(scene, True, absent=True)
     for field in dataclasses.fields(scene):
         value = getattr(scene, field.name)
         if isinstance(value, Joints):

@@ -7,6 +7,7 @@ import numpy as np
 from exu_press.arrays import Array
 from exu_press.quantities.energy import has_balance
 from exu_press.result import Result
+from exu_press.result.windows import settled
 
 __all__ = ["OF_FIRST_STEP", "overshot", "smoothed", "unbalanced"]
 
@@ -52,9 +53,10 @@ def unbalanced(run: Result) -> Result:
     """
     if not has_balance(run):
         return run
+    run = settled(run)
     given = run["energy_input"]
-    missed = given - run["energy_stored"] - run["energy_dissipated"]
-    return run.with_values({"energy_input": given + np.abs(missed).max()})
+    missed = np.abs(given - run["energy_stored"] - run["energy_dissipated"]).max()
+    return run.with_values({"energy_input": np.concatenate([given[:1], given[1:] + missed])})
 
 
 def _with_loads(run: Result, change: Callable[[Array, Array], Array]) -> Result:

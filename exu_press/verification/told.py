@@ -46,6 +46,6 @@ def _chaos(result: Result) -> list[str]:
         if impacts > 0.0:
             growth += f", {math.exp(rate / impacts):.2g}-fold an impact"
     return [
-        f"estimated errors are larger than the figures after t = {horizon * 1e3:.4g} ms on, "
+        f"estimated errors are larger than the values from t = {horizon * 1e3:.4g} ms on, "
         f"{angle:.0f} deg of the crank after the start{growth}"
     ]

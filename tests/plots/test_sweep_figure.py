@@ -47,7 +47,7 @@ def test_a_grid_of_few_is_curves():
     some = table(grid={"joints.crank_pin.clearance": CLEARANCES, "speed_rpm": SPEEDS})
     force, film = panels(sweep_figure(some, TWO, SHOWN))
     assert force.get_title(loc="left") == "Crank pin: joint force, max, kN"
-    assert film.get_title(loc="left") == "Crank pin, least film thickness, \N{MICRO SIGN}m"
+    assert film.get_title(loc="left") == "Crank pin: film thickness, min, \N{MICRO SIGN}m"
     assert force.get_xlabel() == "crank pin, radial clearance, \N{MICRO SIGN}m"
     assert [line.get_label() for line in force.lines] == ["200 rpm", "300 rpm", "400 rpm"]
     for line, speed in zip(force.lines, SPEEDS, strict=True):

@@ -55,7 +55,7 @@ def test_a_film_may_take_up_its_load_at_once(run):
 def test_energy_is_as_unsure_as_its_balance(run):
     missed = run["energy_input"] - run["energy_stored"] - run["energy_dissipated"]
     more = unbalanced(run)["energy_input"] - run["energy_input"]
-    assert more == pytest.approx(np.abs(missed).max())
+    assert more[1:] == pytest.approx(np.abs(missed).max())
 
 
 def test_motion_is_left_alone(run):

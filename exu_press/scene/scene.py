@@ -67,7 +67,8 @@ class Scene(Table):
     revolutions: float = key(2.0, "length of the run, at speed_rpm", above=0, at_most=1e7)
     settle: float | None = key(
         None,
-        "revolutions before quantities are read; one in a run of two or more unless given",
+        "revolutions before quantities are read; one in a run of two or more (with a motor three) "
+        "unless given",
         at_least=0,
     )
     start_angle_deg: float = key(0.0, "crank angle at the start", "deg")
@@ -260,7 +261,8 @@ class Scene(Table):
         if self.settle is not None:
             return self.settle
         usual = mechanism_of(self).defaults.get("settle", 1.0)
-        return float(usual) if self.revolutions >= 2.0 else 0.0
+        least = 2.0 if self.drive is None else 3.0  # a motor may lag behind its revolutions
+        return float(usual) if self.revolutions >= least else 0.0
 
     @property
     def duration(self) -> float:

@@ -718,3 +718,15 @@ def test_an_error_in_a_law_is_not_told_as_one_of_newton():
     joint.add_force = breaks
     with pytest.raises(exu.ExudynError, match="USER FUNCTION"):
         model.solve()
+
+
+def test_a_run_ends_where_what_watches_it_says_why():
+    """What was computed until then is kept."""
+    mbs, _ = pendulum()
+
+    def late(time):
+        return "late" if time >= 0.3 else ""
+
+    outcome = solve_dynamic(mbs, settings(1.0), watch=late)
+    assert (outcome.status, outcome.reason) == (Status.STALLED, "late")
+    assert 0.3 <= outcome.end_time < 0.35

@@ -1,5 +1,7 @@
 """Loads on flexible bodies: statics against a beam and all finite elements, work, stiff limit."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 import scipy.sparse as sp
@@ -82,7 +84,7 @@ def test_the_tip_bends_as_all_finite_elements_and_as_a_beam(rocker):
     bores = {"pivot": 0.0, "knuckle": LENGTH}
     ends = {name: Axis((AT, y), radius=0.2 * SIDE) for name, y in bores.items()}
     tip = Patch(box=((-np.inf, TIP["y"][0], -np.inf), (np.inf, TIP["y"][1], np.inf)))
-    solid = StepFile(rocker[1], 1e-3, axes=ends, patches={"tip": (tip,)})
+    solid = StepFile(Path(rocker[1]), 1e-3, axes=ends, patches={"tip": (tip,)})
     interfaces = tuple(Interface(name) for name in ("pivot", "knuckle", "tip"))
     model = full_model(Part("rocker", solid, CRANK_STEEL, interfaces, MESH))
     coupler = sp.csr_matrix([[0.36, 0.2, 0.0, 0.0, 0.0, 0.0]])  # whose direction it holds

@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 from exu_press.columns import columns
 from exu_press.plots.peaks import with_error
 from exu_press.plots.sides import joint_titles
+from exu_press.quantities.catalogue import ECCENTRICITY_RATIO, JOINT_FORCE
 from exu_press.result import Result
 
 __all__ = ["busiest", "draw_rest", "rest_lines"]
@@ -52,7 +53,7 @@ def rest_lines(result: Result, rest: Mapping[str, str]) -> list[str]:
                 joint.kind,
                 f"{joint.clearance * 1e6:.4g}" if loose else "-",
                 _eccentricity(result, name) if loose else "-",
-                with_error(result, f"joints.{name}.peak_force", _peak(result, name), 1e-3),
+                with_error(result, JOINT_FORCE.at(name), _peak(result, name), 1e-3),
             )
         )
     return columns(cells)
@@ -89,7 +90,7 @@ def _eccentricity(result: Result, name: str) -> str:
     """Return the largest eccentricity over the clearance of a joint, in words."""
     joint = result.joints[name]
     ratio = float(joint.distance.max()) / joint.clearance
-    return with_error(result, f"joints.{name}.max_eccentricity_ratio", ratio, 1.0, 3)
+    return with_error(result, ECCENTRICITY_RATIO.at(name), ratio, 1.0, 3)
 
 
 def _peak(result: Result, name: str) -> float:

@@ -13,6 +13,7 @@ from exu_press.plots.peaks import mark_peak
 from exu_press.plots.scales import impact_scale, note
 from exu_press.plots.style import colour_of, styled
 from exu_press.plots.typesetting import plain
+from exu_press.quantities.catalogue import GUIDE_FORCE, JOINT_FORCE, PEAK_TORQUE
 from exu_press.result import Result
 from exu_press.scene import mechanism_of
 
@@ -87,10 +88,10 @@ def _joints(results: Sequence[Result]) -> list[str]:
 def _figure_of(result: Result, channel: str) -> str:
     """Return the dotted name of the figure that is a channel's peak."""
     if channel == "drive_torque":
-        return "drive.peak_torque"
+        return PEAK_TORQUE.name
     if channel == "guide_force":
-        return f"guides.{mechanism_of(result.scene).slider}.peak_force"
-    return f"joints.{channel.removesuffix('_force')}.peak_force"
+        return GUIDE_FORCE.at(mechanism_of(result.scene).slider)
+    return JOINT_FORCE.at(channel.removesuffix("_force"))
 
 
 def _magnitude(values: Array) -> Array:

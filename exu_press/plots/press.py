@@ -24,6 +24,12 @@ from exu_press.plots.slider import averaged
 from exu_press.plots.style import GREY, IDEAL, colour_of, styled
 from exu_press.plots.words import joint_in_words
 from exu_press.quantities import DeadCentre, bottom_dead_centres, ideal_bottom_angle
+from exu_press.quantities.catalogue import (
+    DEAD_CENTRE_MEAN,
+    DEAD_CENTRE_RANGE,
+    PEAK_TORQUE,
+    SHAKING_MEANS,
+)
 from exu_press.quantities.uncertain import significant
 from exu_press.result import Result
 from exu_press.result.channel import guide_channel
@@ -97,11 +103,7 @@ def _shaking(axes: Axes, result: Result) -> None:
             "vertical, without counterweight": result[bare][:, 1] if bare in result else None,
             "horizontal": result["shaking_force"][:, 0],
         },
-        (
-            "shaking.vertical_mean_1ms",
-            "shaking.without_counterweight.vertical_mean_1ms",
-            "shaking.horizontal_mean_1ms",
-        ),
+        [quantity.name for quantity in SHAKING_MEANS],
     )
     axes.set(title="Shaking force", ylabel="mean over 1 ms, kN")
 
@@ -111,7 +113,7 @@ def _drive(axes: Axes, result: Result) -> None:
     _draw(axes, result, {"": result["drive_power"]}, ())
     axes.set(title="Power of the drive", ylabel="mean over 1 ms, kW")
     worst = float(np.abs(result["drive_torque"]).max())
-    told = with_error(result, "drive.peak_torque", worst, 1e-3)
+    told = with_error(result, PEAK_TORQUE.name, worst, 1e-3)
     note(axes, f"torque, as resolved: at most {told} kN m")
 
 
@@ -196,7 +198,7 @@ def _strokes(axes: Axes, result: Result, centres: list[DeadCentre]) -> None:
     )
     axes.margins(y=0.3)
     axes.legend(loc="upper center", ncols=3)
-    told = with_error(result, "strokes.mean", mean, 1e3, 6)
+    told = with_error(result, DEAD_CENTRE_MEAN.name, mean, 1e3, 6)
     note(axes, f"lowest, mm: {told}{_scatter(result, centres)}")
 
 
@@ -215,7 +217,7 @@ def _scatter(result: Result, centres: list[DeadCentre]) -> str:
     spread = float(np.ptp([centre.position for centre in centres]))
     if spread < 1e-11:
         return ", all strokes alike"
-    return f", strokes differ by {with_error(result, 'strokes.range', spread, 1e9, 2)} nm"
+    return f", strokes differ by {with_error(result, DEAD_CENTRE_RANGE.name, spread, 1e9, 2)} nm"
 
 
 def _at_dead_centres(

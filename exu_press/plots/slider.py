@@ -14,6 +14,7 @@ from exu_press.plots.peaks import mark_peaks
 from exu_press.plots.scales import impact_scale, note, widen
 from exu_press.plots.style import IDEAL, colour_of, styled
 from exu_press.plots.typesetting import plain
+from exu_press.quantities.catalogue import MEAN_ACCELERATION, PEAK_ACCELERATION
 from exu_press.result import Result
 from exu_press.scene import mechanism_of
 
@@ -61,7 +62,7 @@ def slider_figure(results: Mapping[str, Result]) -> Figure:
     resolved = [(crank_degrees(r), r["slider_acceleration"]) for r in results.values()]
     scale = impact_scale(panels[2, 1], resolved, signed=True)
     peaks = {label: (r, r["slider_acceleration"]) for label, r in results.items()}
-    note(panels[2, 1], mark_peaks(panels[2, 1], peaks, "peak_acceleration.resolved"), scale)
+    note(panels[2, 1], mark_peaks(panels[2, 1], peaks, PEAK_ACCELERATION.name), scale)
     angle_axis(panels.flat, results, panels[2])
     handles, labels = panels[0, 0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=min(len(labels), 6))
@@ -126,7 +127,7 @@ def _scale_averaged(
         label: (result, averaged(result.time, result["slider_velocity"]))
         for label, result in results.items()
     }
-    told = mark_peaks(axes, means, "peak_acceleration.mean_1ms")
+    told = mark_peaks(axes, means, MEAN_ACCELERATION.name)
     ordinary = max(float(np.abs(ideal[2]).max()) for ideal in ideals.values())
     peak = max(float(np.abs(values).max()) for _, values in means.values())
     limit = MOST_OF_IDEAL * ordinary

@@ -32,6 +32,25 @@ CATALOGUE: list[Quantity] = [
 """In the order of tables."""
 
 
+def _declared_as(name: str, place: Place = Place.RUN) -> Quantity:
+    return next(q for q in CATALOGUE if q.name == name and q.place is place)
+
+
+PEAK_ACCELERATION = _declared_as("peak_acceleration.resolved")
+MEAN_ACCELERATION = _declared_as("peak_acceleration.mean_1ms")
+DEAD_CENTRE_MEAN = _declared_as("strokes.mean")
+DEAD_CENTRE_RANGE = _declared_as("strokes.range")
+PEAK_TORQUE = _declared_as("drive.peak_torque")
+SHAKING_MEANS = tuple(
+    _declared_as(f"shaking.{which}_mean_1ms")
+    for which in ("vertical", "without_counterweight.vertical", "horizontal")
+)
+JOINT_FORCE = _declared_as("peak_force", Place.JOINT)
+GUIDE_FORCE = _declared_as("peak_force", Place.GUIDE)
+ECCENTRICITY_RATIO = _declared_as("max_eccentricity_ratio", Place.JOINT)
+"""Those that pictures and studies show by themselves."""
+
+
 @dataclass(frozen=True)
 class Placed:
     """A quantity of one scene, at its place.

@@ -4,14 +4,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from statistics import median
 
+from exu_press.quantities.catalogue import PEAK_ACCELERATION
 from exu_press.scene import Scene
 from exu_press.simulation import simulate
 from exu_press.verification import simulate_with_errors
 from exu_press.verification.compared import compared
 
 __all__ = ["Stated", "stated_errors"]
-
-PEAK = "peak_acceleration.resolved"
 
 
 @dataclass(frozen=True)
@@ -71,7 +70,7 @@ def stated_errors(
                 covered=sum(one.covered for one in every),
                 ratio=median(ratios) if ratios else None,
                 errors=tuple(shares.values()),
-                peak=shares.get(PEAK),
+                peak=shares.get(PEAK_ACCELERATION.name),
             )
         )
     return found

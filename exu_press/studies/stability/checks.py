@@ -11,6 +11,7 @@ from exu_press.arrays import Array
 from exu_press.integrate import Tuning
 from exu_press.laws.film.contract import film_scale
 from exu_press.mechanism import GROUND
+from exu_press.quantities.catalogue import ECCENTRICITY_RATIO, JOINT_FORCE, quantity_of
 from exu_press.quantities.energy import energy_residual, energy_scale
 from exu_press.result import Result
 from exu_press.scene import LubricatedJoint, Scene, mechanism_of
@@ -129,12 +130,12 @@ def agreement(result: Result, finer: Result) -> Check:
 
 def _little(scene: Scene, name: str, true: float) -> float:
     """Return by how much a figure may be off whatever it states, in its unit."""
-    joint = name.split(".")[1] if name.startswith("joints.") else ""
-    if name.endswith("eccentricity_ratio"):
+    placed = quantity_of(scene, name)
+    if placed.quantity is ECCENTRICITY_RATIO:
         return LITTLE
     least = NOTHING
-    if name.endswith("peak_force") and joint in scene.joints.with_clearance:
-        least = _rounding(scene, joint)
+    if placed.quantity is JOINT_FORCE and placed.at in scene.joints.with_clearance:
+        least = _rounding(scene, placed.at)
     return max(LITTLE * abs(true), least)
 
 

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from exu_press.errors import InputError
 from exu_press.output import replacing
+from exu_press.quantities.cost import COSTS
 from exu_press.quantities.uncertain import uncertain
 from exu_press.stored import shown
 from exu_press.studies.sweep.points import flat
@@ -26,7 +27,7 @@ Value = str | float | bool | None
 COLUMN_NAME = re.compile(r"[\w.-]+", re.ASCII)
 """Of a column: what NetCDF takes for a name."""
 
-RUN_TIMES = ("cost.wall_time", "cost.total_time")
+RUN_TIMES = tuple(quantity.name for quantity in COSTS if quantity.unit == "s")
 """Columns that differ from run to run of the same scene; they stand last."""
 
 

@@ -11,7 +11,7 @@ from exu_press.output import PICTURES
 
 QUICK = ["--set", "revolutions=0.02", "--no-pictures", "--no-error"]
 KEYS = {
-    "status", "reason", "end_time", "warnings", "assumed", "quantities", "horizon",
+    "status", "reason", "end_time", "warnings", "read_from", "assumed", "quantities", "horizon",
     "lyapunov_exponent", "strokes", "stress", "solids", "cost", "own_items", "versions", "scene",
 }  # fmt: skip
 
@@ -105,7 +105,7 @@ def test_directory_that_cannot_be_written(tmp_path, capsys):
 
 def test_compare_shows_the_variants_side_by_side(tmp_path, capsys):
     assert main(["compare", "press", *QUICK, "--out", str(tmp_path)]) == 0
-    header = capsys.readouterr().out.splitlines()[0].split()
+    _, *header = capsys.readouterr().out.splitlines()[0].split()
     assert header == ["ideal", "dry", "lubricated"]
     comparison = json.loads((tmp_path / "comparison.json").read_text())
     assert comparison["ideal"]["scene"]["joints"] == {}

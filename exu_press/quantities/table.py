@@ -99,11 +99,13 @@ def _at_places(quantity: Quantity, result: Result, values: Mapping[str, Value]) 
             for at in there:
                 if at != largest:
                     del words[at]
-    loose = result.clearance_joints
-    busiest = sorted(words, key=lambda at: (at not in loose, -_load(values, quantity.place, at)))
-    busiest = busiest[:MOST_PLACES]
-    texts = [f"{words[at]} {shown_value(quantity, found[at])}" for at in words if at in busiest]
-    rest = len(words) - len(texts)
+    shown, most = list(words), MOST_PLACES
+    if quantity.place is Place.JOINT:  # those with clearance, or the busiest ideal one
+        shown = [at for at in shown if at in result.clearance_joints] or shown
+        most = MOST_PLACES if result.clearance_joints else 1
+    busiest = sorted(shown, key=lambda at: -_load(values, quantity.place, at))[:most]
+    texts = [f"{words[at]} {shown_value(quantity, found[at])}" for at in shown if at in busiest]
+    rest = len(shown) - len(texts)
     return ", ".join([*texts, *[f"{rest} more"] * (rest > 0)]) or "-"
 
 

@@ -88,6 +88,30 @@ def undeformed(start: Motion) -> FrameStart:
     )
 
 
+def shifted(start: FrameStart, body: Motion, away: Motion) -> FrameStart:
+    """Return a start with the whole body moved.
+
+    Args:
+        start: before.
+        body: motion of a point of the body in the plane before, one instant.
+        away: by what its position (x, y, angle) and velocity change.
+    """
+    (x, y, _), (u, v, _) = body.position[0], body.velocity[0]
+    dx, dy, turn = away.position[0]
+    du, dv, omega = away.velocity[0]
+    arm = start.position - np.array([x, y, 0.0])
+    rate = start.velocity - np.array([u, v, 0.0])
+    axis, rotation = np.array([0.0, 0.0, 1.0]), np.asarray(RotationMatrixZ(float(turn)))
+    arm = rotation @ arm
+    return replace(
+        start,
+        position=arm + np.array([x + dx, y + dy, 0.0]),
+        rotation=rotation @ start.rotation,
+        velocity=rotation @ rate + omega * np.cross(axis, arm) + np.array([u + du, v + dv, 0.0]),
+        angular_velocity=start.angular_velocity + omega * axis,
+    )
+
+
 def deformed(
     mbs: exu.MainSystem, body: FlexibleBody, q: Array, q_t: Array, modes: Array, modes_t: Array
 ) -> FrameStart:

@@ -44,6 +44,7 @@ def test_four_bar(pin, step):
     result = simulate(
         Scene(
             mechanism="four_bar",
+            start="centred",
             joints={"knuckle": {"kind": KINDS[pin], **SMALL}},
             revolutions=0.2,
             solver={"step": step},
@@ -79,6 +80,7 @@ def test_eccentric_press_with_two_clearance_joints(crank_pin, wrist_pin, bound):
     result = simulate(
         Scene(
             mechanism="eccentric_press",
+            start="centred",
             joints=joints,
             revolutions=0.2,
             solver={"step": step},

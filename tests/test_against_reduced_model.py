@@ -46,6 +46,7 @@ def exudyn(pin: str, step: float, friction: tuple[tuple[str, float], ...] = ()) 
             "mechanism": "slider_crank",
             "joints": {"crank_pin": "lubricated" if lubricated else "dry"},
             "revolutions": 1.0,
+            "start": "centred",
             "solver": {"step": step},
             **law,
         }

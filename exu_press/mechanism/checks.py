@@ -14,6 +14,7 @@ Kind = TypeVar("Kind")
 
 DEFAULTS = {
     "settle": (int, float),
+    "start": (str,),
     **dict.fromkeys(("clearance", "radius"), (int, float)),
     **dict.fromkeys(("joints", "contact", "friction", "film"), (Mapping,)),
 }
@@ -53,7 +54,8 @@ def check_defaults(defaults: Any) -> None:
                 f"{', '.join(DEFAULTS)}"
             )
         if not isinstance(value, DEFAULTS[key]):
-            kind = "a table of keys" if Mapping in DEFAULTS[key] else "a number"
+            words = {str: "a text", float: "a number"}
+            kind = words.get(DEFAULTS[key][-1], "a table of keys")
             raise InputError(f"defaults.{key} = {value!r}: allowed is {kind}")
 
 

@@ -35,9 +35,9 @@ class Mechanism:
         groups: names for several joints, which a scene gives clearance together.
         counterweight: names of the bodies that balance the others, without which the shaking force
             is recorded too.
-        defaults: what a scene of it has unless it says otherwise, in a scene's words: "clearance"
-            and "radius" of a joint, "joints" with their kinds where no joint is named, and keys of
-            "contact", "friction" and "film".
+        defaults: what a scene of it has unless it says otherwise, in a scene's words: "start",
+            "clearance" and "radius" of a joint, "joints" with their kinds where no joint is named,
+            and keys of "contact", "friction" and "film".
 
     Raises:
         InputError: names are used twice or unknown, a body has no mass, or what else cannot be.

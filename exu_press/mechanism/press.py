@@ -14,6 +14,7 @@ from exu_press.mechanism.parts import GROUND, Body, Guide, Joint, Output, Point,
 __all__ = ["TABLE_2", "Press", "press"]
 
 TABLE_2: dict[str, Any] = {
+    "start": "centred",
     "clearance": 1e-4,
     "radius": 0.07,
     "joints": {"crank_pin": "lubricated", "balls": "dry"},

@@ -9,6 +9,7 @@ from exu_press.model.bodies import add_bodies
 from exu_press.model.drive import add_drive, crank_angle_of, hold_flexible_bodies
 from exu_press.model.guides import add_guide, add_ways
 from exu_press.model.joints import add_clearance_joint, add_ideal_joint
+from exu_press.model.loaded_start import moved_start
 from exu_press.model.loads import add_loads
 from exu_press.model.model import Model, count_items
 from exu_press.model.sensors import add_sensors
@@ -44,7 +45,10 @@ def build(scene: Scene, *, quiet: bool = True) -> Model:
         ideal = scene.replace(constant | {"drive": None, "load": {}} | _settled(scene))
         settled = System(ideal, parts)
         start, frames = deformed_start(settled, _assembled(settled, {}, {}).drive)
-    return _assembled(System(scene, parts), start, frames)
+    system = System(scene, parts)
+    if scene.start == "loaded":
+        start, frames = moved_start(system, start, frames)
+    return _assembled(system, start, frames)
 
 
 def _settled(scene: Scene) -> dict[str, Any]:

@@ -19,6 +19,8 @@ from exu_press.joints import (
     add_dry_spherical,
     add_lubricated_revolute,
 )
+from exu_press.joints.pairs import DryPair, FilmPair, Pair
+from exu_press.laws.film import film_scale
 from exu_press.laws.friction import no_friction
 from exu_press.mechanism import GROUND, Joint, Point
 from exu_press.mechanism.holding import HalfHeld
@@ -26,7 +28,7 @@ from exu_press.model.system import System
 from exu_press.scene import DryJoint, LubricatedJoint
 from exu_press.scene.laws import contact_law, film_law, friction_law
 
-__all__ = ["add_clearance_joint", "add_ideal_joint"]
+__all__ = ["add_clearance_joint", "add_ideal_joint", "pairs_of"]
 
 
 def add_ideal_joint(system: System, joint: Joint) -> int:
@@ -73,6 +75,21 @@ def add_clearance_joint(
         friction=friction,
         asperity_onset=kind.onset or 0.0,
     )
+
+
+def pairs_of(joint: Joint, kind: DryJoint | LubricatedJoint) -> list[Pair]:
+    """Return the surfaces of a joint with clearance, in its plane."""
+    pairs: list[Pair] = []
+    if isinstance(kind, LubricatedJoint):
+        radius, clearance, oil = kind.radius, kind.clearance, kind.film
+        scale = film_scale(oil.viscosity, oil.length, radius, clearance)
+        pairs.append(FilmPair(film_law(oil, radius, clearance), scale, clearance))
+    if kind.contact is not None:
+        contact = contact_law(kind, revolute=not joint.spherical)
+        friction = no_friction() if kind.friction is None else friction_law(kind.friction)
+        reach = kind.clearance - (kind.onset or 0.0)
+        pairs.append(DryPair(contact, friction, kind.radius, reach))
+    return pairs
 
 
 def _end(system: System, joint: Joint, body: str, point: Point) -> Any:

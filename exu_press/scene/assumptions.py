@@ -13,7 +13,7 @@ from typing import Any
 from exu_press.checks import Table
 from exu_press.mechanism import Mechanism
 from exu_press.scene.joint import LAW_TABLES, SIZES, Joint
-from exu_press.scene.scene import Scene, mechanism_of
+from exu_press.scene.scene import STARTS, Scene, mechanism_of
 from exu_press.scene.tables import Contact, Friction
 from exu_press.scene.usage import TABLES, unused_keys
 
@@ -125,6 +125,7 @@ def keys_of(scene: Scene) -> dict[str, Key]:
     defaults |= _law_defaults(scene)
     kinds = {field.name: field.default for field in dataclasses.fields(Scene)}
     kinds |= {"film.at_contact": "stop", "press.counterweight": True}
+    kinds["start"] = mechanism_of(scene).defaults.get("start", STARTS[0])
     found = {}
     for name, (value, field) in _flat(scene):
         default = kinds[name] if name in kinds else defaults.get(name)
@@ -201,9 +202,10 @@ def assumed_line(scene: Scene) -> str:
 
 
 def _own_laws(scene: Scene) -> set[str]:
-    """Return the keys of laws that the scene's mechanism has values of its own for."""
+    """Return the keys of laws and start that the scene's mechanism has values of its own for."""
     own = mechanism_of(scene).defaults
-    return {f"{law}.{key}" for law in LAW_TABLES for key in own.get(law, {})}
+    laws = {f"{law}.{key}" for law in LAW_TABLES for key in own.get(law, {})}
+    return laws | ({"start"} & own.keys())
 
 
 def _law_defaults(scene: Scene) -> dict[str, Any]:

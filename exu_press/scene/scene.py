@@ -33,13 +33,16 @@ from exu_press.scene.save import save_scene
 from exu_press.scene.tables import RPM, Contact, ElasticGuide, Film, Friction, Motor, Solver
 from exu_press.scene.usage import TABLES, unused_keys
 
-__all__ = ["Scene", "mechanism_of"]
+__all__ = ["STARTS", "Scene", "mechanism_of"]
 
 SHORTEST_RUN = 1e-7
 """s, as `solve_dynamic` takes it."""
 
 LONGEST_RUN = 1e9
 """s, thirty years."""
+
+STARTS = ("loaded", "centred")
+"""The first one is that of a mechanism without a default of its own."""
 
 ONLY_WHERE_GIVEN = ("drive", "guide")
 """Tables that a scene without them does not have: constant speed, ideal guides."""
@@ -72,6 +75,12 @@ class Scene(Table):
         at_least=0,
     )
     start_angle_deg: float = key(0.0, "crank angle at the start", "deg")
+    start: str | None = key(
+        None,
+        "journals lie where the loads press them, or in the middle of their bearings",
+        choices=STARTS,
+        source="where the ideal motion presses them",
+    )
     gravity: float = key(9.81, "gravitational acceleration, downwards", "m/s^2", at_least=0)
     joints: Joints = dataclasses.field(default=cast(Any, None))  # until its mechanism is known
     bodies: Mapping[str, Flexible] = dataclasses.field(default_factory=dict, hash=False)
@@ -138,6 +147,9 @@ class Scene(Table):
         joints = joints_of(given, mechanism.name, spherical, mechanism.groups, complete, sizes)
         object.__setattr__(self, "joints", joints)
         unused = unused_laws(kinds_of(joints, None))
+        self._refuse(unused, "start", self.start)
+        if self.start is None and "start" not in unused:
+            object.__setattr__(self, "start", usual.get("start", STARTS[0]))
         for name, law in laws.items():
             self._refuse(unused, name, law)
             object.__setattr__(self, name, None if name in unused else complete[name])
@@ -213,7 +225,9 @@ class Scene(Table):
                 **other.joints.to_dict(other.laws),
                 **{name: joint_dict(joint, self.laws) for name, joint in same.items()},
             }
-            own = mechanism_of(self).defaults  # which the other does not take over
+            own = {"start": STARTS[0], **mechanism_of(self).defaults}  # the other has its own
+            if self.start == own["start"]:
+                data.pop("start", None)
             for name in same:
                 data["joints"][name] = _beyond(data["joints"][name], own)
             for name in LAW_TABLES:

@@ -56,8 +56,8 @@ def numbers_of(scene: Scene) -> Numbers:
     """
     if not is_reducible(scene):
         raise InputError(
-            "the reduced model is a rigid slider-crank without load, with a dry pin (point "
-            "contact, step damping, lugre_steady) or with the film law 'pinkus'"
+            "the reduced model is a rigid slider-crank without load that starts centred, with a "
+            "dry pin (point contact, step damping, lugre_steady) or with the film law 'pinkus'"
         )
     size, pin = scene.slider_crank, scene.joints["crank_pin"]
     assert size is not None and not isinstance(pin, IdealJoint)
@@ -90,7 +90,7 @@ def numbers_of(scene: Scene) -> Numbers:
 
 def is_reducible(scene: Scene) -> bool:
     """Return whether the reduced model holds a scene's mechanism and laws."""
-    if scene.mechanism != "slider_crank" or scene.bodies or scene.load:
+    if scene.mechanism != "slider_crank" or scene.bodies or scene.load or scene.start != "centred":
         return False
     if set(scene.joints.with_clearance) != {"crank_pin"}:
         return False

@@ -98,6 +98,7 @@ def test_no_speed_is_the_static_solution():
             {
                 "mechanism": "slider_crank",
                 "joints": {"crank_pin": "dry"},
+                "start": "centred",
                 "speed_rpm": 0.01,
                 "revolutions": 5e-5,  # 0.3 s
                 "contact": {**POINT["contact"], "damping_max": 1e6},  # comes to rest within that

@@ -134,13 +134,16 @@ def test_everything_assumed_is_named_with_its_source():
     named = assumed(scene())
     keys = {entry.partition(" = ")[0] for entry in named}
     assert keys == {
+        "start",
         "contact.modulus",
         "contact.damping",
         "contact.restitution",
         "friction.mu_kinetic",
     }
     assert "contact.restitution = 0.9 (steel pins, Flores et al. 2008)" in named
-    given = scene(contact={"length": 0.02, "restitution": 0.8}, friction={"law": "none"})
+    given = scene(
+        contact={"length": 0.02, "restitution": 0.8}, friction={"law": "none"}, start="centred"
+    )
     assert {entry.partition(" = ")[0] for entry in assumed(given)} == {
         "contact.modulus",
         "contact.damping",

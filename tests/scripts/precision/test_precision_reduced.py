@@ -16,7 +16,12 @@ def scene(pin, **changes):
     dry = {name: TABLE_2[name] for name in ("contact", "friction")}
     laws = {"film": {"law": "pinkus"}} if pin == "lubricated" else dry
     joints = {"crank_pin": pin}
-    return Scene(mechanism="slider_crank", joints=joints, revolutions=1.0, **{**laws, **changes})
+    return Scene(
+        mechanism="slider_crank",
+        joints=joints,
+        revolutions=1.0,
+        **{"start": "centred", **laws, **changes},
+    )
 
 
 def states(pin, count=40):

@@ -1,0 +1,312 @@
+"""Where a mechanism with clearance starts: its journals where the loads of its motion press them.
+
+Journals that start in the middle of their bearings at full speed fall on them, and the first peaks
+are those of this fall. Here each joint has the force of the ideal motion, from inertia, weight and
+loads, and lies where its contact or its film bears this force. The bodies follow from the joints.
+A journal in a film begins at rest in its bearing: how it moves on follows from what came before.
+"""
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from exu_press.arrays import Array
+from exu_press.joints.joint import SHALLOW
+from exu_press.joints.pairs import DryPair, Pair
+from exu_press.mechanism import GROUND, Joint, Motion
+from exu_press.model.joints import pairs_of
+from exu_press.model.system import System
+from exu_press.scene import IdealJoint
+
+if TYPE_CHECKING:
+    from exu_press.flexible import FrameStart
+
+__all__ = ["loaded_start", "moved_start"]
+
+ANGLES = 1e-3 * np.array([-1.0, 0.0, 1.0])
+"""rad of the crank about the start: the journals' velocities are the slope there."""
+
+PASSES = 2
+"""The first one takes journals at rest in their bearings, the second the velocities that follow."""
+
+TURNS = 6
+"""Of the iteration for the direction that friction and velocities turn an eccentricity to."""
+
+THICKEST = 0.98
+"""Eccentricity ratio up to which a film is taken to bear its load without squeezing."""
+
+SHARPEST = 0.1
+"""rad that a force may turn by in ANGLES: where a journal changes sides it rests nowhere."""
+
+RANK = 1e-7
+"""Of the largest singular value: smaller ones belong to constraints that hold the same twice."""
+
+
+def moved_start(
+    system: System, start: Mapping[str, Motion], frames: Mapping[str, "FrameStart"]
+) -> tuple[dict[str, Motion], dict[str, "FrameStart"]]:
+    """Return a start from that of ideal joints, every body moved as its joints ask for.
+
+    Args:
+        system: with nothing but the frame in it.
+        start: name -> motion of bodies at the start, where it is not the ideal mechanism's.
+        frames: name -> start of the frame of a flexible body that starts deformed.
+    """
+    moved, bent = {**start, **loaded_start(system)}, {}
+    for name in system.ideal.keys() & {*start, *frames}:  # deformed, or beside such a body
+        ideal, loaded = system.ideal[name], moved[name]
+        away = Motion(
+            loaded.position - ideal.position,
+            loaded.velocity - ideal.velocity,
+            np.zeros_like(ideal.position),
+        )
+        if name in frames:
+            from exu_press.flexible import shifted
+
+            bent[name] = shifted(frames[name], ideal, away)
+        else:
+            before = start[name]
+            moved[name] = replace(
+                before,
+                position=before.position + away.position,
+                velocity=before.velocity + away.velocity,
+            )
+    return moved, {**frames, **bent}
+
+
+def loaded_start(system: System) -> dict[str, Motion]:
+    """Return the motion of every body at the start, one instant.
+
+    Joints and guides without clearance are held, and so is the crank's angle. A joint without a
+    place where it could bear its force starts as if nothing pressed it: one that changes sides, or
+    a film whose journal hardly turns.
+
+    Args:
+        system: with nothing but the frame in it.
+    """
+    problem = _Problem(system)
+    instants = [_Instant(problem, i) for i in range(len(ANGLES))]
+    middle = len(ANGLES) // 2
+    forces = np.array([instant.forces for instant in instants])
+    turned = np.abs(np.angle(forces[-1] * forces[0].conj()))
+    pressed = (turned < SHARPEST) & (np.abs(forces) > 0.0).all(axis=0)
+    rate = np.zeros((len(problem.loose), 2))
+    poses = np.array([instant.ideal for instant in instants])
+    step = (ANGLES[-1] - ANGLES[0]) / system.scene.angular_speed
+    for _ in range(PASSES):
+        wanted = np.array([instant.eccentricities(rate, pressed) for instant in instants])
+        pressed &= np.isfinite(wanted).all(axis=(0, 2))
+        wanted[:, ~pressed] = 0.0
+        wanted[:, problem.films] = wanted[middle, problem.films]  # a film resists any change
+        poses = np.array(
+            [instant.moved(e.ravel()) for instant, e in zip(instants, wanted, strict=True)]
+        )
+        rate = (wanted[-1] - wanted[0]) / step
+    velocity = problem.on_constraints(poses[middle], (poses[-1] - poses[0]) / step)
+    return {
+        name: Motion(
+            poses[middle, None, 3 * i : 3 * i + 3],
+            velocity[None, 3 * i : 3 * i + 3],
+            problem.ideal[name].acceleration[middle : middle + 1],
+        )
+        for i, name in enumerate(problem.names)
+    }
+
+
+class _Problem:
+    """A mechanism's constraints and loads over the angles about its start.
+
+    Attributes:
+        system: whose start is wanted.
+        names: of the bodies; each has three places x, y and angle among all coordinates.
+        loose: joints with clearance.
+        films: (m,), which of these have one.
+        ideal: name -> ideal motion at the angles.
+        crank: place of the crank's angle.
+    """
+
+    def __init__(self, system: System) -> None:
+        """Take the ideal motion."""
+        scene, self.mechanism = system.scene, system.mechanism
+        self.system, self.names = system, [body.name for body in self.mechanism.bodies]
+        ideal = scene.joints.ideal
+        self.loose = [joint for joint in self.mechanism.joints if joint.name not in ideal]
+        self.films = np.array(
+            [scene.joints[joint.name].kind == "lubricated" for joint in self.loose]
+        )
+        self._tight = [joint for joint in self.mechanism.joints if joint.name in ideal]
+        self.angles = scene.start_angle + ANGLES
+        self.ideal = self.mechanism.motion(self.angles, scene.angular_speed)
+        self.crank = 3 * self.names.index(self.mechanism.crank) + 2
+        self._scale = np.tile([1.0, 1.0, 1.0 / self.mechanism.size], len(self.names))
+
+    def gap(self, joint: Joint, q: Array) -> tuple[Array, Array]:
+        """Return journal - bearing of a joint, (2,), and its Jacobian, (2, n)."""
+        apart, rows = np.zeros(2), np.zeros((2, len(q)))
+        for sign, (body, point) in zip((1.0, -1.0), self.mechanism.ends(joint), strict=True):
+            if body == GROUND:
+                apart += sign * np.array(point)
+                continue
+            i = 3 * self.names.index(body)
+            c, s = math.cos(q[i + 2]), math.sin(q[i + 2])
+            x, y = c * point[0] - s * point[1], s * point[0] + c * point[1]
+            apart += sign * np.array([q[i] + x, q[i + 1] + y])
+            rows[:, i : i + 3] = sign * np.array([[1.0, 0.0, -y], [0.0, 1.0, x]])
+        return apart, rows
+
+    def held(self, q: Array, ideal: Array) -> tuple[Array, Array]:
+        """Return what ideal joints, guides and drive miss at coordinates q, and the Jacobian."""
+        missed: list[float] = []
+        rows: list[Array] = []
+        for joint in self._tight:
+            apart, jacobian = self.gap(joint, q)
+            missed += apart.tolist()
+            rows += list(jacobian)
+        columns = np.eye(len(q))
+        for guide in self.mechanism.guides:
+            i = 3 * self.names.index(guide.body)
+            across = np.array(guide.across)
+            rows += [across @ columns[i : i + 2], columns[i + 2]]
+            missed += [float(across @ (q - ideal)[i : i + 2]), float((q - ideal)[i + 2])]
+        missed.append(float((q - ideal)[self.crank]))
+        return np.array(missed), np.array([*rows, columns[self.crank]])
+
+    def correction(self, rows: Array, missed: Array) -> Array:
+        """Return the smallest change of the coordinates that makes up for what is missed."""
+        scaled = rows * self._scale
+        return np.asarray(self._scale * np.linalg.lstsq(scaled, -missed, rcond=RANK)[0])
+
+    def free(self, rows: Array) -> Array:
+        """Return the motions (n, m) that constraints leave free."""
+        _, sizes, directions = np.linalg.svd(rows * self._scale)
+        rank = int((sizes > RANK * sizes[0]).sum())
+        return np.asarray(self._scale[:, None] * directions[rank:].T)
+
+    def on_constraints(self, q: Array, q_t: Array) -> Array:
+        """Return velocities that the constraints allow, next to the given ones."""
+        rows = self.held(q, q)[1]
+        wanted = np.zeros(len(rows))
+        wanted[-1] = self.system.scene.angular_speed
+        return np.asarray(q_t + self.correction(rows, rows @ q_t - wanted))
+
+    def pressing(self, i: int) -> Array:
+        """Return the forces (n,) that the joints have to exert on the bodies at one angle."""
+        scene, angles = self.system.scene, self.angles
+        slider = self.mechanism.travel(self.ideal[self.mechanism.slider].position)
+        found = np.zeros(3 * len(self.names))
+        for k, body in enumerate(self.mechanism.bodies):
+            a = self.ideal[body.name].acceleration[i]
+            inertia = body.mass * a[0], body.mass * (a[1] + scene.gravity), body.inertia * a[2]
+            found[3 * k : 3 * k + 3] = inertia
+        for load in self.system.loads.values():
+            k = 3 * self.names.index(load.body)
+            size = load.force(ANGLES / scene.angular_speed, angles, slider)
+            angle = self.ideal[load.body].position[:, 2]
+            found[k : k + 2] -= size[i] * np.array(load.direction)
+            found[k + 2] -= load.moment(size, angle)[i]
+        return found
+
+
+class _Instant:
+    """One of the angles.
+
+    Attributes:
+        ideal: coordinates (n,) of the ideal motion.
+        forces: on the journals of the loose joints, x + iy, N.
+    """
+
+    def __init__(self, problem: _Problem, i: int) -> None:
+        """Find what presses the joints; what several bear together is shared evenly."""
+        self._problem = problem
+        parts = [problem.ideal[name] for name in problem.names]
+        self.ideal: Array = np.concatenate([part.position[i] for part in parts])
+        self._omega = {n: problem.ideal[n].velocity[i, 2] for n in problem.names} | {GROUND: 0.0}
+        self._free = problem.free(problem.held(self.ideal, self.ideal)[1])
+        rows = np.vstack([problem.gap(joint, self.ideal)[1] for joint in problem.loose])
+        self._reach = rows @ self._free
+        pressing = self._free.T @ problem.pressing(i)
+        forces = np.linalg.lstsq(self._reach.T, pressing, rcond=RANK)[0]
+        self.forces = forces[0::2] + 1j * forces[1::2]
+
+    def eccentricities(self, rate: Array, pressed: Array) -> Array:
+        """Return where the loose joints bear their forces, (m, 2), m; NaN where one does not.
+
+        Args:
+            rate: (m, 2), of the eccentricities, m/s.
+            pressed: (m,), those that are asked for.
+        """
+        found = np.zeros_like(rate)
+        joints, scene = self._problem.loose, self._problem.system.scene.joints
+        for k in np.flatnonzero(pressed):
+            kind = scene[joints[k].name]
+            assert not isinstance(kind, IdealJoint)
+            turning = self._omega[joints[k].journal], self._omega[joints[k].bearing]
+            pairs = pairs_of(joints[k], kind)
+            e = _borne(pairs, complex(self.forces[k]), complex(*rate[k]), *turning)
+            found[k] = (math.nan, math.nan) if e is None else (e.real, e.imag)
+        return found
+
+    def moved(self, wanted: Array) -> Array:
+        """Return the coordinates (n,) with eccentricities (2 m,) as far as they are possible."""
+        problem, q = self._problem, self.ideal
+        inverse = np.linalg.pinv(self._reach, rcond=RANK)
+        wanted = self._reach @ (inverse @ wanted)
+        for _ in range(3):
+            apart = np.concatenate([problem.gap(joint, q)[0] for joint in problem.loose])
+            q = q + self._free @ (inverse @ (wanted - apart))
+            missed, rows = problem.held(q, self.ideal)
+            q = q + problem.correction(rows, missed)
+        return q
+
+
+def _borne(
+    pairs: list[Pair], force: complex, rate: complex, omega_j: float, omega_b: float
+) -> complex | None:
+    """Return the eccentricity at which surfaces exert a force on the journal, or None.
+
+    Args:
+        pairs: acting in parallel.
+        force: N.
+        rate: of the eccentricity, m/s.
+        omega_j: angular velocity of the journal, rad/s.
+        omega_b: of the bearing, rad/s.
+    """
+    along = -force / abs(force)  # direction of the eccentricity: the first guess of a contact's
+    found = None
+    for _ in range(TURNS):
+        turned = rate * along.conjugate()
+
+        def exerted(e: float, turned: complex = turned) -> complex:
+            loads = [p.load(e, turned.real, turned.imag, omega_j, omega_b) for p in pairs]
+            return sum((complex(f[0], f[1]) for f in loads if f is not None), 0j)
+
+        size = _bearing_eccentricity(exerted, pairs, abs(force))
+        if size is None:
+            return None
+        found = size * along
+        along = force / exerted(size)
+        along /= abs(along)
+    return found
+
+
+def _bearing_eccentricity(
+    exerted: Callable[[float], complex], pairs: list[Pair], wanted: float
+) -> float | None:
+    """Return the size of the eccentricity at which a force of a wanted size is exerted, or None."""
+    dry = [pair for pair in pairs if isinstance(pair, DryPair)]
+    low, high = 0.0, THICKEST * pairs[0].clearance
+    if dry:
+        high = dry[0].clearance + SHALLOW * dry[0].radius
+        low = dry[0].clearance if len(dry) == len(pairs) else 0.0
+    if not abs(exerted(low)) < wanted <= abs(exerted(high)):
+        return None
+    while high - low > 1e-15 + 1e-12 * high:
+        middle = 0.5 * (low + high)
+        if abs(exerted(middle)) < wanted:
+            low = middle
+        else:
+            high = middle
+    return high

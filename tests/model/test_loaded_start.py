@@ -1,0 +1,129 @@
+"""Journals start where the loads of the ideal motion press them, or in the middle."""
+
+import numpy as np
+import pytest
+
+from exu_press import InputError, Scene, simulate
+from exu_press.model import build
+from exu_press.model.loaded_start import loaded_start
+from exu_press.model.system import System
+
+PIN = {"radius": 0.02, "clearance": 2e-5, "contact": {"length": 0.02}}
+OIL = {"viscosity": 0.1, "length": 0.05}
+FOUR_BAR = {"mechanism": "four_bar", "speed_rpm": 200.0}
+ECCENTRIC = {"mechanism": "eccentric_press", "joints": {"pins": "dry", "balls": "dry"}}
+SCENES = {
+    "slider-crank": {"mechanism": "slider_crank", "joints": {"crank_pin": "dry"}},
+    "three pins": {
+        **FOUR_BAR,
+        "joints": {name: {"kind": "dry", **PIN} for name in ("crank_pin", "knuckle", "pivot")},
+    },
+    "a group and balls": ECCENTRIC,
+    "a motor": {**ECCENTRIC, "drive": {}},
+    "a load": {
+        **ECCENTRIC,
+        "load": {"f": {"kind": "table", "time": [0.0, 1.0], "force": [5e4, 5e4]}},
+    },
+    "elastic guides": {**ECCENTRIC, "guide": {}},
+    "a film": {"mechanism": "slider_crank"},
+    "a mixed film": {
+        "mechanism": "slider_crank",
+        "film": {"at_contact": "mixed", "viscosity": 0.01},
+    },
+}
+
+
+def at_angle(given, **more):
+    return Scene(**{"start_angle_deg": 40.0, "revolutions": 0.03, **given, **more})
+
+
+def ideal(scene):
+    changes = {f"joints.{name}": "ideal" for name in scene.joints.with_clearance}
+    return simulate(scene.replace({**changes, "guide": None, "drive": None}))
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_joints_begin_with_the_force_of_the_ideal_motion(name):
+    scene = at_angle(SCENES[name])
+    expected = ideal(scene)
+    loaded, centred = (simulate(scene.replace("start", start)) for start in ("loaded", "centred"))
+    assert scene.start == "loaded"
+    for joint in scene.joints.with_clearance:
+        force = loaded[f"{joint}_force"]
+        wanted = expected[f"{joint}_force"][0, :2]
+        size = np.linalg.norm(wanted)
+        assert np.linalg.norm(force[0, :2] - wanted) < 0.02 * size, joint
+        peaks = [np.linalg.norm(r[f"{joint}_force"], axis=1).max() for r in (loaded, centred)]
+        assert peaks[0] < 1.3 * np.linalg.norm(expected[f"{joint}_force"], axis=1).max(), joint
+        assert peaks[1] > 2.0 * peaks[0] or peaks[1] == 0.0 or "film" in name, "the fall is gone"
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_the_start_is_on_the_constraints(name):
+    """Positions and velocities of ideal joints, and the drive's speed."""
+    system = System(at_angle(SCENES[name]), {})
+    start, mechanism = loaded_start(system), system.mechanism
+    speed = system.scene.angular_speed
+    assert start[mechanism.crank].velocity[0, 2] == pytest.approx(speed, rel=1e-9)
+    for joint in mechanism.joints:
+        if joint.name in system.scene.joints.ideal:
+            ends = []
+            for body, point in mechanism.ends(joint):
+                if body == "frame":
+                    ends.append((np.array(point), np.zeros(2)))
+                else:
+                    moved = start[body].at(point)
+                    ends.append((moved.position[0, :2], moved.velocity[0, :2]))
+            assert ends[0][0] == pytest.approx(ends[1][0], abs=1e-12)
+            assert ends[0][1] == pytest.approx(ends[1][1], abs=1e-9)
+
+
+def test_a_journal_lies_at_its_static_penetration():
+    """At rest: weight of rod and slider on the pin of a slider-crank at its top dead centre."""
+    scene = Scene(
+        mechanism="slider_crank",
+        joints={"crank_pin": "dry"},
+        speed_rpm=0.01,
+        revolutions=1e-6,
+        contact={"shape": "point", "stiffness": 2.5545e10},
+        friction={"law": "none"},
+    )
+    result = simulate(scene)
+    depth = ((184.5 + 1347.0) * 9.81 / 2.5545e10) ** (2.0 / 3.0)
+    lower = result["slider_position"][0] - scene.slider_crank.crank_radius
+    assert lower == pytest.approx(-scene.slider_crank.rod_length - 1e-4 - depth, abs=1e-9)
+
+
+def test_a_press_of_several_clearances_rings_less():
+    """The first 20 degrees against the rest of the turn."""
+    joints = {name: {"kind": "dry", **PIN} for name in ("crank_pin", "knuckle")}
+    peaks = {}
+    for start in ("loaded", "centred"):
+        result = simulate(Scene(**FOUR_BAR, joints=joints, start=start, revolutions=0.06))
+        peaks[start] = np.linalg.norm(result["knuckle_force"], axis=1).max()
+    assert peaks["loaded"] < 0.3 * peaks["centred"]
+
+
+def test_a_film_whose_journal_hardly_turns_starts_centred():
+    """It bears nothing without squeezing: the wrist pin at the rod's dead centre."""
+    joints = {"wrist_pin": "lubricated"}
+    scene = Scene(mechanism="slider_crank", joints=joints, start_angle_deg=90.0, revolutions=1e-3)
+    result = simulate(scene)
+    assert np.linalg.norm(result["wrist_pin_eccentricity"][0]) < 1e-9
+
+
+def test_the_papers_press_starts_centred():
+    assert Scene().start == "centred"
+    assert Scene().replace("mechanism", "slider_crank").start == "loaded"
+    assert Scene(mechanism="slider_crank").replace("mechanism", "press").start == "centred"
+    assert Scene(joints={}).start is None
+    model = build(Scene(mechanism="slider_crank", start="centred"))
+    assert model.scene.start == "centred"
+
+
+def test_a_start_that_cannot_be_is_refused():
+    with pytest.raises(InputError, match=r"start = 'loaded': not used .*every joint is ideal"):
+        Scene(joints={}, start="loaded")
+    with pytest.raises(InputError, match="start = 'middle': allowed is one of 'loaded', 'centred'"):
+        Scene(start="middle")
+    assert Scene(start="loaded").replace({"joints.crank_pin": "ideal", "joints.balls": "ideal"})

@@ -29,17 +29,12 @@ __all__ = ["loaded_start", "moved_start"]
 ANGLES = 1e-3 * np.array([-1.0, 0.0, 1.0])
 """rad of the crank about the start: the journals' velocities are the slope there."""
 
-PASSES = 2
-"""The first one takes journals at rest in their bearings, the second the velocities that follow."""
-
-TURNS = 6
-"""Of the iteration for the direction that friction and velocities turn an eccentricity to."""
-
 THICKEST = 0.98
 """Eccentricity ratio up to which a film is taken to bear its load without squeezing."""
 
-SHARPEST = 0.1
-"""rad that a force may turn by in ANGLES: where a journal changes sides it rests nowhere."""
+SHARPEST = 5.0
+"""Part of itself that a joint's force may change by in a radian of the crank: where a journal is
+changing sides it rests nowhere."""
 
 RANK = 1e-7
 """Of the largest singular value: smaller ones belong to constraints that hold the same twice."""
@@ -91,20 +86,16 @@ def loaded_start(system: System) -> dict[str, Motion]:
     instants = [_Instant(problem, i) for i in range(len(ANGLES))]
     middle = len(ANGLES) // 2
     forces = np.array([instant.forces for instant in instants])
-    turned = np.abs(np.angle(forces[-1] * forces[0].conj()))
-    pressed = (turned < SHARPEST) & (np.abs(forces) > 0.0).all(axis=0)
-    rate = np.zeros((len(problem.loose), 2))
-    poses = np.array([instant.ideal for instant in instants])
+    sizes, changes = np.abs(forces[middle]), np.abs(forces[-1] - forces[0])
+    pressed = changes < SHARPEST * (ANGLES[-1] - ANGLES[0]) * sizes
+    wanted = np.array([instant.eccentricities(pressed) for instant in instants])
+    pressed &= np.isfinite(wanted).all(axis=(0, 2))
+    wanted[:, ~pressed] = 0.0
+    wanted[:, problem.films] = wanted[middle, problem.films]  # a film resists any change
+    poses = np.array(
+        [instant.moved(e.ravel()) for instant, e in zip(instants, wanted, strict=True)]
+    )
     step = (ANGLES[-1] - ANGLES[0]) / system.scene.angular_speed
-    for _ in range(PASSES):
-        wanted = np.array([instant.eccentricities(rate, pressed) for instant in instants])
-        pressed &= np.isfinite(wanted).all(axis=(0, 2))
-        wanted[:, ~pressed] = 0.0
-        wanted[:, problem.films] = wanted[middle, problem.films]  # a film resists any change
-        poses = np.array(
-            [instant.moved(e.ravel()) for instant, e in zip(instants, wanted, strict=True)]
-        )
-        rate = (wanted[-1] - wanted[0]) / step
     velocity = problem.on_constraints(poses[middle], (poses[-1] - poses[0]) / step)
     return {
         name: Motion(
@@ -195,7 +186,9 @@ class _Problem:
     def pressing(self, i: int) -> Array:
         """Return the forces (n,) that the joints have to exert on the bodies at one angle."""
         scene, angles = self.system.scene, self.angles
-        slider = self.mechanism.travel(self.ideal[self.mechanism.slider].position)
+        slider = self.ideal[self.mechanism.slider]
+        height = self.mechanism.travel(slider.position) - self.mechanism.bottom
+        velocity = self.mechanism.along(slider.velocity)
         found = np.zeros(3 * len(self.names))
         for k, body in enumerate(self.mechanism.bodies):
             a = self.ideal[body.name].acceleration[i]
@@ -203,7 +196,7 @@ class _Problem:
             found[3 * k : 3 * k + 3] = inertia
         for load in self.system.loads.values():
             k = 3 * self.names.index(load.body)
-            size = load.force(ANGLES / scene.angular_speed, angles, slider)
+            size = load.force(ANGLES / scene.angular_speed, angles, height, velocity)
             angle = self.ideal[load.body].position[:, 2]
             found[k : k + 2] -= size[i] * np.array(load.direction)
             found[k + 2] -= load.moment(size, angle)[i]
@@ -231,21 +224,20 @@ class _Instant:
         forces = np.linalg.lstsq(self._reach.T, pressing, rcond=RANK)[0]
         self.forces = forces[0::2] + 1j * forces[1::2]
 
-    def eccentricities(self, rate: Array, pressed: Array) -> Array:
+    def eccentricities(self, pressed: Array) -> Array:
         """Return where the loose joints bear their forces, (m, 2), m; NaN where one does not.
 
         Args:
-            rate: (m, 2), of the eccentricities, m/s.
             pressed: (m,), those that are asked for.
         """
-        found = np.zeros_like(rate)
+        found = np.zeros((len(pressed), 2))
         joints, scene = self._problem.loose, self._problem.system.scene.joints
         for k in np.flatnonzero(pressed):
             kind = scene[joints[k].name]
             assert not isinstance(kind, IdealJoint)
             turning = self._omega[joints[k].journal], self._omega[joints[k].bearing]
             pairs = pairs_of(joints[k], kind)
-            e = _borne(pairs, complex(self.forces[k]), complex(*rate[k]), *turning)
+            e = _borne(pairs, complex(self.forces[k]), *turning)
             found[k] = (math.nan, math.nan) if e is None else (e.real, e.imag)
         return found
 
@@ -262,34 +254,26 @@ class _Instant:
         return q
 
 
-def _borne(
-    pairs: list[Pair], force: complex, rate: complex, omega_j: float, omega_b: float
-) -> complex | None:
-    """Return the eccentricity at which surfaces exert a force on the journal, or None.
+def _borne(pairs: list[Pair], force: complex, omega_j: float, omega_b: float) -> complex | None:
+    """Return the eccentricity at which surfaces exert a force on a journal at rest, or None.
 
     Args:
         pairs: acting in parallel.
         force: N.
-        rate: of the eccentricity, m/s.
         omega_j: angular velocity of the journal, rad/s.
         omega_b: of the bearing, rad/s.
     """
-    along = -force / abs(force)  # direction of the eccentricity: the first guess of a contact's
-    found = None
-    for _ in range(TURNS):
-        turned = rate * along.conjugate()
 
-        def exerted(e: float, turned: complex = turned) -> complex:
-            loads = [p.load(e, turned.real, turned.imag, omega_j, omega_b) for p in pairs]
-            return sum((complex(f[0], f[1]) for f in loads if f is not None), 0j)
+    def exerted(e: float) -> complex:
+        """Return the force along the eccentricity and a quarter turn from it, at rest there."""
+        loads = [pair.load(e, 0.0, 0.0, omega_j, omega_b) for pair in pairs]
+        return sum((complex(f[0], f[1]) for f in loads if f is not None), 0j)
 
-        size = _bearing_eccentricity(exerted, pairs, abs(force))
-        if size is None:
-            return None
-        found = size * along
-        along = force / exerted(size)
-        along /= abs(along)
-    return found
+    size = _bearing_eccentricity(exerted, pairs, abs(force))
+    if size is None:
+        return None
+    along = force / exerted(size)
+    return size * along / abs(along)
 
 
 def _bearing_eccentricity(

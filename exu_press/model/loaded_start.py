@@ -185,7 +185,8 @@ class _Problem:
 
     def pressing(self, i: int) -> Array:
         """Return the forces (n,) that the joints have to exert on the bodies at one angle."""
-        scene, angles = self.system.scene, self.angles
+        scene, speed = self.system.scene, self.system.scene.angular_speed
+        crank = self.angles, np.full(len(ANGLES), speed)
         slider = self.ideal[self.mechanism.slider]
         height = self.mechanism.travel(slider.position) - self.mechanism.bottom
         velocity = self.mechanism.along(slider.velocity)
@@ -196,7 +197,7 @@ class _Problem:
             found[3 * k : 3 * k + 3] = inertia
         for load in self.system.loads.values():
             k = 3 * self.names.index(load.body)
-            size = load.force(ANGLES / scene.angular_speed, angles, height, velocity)
+            size = load.force(ANGLES / speed, crank, (height, velocity))
             angle = self.ideal[load.body].position[:, 2]
             found[k : k + 2] -= size[i] * np.array(load.direction)
             found[k + 2] -= load.moment(size, angle)[i]

@@ -21,6 +21,7 @@ DRY = {
     "mechanism": "slider_crank",
     "joints": {"crank_pin": "dry"},
     "revolutions": 0.1,
+    "start": "centred",
     "contact": TABLE_2["contact"],
     "friction": TABLE_2["friction"],
 }
@@ -113,6 +114,8 @@ def test_the_command_exits_with_3_and_does_not_speak_of_a_stop(tmp_path, capsys)
         "revolutions=0.05",
         "--set",
         "solver.step=1e-3",
+        "--set",
+        "start=centred",
     ]
     assert main(["run", "slider_crank", *arguments, "--no-pictures", "--out", str(out)]) == 3
     error = capsys.readouterr().err

@@ -17,6 +17,8 @@ LEFT_OUT = (
     "ablation",
     "benchmark_",
     "calibrate_",
+    "dry_press_",
+    "exudyn_",
     "examples_",
     "fit_",
     "tabulate_",
@@ -26,7 +28,8 @@ LEFT_OUT = (
     "precision",
     "stability",
 )
-"""Beginnings of scripts that take minutes, or overwrite what the package ships."""
+"""Beginnings of scripts that take minutes, need files beside them, or overwrite what the package
+ships."""
 
 HEAD = """Scripts
 =======

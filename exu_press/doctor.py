@@ -132,6 +132,7 @@ def _lubricated() -> Run:
             "mechanism": "slider_crank",
             "joints": {"crank_pin": "lubricated"},
             "film": {"law": "pinkus"},
+            "start": "centred",
             "revolutions": 0.4,
             "solver": {"step": 1e-4},
         }

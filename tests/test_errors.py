@@ -3,7 +3,7 @@ from exu_press.errors import InputError
 
 
 def test_a_message_shows_names_that_no_terminal_can():
-    assert str(InputError("joints.t\x1f\u2028\n is µm")) == r"joints.t\x1f\u2028" + "\n is µm"
+    assert str(InputError("joints.t\x1f\u2028\n is µm")) == r"joints.t\x1f\u2028\n is µm"
 
 
 def test_a_key_with_control_characters_is_named_in_one_line(tmp_path, capsys):

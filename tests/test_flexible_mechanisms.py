@@ -78,7 +78,9 @@ def test_ideal_links_bend_and_do_not_ring(links, names):
 
 @pytest.mark.parametrize("joint", ["crank_pin", "knuckle", "pivot"])
 def test_any_joint_between_them_has_clearance(links, joint):
-    result = simulate(scene(links, ["coupler", "rocker"], joints={joint: "dry"}, revolutions=0.02))
+    loose = {"kind": "dry", "clearance": 1e-4, "radius": 0.02, "contact": {"length": 0.02}}
+    keys = {"joints": {joint: loose}, "revolutions": 0.02, "start": "centred"}
+    result = simulate(scene(links, ["coupler", "rocker"], **keys))
     assert result.completed
     assert result.quantity("energy.residual").value < 1e-3
     assert np.abs(result[f"{joint}_eccentricity"]).max() > 1e-5

@@ -41,7 +41,7 @@ def words(name: str) -> str:
     >>> words("speed_rpm"), words("load.blanking.force")
     ('crank speed', 'blanking, peak force')
     >>> words("guide.clearance")
-    'clearance on each side of a guided body'
+    'clearance on each side of a guided body, whose two ends make contact with the guideways'
     """
     if (placed := declared(name)) is not None:
         quantity, at = placed.quantity, placed.at.replace("_", " ")

@@ -64,8 +64,8 @@ def run_lines(result: Result) -> list[str]:
 def _span(result: Result) -> str:
     """Return from which revolutions a run's quantities are read."""
     begin, end = Reading(result).span
-    start = "" if begin > 0.0 else ", with the start"
-    return f"{begin:.3g} to {end:.3g}{start}"
+    start = "" if begin > 1e-3 else ", with the start"
+    return f"{max(begin, 0.0):.3g} to {end:.3g}{start}"
 
 
 def _head(quantity: Quantity, unit: str) -> str:

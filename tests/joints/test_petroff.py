@@ -78,7 +78,9 @@ def test_petroff_brakes_a_free_rotor(law, kind):
 
 def test_drive_and_balance_bear_the_drag():
     """A slider-crank's drive makes up for it: about Petroff's power, and the balance closes."""
-    scene = Scene(mechanism="slider_crank", film={"law": "finite"}, revolutions=1.0)
+    scene = Scene(
+        mechanism="slider_crank", film={"law": "finite"}, revolutions=1.0, start="centred"
+    )
     result = simulate(scene)
     speed = scene.angular_speed
     assert result["crank_pin_loss"][-1] == pytest.approx(PETROFF * speed**2 * 0.25, rel=0.1)

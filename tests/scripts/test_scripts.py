@@ -32,4 +32,4 @@ def test_script(script, options, expected, tmp_path):
 
 
 def test_contact_restitution(tmp_path):
-    assert "(default)" in run("contact_restitution.py", tmp_path, quick=False)
+    assert "(Table 2)" in run("contact_restitution.py", tmp_path, quick=False)

@@ -26,6 +26,12 @@ def load_scene(path: str | Path, assignments: Iterable[str] = ()) -> Scene:
     """
     path = Path(path)
     data = read_toml(path)
+    if {"crank", "output"} <= data.keys():
+        raise InputError(
+            f"{path}: is a mechanism, not a scene; allowed is a scene that names it, "
+            f'mechanism = "{path.name}", as `exu-press new my_scene.toml --mechanism {path.name}` '
+            "writes one, or `exu-press draw` with the mechanism"
+        )
     if str(data.get("mechanism", "")).endswith(".toml"):
         data["mechanism"] = str(path.parent / data["mechanism"])
     if isinstance(bodies := data.get("bodies"), dict):

@@ -21,6 +21,18 @@ THINNEST, THICKEST = 1e-3, 2.0
 SOFTEST, STIFFEST = 1e9, 1.2e12
 """Pa: plastics, and diamond."""
 
+LIGHTEST, HEAVIEST = 100.0, 25000.0
+"""kg/m^3: foams, and osmium."""
+
+LARGEST = 30.0
+"""m, of a mechanism."""
+
+FAR = 3.0
+"""Sizes of the mechanism, from a body's joints to its centre of mass."""
+
+SHORT = 0.02
+"""Of the crank's circle: a shorter stroke is hardly meant."""
+
 MILLI = 1e-3
 
 REACHED = 0.01
@@ -34,7 +46,61 @@ def scene_warnings(scene: Scene) -> list[str]:
 
 def doubtful_sizes(scene: Scene) -> list[str]:
     """Return the warnings about sizes that may be slips of a unit."""
-    return [*_clearances(scene), *_viscosity(scene), *_stiffness(scene), *_heights(scene)]
+    return [
+        *_drawing(scene),
+        *_clearances(scene),
+        *_guides(scene),
+        *_viscosity(scene),
+        *_stiffness(scene),
+        *_heights(scene),
+    ]
+
+
+def _drawing(scene: Scene) -> Iterator[str]:
+    """Yield what of a drawing is of another size than machines are, or than the rest of it."""
+    mechanism = mechanism_of(scene)
+    size = mechanism.size
+    if size > LARGEST:
+        yield (
+            f"the mechanism {mechanism.name} is {size:.3g} m large. Lengths are in m: is the "
+            "drawing in mm? Then divide its lengths by 1000."
+        )
+    for name, joint in scene.joints.grouped.items():
+        if joint.radius > size:
+            yield (
+                f"joints.{name}.radius = {joint.radius:g} m is larger than the mechanism of "
+                f"{size:.3g} m.{_slip(joint.radius, 1e-3 * size, size, 'm')}"
+            )
+    for body in mechanism.bodies:
+        joints = [joint.at for joint in mechanism.joints_of(body.name)]
+        away = min((math.dist(body.centre_of_mass, at) for at in joints), default=0.0)
+        if away > FAR * size:
+            yield (
+                f"bodies.{body.name}.centre_of_mass lies {away:.3g} m from the next joint of the "
+                f"body, in a mechanism of {size:.3g} m: is it in the coordinates of the drawing?"
+            )
+    stroke = float(np.ptp(mechanism.ideal_slider(np.linspace(0.0, 2.0 * math.pi, 181), 1.0)[0]))
+    if mechanism.guides and stroke < SHORT * 2.0 * mechanism.crank_radius:
+        yield (
+            f"the output moves {1e3 * stroke:.3g} mm only, while the crank's circle is "
+            f"{2e3 * mechanism.crank_radius:.3g} mm wide. `exu-press draw` shows the drawing: is "
+            "a link too short?"
+        )
+
+
+def _guides(scene: Scene) -> Iterator[str]:
+    """Yield a clearance of guides that lets their bodies tilt by degrees."""
+    guide = scene.guide
+    if (
+        guide is not None
+        and guide.clearance is not None
+        and guide.clearance > WIDEST * guide.length
+    ):
+        yield (
+            f"guide.clearance = {guide.clearance:g} m lets a body in a guide of {guide.length:g} m "
+            f"tilt by {math.degrees(2.0 * guide.clearance / guide.length):.2g} deg. Presses have "
+            f"some 1e-5 m.{_slip(guide.clearance, 1e-6, 1e-3, 'm')}"
+        )
 
 
 def _clearances(scene: Scene) -> Iterator[str]:
@@ -74,6 +140,13 @@ def _viscosity(scene: Scene) -> Iterator[str]:
 def _stiffness(scene: Scene) -> Iterator[str]:
     """Yield the stiffness of bodies that no material has."""
     for name, body in scene.bodies.items():
+        density = body.density
+        if density is not None and not LIGHTEST <= density <= HEAVIEST:
+            side = f"below {LIGHTEST:g}" if density < LIGHTEST else f"above {HEAVIEST:g}"
+            yield (
+                f"bodies.{name}.density = {density:g} kg/m^3 is {side} kg/m^3; steel has 7850. "
+                "In t/mm^3 it would be 7.85e-9."
+            )
         given = body.youngs_modulus
         if given is None or SOFTEST <= given <= STIFFEST:
             continue

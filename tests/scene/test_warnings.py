@@ -1,11 +1,14 @@
 """What is allowed but hardly meant: said, with what it changes, and not where it is usual."""
 
 import re
+from pathlib import Path
 
 import pytest
 
-from exu_press import Scene, simulate
+import exu_press
+from exu_press import InputError, Scene, load_scene, simulate
 from exu_press.laws.film import finite, pinkus
+from exu_press.mechanism import mechanism_to_dict, shipped_mechanism
 from exu_press.scene.warnings import doubtful_sizes, scene_warnings
 
 FINITE = {"law": "finite"}
@@ -104,3 +107,71 @@ def test_a_youngs_modulus_in_megapascals(given, side):
     body = {"flexible": "linkage", "youngs_modulus": given}
     (warning,) = scene_warnings(Scene(bodies={"linkage": body}))
     assert warning.startswith(f"bodies.linkage.youngs_modulus = {given:g} Pa is {side} Pa. ")
+
+
+def crank(**sizes):
+    return Scene(mechanism="slider_crank", joints={}, slider_crank=sizes)
+
+
+def test_a_drawing_in_millimetres():
+    scene = crank(crank_radius=30.0, rod_length=150.0)
+    (warning,) = (w for w in scene_warnings(scene) if "in mm?" in w)
+    assert "150 m large" in warning
+
+
+def test_a_journal_larger_than_its_mechanism():
+    pin = {"kind": "dry", "radius": 40.0, "clearance": 1e-4}
+    found = scene_warnings(Scene(mechanism="slider_crank", joints={"crank_pin": pin}))
+    assert any("joints.crank_pin.radius = 40 m is larger than the mechanism" in w for w in found)
+    assert any("40 mm" in w for w in found)
+
+
+def test_a_centre_of_mass_far_outside():
+    drawn = mechanism_to_dict(shipped_mechanism("eccentric_press"))
+    name = next(iter(drawn["bodies"]))
+    drawn["bodies"][name]["centre_of_mass"] = [18.0, 0.0]
+    found = scene_warnings(Scene(mechanism=drawn, joints={}))
+    assert any(f"bodies.{name}.centre_of_mass lies" in w for w in found)
+
+
+def test_a_stroke_of_millimetres():
+    """The ram hangs on a pin 2 mm off the shaft, a counterweight on one 0.11 m off."""
+    rod = {"mass": 5.0}
+    drawn = {
+        "name": "short stroke",
+        "crank": "crank",
+        "output": {"body": "ram", "direction": [0, 1]},
+        "bodies": {
+            "crank": {"centre_of_mass": [0.0, 0.0], "mass": 20.0, "inertia": 0.1},
+            "rod": {**rod, "centre_of_mass": [0.0, -0.15]},
+            "ram": {"centre_of_mass": [0.0, -0.3], "mass": 50.0, "inertia": 1.0},
+            "upper_rod": {**rod, "centre_of_mass": [0.0, 0.35]},
+            "weight": {"centre_of_mass": [0.0, 0.6], "mass": 30.0, "inertia": 0.5},
+        },
+        "joints": {
+            "shaft": {"at": [0.0, 0.0], "journal": "crank", "bearing": "frame"},
+            "pin": {"at": [0.0, 0.002], "journal": "crank", "bearing": "rod"},
+            "wrist": {"at": [0.0, -0.3], "journal": "ram", "bearing": "rod"},
+            "upper_pin": {"at": [0.0, 0.11], "journal": "crank", "bearing": "upper_rod"},
+            "upper_wrist": {"at": [0.0, 0.6], "journal": "weight", "bearing": "upper_rod"},
+        },
+        "guides": {"ram": {"direction": [0, 1]}, "weight": {"direction": [0, 1]}},
+    }
+    warnings = scene_warnings(Scene(mechanism=drawn, joints={}))
+    assert any("moves 4 mm only" in warning for warning in warnings)
+
+
+def test_a_guide_wider_than_a_ram_and_a_density_in_tonnes():
+    loose = Scene(joints={}, guide={"clearance": 0.05, "length": 0.5})
+    assert any("guide.clearance = 0.05 m lets a body" in w for w in scene_warnings(loose))
+    part = {"flexible": "linkage", "density": 7.85e-9}
+    heavy = Scene(joints={}, bodies={"linkage": part})
+    assert any("density = 7.85e-09 kg/m^3 is below 100" in w for w in scene_warnings(heavy))
+
+
+def test_a_mechanism_file_is_called_one(tmp_path):
+    path = tmp_path / "mine.toml"
+    shipped = Path(exu_press.__file__).parent / "mechanism" / "files" / "eccentric_press.toml"
+    path.write_text(shipped.read_text())
+    with pytest.raises(InputError, match="is a mechanism, not a scene"):
+        load_scene(path)

@@ -28,6 +28,9 @@ OF_THE_WAYS = (
 )
 """Keys of guides with clearance."""
 
+OF_FRICTION = ("mu_static", "mu_kinetic", "stribeck_velocity", "regularisation_velocity")
+"""Keys of guides that rub."""
+
 OF_KLOSS = ("rated_torque", "slip", "breakdown_torque", "no_load_speed_rpm")
 """Keys of a motor without a table of its torque."""
 
@@ -60,6 +63,9 @@ def unused_keys(scene: Mapping[str, Any]) -> dict[str, str]:
     if peek(scene.get("guide"), "clearance") is None:
         found |= {f"guide.{name}": "guide.clearance is not given" for name in OF_THE_WAYS}
     else:
+        if peek(scene["guide"], "friction", "none") == "none":
+            why = 'guide.friction is "none"'
+            found |= {f"guide.{name}": why for name in OF_FRICTION}
         why = "guide.clearance is given: the two ends of the body carry its tilting moment"
         found |= dict.fromkeys(("guide.tilting_stiffness", "guide.tilting_damping"), why)
     if peek(scene.get("drive"), "table_torque") is not None:

@@ -102,7 +102,9 @@ def test_what_is_refused_and_dropped():
     with pytest.raises(InputError, match=r"guide\.tilting_stiffness = 1000000\.0: not used"):
         Scene(guide={"clearance": 1e-5, "tilting_stiffness": 1e6})
     with pytest.raises(InputError, match=r"guide\.mu_static = 0\.05: allowed is a number >= guide"):
-        Scene(guide={"clearance": 1e-5, "mu_static": 0.05})
+        Scene(guide={"clearance": 1e-5, "friction": "stribeck", "mu_static": 0.05})
+    with pytest.raises(InputError, match=r"guide\.mu_kinetic = 0\.05: not used .*friction is"):
+        Scene(guide={"clearance": 1e-5, "mu_kinetic": 0.05})
     with pytest.raises(InputError, match=r"guide\.friction = 'dry': allowed is one of 'none'"):
         Scene(guide={"clearance": 1e-5, "friction": "dry"})
     loose = Scene(guide={"clearance": 1e-5, "friction": "coulomb"})

@@ -13,6 +13,11 @@ LEAST_SPAN = 10.0
 """Over its beginning, how far a distance has to grow so that a rate says something."""
 
 
+LEAST_DISTANCE = 1e-3
+"""Over that of motions that have parted: two that never get so far from each other differ by
+rounding and by their tolerances, which says nothing of how errors grow."""
+
+
 @dataclass(frozen=True)
 class Growth:
     """How the distance of two neighbouring motions grows.
@@ -51,7 +56,8 @@ def growth(time: Array, distance: Array, apart: float) -> Growth:
     end = int(parted[0]) if len(parted) else len(time)
     horizon = float(time[end]) if len(parted) else None
     begun = np.flatnonzero(np.isfinite(largest[:end]))
-    if len(begun) < 3 or largest[end - 1] - largest[begun[0]] < math.log(LEAST_SPAN):
+    near = largest[end - 1] < math.log(LEAST_DISTANCE * apart)
+    if near or len(begun) < 3 or largest[end - 1] - largest[begun[0]] < math.log(LEAST_SPAN):
         return Growth(None, horizon)
     instants = np.linspace(time[begun[0]], time[end - 1], 1000)  # steps are no measure of time
     rate = float(np.polyfit(instants, np.interp(instants, time, largest), 1)[0])

@@ -75,7 +75,8 @@ def execute(options: argparse.Namespace) -> int:
     written = [directory / "run.nc", directory / "summary.json"]
     if not options.quiet:  # before the pictures, which take longer than a short run
         assumed = textwrap.wrap(assumed_line(scene), 100, subsequent_indent="  ")
-        print("\n".join([*run_lines(result), *found, *assumed]), flush=True)
+        said = [x for text in found for x in textwrap.wrap(text, 100, subsequent_indent="    ")]
+        print("\n".join([*run_lines(result), *said, *assumed]), flush=True)
         show_warnings(summary["warnings"])
     if not options.no_pictures:
         from exu_press.plots import save_pictures

@@ -11,6 +11,7 @@ from exu_press.plots.style import colour_of
 from exu_press.quantities.uncertain import uncertain
 from exu_press.result import Result
 from exu_press.result.info import Error
+from exu_press.result.windows import settled
 
 __all__ = ["error_of", "mark_peak", "mark_peaks", "with_error"]
 
@@ -47,9 +48,12 @@ def mark_peak(
         scale: to the axis' unit.
         colour: of the curve.
     """
-    error, highest = error_of(result, name), int(np.argmax(np.abs(values)))
+    error = error_of(result, name)
     if error is None:
         return ""
+    read = settled(result).time
+    inside = (result.time >= read[0]) & (result.time <= read[-1])
+    highest = int(np.argmax(np.where(inside, np.abs(values), 0.0)))
     ends = np.array([error["low"], error["high"]]) * np.copysign(scale, values[highest])
     axes.errorbar(
         crank_degrees(result)[highest],

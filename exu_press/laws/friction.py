@@ -227,7 +227,9 @@ class LuGre:
     Notes
     -----
     Range: any speed. In steady sliding mu is `lugre_steady`, for small displacements it is the
-    spring sigma_0. At a constant normal force it is passive, step by step, too. A normal force that
+    spring sigma_0. At a constant normal force it is passive; so is a
+    step at constant speed. In a step in which the speed changes sign it may give back more than it
+    has stored; the smaller the step, the less. A normal force that
     grows stretches the bristles that it adds, as the model has it: that is work of nobody.
 
     Examples

@@ -33,8 +33,13 @@ BASES: Mapping[str, Changes] = {
     "press": {"joints.crank_pin": "dry"},
     "press lubricated": {"film.viscosity": 0.1},
     "press mixed": {"film.viscosity": 0.1, "film.at_contact": "mixed"},
-    "slider-crank": {"mechanism": "slider_crank", "joints.crank_pin": "dry", **TOUCHING},
-    "slider-crank lubricated": {"mechanism": "slider_crank"},
+    "slider-crank": {
+        "mechanism": "slider_crank",
+        "start": "centred",
+        "joints.crank_pin": "dry",
+        **TOUCHING,
+    },
+    "slider-crank lubricated": {"mechanism": "slider_crank", "start": "centred"},
     "slider-crank mixed": {
         "mechanism": "slider_crank",
         "film.at_contact": "mixed",

@@ -120,7 +120,7 @@ def test_bristle_stays_within_its_largest_deflection(bristle, v, bent, h):
     assert abs(z) <= largest * (1.0 + 1e-9)
 
 
-bristles = st.builds(
+passive_bristles = st.builds(
     lambda kinetic, more, stiffness, damping, viscous, speed, exponent: LuGre(
         kinetic * (1.0 + more), kinetic, stiffness, damping, viscous, speed, exponent
     ),
@@ -138,7 +138,7 @@ signed_speeds = st.builds(
 
 
 @settings(max_examples=300, deadline=None)
-@given(bristles, st.lists(st.tuples(signed_speeds, logarithmic(1e-8, 1e-2)), max_size=30))
+@given(passive_bristles, st.lists(st.tuples(signed_speeds, logarithmic(1e-8, 1e-2)), max_size=30))
 def test_a_bristle_makes_no_energy(friction, history):
     """Work done on it is never less than what it stores, in any history of sliding."""
     z = 0.0

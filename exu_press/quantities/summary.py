@@ -20,7 +20,8 @@ def summary(result: Result) -> dict[str, Any]:
 
     Plain numbers, texts, lists and dictionaries.
     """
-    info, values = result.info, values_of(result)
+    run = Reading(result)
+    info, values = result.info, values_of(result, run)
     declared = quantities_of(result.scene)
     costs = {name for name, placed in declared.items() if placed.quantity.kind is COST}
     return {
@@ -29,11 +30,11 @@ def summary(result: Result) -> dict[str, Any]:
         "end_time": info["end_time"],
         "warnings": run_warnings(result),
         "assumed": assumed(result.scene),
-        "read_from": dict(zip(("from", "to"), Reading(result).span, strict=True)),
+        "read_from": dict(zip(("from", "to"), run.span, strict=True)),
         "quantities": {n: value.to_dict() for n, value in values.items() if n not in costs},
         "horizon": info.get("horizon"),
         "lyapunov_exponent": info.get("lyapunov_exponent"),
-        "strokes": _strokes(result),
+        "strokes": _strokes(result, run),
         "stress": info.get("stress", {}),
         "solids": info.get("solids", {}),
         "cost": {
@@ -45,7 +46,7 @@ def summary(result: Result) -> dict[str, Any]:
     }
 
 
-def _strokes(result: Result) -> list[dict[str, float]]:
+def _strokes(result: Result, run: Reading) -> list[dict[str, float]]:
     """Return the bottom dead centre of every stroke."""
     return [
         {
@@ -53,5 +54,5 @@ def _strokes(result: Result) -> list[dict[str, float]]:
             "crank_angle_deg": float(np.degrees(centre.crank_angle)),
             "tilt": float(np.interp(centre.time, result.time, result["slider_tilt"])),
         }
-        for centre in Reading(result).dead_centres
+        for centre in run.dead_centres
     ]

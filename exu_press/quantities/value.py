@@ -54,9 +54,14 @@ def value_of(result: Result, name: str) -> Value:
     return _value(result, quantity_of(result.scene, name), Reading(result))
 
 
-def values_of(result: Result) -> dict[str, Value]:
-    """Return every quantity of a run by its full name."""
-    run = Reading(result)
+def values_of(result: Result, run: Reading | None = None) -> dict[str, Value]:
+    """Return every quantity of a run by its full name.
+
+    Args:
+        result: of the run.
+        run: its reading, where there is one already.
+    """
+    run = Reading(result) if run is None else run
     return {
         name: _value(result, placed, run) for name, placed in quantities_of(result.scene).items()
     }

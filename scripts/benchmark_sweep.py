@@ -12,15 +12,15 @@ import os
 import tempfile
 
 from exu_press import Scene
-from exu_press.studies.sweep import Study, sweep
-from exu_press.studies.sweep.run import run_scene
+from exu_press.studies.base import run_scene
+from exu_press.studies.sweep import Sweep, sweep
 
 parser = argparse.ArgumentParser(description=__doc__)
 parser.add_argument("--quick", action="store_true", help="two short runs")
 quick = parser.parse_args().quick
 clearances = [(50 + n) * 1e-6 for n in range(2 if quick else 48)]
 scene = Scene(joints={"crank_pin": "lubricated"}, revolutions=0.05 if quick else 8.0)
-study = Study(scene=scene, grid={"joints.crank_pin.clearance": clearances})
+study = Sweep(scene=scene, keys={"joints.crank_pin.clearance": clearances})
 
 
 def in_one_process():

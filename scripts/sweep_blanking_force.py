@@ -8,7 +8,7 @@ from pathlib import Path
 
 from exu_press import Scene
 from exu_press.plots.sweep import save_sweep
-from exu_press.studies.sweep import Study, sweep, table_lines
+from exu_press.studies.sweep import Sweep, sweep, table_lines
 
 parser = argparse.ArgumentParser(description=__doc__)
 parser.add_argument("--quick", action="store_true", help="two short runs")
@@ -20,7 +20,7 @@ start, turns = (170.0, 0.04) if quick else (0.0, 2.0)
 load = {"blanking": {"kind": "blanking", "force": 0.0}}
 scene = Scene(revolutions=turns, start_angle_deg=start, load=load)
 forces = [1e4, 4e4] if quick else [0.0, 1e4, 2e4, 3e4, 4e4]
-study = Study(scene=scene, grid={"load.blanking.force": forces}, errors=True)
+study = Sweep(scene=scene, keys={"load.blanking.force": forces}, errors=True)
 shown = ("bottom_dead_centre", "peak_acceleration.mean_1ms", "joints.crank_pin.peak_force")
 table = sweep(study, out, quiet=quick)
 print("\n".join(table_lines(table, shown)))

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from exu_press import Scene
 from exu_press.plots.sweep import save_sweep
-from exu_press.studies.sweep import Study, sweep, table_lines
+from exu_press.studies.sweep import Sweep, sweep, table_lines
 
 parser = argparse.ArgumentParser(description=__doc__)
 parser.add_argument("--quick", action="store_true", help="four short runs")
@@ -22,9 +22,9 @@ scene = Scene(
     load={"blanking": {"kind": "blanking", "force": 1e4}},
 )
 clearances = [5e-5, 2e-4] if quick else [5e-5, 7.5e-5, 1e-4, 1.25e-4, 1.5e-4, 1.75e-4, 2e-4]
-study = Study(
+study = Sweep(
     scene=scene,
-    grid={"joints.crank_pin": ["dry", "lubricated"], "joints.crank_pin.clearance": clearances},
+    keys={"joints.crank_pin": ["dry", "lubricated"], "joints.crank_pin.clearance": clearances},
     errors=True,
 )
 shown = ("peak_acceleration.resolved", "peak_acceleration.mean_1ms", "joints.crank_pin.peak_force")

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from exu_press import Scene
 from exu_press.plots.sweep import save_sweep
-from exu_press.studies.sweep import Study, sweep, table_lines
+from exu_press.studies.sweep import Sweep, sweep, table_lines
 
 parser = argparse.ArgumentParser(description=__doc__)
 parser.add_argument("--quick", action="store_true", help="two short runs")
@@ -20,7 +20,7 @@ scene = Scene(
     revolutions=0.02 if quick else 2.0, load={"blanking": {"kind": "blanking", "force": 1e4}}
 )
 speeds = [200.0, 500.0] if quick else [200.0, 250.0, 300.0, 350.0, 400.0, 450.0, 500.0]
-study = Study(scene=scene, grid={"speed_rpm": speeds}, errors=True)
+study = Sweep(scene=scene, keys={"speed_rpm": speeds}, errors=True)
 shown = ("peak_acceleration.mean_1ms", "joints.crank_pin.peak_force", "joints.crank_pin.min_film")
 table = sweep(study, out, quiet=quick)
 print("\n".join(table_lines(table, shown)))

@@ -94,6 +94,7 @@ class RowFile(AbstractContextManager["RowFile", None]):
             os.fsync(self._file.fileno())
         except OSError as error:
             raise InputError(f"{self._path}: cannot be written ({error.strerror})") from None
+        self._found[key] = row, time_limit
 
     def __exit__(self, *_: object) -> None:
         """Close the file."""

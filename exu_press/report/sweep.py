@@ -14,7 +14,7 @@ from exu_press.report.html import page, paragraph, picture, table, warnings
 from exu_press.report.run import scene_parts
 from exu_press.scene.warnings import scene_warnings
 from exu_press.stored import LARGEST, from_json
-from exu_press.studies.sweep import Study, Table
+from exu_press.studies.sweep import Sweep, Table
 from exu_press.studies.sweep.lines import shown
 from exu_press.studies.sweep.table import cell
 from exu_press.studies.sweep.units import unit_of
@@ -64,7 +64,7 @@ def _table(file: Path) -> Table:
             head, *lines = csv.reader(stream)
         columns = [tuple(map(_value, column)) for column in zip(*lines, strict=True)]
         table = dict(zip(head, columns, strict=True))
-        study = table_from(Study, "", from_json(dict[str, Any], stored, "study.json"))
+        study = table_from(Sweep, "", from_json(dict[str, Any], stored, "study.json"))
     except OSError as error:
         raise InputError(f"{error.filename}: cannot be read ({error.strerror})") from None
     except InputError as error:

@@ -16,7 +16,7 @@ STUDY = """
 [scene]
 joints = {{}}
 revolutions = {revolutions}
-[grid]
+[keys]
 speed_rpm = {speeds}
 """
 
@@ -92,7 +92,7 @@ def test_a_column_that_is_not_there(tmp_path, capsys):
 
 def test_a_printed_column_can_be_asked_for(tmp_path, capsys):
     path = tmp_path / "study.toml"
-    path.write_text("[scene]\nrevolutions = 0.01\n[grid]\nspeed_rpm = [200.0, 300.0]\n")
+    path.write_text("[scene]\nrevolutions = 0.01\n[keys]\nspeed_rpm = [200.0, 300.0]\n")
     arguments = ["sweep", str(path), "--workers", "1", "--out", str(tmp_path / "o")]
     assert main(arguments) == 0
     head, *_ = capsys.readouterr().out.splitlines()

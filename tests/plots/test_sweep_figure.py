@@ -6,7 +6,7 @@ import pytest
 from exu_press import InputError, Scene
 from exu_press.plots.sweep import axes_of, save_sweep, sweep_figure
 from exu_press.plots.sweep_words import in_unit
-from exu_press.studies.sweep import Study
+from exu_press.studies.sweep import Sweep
 from exu_press.studies.sweep.table import table_of
 
 SPEEDS = [200.0, 300.0, 400.0]
@@ -15,7 +15,7 @@ CLEARANCES = [5e-5 + 1e-5 * n for n in range(8)]
 
 def table(missing=(), errors=None, **way):
     """A table with made-up numbers: force = speed, film = clearance / 2."""
-    study = Study(scene=Scene(joints={"crank_pin": "lubricated", "balls": "ideal"}), **way)
+    study = Sweep(scene=Scene(joints={"crank_pin": "lubricated", "balls": "ideal"}), **way)
     rows = [
         {"status": "failed", "reason": "x"}
         if run in missing
@@ -44,7 +44,7 @@ def panels(figure):
 
 
 def test_a_grid_of_few_is_curves():
-    some = table(grid={"joints.crank_pin.clearance": CLEARANCES, "speed_rpm": SPEEDS})
+    some = table(keys={"joints.crank_pin.clearance": CLEARANCES, "speed_rpm": SPEEDS})
     force, film = panels(sweep_figure(some, TWO, SHOWN))
     assert force.get_title(loc="left") == "Crank pin: joint force, max, kN"
     assert film.get_title(loc="left") == "Crank pin: film thickness, min, \N{MICRO SIGN}m"
@@ -60,7 +60,7 @@ def test_numbers_have_their_errors():
     """A force of 200 to 400 kN between 150 and 450."""
     told = {"error": 250e3, "determined": True, "low": 150e3, "high": 450e3}
     errors = {"joints.crank_pin.peak_force": told}
-    some = table(errors=errors, grid={"speed_rpm": SPEEDS})
+    some = table(errors=errors, keys={"speed_rpm": SPEEDS})
     force, film = panels(sweep_figure(some, ["speed_rpm"], SHOWN))
     assert not film.containers
     ends = [bar.vertices[:, 1] for bar in force.containers[0].lines[2][0].get_paths()]
@@ -70,7 +70,7 @@ def test_numbers_have_their_errors():
 
 
 def test_a_grid_of_many_is_a_map():
-    some = table(grid={"speed_rpm": SPEEDS, "joints.crank_pin.clearance": CLEARANCES})
+    some = table(keys={"speed_rpm": SPEEDS, "joints.crank_pin.clearance": CLEARANCES})
     figure = sweep_figure(some, TWO[::-1], SHOWN)
     (mesh,) = panels(figure)[0].collections
     np.testing.assert_allclose(
@@ -81,14 +81,17 @@ def test_a_grid_of_many_is_a_map():
 
 
 def test_a_sample_is_points():
-    some = table(sample={"n": 9, "seed": 1, "speed_rpm": [200.0, 400.0]})
+    some = table(
+        keys={"speed_rpm": {"low": 200.0, "high": 400.0}},
+        sweep={"way": "sample", "n": 9, "seed": 1},
+    )
     (panel, *_) = panels(sweep_figure(some, ["speed_rpm"], SHOWN))
     (line,) = panel.lines
     assert line.get_linestyle() == "None" and len(line.get_xdata()) == 9
 
 
 def test_runs_without_numbers_are_crosses():
-    some = table(missing=[1], grid={"speed_rpm": SPEEDS})
+    some = table(missing=[1], keys={"speed_rpm": SPEEDS})
     (panel, *_) = panels(sweep_figure(some, ["speed_rpm"], SHOWN))
     assert panel.lines[-1].get_marker() == "x"
     assert panel.lines[-1].get_xdata().tolist() == [300.0]
@@ -97,7 +100,7 @@ def test_runs_without_numbers_are_crosses():
 
 def test_what_is_drawn_over_what():
     some = table(
-        grid={"mechanism": ["press"], "speed_rpm": SPEEDS, "joints.crank_pin.clearance": CLEARANCES}
+        keys={"mechanism": ["press"], "speed_rpm": SPEEDS, "joints.crank_pin.clearance": CLEARANCES}
     )
     assert axes_of(some) == ("speed_rpm", "joints.crank_pin.clearance")
     assert axes_of(some, ["joints.crank_pin.clearance"]) == ("joints.crank_pin.clearance",)
@@ -108,8 +111,8 @@ def test_what_is_drawn_over_what():
 
 
 def test_nothing_to_draw_is_no_picture(tmp_path):
-    assert save_sweep(table(grid={"mechanism": ["press"]}), tmp_path) == []
-    assert save_sweep(table(missing=[0, 1, 2], grid={"speed_rpm": SPEEDS}), tmp_path) == []
+    assert save_sweep(table(keys={"mechanism": ["press"]}), tmp_path) == []
+    assert save_sweep(table(missing=[0, 1, 2], keys={"speed_rpm": SPEEDS}), tmp_path) == []
 
 
 @pytest.mark.parametrize(

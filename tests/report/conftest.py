@@ -10,7 +10,7 @@ STUDY = """
 [scene]
 mechanism = "slider_crank"
 revolutions = 0.02
-[grid]
+[keys]
 "joints.crank_pin.clearance" = [5e-5, 1e-4, 2e-4]
 joints.crank_pin = ["dry", "lubricated"]
 """

@@ -2,7 +2,7 @@
 
 from exu_press.studies.sweep.lines import table_lines
 from exu_press.studies.sweep.run import sweep
-from exu_press.studies.sweep.study import Study, load_study
+from exu_press.studies.sweep.study import Sweep, load_study
 from exu_press.studies.sweep.table import Table
 
-__all__ = ["Study", "Table", "load_study", "sweep", "table_lines"]
+__all__ = ["Sweep", "Table", "load_study", "sweep", "table_lines"]

@@ -1,13 +1,16 @@
-"""Where a study's runs lie: grids, lists and Latin hypercubes of scene keys."""
+"""Where a sweep's runs lie: grids, lists and Latin hypercubes of scene keys."""
 
 import itertools
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
-from exu_press.errors import InputError
+import numpy as np
 
-__all__ = ["MOST_RUNS", "Points", "flat", "grid", "listed", "sample"]
+from exu_press.errors import InputError
+from exu_press.studies.base.keys import Key, Values
+
+__all__ = ["MOST_RUNS", "Points", "grid", "listed", "sample"]
 
 Points = tuple[dict[str, Any], ...]
 
@@ -15,91 +18,74 @@ MOST_RUNS = 100_000
 """Runs of one study."""
 
 
-def grid(values: Mapping[str, Sequence[Any]]) -> Points:
+def grid(keys: Mapping[str, Key]) -> Points:
     """Return every combination; the last key runs fastest.
 
-    >>> grid({"speed_rpm": [200, 300], "crank_pin": ["dry"]})
+    >>> grid({"speed_rpm": Values((200, 300)), "crank_pin": Values(("dry",))})
     ({'speed_rpm': 200, 'crank_pin': 'dry'}, {'speed_rpm': 300, 'crank_pin': 'dry'})
     """
-    _check(values, "grid")
-    number = math.prod(len(each) for each in values.values())
-    _check_number("grid", number)
-    return tuple(
-        dict(zip(values, each, strict=True)) for each in itertools.product(*values.values())
-    )
+    values = _values(keys, "grid")
+    _check_number(math.prod(len(each) for each in values.values()))
+    return _points(values, itertools.product(*values.values()))
 
 
-def listed(values: Mapping[str, Sequence[Any]]) -> Points:
+def listed(keys: Mapping[str, Key]) -> Points:
     """Return the first values of all keys, the second ones, and so on.
 
-    >>> listed({"speed_rpm": [200, 300], "crank_pin": ["dry", "ideal"]})
+    >>> listed({"speed_rpm": Values((200, 300)), "crank_pin": Values(("dry", "ideal"))})
     ({'speed_rpm': 200, 'crank_pin': 'dry'}, {'speed_rpm': 300, 'crank_pin': 'ideal'})
     """
-    _check(values, "list")
-    lengths = {key: len(each) for key, each in values.items()}
+    values = _values(keys, "list")
+    lengths = {name: len(each) for name, each in values.items()}
     if len(set(lengths.values())) > 1:
-        told = ", ".join(f"{key} has {length}" for key, length in lengths.items())
-        raise InputError(f"[list]: {told}; allowed are lists of one length")
-    _check_number("list", next(iter(lengths.values())))
-    return tuple(
-        dict(zip(values, each, strict=True)) for each in zip(*values.values(), strict=True)
-    )
+        told = ", ".join(f"{name} has {length}" for name, length in lengths.items())
+        raise InputError(f'[keys]: {told}; allowed with way = "list" are lists of one length')
+    _check_number(next(iter(lengths.values())))
+    return _points(values, zip(*values.values(), strict=True))
 
 
-def sample(table: Mapping[str, Any]) -> Points:
-    """Return a Latin hypercube between key = [low, high], of n points, the same for one seed.
+def sample(keys: Mapping[str, Key], n: int, seed: int) -> Points:
+    """Return a Latin hypercube of the keys' distributions, of n points, the same for one seed.
 
     Source: McKay, Beckman, Conover, Technometrics 21 (1979) 239-245; made by SciPy.
     """
-    ranges = {key: each for key, each in table.items() if key not in ("n", "seed")}
-    number, seed = (_whole(table, name, low) for name, low in (("n", 1), ("seed", 0)))
-    _check(ranges, "sample")
-    for key, each in ranges.items():
-        numbers = all(isinstance(x, (int, float)) and not isinstance(x, bool) for x in each)
-        if not (len(each) == 2 and numbers and -math.inf < each[0] < each[1] < math.inf):
-            raise InputError(f"sample.{key} = {each!r}: allowed is [low, high], low < high")
-    _check_number("sample", number)
+    for name, each in keys.items():
+        if isinstance(each, Values):
+            raise InputError(
+                f'keys.{name} = {each.plain()!r:.200}: allowed with way = "sample" is '
+                "{low = a, high = b} or {mean = m, deviation = s}"
+            )
+    _check_number(n)
     from scipy.stats import qmc
 
-    unit = qmc.LatinHypercube(len(ranges), rng=seed).random(number)
-    low, high = zip(*ranges.values(), strict=True)
+    shares = np.asarray(qmc.LatinHypercube(len(keys), rng=seed).random(n))
+    columns = [
+        each.at(column)
+        for each, column in zip(keys.values(), shares.T, strict=True)
+        if not isinstance(each, Values)
+    ]
     return tuple(
-        dict(zip(ranges, map(float, row), strict=True)) for row in qmc.scale(unit, low, high)
+        dict(zip(keys, map(float, row), strict=True)) for row in zip(*columns, strict=True)
     )
 
 
-def flat(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
-    """Return nested tables as one, names joined by a dot: TOML's a.b is its "a.b"."""
-    found: dict[str, Any] = {}
-    for name, value in table.items():
-        inner = (
-            flat(value, f"{prefix}{name}.")
-            if isinstance(value, Mapping)
-            else {prefix + name: value}
-        )
-        for key in inner:
-            if key in found:
-                raise InputError(f"{key}: given twice")
-        found |= inner
+def _values(keys: Mapping[str, Key], way: str) -> dict[str, tuple[Any, ...]]:
+    """Return the keys' values; raise InputError for a key that has none."""
+    found = {}
+    for name, each in keys.items():
+        if not isinstance(each, Values):
+            raise InputError(
+                f'keys.{name} = {each.plain()}: allowed with way = "{way}" is a list of values; '
+                '[sweep] way = "sample" takes ranges and distributions'
+            )
+        found[name] = each.values
     return found
 
 
-def _check(values: Mapping[str, Any], table: str) -> None:
-    """Raise InputError unless every key has a list of values."""
-    if not values:
-        raise InputError(f"[{table}]: empty; allowed is at least one key of the scene")
-    for key, each in values.items():
-        if not isinstance(each, Sequence) or isinstance(each, str) or not each:
-            raise InputError(f"{table}.{key} = {each!r}: allowed is a list with at least one value")
+def _points(values: Mapping[str, Any], each: Any) -> Points:
+    return tuple(dict(zip(values, point, strict=True)) for point in each)
 
 
-def _check_number(table: str, number: int) -> None:
+def _check_number(number: int) -> None:
     if number > MOST_RUNS:
-        raise InputError(f"[{table}]: {number} runs; allowed are at most {MOST_RUNS}")
-
-
-def _whole(table: Mapping[str, Any], name: str, low: int) -> int:
-    value = table.get(name)
-    if not isinstance(value, int) or isinstance(value, bool) or value < low:
-        raise InputError(f"sample.{name} = {value!r}: allowed is a whole number >= {low}")
-    return value
+        raise InputError(f"{number} runs; allowed are at most {MOST_RUNS}")

@@ -1,114 +1,91 @@
-"""What a sweep is to do: one scene, and which of its keys vary how."""
+"""A sweep: every combination of keys' values, lists side by side, or a Latin hypercube."""
 
 import dataclasses
-from collections.abc import Mapping
 from functools import cached_property
-from pathlib import Path
 from typing import Any
 
 from exu_press.checks import Table, key, table_from
 from exu_press.errors import InputError
-from exu_press.scene import Scene, load_scene
-from exu_press.studies.sweep.points import Points, flat, grid, listed, sample
-from exu_press.toml import read_toml
+from exu_press.scene import Scene
+from exu_press.studies.base import Study
+from exu_press.studies.base.study import load_study as load
+from exu_press.studies.sweep.points import Points, grid, listed, sample
 
-__all__ = ["Study", "load_study"]
+__all__ = ["Sweep", "Way", "load_study"]
 
-WAYS = {"grid": grid, "list": listed, "sample": sample}
+GRID, LIST, SAMPLE = "grid", "list", "sample"
 
 
 @dataclasses.dataclass(frozen=True)
-class Study(Table):
-    """A study file, complete: every scene of it has been validated.
-
-    Attributes:
-        scene: what is common to all runs; a Scene or its mapping.
-        save_runs: whether every run keeps its run.nc.
-        errors: whether every figure has its error, by companion runs: twice the work.
-        time_limit: of one run, s.
-        grid: key -> values, every combination.
-        list: key -> values, side by side.
-        sample: key -> [low, high], with n and seed: a Latin hypercube. One of the three is given.
+class Way(Table):
+    """The table [sweep].
 
     Raises:
-        InputError: not allowed, or not allowed in the scene of one of the runs.
+        InputError: not allowed, or n or seed without a sample.
     """
 
-    scene: Scene
-    save_runs: bool = key(False, "keep a run.nc for every run")
-    errors: bool = key(False, "find the error of every figure")
-    time_limit: float | None = key(None, "for one run", "s", above=0)
-    grid: Mapping[str, Any] | None = None
-    list: Mapping[str, Any] | None = None
-    sample: Mapping[str, Any] | None = None
+    table = "sweep"
+
+    way: str = key(GRID, "how the keys' values go together", choices=(GRID, LIST, SAMPLE))
+    n: int | None = key(None, "runs of a sample", at_least=1)
+    seed: int | None = key(None, "of a sample's random numbers", at_least=0)
+
+    def __post_init__(self) -> None:
+        """Check that n and seed are given where they are used, and there alone."""
+        super().__post_init__()
+        for name in ("n", "seed"):
+            if (getattr(self, name) is None) == (self.way == SAMPLE):
+                told = "is needed" if self.way == SAMPLE else "is not used"
+                raise InputError(
+                    f'sweep.{name}: {told} with way = "{self.way}"; allowed are way = "{SAMPLE}" '
+                    f'with n and seed, "{GRID}" and "{LIST}" without'
+                )
+
+
+@dataclasses.dataclass(frozen=True)
+class Sweep(Study):
+    """A sweep's file, complete: every scene of it has been validated.
+
+    Attributes:
+        sweep: how the keys' values go together; every combination unless told.
+    """
+
+    sweep: Way = Way()
 
     def __post_init__(self) -> None:
         """Check the keys, and every scene."""
+        object.__setattr__(self, "sweep", table_from(Way, "sweep", self.sweep))
         super().__post_init__()
-        given = [way for way in WAYS if getattr(self, way) is not None]
-        if len(given) != 1:
-            told = " and ".join(f"[{way}]" for way in given) or "none"
-            raise InputError(f"{told} given; allowed is one of [grid], [list], [sample]")
-        table = getattr(self, given[0])
-        for name, value in (("scene", self.scene), (given[0], table)):
-            if not isinstance(value, (Mapping, Scene)):
-                raise InputError(f"{name} = {value!r}: allowed is a table")
-        if not isinstance(self.scene, Scene):
-            object.__setattr__(self, "scene", Scene.from_dict(self.scene))
-        object.__setattr__(self, given[0], flat(table))
-        self.scenes  # noqa: B018  every one is checked now, before anything runs
+
+    def check_keys(self) -> None:
+        """Check every scene, before anything runs."""
+        self.scenes  # noqa: B018
 
     @property
     def way(self) -> str:
-        """Which of grid, list and sample is given."""
-        return next(way for way in WAYS if getattr(self, way) is not None)
+        """Which of grid, list and sample."""
+        return self.sweep.way
 
     @cached_property
     def points(self) -> Points:
         """What varies, key -> value, one a run, in the study's order."""
-        return WAYS[self.way](getattr(self, self.way))
+        if self.way == SAMPLE:
+            assert self.sweep.n is not None
+            assert self.sweep.seed is not None
+            return sample(self.keys, self.sweep.n, self.sweep.seed)
+        return (grid if self.way == GRID else listed)(self.keys)
 
     @cached_property
     def scenes(self) -> tuple[Scene, ...]:
         """The scenes of the runs."""
-        return tuple(map(self._scene, self.points))
-
-    @property
-    def keys(self) -> tuple[str, ...]:
-        """What varies."""
-        return tuple(self.points[0])
+        return tuple(map(self.scene_at, self.points))
 
     def to_dict(self) -> dict[str, Any]:
-        """Return what makes this study another one than others; a time limit does not."""
-        return {
-            "scene": self.scene.to_dict(),
-            "save_runs": self.save_runs,
-            "errors": self.errors,
-            self.way: dict(getattr(self, self.way)),
-        }
-
-    def _scene(self, point: Mapping[str, Any]) -> Scene:
-        try:
-            return self.scene.replace(dict(point))
-        except InputError as error:
-            where = ", ".join(f"{name} = {value!r}" for name, value in point.items())
-            raise InputError(f"run with {where}: {error}") from None
+        """Return what makes this sweep another one than others."""
+        given = {name: v for name, v in dataclasses.asdict(self.sweep).items() if v is not None}
+        return {**super().to_dict(), "sweep": given}
 
 
-def load_study(path: str | Path) -> Study:
-    """Return the study of a TOML file; a scene's path counts from the study's directory.
-
-    Raises:
-        InputError: the file cannot be read or parsed, or the study or one of its scenes is not
-            allowed.
-    """
-    path = Path(path)
-    data = read_toml(path)
-    if "scene" not in data:
-        raise InputError(f'{path}: no scene; allowed is scene = "FILE.toml" or a [scene] table')
-    if isinstance(data["scene"], str):
-        data["scene"] = load_scene(path.parent / data["scene"])
-    try:
-        return table_from(Study, "", data)
-    except InputError as error:
-        raise InputError(f"{path}: {error}") from None
+def load_study(path: Any) -> Sweep:
+    """Return the sweep of a TOML file; see `exu_press.studies.base.load_study`."""
+    return load(path, Sweep)

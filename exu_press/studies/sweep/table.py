@@ -16,8 +16,7 @@ from exu_press.output import replacing
 from exu_press.quantities.cost import COSTS
 from exu_press.quantities.uncertain import uncertain
 from exu_press.stored import shown
-from exu_press.studies.sweep.points import flat
-from exu_press.studies.sweep.study import Study
+from exu_press.studies.sweep.study import Sweep
 from exu_press.toml import toml_text
 
 __all__ = ["RUN_TIMES", "Table", "cell", "table_of"]
@@ -41,7 +40,7 @@ class Table:
             the keys that vary, then status and reason, then the scalars of the summaries.
     """
 
-    study: Study
+    study: Sweep
     columns: Mapping[str, tuple[Value, ...]]
 
     def __getitem__(self, name: str) -> tuple[Value, ...]:
@@ -89,7 +88,7 @@ class Table:
             partial.write_text(text.getvalue(), encoding="utf-8")
 
 
-def table_of(study: Study, rows: Sequence[Mapping[str, Any]], files: Sequence[str]) -> Table:
+def table_of(study: Sweep, rows: Sequence[Mapping[str, Any]], files: Sequence[str]) -> Table:
     """Return the table of a study's rows.
 
     Args:
@@ -127,6 +126,22 @@ def _scalars(row: Mapping[str, Any]) -> dict[str, Any]:
         if not COLUMN_NAME.fullmatch(name):
             raise InputError(f"{shown(name)}: allowed is the name of a column")
     return scalars
+
+
+def flat(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
+    """Return nested tables as one, names joined by a dot; raise InputError for one given twice."""
+    found: dict[str, Any] = {}
+    for name, value in table.items():
+        inner = (
+            flat(value, f"{prefix}{name}.")
+            if isinstance(value, Mapping)
+            else {prefix + name: value}
+        )
+        for each in inner:
+            if each in found:
+                raise InputError(f"{each}: given twice")
+        found |= inner
+    return found
 
 
 def _text(value: Value) -> str:

@@ -8,10 +8,11 @@ import pytest
 
 from exu_press import InputError, Result, Scene, simulate
 from exu_press.batch import run_batch
-from exu_press.studies.sweep import Study, sweep
-from exu_press.studies.sweep.run import run_scene
+from exu_press.studies.base import run_scene
+from exu_press.studies.sweep import Sweep, sweep
 from exu_press.studies.sweep.table import RUN_TIMES
 
+LIST = {"way": "list"}
 IDEAL = Scene(joints={"crank_pin": "ideal", "balls": "ideal"}, revolutions=0.01)
 LUBRICATED = Scene(joints={"crank_pin": "lubricated", "balls": "ideal"}, revolutions=0.05)
 
@@ -21,7 +22,7 @@ def without_times(table):
 
 
 def test_the_table_holds_the_summaries(tmp_path):
-    study = Study(scene=IDEAL, save_runs=True, list={"speed_rpm": [200.0, 300.0]})
+    study = Sweep(scene=IDEAL, save_runs=True, keys={"speed_rpm": [200.0, 300.0]})
     table = sweep(study, tmp_path, workers=1)
     assert table["file"] == ("runs/1.nc", "runs/2.nc")
     for run, scene in enumerate(study.scenes):
@@ -34,14 +35,14 @@ def test_the_table_holds_the_summaries(tmp_path):
 
 
 def test_a_study_may_ask_for_errors(tmp_path):
-    study = Study(scene=LUBRICATED, errors=True, list={"speed_rpm": [300.0]})
+    study = Sweep(scene=LUBRICATED, errors=True, keys={"speed_rpm": [300.0]})
     table = sweep(study, tmp_path, workers=1)
     assert table["errors.peak_acceleration.resolved.error"][0] > 0.0
     assert table["errors.peak_acceleration.resolved.determined"][0] is True
 
 
 def test_a_file_that_is_gone_or_torn_is_made_again(tmp_path):
-    study = Study(scene=IDEAL, save_runs=True, list={"speed_rpm": [200.0, 300.0, 400.0]})
+    study = Sweep(scene=IDEAL, save_runs=True, keys={"speed_rpm": [200.0, 300.0, 400.0]})
     first = sweep(study, tmp_path, workers=1)
     gone, torn, left = (tmp_path / "runs" / f"{n}.nc" for n in (1, 2, 3))
     made = left.stat().st_mtime_ns
@@ -60,7 +61,7 @@ def test_runs_that_stop_early_or_fail_are_rows(tmp_path):
         "solver": {"step": 1e-4},
     }
     thin = {"film.viscosity": [0.4, 1e-7], "revolutions": [0.01, 1.0]}
-    table = sweep(Study(scene=Scene.from_dict(scene), list=thin), tmp_path, workers=2)
+    table = sweep(Sweep(scene=Scene.from_dict(scene), keys=thin, sweep=LIST), tmp_path, workers=2)
     assert table["status"] == ("completed", "film broke down")
     assert table["reason"][1].startswith("film broke down at t = ")
     assert table["bottom_dead_centre"][1] is not None
@@ -79,7 +80,7 @@ def test_runs_that_stop_early_or_fail_are_rows(tmp_path):
     ],
 )
 def test_foreign_rows_of_a_resumed_directory_are_refused(tmp_path, row, message):
-    study = Study(scene=IDEAL, list={"speed_rpm": [200.0]})
+    study = Sweep(scene=IDEAL, keys={"speed_rpm": [200.0]})
     sweep(study, tmp_path, workers=1)
     record = json.loads((tmp_path / "runs.jsonl").read_text())
     record["row"] |= row
@@ -90,7 +91,7 @@ def test_foreign_rows_of_a_resumed_directory_are_refused(tmp_path, row, message)
 
 
 def test_a_damaged_study_beside_the_rows_is_another_one(tmp_path):
-    study = Study(scene=IDEAL, list={"speed_rpm": [200.0]})
+    study = Sweep(scene=IDEAL, keys={"speed_rpm": [200.0]})
     (tmp_path / "study.json").write_text("[" * 100_000)
     with pytest.raises(InputError, match="belongs to another study"):
         sweep(study, tmp_path)
@@ -108,14 +109,14 @@ def test_a_worker_does_not_share_memory_of_runs(tmp_path):
 
 
 def test_a_directory_of_another_study_is_refused(tmp_path):
-    study = Study(scene=IDEAL, list={"speed_rpm": [200.0]})
+    study = Sweep(scene=IDEAL, keys={"speed_rpm": [200.0]})
     sweep(study, tmp_path, workers=1)
     before = {path: path.read_bytes() for path in tmp_path.iterdir() if path.is_file()}
-    other = Study(scene=IDEAL, list={"speed_rpm": [300.0]})
-    with pytest.raises(InputError, match=r"another study \(study.json differs in list\)"):
+    other = Sweep(scene=IDEAL, keys={"speed_rpm": [300.0]})
+    with pytest.raises(InputError, match=r"another study \(study.json differs in keys\)"):
         sweep(other, tmp_path, workers=1)
     assert before == {path: path.read_bytes() for path in tmp_path.iterdir() if path.is_file()}
-    longer = Study(scene=IDEAL, list={"speed_rpm": [200.0]}, time_limit=100.0)
+    longer = Sweep(scene=IDEAL, keys={"speed_rpm": [200.0]}, time_limit=100.0)
     sweep(longer, tmp_path, workers=1)  # the same study
 
 
@@ -123,12 +124,12 @@ def test_a_directory_of_another_study_is_refused(tmp_path):
 def test_a_directory_with_files_of_something_else_is_refused(name, tmp_path):
     (tmp_path / name).write_text("mine")
     with pytest.raises(InputError, match=rf"{name}.*(delete|belong)"):
-        sweep(Study(scene=IDEAL, list={"speed_rpm": [200.0]}), tmp_path, workers=1)
+        sweep(Sweep(scene=IDEAL, keys={"speed_rpm": [200.0]}), tmp_path, workers=1)
     assert (tmp_path / name).read_text() == "mine"
 
 
 def test_a_lost_study_json_is_written_again_and_its_runs_are_kept(tmp_path):
-    study = Study(scene=IDEAL, list={"speed_rpm": [200.0]})
+    study = Sweep(scene=IDEAL, keys={"speed_rpm": [200.0]})
     before = sweep(study, tmp_path, workers=1)
     for name in ("study.json", "table.csv", "table.nc"):
         (tmp_path / name).unlink()
@@ -138,7 +139,7 @@ def test_a_lost_study_json_is_written_again_and_its_runs_are_kept(tmp_path):
 def test_tables_may_vary(tmp_path):
     """It used to compute everything and to fail while it wrote table.nc."""
     laws = [{"law": "finite"}, {"law": "short"}]
-    study = Study(scene=LUBRICATED, grid={"film": laws})
+    study = Sweep(scene=LUBRICATED, keys={"film": laws})
     table = sweep(study, tmp_path, workers=1)
     assert table["film"] == ('{law = "finite"}', '{law = "short"}')
     assert (tmp_path / "table.nc").exists()
@@ -156,7 +157,7 @@ def test_real_runs_hold_a_workers_memory_flat(runs):
 
 MEMORY = """
 from pathlib import Path
-from exu_press.studies.sweep.run import run_scene
+from exu_press.studies.base import run_scene
 def megabytes():
     return int(Path("/proc/self/statm").read_text().split()[1]) * 4096e-6
 for run in range({runs}):

@@ -3,9 +3,13 @@
 import pytest
 
 from exu_press import InputError, Scene
-from exu_press.studies.sweep import Study, load_study
+from exu_press.studies.sweep import Sweep, load_study
 
 SCENE = '[scene]\njoints.crank_pin = "lubricated"\n'
+
+
+LIST = '[sweep]\nway = "list"\n'
+SAMPLE = '[sweep]\nway = "sample"\nn = 5\nseed = 2\n'
 
 
 def load(tmp_path, text):
@@ -19,9 +23,9 @@ def test_a_grid_with_the_scene_inside(tmp_path):
         tmp_path,
         "save_runs = true\ntime_limit = 600\n"
         + SCENE
-        + '[grid]\n"joints.crank_pin.clearance" = [5e-5, 1e-4]\nspeed_rpm = [200.0, 300.0]\n',
+        + '[keys]\n"joints.crank_pin.clearance" = [5e-5, 1e-4]\nspeed_rpm = [200.0, 300.0]\n',
     )
-    assert study.keys == ("joints.crank_pin.clearance", "speed_rpm")
+    assert tuple(study.keys) == ("joints.crank_pin.clearance", "speed_rpm")
     assert study.save_runs is True and study.time_limit == 600.0
     first = Scene(joints={"crank_pin": "lubricated", "balls": "ideal"}).replace(
         {"joints.crank_pin.clearance": 5e-5, "speed_rpm": 200.0}
@@ -33,52 +37,94 @@ def test_a_grid_with_the_scene_inside(tmp_path):
 def test_a_scene_beside_the_study(tmp_path, monkeypatch):
     (tmp_path / "scene.toml").write_text(SCENE.replace("[scene]\n", ""))
     monkeypatch.chdir("/")
-    study = load(tmp_path, 'scene = "scene.toml"\n[list]\nfilm.viscosity = [0.1, 0.2]\n')
+    study = load(
+        tmp_path,
+        'scene = "scene.toml"\n[keys]\nfilm.viscosity = [0.1, 0.2]\n[sweep]\nway = "list"\n',
+    )
     assert study.scene == Scene(joints={"crank_pin": "lubricated", "balls": "ideal"})
     assert [scene.film.viscosity for scene in study.scenes] == [0.1, 0.2]
 
 
 def test_a_latin_hypercube(tmp_path):
-    study = load(tmp_path, SCENE + "[sample]\nn = 5\nseed = 2\nspeed_rpm = [200, 500]\n")
+    study = load(tmp_path, SCENE + SAMPLE + "[keys]\nspeed_rpm = {low = 200, high = 500}\n")
     assert len(study.scenes) == 5
     assert all(200.0 < scene.speed_rpm < 500.0 for scene in study.scenes)
 
 
 def test_a_time_limit_does_not_make_another_study():
-    some = [Study(scene=Scene(), time_limit=t, grid={"speed_rpm": [1.0]}) for t in (1.0, None)]
+    some = [Sweep(scene=Scene(), time_limit=t, keys={"speed_rpm": [1.0]}) for t in (1.0, None)]
     assert some[0].to_dict() == some[1].to_dict()
-    other = Study(scene=Scene(), grid={"speed_rpm": [2.0]})
+    other = Sweep(scene=Scene(), keys={"speed_rpm": [2.0]})
     assert other.to_dict() != some[0].to_dict()
 
 
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("[grid]\nspeed_rpm = [1]\n", "no scene; allowed is scene = "),
-        ("scene = 3\n[grid]\nspeed_rpm = [1]\n", "scene = 3: allowed is a table"),
-        (SCENE, r"none given; allowed is one of \[grid\], \[list\], \[sample\]"),
-        (SCENE + "[grid]\nspeed_rpm = [1]\n[list]\nspeed_rpm = [1]\n", r"\[grid\] and \[list\]"),
-        ("grid = 3\n" + SCENE, "grid = 3: allowed is a table"),
-        (SCENE + "[grid]\n", r"\[grid\]: empty"),
+        ("[keys]\nspeed_rpm = [1]\n", "no scene; allowed is scene = "),
+        ("scene = 3\n[keys]\nspeed_rpm = [1]\n", "scene = 3: allowed is a table"),
+        (SCENE, r"no keys; allowed is keys = a \[keys\] table"),
+        (SCENE + "[grid]\nspeed_rpm = [1]\n", r"\[grid\] is \[keys\] now, with \[sweep\] way"),
+        ("keys = 3\n" + SCENE, "keys = 3: allowed is a table"),
+        (SCENE + "[keys]\n", r"\[keys\]: empty"),
+        (SCENE + "[keys]\nspeed_rpm = []\n", r"keys.speed_rpm = \[\]: allowed is \[value"),
+        (SCENE + "[keys]\nspeed_rpm = 200\n", r"keys.speed_rpm = 200: allowed is \[value"),
+        (SCENE + "[keys]\nspeed_rpm = 'x'\n", r"keys.speed_rpm = 'x': allowed is \[value"),
         (
-            SCENE + "[gird]\nspeed_rpm = [1]\n",
-            "gird = .*: unknown key .did you mean .grid...; allowed are scene, ",
+            SCENE + "[keys]\nspeed_rpm = {low = 2, high = 1}\n[sweep]\nway = 'grid'\n",
+            "keys.speed_rpm: low = 2, high = 1: allowed is low < high",
         ),
-        ("points = []\n" + SCENE + "[grid]\nspeed_rpm = [1]\n", "points = .*: unknown key"),
-        ("time_limit = 0\n" + SCENE + "[grid]\nspeed_rpm = [1]\n", "time_limit = 0.*: allowed"),
-        ("save_runs = 1\n" + SCENE + "[grid]\nspeed_rpm = [1]\n", "save_runs = 1: allowed is"),
-        (SCENE + "[grid]\nspeed = [1.0]\n", "run with speed = 1.0: speed = 1.0: unknown key"),
         (
-            SCENE + '[grid]\nspeed_rpm = [200.0, -1.0]\n"film.viscosity" = [0.1]\n',
+            SCENE + "[keys]\nspeed_rpm = {low = 0, high = 1, log = true}\n",
+            "keys.speed_rpm: low = 0, high = 1: allowed is 0 < low < high",
+        ),
+        (
+            SCENE + "[keys]\nspeed_rpm = {low = 200, high = 300}\n",
+            'keys.speed_rpm = .*: allowed with way = "grid" is a list of values',
+        ),
+        (
+            SCENE + SAMPLE + "[keys]\nspeed_rpm = [200, 300]\n",
+            'keys.speed_rpm = .200, 300.: allowed with way = "sample" is',
+        ),
+        (
+            SCENE + SAMPLE + "[keys]\nspeed_rpm = {mean = 200, deviation = 0}\n",
+            "keys.speed_rpm: deviation = 0.0: allowed is a number > 0",
+        ),
+        (
+            SCENE + SAMPLE + "[keys]\nspeed_rpm = {mean = 200, deviation = 9, low = 300}\n",
+            "keys.speed_rpm: mean = 200, low = 300, high = inf: allowed is low < mean < high",
+        ),
+        (
+            SCENE + "[sweep]\nway = 'grid'\nn = 3\n[keys]\nspeed_rpm = [1]\n",
+            'sweep.n: is not used with way = "grid"',
+        ),
+        (
+            SCENE + "[sweep]\nway = 'sample'\nn = 3\n[keys]\nspeed_rpm = {low = 1, high = 2}\n",
+            "sweep.seed: is needed",
+        ),
+        (SCENE + "[sweep]\nway = 'grib'\n[keys]\nspeed_rpm = [1]\n", "sweep.way = 'grib'"),
+        (
+            SCENE + LIST + "[keys]\nspeed_rpm = [1]\ngravity = [9, 8]\n",
+            "speed_rpm has 1, gravity has 2",
+        ),
+        (
+            SCENE + "[keys]\nspeed_rpm = [1]\n[sweap]\nn = 1\n",
+            "sweap = .*: unknown key .did you mean .sweep...; allowed are scene, ",
+        ),
+        ("time_limit = 0\n" + SCENE + "[keys]\nspeed_rpm = [1]\n", "time_limit = 0.*: allowed"),
+        ("save_runs = 1\n" + SCENE + "[keys]\nspeed_rpm = [1]\n", "save_runs = 1: allowed is"),
+        (SCENE + "[keys]\nspeed = [1.0]\n", "run with speed = 1.0: speed = 1.0: unknown key"),
+        (
+            SCENE + '[keys]\nspeed_rpm = [200.0, -1.0]\n"film.viscosity" = [0.1]\n',
             r"run with speed_rpm = -1\.0, film\.viscosity = 0\.1: speed_rpm = -1\.0: allowed",
         ),
         (
-            SCENE + '[grid]\njoints.crank_pin = ["ideal"]\nfilm.viscosity = [0.1]\n',
+            SCENE + '[keys]\njoints.crank_pin = ["ideal"]\nfilm.viscosity = [0.1]\n',
             "not used by this",
         ),
-        ("[scene]\nspeed = 1\n[grid]\nspeed_rpm = [1]\n", "speed = 1: unknown key"),
+        ("[scene]\nspeed = 1\n[keys]\nspeed_rpm = [1]\n", "speed = 1: unknown key"),
         ("scene = [", "not a TOML file"),
-        ('scene = "nowhere.toml"\n[grid]\nspeed_rpm = [1]\n', "nowhere.toml: cannot be read"),
+        ('scene = "nowhere.toml"\n[keys]\nspeed_rpm = [1]\n', "nowhere.toml: cannot be read"),
     ],
 )
 def test_what_is_refused(tmp_path, text, message):

@@ -8,7 +8,7 @@ import pytest
 from scipy.io import netcdf_file
 
 from exu_press import InputError, Scene
-from exu_press.studies.sweep import Study
+from exu_press.studies.sweep import Sweep
 from exu_press.studies.sweep.lines import shown, table_lines
 from exu_press.studies.sweep.netcdf import save_netcdf
 from exu_press.studies.sweep.table import table_of
@@ -36,9 +36,9 @@ ROWS = [
 
 @pytest.fixture
 def table():
-    study = Study(
+    study = Sweep(
         scene=Scene(joints={"crank_pin": "ideal", "balls": "ideal"}),
-        grid={"speed_rpm": [200.0, 300.0, 400.0]},
+        keys={"speed_rpm": [200.0, 300.0, 400.0]},
     )
     return table_of(study, ROWS, ["1.nc", "2.nc", "3.nc"])
 

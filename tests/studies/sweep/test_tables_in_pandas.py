@@ -8,7 +8,7 @@ from exu_press import Scene, simulate
 from exu_press.output import write_json
 from exu_press.studies.compare import variants
 from exu_press.studies.precision import case_of, precision
-from exu_press.studies.sweep import Study, sweep
+from exu_press.studies.sweep import Sweep, sweep
 
 pandas = pytest.importorskip("pandas")
 xarray = pytest.importorskip("xarray")
@@ -20,7 +20,7 @@ SCENE = Scene.from_dict(
 
 def test_sweep_as_csv_and_as_netcdf(tmp_path):
     speeds = [200.0, 300.0]
-    sweep(Study(scene=SCENE, grid={"speed_rpm": speeds}), tmp_path, workers=1, quiet=True)
+    sweep(Sweep(scene=SCENE, keys={"speed_rpm": speeds}), tmp_path, workers=1, quiet=True)
     frame = pandas.read_csv(tmp_path / "table.csv")
     assert frame["speed_rpm"].tolist() == speeds
     assert (frame["status"] == "completed").all()

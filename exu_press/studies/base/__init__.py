@@ -1,0 +1,18 @@
+"""What all studies have in common: a file, keys that vary, runs side by side, their rows."""
+
+from exu_press.studies.base.keys import Key, Normal, Range, Values
+from exu_press.studies.base.runs import Row, Runs, row_of, run_scene
+from exu_press.studies.base.study import Study, load_study
+
+__all__ = [
+    "Key",
+    "Normal",
+    "Range",
+    "Row",
+    "Runs",
+    "Study",
+    "Values",
+    "load_study",
+    "row_of",
+    "run_scene",
+]

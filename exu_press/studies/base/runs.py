@@ -1,0 +1,126 @@
+"""Runs of scenes for a study: side by side, resumable, and what is kept of each."""
+
+from collections.abc import Mapping, Sequence
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Any, Self
+
+from exu_press.batch import Batch, Row, locked
+from exu_press.output import output_directory
+from exu_press.quantities import values_of
+from exu_press.result import Result
+from exu_press.scene import Scene
+from exu_press.studies.base.claim import claim
+from exu_press.studies.base.study import Study
+
+__all__ = ["Row", "Runs", "row_of", "run_scene"]
+
+
+class Runs(ExitStack):
+    """The runs of a study in its directory; a context manager.
+
+    Worker processes stay alive from call to call of `of`. Every row is on the disk before the next
+    run begins, so that a study that was killed goes on where it was: runs that it asks for again
+    are read. Scenes alone decide what is the same run; the order and the number of calls do not.
+    """
+
+    def __init__(
+        self,
+        study: Study,
+        directory: str | Path,
+        *,
+        written: Sequence[str] = (),
+        label: str = "study",
+        workers: int | None = None,
+        dask: str | None = None,
+        quiet: bool = True,
+    ) -> None:
+        """Prepare; nothing is started before the first run.
+
+        Args:
+            study: whose runs these are.
+            directory: of this study alone.
+            written: names of the files that the study writes in the end.
+            label: of the progress bar.
+            workers: number of processes; all cores unless told.
+            dask: address of a Dask scheduler instead.
+            quiet: False shows the progress on standard error.
+        """
+        super().__init__()
+        self.directory = Path(directory)
+        self._study, self._written = study, written
+        self._told: dict[str, Any] = {
+            "label": label,
+            "workers": workers,
+            "dask": dask,
+            "quiet": quiet,
+            "time_limit": study.time_limit,
+        }
+
+    def __enter__(self) -> Self:
+        """Take the directory.
+
+        Raises:
+            InputError: it cannot be used, belongs to another study, or another run writes in it;
+                or no scheduler answers.
+        """
+        super().__enter__()
+        try:
+            output_directory(self.directory)
+            self.enter_context(locked(self.directory))
+            claim(self.directory, self._study.to_dict(), self._written)
+            self._batch = self.enter_context(
+                Batch(run_scene, self.directory, kept=_file_is_whole, **self._told)
+            )
+        except BaseException:
+            self.close()
+            raise
+        return self
+
+    def of(self, scenes: Sequence[Scene], files: Sequence[str] = ()) -> list[Row]:
+        """Return the row of each scene: status, reason, end_time, its quantities by name.
+
+        With errors asked, `errors`, `horizon` and `lyapunov_exponent` too. A run that raised an
+        error, took too long or killed its process has a row with its status and its reason alone.
+
+        Args:
+            scenes: any number; equal ones are run once.
+            files: where each keeps its run.nc, in the study's directory, if it is to.
+        """
+        errors = {"errors": True} if self._study.errors else {}
+        arguments: list[dict[str, Any]] = [{"scene": s.to_dict(), **errors} for s in scenes]
+        for each, file in zip(arguments, files, strict=False):
+            path = self.directory / file
+            output_directory(path.parent)
+            each["save"] = str(path.resolve())
+        return self._batch.rows(arguments)
+
+
+def run_scene(arguments: dict[str, Any]) -> dict[str, Any]:
+    """Run {"scene": ...}, with "save": file and "errors": True if wanted; return its row."""
+    from exu_press.simulation import simulate
+    from exu_press.verification import simulate_with_errors
+
+    scene = Scene.from_dict(arguments["scene"])
+    wanted = arguments.get("errors")
+    result = simulate_with_errors(scene, beside=False) if wanted else simulate(scene)
+    if "save" in arguments:
+        result.save(arguments["save"])
+    return row_of(result)
+
+
+def row_of(result: Result) -> dict[str, Any]:
+    """Return what a study keeps of a run: how it ended, its quantities and their errors."""
+    info, values = result.info, values_of(result)
+    row: dict[str, Any] = {name: info[name] for name in ("status", "reason", "end_time")}
+    row |= {name: value.value for name, value in values.items()}
+    if "errors" in info:
+        row |= {name: info[name] for name in ("errors", "horizon", "lyapunov_exponent")}
+    return row
+
+
+def _file_is_whole(arguments: Mapping[str, Any]) -> bool:
+    """Return whether the run.nc that a run was to keep can be read."""
+    from exu_press.result.netcdf import is_whole
+
+    return "save" not in arguments or is_whole(Path(arguments["save"]))

@@ -1,0 +1,112 @@
+"""A study file: one scene, which of its keys vary and how, and the study's own tables."""
+
+import dataclasses
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, TypeVar
+
+from exu_press.checks import Table, key, table_from
+from exu_press.errors import InputError
+from exu_press.scene import Scene, load_scene
+from exu_press.studies.base.keys import Key, keys_from
+from exu_press.toml import read_toml
+
+__all__ = ["Study", "load_study"]
+
+S = TypeVar("S", bound="Study")
+
+
+@dataclasses.dataclass(frozen=True)
+class Study(Table):
+    """What every study says; a study of its own kind adds its tables.
+
+    Attributes:
+        scene: what is common to all runs; a Scene or its mapping.
+        keys: dotted key of the scene -> how it varies (`Values`, `Range` or `Normal`, or as a file
+            has them).
+        save_runs: whether every run keeps its run.nc.
+        errors: whether every figure has its error, by refinement runs: twice the work.
+        time_limit: of one run, s.
+
+    Raises:
+        InputError: not allowed, or not allowed in the scene with one key at one of its values.
+    """
+
+    scene: Scene
+    keys: Mapping[str, Key]
+    save_runs: bool = key(False, "keep a run.nc for every run")
+    errors: bool = key(False, "find the error of every figure")
+    time_limit: float | None = key(None, "for one run", "s", above=0)
+
+    def __post_init__(self) -> None:
+        """Check the keys, each in the scene."""
+        super().__post_init__()
+        for name in ("scene", "keys"):
+            if not isinstance(value := getattr(self, name), (Mapping, Scene)):
+                raise InputError(f"{name} = {value!r:.200}: allowed is a table")
+        if not self.keys:
+            raise InputError("[keys]: empty; allowed is at least one key of the scene")
+        if not isinstance(self.scene, Scene):
+            object.__setattr__(self, "scene", Scene.from_dict(self.scene))
+        object.__setattr__(self, "keys", keys_from(self.keys))
+        self.check_keys()
+
+    def check_keys(self) -> None:
+        """Check the scene with each key alone at what it may be, before anything runs."""
+        for name, each in self.keys.items():
+            for value in each.ends:
+                self.scene_at({name: value})
+
+    def scene_at(self, point: Mapping[str, Any]) -> Scene:
+        """Return the scene with keys at these values.
+
+        Raises:
+            InputError: not allowed; it names the values.
+        """
+        try:
+            return self.scene.replace(dict(point))
+        except InputError as error:
+            where = ", ".join(f"{name} = {value!r}" for name, value in point.items())
+            raise InputError(f"run with {where}: {error}") from None
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return what makes this study another one than others; a time limit does not."""
+        found: dict[str, Any] = {}
+        for field in dataclasses.fields(self):
+            value = getattr(self, field.name)
+            if field.name == "keys":
+                value = {name: each.plain() for name, each in value.items()}
+            elif isinstance(value, Scene):
+                value = value.to_dict()
+            elif dataclasses.is_dataclass(value) and not isinstance(value, type):
+                value = dataclasses.asdict(value)
+            if field.name != "time_limit" and value is not None:
+                found[field.name] = value
+        return found
+
+
+def load_study(path: str | Path, kind: type[S]) -> S:
+    """Return the study of a TOML file; a scene's path counts from the study's directory.
+
+    Raises:
+        InputError: the file cannot be read or parsed, or the study or one of its scenes is not
+            allowed.
+    """
+    path = Path(path)
+    data = read_toml(path)
+    for name, example in (("scene", '"FILE.toml" or a [scene] table'), ("keys", "a [keys] table")):
+        if name not in data:
+            told = _before(data) if name == "keys" else ""
+            raise InputError(f"{path}: no {name}; allowed is {name} = {example}{told}")
+    if isinstance(data["scene"], str):
+        data["scene"] = load_scene(path.parent / data["scene"])
+    try:
+        return table_from(kind, "", data)
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
+
+
+def _before(data: Mapping[str, Any]) -> str:
+    """Return what to write for a file of the form before."""
+    old = [name for name in ("grid", "list", "sample") if name in data]
+    return f'; [{old[0]}] is [keys] now, with [sweep] way = "{old[0]}"' if old else ""

@@ -1,0 +1,49 @@
+"""How keys of a study vary."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from exu_press import InputError
+from exu_press.studies.base import Normal, Range, Values
+from exu_press.studies.base.keys import keys_from
+
+ALL = {
+    "film": {"viscosity": [0.1, 0.4], "length": {"low": 0.05, "high": 0.1}},
+    "joints.crank_pin.clearance": {"low": 1e-5, "high": 1e-4, "log": True},
+    "friction.mu_kinetic": {"mean": 0.1, "deviation": 0.02, "low": 0.0},
+}
+
+
+def test_each_form_and_its_place_in_nested_tables():
+    keys = keys_from(ALL)
+    assert keys == {
+        "film.viscosity": Values((0.1, 0.4)),
+        "film.length": Range(low=0.05, high=0.1),
+        "joints.crank_pin.clearance": Range(low=1e-5, high=1e-4, log=True),
+        "friction.mu_kinetic": Normal(mean=0.1, deviation=0.02, low=0.0),
+    }
+    assert keys_from({name: each.plain() for name, each in keys.items()}) == keys
+
+
+def test_a_key_given_twice_is_refused():
+    with pytest.raises(InputError, match=r"keys\.film\.viscosity: given twice"):
+        keys_from({"film": {"viscosity": [1.0]}, "film.viscosity": [2.0]})
+
+
+@settings(deadline=None)
+@given(st.floats(0.001, 0.999))
+def test_shares_and_values_belong_to_each_other(share):
+    for each in keys_from(ALL).values():
+        if not isinstance(each, Values):
+            value = each.at(np.array([share]))
+            assert each.share(value) == pytest.approx([share], abs=1e-9)
+            assert each.ends[0] <= value[0] <= each.ends[1]
+
+
+def test_a_normal_distribution_has_its_mean_and_deviation():
+    shares = (np.arange(100_000) + 0.5) / 100_000
+    values = Normal(mean=3.0, deviation=0.5).at(shares)
+    assert (values.mean(), values.std()) == (pytest.approx(3.0), pytest.approx(0.5, rel=1e-3))
+    assert Normal(mean=3.0, deviation=0.5, low=2.9).at(shares).min() >= 2.9

@@ -10,7 +10,7 @@ __all__ = ["source_digest"]
 OURS = ("exu_press", "fe_models")
 SUFFIXES = (".py", ".npz", ".toml")
 
-FOR_READERS = ("cli", "plots", "report", "view")
+FOR_READERS = ("cli", "page", "plots", "report", "view")
 """Folders of a package that no row comes from: they show what came out."""
 
 

@@ -3,10 +3,7 @@
 import argparse
 from pathlib import Path
 
-from exu_press.errors import InputError
-from exu_press.output import check_writable, replacing
-
-__all__ = ["EXAMPLE", "add_arguments", "execute"]
+__all__ = ["EXAMPLE", "add_arguments", "execute", "tell_extra"]
 
 EXAMPLE = "exu-press report out/press/run.nc --out report.html"
 
@@ -27,15 +24,21 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def execute(options: argparse.Namespace) -> int:
     """Write the page; return 0."""
     from exu_press.report.find import find_output, report_of
+    from exu_press.report.shown import check_page, write_page
 
     kind, file = find_output(Path(options.path))
     target = Path(options.out) if options.out else file.parent / "report.html"
-    if target.suffix.lower() not in (".html", ".htm"):
-        raise InputError(f"--out {target}: allowed is a name ending in .html")
-    check_writable(target)
-    text = report_of(kind, file)
-    with replacing(target) as partial:
-        partial.write_text(text, encoding="utf-8")
+    check_page(target)
+    write_page(report_of(kind, file), target)
     if not options.quiet:
         print(f"written: {target} ({target.stat().st_size / 1e6:.1f} MB)")
+        tell_extra()
     return 0
+
+
+def tell_extra() -> None:
+    """Say on the terminal what the page lacks, if it does."""
+    from exu_press.page import has_library
+
+    if not has_library():
+        print("the page has pictures alone; to zoom and play: pip install exu-press[page]")

@@ -1,21 +1,29 @@
-"""Show the motion of a run: in a window, or as an animation or a picture with --save."""
+"""Show a run in the browser, to zoom and to play; --save writes an animation or a picture."""
 
 import argparse
+import os
+import tempfile
 from pathlib import Path
 
 from exu_press.errors import InputError
 from exu_press.progress import Progress
-from exu_press.report.find import Kind, find_output
+from exu_press.report.find import Kind, find_output, report_of
 from exu_press.result import Result
 
 __all__ = ["EXAMPLE", "add_arguments", "execute"]
 
 EXAMPLE = "exu-press view out/press/run.nc --from 0.03 --to 0.05 --save animation.gif"
 
+OF_ANIMATIONS = ("at", "slow", "frames", "fps", "colour", "exaggerate")
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the command's arguments."""
-    parser.add_argument("path", metavar="PATH", help="a run.nc, or the directory that run wrote to")
+    parser.add_argument(
+        "path",
+        metavar="PATH",
+        help="a run.nc, or the directory that run wrote to; without --save also what report takes",
+    )
     parser.add_argument(
         "--save",
         metavar="FILE",
@@ -50,16 +58,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def execute(options: argparse.Namespace) -> int:
-    """Show or write the animation; return 0."""
+    """Show the page or write the animation; return 0."""
+    if options.save is None:
+        return _open(options)
     result = Result.load(_run_in(Path(options.path)))
-    target = None if options.save is None else Path(options.save)
-    if target is not None:
-        from exu_press.view.save import check_target, is_animation
+    target = Path(options.save)
+    from exu_press.view.save import check_target, is_animation
 
-        check_target(target)
-        one = not is_animation(target)
-    else:
-        one = False
+    check_target(target)
+    one = not is_animation(target)
     if options.at is not None and not one:
         raise InputError(f"--at {options.at:g}: allowed with --save FILE.png alone")
     for option in ("slow", "frames", "fps"):
@@ -68,8 +75,34 @@ def execute(options: argparse.Namespace) -> int:
     for option, value in (("--colour", options.colour), ("--exaggerate", options.exaggerate)):
         if value is not None and not result.surfaces:
             raise InputError(f"{option} {value}: allowed for runs with flexible bodies alone")
-    _write_or_show(result, target, one, options)
+    _write(result, target, one, options)
     return 0
+
+
+def _open(options: argparse.Namespace) -> int:
+    """Write the page that report writes, and open it in the browser."""
+    from exu_press.cli.report import tell_extra
+    from exu_press.report.shown import open_file, write_page
+
+    named = {"from": "start", "to": "stop", **{name: name for name in OF_ANIMATIONS}}
+    for option, name in named.items():
+        if (value := getattr(options, name)) is not None:
+            raise InputError(f"--{option} {value}: allowed with --save; in the page it is chosen")
+    kind, file = find_output(Path(options.path))
+    page = write_page(report_of(kind, file), _page_of(file))
+    if not options.quiet:
+        print(f"written: {page} ({page.stat().st_size / 1e6:.1f} MB)")
+        tell_extra()
+    open_file(page)
+    return 0
+
+
+def _page_of(file: Path) -> Path:
+    """Return where the page of a result goes: beside it, elsewhere where that is not allowed."""
+    beside = file.parent / "report.html"
+    if os.access(file.parent, os.W_OK):
+        return beside
+    return Path(tempfile.mkdtemp(prefix="exu_press_")) / beside.name
 
 
 def _run_in(path: Path) -> Path:
@@ -80,11 +113,12 @@ def _run_in(path: Path) -> Path:
     return file
 
 
-def _write_or_show(
-    result: Result, target: Path | None, one: bool, options: argparse.Namespace
-) -> None:
-    """Make the animation and hand it over."""
+def _write(result: Result, target: Path, one: bool, options: argparse.Namespace) -> None:
+    """Make the animation or the picture and write it."""
+    from matplotlib.figure import Figure
+
     from exu_press.view import Animation, Look, instants, moment, save_animation, save_picture
+    from exu_press.view.animation import SIZE
 
     flexible = Look(options.colour or "displacement", options.exaggerate)
     start, stop = options.start, options.stop
@@ -93,15 +127,6 @@ def _write_or_show(
         frames = moment(result, options.at, start, stop)
     else:
         frames = instants(result, start, stop, **{k: v for k, v in speed.items() if v is not None})
-    if target is None:
-        from exu_press.view.window import show
-
-        show(result, frames, flexible)
-        return
-    from matplotlib.figure import Figure
-
-    from exu_press.view.animation import SIZE
-
     animation = Animation(result, frames, Figure(figsize=SIZE), flexible)
     if one:
         written = [save_picture(animation, 1, target)]

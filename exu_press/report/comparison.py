@@ -8,8 +8,8 @@ from exu_press.errors import InputError
 from exu_press.plots import save_comparison
 from exu_press.plots.words import describe
 from exu_press.quantities.table import comparison_cells
-from exu_press.report.html import page, picture, table, warnings
-from exu_press.report.run import scene_parts, warnings_of
+from exu_press.report.html import page, picture, stills, table, warnings
+from exu_press.report.run import live_part, scene_parts, warnings_of
 from exu_press.result import Result
 from exu_press.stored import from_json, shown
 from exu_press.studies.compare import different_keys
@@ -28,6 +28,7 @@ def comparison_report(file: Path) -> str:
     summaries = {label: result.summary() for label, result in results.items()}
     head, *rows = comparison_cells(results)
     keys, *changed = different_keys({label: run.scene for label, run in results.items()})
+    live = live_part(results)
     with tempfile.TemporaryDirectory() as folder:
         shown = [
             picture(path, CAPTIONS.get(path.stem, path.stem))
@@ -43,12 +44,14 @@ def comparison_report(file: Path) -> str:
         f"Comparison: {describe([result.scene for result in results.values()], 200)}",
         f"{', '.join(results)}; {file.parent.name}/{file.name}",
         [
-            ("Warnings", warnings(told)),
             ("Differences of the scenes", table(keys, changed)),
+            *([] if live is None else [("In motion", live.body)]),
+            ("Warnings", warnings(told)),
             ("Results", table(head, rows)),
-            ("Pictures", "\n".join(shown)),
+            ("Pictures", stills("\n".join(shown), live)),
             *scene_parts(richest.scene),
         ],
+        live,
     )
 
 

@@ -6,33 +6,45 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from string import Template
 
+from exu_press.page.document import Live
 from exu_press.plots.typesetting import typeset
 
-__all__ = ["details", "page", "paragraph", "picture", "table", "warnings"]
+__all__ = ["details", "page", "paragraph", "picture", "stills", "table", "warnings"]
+
+NO_SCRIPTS = (
+    "default-src 'none'; style-src 'unsafe-inline'; img-src data:; form-action 'none'; "
+    "base-uri 'none'"
+)
+"""Content security policy of a page of pictures."""
 
 PAGE = Template("""<!DOCTYPE html>
 <html lang="en">
 <head>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
+<meta http-equiv="Content-Security-Policy" content="$policy">
 <link rel="icon" href="data:,">
 <title>$title</title>
 <style>
-:root { color-scheme: light; }
-body { font: 16px/1.5 system-ui, "DejaVu Sans", sans-serif; color: #1c1c1c; background: #fff;
-  max-width: 1180px; margin: 0 auto; padding: 1rem 1.5rem 3rem; }
+:root { color-scheme: light dark; --ink: #1c1c1c; --paper: #fff; --pale: #555; --rule: #d5d9dd;
+  --soft: #f5f7f9; --warn: #fdf3ec; --good: #eef5fa; }
+@media (prefers-color-scheme: dark) { @media screen { :root { --ink: #e4e7ea; --paper: #15181c;
+  --pale: #a4acb4; --rule: #3a4149; --soft: #1f242a; --warn: #33241a; --good: #1a2833; } } }
+body { font: 16px/1.5 system-ui, "DejaVu Sans", sans-serif; color: var(--ink);
+  background: var(--paper); max-width: $widest; margin: 0 auto; padding: 1rem 1.5rem 3rem; }
+a { color: inherit; }
 h1 { font-size: 1.6rem; line-height: 1.25; margin: 0.6rem 0 0.2rem; }
-h2 { font-size: 1.2rem; margin: 2rem 0 0.6rem; border-bottom: 1px solid #d5d9dd; }
+h2 { font-size: 1.2rem; margin: 2rem 0 0.6rem; border-bottom: 1px solid var(--rule); }
 p { margin: 0.4rem 0; max-width: 75ch; }
-.under { color: #555; }
-.warnings { border-left: 5px solid #d55e00; background: #fdf3ec; padding: 0.4rem 1rem; }
-.good { border-left: 5px solid #0072b2; background: #eef5fa; padding: 0.4rem 1rem; }
+.under { color: var(--pale); }
+.warnings { border-left: 5px solid #d55e00; background: var(--warn); padding: 0.4rem 1rem; }
+.good { border-left: 5px solid #0072b2; background: var(--good); padding: 0.4rem 1rem; }
 .wide { overflow-x: auto; }
 table { border-collapse: collapse; font-size: 0.9rem; font-variant-numeric: tabular-nums; }
 caption { text-align: left; font-weight: 600; padding: 0.3rem 0; }
 th, td { text-align: left; vertical-align: top; padding: 0.2rem 0.9rem 0.2rem 0; }
 thead th { border-bottom: 1px solid #888; }
-tbody tr:nth-child(even) { background: #f5f7f9; }
+tbody tr:nth-child(even) { background: var(--soft); }
 tbody th { font-weight: 400; white-space: pre; }
 figure { margin: 1rem 0; }
 figure { overflow-x: auto; }
@@ -40,7 +52,10 @@ figure img { max-width: 100%; height: auto; cursor: zoom-in; }
 figure input { position: absolute; opacity: 0; }
 figure input:focus-visible + img { outline: 3px solid #0072b2; }
 figure input:checked + img { max-width: none; cursor: zoom-out; }
-figcaption { color: #555; font-size: 0.9rem; }
+figcaption { color: var(--pale); font-size: 0.9rem; }
+.turned + .stills { display: none; }
+.turned:checked + .stills { display: block; }
+.show-pictures .turned + .stills { display: block; }
 summary { cursor: pointer; }
 code { font-family: ui-monospace, "DejaVu Sans Mono", monospace; font-size: 0.92em; }
 nav a { margin-right: 1.2rem; }
@@ -52,7 +67,12 @@ nav a { margin-right: 1.2rem; }
   thead th, tbody th, td { min-width: 4.5rem; }
   tbody th { white-space: pre-wrap; }
 }
-@media print { section { break-inside: avoid; } }
+@media print {
+  figure, tr { break-inside: avoid; }
+  .turned + .stills { display: block; }
+  .turned, label[for="turned"] { display: none; }
+}
+$style
 </style>
 </head>
 <body>
@@ -60,18 +80,22 @@ nav a { margin-right: 1.2rem; }
 <p class="under">$under</p>
 <nav aria-label="contents">$links</nav>
 $body
+$scripts
 </body>
 </html>
 """)
 
 
-def page(title: str, under: str, sections: Sequence[tuple[str, str]]) -> str:
+def page(
+    title: str, under: str, sections: Sequence[tuple[str, str]], live: Live | None = None
+) -> str:
     """Return a page.
 
     Args:
         title: of it.
         under: what stands below the title.
         sections: heading and HTML of each.
+        live: what moves in it, whose HTML is in one of the sections; None: pictures alone.
     """
     links = "\n".join(
         f'<a href="#part-{number}">{_text(heading)}</a>'
@@ -81,7 +105,28 @@ def page(title: str, under: str, sections: Sequence[tuple[str, str]]) -> str:
         f'<section id="part-{number}">\n<h2>{_text(heading)}</h2>\n{inner}\n</section>'
         for number, (heading, inner) in enumerate(sections)
     )
-    return PAGE.substitute(title=_text(title), under=_text(under), links=links, body=body)
+    return PAGE.substitute(
+        title=_text(title),
+        under=_text(under),
+        links=links,
+        body=body,
+        policy=NO_SCRIPTS if live is None else live.policy,
+        widest="1180px" if live is None else "1800px",
+        style="" if live is None else live.style,
+        scripts="" if live is None else "\n".join(f"<script>{s}</script>" for s in live.scripts),
+    )
+
+
+def stills(inner: str, live: Live | None) -> str:
+    """Return pictures; beside what moves they are for print, and are shown on demand."""
+    if live is None:
+        return inner
+    return (
+        '<label for="turned">Pictures, as they are printed: show</label> '
+        '<input type="checkbox" id="turned" class="turned">\n'
+        f'<div class="stills">{inner}</div>\n'
+        "<noscript><style>.turned + .stills { display: block }</style></noscript>"
+    )
 
 
 def paragraph(text: str) -> str:

@@ -8,13 +8,14 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
+from exu_press.page import Live, has_library
 from exu_press.plots import save_pictures
 from exu_press.plots.words import describe
 from exu_press.quantities import Quantity, value_of
 from exu_press.quantities.cost import COSTS
 from exu_press.quantities.energy import BALANCE, has_balance
 from exu_press.quantities.table import comparison_cells, shown_value
-from exu_press.report.html import details, page, paragraph, picture, table, warnings
+from exu_press.report.html import details, page, paragraph, picture, stills, table, warnings
 from exu_press.report.joints import joint_table
 from exu_press.result import Result
 from exu_press.scene import Scene
@@ -22,7 +23,7 @@ from exu_press.scene.assumptions import engineering_values, keys_of, used_assump
 from exu_press.view import Animation, moment, save_picture
 from exu_press.view.animation import SIZE
 
-__all__ = ["run_report", "scene_parts", "warnings_of"]
+__all__ = ["live_part", "run_report", "scene_parts", "warnings_of"]
 
 CAPTIONS = {
     "slider": "Slider motion against the ideal mechanism: position, velocity, acceleration.",
@@ -46,18 +47,30 @@ def run_report(result: Result, source: str) -> str:
     """
     summary = result.summary()
     numbers = comparison_cells({"": result})[1:]
+    live = live_part({"": result})
     return page(
         describe([result.scene], 200),
         f"{source}: {summary['status']} at t = {summary['end_time']:.6g} s, "
         f"crank angle {np.degrees(result['crank_angle'][-1]):.1f}°",
         [
+            *([] if live is None else [("In motion", live.body)]),
             ("Warnings", warnings(warnings_of(summary))),
             ("Results", table(("quantity", "value"), numbers) + joint_table(result)),
-            ("Pictures", _pictures(result)),
+            ("Pictures", stills(_pictures(result), live)),
             ("Energy and solver", _energy(result) + _statistics(result)),
             *scene_parts(result.scene),
         ],
+        live,
     )
+
+
+def live_part(results: Mapping[str, Result]) -> Live | None:
+    """Return what moves in the page of runs; nothing without the extra `page`."""
+    if not has_library():
+        return None
+    from exu_press.page.viewer import viewer
+
+    return viewer(results)
 
 
 def scene_parts(scene: Scene) -> list[tuple[str, str]]:

@@ -1,4 +1,4 @@
-"""The mechanism in motion, from a result file alone: in a window, as animation or pictures."""
+"""The mechanism in motion, from a result file alone: as animation or pictures."""
 
 from exu_press.view.animation import Animation, Look
 from exu_press.view.instants import Instants, instants, moment

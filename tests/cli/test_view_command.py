@@ -52,3 +52,24 @@ def test_a_directory_of_many_runs(tmp_path, capsys):
     assert main(["view", str(tmp_path), "--save", str(tmp_path / "x.gif")]) == 2
     told = capsys.readouterr().err
     assert "comparison.json, many runs; allowed is one of them, a run.nc" in told
+
+
+def test_without_save_the_page_opens_in_the_browser(run, monkeypatch, capsys):
+    opened = []
+    monkeypatch.setattr("webbrowser.open", lambda address: opened.append(address) or True)
+    assert main(["view", str(run)]) == 0
+    page = run.parent / "report.html"
+    assert opened == [page.resolve().as_uri()]
+    assert page.read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
+    assert f"written: {page}" in capsys.readouterr().out
+
+
+def test_without_a_browser_the_page_is_named(run, monkeypatch, capsys):
+    monkeypatch.setattr("webbrowser.open", lambda address: False)
+    assert main(["view", str(run), "--quiet"]) == 2
+    assert f"no browser can be opened here; open {run.parent}" in capsys.readouterr().err
+
+
+def test_options_of_animations_without_save(run, capsys):
+    assert main(["view", str(run), "--slow", "5"]) == 2
+    assert "--slow 5.0: allowed with --save" in capsys.readouterr().err

@@ -1,0 +1,191 @@
+"""The curves that a page offers: scalars of a run's channels, by joint, guide, load and body."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from exu_press.plots.words import joint_in_words
+from exu_press.quantities.quantity import Place
+from exu_press.result import Result
+from exu_press.result.channel import AXES, guide_channel
+from exu_press.scene import mechanism_of
+from exu_press.scene.applied import applied_loads
+
+__all__ = ["Curve", "curves_of", "shown_unit"]
+
+WORDS = {"x": "x", "y": "y", "z": "z", "angle": "angle"}
+
+PEAKS = {
+    "slider_velocity": "peak_velocity",
+    "slider_acceleration": "peak_acceleration.resolved",
+    "drive_torque": "drive.peak_torque",
+    "drive_power": "drive.peak_power",
+    "crank_torque": "drive.peak_crank_torque",
+    "slider_tilt": "slider_tilt",
+    "slider_lateral": "slider_lateral",
+    "shaking_force:x": "shaking.horizontal",
+    "shaking_force:y": "shaking.vertical",
+    "frame_force:x": "shaking.frame.horizontal",
+    "frame_force:y": "shaking.frame.vertical",
+}
+"""Curve of a run -> the quantity that is its largest absolute value."""
+
+
+@dataclass(frozen=True)
+class Curve:
+    """One scalar over time: offset + factor * (a column, or the size of a vector).
+
+    Attributes:
+        name: unique in a run.
+        group: what it belongs to, as people read it.
+        label: which of its values this is.
+        unit: SI.
+        channel: in which it is stored.
+        columns: of the channel; of several, the size of the vector is meant.
+        body: index of the body in a channel of poses.
+        offset: in SI.
+        factor: in SI.
+        peak: full name of the quantity that is its extreme; "" where there is none.
+        least: whether this extreme is the least value.
+    """
+
+    name: str
+    group: str
+    label: str
+    unit: str
+    channel: str
+    columns: tuple[int, ...] = (0,)
+    body: int | None = None
+    offset: float = 0.0
+    factor: float = 1.0
+    peak: str = ""
+    least: bool = False
+
+
+def curves_of(result: Result) -> list[Curve]:
+    """Return every curve of a run: first those of the whole mechanism, then by place."""
+    mechanism = mechanism_of(result.scene)
+    places: list[Curve] = []
+    for name in result.joints:
+        places += _joint(result, name)
+    for guide in mechanism.guides:
+        begin = guide_channel(mechanism, guide.body)
+        peaks = {"force": "peak_force", "moment": "peak_moment", "friction": "peak_friction"}
+        group = f"Guide of {_words(guide.body)}"
+        places += _beginning(result, begin, group, Place.GUIDE, guide.body, peaks)
+    for load in applied_loads(result.scene):
+        places += _beginning(result, f"load_{load}", f"Load {_words(load)}", Place.LOAD, load, {})
+    for index, body in enumerate(result.bodies):
+        places += _body(result, index, body)
+    used = {curve.channel for curve in places} | {"time", "crank_angle"}
+    rest = [name for name in sorted(result.channels) if name not in used]
+    whole = [curve for name in rest for curve in _plain(result, name, "Mechanism", "", PEAKS)]
+    return [*whole, *places]
+
+
+def _joint(result: Result, name: str) -> Iterator[Curve]:
+    """Yield what a joint does."""
+    group, joint, at = f"Joint {_words(name)}", result.joints[name], Place.JOINT.value
+    begin = f"{at}.{name}."
+    yield from _plain(
+        result, f"{name}_force", group, "force", {f"{name}_force": begin + "peak_force"}
+    )
+    apart = f"{name}_eccentricity"
+    if apart in result:
+        columns = tuple(range(result[apart].shape[1]))
+        of_size = {"channel": apart, "columns": columns, "group": group}
+        clearance = joint.clearance
+        yield Curve(
+            f"{name}:ratio",
+            label="eccentricity ratio",
+            unit="",
+            factor=1.0 / clearance,
+            peak=begin + "max_eccentricity_ratio",
+            **of_size,  # type: ignore[arg-type]
+        )
+        yield Curve(
+            f"{name}:gap",
+            label="gap (below zero: penetration)",
+            unit="m",
+            offset=clearance,
+            factor=-1.0,
+            peak=begin + "min_film",
+            least=True,
+            **of_size,  # type: ignore[arg-type]
+        )
+        yield from _plain(result, apart, group, "eccentricity", {})
+    for what, words in (("moment", "moment"), ("power", "dissipated power"), ("loss", "loss")):
+        if f"{name}_{what}" in result:
+            yield from _plain(result, f"{name}_{what}", group, words, {})
+
+
+def _beginning(
+    result: Result, begin: str, group: str, place: Place, at: str, peaks: dict[str, str]
+) -> Iterator[Curve]:
+    """Yield all channels that a guide or a load has."""
+    for name in result.channels:
+        if name.startswith(f"{begin}_"):
+            what = name.removeprefix(f"{begin}_")
+            peak = {name: f"{place.value}.{at}.{peaks[what]}"} if what in peaks else {}
+            yield from _plain(result, name, group, _words(what), peak)
+
+
+def _body(result: Result, index: int, body: str) -> Iterator[Curve]:
+    """Yield a body's pose and, of a flexible one, its stress and modes."""
+    group = f"Body {_words(body)}"
+    if f"{body}_stress" in result:
+        yield from _plain(result, f"{body}_stress", group, "stress where it is largest", {})
+    if "body_position" in result:
+        for column, (what, unit) in enumerate((("x", "m"), ("y", "m"), ("angle", "rad"))):
+            name = f"{body}:{what}"
+            yield Curve(name, group, what, unit, "body_position", (column,), body=index)
+    if f"{body}_modes" in result:
+        channel = f"{body}_modes"
+        for column in range(result[channel].shape[1]):
+            unit = result.units[channel]
+            yield Curve(
+                f"{channel}:{column}", group, f"mode {column + 1}", unit, channel, (column,)
+            )
+
+
+def _plain(
+    result: Result, name: str, group: str, label: str, peaks: dict[str, str]
+) -> Iterator[Curve]:
+    """Yield a channel's value, or a vector's size and its components."""
+    channel = result.channels[name]
+    label = label or _words(name).capitalize()
+    if channel.values.ndim == 1:
+        yield Curve(name, group, label, channel.unit, name, peak=peaks.get(name, ""))
+        return
+    count = channel.values.shape[1]
+    if channel.axis in ("plane", "space"):
+        columns, peak = tuple(range(count)), peaks.get(name, "")
+        yield Curve(name, group, label, channel.unit, name, columns, peak=peak)
+    for column, part in enumerate(AXES.get(channel.axis) or map(str, range(count))):
+        one = f"{name}:{part}"
+        words = f"{label}, {WORDS.get(part, f'on {part}')}"
+        yield Curve(one, group, words, channel.unit, name, (column,), peak=peaks.get(one, ""))
+
+
+def _words(name: str) -> str:
+    """Return a name as people read it."""
+    words = joint_in_words(name).replace(r"\$", "$")
+    return words[:1].lower() + words[1:]
+
+
+def shown_unit(unit: str, largest: float) -> tuple[str, float]:
+    """Return the unit in which a curve is shown, and the factor to it from SI.
+
+    Args:
+        unit: SI.
+        largest: absolute value, in SI.
+
+    >>> shown_unit("m", 0.47), shown_unit("m", 2e-4), shown_unit("N", 9e5), shown_unit("m/s", 1.0)
+    (('mm', 1000.0), ('µm', 1000000.0), ('kN', 0.001), ('m/s', 1.0))
+    """
+    if unit == "m":
+        return ("mm", 1e3) if largest >= 1e-3 else ("µm", 1e6)
+    if unit in ("N", "N m", "W", "J", "Pa"):
+        for prefix, factor in (("M", 1e-6), ("k", 1e-3)):
+            if largest * factor >= (5.0 if prefix == "M" else 1.0):
+                return prefix + unit, factor
+    return unit, 1.0

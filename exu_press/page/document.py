@@ -1,0 +1,83 @@
+"""What makes a part of a page live: the library, our script, data as text that no browser runs."""
+
+import base64
+import hashlib
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cache
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+__all__ = ["Live", "data_element", "has_library", "scripts", "styles"]
+
+HERE = Path(__file__).parent / "static"
+
+
+@dataclass(frozen=True)
+class Live:
+    """A part of a page with scripts.
+
+    Attributes:
+        body: HTML, with the data in it.
+        scripts: what the browser runs, in this order; nothing else does it run.
+        style: CSS.
+    """
+
+    body: str
+    scripts: Sequence[str]
+    style: str
+
+    @property
+    def policy(self) -> str:
+        """The page's content security policy: these scripts alone, and no request to anywhere."""
+        hashes = [base64.b64encode(hashlib.sha256(s.encode()).digest()) for s in self.scripts]
+        allowed = " ".join(f"'sha256-{each.decode()}'" for each in hashes)
+        return (
+            f"default-src 'none'; script-src {allowed}; style-src 'unsafe-inline'; "
+            "img-src data: blob:; font-src data:; form-action 'none'; base-uri 'none'"
+        )
+
+
+def has_library() -> bool:
+    """Return whether the extra `page` is installed."""
+    return find_spec("bokeh") is not None
+
+
+@cache
+def _library() -> str:
+    """Return BokehJS."""
+    import bokeh
+
+    path = Path(bokeh.__file__).parent / "server" / "static" / "js" / "bokeh.min.js"
+    return _inline(path.read_text(encoding="utf-8"))
+
+
+def scripts(*names: str) -> list[str]:
+    """Return the library and our own script, made of files of this package."""
+    parts = "\n".join((HERE / f"{name}.js").read_text(encoding="utf-8") for name in names)
+    return [_library(), _inline(f'"use strict";\n(() => {{\n{parts}\n}})();\n')]
+
+
+@cache
+def styles() -> str:
+    """Return the styles of live parts."""
+    return (HERE / "page.css").read_text(encoding="utf-8")
+
+
+def data_element(name: str, data: Any) -> str:
+    """Return data as an element of the page; no text in it can end the element.
+
+    >>> data_element("a", "</script>")
+    '<script type="application/json" id="a">"\\\\u003c/script>"</script>'
+    """
+    text = json.dumps(data, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
+    for letter, code in (("<", "\\u003c"), ("\u2028", "\\u2028"), ("\u2029", "\\u2029")):
+        text = text.replace(letter, code)
+    return f'<script type="application/json" id="{name}">{text}</script>'
+
+
+def _inline(script: str) -> str:
+    """Return a script that can stand inside a page."""
+    return script.replace("</script", "<\\/script").replace("<!--", "<\\!--")

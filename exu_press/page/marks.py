@@ -1,0 +1,98 @@
+"""What is marked on the curves: impacts, dead centres, peaks with their errors."""
+
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+
+from exu_press.arrays import Array
+from exu_press.page.curves import Curve
+from exu_press.quantities.contact_time import TOUCH
+from exu_press.quantities.dead_centre import bottom_dead_centres
+from exu_press.quantities.value import values_of
+from exu_press.result import Result
+from exu_press.scene import IdealJoint, mechanism_of
+
+__all__ = ["dead_centres", "impacts", "peaks", "values_on"]
+
+MOST_IMPACTS = 5000
+"""Those with the largest forces; a page with more would not open."""
+
+
+def impacts(result: Result) -> tuple[list[dict[str, Any]], int]:
+    """Return the impacts of all joints in their order, and how many more there were.
+
+    An impact begins where surfaces begin to touch and ends where they part, and has the largest
+    force in between (N); times in s.
+    """
+    found: list[dict[str, Any]] = []
+    for name in result.clearance_joints:
+        joint, described = result.joints[name], result.scene.joints[name]
+        if isinstance(described, IdealJoint) or described.onset is None:
+            continue
+        touching = described.onset - joint.gap > TOUCH
+        edges = np.flatnonzero(np.diff(touching.astype(int), prepend=0, append=0))
+        size = np.linalg.norm(joint.force, axis=1)
+        for begin, end in zip(edges[::2], edges[1::2], strict=True):
+            peak = begin + int(np.argmax(size[begin:end]))
+            found.append(
+                {
+                    "joint": name,
+                    "from": float(result.time[begin]),
+                    "to": float(result.time[min(end, len(size) - 1)]),
+                    "peak": float(result.time[peak]),
+                    "force": float(size[peak]),
+                }
+            )
+    largest = sorted(found, key=lambda impact: -impact["force"])[:MOST_IMPACTS]
+    return sorted(largest, key=lambda impact: impact["from"]), len(found) - len(largest)
+
+
+def dead_centres(result: Result) -> list[dict[str, Any]]:
+    """Return the top dead centres of the ideal slider and the run's own bottom ones, in s."""
+    ends = mechanism_of(result.scene).dead_centres
+    if ends is None or len(result.time) < 2:
+        return []
+    angle = result["crank_angle"]
+    turns = np.arange(np.ceil((angle[0] - ends[0]) / (2 * np.pi) - 1e-9), angle[-1] / 6.0 + 2)
+    tops = ends[0] + 2 * np.pi * turns
+    times = np.interp(tops[tops <= angle[-1] * (1 + 1e-12)], angle, result.time)
+    marks: list[dict[str, Any]] = [{"kind": "TDC", "at": float(time)} for time in times]
+    if {"slider_position", "slider_velocity"} <= set(result.channels):
+        marks += [{"kind": "BDC", "at": centre.time} for centre in bottom_dead_centres(result)]
+    return sorted(marks, key=lambda mark: float(mark["at"]))
+
+
+def values_on(result: Result, curve: Curve) -> Array:
+    """Return a curve's values, (n,), SI."""
+    values = result[curve.channel]
+    if curve.body is not None:
+        values = values[:, curve.body]
+    if values.ndim == 2:
+        chosen = values[:, list(curve.columns)]
+        one = len(curve.columns) == 1
+        values = chosen[:, 0] if one else np.linalg.norm(chosen, axis=1)
+    return np.asarray(curve.offset + curve.factor * values)
+
+
+def peaks(result: Result, curves: Iterable[Curve]) -> dict[str, dict[str, Any]]:
+    """Return, by curve, the peak that a quantity states, with its error and its bounds, SI."""
+    known = values_of(result)
+    found = {}
+    for curve in curves:
+        value = known.get(curve.peak)
+        if value is None or value.value is None:
+            continue
+        values = values_on(result, curve)
+        at = int(np.argmin(values) if curve.least else np.argmax(np.abs(values)))
+        sign = -1.0 if values[at] < 0.0 <= value.value else 1.0
+        found[curve.name] = {
+            "at": float(result.time[at]),
+            "value": sign * float(value.value),
+            "low": None if value.low is None else sign * float(value.low),
+            "high": None if value.high is None else sign * float(value.high),
+            "error": value.error,
+            "determined": value.determined,
+            "quantity": value.name,
+        }
+    return found

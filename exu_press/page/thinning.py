@@ -1,0 +1,79 @@
+"""A long run in a page: the least and the largest value of every few steps, so no peak is lost."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exu_press.arrays import Array
+
+__all__ = ["MOST_VALUES", "Thinning", "thinning"]
+
+MOST_VALUES = 5_000_000
+"""Of a page; they take 3 bytes each."""
+
+
+@dataclass(frozen=True)
+class Thinning:
+    """Which instants a page has of a run.
+
+    Attributes:
+        count: steps of the run.
+        every: so many steps become two values; 1: all of them are kept.
+    """
+
+    count: int
+    every: int
+
+    @property
+    def kept(self) -> NDArray[np.intp]:
+        """Steps at whose instants the page has values: the first and the middle of every block."""
+        if self.every == 1:
+            return np.arange(self.count)
+        first = np.arange(0, self.count, self.every)
+        middle = first + self.every // 2
+        middle[-1] = self.count - 1
+        return np.column_stack([first, middle]).ravel()
+
+    def extremes(self, values: Array) -> Array:
+        """Return the least and the largest values of blocks, in their order, from (n,) or (n, k).
+
+        They stand at the instants of `kept`, less than a block from where they were.
+        """
+        if self.every == 1:
+            return values
+        blocks = -(-self.count // self.every)
+        missing = blocks * self.every - self.count
+        padded = np.concatenate([values, np.repeat(values[-1:], missing, axis=0)])
+        padded = padded.reshape(blocks, self.every, -1)
+        both = np.sort(np.stack([padded.argmin(axis=1), padded.argmax(axis=1)], axis=1), axis=1)
+        found = np.take_along_axis(padded, both, axis=1)
+        return np.asarray(found.reshape(2 * blocks, *values.shape[1:]))
+
+    def vectors(self, values: Array) -> Array:
+        """Return the shortest and the longest vectors (m, k) of blocks, in their order."""
+        if self.every == 1:
+            return values
+        size = np.linalg.norm(values, axis=1)
+        blocks = -(-self.count // self.every)
+        padded = np.full(blocks * self.every, size[-1])
+        padded[: self.count] = size
+        table = padded.reshape(blocks, self.every)
+        both = np.sort(np.column_stack([table.argmin(axis=1), table.argmax(axis=1)]), axis=1)
+        steps = both + self.every * np.arange(blocks)[:, None]
+        return np.asarray(values[np.minimum(steps.ravel(), self.count - 1)])
+
+
+def thinning(counts: list[int], widths: list[int], most: int = MOST_VALUES) -> list[Thinning]:
+    """Return how runs are thinned for one page: each gets the same room.
+
+    Args:
+        counts: steps of the runs.
+        widths: values of each a step.
+        most: values of all.
+    """
+    room = most / len(counts)
+    return [
+        Thinning(count, 1 if count * width <= room else int(np.ceil(2.0 * count * width / room)))
+        for count, width in zip(counts, widths, strict=True)
+    ]

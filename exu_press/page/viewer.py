@@ -1,0 +1,203 @@
+"""The live part of the page of runs: their curves over each other, the mechanism in motion."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from exu_press.arrays import Array
+from exu_press.page.blocks import Blocks
+from exu_press.page.curves import Curve, curves_of, shown_unit
+from exu_press.page.document import Live, data_element, scripts, styles
+from exu_press.page.marks import dead_centres, impacts, peaks, values_on
+from exu_press.page.scenery import scenery
+from exu_press.page.surfaces import surfaces
+from exu_press.page.thinning import Thinning, thinning
+from exu_press.plots.busiest import busiest
+from exu_press.plots.style import colour_of
+from exu_press.plots.typesetting import typeset
+from exu_press.result import Result
+from exu_press.result.channel import Channel
+
+__all__ = ["viewer"]
+
+FIRST = ("slider_position", "slider_velocity", "slider_acceleration")
+"""Curves that are shown at first, and the force in the busiest joint below them."""
+
+
+def viewer(results: Mapping[str, Result]) -> Live:
+    """Return the live part for one run, or for several by label."""
+    from bokeh.document import Document
+
+    from exu_press.page.figures import curve_panels
+
+    blocks = Blocks()
+    curves = {label: curves_of(result) for label, result in results.items()}
+    thinned = thinning(
+        [len(result.time) for result in results.values()],
+        [sum(result[name][0].size for name in result) for result in results.values()],
+    )
+    runs = [
+        _run(result, label, colour_of(index), curves[label], thinned[index], blocks)
+        for index, (label, result) in enumerate(results.items())
+    ]
+    panels = curve_panels([run["colour"] for run in runs])
+    document = Document()
+    for panel in panels:
+        document.add_root(panel)
+    data = {
+        "runs": runs,
+        "groups": _groups(results, curves),
+        "first": _first(results, curves),
+        "documents": {"page": document.to_json(deferred=False)},
+        "roots": [panel.id for panel in panels],
+        "names": [panel.name for panel in panels],
+    }
+    body = "\n".join([LAYOUT, blocks.html(), data_element("page-data", data)])
+    return Live(
+        body, scripts("data", "thin", "curves", "mechanism", "joint", "surface", "player"), styles()
+    )
+
+
+def _run(
+    result: Result,
+    label: str,
+    colour: str,
+    curves: list[Curve],
+    thinned: Thinning,
+    blocks: Blocks,
+) -> dict[str, Any]:
+    """Return what the page knows of a run."""
+    kept = thinned.kept
+    stored: dict[str, Any] = {}
+    for channel in dict.fromkeys(curve.channel for curve in curves):
+        stored[channel] = blocks.add(_columns(result.channels[channel], thinned))
+    marked, more = impacts(result)
+    return {
+        "label": label,
+        "colour": colour,
+        "count": thinned.count,
+        "every": thinned.every,
+        "time": blocks.add(result.time[kept], "f8"),
+        "angle": blocks.add(np.degrees(result["crank_angle"][kept]), "f8"),
+        "channels": stored,
+        "curves": {curve.name: _recipe(result, curve, thinned) for curve in curves},
+        "peaks": peaks(result, curves),
+        "impacts": marked,
+        "unmarked": more,
+        "ends": dead_centres(result),
+        "horizon": result.info.get("horizon"),
+        "settled": 60.0 / result.scene.speed_rpm * result.scene.settled,
+        "scenery": scenery(result),
+        "surfaces": surfaces(result, blocks),
+    }
+
+
+def _columns(channel: Channel, thinned: Thinning) -> Array:
+    """Return a channel as the page has it, (m, k).
+
+    Of a thinned vector, its values at some instants come first, and its components' extremes after
+    them: together at no instant, but with every peak.
+    """
+    flat = channel.values.reshape(len(channel.values), -1)
+    if thinned.every == 1:
+        return flat
+    if channel.axis == "":
+        return thinned.extremes(flat)
+    together = flat[thinned.kept] if channel.axis == "pose" else thinned.vectors(flat)
+    return np.concatenate([together, thinned.extremes(flat)], axis=1)
+
+
+def _recipe(result: Result, curve: Curve, thinned: Thinning) -> dict[str, Any]:
+    """Return how the script makes a curve of a stored channel."""
+    channel = result.channels[curve.channel]
+    first = 3 * (curve.body or 0)
+    if thinned.every > 1 and channel.axis != "" and len(curve.columns) == 1:
+        first += channel.values[0].size  # the component's own extremes
+    return {
+        "channel": curve.channel,
+        "columns": [column + first for column in curve.columns],
+        "offset": curve.offset,
+        "factor": curve.factor,
+    }
+
+
+def _groups(
+    results: Mapping[str, Result], curves: Mapping[str, list[Curve]]
+) -> list[dict[str, Any]]:
+    """Return the curves that any of the runs has, by what they belong to, with their units."""
+    found: dict[str, dict[str, Any]] = {}
+    for label, result in results.items():
+        for curve in curves[label]:
+            entry = {"name": curve.name, "group": curve.group, "label": curve.label}
+            one = found.setdefault(curve.name, {**entry, "si": curve.unit, "largest": 0.0})
+            values = values_on(result, curve)
+            one["largest"] = max(one["largest"], float(np.abs(values).max()))
+    groups: dict[str, list[dict[str, Any]]] = {}
+    for one in found.values():
+        unit, factor = shown_unit(one.pop("si"), one.pop("largest"))
+        one |= {"unit": typeset(unit), "factor": factor, "label": typeset(one["label"])}
+        groups.setdefault(one.pop("group"), []).append(one)
+    return [{"label": group, "curves": members} for group, members in groups.items()]
+
+
+def _first(results: Mapping[str, Result], curves: Mapping[str, list[Curve]]) -> list[str]:
+    """Return the curves that are shown at first."""
+    richest = max(results.values(), key=lambda result: len(result.clearance_joints))
+    names = richest.clearance_joints or tuple(richest.joints)
+    drawn, _ = busiest([richest], sorted(names), "force", 1)
+    known = {curve.name for some in curves.values() for curve in some}
+    wanted = [*FIRST, *(f"{name}_force" for name in drawn)]
+    return [name for name in wanted if name in known] or sorted(known)[:1]
+
+
+LAYOUT = """
+<div id="viewer" class="live" hidden>
+<div class="bar" role="toolbar" aria-label="playback">
+<button type="button" id="play" aria-keyshortcuts="Space">Play</button>
+<label>shown range in <select id="speed">
+<option value="2.5">2.5 s</option><option value="5">5 s</option>
+<option value="10" selected>10 s</option><option value="30">30 s</option>
+<option value="120">2 min</option></select></label>
+<input type="range" id="slider" min="0" max="1000" step="any" aria-label="time">
+<output id="clock" for="slider"></output>
+</div>
+<div class="bar" role="toolbar" aria-label="what is shown">
+<button type="button" id="previous" aria-keyshortcuts="p">&#9664; impact</button>
+<button type="button" id="next" aria-keyshortcuts="n">next impact &#9654;</button>
+<button type="button" id="in" aria-label="zoom in" aria-keyshortcuts="+">+</button>
+<button type="button" id="out" aria-label="zoom out" aria-keyshortcuts="-">&minus;</button>
+<button type="button" id="left" aria-label="earlier">&#8592;</button>
+<button type="button" id="right" aria-label="later">&#8594;</button>
+<button type="button" id="whole" aria-keyshortcuts="0">whole run</button>
+<label>axis <select id="axis"><option value="time">time, ms</option>
+<option value="angle">crank angle, deg</option></select></label>
+<label>drag <select id="drag"><option value="zoom">zooms</option>
+<option value="pan">moves</option></select></label>
+<label id="run-choice">mechanism of <select id="run"></select></label>
+<label><input type="checkbox" id="forces" checked> forces</label>
+</div>
+<p id="mark" class="told" role="status" aria-live="polite"></p>
+<div class="stage">
+<div class="moving">
+<svg id="mechanism" role="img" aria-label="the mechanism at the pointer's instant"></svg>
+<div id="joints"></div>
+<div id="surfaces" hidden></div>
+</div>
+<div class="curves">
+<div id="legend"></div>
+<div id="panels"></div>
+<div class="panel" id="strip"></div>
+<div class="bar"><button type="button" id="more">more curves</button>
+<button type="button" id="less">fewer</button>
+<span class="told">Drag across a curve, or turn the wheel with the control key, to zoom; a double
+click shows the whole run.</span></div>
+</div>
+</div>
+<p id="thinned" class="told"></p>
+<details><summary>Keys</summary><p>Space plays and pauses. The arrow keys go from step to step,
+page up and page down by ten. n and p go to the next and the previous impact, + and &minus; zoom,
+0 shows the whole run.</p></details>
+</div>
+<p id="failed" class="warnings" role="alert" hidden></p>
+"""

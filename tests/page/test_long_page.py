@@ -1,0 +1,56 @@
+"""A long run: small enough, quick to open, without a lost peak."""
+
+from time import perf_counter
+
+import numpy as np
+import pytest
+from browser import opened
+
+from exu_press.page.thinning import Thinning
+from exu_press.report.html import page
+
+pytest.importorskip("bokeh")
+
+from exu_press.page.viewer import viewer
+
+
+def repeated(result, times):
+    """Return a run that does the same so many times."""
+    span, turn = result.time[-1], result["crank_angle"][-1]
+    values = {}
+    for name in result:
+        add = {"time": span, "crank_angle": turn}.get(name, 0.0)
+        parts = [result[name][1:] + k * add for k in range(times)]
+        values[name] = np.concatenate([result[name][:1], *parts])
+    return result.with_values(values)
+
+
+def test_a_hundred_revolutions_open_within_five_seconds(press, tmp_path, browser):
+    run = repeated(press, 50)
+    assert len(run.time) > 200_000
+    live = viewer({"": run})
+    page_file = tmp_path / "page.html"
+    page_file.write_text(page("long", "", [("In motion", live.body)], live), encoding="utf-8")
+    begun = perf_counter()
+    with opened(browser, page_file) as shown:
+        assert perf_counter() - begun < 5.0
+        drawn = np.array(
+            shown.evaluate("Array.from(Bokeh.documents[0].get_model_by_name('curve-2-0').data.y)")
+        )
+        assert drawn.max() == pytest.approx(run["slider_acceleration"].max(), rel=1e-6)
+        assert drawn.min() == pytest.approx(run["slider_acceleration"].min(), rel=1e-6)
+        assert "no peak is lost" in shown.inner_text("#thinned")
+
+
+def test_thinning_keeps_extremes_and_vectors():
+    rng = np.random.default_rng(0)
+    thinned = Thinning(1003, 10)
+    values, vectors = rng.normal(size=1003), rng.normal(size=(1003, 2))
+    found = thinned.extremes(values)
+    assert len(found) == len(thinned.kept) == 202
+    for block in range(101):
+        part = values[10 * block : 10 * block + 10]
+        assert set(found[2 * block : 2 * block + 2]) == {part.min(), part.max()}
+    size = np.linalg.norm(vectors, axis=1)
+    assert np.linalg.norm(thinned.vectors(vectors), axis=1).max() == size.max()
+    assert (np.diff(thinned.kept) >= 0).all() and thinned.kept[-1] == 1002

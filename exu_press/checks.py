@@ -1,7 +1,9 @@
 """How a key of the scene states what it allows, and its validation."""
 
+import copy
 import dataclasses
 import difflib
+import itertools
 import math
 import numbers
 import types
@@ -11,9 +13,11 @@ from typing import Any, ClassVar, Self, TypeVar
 
 from exu_press.errors import InputError
 
-__all__ = ["RENAMED", "Table", "key", "nearest", "table_from", "table_with"]
+__all__ = ["RENAMED", "Table", "Uses", "given_in", "key", "nearest", "table_from", "table_with"]
 
 T = TypeVar("T")
+
+Uses = Mapping[str, Mapping[Any, tuple[str, ...]]]
 
 RENAMED = {
     "crank_pin": "joints.crank_pin",
@@ -90,6 +94,9 @@ class Table:
 
     table: ClassVar[str] = ""
 
+    uses: ClassVar[Uses] = {}
+    """Key that is a choice -> what is chosen -> the keys that only some choices use."""
+
     def __new__(cls, *values: Any, **keys: Any) -> Self:
         """Remember which keys are given, so that a default gives way to a mechanism's own."""
         made = super().__new__(cls)
@@ -101,7 +108,31 @@ class Table:
     def given(self) -> dict[str, Any]:
         """The keys that were given, and what they are."""
         names: frozenset[str] = self._given  # type: ignore[attr-defined]
-        return {f.name: getattr(self, f.name) for f in dataclasses.fields(self) if f.name in names}
+        values = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
+        return {name: v for name, v in values.items() if name in names and v is not None}
+
+    def unused(self, **instead: str) -> dict[str, str]:
+        """Return the keys that this table does not use -> the reason.
+
+        Args:
+            instead: other choices than the table's own.
+        """
+        found = {}
+        for choice, by_chosen in self.uses.items():
+            chosen = instead.get(choice, getattr(self, choice))
+            used = by_chosen[chosen]
+            for key in itertools.chain(*by_chosen.values()):
+                if key not in used:
+                    shown = str(chosen).lower() if isinstance(chosen, bool) else repr(chosen)
+                    found[key] = f"{self.table}.{choice} is {shown}"
+        return found
+
+    def without(self, unused: Iterable[str]) -> Self:
+        """Return the table with None for keys that are not used."""
+        other = copy.copy(self)
+        for name in unused:
+            object.__setattr__(other, name, None)
+        return other
 
     def __post_init__(self) -> None:
         """Check every key; raise InputError for the first one that is not allowed."""
@@ -191,6 +222,12 @@ def table_with(table: type[T], name: str, data: Any, usual: Mapping[str, Any]) -
     if isinstance(data, table):
         data = typing.cast(Table, data).given
     return table_from(table, name, {**usual, **data} if isinstance(data, Mapping) else data)
+
+
+def given_in(table: Any) -> dict[str, Any]:
+    """Return the keys that a table gives, as a mapping or as its dataclass; none of None."""
+    keys = table.given if isinstance(table, Table) else table or {}
+    return dict(keys) if isinstance(keys, Mapping) else {}
 
 
 def nearest(name: Any, known: Iterable[str]) -> str:

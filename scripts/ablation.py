@@ -19,7 +19,7 @@ import exudyn.utilities as items
 import numpy as np
 
 from exu_press import Scene, Status, Tuning, solve_dynamic
-from exu_press.mechanism.press import TABLE_2
+from exu_press.mechanism.press import PAPER_LAWS
 from exu_press.scene import flexible_press
 
 GRID = 4000  # instants at which runs are compared
@@ -119,8 +119,8 @@ SYSTEMS: dict[str, Callable] = {
         mechanism="slider_crank",
         joints={"crank_pin": "dry"},
         revolutions=0.15,
-        contact=TABLE_2["contact"],
-        friction=TABLE_2["friction"],
+        contact=PAPER_LAWS["contact"],
+        friction=PAPER_LAWS["friction"],
     ),
     "four-bar lubricated": partial(
         scene,

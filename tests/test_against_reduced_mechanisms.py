@@ -17,13 +17,13 @@ from independent.symmetric_press import SymmetricPress
 from scipy.interpolate import CubicHermiteSpline
 
 from exu_press import Scene, simulate
-from exu_press.mechanism.press import TABLE_2
+from exu_press.mechanism.press import PAPER_LAWS
 
 KINDS = {"pinkus": "lubricated", "lugre_steady": "dry"}
 SMALL = {"radius": 0.02, "clearance": 2e-5}
 LIGHT = {"stiffness": 1e9, "damping_max": 1e4}
 OIL = {"law": "pinkus", "viscosity": 0.1, "length": 0.02}
-DRY = {name: TABLE_2[name] for name in ("contact", "friction")}
+DRY = PAPER_LAWS
 PAPERS = {"film": {"law": "pinkus"}}
 
 

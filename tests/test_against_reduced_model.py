@@ -10,7 +10,7 @@ import pytest
 from independent.reduced_slider_crank import Numbers, ReducedSliderCrank
 
 from exu_press import Scene, simulate
-from exu_press.mechanism.press import TABLE_2
+from exu_press.mechanism.press import PAPER_LAWS
 
 REVOLUTION = 0.25
 INSTANTS = np.linspace(0.0, REVOLUTION, 26)
@@ -38,8 +38,10 @@ def exudyn(pin: str, step: float, friction: tuple[tuple[str, float], ...] = ()) 
     law = {"film": {"law": pin}} if lubricated else {"friction": {"law": pin, **dict(friction)}}
     if not lubricated:
         law = {
-            "contact": TABLE_2["contact"],
-            "friction": {**TABLE_2["friction"], **law.get("friction", {})},
+            "contact": PAPER_LAWS["contact"],
+            "friction": law["friction"]
+            if pin == "none"
+            else {**PAPER_LAWS["friction"], **law["friction"]},
         }
     scene = Scene.from_dict(
         {

@@ -47,7 +47,12 @@ class SceneKeys(Directive):
             rows = [("key", "default", "meaning", "allowed")]
             usual = _usual(name, kind)
             rows += [
-                (key.name, _default(getattr(usual, key.name)), _meaning(key), _allowed(key))
+                (
+                    key.name,
+                    _default(getattr(usual, key.name)),
+                    _meaning(key) + _used_with(kind, key.name),
+                    _allowed(key),
+                )
                 for key in keys
             ]
             section += table_of(rows)
@@ -141,6 +146,16 @@ def _default(value: Any) -> str:
     if isinstance(value, bool):
         return str(value).lower()
     return f"{value:g}" if isinstance(value, float) and float(f"{value:g}") == value else str(value)
+
+
+def _used_with(kind: Any, name: str) -> str:
+    """Return in words which choices of its table use a key, or nothing."""
+    told = []
+    for choice, by_chosen in getattr(kind, "uses", {}).items():
+        users = [chosen for chosen, used in by_chosen.items() if name in used]
+        if users and len(users) < len(by_chosen):
+            told.append(f"{choice} = {' or '.join(_default(user) for user in users)}")
+    return f" (with {'; '.join(told)})" if told else ""
 
 
 def _meaning(key: Any) -> str:

@@ -5,44 +5,54 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, ClassVar
 
-from exu_press.checks import Table, key
+from exu_press.checks import Table, Uses, key
 from exu_press.errors import InputError
 from exu_press.mechanism.draw import meet, middle, onto
 from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.parts import GROUND, Body, Guide, Joint, Output, Point, steel_cube
 
-__all__ = ["TABLE_2", "Press", "press"]
+__all__ = ["PAPER_LAWS", "TABLE_2", "Press", "press"]
+
+PAPER_LAWS: dict[str, dict[str, Any]] = {
+    "contact": {
+        "shape": "point",
+        "stiffness": 2.5545e10,
+        "exponent": 1.5,
+        "damping": "step",
+        "damping_max": 2.5545e8,
+        "damping_depth": 1e-5,
+    },
+    "friction": {
+        "law": "lugre_steady",
+        "mu_static": 0.01,
+        "mu_kinetic": 0.01,
+        "stribeck_velocity": 0.0176,  # 1 % of 0.07 m times 240 rpm
+    },
+}
+"""The paper's dry joints: the laws that it chooses, with their keys."""
 
 TABLE_2: dict[str, Any] = {
     "start": "centred",
     "clearance": 1e-4,
     "radius": 0.07,
     "joints": {"crank_pin": "lubricated", "balls": "dry"},
-    "contact": {
-        "shape": "point",
-        "stiffness": 2.5545e10,
-        "exponent": 1.5,
-        "modulus": 1.1538e11,
-        "length": 0.1,
-        "damping": "step",
-        "damping_max": 2.5545e8,
-        "damping_depth": 1e-5,
-        "restitution": 0.5,
-    },
-    "friction": {
-        "law": "lugre_steady",
-        "mu_static": 0.01,
-        "mu_kinetic": 0.01,
-        "sigma_0": 1e5,
-        "sigma_1": 400.0,
-        "stribeck_velocity": 0.0176,  # 1 % of 0.07 m times 240 rpm
-    },
+    "contact": {**PAPER_LAWS["contact"], "modulus": 1.1538e11, "length": 0.1, "restitution": 0.5},
+    "friction": {**PAPER_LAWS["friction"], "sigma_0": 1e5, "sigma_1": 400.0},
     "film": {"viscosity": 0.4, "length": 0.1},
     "settle": 0.0,  # the paper reads all of a run
 }
-"""The paper's joints: Table 2 and A-11, A-12. They are this press's alone."""
+"""The paper's joints: Table 2, A-11, A-12, and what other laws take; this press's alone."""
 
 SIDES = {"right": 1, "left": -1}
+
+
+OF_THE_COUNTERWEIGHT = (
+    "counter_eccentricity",
+    "counter_linkage_length",
+    "counter_linkage_mass",
+    "counterweight_mass",
+    "counterweight_inertia",
+)
 
 
 @dataclass(frozen=True)
@@ -50,6 +60,8 @@ class Press(Table):
     """Lengths and masses of the press (Table 2); links 5-8 per side (A-7)."""
 
     table: ClassVar[str] = "press"
+    uses: ClassVar[Uses] = {"counterweight": {True: OF_THE_COUNTERWEIGHT, False: ()}}
+
     crank_radius: float = key(0.03, "eccentricity of the crank pin (2)", "m", above=0)
     linkage_length: float = key(0.383, "linkage (3)", "m", above=0)
     link_5_length: float = key(0.23, "slide (4) to knuckle", "m", above=0)

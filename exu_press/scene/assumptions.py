@@ -14,8 +14,7 @@ from exu_press.checks import Table
 from exu_press.mechanism import Mechanism
 from exu_press.scene.joint import LAW_TABLES, SIZES, Joint
 from exu_press.scene.scene import STARTS, Scene, mechanism_of
-from exu_press.scene.tables import Contact, Friction
-from exu_press.scene.usage import TABLES, unused_keys
+from exu_press.scene.usage import TABLES
 
 __all__ = [
     "ASSUMPTIONS",
@@ -167,21 +166,7 @@ def _named(key: str, assumption: Assumption) -> bool:
 
 def engineering_values(scene: Scene) -> list[Key]:
     """Return the defaults that decide results and are neither the scene's nor its mechanism's."""
-    unread = set()
-    for name, given in (("contact", scene.contact), ("friction", scene.friction)):
-        unread |= {f"{name}.{key}" for key in _unread(given)}
-    keys = keys_of(scene).values()
-    return [key for key in keys if key.source and key.assumed and key.name not in unread]
-
-
-def _unread(table: Table | None) -> tuple[str, ...]:
-    """Return the keys with a source that the chosen laws do not read."""
-    if isinstance(table, Contact):
-        return ("restitution",) if table.damping == "step" else ()
-    if isinstance(table, Friction):
-        without = {"none": ("mu_static", "mu_kinetic"), "coulomb": ("mu_static",)}
-        return without.get(table.law, ())
-    return ()
+    return [key for key in keys_of(scene).values() if key.source and key.assumed]
 
 
 def assumed(scene: Scene) -> list[str]:
@@ -264,7 +249,6 @@ def _keys_in(place: str, table: Table, defaults: Mapping[str, Any]) -> dict[str,
 def _flat(scene: Scene) -> Iterator[tuple[str, tuple[Any, dataclasses.Field[Any]]]]:
     """Yield the name of every key in use with its value and declaration."""
     used = scene.to_dict()
-    unused = unused_keys(used)
     for field in dataclasses.fields(scene):
         if field.name not in TABLES:
             if field.name in used and field.name not in ("joints", "bodies", "load"):
@@ -273,7 +257,7 @@ def _flat(scene: Scene) -> Iterator[tuple[str, tuple[Any, dataclasses.Field[Any]
         table = getattr(scene, field.name)
         for inner in dataclasses.fields(table) if table is not None else ():
             name = f"{field.name}.{inner.name}"
-            if inner.name in used[field.name] and name not in unused:
+            if inner.name in used[field.name]:
                 yield name, (getattr(table, inner.name), inner)
 
 

@@ -3,20 +3,20 @@
 from collections.abc import Mapping
 from typing import Any
 
-from exu_press.checks import RENAMED
+from exu_press.checks import RENAMED, given_in
 from exu_press.errors import InputError
 from exu_press.scene.bodies import changed_bodies
-from exu_press.scene.joint_changes import changed_joints, kinds_of, unused_laws
+from exu_press.scene.joint_changes import changed_joints
 from exu_press.scene.loads import changed_loads
-from exu_press.scene.usage import TABLES, unused_keys
+from exu_press.scene.usage import TABLES
 
-__all__ = ["changed_keys"]
+__all__ = ["changed_keys", "drop", "named"]
 
 
 def changed_keys(
     scene: Mapping[str, Any], groups: Mapping[str, tuple[str, ...]], changes: Mapping[str, Any]
 ) -> dict[str, Any]:
-    """Return a scene's keys with other values; what is no longer used, and not named, is dropped.
+    """Return a scene's keys with other values.
 
     Args:
         scene: as `Scene.to_dict` has it; its tables may be changed.
@@ -46,17 +46,48 @@ def changed_keys(
     if loads:
         data["load"] = changed_loads(data.get("load", {}), loads)
     if "joints" not in changes:
-        data["joints"] = changed_joints(data["joints"], groups, joints, data.get("film"))
+        data["joints"] = changed_joints(data["joints"], groups, joints)
     elif joints:
         raise InputError("joints and a key of joints: allowed is one of the two in one change")
     for kept, dropped in (("step", "tolerance"), ("tolerance", "step")):
         if f"solver.{kept}" in changes and f"solver.{dropped}" not in changes:
             data["solver"].pop(dropped, None)
-    unused = unused_keys(data) | unused_laws(kinds_of(data["joints"], data.get("film")))
-    for name in unused.keys() - changes.keys():
-        table, _, key = name.rpartition(".")
-        place = data.get(table) if table else data
-        named = any(changed.startswith(f"{name}.") for changed in changes)
-        if isinstance(place, dict) and not named:
-            place.pop(key, None)
     return data
+
+
+def named(name: str, groups: Mapping[str, tuple[str, ...]], changes: Mapping[str, Any]) -> bool:
+    """Return whether changes give a key or a table, or a key of it, themselves.
+
+    Args:
+        name: dotted, of one joint where it is a joint's.
+        groups: names for several joints at once -> these joints.
+        changes: dotted name -> value; a table may be given whole.
+    """
+    for changed, value in changes.items():
+        first, _, rest = changed.partition(".")
+        joint, _, inner = rest.partition(".")
+        for member in groups.get(joint, (joint,)) if first == "joints" and rest else ("",):
+            parts = ["joints", member, *([inner] if inner else [])] if member else [changed]
+            place = ".".join(parts)
+            if name == place or place.startswith(f"{name}."):
+                return True
+            if name.startswith(f"{place}.") and _has(value, name.removeprefix(f"{place}.")):
+                return True
+    return False
+
+
+def drop(data: dict[str, Any], name: str) -> None:
+    """Take a key or a table out of nested mappings; the mappings of `data` are not changed."""
+    first, _, rest = name.partition(".")
+    if not rest:
+        data.pop(first, None)
+        return
+    data[first] = given_in(data[first])
+    drop(data[first], rest)
+
+
+def _has(value: Any, name: str) -> bool:
+    """Return whether a table that is given has a key."""
+    first, _, rest = name.partition(".")
+    keys = given_in(value)
+    return first in keys and (not rest or _has(keys[first], rest))

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from exu_press.errors import InputError
-from exu_press.scene.joint import LAW_TABLES, keys_used
+from exu_press.scene.joint import keys_used
 from exu_press.scene.joints import keys_given
 from exu_press.scene.tables import Film
 
@@ -41,39 +41,28 @@ def changed_joints(
     joints: Mapping[str, Mapping[str, Any]],
     groups: Mapping[str, tuple[str, ...]],
     changes: Mapping[str, Any],
-    film: Any,
 ) -> dict[str, dict[str, Any]]:
-    """Return joints with other kinds or keys; what a joint no longer uses is dropped.
+    """Return joints with other kinds or keys.
 
     Args:
         joints: as `Joints.to_dict` has them.
         groups: names for several joints at once -> these joints.
-        changes: "NAME" -> a kind, or all keys; "NAME.key" or "NAME.law.key" -> a value. What they
-            name themselves is not dropped.
-        film: the scene's own, after the change.
+        changes: "NAME" -> a kind, or all keys; "NAME.key" or "NAME.law.key" -> a value.
     """
     changed = {name: dict(keys) for name, keys in joints.items()}
-    named = set()
     for path, value in changes.items():
         name, _, inner = path.partition(".")
         key, _, last = inner.partition(".")
         for member in groups.get(name, (name,)):
             keys = changed.setdefault(member, {})
-            named.add((member, key))
             if not inner and not isinstance(value, str):
                 changed[member] = keys_given(name, value)
-                named |= {(member, given) for given in changed[member]}
             elif not last:
                 keys[key or "kind"] = value
             elif isinstance(keys.setdefault(key, {}), dict):
                 keys[key] = {**keys[key], last: value}
             else:
                 raise InputError(f"joints.{path} = {value!r}: {key} is no table of a joint")
-    for name, keys in changed.items():
-        ((kind, at_contact),) = kinds_of({name: keys}, film)
-        for key in keys.keys() - {"kind", *keys_used(kind, at_contact)}:
-            if (name, key) not in named and key in ("clearance", "radius", *LAW_TABLES):
-                del keys[key]
     return changed
 
 

@@ -4,8 +4,8 @@ import dataclasses
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
-from exu_press.checks import Table, nearest, table_with
-from exu_press.errors import InputError
+from exu_press.checks import Table, given_in, nearest, table_with
+from exu_press.errors import InputError, UnusedKeyError
 from exu_press.scene.joint import (
     JOINT_KINDS,
     LAW_TABLES,
@@ -18,7 +18,7 @@ from exu_press.scene.joint import (
     refuse_missing,
 )
 from exu_press.scene.laws import contact_law, film_law, friction_law
-from exu_press.scene.tables import Film
+from exu_press.scene.tables import Contact, Film
 
 __all__ = ["Joints", "joints_of", "keys_given"]
 
@@ -109,6 +109,18 @@ class Joints(Mapping[str, Joint]):
         """
         return {name: joint_dict(joint, laws) for name, joint in self.with_clearance.items()}
 
+    def unused_by_all(self, law: str, names: Iterable[str]) -> dict[str, str]:
+        """Return the keys of a law that none of these joints uses, if it has it -> the reason."""
+        unused = [
+            unused_in(table, spherical=name in self.spherical)
+            for name in names
+            if (table := getattr(self._joints[name], law, None)) is not None
+        ]
+        common = set.intersection(*map(set, unused)) if unused else set()
+        return {
+            key: reason for key, reason in (unused[0] if unused else {}).items() if key in common
+        }
+
     def members(self, name: str) -> tuple[str, ...]:
         """Return the joints that a joint's or a group's name stands for."""
         return self.groups.get(name, (name,))
@@ -161,7 +173,15 @@ def joints_of(
     for joint, ball in spherical.items():
         shown = joint if joint in given else by_group.get(joint, joint)
         found[joint] = _joint(shown, own.get(joint, {"kind": "ideal"}), laws, sizes, spherical=ball)
-    return Joints(found, mechanism, groups, [name for name, ball in spherical.items() if ball])
+    joints = Joints(found, mechanism, groups, [name for name, ball in spherical.items() if ball])
+    for name, value in given.items():
+        for law in LAW_TABLES:
+            idle = joints.unused_by_all(law, joints.members(name))
+            for key, each in given_in(keys_given(name, value).get(law)).items():
+                if key in idle:
+                    place = f"joints.{name}.{law}.{key}"
+                    raise UnusedKeyError(place, f"{place} = {each!r}", idle[key])
+    return joints
 
 
 def keys_given(name: str, given: Any) -> dict[str, Any]:
@@ -208,7 +228,9 @@ def _joint(
     for unused in [key for key in given if key not in ("kind", *used)]:
         mixed = kind == "lubricated" and unused in ("contact", "friction")
         reason = "film.at_contact is 'stop'" if mixed else f"{place} is {kind!r}"
-        raise InputError(f"{place}.{unused}: not used by this scene ({reason}); remove it")
+        raise UnusedKeyError(f"{place}.{unused}", f"{place}.{unused}", reason)
+    for law, table in own.items():
+        own[law] = table.without(unused_in(table, spherical=spherical))
     values: dict[str, Any] = {**sizes, **given, **own}
     chosen: type[Any] = JOINT_KINDS[kind]
     try:
@@ -218,6 +240,12 @@ def _joint(
     refuse_missing(place, joint, revolute=not spherical)
     _check_laws(place, joint, spherical)
     return joint
+
+
+def unused_in(law: Table, *, spherical: bool) -> dict[str, str]:
+    """Return the keys of a joint's law that it does not use -> the reason."""
+    ball = {"shape": "point"} if spherical and isinstance(law, Contact) else {}
+    return law.unused(**ball)
 
 
 def _law(place: str, law: str, given: Any, usual: Table) -> Table:

@@ -78,7 +78,7 @@ def ways_contact_law(table: ElasticGuide, end: Spring) -> NormalContact:
 def ways_friction_law(table: ElasticGuide) -> FrictionLaw | LuGre:
     """Return the friction law of the ways; what [guide] does not say is as in [friction]."""
     keys = ("mu_static", "mu_kinetic", "stribeck_velocity", "regularisation_velocity")
-    given = {key: getattr(table, key) for key in keys}
+    given = {key: each for key in keys if (each := getattr(table, key)) is not None}
     return friction_law(Friction(law=table.friction, **given))
 
 

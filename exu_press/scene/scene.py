@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any, ClassVar, cast
 
 from exu_press.above import WORKERS
-from exu_press.checks import Table, key, table_from, table_with
-from exu_press.errors import InputError
+from exu_press.checks import Table, given_in, key, table_from, table_with
+from exu_press.errors import InputError, UnusedKeyError
 from exu_press.mechanism import (
     SHIPPED,
     Mechanism,
@@ -22,7 +22,7 @@ from exu_press.mechanism import (
     slider_crank,
 )
 from exu_press.scene.bodies import DRIVE_FACE, GUIDE_FACE, Flexible, bodies_of, body_dict
-from exu_press.scene.changes import changed_keys
+from exu_press.scene.changes import changed_keys, drop, named
 from exu_press.scene.elastic import with_elastic_guides
 from exu_press.scene.joint import LAW_TABLES, SIZES, joint_dict
 from exu_press.scene.joint_changes import by_group, kinds_of, unused_laws
@@ -31,7 +31,7 @@ from exu_press.scene.load import Load
 from exu_press.scene.loads import load_dict, loads_of
 from exu_press.scene.save import save_scene
 from exu_press.scene.tables import RPM, Contact, ElasticGuide, Film, Friction, Motor, Solver
-from exu_press.scene.usage import TABLES, unused_keys
+from exu_press.scene.usage import TABLES, unused_tables
 
 __all__ = ["STARTS", "Scene", "mechanism_of"]
 
@@ -108,22 +108,19 @@ class Scene(Table):
                 f"settle = {self.settle:g}: allowed is a number < revolutions = "
                 f"{self.revolutions:g}, or nothing is left to read"
             )
-        unused = unused_keys(
-            {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
-        )
+        unused = unused_tables(self.mechanism)
         for name, table in TABLES.items():
             given = getattr(self, name)
             if name in LAW_TABLES:  # their defaults are the mechanism's
                 continue
-            if given is not None:
-                self._refuse(unused, name, given)
-                checked: Table = table_from(table, name, given)
-                object.__setattr__(self, name, checked)
-                for field in dataclasses.fields(checked):
-                    if (value := getattr(checked, field.name)) != field.default:
-                        self._refuse(unused, f"{name}.{field.name}", value)
-            elif name not in unused and name not in ONLY_WHERE_GIVEN:
-                object.__setattr__(self, name, table())
+            self._refuse(unused, name, given)
+            if given is None and (name in unused or name in ONLY_WHERE_GIVEN):
+                continue
+            checked: Table = table_from(table, name, {} if given is None else given)
+            idle = checked.unused()
+            for inner, value in checked.given.items():
+                self._refuse(idle, inner, value, name)
+            object.__setattr__(self, name, checked.without(idle))
         self._settle_joints()
         self._settle_bodies()
         self._settle_loads()
@@ -152,7 +149,11 @@ class Scene(Table):
             object.__setattr__(self, "start", usual.get("start", STARTS[0]))
         for name, law in laws.items():
             self._refuse(unused, name, law)
-            object.__setattr__(self, name, None if name in unused else complete[name])
+            idle = joints.unused_by_all(name, joints)
+            for inner, value in given_in(law).items():
+                self._refuse(idle, inner, value, name)
+            used = None if name in unused else complete[name].without(idle)
+            object.__setattr__(self, name, used)
 
     def _settle_bodies(self) -> None:
         """Say which bodies are flexible."""
@@ -237,10 +238,15 @@ class Scene(Table):
             there = {body.name for body in mechanism_of(other).bodies}
             data["bodies"] = {n: k for n, k in data.get("bodies", {}).items() if n in there}
         data = changed_keys(data, groups, changes)
-        try:
-            return Scene.from_dict(data)
-        except InputError as error:
-            raise InputError(by_group(str(error), groups, changes)) from None
+        while True:
+            try:
+                return Scene.from_dict(data)
+            except UnusedKeyError as error:
+                if named(error.name, groups, changes):
+                    raise InputError(by_group(str(error), groups, changes)) from None
+                drop(data, error.name)
+            except InputError as error:
+                raise InputError(by_group(str(error), groups, changes)) from None
 
     def build(self) -> Any:
         """Return the assembled `exu_press.model.Model`; its mbs and SC are the real Exudyn objects.
@@ -289,10 +295,11 @@ class Scene(Table):
         return math.radians(self.start_angle_deg)
 
     @staticmethod
-    def _refuse(unused: Mapping[str, str], name: str, given: Any) -> None:
+    def _refuse(unused: Mapping[str, str], name: str, given: Any, table: str = "") -> None:
         if given is not None and name in unused:
-            shown = f"[{name}]" if name in TABLES else f"{name} = {given!r}"
-            raise InputError(f"{shown}: not used by this scene ({unused[name]}); remove it")
+            dotted = f"{table}.{name}" if table else name
+            shown = f"[{name}]" if dotted in TABLES else f"{dotted} = {given!r}"
+            raise UnusedKeyError(dotted, shown, unused[name])
 
 
 def mechanism_of(scene: Scene) -> Mechanism:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import ClassVar
 
-from exu_press.checks import Table, key
+from exu_press.checks import Table, Uses, key
 from exu_press.errors import InputError
 from exu_press.laws.contact import DAMPING_LAWS
 from exu_press.laws.film import FILM_LAWS
@@ -28,6 +28,7 @@ __all__ = [
     "asperity_onset",
 ]
 
+CURVE = ("mu_static", "mu_kinetic", "stribeck_velocity", "stribeck_exponent")
 FRICTION_LAWS = ("none", "coulomb", "stribeck", "lugre_steady", "lugre")
 DEFAULT_TOLERANCE = 1e-3
 USUAL_BREAKDOWN = 2.5  # of the rated torque
@@ -35,6 +36,16 @@ RPM = math.pi / 30.0  # rad/s
 AT_CONTACT = ("stop", "mixed")
 
 HERTZ = 1.5
+
+OF_FRICTION = ("mu_static", "mu_kinetic", "stribeck_velocity", "regularisation_velocity")
+"""Keys of guides that rub."""
+
+OF_THE_WAYS = ("width", "friction", *OF_FRICTION, "damping_depth")
+"""Keys of guides with clearance."""
+
+OF_KLOSS = ("rated_torque", "slip", "breakdown_torque", "no_load_speed_rpm")
+"""Keys of a motor without a table of its torque."""
+
 GREASED = "greased steel on steel, Marks' Handbook, 3.2"
 
 
@@ -43,6 +54,15 @@ class Contact(Table):
     """Normal contact of every joint that has one: stiffness and damping law, Eqs. 23-26."""
 
     table: ClassVar[str] = "contact"
+    uses: ClassVar[Uses] = {
+        "shape": {
+            "point": ("stiffness", "exponent", "modulus"),
+            "cylindrical": ("modulus", "length"),
+        },
+        "damping": dict.fromkeys(DAMPING_LAWS, ("restitution",))
+        | {"step": ("damping_max", "damping_depth")},
+    }
+
     shape: str = key(
         "cylindrical",
         "conformal pins, or Hertz's point contact, as every ball has it",
@@ -50,11 +70,11 @@ class Contact(Table):
     )
     stiffness: float | None = key(
         None,
-        "point: K of F = K delta^n; from radius, clearance and modulus unless given",
+        "K of F = K delta^n; from radius, clearance and modulus unless given",
         "N/m^n",
         above=0,
     )
-    exponent: float = key(HERTZ, "point: n of F = K delta^n", at_least=1, at_most=3)
+    exponent: float = key(HERTZ, "n of F = K delta^n", at_least=1, at_most=3)
     modulus: float = key(
         1.1538e11,
         "equivalent modulus of both surfaces",
@@ -64,7 +84,7 @@ class Contact(Table):
     )
     length: float | None = key(
         None,
-        "cylindrical: length of the bearing; a film's unless given",
+        "length of the bearing; a film's unless given",
         "m",
         above=0,
         example=0.05,
@@ -72,11 +92,11 @@ class Contact(Table):
     damping: str = key(
         "hu_guo", "damping law", choices=tuple(DAMPING_LAWS), source="Hu and Guo 2015"
     )
-    damping_max: float | None = key(None, "step: c_max", "N s/m", at_least=0, example=1e5)
-    damping_depth: float | None = key(None, "step: d_max", "m", above=0, example=1e-6)
+    damping_max: float | None = key(None, "c_max", "N s/m", at_least=0, example=1e5)
+    damping_depth: float | None = key(None, "d_max", "m", above=0, example=1e-6)
     restitution: float = key(
         0.9,
-        "other damping laws: wanted restitution",
+        "wanted restitution",
         above=0,
         at_most=1,
         source="steel pins, Flores et al. 2008",
@@ -92,12 +112,29 @@ class Contact(Table):
                 f"from Hertz, allowed is {HERTZ}"
             )
 
+    def unused(self, **instead: str) -> dict[str, str]:
+        """Return the keys that are not used; a stiffness that is given needs no modulus."""
+        found = super().unused(**instead)
+        if self.stiffness is not None and "stiffness" not in found:
+            found["modulus"] = "contact.stiffness is given"
+        return found
+
 
 @dataclass(frozen=True)
 class Friction(Table):
     """Friction of every joint whose surfaces may touch, Eqs. 27-33."""
 
     table: ClassVar[str] = "friction"
+    uses: ClassVar[Uses] = {
+        "law": {
+            "none": (),
+            "coulomb": ("mu_kinetic", "regularisation_velocity"),
+            "stribeck": (*CURVE, "sigma_2", "regularisation_velocity"),
+            "lugre_steady": (*CURVE, "sigma_2", "regularisation_velocity"),
+            "lugre": (*CURVE, "sigma_0", "sigma_1", "sigma_2"),
+        }
+    }
+
     law: str = key("coulomb", "friction law", choices=FRICTION_LAWS)
     mu_static: float = key(
         0.1, "static coefficient; law = 'none' for zero", above=0, source=GREASED
@@ -117,7 +154,8 @@ class Friction(Table):
     def __post_init__(self) -> None:
         """Check the keys, and that friction does not grow as sliding begins."""
         super().__post_init__()
-        _demand_static_friction(self.table, self.mu_static, self.mu_kinetic)
+        if "mu_static" not in self.unused():
+            _demand_static_friction(self.table, self.mu_static, self.mu_kinetic)
 
 
 @dataclass(frozen=True)
@@ -125,15 +163,17 @@ class Film(Table):
     """Film of every lubricated joint, Eqs. 34-35 corrected."""
 
     table: ClassVar[str] = "film"
+    uses: ClassVar[Uses] = {"at_contact": {"stop": (), "mixed": ("roughness", "asperity_onset")}}
+
     law: str = key("finite", "film law", choices=tuple(FILM_LAWS))
     viscosity: float = key(None, "dynamic viscosity (A-11)", "Pa s", above=0, example=0.09)
     length: float = key(None, "bearing length (A-12)", "m", above=0, example=0.05)
     at_contact: str = key(
         "stop", "at eccentricity ratio 1: stop, or film and contact (A-13)", choices=AT_CONTACT
     )
-    roughness: float = key(2e-7, "mixed: combined rms roughness", "m", above=0)
+    roughness: float = key(2e-7, "combined rms roughness", "m", above=0)
     asperity_onset: float = key(
-        3.0, "mixed: gap at which asperities touch, in roughnesses", above=0, at_most=10
+        3.0, "gap at which asperities touch, in roughnesses", above=0, at_most=10
     )
 
 
@@ -192,6 +232,14 @@ class Motor(Table):
             raise InputError(
                 f"drive.table_speed_rpm = {speeds[-1]!r} at the end: allowed is a number > 0"
             )
+
+    def unused(self, **instead: str) -> dict[str, str]:
+        """Return the keys that are not used: those of Kloss where a table is given."""
+        return (
+            {}
+            if self.table_torque is None
+            else dict.fromkeys(OF_KLOSS, "drive.table_torque is given")
+        )
 
     def law(self, speed_rpm: float) -> MotorLaw:
         """Return the torque over the speed of the crank, which starts at speed_rpm."""
@@ -255,6 +303,16 @@ class ElasticGuide(Table):
         super().__post_init__()
         _demand_static_friction(self.table, self.mu_static, self.mu_kinetic)
 
+    def unused(self, **instead: str) -> dict[str, str]:
+        """Return the keys that are not used: those of the ways, or of ideal tilting."""
+        if self.clearance is None:
+            return dict.fromkeys(OF_THE_WAYS, "guide.clearance is not given")
+        why = "guide.clearance is given: the two ends of the body carry its tilting moment"
+        found = dict.fromkeys(("tilting_stiffness", "tilting_damping"), why)
+        if self.friction == "none":
+            found |= dict.fromkeys(OF_FRICTION, "guide.friction is 'none'")
+        return found
+
 
 @dataclass(frozen=True)
 class Solver(Table):
@@ -265,9 +323,7 @@ class Solver(Table):
         None, "local error, relative to the mechanism's scales", at_least=1e-8, at_most=0.1
     )
     step: float | None = key(None, "fixed step size, instead of a tolerance", "s", above=0)
-    min_step: float = key(
-        1e-8, "tolerance: a run that would need a smaller step stops", "s", above=0
-    )
+    min_step: float = key(1e-8, "a run that would need a smaller step stops", "s", above=0)
     max_step_deg: float = key(
         1.5, "tolerance: largest step, in degrees of the crank", "deg", above=0, at_most=15
     )
@@ -288,6 +344,10 @@ class Solver(Table):
             )
         if self.tolerance is None and self.step is None:
             object.__setattr__(self, "tolerance", DEFAULT_TOLERANCE)
+
+    def unused(self, **instead: str) -> dict[str, str]:
+        """Return the keys that are not used: the largest step, where steps are fixed."""
+        return {} if self.step is None else {"max_step_deg": "solver.step is given"}
 
 
 def asperity_onset(table: Film) -> float | None:

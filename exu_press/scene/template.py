@@ -53,7 +53,7 @@ def _lines(scene: Scene) -> Iterator[str]:
             yield from ("", f"[{field.name}]", *table_lines(value, True, absent=True))
         elif (kind := TABLES.get(field.name)) is not None and field.name not in OF_MECHANISMS:
             told = (kind.__doc__ or "").splitlines()[0]
-            lines = f"[{field.name}]  # {told}", *table_lines(kind(), True, absent=True)
+            lines = f"[{field.name}]  # {told}", *table_lines(_usual(kind), True, absent=True)
             yield from ("", *_not_in_use(lines))
 
 
@@ -66,6 +66,11 @@ def _not_in_use(lines: Iterable[str]) -> Iterator[str]:
     for line in lines:
         absent = line.startswith("# ")
         yield line.replace("  #", "    #", 1) if absent else f"# {line}".rstrip("# ")
+
+
+def _usual(kind: type[Table]) -> Table:
+    """Return a table at its defaults, without the keys that these do not use."""
+    return kind().without(kind().unused())
 
 
 def _loads() -> Iterator[str]:

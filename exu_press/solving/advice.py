@@ -96,12 +96,14 @@ class SceneAdvice(Advice):
             pin = scene.joints[name]
             if isinstance(pin, IdealJoint) or pin.friction is None or pin.friction.law == "none":
                 continue
-            circle = pin.radius * math.sin(math.atan(pin.friction.mu_static))
+            friction = pin.friction
+            largest = "mu_kinetic" if friction.law == "coulomb" else "mu_static"
+            circle = pin.radius * math.sin(math.atan(getattr(friction, largest)))
             if circle >= WIDE_CIRCLE * radius:
                 return (
                     f"; the {name.replace('_', ' ')} seizes near dead centre (friction circle "
                     f"{circle:.2g} m, crank radius {radius:.2g} m): try a smaller "
-                    f"friction.mu_static or joints.{name}.radius"
+                    f"friction.{largest} or joints.{name}.radius"
                 )
         return ""
 

@@ -3,7 +3,7 @@
 from typing import Any
 
 from exu_press.errors import InputError
-from exu_press.mechanism.press import TABLE_2
+from exu_press.mechanism.press import PAPER_LAWS
 from exu_press.scene import Film, Scene, flexible_press
 from exu_press.studies.precision.cases import STEPS, TOLERANCES, Case
 from precision.other_solvers import Reduced, Squeezer
@@ -14,7 +14,7 @@ __all__ = ["cases", "chosen"]
 PAPERS = Film(law="pinkus")
 """The paper's film, which the reduced model has."""
 
-DRY = {name: TABLE_2[name] for name in ("contact", "friction")}
+DRY = PAPER_LAWS
 """Its contact and friction."""
 
 SQUEEZER_STEPS = (1e-4, 3e-5, 1e-5, 3e-6, 1e-6)  # s

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping
 from functools import cache
 from typing import Any
 
-from exu_press.mechanism.press import TABLE_2
+from exu_press.mechanism.press import PAPER_LAWS
 from exu_press.scene import Film, Scene, flexible_press
 from exu_press.studies.stability.cases import PAIRS, Case
 
@@ -26,9 +26,6 @@ BUDGET = 20_000
 LONG_BUDGET = 60_000
 """The same of whole revolutions with dry impacts, and of twenty with a film."""
 
-TOUCHING = {name: TABLE_2[name] for name in ("contact", "friction")}
-"""The paper's laws, on the slider-crank too."""
-
 BASES: Mapping[str, Changes] = {
     "press": {"joints.crank_pin": "dry"},
     "press lubricated": {"film.viscosity": 0.1},
@@ -37,13 +34,13 @@ BASES: Mapping[str, Changes] = {
         "mechanism": "slider_crank",
         "start": "centred",
         "joints.crank_pin": "dry",
-        **TOUCHING,
+        **PAPER_LAWS,
     },
     "slider-crank lubricated": {"mechanism": "slider_crank", "start": "centred"},
     "slider-crank mixed": {
         "mechanism": "slider_crank",
         "film.at_contact": "mixed",
-        **TOUCHING,
+        **PAPER_LAWS,
     },
     "press ideal": {"joints.crank_pin": "ideal", "joints.balls": "ideal"},
     "slider-crank ideal": {"mechanism": "slider_crank", "joints.crank_pin": "ideal"},
@@ -90,13 +87,14 @@ def _lines(table: Iterable[Case]) -> list[list[Case]]:
 
 def _case(axis: str, base: str, value: str, changes: Changes) -> Case:
     """Return the case of a base with changes."""
-    given = {"revolutions": REVOLUTIONS, **BASES[base], "solver.max_steps": BUDGET, **changes}
-    return Case(f"{axis}: {value}, {base}", axis, value, _start().replace(given))
+    given = {"solver.max_steps": BUDGET, **changes}
+    return Case(f"{axis}: {value}, {base}", axis, value, _base(base).replace(given))
 
 
 @cache
-def _start() -> Scene:
-    return Scene(film=Film(law="pinkus"))  # the paper's
+def _base(name: str) -> Scene:
+    scene = Scene(film=Film(law="pinkus"), revolutions=REVOLUTIONS)  # the paper's
+    return scene.replace(BASES[name])
 
 
 def _along(axis: str, bases: Iterable[str], values: Mapping[str, Changes]) -> list[Case]:
@@ -202,7 +200,12 @@ def _frictions() -> list[Case]:
     steady = {f"{mu:g}": both(mu) for mu in (0.01, 0.1, 0.3, 1.0)}
     others = {
         f"{law}, {mu:g}": {"friction.law": law, **both(mu)}
-        for law in ("lugre", "coulomb", "stribeck")
+        for law in ("lugre", "stribeck")
+        for mu in (0.01, 1.0)
+    }
+    others |= {
+        f"coulomb, {mu:g}": {"friction.law": "coulomb", "friction.mu_kinetic": mu}
+        | (thin if mu > 0.1 else {})
         for mu in (0.01, 1.0)
     }
     drop = {

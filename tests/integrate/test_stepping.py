@@ -15,15 +15,15 @@ from exu_press import Result, Scene, Status, simulate, solve_dynamic
 from exu_press.cli import main
 from exu_press.integrate.settings import Tuning
 from exu_press.integrate.stepping import FixedSteps, StepControl
-from exu_press.mechanism.press import TABLE_2
+from exu_press.mechanism.press import PAPER_LAWS
 
 DRY = {
     "mechanism": "slider_crank",
     "joints": {"crank_pin": "dry"},
     "revolutions": 0.1,
     "start": "centred",
-    "contact": TABLE_2["contact"],
-    "friction": TABLE_2["friction"],
+    "contact": PAPER_LAWS["contact"],
+    "friction": PAPER_LAWS["friction"],
 }
 REASON = re.compile(
     r"under-resolved at t = (\S+) s, crank angle (\S+) deg: (\d+)% of the largest inertia force "

@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 
 from exu_press import Scene, simulate
 from exu_press.laws.friction import LuGre, coulomb, lugre_steady, no_friction, stribeck
-from exu_press.mechanism.press import TABLE_2
+from exu_press.mechanism.press import PAPER_LAWS, TABLE_2
 
 # Canudas de Wit et al. 1995, Table I, with a unit normal force.
 CANUDAS = LuGre(1.5, 1.0, 1e5, math.sqrt(1e5), 0.4, stribeck_velocity=1e-3, stribeck_exponent=2.0)
@@ -166,7 +166,7 @@ def test_the_scene_that_made_energy() -> None:
         speed_rpm=80.0,
         revolutions=0.1,
         joints={"wrist_pin": {"kind": "dry", "clearance": 4e-5, "radius": 0.02}},
-        contact=TABLE_2["contact"],
+        contact=PAPER_LAWS["contact"],
         friction={
             **TABLE_2["friction"],
             "law": "lugre",

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
-from exu_press.mechanism.press import TABLE_2
+from exu_press.mechanism.press import PAPER_LAWS
 from exu_press.scene import DryJoint
 
-POINT = {name: TABLE_2[name] for name in ("contact", "friction")}
+POINT = PAPER_LAWS
 QUARTER = {"mechanism": "slider_crank", "revolutions": 0.25}
 
 
@@ -74,14 +74,16 @@ def test_no_viscosity_under_asperities_is_the_dry_joint():
 
 
 @pytest.mark.parametrize(
-    "damping", [{}, {"damping": "flores", "restitution": 0.9}], ids=["default", "lightly damped"]
+    "contact",
+    [POINT["contact"], {"shape": "point", "damping": "flores", "restitution": 0.9}],
+    ids=["default", "lightly damped"],
 )
-def test_infinite_stiffness_does_not_blow_up(damping):
+def test_infinite_stiffness_does_not_blow_up(contact):
     depths = []
     for factor in (1e-2, 1e2, 1e6):
         result = run(
             joints={"crank_pin": "dry"},
-            contact={**POINT["contact"], "stiffness": 2.5545e10 * factor, **damping},
+            contact={**contact, "stiffness": 2.5545e10 * factor},
             friction=POINT["friction"],
         )
         summary = result.summary()

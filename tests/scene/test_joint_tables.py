@@ -57,7 +57,7 @@ def test_a_kind_a_table_and_a_dataclass_are_the_same():
     )
     film = Film(law="finite", viscosity=0.1)
     given = press(crank_pin=LubricatedJoint(film=film)).joints["crank_pin"].film
-    assert given == Film(law="finite", viscosity=0.1, length=0.1), "the length is the press's"
+    assert (given.law, given.viscosity, given.length) == ("finite", 0.1, 0.1), "length: the press's"
 
 
 def test_own_laws_differ_from_the_scenes():
@@ -73,7 +73,7 @@ def test_own_laws_differ_from_the_scenes():
     films = scene.joints["crank_pin"].film, scene.joints["slide_pin"].film
     assert [(film.law, film.viscosity) for film in films] == [("pi_film", 0.1), ("finite", 0.1)]
     assert scene.joints["ball_left"].contact.damping == "flores"
-    assert scene.joints["pivot_left"].contact == scene.contact
+    assert scene.joints["pivot_left"].contact == scene.contact.without(["restitution"])
     given = scene.to_dict()["joints"]
     assert given["crank_pin"]["film"] == {"law": "pi_film"}, "nothing but the difference"
     assert "film" not in given["slide_pin"]

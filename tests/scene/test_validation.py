@@ -232,7 +232,13 @@ def test_defaults():
     assert (scene.contact.stiffness, scene.contact.exponent) == (2.5545e10, 1.5)
     assert (scene.contact.damping_max, scene.contact.damping_depth) == (2.5545e8, 1e-5)
     assert scene.contact.tension is False
-    assert (scene.friction.sigma_0, scene.friction.sigma_1, scene.friction.sigma_2) == (1e5, 400, 0)
+    bristle = scene.replace("friction.law", "lugre").friction
+    assert (bristle.sigma_0, bristle.sigma_1, bristle.sigma_2) == (1e5, 400, 0)
+    assert (scene.friction.sigma_0, scene.friction.sigma_1, scene.friction.sigma_2) == (
+        None,
+        None,
+        0,
+    )
     assert (scene.film.viscosity, scene.film.length) == (0.4, 0.1)
     assert scene.press.pivot_distance == 0.1655
     assert scene.press.counter_eccentricity == 0.016

@@ -56,7 +56,7 @@ def test_a_long_table_ends_with_the_number_of_further_keys():
         "solver.max_step_deg": 1.0,
         "press.bottom_dead_centre": 0.4,
     }
-    changed = Scene().replace({**many, **friction})
-    _, *lines = different_keys({"a": Scene(), "b": changed})
+    scene = Scene(friction={"law": "lugre"})
+    _, *lines = different_keys({"a": scene, "b": scene.replace({**many, **friction})})
     assert len(lines) == MOST_KEYS + 1
     assert lines[-1][0] == f"{len(many) + len(friction) - MOST_KEYS} more keys"

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from exu_press import Result, Scene, simulate
-from exu_press.mechanism.press import TABLE_2
+from exu_press.mechanism.press import PAPER_LAWS
 from exu_press.quantities import Placed, Quantity, quantities_of
 from exu_press.quantities.kind import MOTION
 from exu_press.quantities.value import numbers_of
@@ -20,8 +20,8 @@ DRY = {
     "mechanism": "slider_crank",
     "joints": {"crank_pin": "dry"},
     "start": "centred",
-    "contact": TABLE_2["contact"],
-    "friction": TABLE_2["friction"],
+    "contact": PAPER_LAWS["contact"],
+    "friction": PAPER_LAWS["friction"],
 }
 """Whose impacts part motions within a tenth of a revolution."""
 

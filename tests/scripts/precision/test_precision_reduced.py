@@ -5,7 +5,7 @@ import pytest
 from independent.reduced_slider_crank import ReducedSliderCrank
 
 from exu_press import InputError, Scene
-from exu_press.mechanism.press import TABLE_2
+from exu_press.mechanism.press import PAPER_LAWS
 from precision.compiled import compile_model, has_numba
 from precision.reduced import numbers_of, rate_of, start_of
 
@@ -13,7 +13,7 @@ PINS = {"dry": "lugre_steady", "lubricated": "pinkus"}
 
 
 def scene(pin, **changes):
-    dry = {name: TABLE_2[name] for name in ("contact", "friction")}
+    dry = PAPER_LAWS
     laws = {"film": {"law": "pinkus"}} if pin == "lubricated" else dry
     joints = {"crank_pin": pin}
     return Scene(

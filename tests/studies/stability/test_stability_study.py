@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
-from exu_press.mechanism.press import TABLE_2
+from exu_press.mechanism.press import PAPER_LAWS
 from exu_press.studies.stability import Report, Row, extremes, stability
 from exu_press.studies.stability import judge as judging
 from exu_press.studies.stability.cases import PAIRS
@@ -17,7 +17,7 @@ from exu_press.studies.stability.judge import finer, judge
 from exu_press.verification import with_errors
 
 SHORT = {"mechanism": "slider_crank", "revolutions": 0.04, "start": "centred"}
-DRY = {"joints.crank_pin": "dry", "contact": TABLE_2["contact"]}
+DRY = {"joints.crank_pin": "dry", "contact": PAPER_LAWS["contact"]}
 
 
 def judged(**changes):

@@ -23,6 +23,8 @@ PICTURES = {
     "run": ("slider", "orbit", "force", "press", "energy"),
     "compare": ("compare_slider", "compare_force"),
     "sweep": ("sweep",),
+    "fit": ("fit", "profiles"),
+    "sensitivity": ("sensitivity",),
 }
 """What a command may draw into its directory, less the .png."""
 

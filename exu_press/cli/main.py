@@ -20,6 +20,8 @@ COMMANDS = (
     "run",
     "compare",
     "sweep",
+    "fit",
+    "sensitivity",
     "precision",
     "stability",
     "doctor",

@@ -3,7 +3,7 @@
 import argparse
 import sys
 import textwrap
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from exu_press.checks import nearest
@@ -14,11 +14,14 @@ __all__ = [
     "add_error_argument",
     "add_run_arguments",
     "add_scene_arguments",
+    "add_study_arguments",
     "directory_of",
+    "resumable",
     "scene_of",
     "scene_path",
     "shipped_names",
     "show_warnings",
+    "study_directory",
 ]
 
 MOST_WARNINGS = 5
@@ -57,6 +60,40 @@ def add_error_argument(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="leave out the errors of the figures, and the coarser runs that they need",
     )
+
+
+def add_study_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add what every command on a study file takes."""
+    parser.add_argument("study", metavar="STUDY.toml", help="a study file")
+    where = parser.add_mutually_exclusive_group()
+    where.add_argument(
+        "--workers", type=int, metavar="N", help="number of processes (default: the cores)"
+    )
+    where.add_argument("--dask", metavar="ADDRESS", help="a Dask scheduler, as in tcp://host:8786")
+    parser.add_argument("--out", metavar="DIR", help="where to write (default: out/STUDY)")
+    parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
+    parser.add_argument("--no-pictures", action="store_true", help="draw nothing")
+
+
+def study_directory(options: argparse.Namespace) -> Path:
+    """Return the directory that is asked for; it need not exist."""
+    return Path(options.out or Path("out") / Path(options.study).stem)
+
+
+def resumable(
+    execute: Callable[[argparse.Namespace, Path], int], options: argparse.Namespace
+) -> int:
+    """Return a study's exit status: 3 after Ctrl-C, with what becomes of its runs."""
+    directory = study_directory(options)
+    try:
+        return execute(options, directory)
+    except KeyboardInterrupt:
+        print(
+            f"exu-press: interrupted: finished runs are kept in {directory}; the same command "
+            "goes on with them",
+            file=sys.stderr,
+        )
+        return 3
 
 
 def scene_of(options: argparse.Namespace) -> Scene:

@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 
 from exu_press.batch.task import FAILED, TIME_LIMIT, WORKER_DIED
-from exu_press.cli.options import show_warnings
+from exu_press.cli.options import add_study_arguments, resumable, show_warnings
 from exu_press.errors import InputError
 from exu_press.output import remove_pictures
 from exu_press.scene.warnings import scene_warnings
@@ -17,13 +17,7 @@ EXAMPLE = "exu-press sweep study.toml --workers 2 --out out/study"
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the command's arguments."""
-    parser.add_argument("study", metavar="STUDY.toml", help="a study file")
-    where = parser.add_mutually_exclusive_group()
-    where.add_argument(
-        "--workers", type=int, metavar="N", help="number of processes (default: the cores)"
-    )
-    where.add_argument("--dask", metavar="ADDRESS", help="a Dask scheduler, as in tcp://host:8786")
-    parser.add_argument("--out", metavar="DIR", help="where to write (default: out/STUDY)")
+    add_study_arguments(parser)
     parser.add_argument(
         "--over",
         action="append",
@@ -38,22 +32,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="COLUMN",
         help="print and draw this column of the table; may be repeated",
     )
-    parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
-    parser.add_argument("--no-pictures", action="store_true", help="draw nothing")
 
 
 def execute(options: argparse.Namespace) -> int:
     """Run the study; return 0, or 3 after Ctrl-C or if all runs failed. Failed runs are rows."""
-    directory = Path(options.out or Path("out") / Path(options.study).stem)
-    try:
-        return _execute(options, directory)
-    except KeyboardInterrupt:
-        print(
-            f"exu-press: interrupted: finished runs are kept in {directory}; the same command "
-            "goes on with them",
-            file=sys.stderr,
-        )
-        return 3
+    return resumable(_execute, options)
 
 
 def _execute(options: argparse.Namespace, directory: Path) -> int:

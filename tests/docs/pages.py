@@ -118,16 +118,26 @@ def read(block: Block, place: Path) -> None:
 
     from exu_press import load_scene
     from exu_press.mechanism import load_mechanism
-    from exu_press.studies.sweep import load_study
+    from exu_press.studies.base import load_study
 
     path = place / (block.file or "block.toml")
     path.write_text(block.text, encoding="utf-8")
     if "bodies" in tomllib.loads(block.text) and "crank" in tomllib.loads(block.text):
         load_mechanism(path)
     elif "scene" in tomllib.loads(block.text):
-        load_study(path)
+        load_study(path, kind_of(tomllib.loads(block.text)))
     else:
         load_scene(path)
+
+
+def kind_of(tables: dict[str, object]) -> type:
+    """Return the kind of a study, which its own tables tell."""
+    from exu_press.studies.fit import Fit
+    from exu_press.studies.sensitivity import Sensitivity
+    from exu_press.studies.sweep import Sweep
+
+    own = {"sensitivity": Sensitivity, "measured": Fit, "curve": Fit}
+    return next((kind for name, kind in own.items() if name in tables), Sweep)
 
 
 def printed_blocks() -> list[tuple[Path, Block]]:

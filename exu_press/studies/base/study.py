@@ -51,6 +51,11 @@ class Study(Table):
         object.__setattr__(self, "keys", keys_from(self.keys))
         self.check_keys()
 
+    @classmethod
+    def located(cls, data: dict[str, Any], directory: Path) -> dict[str, Any]:
+        """Return a file's tables with paths of other files counted from its directory."""
+        return data
+
     def check_keys(self) -> None:
         """Check the scene with each key alone at what it may be, before anything runs."""
         for name, each in self.keys.items():
@@ -101,7 +106,7 @@ def load_study(path: str | Path, kind: type[S]) -> S:
     if isinstance(data["scene"], str):
         data["scene"] = load_scene(path.parent / data["scene"])
     try:
-        return table_from(kind, "", data)
+        return table_from(kind, "", kind.located(data, path.parent))
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
 

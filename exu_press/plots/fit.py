@@ -1,0 +1,107 @@
+"""A fit in two pictures: measured against computed, and how chi-square rises with each key."""
+
+from pathlib import Path
+
+import numpy as np
+from matplotlib.figure import Figure
+from scipy.stats import chi2
+
+from exu_press.plots.file import save_figure
+from exu_press.plots.headed import headed_figure
+from exu_press.plots.style import COLOURS, GREY, SHADE, styled
+from exu_press.plots.sweep_words import in_unit, words
+from exu_press.plots.typesetting import plain
+from exu_press.plots.words import describe
+from exu_press.quantities.uncertain import significant
+from exu_press.studies.base import Range
+from exu_press.studies.fit import Report
+
+__all__ = ["fit_figure", "profiles_figure", "save_fit"]
+
+MOST_ACROSS = 3
+
+
+@styled
+def fit_figure(report: Report) -> Figure:
+    """Return the residuals of numbers in uncertainties, and each curve beside the computed one."""
+    study = report.study
+    number, curves = len(study.measured), len(study.curve)
+    panels = (number > 0) + curves
+    heights = [0.8 + 0.32 * number] * (number > 0) + [2.8] * curves
+    text = f"{describe([report.scene], 110)}\nchi-square {significant(report.chi_square, 3)} with "
+    text += f"{report.freedom:g} degrees of freedom"
+    figure = headed_figure("Measured and computed", text, (9.5, 1.2 + sum(heights)))
+    axes = list(figure.subplots(panels, 1, squeeze=False, height_ratios=heights).flat)
+    if number:
+        first = axes.pop(0)
+        places = np.arange(number)[::-1]
+        residuals = [
+            (computed - (one.value or 0.0)) / (one.uncertainty or 1.0)
+            for one, computed in zip(study.measured, report.numbers, strict=True)
+        ]
+        first.axvspan(-2.0, 2.0, color=SHADE, zorder=0)
+        first.axvline(0.0, color="black", linewidth=0.8)
+        first.errorbar(
+            residuals, places, xerr=report.errors[:number], fmt="o", color=COLOURS["blue"],
+            markersize=5, elinewidth=1.2,
+        )  # fmt: skip
+        first.set_yticks(places, [plain(one.name) for one in study.measured])
+        first.set_ylim(-0.6, number - 0.4)
+        most = max(3.0, 1.15 * max(map(abs, residuals)))
+        first.set_xlim(-most, most)
+        first.set_title("Numbers")
+        first.set_xlabel("(computed - measured) / uncertainty; bars: error of the run")
+    for panel, one, (wanted, told) in zip(axes, study.curve, report.curves, strict=True):
+        at = one.read.at
+        panel.plot(at, wanted, ".", color=GREY, markersize=3, label="measured")
+        panel.plot(at, told.values, color=COLOURS["blue"], label="computed, through the sensor")
+        panel.set_title(plain(f"Curve {one.name}"))
+        panel.set_xlabel("time, s" if one.read.over == "time" else "crank angle, deg")
+        panel.set_ylabel(plain(one.read.name.replace("_", " ") + ", SI"))
+        panel.legend(loc="best")
+    return figure
+
+
+@styled
+def profiles_figure(report: Report) -> Figure:
+    """Return chi-square above the least over each key, the others fitted again at each value."""
+    names = list(report.values)
+    across = min(MOST_ACROSS, len(names))
+    down = -(-len(names) // across)
+    level = report.study.fit.level
+    rise = float(chi2.ppf(level, 1))
+    figure = headed_figure(
+        "What the measurement tells of each key",
+        f"Between the dashed lines, the key agrees with the measurement ({100 * level:g} %).",
+        (4.0 * across + 0.5, 1.2 + 2.9 * down),
+    )
+    panels = figure.subplots(down, across, squeeze=False).flat
+    for name, panel in zip(names, panels, strict=False):
+        points = report.profiles[name]
+        values, unit = in_unit(name, points[:, 0])
+        scale = values[-1] / points[-1, 0] if points[-1, 0] else 1.0
+        panel.plot(values, points[:, 1], "o-", color=COLOURS["blue"], markersize=4)
+        panel.axhline(rise, color=GREY, linewidth=1.0)
+        for end in (report.low[name], report.high[name]):
+            panel.axvline(end * scale, color=GREY, linewidth=1.0, linestyle="--")
+        panel.axvline(report.values[name] * scale, color="black", linewidth=0.8)
+        each = report.study.keys[name]
+        if isinstance(each, Range) and each.log and points[-1, 0] > 4.0 * points[0, 0]:
+            panel.set_xscale("log")
+        panel.set_ylim(0.0, 2.2 * rise)
+        panel.margins(x=0.05)
+        panel.set_xlabel(plain(f"{name}{f', {unit}' if unit else ''}"))
+        panel.set_title(plain(words(name))[:44])
+        panel.set_ylabel("chi-square above its least")
+    for panel in list(panels):
+        panel.axis("off")
+    return figure
+
+
+def save_fit(report: Report, directory: str | Path) -> list[Path]:
+    """Draw fit.png and profiles.png and return the files."""
+    directory = Path(directory)
+    return [
+        save_figure(fit_figure(report), directory / "fit.png"),
+        save_figure(profiles_figure(report), directory / "profiles.png"),
+    ]

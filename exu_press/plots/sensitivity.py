@@ -1,0 +1,113 @@
+"""A sensitivity study in one picture: what each quantity spreads over, and which key does it."""
+
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from exu_press.plots.file import save_figure
+from exu_press.plots.headed import headed_figure
+from exu_press.plots.style import COLOURS, GREY, styled
+from exu_press.plots.sweep_words import words
+from exu_press.plots.typesetting import plain, typeset
+from exu_press.plots.words import describe
+from exu_press.quantities import quantity_of
+from exu_press.studies.sensitivity import Report
+from exu_press.studies.sensitivity.indices import Indices
+
+__all__ = ["save_sensitivity", "sensitivity_figure"]
+
+BINS = 30
+MOST_LETTERS = 44
+
+
+@styled
+def sensitivity_figure(report: Report) -> Figure:
+    """Return a row a quantity: its distribution, the tornado, and the indices."""
+    study = report.study
+    names, keys = study.sensitivity.quantities, list(study.keys)
+    lines = [describe([study.scene], 130), report.told[0]]
+    height = 1.0 + len(names) * (1.6 + 0.32 * len(keys))
+    figure = headed_figure("What tolerances make", "\n".join(lines), (11.5, height))
+    panels = figure.subplots(len(names), 3, squeeze=False, width_ratios=(1.0, 1.0, 1.0))
+    for place, (name, row) in enumerate(zip(names, panels, strict=True)):
+        quantity = quantity_of(study.scene, name).quantity
+        unit = typeset(quantity.shown or quantity.unit)
+        label = words(name) + (f", {unit}" if unit else "")
+        _spread(row[0], report.sample.values[place] * quantity.scale, report, place, label)
+        found = report.indices[place]
+        if found is None:
+            for axes in row[1:]:
+                axes.axis("off")
+            continue
+        order = np.argsort(found.total)
+        told = [_short(words(keys[n])) for n in order]
+        bars = report.bars[order, :, place] * quantity.scale
+        middle = report.middle[place] * quantity.scale
+        places = np.arange(len(order))
+        for end, colour in ((0, COLOURS["sky blue"]), (1, COLOURS["blue"])):
+            row[1].barh(places, bars[:, end] - middle, color=colour, height=0.62)
+        row[1].axvline(0.0, color="black", linewidth=0.8)
+        row[1].margins(x=0.05)
+        row[1].set_yticks(places, told)
+        row[1].set_title("One key at its 5 % and 95 %")
+        row[1].set_xlabel(f"change{f', {unit}' if unit else ''}")
+        _indices(row[2], found, order)
+        row[2].set_yticks(places, [])
+    panels[0, 1].legend(
+        *_ends(), loc="lower right", bbox_to_anchor=(1.0, 1.1), ncols=2
+    )  # fmt: skip
+    panels[0, 2].legend(loc="lower right", bbox_to_anchor=(1.0, 1.1), ncols=2)
+    return figure
+
+
+def save_sensitivity(report: Report, directory: str | Path) -> Path:
+    """Draw sensitivity.png and return the file."""
+    return save_figure(sensitivity_figure(report), Path(directory) / "sensitivity.png")
+
+
+def _ends() -> tuple[list[object], list[str]]:
+    from matplotlib.patches import Patch
+
+    colours = (COLOURS["sky blue"], COLOURS["blue"])
+    return [Patch(color=colour) for colour in colours], ["at its 5 %", "at its 95 %"]
+
+
+def _spread(
+    axes: Axes, values: "np.ndarray[tuple[int], np.dtype[np.float64]]", report: Report,
+    place: int, label: str,
+) -> None:  # fmt: skip
+    axes.hist(values, BINS, color=COLOURS["sky blue"], edgecolor="white", linewidth=0.5)
+    quantity = quantity_of(report.study.scene, report.study.sensitivity.quantities[place]).quantity
+    each = report.spreads[place]
+    for value in (each.low, each.middle, each.high):
+        axes.axvline(value * quantity.scale, color=GREY, linewidth=1.0, linestyle="--")
+    axes.margins(x=0.03)
+    axes.locator_params(axis="x", nbins=5)
+    axes.set(xlabel=_short(label), ylabel="runs")
+    axes.set_title("Distribution; lines at 5, 50, 95 %")
+
+
+def _indices(
+    axes: Axes, found: Indices, order: "np.ndarray[tuple[int], np.dtype[np.intp]]"
+) -> None:
+    """Draw first and total indices as points with their intervals."""
+    for shift, values, bounds, colour, label in (
+        (-0.13, found.first, found.first_bounds, COLOURS["green"], "alone"),
+        (0.13, found.total, found.total_bounds, COLOURS["vermilion"], "with others"),
+    ):
+        places = np.arange(len(order)) + shift
+        axes.hlines(places, bounds[order, 0], bounds[order, 1], color=colour, linewidth=1.5)
+        axes.plot(values[order], places, "o", color=colour, markersize=5, label=label)
+    axes.set_xlim(-0.15, 1.3)
+    axes.set_ylim(-0.6, len(order) - 0.4)
+    axes.set_title("Share of the variance")
+    axes.set_xlabel("Sobol index, with its 95 % interval")
+
+
+def _short(text: str) -> str:
+    """Return a key's words in at most two lines."""
+    import textwrap
+
+    return plain("\n".join(textwrap.wrap(text, MOST_LETTERS, max_lines=2, placeholder="...")))

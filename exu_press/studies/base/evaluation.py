@@ -1,0 +1,129 @@
+"""Quantities at points of a study's keys; a run that did not get there gives no number."""
+
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from exu_press.arrays import Array
+from exu_press.batch.task import COMPLETED, Row
+from exu_press.errors import InputError
+from exu_press.quantities import quantity_of
+from exu_press.scene import Scene
+from exu_press.studies.base.keys import Normal, Range, Values
+from exu_press.studies.base.study import Study
+
+__all__ = ["Evaluation", "Point", "numbers_in", "ranged"]
+
+Point = Mapping[str, Any]
+
+NO_SCENE = "not a scene"
+
+
+class Evaluation:
+    """What a solver or a sample asks: points in, quantities out.
+
+    Attributes:
+        quantities: full names.
+        asked: points asked for so far, equal ones once.
+        failures: why runs gave no number -> how many of them.
+        rows: of points that were asked for.
+    """
+
+    def __init__(
+        self,
+        study: Study,
+        quantities: Sequence[str],
+        run: Callable[[Sequence[Scene]], Sequence[Row]],
+    ) -> None:
+        """Take what is evaluated.
+
+        Args:
+            study: whose keys a point has.
+            quantities: full names.
+            run: returns the rows of scenes; `Runs.of`.
+
+        Raises:
+            InputError: the scene has no such quantity.
+        """
+        for name in quantities:
+            quantity_of(study.scene, name)
+        self.quantities = tuple(quantities)
+        self.failures: Counter[str] = Counter()
+        self.rows: dict[tuple[Any, ...], Row] = {}
+        self._study, self._run = study, run
+
+    @property
+    def asked(self) -> int:
+        """How many different points were asked for."""
+        return len(self.rows)
+
+    def __call__(self, points: Sequence[Point]) -> Array:
+        """Return quantities, (points, quantities); NaN in all of a row whose run failed."""
+        rows = self.rows_of(points)
+        return np.array([numbers_in(row, self.quantities) for row in rows])
+
+    def rows_of(self, points: Sequence[Point]) -> list[Row]:
+        """Return the rows of points; those that were asked for before are not run again."""
+        new: dict[tuple[Any, ...], Scene] = {}
+        for point in points:
+            key = _key(point)
+            if key in self.rows or key in new:
+                continue
+            try:
+                new[key] = self._study.scene_at(point)
+            except InputError as error:
+                self.rows[key] = {"status": NO_SCENE, "reason": str(error)}
+                self.failures[f"{NO_SCENE}: {error}"] += 1
+        for key, row in zip(new, self._run(list(new.values())), strict=True):
+            self.rows[key] = row
+            if why := self._failed(row):
+                self.failures[why] += 1
+        return [self.rows[_key(point)] for point in points]
+
+    def told(self) -> list[str]:
+        """Return how many runs gave numbers, and why others did not, in lines."""
+        failed = sum(self.failures.values())
+        lines = [f"{self.asked} runs: {self.asked - failed} gave numbers, {failed} did not"]
+        return lines + [f"  {n} x {reason}" for reason, n in self.failures.most_common(3)]
+
+    def _failed(self, row: Row) -> str:
+        """Return why a run gives no number, or nothing."""
+        if row["status"] != COMPLETED:
+            return f"{row['status']}: {row['reason']}"
+        missing = [name for name in self.quantities if row.get(name) is None]
+        return f"too short to have {missing[0]}" if missing else ""
+
+
+def _key(point: Point) -> tuple[Any, ...]:
+    return tuple(sorted((name, repr(value)) for name, value in point.items()))
+
+
+def numbers_in(row: Row, quantities: Sequence[str]) -> list[float]:
+    """Return quantities of a row; NaN in all of them where the run failed or lacks one."""
+    found = [row.get(name) for name in quantities]
+    if row["status"] != COMPLETED or any(value is None for value in found):
+        return [np.nan] * len(quantities)
+    return [float(value) for value in found if value is not None]
+
+
+def ranged(study: Study, command: str, kinds: tuple[type, ...] = (Range,)) -> tuple[str, ...]:
+    """Return the names of a study's keys, which all are of these kinds.
+
+    Raises:
+        InputError: one is not.
+    """
+    words = {
+        Range: "{low = a, high = b}, with log = true by its logarithm",
+        Normal: "{mean = m, deviation = s}",
+        Values: "[value, ...]",
+    }
+    for name, each in study.keys.items():
+        if not isinstance(each, kinds):
+            allowed = " or ".join(words[kind] for kind in kinds)
+            raise InputError(
+                f"keys.{name} = {each.plain()!r}: allowed in a file for exu-press {command} is "
+                f"{allowed}"
+            )
+    return tuple(study.keys)

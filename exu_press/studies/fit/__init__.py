@@ -1,0 +1,6 @@
+"""From a measurement to the keys of a scene: best values, what is known of them, what is not."""
+
+from exu_press.studies.fit.run import Report, fit
+from exu_press.studies.fit.study import Fit
+
+__all__ = ["Fit", "Report", "fit"]

@@ -1,0 +1,81 @@
+"""What a measurement determines: covariance, and keys or combinations that it does not tell."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.stats import norm
+
+from exu_press.arrays import Array
+
+__all__ = ["Determined", "Direction", "determined"]
+
+HALF_RANGE = 0.5
+"""An interval that reaches further to each side, of a key's range, tells nothing."""
+
+PART = 0.2
+"""A key has a part in a direction where its component is larger."""
+
+
+@dataclass(frozen=True)
+class Direction:
+    """A direction in scaled keys along which the measured numbers do not change visibly.
+
+    Attributes:
+        vector: of unit length, (keys,).
+        singular: change of all residuals by a step of one range along it.
+    """
+
+    vector: Array
+    singular: float
+
+    @property
+    def keys(self) -> list[int]:
+        """Which keys have a part in it, the largest first."""
+        return [int(k) for k in np.argsort(-np.abs(self.vector)) if abs(self.vector[k]) > PART]
+
+
+@dataclass(frozen=True)
+class Determined:
+    """What the scaled Jacobian at the best point tells.
+
+    Attributes:
+        singular: its singular values, (keys,).
+        open: directions that the measurement does not determine.
+        deviation: standard deviation of each scaled key, (keys,); infinite with a part in an
+            open direction.
+        correlation: of keys, (keys, keys); NaN where one has a part in an open direction.
+    """
+
+    singular: Array
+    open: list[Direction]
+    deviation: Array
+    correlation: Array
+
+    @property
+    def rank(self) -> int:
+        """How many combinations of keys the measurement determines."""
+        return len(self.singular) - len(self.open)
+
+
+def determined(jacobian: Array, level: float) -> Determined:
+    """Return what a Jacobian (numbers, keys) in units of uncertainties and ranges tells.
+
+    Args:
+        jacobian: at the best point.
+        level: of the intervals.
+    """
+    keys = jacobian.shape[1]
+    _, singular, vectors = np.linalg.svd(jacobian)
+    singular = np.concatenate([singular, np.zeros(keys - len(singular))])
+    least = norm.ppf((1.0 + level) / 2.0) / HALF_RANGE
+    shut = singular > least
+    open_ = [Direction(v, float(s)) for v, s in zip(vectors[~shut], singular[~shut], strict=True)]
+    covariance = (vectors[shut].T / singular[shut] ** 2) @ vectors[shut]
+    deviation = np.sqrt(np.diag(covariance))
+    for direction in open_:
+        deviation[direction.keys] = np.inf
+    with np.errstate(divide="ignore", invalid="ignore"):
+        correlation = covariance / np.outer(deviation, deviation)
+    known = np.isfinite(deviation)
+    correlation[~np.outer(known, known)] = np.nan
+    return Determined(singular, open_, deviation, correlation)

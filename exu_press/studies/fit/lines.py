@@ -1,0 +1,158 @@
+"""A fit as a person reads it in a terminal."""
+
+import math
+
+import numpy as np
+
+from exu_press.columns import columns
+from exu_press.quantities.uncertain import significant
+from exu_press.studies.base import Range
+from exu_press.studies.fit.determined import Direction
+from exu_press.studies.fit.run import Report
+from exu_press.studies.sweep.units import unit_of
+
+__all__ = ["report_lines"]
+
+UNLIKELY = 0.01
+"""Probability of chi-square below which the scene does not explain the measurement."""
+
+EXACT = 0.3
+"""Of an uncertainty: evaluations are to be more exact than that."""
+
+NEARLY = 0.05
+"""Relative, between the two halves of an interval that is called symmetric."""
+
+
+def report_lines(report: Report) -> list[str]:
+    """Return best values with intervals, what is not determined, the misfit and residuals."""
+    lines = [*report.told, *_searches(report), "", *_keys(report), *_open(report)]
+    return [*lines, *_correlation(report), "", *_misfit(report), "", *_residuals(report)]
+
+
+def _searches(report: Report) -> list[str]:
+    found = ", ".join(
+        f"{significant(one.chi_square, 3)} ({one.times} start{'s' * (one.times > 1)})"
+        for one in report.minima
+    )
+    lost = f"; {report.lost} starts led to runs that fail" if report.lost else ""
+    return [f"chi-square of the minima found: {found}{lost}"]
+
+
+def _keys(report: Report) -> list[str]:
+    level = f"{100 * report.study.fit.level:g} %"
+    rows = [("key", "best", f"{level} interval", "")]
+    for name, best in report.values.items():
+        low, high = report.low[name], report.high[name]
+        unit = unit_of(name)
+        digits = _digits(best, low, high)
+        ends = [
+            f"{significant(end, digits)}{' (end of the range)' * open_}"
+            for end, open_ in zip((low, high), report.open[name], strict=True)
+        ]
+        symmetric = abs((high - best) - (best - low)) < NEARLY * (high - low)
+        known = not any(report.open[name])
+        word = "" if symmetric or not known else "not symmetric"
+        if all(report.open[name]):
+            word = "not determined"
+        head = f"{name}, {unit}" if unit and not name.endswith(unit) else name
+        rows.append((head, significant(best, digits), f"{ends[0]} to {ends[1]}", word))
+    return columns(rows)
+
+
+def _digits(best: float, low: float, high: float) -> int:
+    """Return the digits that show two of the interval's half."""
+    half = (high - low) / 2.0
+    if half <= 0.0 or best == 0.0:
+        return 3
+    return min(max(2, 2 + math.ceil(math.log10(abs(best) / half) - 1e-9)), 7)
+
+
+def _open(report: Report) -> list[str]:
+    """Return keys and combinations that the measurement does not determine."""
+    return [_not_determined(report, one) for one in report.determined.open]
+
+
+def _not_determined(report: Report, one: Direction) -> str:
+    names = list(report.study.keys)
+    keys = [names[k] for k in one.keys]
+    if len(keys) == 1:
+        effect = significant(float(report.effect[one.keys[0]]), 2)
+        return (
+            f"not determined: {keys[0]}; over its whole range the measured numbers change by "
+            f"{effect} of their uncertainties"
+        )
+    parts, scale = [], 0.0
+    for k, name in zip(one.keys, keys, strict=True):
+        each = report.study.keys[name]
+        assert isinstance(each, Range)
+        value = report.values[name]
+        width = math.log(each.high / each.low) if each.log else (each.high - each.low) / value
+        parts.append((name, float(one.vector[k]) * width))
+    scale = 10.0 / parts[0][1]
+    told = " and ".join(f"{name} {change * scale:+.1f} %" for name, change in parts)
+    return f"not determined: {told} together leave every measured number where it is"
+
+
+def _correlation(report: Report) -> list[str]:
+    names, table = list(report.study.keys), report.determined.correlation
+    pairs = [
+        (abs(table[i, j]), f"{names[i]} and {names[j]} {table[i, j]:+.2f}")
+        for i in range(len(names))
+        for j in range(i)
+        if np.isfinite(table[i, j])
+    ]
+    return [f"correlation: {', '.join(text for _, text in sorted(pairs, reverse=True)[:6])}"] * (
+        len(pairs) > 0
+    )
+
+
+def _misfit(report: Report) -> list[str]:
+    chance = report.probability
+    text = f"chi-square {significant(report.chi_square, 3)}, degrees of freedom {report.freedom:g}"
+    if chance is None:
+        return [f"{text}: nothing is left to judge the scene by"]
+    text += f": chance alone makes it as large in {significant(100 * chance, 2)} % of measurements"
+    if chance < UNLIKELY:
+        return [
+            text,
+            "the scene does not explain the measurement: intervals hold only if the uncertainties "
+            "are right and the scene is; look at the largest residuals",
+        ]
+    return [text]
+
+
+def _residuals(report: Report) -> list[str]:
+    rows = [("measured", "value", "uncertainty", "computed", "error of a run", "residual")]
+    number = len(report.study.measured)
+    for one, computed, error in zip(
+        report.study.measured, report.numbers, report.errors[:number], strict=True
+    ):
+        assert one.value is not None
+        assert one.uncertainty is not None
+        unit = unit_of(one.quantity)
+        rows.append(
+            (
+                f"{one.name}{f', {unit}' if unit else ''}",
+                f"{one.value:.6g}",
+                f"{one.uncertainty:.2g}",
+                f"{computed:.6g}",
+                f"{error * one.uncertainty / one.weight**0.5:.1g}",
+                f"{(computed - one.value) / one.uncertainty:+.2f}",
+            )
+        )
+    lines = columns(rows) if number else []
+    for curve, (wanted, told) in zip(report.study.curve, report.curves, strict=True):
+        assert curve.uncertainty is not None
+        size = float(np.sqrt(np.mean((told.values - wanted) ** 2))) / curve.uncertainty
+        sensor = ", ".join(f"{name} {value:.4g}" for name, value in told.plain().items())
+        lines.append(
+            f"curve {curve.name}: {len(wanted)} samples, rms residual {size:.2f} uncertainties; "
+            f"sensor: {sensor}"
+        )
+    large = float(report.errors.max(initial=0.0))
+    if large > EXACT:
+        lines.append(
+            f"a run's own error is up to {significant(large, 2)} of an uncertainty; the cure is a "
+            "lower solver.tolerance"
+        )
+    return lines

@@ -1,0 +1,63 @@
+"""One measured number."""
+
+import dataclasses
+from collections.abc import Mapping
+from typing import Any
+
+from exu_press.checks import Table, key, table_from
+from exu_press.errors import InputError
+
+__all__ = ["Measured", "under_of"]
+
+
+@dataclasses.dataclass(frozen=True)
+class Measured(Table):
+    """A table [[measured]]: what an instrument read.
+
+    Attributes:
+        quantity: full name, with its kind of observation, as "peak_acceleration.mean_1ms".
+        under: keys of the scene that differ where it was measured -> their values.
+
+    Raises:
+        InputError: not allowed.
+    """
+
+    table = "measured"
+
+    quantity: str = key("", "name of a quantity")
+    value: float | None = key(None, "what was read, SI")
+    uncertainty: float | None = key(None, "its standard deviation, SI", above=0)
+    weight: float = key(1.0, "how often it counts", above=0)
+    under: Mapping[str, Any] = dataclasses.field(default_factory=dict, hash=False)
+
+    def __post_init__(self) -> None:
+        """Check the keys; all but the weight and where it was measured are needed."""
+        super().__post_init__()
+        for name in ("quantity", "value", "uncertainty"):
+            if getattr(self, name) in (None, ""):
+                raise InputError(f"measured.{name}: not given; each [[measured]] needs one")
+        object.__setattr__(self, "under", under_of("measured", self.under))
+
+    @property
+    def name(self) -> str:
+        """Its name in tables."""
+        return self.quantity + "".join(f", {k} = {v:g}" if isinstance(v, float) else f", {k} = {v}"
+                                       for k, v in self.under.items())  # fmt: skip
+
+
+def under_of(table: str, given: Any) -> dict[str, Any]:
+    """Return keys by dotted names, from what a file has: TOML's a.b is its "a.b"."""
+    if not isinstance(given, Mapping):
+        raise InputError(f"{table}.under = {given!r:.80}: allowed is a table of keys of the scene")
+    found: dict[str, Any] = {}
+    for name, value in given.items():
+        if isinstance(value, Mapping):
+            found |= {f"{name}.{inner}": each for inner, each in under_of(table, value).items()}
+        else:
+            found[name] = value
+    return found
+
+
+def measured_from(given: Any) -> Measured:
+    """Return one entry of [[measured]]."""
+    return table_from(Measured, "measured", given)

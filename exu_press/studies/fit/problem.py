@@ -1,0 +1,175 @@
+"""A fit as a solver sees it: scaled keys in, residuals in units of uncertainties out."""
+
+import hashlib
+import json
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from exu_press.arrays import Array
+from exu_press.batch.task import COMPLETED, Row
+from exu_press.checks import nearest
+from exu_press.errors import InputError
+from exu_press.result import Result
+from exu_press.scene import Scene
+from exu_press.studies.base import Range
+from exu_press.studies.base.checked import error_in
+from exu_press.studies.base.evaluation import Evaluation, Point, numbers_in
+from exu_press.studies.fit.curve import Curve, Matched, matched
+from exu_press.studies.fit.study import Fit
+
+__all__ = ["Problem", "file_of"]
+
+
+class Problem:
+    """The residuals of a fit.
+
+    Attributes:
+        study: what is asked.
+        evaluation: its runs.
+    """
+
+    def __init__(
+        self, study: Fit, directory: Path, run: Callable[[Sequence[Scene]], Sequence[Row]]
+    ) -> None:
+        """Take what is fitted; `run` keeps the files of runs where there are curves."""
+        self.study = study
+        self.evaluation = Evaluation(study, (), run)
+        self._directory = directory
+        self._keys = {n: each for n, each in study.keys.items() if isinstance(each, Range)}
+        every = [*(one.under for one in study.measured), *(one.under for one in study.curve)]
+        self._under: list[Point] = [u for n, u in enumerate(every) if u not in every[:n]]
+
+    @property
+    def count(self) -> float:
+        """How many independent numbers there are, less the sensors' unknown parameters."""
+        curves = sum(one.count - one.nuisances for one in self.study.curve)
+        return len(self.study.measured) + curves
+
+    def point(self, x: Array) -> dict[str, float]:
+        """Return the keys' values at a scaled point."""
+        return {
+            name: float(each.at(np.asarray(min(max(share, 0.0), 1.0))))
+            for (name, each), share in zip(self._keys.items(), x, strict=True)
+        }
+
+    def scaled(self, name: str, value: float) -> float:
+        """Return the scaled value of a key."""
+        return float(self._keys[name].share(np.asarray(value)))
+
+    def __call__(self, points: Array) -> Array:
+        """Return residuals, (points, numbers); NaN in all of a row one of whose runs failed."""
+        asked = [{**self.point(x), **under} for x in points for under in self._under]
+        rows = self.evaluation.rows_of(asked)
+        number = len(self._under)
+        return np.array(
+            [
+                self._residuals(asked[place : place + number], rows[place : place + number])
+                for place in range(0, len(asked), number)
+            ]
+        )
+
+    def scenes(self, x: Array) -> list[Scene]:
+        """Return the scenes of a point, one for each place of measuring."""
+        return [self.study.scene_at({**self.point(x), **under}) for under in self._under]
+
+    def computed(self, x: Array) -> tuple[list[float], list[tuple[Array, Matched | None]]]:
+        """Return the numbers at a point, and each curve as measured and as computed, SI."""
+        rows = self.evaluation.rows_of([{**self.point(x), **under} for under in self._under])
+        numbers = [
+            numbers_in(rows[self._under.index(one.under)], [one.quantity])[0]
+            for one in self.study.measured
+        ]
+        scenes = self.scenes(x)
+        return numbers, [
+            self._matched(one, scenes[self._under.index(one.under)]) for one in self.study.curve
+        ]
+
+    def errors(self, rows: Sequence[Row]) -> Array:
+        """Return the errors of evaluations in the unit of residuals, (numbers,), as far as known.
+
+        Args:
+            rows: with errors, one for each place of measuring.
+        """
+        found = []
+        for one in self.study.measured:
+            error = error_in(rows[self._under.index(one.under)], one.quantity)
+            assert one.uncertainty is not None
+            found.append((error or 0.0) / one.uncertainty * one.weight**0.5)
+        return np.array(found + [0.0] * sum(len(one.read.at) for one in self.study.curve))
+
+    def check_curves(self, x: Array, rows: Sequence[Row]) -> None:
+        """Check that channels are there, and that no curve lasts longer than runs are predictable.
+
+        Args:
+            x: a point that has run.
+            rows: its runs with errors, one for each place of measuring.
+
+        Raises:
+            InputError: one is not.
+        """
+        scenes = self.scenes(x)
+        for one in self.study.curve:
+            place = self._under.index(one.under)
+            path = self._directory / file_of(scenes[place])
+            if not path.exists():
+                raise InputError(f"{one.file}: the run at the start failed")
+            found = Result.load(path)
+            if self._matched(one, scenes[place])[1] is None:
+                raise InputError(
+                    f"{one.file}: reaches from {one.read.at[0]:g} to {one.read.at[-1]:g} "
+                    f"({one.read.over}) and beyond the run; the cure is more revolutions, or a "
+                    "smaller shift"
+                )
+            horizon = rows[place].get("horizon")
+            end = one.read.at[-1]
+            if one.read.over == "crank_angle":
+                turned = np.degrees(found["crank_angle"])
+                end = np.interp(end, turned, found.time)
+            if horizon is not None and end > horizon:
+                raise InputError(
+                    f"{one.file}: lasts to {end:g} s, and the motion is predictable to "
+                    f"{horizon:.3g} s; the cure is a shorter curve, or to fit numbers of it"
+                )
+
+    def _residuals(self, asked: Sequence[Point], rows: Sequence[Row]) -> Array:
+        """Return the residuals of one point's runs."""
+        found: list[Any] = []
+        for one in self.study.measured:
+            assert one.value is not None
+            assert one.uncertainty is not None
+            (value,) = numbers_in(rows[self._under.index(one.under)], [one.quantity])
+            found.append(np.array([(value - one.value) / one.uncertainty * one.weight**0.5]))
+        for curve in self.study.curve:
+            place = self._under.index(curve.under)
+            size = len(curve.read.at)
+            if rows[place]["status"] != COMPLETED:
+                found.append(np.full(size, np.nan))
+                continue
+            wanted, told = self._matched(curve, self.study.scene_at(asked[place]))
+            assert curve.uncertainty is not None
+            scale = (curve.weight * curve.count / size) ** 0.5 / curve.uncertainty
+            found.append(np.full(size, np.nan) if told is None else (told.values - wanted) * scale)
+        every = np.concatenate(found)
+        return every if np.isfinite(every).all() else np.full(len(every), np.nan)
+
+    def _matched(self, curve: Curve, scene: Scene) -> tuple[Array, Matched | None]:
+        result = Result.load(self._directory / file_of(scene))
+        name = curve.read.name
+        if name not in result.units:
+            raise InputError(
+                f"{curve.file}: column {name!r}{nearest(name, result.units)}; allowed are channels "
+                f"of a run, as {', '.join(list(result.units)[:8])}"
+            )
+        wanted = curve.values(result.units[name])
+        angle = curve.read.over == "crank_angle"
+        at = np.degrees(result["crank_angle"]) if angle else result.time
+        return wanted, matched(curve, wanted, at, result[name])
+
+
+def file_of(scene: Scene) -> str:
+    """Return where the run of a scene is kept, in the study's directory."""
+    text = json.dumps(scene.to_dict(), sort_keys=True)
+    return f"runs/{hashlib.sha256(text.encode()).hexdigest()[:16]}.nc"

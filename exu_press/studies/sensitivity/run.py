@@ -1,0 +1,130 @@
+"""Run a sensitivity study."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from exu_press.arrays import Array
+from exu_press.errors import InputError
+from exu_press.output import write_json
+from exu_press.studies.base import Runs, Values
+from exu_press.studies.base.checked import error_in, with_errors_of
+from exu_press.studies.base.evaluation import Evaluation
+from exu_press.studies.sensitivity.indices import Indices, Sample, indices, sample
+from exu_press.studies.sensitivity.spread import Spread, spread, tornado
+from exu_press.studies.sensitivity.study import Sensitivity
+
+__all__ = ["Report", "sensitivity"]
+
+WRITTEN = ("sensitivity.json",)
+
+
+@dataclass(frozen=True)
+class Report:
+    """What came out; quantities in the study's order, and keys too.
+
+    Attributes:
+        study: what was asked.
+        sample: values at the sampled points.
+        indices: of each quantity; None of one that does not move.
+        spreads: of each quantity.
+        middle: values with all keys at their medians, (s,).
+        bars: values with one key at the ends of its distribution, (k, 2, s).
+        errors: of each quantity in the run with all keys at their medians; None where unknown.
+        told: how many runs gave numbers, in lines.
+    """
+
+    study: Sensitivity
+    sample: Sample
+    indices: list[Indices | None]
+    spreads: list[Spread]
+    middle: Array
+    bars: Array
+    errors: list[float | None]
+    told: list[str]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the contents of sensitivity.json."""
+        names = self.study.sensitivity.quantities
+        found = {name: self._of(place) for place, name in enumerate(names)}
+        return {"runs": self.told, "drawn": self.sample.drawn, "quantities": found}
+
+    def _of(self, place: int) -> dict[str, Any]:
+        """Return the entry of one quantity."""
+        one, each = self.indices[place], self.spreads[place]
+        keys: dict[str, Any] = {}
+        for n, key in enumerate(self.study.keys):
+            ends = self.bars[n, :, place]
+            keys[key] = {"alone": [None if np.isnan(end) else float(end) for end in ends]}
+            if one is not None:
+                keys[key]["first_order"] = _told(one.first, one.first_bounds, n)
+                keys[key]["total_order"] = _told(one.total, one.total_bounds, n)
+        return {
+            "percentiles": {"5": each.low, "50": each.middle, "95": each.high},
+            "mean": each.mean,
+            "deviation": each.deviation,
+            "share": self.study.sensitivity.share,
+            "half_width": each.half,
+            "half_width_standard_error": each.half_error,
+            "error_of_a_run": self.errors[place],
+            "moves": one is not None,
+            "keys": keys,
+        }
+
+
+def _told(values: Array, bounds: Array, place: int) -> dict[str, float]:
+    low, high = map(float, bounds[place])
+    return {"value": float(values[place]), "low": low, "high": high}
+
+
+def sensitivity(study: Sensitivity, directory: str | Path, **how: Any) -> Report:
+    """Run what is not run yet, write sensitivity.json and samples.csv, and return what came out.
+
+    Called again after a kill or Ctrl-C, it goes on.
+
+    Args:
+        study: what is asked.
+        directory: of this study alone.
+        how: workers, dask, quiet of `exu_press.studies.base.Runs`.
+
+    Raises:
+        InputError: the directory cannot be used or belongs to another study, no scheduler answers,
+            or so many runs fail that no sample is left.
+    """
+    asked, keys = study.sensitivity, study.keys
+    with Runs(study, directory, written=WRITTEN, label="sensitivity", **how) as runs:
+        evaluation = Evaluation(study, asked.quantities, runs.of)
+
+        def point(share: Array) -> dict[str, float]:
+            found = {}
+            for (name, each), part in zip(keys.items(), share, strict=True):
+                assert not isinstance(each, Values)
+                found[name] = float(each.at(part))
+            return found
+
+        def evaluate(shares: Array) -> Array:
+            return evaluation([point(share) for share in shares])
+
+        middle, bars = tornado(evaluate, len(keys))
+        found = sample(evaluate, len(keys), asked.samples, asked.seed)
+        if found is None:
+            raise InputError(
+                f"{'; '.join(evaluation.told())}: too few for {asked.samples} samples; the cure is "
+                "narrower distributions, or what the runs' reasons say"
+            )
+    (checked,) = with_errors_of(study, directory, [study.scene_at(point(np.full(len(keys), 0.5)))],
+                                **how)  # fmt: skip
+    report = Report(
+        study,
+        found,
+        indices(found),
+        [spread(values, asked.share) for values in found.values],
+        middle,
+        bars,
+        [error_in(checked, name) for name in asked.quantities],
+        evaluation.told(),
+    )
+    write_json(Path(directory) / "sensitivity.json", report.to_dict())
+    return report

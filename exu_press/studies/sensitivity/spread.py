@@ -1,0 +1,81 @@
+"""What tolerances make of a quantity: percentiles, and how far most presses lie apart."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.stats import bootstrap
+
+from exu_press.arrays import Array
+
+__all__ = ["TORNADO", "Spread", "spread", "tornado"]
+
+TORNADO = (0.05, 0.95)
+"""Shares of a key's distribution at the ends of its bar."""
+
+RESAMPLES = 999
+
+
+@dataclass(frozen=True)
+class Spread:
+    """The distribution of one quantity, in its unit.
+
+    Attributes:
+        low, middle, high: 5, 50 and 95 % lie below.
+        mean: of all.
+        deviation: standard deviation.
+        half: half the width of the interval in the middle that holds the share asked for.
+        half_error: standard error of that, by resampling.
+    """
+
+    low: float
+    middle: float
+    high: float
+    mean: float
+    deviation: float
+    half: float
+    half_error: float
+
+
+def spread(values: Array, share: float) -> Spread:
+    """Return the distribution of a sample (m,).
+
+    >>> spread(np.linspace(-1.0, 1.0, 2001), 0.95).half
+    0.95
+    """
+    low, middle, high = np.percentile(values, [5.0, 50.0, 95.0])
+    told = bootstrap(
+        [values], lambda x, axis: _half(x, share, axis), n_resamples=RESAMPLES,
+        method="percentile", vectorized=True, rng=0,
+    )  # fmt: skip
+    return Spread(
+        float(low),
+        float(middle),
+        float(high),
+        float(values.mean()),
+        float(values.std(ddof=1)),
+        round(float(_half(values, share, -1)), 15),
+        float(told.standard_error),
+    )
+
+
+def _half(values: Array, share: float, axis: int) -> Array:
+    ends = np.quantile(values, [(1.0 - share) / 2.0, (1.0 + share) / 2.0], axis=axis)
+    return np.asarray((ends[1] - ends[0]) / 2.0)
+
+
+def tornado(evaluate: Callable[[Array], Array], keys: int) -> tuple[Array, Array]:
+    """Return the values with all keys at their medians (s,), and with each at its ends alone.
+
+    Args:
+        evaluate: from shares (m, keys) to values (m, s); NaN where a run failed.
+        keys: number of them.
+
+    Returns:
+        (s,) and (keys, 2, s).
+    """
+    points = np.full((1 + 2 * keys, keys), 0.5)
+    for place in range(keys):
+        points[1 + 2 * place : 3 + 2 * place, place] = TORNADO
+    values = evaluate(points)
+    return values[0], values[1:].reshape(keys, 2, -1)

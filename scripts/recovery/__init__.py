@@ -1,0 +1,1 @@
+"""Whether fits recover the keys that synthetic measurements were made with."""

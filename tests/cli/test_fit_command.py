@@ -1,0 +1,64 @@
+"""exu-press fit: what it prints and draws, and what it refuses in one line."""
+
+import pytest
+
+from exu_press.cli import main
+
+STUDY = """
+[scene]
+mechanism = "slider_crank"
+joints.crank_pin = "ideal"
+revolutions = 0.3
+[keys]
+slider_crank.slider_mass = {low = 800.0, high = 2000.0, log = true}
+slider_crank.rod_inertia = {low = 2.0, high = 3.0}
+[[measured]]
+quantity = "joints.wrist_pin.peak_force"
+value = 27000.0
+uncertainty = 300.0
+[[measured]]
+quantity = "joints.shaft.peak_force"
+value = 31300.0
+uncertainty = 3000.0
+[fit]
+starts = 1
+"""
+
+
+def run(tmp_path, text=STUDY, *more):
+    (tmp_path / "study.toml").write_text(text)
+    out = ["--out", str(tmp_path / "out"), "--workers", "1"]
+    return main(["fit", str(tmp_path / "study.toml"), *out, *more])
+
+
+def test_lines_and_pictures(tmp_path, capsys):
+    assert run(tmp_path) == 0
+    printed = capsys.readouterr().out
+    assert "slider_crank.slider_mass, kg" in printed
+    assert "not determined: slider_crank.rod_inertia" in printed
+    assert "nothing is left to judge" not in printed
+    last = printed.splitlines()[-1]
+    assert last.startswith("written: fit.json, fitted.toml, fit.png, profiles.png in")
+    for name in ("fit.png", "profiles.png"):
+        assert (tmp_path / "out" / name).stat().st_size > 10_000
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("uncertainty = 300.0", "", "measured.uncertainty: not given"),
+        ("starts = 1", "starts = 0", "fit.starts = 0"),
+        ("joints.wrist_pin.peak_force", "joints.wrist.peak_force", "did you mean"),
+        ("low = 800.0, high = 2000.0", "low = 0.0, high = 2000.0", "allowed is 0 < low < high"),
+    ],
+)
+def test_what_is_refused(tmp_path, capsys, old, new, said):
+    assert run(tmp_path, STUDY.replace(old, new)) == 2
+    shown = capsys.readouterr().err
+    assert said in shown
+    assert len(shown.splitlines()) == 1
+
+
+def test_no_run_gives_a_number(tmp_path, capsys):
+    assert run(tmp_path, STUDY.replace("[scene]", "time_limit = 1e-3\n[scene]", 1)) == 2
+    assert "0 gave numbers" in capsys.readouterr().err

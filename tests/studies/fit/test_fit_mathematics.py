@@ -1,0 +1,140 @@
+"""Minima, intervals and what is not determined, of models with closed forms."""
+
+import numpy as np
+import pytest
+
+from exu_press.studies.fit.determined import determined
+from exu_press.studies.fit.jacobian import LARGEST, STEP, jacobian, steps
+from exu_press.studies.fit.minimum import Minimum, evolved, screened, searched
+from exu_press.studies.fit.profile import profile
+
+AT = np.linspace(0.0, 3.0, 8)
+UNCERTAINTY = 0.02
+TRUE = np.array([0.7, 0.3])
+
+
+def decay(x):
+    """Amplitude and rate of an exponential, both from 0 to 2."""
+    return 2.0 * x[0] * np.exp(-2.0 * x[1] * AT)
+
+
+def against(measured, model=decay):
+    def evaluate(points):
+        return np.array([(model(x) - measured) / UNCERTAINTY for x in points])
+
+    return evaluate
+
+
+def fitted(evaluate, keys=2):
+    step = np.full(keys, STEP)
+    found, lost = searched(evaluate, screened(evaluate, keys, 3, 0), step)
+    assert lost == 0
+    return found, jacobian(evaluate, found[0].x, found[0].residuals, step)
+
+
+def test_exact_numbers_give_the_true_keys():
+    found, derivative = fitted(against(decay(TRUE)))
+    assert found[0].x == pytest.approx(TRUE, abs=1e-3)
+    assert found[0].times == 3
+    told = determined(derivative, 0.95)
+    exact = np.column_stack([decay(TRUE) / TRUE[0], -2.0 * AT * decay(TRUE)]) / UNCERTAINTY
+    assert derivative == pytest.approx(exact, rel=5e-3, abs=0.1)
+    assert told.deviation == pytest.approx(
+        np.sqrt(np.diag(np.linalg.inv(exact.T @ exact))), rel=0.01
+    )
+    assert told.open == []
+
+
+def test_intervals_hold_the_true_keys_as_often_as_they_say():
+    rng = np.random.default_rng(3)
+    held = np.zeros(2)
+    number = 300
+    for _ in range(number):
+        evaluate = against(decay(TRUE) + UNCERTAINTY * rng.standard_normal(len(AT)))
+        found, derivative = fitted(evaluate)
+        for key in range(2):
+            one = profile(evaluate, found[0], derivative, key, 0.95)
+            held[key] += one.low <= TRUE[key] <= one.high
+    assert held / number == pytest.approx([0.95, 0.95], abs=3.5 * np.sqrt(0.95 * 0.05 / number))
+
+
+def test_an_interval_that_is_not_symmetric_is_found_where_chi_square_has_risen():
+    """One number, the square of the key: the likelihood is far from normal."""
+
+    def evaluate(points):
+        return (points**2 - 0.04) / 0.03
+
+    found, derivative = fitted(evaluate, 1)
+    one = profile(evaluate, found[0], derivative, 0, 0.95)
+    rise = 1.959964 * 0.03
+    assert one.high == pytest.approx(np.sqrt(0.04 + rise), rel=0.02)
+    assert one.low == 0.0
+    assert one.low_open  # 0.04 below is within the uncertainty
+    assert one.high - found[0].x[0] < 0.8 * (1.959964 * 0.03 / 0.4)
+
+
+def test_a_key_without_effect_and_two_that_act_as_one_are_named():
+    def model(x):
+        return decay([x[0] * (0.5 + x[2]), x[1]])
+
+    measured = model([0.5, 0.3, 0.5, 0.5])
+    found, derivative = fitted(against(measured, model), 4)
+    told = determined(derivative, 0.95)
+    assert told.rank == 2
+    assert sorted(tuple(sorted(one.keys)) for one in told.open) == [(0, 2), (3,)]
+    assert np.isfinite(told.deviation).tolist() == [False, True, False, False]
+    one = profile(against(measured, model), found[0], derivative, 3, 0.95)
+    assert (one.low_open, one.high_open) == (True, True)
+
+
+def test_steps_grow_until_they_are_seen_beyond_the_errors():
+    evaluate = against(decay(TRUE))
+    x = TRUE
+    small = steps(evaluate, x, evaluate(x[None])[0], np.full(len(AT), 1e-6))
+    assert small == pytest.approx([STEP, STEP])
+    large = steps(evaluate, x, evaluate(x[None])[0], np.full(len(AT), 0.5))
+    assert (large > STEP).all()
+    assert (large <= LARGEST).all()
+
+
+def test_failed_runs_are_never_numbers():
+    good = against(decay(TRUE))
+
+    def evaluate(points):
+        values = good(points)
+        values[points[:, 0] > 0.75] = np.nan
+        return values
+
+    found, derivative = fitted(evaluate)
+    assert found[0].x == pytest.approx(TRUE, abs=2e-3)
+    assert np.isfinite(derivative).all()
+    one = profile(evaluate, found[0], derivative, 0, 0.999999)
+    assert one.high <= 0.75
+
+
+def test_differential_evolution_finds_the_least_of_many_minima():
+    def evaluate(points):
+        ripple = np.sin(40.0 * points)
+        return np.column_stack([10.0 * (points - 0.62) + 2.0 * ripple, 3.0 * ripple])
+
+    best = evolved(evaluate, 1, 30, 0)
+    grid = np.linspace(0.0, 1.0, 20001)[:, None]
+    least = (evaluate(grid) ** 2).sum(axis=1).min()
+    assert best.chi_square == pytest.approx(least, abs=0.02)
+    assert evolved(lambda points: np.full((len(points), 2), np.nan), 1, 2, 0) is None
+
+
+def test_a_start_of_one_s_own_is_among_the_starts():
+    evaluate = against(decay(TRUE))
+    own = np.array([0.99, 0.99])
+    assert any(np.array_equal(one.x, own) for one in screened(evaluate, 2, 1, 0, own))
+
+
+def test_a_point_that_is_better_than_the_minimum_is_reported():
+    evaluate = against(decay(TRUE))
+    off = np.array([0.72, 0.3])
+    start = Minimum(off, evaluate(off[None])[0])
+    derivative = jacobian(evaluate, off, start.residuals, np.full(2, STEP))
+    one = profile(evaluate, start, derivative, 1, 0.95)
+    assert one.better is not None
+    assert one.better.chi_square < start.chi_square

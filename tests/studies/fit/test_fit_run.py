@@ -1,0 +1,158 @@
+"""Fits of real scenes: masses found from forces, curves through a sensor, and bad input."""
+
+import numpy as np
+import pytest
+
+from exu_press import InputError, Scene, load_scene, simulate
+from exu_press.studies.base import load_study
+from exu_press.studies.fit import Fit, fit
+from exu_press.studies.fit.lines import report_lines
+
+SLIDER, ROD = "slider_crank.slider_mass", "slider_crank.rod_mass"
+SCENE = Scene(
+    mechanism="slider_crank",
+    joints={"crank_pin": "ideal"},
+    revolutions=0.5,
+    slider_crank={"slider_mass": 1250.0, "rod_mass": 200.0},
+)
+KEYS = {
+    SLIDER: {"low": 500.0, "high": 2000.0, "log": True},
+    ROD: {"low": 100.0, "high": 300.0},
+}
+NAMES = ("joints.wrist_pin.peak_force", "joints.shaft.peak_force", "drive.peak_torque")
+TRUTH = simulate(SCENE)
+
+
+def measured(names=NAMES, **more):
+    return [
+        {"quantity": n, "value": v, "uncertainty": 0.01 * v, **more}
+        for n in names
+        for v in [TRUTH.quantity(n).value]
+    ]
+
+
+def study(**changes):
+    given = {"scene": SCENE.replace({SLIDER: 1000.0, ROD: 150.0}), "keys": KEYS}
+    return Fit(**{**given, "measured": measured(), "fit": {"starts": 2}, **changes})
+
+
+def test_masses_are_found_from_forces(tmp_path):
+    report = fit(study(start={SLIDER: 1000.0}), tmp_path, workers=1)
+    assert report.values == pytest.approx({SLIDER: 1250.0, ROD: 200.0}, rel=2e-3)
+    assert report.low[SLIDER] < 1250.0 < report.high[SLIDER]
+    assert report.high[SLIDER] - report.low[SLIDER] < 200.0
+    assert report.chi_square == pytest.approx(0.0, abs=0.01)
+    assert report.freedom == 1
+    assert load_scene(tmp_path / "fitted.toml") == report.scene
+    lines = report_lines(report)
+    assert any(line.startswith(SLIDER) and " to " in line for line in lines)
+    again = fit(study(start={SLIDER: 1000.0}), tmp_path, workers=1)
+    assert again.to_dict() == report.to_dict()
+
+
+def test_two_keys_that_act_as_one_and_one_without_effect_are_named(tmp_path):
+    """The wrist pin carries the slider alone; with gravity it weighs as much as it resists."""
+    keys = {
+        SLIDER: KEYS[SLIDER],
+        "slider_crank.rod_inertia": {"low": 2.0, "high": 3.0},
+        ROD: KEYS[ROD],
+    }
+    given = measured(
+        ("guides.slider.peak_force", "drive.peak_torque", "joints.crank_pin.peak_force")
+    )
+    for one in given:
+        one["uncertainty"] *= 5.0
+    report = fit(study(keys=keys, measured=given), tmp_path, workers=1)
+    text = "\n".join(report_lines(report))
+    assert "not determined: slider_crank.rod_inertia; over its whole range" in text
+    assert report.open["slider_crank.rod_inertia"] == (True, True)
+
+
+def test_a_curve_through_a_sensor(tmp_path):
+    """The sensor's zero, clock and upper corner are unknown; the spring's force is found."""
+    time = np.linspace(0.01, 0.11, 60)
+    torque = np.interp(time + 0.002, TRUTH.time, TRUTH["drive_torque"]) * 1e-3 + 0.05
+    rows = [f"{t * 1e3:.9g},{v:.9g}" for t, v in zip(time, torque, strict=True)]
+    head = ["# samples = 60", "time (ms),drive_torque (kN m)"]
+    (tmp_path / "torque.csv").write_text("\n".join([*head, *rows]))
+    curve = {"file": str(tmp_path / "torque.csv"), "uncertainty": 5.0, "offset": True,
+             "shift": [-0.004, 0.004]}  # fmt: skip
+    report = fit(
+        study(measured=[], curve=[curve], keys={SLIDER: KEYS[SLIDER]}, scene=SCENE),
+        tmp_path / "o",
+        workers=1,
+    )
+    assert report.values[SLIDER] == pytest.approx(1250.0, rel=0.01)
+    ((_, told),) = report.curves
+    assert told.shift == pytest.approx(0.002, abs=2e-4)
+    assert told.offset == pytest.approx(50.0, abs=3.0)
+    assert "curve torque: 60 samples" in "\n".join(report_lines(report))
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"measured": []}, "no measurement"),
+        ({"measured": measured()[:1]}, "2 keys and 1 measured numbers"),
+        ({"measured": [{"quantity": "stroke", "value": 1.0}]}, "measured.uncertainty: not given"),
+        (
+            {"measured": measured(("stroke",), value=1.0, uncertainty=0.0)},
+            "allowed is a number > 0",
+        ),
+        ({"measured": [{**measured()[0], "quantity": "strok"}]}, "did you mean 'stroke'"),
+        ({"start": {SLIDER: 3000.0}}, "allowed is 500 to 2000"),
+        ({"start": {"speed_rpm": 3000.0}}, "start.speed_rpm: does not vary"),
+        ({"keys": {SLIDER: {"low": 2000.0, "high": 500.0}}}, "allowed is low < high"),
+        ({"keys": {SLIDER: [1.0, 2.0]}}, "allowed in a file for exu-press fit"),
+        ({"keys": {"film.viscosity": {"low": 0.1, "high": 0.2}}}, "film"),
+        ({"measured": measured(under={SLIDER: 900.0})}, "is fitted; allowed are other keys"),
+        ({"measured": measured(under={"speed": 900.0})}, "speed"),
+        ({"fit": {"method": "simplex"}}, "allowed is one of"),
+    ],
+)
+def test_bad_input(changes, said):
+    with pytest.raises(InputError, match=said):
+        study(**changes)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("time (s),slider_velocity (m/s)\n0,1\n1,2\n2,3\n3,4\n", ""),
+        ("# samples = 5\ntime (s),slider_velocity (m/s)\n0,1\n1,2\n2,3\n3,4\n", "states 5 samples"),
+        ("time (h),slider_velocity (m/s)\n0,1\n1,2\n2,3\n3,4\n", "time in h: allowed is s"),
+        ("time,slider_velocity\n0,1\n1,2\n2,3\n3,4\n", r"allowed is NAME \(UNIT\)"),
+        ("time (s),slider_velocity (m/s)\n0,1\n2,2\n1,3\n3,4\n", "line 4: time does not increase"),
+        ("time (s),slider_velocity (m/s)\n0,1\n2,x\n1,3\n3,4\n", "allowed are two numbers"),
+        ("speed (s),slider_velocity (m/s)\n0,1\n2,2\n3,3\n4,4\n", "first column 'speed'"),
+        ("time (s),slider_velocity (m/s)\n0,1\n2,2\n", "2 samples; allowed are at least 4"),
+    ],
+)
+def test_a_curve_s_file(tmp_path, text, said):
+    (tmp_path / "curve.csv").write_text(text)
+    (tmp_path / "fit.toml").write_text(
+        f'scene = "scene.toml"\n[keys]\n{SLIDER} = {{low = 500.0, high = 2000.0}}\n'
+        '[[curve]]\nfile = "curve.csv"\nuncertainty = 0.1\n'
+    )
+    SCENE.save(tmp_path / "scene.toml")
+    if said:
+        with pytest.raises(InputError, match=said):
+            load_study(tmp_path / "fit.toml", Fit)
+    else:
+        assert load_study(tmp_path / "fit.toml", Fit).curve[0].read.values.tolist() == [1, 2, 3, 4]
+
+
+@pytest.mark.parametrize(
+    ("head", "last", "said"),
+    [
+        ("time (s),slider_velocity (kg)", 0.1, "slider_velocity in kg: allowed is m/s"),
+        ("time (s),slider_speed (m/s)", 0.1, "column 'slider_speed'; allowed are channels"),
+        ("time (s),slider_velocity (m/s)", 9.0, "and beyond the run"),
+    ],
+)
+def test_a_curve_that_is_not_of_this_scene(tmp_path, head, last, said):
+    rows = [f"{t},0" for t in np.linspace(0.01, last, 5)]
+    (tmp_path / "c.csv").write_text("\n".join([head, *rows]))
+    curve = {"file": str(tmp_path / "c.csv"), "uncertainty": 0.1}
+    with pytest.raises(InputError, match=said):
+        fit(study(measured=[], curve=[curve]), tmp_path / "o", workers=1)

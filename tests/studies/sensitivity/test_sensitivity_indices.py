@@ -1,0 +1,53 @@
+"""Sobol indices: a function whose indices are known, and points that fail."""
+
+import numpy as np
+import pytest
+
+from exu_press.studies.sensitivity.indices import indices, sample
+
+A, B = 7.0, 0.1
+
+
+def ishigami(shares):
+    x = (2.0 * shares - 1.0) * np.pi
+    value = np.sin(x[:, 0]) + A * np.sin(x[:, 1]) ** 2 + B * x[:, 2] ** 4 * np.sin(x[:, 0])
+    return np.column_stack([value, np.full(len(x), 3.0)])
+
+
+def known():
+    """Ishigami and Homma, 1990: first and total indices in closed form."""
+    of_first = (1.0 + B * np.pi**4 / 5.0) ** 2 / 2.0
+    of_second = A**2 / 8.0
+    of_both = B**2 * np.pi**8 * 8.0 / 225.0
+    variance = of_first + of_second + of_both
+    return (
+        np.array([of_first, of_second, 0.0]) / variance,
+        np.array([of_first + of_both, of_second, of_both]) / variance,
+    )
+
+
+def test_ishigami_s_function():
+    found, constant = indices(sample(ishigami, 3, 2048, 1))
+    first, total = known()
+    assert found.first == pytest.approx(first, abs=0.03)
+    assert found.total == pytest.approx(total, abs=0.03)
+    inside = (found.total_bounds[:, 0] <= total) & (total <= found.total_bounds[:, 1])
+    assert inside.all()
+    assert constant is None
+
+
+def test_a_sample_with_a_failed_run_is_drawn_anew():
+    def failing(shares):
+        values = ishigami(shares)
+        values[shares[:, 2] > 0.97] = np.nan
+        return values
+
+    found = sample(failing, 3, 64, 1)
+    assert found.drawn > 64
+    assert found.a.shape == (2, 64)
+    assert np.isfinite(found.values).all()
+    assert found.shares[..., 2].max() <= 0.97
+
+
+def test_too_many_failures_give_no_sample():
+    assert sample(lambda shares: np.full((len(shares), 1), np.nan), 2, 8, 0) is None

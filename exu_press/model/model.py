@@ -1,7 +1,7 @@
 """An assembled Exudyn system and what its items are called."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -19,6 +19,9 @@ if TYPE_CHECKING:
     from exu_press.placed_part import PlacedPart
 
 __all__ = ["Model", "count_items"]
+
+CLOSE = 1e-9
+"""rad: a sample that is no further away is reached."""
 
 STALLED = 0.01
 """Of the speed at the start, or without load: a crank that is slower has stalled. Pressed by a
@@ -69,8 +72,22 @@ class Model(Assembled):
         return solve(self, tuning=tuning, quiet=quiet)
 
     def next_corner(self, time: float) -> float:
-        """Return the next instant at which a load has a corner, s, or infinity."""
-        return next_corner(self.loads, self.scene, time)
+        """Return the next instant at which a load has a corner or a sample lies, s, or infinity."""
+        soonest = next_corner(self.loads, self.scene, time)
+        output, speed = self.scene.output, self.scene.angular_speed
+        if output is None or self.scene.drive is not None:
+            return soonest
+        section = output.section(self.scene.start_angle)
+        return min(soonest, section.after(speed * time, CLOSE) / speed)
+
+    @property
+    def event(self) -> Callable[[exu.MainSystem, float], float] | None:
+        """What changes its sign at the samples of a motor's crank, or None."""
+        output = self.scene.output
+        if output is None or self.scene.drive is None:
+            return None
+        section = output.section(self.scene.start_angle)
+        return lambda mbs, time: section.side(self.crank_angle()[0])
 
     def watch(self, time: float) -> str:
         """Return why the press goes no further, after a step that ends at a time, s, or nothing."""

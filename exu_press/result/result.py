@@ -14,6 +14,7 @@ from exu_press.checks import nearest
 from exu_press.errors import InputError
 from exu_press.result.contents import Contents
 from exu_press.result.joint import JointRecord
+from exu_press.result.samples import Samples, samples_of
 from exu_press.scene import IdealJoint
 from exu_press.scene.joint import Joint
 
@@ -85,6 +86,15 @@ class Result(Contents):
     def clearance_joints(self) -> tuple[str, ...]:
         """Names of the joints with clearance."""
         return tuple(name for name, joint in self.joints.items() if joint.kind != "ideal")
+
+    @cached_property
+    def samples(self) -> Samples:
+        """The record at the crank angles of [output] samples, revolution by revolution.
+
+        Raises:
+            InputError: the scene asks for none.
+        """
+        return samples_of(self.scene, {name: self[name] for name in self})
 
     def with_values(self, values: Mapping[str, Array]) -> "Result":
         """Return the run with other values of some of its channels, by their names."""

@@ -29,6 +29,7 @@ from exu_press.scene.joint_changes import by_group, kinds_of, unused_laws
 from exu_press.scene.joints import Joints, joints_of
 from exu_press.scene.load import Load
 from exu_press.scene.loads import load_dict, loads_of
+from exu_press.scene.output import Output
 from exu_press.scene.save import save_scene
 from exu_press.scene.tables import RPM, Contact, ElasticGuide, Film, Friction, Motor, Solver
 from exu_press.scene.usage import TABLES, unused_tables
@@ -44,8 +45,8 @@ LONGEST_RUN = 1e9
 STARTS = ("loaded", "centred")
 """The first one is that of a mechanism without a default of its own."""
 
-ONLY_WHERE_GIVEN = ("drive", "guide")
-"""Tables that a scene without them does not have: constant speed, ideal guides."""
+ONLY_WHERE_GIVEN = ("drive", "guide", "output")
+"""Tables that a scene without them does not have: constant speed, ideal guides, no samples."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -90,6 +91,7 @@ class Scene(Table):
     load: Mapping[str, Load] = dataclasses.field(default_factory=dict, hash=False)
     drive: Motor | None = None
     guide: ElasticGuide | None = None
+    output: Output | None = None
     solver: Solver | None = None
     press: Press | None = None
     slider_crank: SliderCrank | None = None
@@ -121,6 +123,10 @@ class Scene(Table):
             for inner, value in checked.given.items():
                 self._refuse(idle, inner, value, name)
             object.__setattr__(self, name, checked.without(idle))
+        if self.output is not None and self.solver is not None and self.solver.step is not None:
+            raise InputError(
+                "output.samples: allowed with solver.tolerance, as fixed steps end on a grid"
+            )
         self._settle_joints()
         self._settle_bodies()
         self._settle_loads()

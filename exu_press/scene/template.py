@@ -8,6 +8,7 @@ from exu_press.checks import Table
 from exu_press.scene.bodies import Flexible
 from exu_press.scene.joints import Joints
 from exu_press.scene.load import BlankingLoad, Load, TableLoad
+from exu_press.scene.output import Output
 from exu_press.scene.save import body_lines, joint_lines, load_lines, table_lines
 from exu_press.scene.scene import Scene, mechanism_of
 from exu_press.scene.usage import TABLES
@@ -69,7 +70,9 @@ def _not_in_use(lines: Iterable[str]) -> Iterator[str]:
 
 
 def _usual(kind: type[Table]) -> Table:
-    """Return a table at its defaults, without the keys that these do not use."""
+    """Return a table at its defaults, without the keys that these do not use, or an example."""
+    if kind is Output:
+        return Output(samples=(0.0, 180.0))
     return kind().without(kind().unused())
 
 

@@ -3,6 +3,7 @@
 from typing import Any
 
 from exu_press.mechanism import Press, SliderCrank
+from exu_press.scene.output import Output
 from exu_press.scene.tables import Contact, ElasticGuide, Film, Friction, Motor, Solver
 
 __all__ = ["TABLES", "unused_tables"]
@@ -13,6 +14,7 @@ TABLES = {
     "film": Film,
     "drive": Motor,
     "guide": ElasticGuide,
+    "output": Output,
     "solver": Solver,
     "press": Press,
     "slider_crank": SliderCrank,

@@ -1,6 +1,6 @@
 """What solving needs of a scene's model."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import exudyn as exu
@@ -38,7 +38,12 @@ class Assembled:
     sensors: dict[tuple[str, str], int]
 
     def next_corner(self, time: float) -> float:
-        """Return the next instant at which a load has a corner, s, or infinity."""
+        """Return the next instant at which a load has a corner or a sample lies, s, or infinity."""
+        raise NotImplementedError
+
+    @property
+    def event(self) -> Callable[[exu.MainSystem, float], float] | None:
+        """What changes its sign at the samples of a motor's crank, or None."""
         raise NotImplementedError
 
     def watch(self, time: float) -> str:

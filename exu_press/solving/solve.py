@@ -40,6 +40,7 @@ def solve(model: Assembled, *, tuning: Tuning = DEFAULTS, quiet: bool = True) ->
         scales=scales(scene),
         next_corner=model.next_corner,
         watch=model.watch,
+        event=model.event,
         # modes and drive: no say
         bodies={node: (name, masses.get(name, math.inf)) for name, node in model.nodes.items()},
         advice=lambda problem, by_tolerance: SceneAdvice(model, problem, by_tolerance),

@@ -1,0 +1,74 @@
+"""The record of a run at given crank angles of every revolution."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exu_press.arrays import Array
+from exu_press.errors import InputError
+from exu_press.scene import Scene
+
+__all__ = ["Samples", "samples_of"]
+
+NEAR = 1e-3
+"""rad: by how much a flexible crank is twisted at most where its drive is at the angle."""
+
+
+@dataclass(frozen=True)
+class Samples:
+    """Samples of a run, in the order of time; `samples["slider_position"]` are a channel's values.
+
+    Attributes:
+        revolution: since the start, (m,); 0 is the first one.
+        angle_deg: crank angle, (m,), deg from the mechanism's zero, from 0 to 360.
+        rows: of the channels, (m,).
+    """
+
+    revolution: Array
+    angle_deg: Array
+    rows: NDArray[np.intp]
+    _channels: Mapping[str, Array]
+
+    def __getitem__(self, name: str) -> Array:
+        """Return the values of a channel, (m, ...)."""
+        return np.asarray(self._channels[name][self.rows])
+
+    def __len__(self) -> int:
+        """Return the number of samples."""
+        return len(self.rows)
+
+    def at(self, angle_deg: float) -> "Samples":
+        """Return the samples at one of the crank angles, one a revolution.
+
+        Raises:
+            InputError: the run was not sampled there.
+        """
+        here = np.abs(self.angle_deg - angle_deg) < 1e-9
+        if not here.any():
+            told = ", ".join(f"{angle:g}" for angle in np.unique(self.angle_deg))
+            raise InputError(f"samples at {angle_deg:g} deg: this run has them at {told or 'none'}")
+        return Samples(self.revolution[here], self.angle_deg[here], self.rows[here], self._channels)
+
+
+def samples_of(scene: Scene, channels: Mapping[str, Array]) -> Samples:
+    """Return the samples of a run, as far as it got.
+
+    Raises:
+        InputError: its scene asks for none.
+    """
+    if scene.output is None:
+        raise InputError("samples: this run has none; allowed is [output] samples = [crank angles]")
+    turned = channels["crank_angle"] - scene.start_angle
+    if scene.drive is None:
+        turned = scene.angular_speed * channels["time"]
+    wanted, number = scene.output.section(scene.start_angle).up_to(float(turned.max()) + NEAR)
+    rows = np.searchsorted(turned, wanted)
+    before, after = np.maximum(rows - 1, 0), np.minimum(rows, len(turned) - 1)
+    nearer = np.abs(turned[before] - wanted) < np.abs(turned[after] - wanted)
+    rows = np.where(nearer, before, after)
+    there = np.abs(turned[rows] - wanted) < NEAR
+    angles = np.array(scene.output.samples)
+    revolution = np.floor(wanted / (2.0 * np.pi) + 1e-9).astype(int)
+    return Samples(revolution[there], angles[number[there]], rows[there], channels)

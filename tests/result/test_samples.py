@@ -1,0 +1,75 @@
+"""Samples at crank angles: steps end on them, of a motor's crank too."""
+
+import numpy as np
+import pytest
+
+from exu_press import InputError, Result, Scene, simulate
+
+ANGLES = (0.0, 90.0, 200.0)
+DRY = Scene(
+    mechanism="slider_crank",
+    joints={"crank_pin": {"kind": "dry", "clearance": 1e-4, "radius": 0.03}},
+    contact={"length": 0.05},
+    revolutions=2.25,
+    start_angle_deg=30.0,
+    output={"samples": ANGLES},
+)
+MOTOR = {"drive": {"rated_torque": 200.0, "inertia": 2.0}}
+
+
+@pytest.mark.parametrize("change", [{}, MOTOR], ids=["constant speed", "motor"])
+def test_steps_end_on_the_angles(change, tmp_path):
+    run = simulate(DRY.replace(change))
+    assert run.completed
+    samples = run.samples
+    turned = np.degrees(samples["crank_angle"]) - samples.angle_deg
+    off = turned - 360.0 * np.round(turned / 360.0)
+    assert np.abs(off).max() < (3e-5 if change else 1e-7)
+    assert len(samples.at(90.0)) == 3
+    assert samples.revolution.tolist() == sorted(samples.revolution.tolist())
+    assert samples.angle_deg[:3].tolist() == [90.0, 200.0, 0.0], "from 30 deg on"
+    assert samples["slider_position"].shape == (len(samples),)
+    assert samples["crank_pin_force"].shape == (len(samples), 2)
+    run.save(tmp_path / "run.nc")
+    again = Result.load(tmp_path / "run.nc").samples
+    assert np.array_equal(again["slider_velocity"], samples["slider_velocity"])
+
+
+def test_a_run_is_sampled_where_it_starts():
+    run = simulate(DRY.replace({"start_angle_deg": 0.0, "revolutions": 1.5}))
+    assert run.samples.at(0.0).revolution.tolist() == [0, 1]
+    assert run.samples.at(0.0)["time"][0] == 0.0
+
+
+def test_samples_at_constant_speed_are_the_closed_forms():
+    scene = DRY.replace({"joints.crank_pin": "ideal", "revolutions": 3.0, "start_angle_deg": 0.0})
+    run = simulate(scene)
+    positions = run.samples.at(90.0)["slider_position"]
+    assert len(positions) == 3
+    assert np.ptp(positions) < 1e-9
+
+
+@pytest.mark.parametrize(
+    ("output", "message"),
+    [
+        ({}, "output.samples: allowed is at least one crank angle"),
+        ({"samples": []}, "output.samples: allowed is at least one crank angle"),
+        ({"samples": [360.0]}, r"output\.samples = 360\.0: allowed are numbers from 0 to < 360"),
+        ({"samples": [90.0, 90.0]}, r"output\.samples = 90\.0 after 90\.0: allowed is increasing"),
+        ({"samples": 90.0}, r"output\.samples = 90\.0: allowed is a list of numbers"),
+    ],
+)
+def test_what_is_refused(output, message):
+    with pytest.raises(InputError, match=message):
+        Scene(output=output)
+
+
+def test_fixed_steps_and_runs_without_samples_are_refused():
+    with pytest.raises(InputError, match=r"output\.samples: allowed with solver\.tolerance"):
+        Scene(output={"samples": [0.0]}, solver={"step": 1e-5})
+    run = simulate(Scene(joints={}, revolutions=0.01))
+    with pytest.raises(InputError, match="samples: this run has none"):
+        run.samples  # noqa: B018
+    sampled = simulate(Scene(joints={}, revolutions=0.01, output={"samples": [1.0]}))
+    with pytest.raises(InputError, match="samples at 7 deg: this run has them at 1"):
+        sampled.samples.at(7.0)

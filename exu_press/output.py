@@ -25,6 +25,7 @@ PICTURES = {
     "sweep": ("sweep",),
     "fit": ("fit", "profiles"),
     "sensitivity": ("sensitivity",),
+    "optimise": ("front",),
 }
 """What a command may draw into its directory, less the .png."""
 

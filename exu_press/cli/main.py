@@ -22,6 +22,7 @@ COMMANDS = (
     "sweep",
     "fit",
     "sensitivity",
+    "optimise",
     "precision",
     "stability",
     "doctor",

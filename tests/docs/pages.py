@@ -133,10 +133,16 @@ def read(block: Block, place: Path) -> None:
 def kind_of(tables: dict[str, object]) -> type:
     """Return the kind of a study, which its own tables tell."""
     from exu_press.studies.fit import Fit
+    from exu_press.studies.optimise import Optimise
     from exu_press.studies.sensitivity import Sensitivity
     from exu_press.studies.sweep import Sweep
 
-    own = {"sensitivity": Sensitivity, "measured": Fit, "curve": Fit}
+    own = {
+        "sensitivity": Sensitivity,
+        "measured": Fit,
+        "curve": Fit,
+        "objective": Optimise,
+    }
     return next((kind for name, kind in own.items() if name in tables), Sweep)
 
 

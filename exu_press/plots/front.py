@@ -1,0 +1,108 @@
+"""An optimum in one picture: objectives against each other, and the keys along the front."""
+
+from itertools import combinations
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from exu_press.arrays import Array
+from exu_press.plots.file import save_figure
+from exu_press.plots.headed import headed_figure
+from exu_press.plots.style import COLOURS, GREY, styled
+from exu_press.plots.sweep_words import in_unit, words
+from exu_press.plots.typesetting import plain, typeset
+from exu_press.plots.words import describe
+from exu_press.quantities import quantity_of
+from exu_press.studies.base import Range
+from exu_press.studies.optimise import Report
+
+__all__ = ["front_figure", "save_front"]
+
+ACROSS = 3
+
+
+@styled
+def front_figure(report: Report) -> Figure:
+    """Return a panel for each pair of objectives, and one for each key over the first objective.
+
+    Of one objective: all points over each key.
+    """
+    study = report.study
+    objectives = [one.quantity for one in study.objective]
+    pairs = list(combinations(objectives, 2))
+    ranged = [name for name, each in study.keys.items() if isinstance(each, Range)]
+    count = len(pairs) + len(ranged)
+    across = min(ACROSS, count)
+    down = -(-count // across)
+    heading = "Objectives against each other" if pairs else "The objective over each key"
+    text = f"{describe([study.scene], 110)}\n{report.told[0]}; {report.method}"
+    figure = headed_figure(heading, text, (4.3 * across + 0.4, 1.3 + 3.3 * down))
+    panels = list(figure.subplots(down, across, squeeze=False).flat)
+    for (first, second), panel in zip(pairs, panels, strict=False):
+        _points(panel, report, _all(report, first), _all(report, second), (first, second))
+        panel.set_xlabel(_label(report, first))
+    for name, panel in zip(ranged, panels[len(pairs) :], strict=False):
+        values = np.array([float(point[name]) for point in report.trials.points])
+        shown, unit = in_unit(name, values)
+        _points(panel, report, shown, _all(report, objectives[0]), ("", objectives[0]))
+        panel.set_xlabel(plain(words(name) + (f", {unit}" if unit else "")))
+        each = study.keys[name]
+        if isinstance(each, Range) and each.log:
+            panel.set_xscale("log")
+    for panel in panels[count:]:
+        panel.axis("off")
+    handles, labels = panels[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper right", ncols=3)
+    return figure
+
+
+def save_front(report: Report, directory: str | Path) -> Path:
+    """Draw front.png and return the file."""
+    return save_figure(front_figure(report), Path(directory) / "front.png")
+
+
+def _all(report: Report, quantity: str) -> Array:
+    """Return a quantity of all points in the unit that is shown."""
+    place = report.study.quantities.index(quantity)
+    scale = quantity_of(report.study.scene, quantity).quantity.scale
+    return np.asarray(report.trials.numbers[:, place] * scale)
+
+
+def _label(report: Report, quantity: str) -> str:
+    found = quantity_of(report.study.scene, quantity).quantity
+    unit = typeset(found.shown or found.unit)
+    title = words(quantity)
+    short = title if len(title) < 34 else quantity.replace("_", " ")
+    return plain(short + (f", {unit}" if unit else ""))
+
+
+def _points(panel: Axes, report: Report, across: Array, up: Array, names: tuple[str, str]) -> None:
+    """Draw all points, the front with its errors, and the chosen one."""
+    panel.plot(across, up, ".", color="0.75", markersize=4, label="tried")
+    bars: dict[str, Any] = {}
+    for side, name in zip(("xerr", "yerr"), names, strict=True):
+        if name in report.errors:
+            scale = quantity_of(report.study.scene, name).quantity.scale
+            bars[side] = np.nan_to_num(report.errors[name]) * scale
+    several = len(report.study.objective) > 1
+    panel.errorbar(
+        across[report.places], up[report.places], **bars, fmt="o", color=COLOURS["blue"],
+        markersize=4.5, ecolor=GREY, elinewidth=1.0,
+        label="not worse in everything" if several else "best",
+    )  # fmt: skip
+    one = report.places[report.chosen]
+    panel.plot(
+        across[one], up[one], "D", color=COLOURS["vermilion"], markersize=7, zorder=5,
+        label="chosen",
+    )  # fmt: skip
+    panel.margins(x=0.05, y=0.05)
+    panel.set_ylabel(_label(report, names[1]))
+    finite = up[np.isfinite(up)]
+    if len(finite) and finite.min() > 0.0 and finite.max() > 30.0 * finite.min():
+        panel.set_yscale("log")
+    finite = across[np.isfinite(across)]
+    if names[0] and len(finite) and finite.min() > 0.0 and finite.max() > 30.0 * finite.min():
+        panel.set_xscale("log")

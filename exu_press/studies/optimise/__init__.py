@@ -1,0 +1,6 @@
+"""Which keys make a press best: one objective, or several against each other."""
+
+from exu_press.studies.optimise.run import Report, optimise
+from exu_press.studies.optimise.study import Optimise
+
+__all__ = ["Optimise", "Report", "optimise"]

@@ -1,0 +1,67 @@
+"""An optimum as a person reads it in a terminal."""
+
+import numpy as np
+
+from exu_press.columns import columns
+from exu_press.quantities import quantity_of
+from exu_press.quantities.uncertain import significant, uncertain
+from exu_press.studies.optimise.run import Report
+from exu_press.studies.sweep.units import unit_of
+
+__all__ = ["report_lines"]
+
+MOST_LINES = 14
+"""Of a front: evenly along it, the chosen point always."""
+
+
+def report_lines(report: Report) -> list[str]:
+    """Return how it was searched, the front, and the chosen point at a tenth of the tolerance."""
+    study, number = report.study, len(report.places)
+    several = len(study.objective) > 1
+    lines = [*report.told, f"method: {report.method} ({report.why})"]
+    names = list(dict.fromkeys(study.quantities))
+    rows = [
+        (
+            "",
+            *(_head(key, unit_of(key)) for key in study.keys),
+            *(_title(report, name) for name in names),
+        )
+    ]
+    shown = sorted({report.chosen, *np.linspace(0, number - 1, MOST_LINES).astype(int).tolist()})
+    for n in shown:
+        point = report.trials.points[report.places[n]]
+        cells = [f"{v:.4g}" if isinstance(v, float) else str(v) for v in point.values()]
+        mark = "chosen" if n == report.chosen else f"{n + 1:02}"
+        rows.append((mark, *cells, *(_number(report, name, n) for name in names)))
+    lines += columns(rows)
+    if several:
+        left = f", {len(shown)} of them shown" if len(shown) < number else ""
+        lines.append(
+            f"{number} of {len(report.trials.points)} points are not worse than another in "
+            f"everything{left}"
+        )
+    for name, value in report.finer.items():
+        quantity = quantity_of(study.scene, name).quantity
+        before = float(report.numbers(name)[report.chosen])
+        change = "the same" if value == before else f"{100 * (value / before - 1):+.2g} %"
+        lines.append(
+            f"chosen, at a tenth of the tolerance: {name} "
+            f"{significant(value * quantity.scale, 5)} {quantity.shown or quantity.unit} ({change})"
+        )
+    return lines
+
+
+def _head(name: str, unit: str) -> str:
+    return f"{name}, {unit}" if unit and not name.endswith(f"_{unit}") else name
+
+
+def _title(report: Report, name: str) -> str:
+    quantity = quantity_of(report.study.scene, name).quantity
+    return _head(name, quantity.shown or quantity.unit)
+
+
+def _number(report: Report, name: str, place: int) -> str:
+    quantity = quantity_of(report.study.scene, name).quantity
+    value, error = float(report.numbers(name)[place]), float(report.errors[name][place])
+    told = None if np.isnan(error) else {"error": error, "determined": True}
+    return uncertain(value, told, quantity.scale, 5)

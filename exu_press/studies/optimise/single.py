@@ -1,0 +1,88 @@
+"""One objective: SciPy's solvers, within limits."""
+
+from collections.abc import Callable
+
+import numpy as np
+from scipy.optimize import differential_evolution, minimize
+from scipy.stats import qmc
+
+from exu_press.arrays import Array
+
+__all__ = ["Judge", "evolved", "simplex", "spread_points"]
+
+Judge = Callable[[Array], Array]
+"""From scaled points (m, keys) to one number each, less is better: the objective of points within
+limits; beyond any of these what limits are violated by, and above that points without numbers."""
+
+BEYOND = 1e9
+"""Of the objective's scale: added to a violation, so that every point within limits is better
+(K. Deb, Computer Methods in Applied Mechanics and Engineering 186 (2000) 311-338)."""
+
+POPULATION = 6
+"""Points of differential evolution over the number of keys."""
+
+RESOLVED = 1e-3
+"""Of a key's range, to which the simplex shrinks."""
+
+
+def spread_points(keys: int, number: int, seed: int) -> Array:
+    """Return points spread over the ranges, the middle first, (a power of two + 1, keys)."""
+    power = max(2, int(np.log2(max(number, 4))))
+    return np.concatenate([np.full((1, keys), 0.5), qmc.Sobol(keys, rng=seed).random(2**power)])
+
+
+def judged(values: Array, violations: Array, scale: float) -> Array:
+    """Return what a solver compares, (points,).
+
+    Args:
+        values: objective, less is better; NaN without.
+        violations: of limits, 0 within.
+        scale: of the objective.
+    """
+    found = np.where(violations > 0.0, BEYOND * (1.0 + violations), values / scale)
+    return np.where(np.isfinite(values), found, np.inf)
+
+
+def simplex(judge: Judge, start: Array, trials: int) -> None:
+    """Search downhill from a point by Nelder and Mead's simplex: smooth objectives.
+
+    Args:
+        judge: see Judge; it remembers what it was asked.
+        start: scaled, within the limits if any such is known.
+        trials: at most.
+    """
+    corners = np.tile(start, (len(start) + 1, 1))
+    for place in range(len(start)):
+        corners[place + 1, place] += 0.15 if start[place] < 0.5 else -0.15
+    judge(corners)  # side by side, where the solver would ask for one after the other
+    minimize(
+        lambda x: float(judge(x[None])[0]),
+        start,
+        method="Nelder-Mead",
+        bounds=[(0.0, 1.0)] * len(start),
+        options={"initial_simplex": corners, "maxfev": trials, "xatol": RESOLVED, "fatol": 1e-6},
+    )
+
+
+def evolved(judge: Judge, keys: int, trials: int, seed: int) -> None:
+    """Search by differential evolution: rough objectives.
+
+    Args:
+        judge: see Judge; it remembers what it was asked.
+        keys: number of them.
+        trials: at most, about.
+        seed: of the random numbers.
+    """
+    size = max(POPULATION * keys, 5)
+    differential_evolution(
+        lambda points: judge(points.T),
+        [(0.0, 1.0)] * keys,
+        maxiter=max(trials // size - 1, 1),
+        popsize=POPULATION,
+        init="sobol",
+        rng=seed,
+        polish=False,
+        vectorized=True,
+        updating="deferred",
+        tol=1e-3,
+    )

@@ -1,0 +1,77 @@
+"""exu-press optimise: a mechanism whose optimum is known, what it writes, what it refuses."""
+
+import json
+
+import pytest
+
+from exu_press import load_scene
+from exu_press.cli import main
+
+STUDY = """
+[scene]
+mechanism = "slider_crank"
+joints.crank_pin = "ideal"
+revolutions = 0.3
+[keys]
+slider_crank.rod_length = {low = 0.2, high = 0.6}
+slider_crank.slider_mass = {low = 800.0, high = 2000.0, log = true}
+[[objective]]
+quantity = "joints.wrist_pin.peak_force"
+[[objective]]
+quantity = "energy.stored"
+sense = "largest"
+[[limit]]
+quantity = "peak_acceleration.resolved"
+below = 20.0
+[optimise]
+trials = 16
+"""
+ONE = STUDY.replace('[[objective]]\nquantity = "energy.stored"\nsense = "largest"\n', "")
+
+
+def run(tmp_path, text=STUDY, *more):
+    (tmp_path / "study.toml").write_text(text)
+    out = ["--out", str(tmp_path / "out"), "--workers", "1"]
+    return main(["optimise", str(tmp_path / "study.toml"), *out, *more])
+
+
+def test_several_objectives(tmp_path, capsys):
+    assert run(tmp_path) == 0
+    printed = capsys.readouterr().out
+    assert "method: tpe (advised for 16 trials)" in printed
+    assert "chosen, at a tenth of the tolerance: joints.wrist_pin.peak_force" in printed
+    out = tmp_path / "out"
+    told = json.loads((out / "optimise.json").read_text())
+    assert len(told["front"]) == len(list((out / "front").glob("*.toml")))
+    keys = told["front"][told["chosen"]]["keys"]
+    scene = load_scene(out / "chosen.toml")
+    assert scene.slider_crank.rod_length == keys["slider_crank.rod_length"]
+    assert (out / "front.png").stat().st_size > 10_000
+    assert len((out / "trials.csv").read_text().splitlines()) == 17
+
+
+def test_one_objective_that_a_solver_of_scipy_finds(tmp_path, capsys):
+    """The lightest slider loads the wrist pin least; the limit keeps the rod from its shortest."""
+    assert run(tmp_path, ONE.replace("trials = 16", "trials = 60")) == 0
+    assert "method: nelder_mead (a run's error is" in capsys.readouterr().out
+    keys = load_scene(tmp_path / "out" / "chosen.toml").slider_crank
+    assert keys.slider_mass == pytest.approx(800.0, rel=0.02)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("below = 20.0", "below = 1.0", "no run keeps the limits"),
+        ("below = 20.0", "", "allowed are one of them, or above < below"),
+        ("energy.stored", "energy.store", "did you mean"),
+        ("energy.stored", "joints.wrist_pin.peak_force", "two are of one quantity"),
+        ("trials = 16", 'method = "nelder_mead"', "with 2 objectives allowed are"),
+        ('sense = "largest"', 'sense = "most"', "allowed is one of"),
+        ("low = 0.2, high = 0.6", "mean = 0.4, deviation = 0.01", "file for exu-press optimise"),
+        ("energy.stored", "guides.slider.dissipated", "in each of 16 runs"),
+    ],
+)
+def test_what_is_refused(tmp_path, capsys, old, new, said):
+    assert run(tmp_path, STUDY.replace(old, new)) == 2
+    shown = capsys.readouterr().err
+    assert said in shown.splitlines()[-1]

@@ -1,0 +1,135 @@
+"""Fronts and minima that are known in closed form, through the code of the command."""
+
+import numpy as np
+import pytest
+
+from exu_press.studies.base import Range, Values
+from exu_press.studies.optimise.front import chosen, front
+from exu_press.studies.optimise.several import advised, searched
+from exu_press.studies.optimise.single import evolved, judged, simplex, spread_points
+from exu_press.studies.optimise.study import NSGA, TPE
+
+KEYS = {f"x{n}": Range(low=0.0, high=1.0) for n in range(4)}
+
+
+class Zdt1:
+    """E. Zitzler, K. Deb, L. Thiele, Evolutionary Computation 8 (2000) 173-195: T1.
+
+    Its front is f2 = 1 - sqrt(f1), f1 from 0 to 1.
+    """
+
+    def __init__(self, failing=False, limit=None):
+        self.values, self.violations, self.points = [], [], []
+        self.failing, self.limit = failing, limit
+
+    def __call__(self, points):
+        x = np.array([list(point.values()) for point in points])
+        g = 1.0 + 9.0 * x[:, 1:].mean(axis=1)
+        found = np.column_stack([x[:, 0], g * (1.0 - np.sqrt(x[:, 0] / g))])
+        if self.failing:
+            found[x[:, 1] > 0.7] = np.nan
+        beyond = np.zeros(len(x)) if self.limit is None else np.maximum(x[:, 0] - self.limit, 0.0)
+        self.values += list(found)
+        self.violations += list(beyond)
+        self.points += list(points)
+        return found, beyond
+
+    @property
+    def front(self):
+        values = np.array(self.values)
+        return values[front(values, np.array(self.violations))]
+
+
+@pytest.mark.parametrize(
+    ("method", "trials", "wide", "off"), [(TPE, 240, 0.4, 0.15), (NSGA, 1600, 0.8, 0.15)]
+)
+def test_zdt1(method, trials, wide, off):
+    problem = Zdt1()
+    searched(problem, KEYS, 2, trials, method, 1)
+    found = problem.front
+    assert len(found) >= 8
+    assert np.ptp(found[:, 0]) > wide
+    distance = found[:, 1] - (1.0 - np.sqrt(found[:, 0]))
+    assert distance.min() >= -1e-12
+    assert np.median(distance) < off
+
+
+def test_failed_points_and_limits():
+    problem = Zdt1(failing=True, limit=0.5)
+    searched(problem, KEYS, 2, 96, TPE, 1)
+    assert any(np.isnan(value).all() for value in problem.values)
+    assert np.isfinite(problem.front).all()
+    assert problem.front[:, 0].max() <= 0.5
+    assert problem.front[:, 1].min() >= 1.0 - np.sqrt(0.5)
+
+
+def test_the_same_seed_asks_for_the_same_points():
+    one, other = Zdt1(), Zdt1()
+    for problem in (one, other):
+        searched(problem, KEYS, 2, 32, TPE, 3)
+    assert one.points == other.points
+
+
+def test_keys_with_values_to_choose_from():
+    asked = []
+
+    def ask(points):
+        asked.extend(points)
+        best = [abs(p["x"] - 0.3) + (p["law"] != "finite") for p in points]
+        return np.array(best)[:, None], np.zeros(len(points))
+
+    keys = {"x": Range(low=0.0, high=1.0), "law": Values(("short", "finite", "pinkus"))}
+    searched(ask, keys, 1, 64, advised(64), 0)
+    best = min(asked, key=lambda p: abs(p["x"] - 0.3) + (p["law"] != "finite"))
+    assert best["law"] == "finite"
+    assert best["x"] == pytest.approx(0.3, abs=0.05)
+
+
+def test_front_and_choice():
+    values = np.array([[1.0, 3.0], [2.0, 2.0], [2.0, 2.5], [3.0, 1.0], [0.0, 0.0], [0.5, np.nan]])
+    violations = np.array([0.0, 0.0, 0.0, 0.0, 0.1, 0.0])
+    assert front(values, violations).tolist() == [0, 1, 3]
+    assert front(values[:1], np.array([1.0])).tolist() == []
+    assert chosen(values[[0, 1, 3]], [1.0, 1.0]) == 1
+    assert chosen(values[[0, 1, 3]], [10.0, 1.0]) == 0
+
+
+class Bowl:
+    """A bowl around (0.8, 0.3), of which only the part with x + y <= 1 is allowed."""
+
+    def __init__(self):
+        self.best = (np.inf, None)
+        self.count = 0
+
+    def __call__(self, points):
+        points = np.clip(points, 0.0, 1.0)
+        values = (points[:, 0] - 0.8) ** 2 + 4.0 * (points[:, 1] - 0.3) ** 2
+        beyond = np.maximum(points.sum(axis=1) - 1.0, 0.0)
+        self.count += len(points)
+        for x, value, over in zip(points, values, beyond, strict=True):
+            if over == 0.0 and value < self.best[0]:
+                self.best = value, x
+        return judged(values, beyond, 1.0)
+
+
+LEAST = 0.8 * 0.1**2
+"""On the line x + y = 1 by Lagrange's multiplier."""
+
+
+def test_a_simplex_within_limits():
+    bowl = Bowl()
+    points = spread_points(2, 16, 0)
+    simplex(bowl, points[int(bowl(points).argmin())], 120)
+    assert bowl.best[0] == pytest.approx(LEAST, abs=2e-3)
+    assert bowl.count <= 160
+
+
+def test_differential_evolution_within_limits():
+    bowl = Bowl()
+    evolved(bowl, 2, 600, 0)
+    assert bowl.best[0] == pytest.approx(LEAST, abs=2e-3)
+
+
+def test_points_without_numbers_are_worse_than_any_other():
+    found = judged(np.array([1.0, np.nan, 2.0]), np.array([0.0, 0.0, 0.5]), 1.0)
+    assert found.argsort().tolist() == [0, 2, 1]

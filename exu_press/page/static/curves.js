@@ -1,5 +1,8 @@
 // Curves over one axis: panels of the library, filled for the range that is shown.
 
+// Colours that are too dark for a dark page, and what they become.
+const BRIGHT = {"#0072B2": "#4aa8e8", "#009E73": "#2fc79b", "#D55E00": "#f07f2e"};
+
 class Curves {
   constructor(data, told) {
     this.data = data;
@@ -44,6 +47,7 @@ class Curves {
     this.colour(matchMedia("(prefers-color-scheme: dark)").matches);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", event =>
       this.colour(event.matches));
+    this.fit();
     this.marks();
     for (const panel of this.shown) await this.choose(panel, panel.select.value);
     this.whole();
@@ -106,6 +110,7 @@ class Curves {
   async more(change) {
     const count = Math.min(Math.max(this.shown.length + change, 1), this.panels.length - 1);
     this.show(count);
+    this.fit();
     await Promise.all(this.shown.filter(p => p.name === null)
       .map(p => this.choose(p, p.select.value)));
     this.later();
@@ -119,6 +124,13 @@ class Curves {
     if (panel.name !== name) return;
     this.fill(panel);
     this.changed?.();
+  }
+
+  // Make the panels as high as the window has room for.
+  fit() {
+    const room = (innerHeight - 190) / Math.max(this.shown.length, 1) - 36;
+    const height = Math.round(Math.min(Math.max(room, 100), 190));
+    for (const panel of this.panels) if (!panel.strip) panel.figure.height = height;
   }
 
   // Fill all panels once before the next picture.
@@ -321,6 +333,11 @@ class Curves {
           major_label_text_color: ink, axis_line_color: ink, major_tick_line_color: ink,
           minor_tick_line_color: faint, axis_label_text_color: ink,
         });
+      }
+      for (const one of figure.renderers) {
+        if (one.tags?.length !== 3) continue;
+        const {colour} = this.data.runs[one.tags[2]], shown = (dark && BRIGHT[colour]) || colour;
+        if (one.glyph.line_color?.value) one.glyph.line_color = {value: shown};
       }
       for (const grid of figure.center) {
         if (grid.type.endsWith("Grid")) grid.grid_line_color = faint;

@@ -25,7 +25,7 @@ class Mechanism {
     this.poses = poses;
     if (!poses) return;
     const ends = scenery.ends.length ? 0.12 : 0.03;
-    this.box = [left - ends * unit, low - 0.05 * unit, right + 0.42 * unit, high + 0.05 * unit];
+    this.box = [left - ends * unit, low - 0.13 * unit, right + 0.42 * unit, high + 0.05 * unit];
     const [x0, y0, x1, y1] = this.box;
     svg.setAttribute("viewBox", `${x0} ${-y1} ${x1 - x0} ${y1 - y0}`);
     for (const rail of scenery.rails) drawn("polygon", {points: corners(rail), class: "fixed"}, svg);
@@ -119,7 +119,7 @@ class Mechanism {
       if (joint.size[i] > joint.size[largest]) largest = i;
     }
     const size = joint.size[largest], fx = joint.force[0][largest], fy = joint.force[1][largest];
-    const flat = Math.hypot(fx, fy), length = 0.2 * unit * Math.sqrt(size / (this.largest || 1));
+    const flat = Math.hypot(fx, fy), length = 0.16 * unit * Math.sqrt(size / (this.largest || 1));
     joint.shown = size;
     if (!(length > 0.004 * unit) || !flat) { joint.arrow.setAttribute("d", ""); return; }
     const ux = fx / flat, uy = -fy / flat, head = Math.min(0.022 * unit, 0.6 * length);

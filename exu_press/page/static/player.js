@@ -90,7 +90,10 @@ class Player {
     });
     byId("run").addEventListener("change", event => this.choose(Number(event.target.value)));
     document.addEventListener("keydown", event => this.key(event));
-    addEventListener("resize", () => this.curves.later());
+    addEventListener("resize", () => {
+      this.curves.fit();
+      this.curves.later();
+    });
   }
 
   key(event) {

@@ -24,6 +24,8 @@ __all__ = ["viewer"]
 FIRST = ("slider_position", "slider_velocity", "slider_acceleration")
 """Curves that are shown at first, and the force in the busiest joint below them."""
 
+SCRIPTS = ("data", "theme", "thin", "curves", "mechanism", "joint", "surface", "player")
+
 
 def viewer(results: Mapping[str, Result]) -> Live:
     """Return the live part for one run, or for several by label."""
@@ -54,9 +56,7 @@ def viewer(results: Mapping[str, Result]) -> Live:
         "names": [panel.name for panel in panels],
     }
     body = "\n".join([LAYOUT, blocks.html(), data_element("page-data", data)])
-    return Live(
-        body, scripts("data", "thin", "curves", "mechanism", "joint", "surface", "player"), styles()
-    )
+    return Live(body, scripts(*SCRIPTS), styles())
 
 
 def _run(

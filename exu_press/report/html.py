@@ -140,8 +140,18 @@ def warnings(texts: Sequence[str]) -> str:
     return f'<div class="{"warnings" if texts else "good"}"><ul>\n{inner}\n</ul></div>'
 
 
-def table(head: Sequence[str], rows: Iterable[Sequence[str]], caption: str = "") -> str:
-    """Return a table; the first cell of a row is its head. A wide one scrolls by itself."""
+def table(
+    head: Sequence[str], rows: Iterable[Sequence[str]], caption: str = "", name: str = ""
+) -> str:
+    """Return a table; the first cell of a row is its head. A wide one scrolls by itself.
+
+    Args:
+        head: of its columns.
+        rows: texts.
+        caption: above it.
+        name: under which a script finds it.
+    """
+    known_as = f' id="{_text(name)}"' if name else ""
     above = f"<caption>{_text(caption)}</caption>" if caption else ""
     top = "".join(f'<th scope="col">{_text(cell)}</th>' for cell in head)
     lines = "\n".join(
@@ -151,7 +161,7 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]], caption: str = "")
         for first, *rest in rows
     )
     return (
-        f'<div class="wide" tabindex="0"><table>{above}<thead><tr>{top}</tr></thead>\n'
+        f'<div class="wide" tabindex="0"><table{known_as}>{above}<thead><tr>{top}</tr></thead>\n'
         f"<tbody>\n{lines}\n</tbody></table></div>"
     )
 

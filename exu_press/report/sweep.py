@@ -1,6 +1,7 @@
 """The report of a sweep: its runs as a table and a picture."""
 
 import csv
+import shlex
 import tempfile
 from collections import Counter
 from pathlib import Path
@@ -8,9 +9,12 @@ from typing import Any
 
 from exu_press.checks import table_from
 from exu_press.errors import InputError
+from exu_press.page import Live, has_library
 from exu_press.plots.sweep import save_sweep
 from exu_press.plots.words import describe
-from exu_press.report.html import page, paragraph, picture, table, warnings
+from exu_press.quantities.catalogue import declared
+from exu_press.quantities.kind import COST
+from exu_press.report.html import page, paragraph, picture, stills, table, warnings
 from exu_press.report.run import scene_parts
 from exu_press.scene.warnings import scene_warnings
 from exu_press.stored import LARGEST, from_json
@@ -35,6 +39,7 @@ def sweep_report(file: Path) -> str:
     count = min(len(runs), MOST_ROWS)
     rows = [[str(run), *(runs.in_words(name, run) for name in names)] for run in range(count)]
     more = "" if count == len(runs) else paragraph(f"{len(runs) - count} more in {file.name}.")
+    nothing = paragraph("No number varies, or none came out.")
     with tempfile.TemporaryDirectory() as folder:
         pictures = [
             picture(path, f"Over {' and '.join(runs.study.keys)}.")
@@ -43,17 +48,56 @@ def sweep_report(file: Path) -> str:
     reasons = Counter(str(reason) for reason in runs["reason"] if reason)
     reasons += Counter(warning for scene in runs.study.scenes for warning in scene_warnings(scene))
     told = [f"{number} x {reason}" for reason, number in reasons.most_common(10)]
+    live = _live(runs)
     return page(
         f"Sweep: {describe(runs.study.scenes, 200)}",
         f"{len(runs)} runs over {', '.join(runs.study.keys)}: {ends}; "
         f"{file.parent.name}/{file.name}",
         [
+            *([] if live is None else [("Points", live.body)]),
+            ("Runs", table(head, rows, name="runs") + more),
             ("Warnings", warnings(told)),
-            ("Pictures", "\n".join(pictures) or paragraph("No number varies, or none came out.")),
-            ("Runs", table(head, rows) + more),
+            ("Pictures", stills("\n".join(pictures) or nothing, live)),
             *scene_parts(runs.study.scene),
         ],
+        live,
     )
+
+
+def _live(runs: Table) -> Live | None:
+    """Return the runs as points that open; nothing without the extra `page`, or without numbers."""
+    shown_first = shown(runs)
+    numeric = [
+        name
+        for name in runs.columns
+        if (placed := declared(name)) is not None
+        and placed.quantity.kind is not COST
+        and runs.is_numeric(name)
+        and len(set(runs[name])) > 1
+    ]
+    names = list(dict.fromkeys([*shown_first, *numeric]))
+    if not has_library() or not names:
+        return None
+    from exu_press.page.study import Column, study_viewer
+
+    def column(name: str) -> Column:
+        errors = [runs.error(name, run) for run in range(len(runs))]
+        if not any(errors):
+            return Column(name, unit_of(name), runs[name])
+        low, high = ([e[end] if e else None for e in errors] for end in ("low", "high"))
+        return Column(name, unit_of(name), runs[name], low, high)
+
+    changes = [
+        "exu-press run SCENE.toml "
+        + " ".join(
+            f"--set {shlex.quote(f'{name}={value}')}"
+            for name in runs.study.keys
+            if (value := runs[name][run]) is not None
+        )
+        for run in range(len(runs))
+    ]
+    keys = [column(name) for name in runs.study.keys]
+    return study_viewer(keys, [column(name) for name in names], changes)
 
 
 def _table(file: Path) -> Table:

@@ -94,7 +94,7 @@ def test_pages_are_whole_and_load_nothing(parsed, name):
             ],
             2,
         ),
-        ("sweep", ["Warnings", "Pictures", "Runs", "Scene", "Assumptions"], 1),
+        ("sweep", ["Points", "Runs", "Warnings", "Pictures", "Scene", "Assumptions"], 1),
     ],
 )
 def test_what_a_report_has(parsed, name, headings, pictures):

@@ -1,8 +1,5 @@
 // Curves over one axis: panels of the library, filled for the range that is shown.
 
-// Colours that are too dark for a dark page, and what they become.
-const BRIGHT = {"#0072B2": "#4aa8e8", "#009E73": "#2fc79b", "#D55E00": "#f07f2e"};
-
 class Curves {
   constructor(data, told) {
     this.data = data;
@@ -44,9 +41,7 @@ class Curves {
       run.seconds = time;
     }
     for (const panel of this.panels) panel.figure.below[0].visible = panel.strip;
-    this.colour(matchMedia("(prefers-color-scheme: dark)").matches);
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", event =>
-      this.colour(event.matches));
+    follow(dark => this.colour(dark));
     this.fit();
     this.marks();
     for (const panel of this.shown) await this.choose(panel, panel.select.value);
@@ -324,23 +319,12 @@ class Curves {
 
   // Light or dark.
   colour(dark) {
-    const [ground, ink, faint] = dark ? ["#15181c", "#d9dde1", "#30363d"]
-      : ["#ffffff", "#1c1c1c", "#e3e3e3"];
     for (const {figure} of this.panels) {
-      figure.setv({background_fill_color: ground, border_fill_color: ground, outline_line_color: faint});
-      for (const axis of [...figure.below, ...figure.left]) {
-        axis.setv({
-          major_label_text_color: ink, axis_line_color: ink, major_tick_line_color: ink,
-          minor_tick_line_color: faint, axis_label_text_color: ink,
-        });
-      }
+      paintFigure(figure, dark);
       for (const one of figure.renderers) {
         if (one.tags?.length !== 3) continue;
         const {colour} = this.data.runs[one.tags[2]], shown = (dark && BRIGHT[colour]) || colour;
         if (one.glyph.line_color?.value) one.glyph.line_color = {value: shown};
-      }
-      for (const grid of figure.center) {
-        if (grid.type.endsWith("Grid")) grid.grid_line_color = faint;
       }
     }
   }

@@ -217,19 +217,4 @@ class Player {
   }
 }
 
-async function main() {
-  const began = performance.now();
-  byId("viewer").hidden = false;
-  const player = new Player(JSON.parse(byId("page-data").textContent));
-  await player.open();
-  document.documentElement.dataset.ready = String(Math.round(performance.now() - began));
-}
-
-main().catch(error => {
-  console.error(error);
-  const told = byId("failed");
-  told.hidden = false;
-  told.textContent = `The live part of this page cannot be shown (${error.message}). ` +
-    "The pictures below show the same.";
-  document.documentElement.classList.add("show-pictures");
-});
+open(() => new Player(JSON.parse(byId("page-data").textContent)).open());

@@ -1,0 +1,130 @@
+"""The live part of a study's page: its runs as points, as lines over all keys, and in its table."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from exu_press.page.blocks import Blocks
+from exu_press.page.document import Live, data_element, scripts, styles
+from exu_press.plots.typesetting import typeset
+
+__all__ = ["Column", "study_viewer"]
+
+MOST_PARALLEL = 4
+"""Axes for quantities beside those for the keys."""
+
+
+@dataclass(frozen=True)
+class Column:
+    """What the runs of a study have of one key or quantity.
+
+    Attributes:
+        name: of the key or quantity.
+        unit: SI; "" where it has none.
+        values: a number, a text, or None of a run that has none.
+        low: least values, where errors are known.
+        high: largest values, likewise.
+    """
+
+    name: str
+    unit: str
+    values: Sequence[Any]
+    low: Sequence[float | None] | None = None
+    high: Sequence[float | None] | None = None
+
+    @property
+    def head(self) -> str:
+        """Its name with the unit."""
+        return typeset(f"{self.name}, {self.unit}" if self.unit else self.name)
+
+
+def study_viewer(
+    keys: Sequence[Column],
+    quantities: Sequence[Column],
+    told: Sequence[str],
+    first: tuple[str, str] | None = None,
+) -> Live:
+    """Return the live part of a study's page.
+
+    Args:
+        keys: what varied.
+        quantities: numbers of the runs.
+        told: of each run, what opens with its point: how it is run again.
+        first: columns of the picture at first, across and up; None: the first key and quantity.
+    """
+    from bokeh.document import Document
+
+    from exu_press.page.study_figures import parallel, points
+
+    blocks = Blocks()
+    columns = [*keys, *quantities]
+    across, up = first or (columns[0].name, (quantities or keys)[0].name)
+    document = Document()
+    figures = [points(), parallel()]
+    for figure in figures:
+        document.add_root(figure)
+    data = {
+        "columns": [_column(column, blocks) for column in columns],
+        "keys": [key.name for key in keys],
+        "side": [column.name for column in (*keys, *quantities[:MOST_PARALLEL])],
+        "across": across,
+        "up": up,
+        "told": list(told),
+        "documents": {"page": document.to_json(deferred=False)},
+        "roots": [figure.id for figure in figures],
+    }
+    body = "\n".join([LAYOUT, blocks.html(), data_element("page-data", data)])
+    return Live(body, scripts("data", "theme", "study"), styles())
+
+
+def _column(column: Column, blocks: Blocks) -> dict[str, Any]:
+    """Return a column as the script has it: numbers, or texts by their number in a list."""
+    texts = sorted({str(value) for value in column.values if isinstance(value, (str, bool))})
+    if texts:
+        numbers = [
+            texts.index(str(value)) if value is not None else None for value in column.values
+        ]
+    else:
+        numbers = list(column.values)
+    found: dict[str, Any] = {
+        "name": column.name,
+        "head": column.head,
+        "texts": texts,
+        "values": blocks.add(_numbers(numbers), "f8"),
+    }
+    if column.low is not None and column.high is not None:
+        found["low"] = blocks.add(_numbers(column.low), "f8")
+        found["high"] = blocks.add(_numbers(column.high), "f8")
+    return found
+
+
+def _numbers(values: Sequence[float | None]) -> Any:
+    return np.array([np.nan if value is None else value for value in values], dtype=float)
+
+
+LAYOUT = """
+<div id="viewer" class="live" hidden>
+<div class="bar" role="toolbar" aria-label="what is shown">
+<label>across <select id="across"></select></label>
+<label><input type="checkbox" id="log-x"> log</label>
+<label>up <select id="up"></select></label>
+<label><input type="checkbox" id="log-y"> log</label>
+<label>colour <select id="colour"></select></label>
+<label>drag <select id="drag"><option value="zoom">zooms</option>
+<option value="pan">moves</option></select></label>
+<button type="button" id="whole">everything</button>
+</div>
+<div class="stage">
+<div class="curves"><div class="plot" id="points"></div>
+<div id="legend"></div>
+<p id="near" class="told" role="status"></p></div>
+<div class="curves"><div class="plot" id="parallel"></div>
+<div class="bar"><button type="button" id="clear">all runs</button>
+<span class="told">Drag along an axis: the runs in that range stay.</span></div></div>
+</div>
+<div id="chosen" role="region" aria-live="polite" aria-label="the run that was opened"></div>
+</div>
+<p id="failed" class="warnings" role="alert" hidden></p>
+"""

@@ -12,8 +12,10 @@ from exu_press.cli.options import (
     show_warnings,
 )
 from exu_press.errors import InputError
+from exu_press.model.state import State
 from exu_press.output import output_directory, remove_pictures, write_json
 from exu_press.quantities.table import run_lines
+from exu_press.result import Result
 from exu_press.scene.assumptions import assumed_line
 from exu_press.simulation import simulate
 from exu_press.verification import deliver, simulate_with_errors
@@ -41,6 +43,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="do not go on at a finer tolerance where headline quantities are not known within 5%%",
     )
+    parser.add_argument(
+        "--from",
+        dest="start",
+        metavar="RUN.nc",
+        help="go on from the end of another run, for as long as the scene says",
+    )
     parser.add_argument("--figure", metavar="NAME", help="--within is for this figure alone")
 
 
@@ -52,22 +60,40 @@ def _share(text: str) -> float:
     return value
 
 
+def _start_of(options: argparse.Namespace) -> State | None:
+    """Return the state in which the run of --from ended, or None without it.
+
+    Raises:
+        InputError: the run did not get to its end, or is of an older version.
+    """
+    if options.start is None:
+        return None
+    if options.within is not None:
+        raise InputError("--from: not together with --within, which runs as often as it needs")
+    before = Result.load(options.start)
+    if not before.completed or "state" not in before.info:
+        why = before.info["reason"] or "it was written without the state at its end"
+        raise InputError(f"--from {options.start}: allowed is a run that reached its end; {why}")
+    return before.info["state"]
+
+
 def execute(options: argparse.Namespace) -> int:
     """Run the scene; return 0, or 3 if it stopped early or was not resolved."""
     scene = scene_of(options)
     directory = output_directory(directory_of(options))
     found: list[str] = []
+    start = _start_of(options)
     if options.within is not None:
         delivered = deliver(scene, options.within, options.figure, quiet=options.quiet)
         result, found = delivered.result, delivered_lines(delivered, options.within)
     elif options.figure is not None:
         raise InputError(f"--figure {options.figure}: only together with --within")
     elif options.no_error:
-        result = simulate(scene, quiet=options.quiet)
+        result = simulate(scene, start=start, quiet=options.quiet)
     elif options.once:
-        result = simulate_with_errors(scene, quiet=options.quiet)
+        result = simulate_with_errors(scene, start=start, quiet=options.quiet)
     else:
-        result = refined(scene, quiet=options.quiet, told=found.append)
+        result = refined(scene, start=start, quiet=options.quiet, told=found.append)
     summary = result.summary()
     remove_pictures(directory, "run")
     result.save(directory / "run.nc")

@@ -1,7 +1,7 @@
 """What the overlay needs of a joint, and what a joint says of itself."""
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
 from exu_press.arrays import Array
 from exu_press.joints.path import Path
@@ -101,6 +101,12 @@ class ClearanceJoint(Protocol):
 
     def reset(self) -> None:
         """Forget everything."""
+
+    def memory(self) -> list[Any]:
+        """Return what it remembers of the steps before, numbers in lists."""
+
+    def recall(self, memory: list[Any]) -> None:
+        """Take over what another joint of its kind remembers, in the state of the last forces."""
 
 
 def history(joint: ClearanceJoint, time: Array, q: Array, q_t: Array) -> list[JointState]:

@@ -7,7 +7,7 @@ item costs a call of its own.
 """
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from struct import Struct
 from typing import Any
@@ -127,13 +127,34 @@ class JointOverlay:
                 what is allowed.
         """
         data: Any = self._mbs.systemData
-        values = data.GetODE2Coordinates(exu.ConfigurationType.Initial)
+        q = self._of_item(data.GetODE2Coordinates(exu.ConfigurationType.Initial))
+        self._check_start(q, called)
+
+    def _of_item(self, values: Any) -> list[float]:
+        """Return the item's part of all coordinates of the system."""
         q = [0.0] * self.size
         for node, start in self.nodes.items():
             index = self._mbs.GetNodeODE2Index(node)
             for i in range(len(self._mbs.GetNodeParameter(node, "referenceCoordinates"))):
                 q[start + i] = float(values[index + i])
-        self._check_start(q, called)
+        return q
+
+    def memory(self) -> dict[str, Any]:
+        """Return what all joints remember, for a run that goes on from here."""
+        step = None if self._step is None else list(self._step)
+        return {"step": step, "joints": [joint.memory() for joint in self.joints]}
+
+    def recall(self, memory: Mapping[str, Any]) -> None:
+        """Go on from what the joints of a system like this one remember, in the initial state."""
+        data: Any = self._mbs.systemData
+        q = self._of_item(data.GetODE2Coordinates(exu.ConfigurationType.Initial))
+        q_t = self._of_item(data.GetODE2Coordinates_t(exu.ConfigurationType.Initial))
+        for joint in self.joints:
+            joint.state([*q, *GROUND], [*q_t, *GROUND])
+        self._last = q, q_t
+        self._step = None if memory["step"] is None else tuple(memory["step"])
+        for joint, each in zip(self.joints, memory["joints"], strict=True):
+            joint.recall(each)
 
     def _check_start(self, q: list[float], called: Callable[[ClearanceJoint], str]) -> None:
         """Raise InputError for a joint that is further out in a state than its laws hold."""

@@ -9,6 +9,7 @@ S, which a film alone has, is the couple of its shear.
 
 import math
 from collections.abc import Sequence
+from typing import Any
 
 from exu_press.joints.joint import SHALLOW, JointState
 from exu_press.joints.path import Path
@@ -102,6 +103,13 @@ class Pair:
 
     def reset(self) -> None:
         """Forget everything."""
+
+    def memory(self) -> list[Any]:
+        """Return what the pair remembers of the steps before; nothing unless it says so."""
+        return []
+
+    def recall(self, memory: list[Any]) -> None:
+        """Take over what another pair of its kind remembers."""
 
 
 class DryPair(Pair):
@@ -214,6 +222,17 @@ class DryPair(Pair):
         self.bristle = self._next_bristle = 0.0
         self._sliding = self._sliding_before = None
         self.approach.reset()
+
+    def memory(self) -> list[Any]:
+        """Return bristle, sliding velocities and approach speed."""
+        sliding = self._sliding, self._sliding_before
+        return [self.bristle, self._next_bristle, *sliding, self.approach.memory()]
+
+    def recall(self, memory: list[Any]) -> None:
+        """Take over what another pair remembers."""
+        self.bristle, self._next_bristle = memory[0], memory[1]
+        self._sliding, self._sliding_before = memory[2], memory[3]
+        self.approach.recall(memory[4])
 
 
 class FilmPair(Pair):
@@ -369,6 +388,19 @@ class PairedJoint:
         for pair in self.pairs:
             pair.drift = 0.0
             pair.reset()
+
+    def memory(self) -> list[Any]:
+        """Return what the joint remembers of the steps before, numbers in lists."""
+        pairs = [pair.memory() for pair in self.pairs]
+        return [self._step, self.path.memory(), pairs]
+
+    def recall(self, memory: list[Any]) -> None:
+        """Take over what another joint of its kind remembers, in the state of the last forces."""
+        self._step = memory[0]
+        self.path.recall(memory[1])
+        for pair, each in zip(self.pairs, memory[2], strict=True):
+            pair.drift = self.path.drift
+            pair.recall(each)
 
     def _load(self, motion: Motion) -> list[Load | None]:
         """Return what each pair does in a state; the one before is kept for the secant."""

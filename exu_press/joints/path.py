@@ -14,6 +14,7 @@ amplifies its error a thousandfold.
 """
 
 import math
+from typing import Any
 
 __all__ = ["Path"]
 
@@ -39,6 +40,17 @@ class Path:
         self.eccentricity: Vector = ()
         self.velocity: Vector = ()
         self.acceleration: Vector = ()
+
+    def memory(self) -> list[Any]:
+        """Return what it remembers."""
+        parts = self.eccentricity, self.velocity, self.acceleration
+        return [self.drift, *(list(part) for part in parts)]
+
+    def recall(self, memory: list[Any]) -> None:
+        """Take over what another one remembers."""
+        self.drift = memory[0]
+        self.eccentricity, self.velocity = tuple(memory[1]), tuple(memory[2])
+        self.acceleration = tuple(memory[3])
 
     def missed(self, eccentricity: Vector, velocity: Vector, step: float) -> tuple[float, float]:
         """Return what a step (s) misses of its change of eccentricity, and the part along it, m."""

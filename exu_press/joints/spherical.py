@@ -1,5 +1,7 @@
 """A dry spherical clearance joint between bodies of any kind (Eqs. 12-22)."""
 
+from typing import Any
+
 import numpy as np
 
 from exu_press.arrays import Array
@@ -67,6 +69,23 @@ class SpatialSpherical:
         self._sliding = self._sliding_before = None
         self._approach.reset()
         self._touching = False
+
+    def memory(self) -> list[Any]:
+        """Return what the joint remembers of the steps before, numbers in lists."""
+        vectors = self._bristle, self._next_bristle, self._sliding, self._sliding_before
+        told = [None if vector is None else vector.tolist() for vector in vectors]
+        return [self._step, self.path.memory(), told, self._approach.memory()]
+
+    def recall(self, memory: list[Any]) -> None:
+        """Take over what another joint of its kind remembers, in the state of the last forces."""
+        self._step = memory[0]
+        self.path.recall(memory[1])
+        bristle, following, *sliding = memory[2]
+        self._bristle, self._next_bristle = np.array(bristle), np.array(following)
+        self._sliding, self._sliding_before = (
+            None if vector is None else np.array(vector) for vector in sliding
+        )
+        self._approach.recall(memory[3])
 
     def add_force(self, q: list[float], q_t: list[float], out: list[float]) -> None:
         """Add the joint's generalised forces to `out`."""

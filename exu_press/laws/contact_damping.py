@@ -137,6 +137,15 @@ class Approach:
         """Keep what was tried last."""
         self._speed, self._gap = self._next
 
+    def memory(self) -> list[float]:
+        """Return what it remembers."""
+        return [self._speed, self._gap, *self._next]
+
+    def recall(self, memory: list[float]) -> None:
+        """Take over what another one remembers."""
+        self._speed, self._gap = memory[0], memory[1]
+        self._next = memory[2], memory[3]
+
 
 def step_damping(
     stiffness: Stiffness, damping_max: float, damping_depth: float, tension: bool = False

@@ -137,6 +137,14 @@ class PulseClock:
         place = (angle - self._angle) / speed
         return place + self._duration if self._at_end else place
 
+    def memory(self) -> tuple[float, float | None]:
+        """Return the angle of the next pulse and when the pulse under way began."""
+        return self._angle, self._begun
+
+    def recall(self, memory: tuple[float, float | None]) -> None:
+        """Take over what another clock remembers."""
+        self._angle, self._begun = memory
+
     def accept(self, time: float, angle: float, speed: float) -> None:
         """Keep the state at the end of a step."""
         place = self.place(time, angle, speed)

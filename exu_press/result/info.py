@@ -2,6 +2,8 @@
 
 from typing import NotRequired, TypedDict
 
+from exu_press.model.state import State
+
 __all__ = ["Error", "Errors", "Info", "Solid", "Stress"]
 
 
@@ -88,6 +90,7 @@ class Info(TypedDict):
         connectors: of the model.
         own_items: number of objects and loads that the user added to the model.
         versions: of Python and packages, by name.
+        state: at the end, from which another run can go on.
         errors: as in `Errors`, in runs that were asked for them.
         horizon: the same.
         lyapunov_exponent: the same.
@@ -109,6 +112,7 @@ class Info(TypedDict):
     connectors: int
     own_items: int
     versions: dict[str, str]
+    state: NotRequired[State]
     errors: NotRequired[dict[str, Error]]
     horizon: NotRequired[float | None]
     lyapunov_exponent: NotRequired[float | None]

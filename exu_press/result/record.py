@@ -10,6 +10,7 @@ import numpy as np
 from exu_press.integrate import Outcome
 from exu_press.mechanism.parts import DRIVE
 from exu_press.model import Model
+from exu_press.model.state import state_of
 from exu_press.result.channel import Channel, positive
 from exu_press.result.energy import mechanical_energy, work
 from exu_press.result.equilibrium import equilibrium
@@ -147,6 +148,7 @@ def _info(model: Model, outcome: Outcome, worst: dict[str, Stress]) -> Info:
         "bodies": len(model.nodes),
         "connectors": mbs.systemData.NumberOfObjects() - len(model.nodes) - 1,
         "versions": dict(_versions()),
+        "state": state_of(model),
     }
     if model.parts:
         info["stress"] = worst

@@ -1,7 +1,7 @@
 """What solving needs of a scene's model."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import exudyn as exu
 
@@ -26,6 +26,8 @@ class Assembled:
         clearance_joints: name -> joint.
         ways: name of a body with play in its guide -> the contacts of its two ends.
         sensors: (name, quantity) -> sensor number.
+        begin: time of the start, s.
+        first_step: s; 0.0 where the integration finds it.
     """
 
     scene: Scene
@@ -36,6 +38,8 @@ class Assembled:
     clearance_joints: dict[str, ClearanceJoint]
     ways: Mapping[str, tuple[ClearanceJoint, ClearanceJoint]]
     sensors: dict[tuple[str, str], int]
+    begin: float = field(default=0.0, kw_only=True)
+    first_step: float = field(default=0.0, kw_only=True)
 
     def next_corner(self, time: float) -> float:
         """Return the next instant at which a load has a corner or a sample lies, s, or infinity."""

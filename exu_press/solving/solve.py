@@ -33,9 +33,14 @@ def solve(model: Assembled, *, tuning: Tuning = DEFAULTS, quiet: bool = True) ->
     solver = scene.solver
     assert solver is not None
     masses = {body.name: body.mass for body in model.mechanism.bodies}
+    settings = settings_for(scene, twice=model.holding.twice)
+    settings.timeIntegration.startTime = model.begin
+    settings.timeIntegration.endTime = model.begin + scene.duration
+    if solver.tolerance is not None:
+        settings.timeIntegration.initialStepSize = model.first_step
     outcome = solve_dynamic(
         model.mbs,
-        settings_for(scene, twice=model.holding.twice),
+        settings,
         tolerance=solver.tolerance,
         scales=scales(scene),
         next_corner=model.next_corner,

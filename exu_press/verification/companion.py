@@ -23,7 +23,7 @@ LATER = 10
 
 
 def main(directory: Path, numbers: Sequence[int]) -> None:
-    """Run the scenes of these numbers; Ctrl-C is for the run beside, which ends this process."""
+    """Run scenes from their starts; Ctrl-C is for the run beside, which ends this process."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     gc.disable()  # a tenth of the time goes into it, and a few runs leave it next to nothing
     if hasattr(os, "nice") and 0 not in numbers:
@@ -32,7 +32,8 @@ def main(directory: Path, numbers: Sequence[int]) -> None:
     for number in numbers:
         result = directory / RESULT.format(number)
         unfinished = result.with_suffix(".unfinished")
-        unfinished.write_bytes(pickle.dumps(simulate(scenes[number])))
+        scene, start = scenes[number]
+        unfinished.write_bytes(pickle.dumps(simulate(scene, start=start)))
         unfinished.rename(result)
 
 

@@ -12,6 +12,7 @@ from collections.abc import Iterator, Sequence
 from multiprocessing.process import BaseProcess
 from pathlib import Path
 
+from exu_press.model.state import State
 from exu_press.result import Result
 from exu_press.scene import Scene
 from exu_press.verification import companion
@@ -133,7 +134,7 @@ def _started(directory: Path, numbers: Sequence[int]) -> Process:
 class Companions:
     """The companions of a scene under way; a context manager that leaves no process behind."""
 
-    def __init__(self, scene: Scene) -> None:
+    def __init__(self, scene: Scene, start: State | None = None) -> None:
         """Start them, one after the other in a process of their own.
 
         A first one that is finer than the run takes longer than it. The others then have a process
@@ -142,7 +143,9 @@ class Companions:
         self._scenes = plan(scene)
         self._temporary = tempfile.TemporaryDirectory(prefix="exu_press_")
         self._directory = Path(self._temporary.name)
-        (self._directory / companion.SCENES).write_bytes(pickle.dumps([*self._scenes.values()]))
+        (self._directory / companion.SCENES).write_bytes(
+            pickle.dumps([(each, start) for each in self._scenes.values()])
+        )
         numbers = range(len(self._scenes))
         finer = next(iter(self._scenes)) < 1.0
         self._parts = [numbers[:1], numbers[1:]] if finer else [numbers]

@@ -3,6 +3,7 @@
 import time
 from collections.abc import Callable
 
+from exu_press.model.state import State
 from exu_press.quantities import quantities_of, values_of
 from exu_press.result import Result
 from exu_press.scene import Scene
@@ -38,17 +39,22 @@ def doubtful(result: Result) -> list[str]:
 
 
 def refined(
-    scene: Scene, *, quiet: bool = True, told: Callable[[str], None] = lambda text: None
+    scene: Scene,
+    *,
+    start: State | None = None,
+    quiet: bool = True,
+    told: Callable[[str], None] = lambda text: None,
 ) -> Result:
     """Run a scene, and run it again at finer tolerances while that helps and the budget lasts.
 
     Args:
         scene: what to simulate.
+        start: state of another run, from which it goes on.
         quiet: False shows the progress.
         told: is called with what is done next and why, or with what the user may do.
     """
     begin = time.perf_counter()
-    result = simulate_with_errors(scene, quiet=quiet)
+    result = simulate_with_errors(scene, start=start, quiet=quiet)
     took = first = time.perf_counter() - begin
     spent = 0.0
     while result.completed and (names := doubtful(result)):
@@ -68,7 +74,9 @@ def refined(
             break
         told(f"{which}: not known within {ENOUGH:.0%}; goes on at a tolerance of {finer:.2g}")
         before = time.perf_counter()
-        result = simulate_with_errors(scene.replace("solver.tolerance", finer), quiet=quiet)
+        result = simulate_with_errors(
+            scene.replace("solver.tolerance", finer), start=start, quiet=quiet
+        )
         took = time.perf_counter() - before
         spent += took
     return result

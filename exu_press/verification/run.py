@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from exu_press.model.state import State
 from exu_press.quantities import Extreme, Placed, Quantity, quantities_of
 from exu_press.quantities.kind import RESULTANT
 from exu_press.quantities.value import numbers_of
@@ -42,11 +43,14 @@ SAME = 1e-9
 """Relative: a figure that has changed by less since the horizon is one from before it."""
 
 
-def simulate_with_errors(scene: Scene, *, quiet: bool = True, beside: bool = True) -> Result:
+def simulate_with_errors(
+    scene: Scene, *, start: State | None = None, quiet: bool = True, beside: bool = True
+) -> Result:
     """Do what `simulate` does, with companion runs.
 
     Args:
         scene: what to simulate.
+        start: state of another run, from which this one and its companions go on.
         quiet: False shows the progress.
         beside: the companions run in a further process meanwhile; else in this one afterwards, as
             where all cores have their runs already.
@@ -56,23 +60,25 @@ def simulate_with_errors(scene: Scene, *, quiet: bool = True, beside: bool = Tru
         `lyapunov_exponent` too. Of a run that stopped early, or was stopped, nothing is known.
     """
     if not beside:
-        return with_errors(simulate(scene, quiet=quiet), beside=False)
-    with Companions(scene) as companions:
-        return _beside(simulate(scene, quiet=quiet), companions)
+        return with_errors(simulate(scene, start=start, quiet=quiet), start=start, beside=False)
+    with Companions(scene, start) as companions:
+        return _beside(simulate(scene, start=start, quiet=quiet), companions)
 
 
-def with_errors(result: Result, *, beside: bool = True) -> Result:
+def with_errors(result: Result, *, start: State | None = None, beside: bool = True) -> Result:
     """Return a result with the errors of its figures, by companion runs of its scene.
 
     Args:
         result: of a run.
+        start: state of another run from which it went on.
         beside: the companions run in a further process, else in this one.
     """
     if not result.completed:
         return _told(result, ())
     if not beside:
-        return _told(result, ((r, simulate(scene)) for r, scene in plan(result.scene).items()))
-    with Companions(result.scene) as companions:
+        runs = ((r, simulate(scene, start=start)) for r, scene in plan(result.scene).items())
+        return _told(result, runs)
+    with Companions(result.scene, start) as companions:
         return _beside(result, companions)
 
 

@@ -90,7 +90,7 @@ def test_a_process_that_is_killed_says_so(by, forks, number, monkeypatch):
 
 @linux
 def test_what_goes_wrong_in_it_is_told(by, monkeypatch):
-    def fails(scene):
+    def fails(scene, start):
         raise ValueError("no oil")
 
     by(True)

@@ -1,0 +1,78 @@
+"""The state in which a run ends, and how another run goes on from it."""
+
+from dataclasses import replace
+from typing import Any, TypedDict
+
+import exudyn as exu
+import numpy as np
+
+from exu_press.arrays import Array
+from exu_press.errors import InputError
+from exu_press.integrate.problem import Problem
+from exu_press.model.model import Model
+
+__all__ = ["State", "go_on_from", "state_of"]
+
+
+class State(TypedDict):
+    """Everything that a run's future follows from, as numbers in lists.
+
+    Attributes:
+        time: s.
+        step: last step, s, with which the next run begins.
+        coordinates: of Exudyn's system: second-order ones and their rates, first-order ones,
+            constraint forces, data variables; without the reference's values.
+        accelerations: of the second-order coordinates.
+        joints: what clearance joints and guideways remember: bristles, approach speeds, paths.
+        clocks: what pulses of loads remember.
+    """
+
+    time: float
+    step: float
+    coordinates: list[list[float]]
+    accelerations: list[float]
+    joints: dict[str, Any] | None
+    clocks: list[tuple[float, float | None]]
+
+
+def state_of(model: Model) -> State:
+    """Return the state in which a model is after it was solved."""
+    data: Any = model.mbs.systemData
+    overlay = Problem.of(model.mbs).joints
+    return {
+        "time": float(data.GetTime()),
+        "step": float(model.mbs.sys["dynamicSolver"].it.currentStepSize),
+        "coordinates": [np.asarray(part).tolist() for part in data.GetSystemState()],
+        "accelerations": np.asarray(data.GetODE2Coordinates_tt()).tolist(),
+        "joints": None if overlay is None else overlay.memory(),
+        "clocks": [clock.memory() for clock in model.clocks],
+    }
+
+
+def go_on_from(model: Model, state: State) -> Model:
+    """Return a model that starts in a state, at its time.
+
+    Raises:
+        InputError: the state is one of another model: of other bodies, joints or modes.
+    """
+    data: Any = model.mbs.systemData
+    initial = exu.ConfigurationType.Initial
+    overlay = Problem.of(model.mbs).joints
+    sizes = [len(part) for part in data.GetSystemState(configuration=initial)]
+    given = [len(part) for part in state["coordinates"]]
+    remembered = 0 if state["joints"] is None else len(state["joints"]["joints"])
+    joints = 0 if overlay is None else len(overlay.joints)
+    if sizes != given or remembered != joints or len(state["clocks"]) != len(model.clocks):
+        raise InputError(
+            f"the state has {given[0]} coordinates and {remembered} joints with clearance, the "
+            f"scene {sizes[0]} and {joints}: allowed is a run of the same bodies, joints and loads"
+        )
+    parts: list[Array] = [np.array(part) for part in state["coordinates"]]
+    data.SetSystemState(systemStateList=parts, configuration=initial)
+    data.SetODE2Coordinates_tt(coordinates=state["accelerations"], configuration=initial)
+    data.SetTime(newTime=state["time"], configurationType=initial)
+    if overlay is not None and state["joints"] is not None:
+        overlay.recall(state["joints"])
+    for clock, memory in zip(model.clocks, state["clocks"], strict=True):
+        clock.recall(memory)
+    return replace(model, begin=state["time"], first_step=state["step"])

@@ -1,0 +1,104 @@
+"""A run goes on from the end of another one: with contact history, bristles, film and motor."""
+
+import json
+
+import numpy as np
+import pytest
+
+from exu_press import InputError, Result, Scene, simulate
+from exu_press.cli import main
+from exu_press.integrate.problem import Problem
+from exu_press.model import build
+from exu_press.model.state import go_on_from
+from exu_press.verification import simulate_with_errors
+
+PIN = {"clearance": 1e-4, "radius": 0.03}
+DRY = Scene(
+    mechanism="slider_crank",
+    joints={"crank_pin": {"kind": "dry", **PIN}},
+    contact={"length": 0.05},
+    revolutions=0.2,
+)
+FILM = Scene(
+    mechanism="slider_crank",
+    joints={"crank_pin": {"kind": "lubricated", **PIN}},
+    film={"length": 0.05, "viscosity": 0.1},
+    revolutions=0.2,
+)
+SCENES = {
+    "restitution": DRY,
+    "bristle": DRY.replace("friction.law", "lugre"),
+    "film": FILM,
+    "motor": DRY.replace({"drive": {"rated_torque": 200.0, "inertia": 2.0}}),
+    "pulse by a motor": DRY.replace(
+        {
+            "drive": {"rated_torque": 200.0, "inertia": 2.0},
+            "load": {"blanking": {"kind": "blanking", "force": 1e3, "end_angle_deg": 75.0}},
+        }
+    ),
+    "balls": Scene(joints={"balls": "dry"}, revolutions=0.1),
+    "guideways": FILM.replace({"guide": {"clearance": 5e-5, "width": 0.1}}),
+}
+
+
+def difference(one, other, name):
+    """Return the largest difference after the first piece, over the largest value."""
+    time = np.linspace(other.time[0], other.time[-1], 500)
+    whole, piece = (np.interp(time, run.time, run[name]) for run in (one, other))
+    return np.abs(whole - piece).max() / np.abs(one[name]).max()
+
+
+@pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES.keys())
+def test_two_pieces_are_one_run(scene):
+    whole = simulate(scene.replace("revolutions", 2.0 * scene.revolutions))
+    first = simulate(scene)
+    state = json.loads(json.dumps(first.info["state"]))  # as its file has it
+    second = simulate(scene, start=state)
+    assert second.completed
+    assert second.time[0] == first.time[-1]
+    assert second.time[-1] == pytest.approx(whole.time[-1], rel=1e-12)
+    assert difference(whole, second, "slider_position") < 1e-6
+    assert difference(whole, second, "slider_velocity") < 1e-4
+
+
+@pytest.mark.parametrize("name", ["restitution", "bristle", "balls", "guideways"])
+def test_joints_remember_all_that_they_are_told(name):
+    state = simulate(SCENES[name]).info["state"]
+    model = go_on_from(build(SCENES[name]), json.loads(json.dumps(state)))
+    told = json.dumps(Problem.of(model.mbs).joints.memory())
+    assert json.loads(told) == json.loads(json.dumps(state["joints"]))
+    assert any(part for joint in state["joints"]["joints"] for part in joint)
+
+
+def test_fixed_steps_go_on_nearly_to_the_last_digit():
+    scene = DRY.replace("solver.step", 2e-5)
+    whole = simulate(scene.replace("revolutions", 0.4))
+    second = simulate(scene, start=simulate(scene).info["state"])
+    assert difference(whole, second, "slider_position") < 1e-10
+
+
+def test_keys_may_change_and_errors_are_found():
+    state = simulate(FILM).info["state"]
+    run = simulate_with_errors(FILM.replace("film.viscosity", 0.2), start=state)
+    value = run.quantity("joints.crank_pin.peak_force")
+    assert value.error < 0.05 * value.value
+
+
+def test_a_state_of_another_model_is_refused():
+    state = simulate(FILM).info["state"]
+    with pytest.raises(InputError, match="allowed is a run of the same bodies, joints and loads"):
+        simulate(Scene(revolutions=0.1), start=state)
+
+
+def test_the_command(tmp_path, capsys):
+    scene = tmp_path / "scene.toml"
+    FILM.save(scene)
+    command = ["run", str(scene), "--no-error", "--no-pictures", "--quiet", "--out"]
+    assert main([*command, str(tmp_path / "one")]) == 0
+    first = str(tmp_path / "one" / "run.nc")
+    assert main([*command, str(tmp_path / "two"), "--from", first]) == 0
+    second = Result.load(tmp_path / "two" / "run.nc")
+    assert second.time[0] == Result.load(first).time[-1]
+    assert main([*command, str(tmp_path / "two"), "--from", first, "--within", "1%"]) == 2
+    assert "--from: not together with --within" in capsys.readouterr().err
+    assert main([*command, str(tmp_path / "two"), "--from", str(tmp_path / "no.nc")]) == 2

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
         add_joint_sensor,
         add_lubricated_revolute,
     )
+    from exu_press.report.cells import Comparison
     from exu_press.result import Result
     from exu_press.scene import Scene, load_scene
     from exu_press.simulation import simulate
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
     __version__: str
 
 __all__ = [
+    "Comparison",
     "FlexiblePoint",
     "InputError",
     "Result",
@@ -46,6 +48,7 @@ __all__ = [
 ]
 
 _HOMES = {
+    "Comparison": "exu_press.report.cells",
     "FlexiblePoint": "exu_press.joints",
     "InputError": "exu_press.errors",
     "Result": "exu_press.result",
@@ -66,6 +69,8 @@ _HOMES = {
 WORKERS.update(
     build=lambda scene: importlib.import_module("exu_press.graphics").build_with_graphics(scene),
     quantity=lambda result: importlib.import_module("exu_press.quantities").value_of(*result),
+    cell=lambda thing: importlib.import_module("exu_press.report.cells").cell(thing),
+    page=lambda result: importlib.import_module("exu_press.report.cells").page_of(result),
     summary=lambda result: importlib.import_module("exu_press.quantities").summary(result),
 )
 

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from exu_press.above import WORKERS
 from exu_press.arrays import Array
 from exu_press.mechanism.assur import Drawing
 from exu_press.mechanism.checks import all_of, check, check_defaults
@@ -88,6 +89,10 @@ class Mechanism:
     def _set(self, **values: Any) -> None:
         for name, value in values.items():
             object.__setattr__(self, name, value)
+
+    def _repr_html_(self) -> str:
+        """Return the drawing, for notebooks."""
+        return str(WORKERS["cell"](self))
 
     @property
     def slider(self) -> str:

@@ -1,6 +1,7 @@
 """The report of a comparison: its variants side by side."""
 
 import tempfile
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,7 @@ from exu_press.result import Result
 from exu_press.stored import from_json, shown
 from exu_press.studies.compare import different_keys
 
-__all__ = ["comparison_report"]
+__all__ = ["comparison_page", "comparison_report"]
 
 CAPTIONS = {
     "compare_slider": "Slider motion of the variants against the ideal mechanism.",
@@ -25,6 +26,16 @@ CAPTIONS = {
 def comparison_report(file: Path) -> str:
     """Return the page of a comparison, from comparison.json and the variants' run.nc beside it."""
     results = {label: Result.load(path) for label, path in _runs(file).items()}
+    return comparison_page(results, f"{file.parent.name}/{file.name}")
+
+
+def comparison_page(results: Mapping[str, Result], source: str) -> str:
+    """Return the page of runs by label.
+
+    Args:
+        results: by label.
+        source: where they are from, to be shown.
+    """
     summaries = {label: result.summary() for label, result in results.items()}
     head, *rows = comparison_cells(results)
     keys, *changed = different_keys({label: run.scene for label, run in results.items()})
@@ -42,7 +53,7 @@ def comparison_report(file: Path) -> str:
     richest = max(results.values(), key=lambda result: len(str(result.scene.to_dict())))
     return page(
         f"Comparison: {describe([result.scene for result in results.values()], 200)}",
-        f"{', '.join(results)}; {file.parent.name}/{file.name}",
+        f"{', '.join(results)}; {source}",
         [
             ("Differences of the scenes", table(keys, changed)),
             *([] if live is None else [("In motion", live.body)]),

@@ -23,7 +23,7 @@ from exu_press.scene.assumptions import engineering_values, keys_of, used_assump
 from exu_press.view import Animation, moment, save_picture
 from exu_press.view.animation import SIZE
 
-__all__ = ["live_part", "run_report", "scene_parts", "warnings_of"]
+__all__ = ["changed_keys", "live_part", "run_report", "scene_parts", "warnings_of"]
 
 CAPTIONS = {
     "slider": "Slider motion against the ideal mechanism: position, velocity, acceleration.",
@@ -33,6 +33,8 @@ CAPTIONS = {
     "energy": "Energy balance since the start; the residual is the error of the integration.",
 }
 """By the picture's file name; pictures that are not listed are shown under their names."""
+
+HEAD = ("key", "value", "unit", "meaning")
 
 MOST_NUMBERS = 4
 """Numbers of a list that are shown one by one."""
@@ -73,10 +75,18 @@ def live_part(results: Mapping[str, Result]) -> Live | None:
     return viewer(results)
 
 
+def changed_keys(scene: Scene) -> str:
+    """Return a table of the keys that a scene gives."""
+    keys = keys_of(scene).values()
+    changed = [_row(key.name, key.value, key.unit, key.meaning) for key in keys if not key.assumed]
+    if not changed:
+        return paragraph("Every key is at its default.")
+    return table(HEAD, changed, "Keys that differ from their defaults")
+
+
 def scene_parts(scene: Scene) -> list[tuple[str, str]]:
     """Return the sections about what was asked: changed keys, assumptions, every key."""
     keys = keys_of(scene).values()
-    changed = [_row(key.name, key.value, key.unit, key.meaning) for key in keys if not key.assumed]
     everything = [
         _row(key.name, key.value, key.unit, key.meaning, "assumed" if key.assumed else "given")
         for key in keys
@@ -86,14 +96,14 @@ def scene_parts(scene: Scene) -> list[tuple[str, str]]:
         for assumption, left in used_assumptions(scene).items()
     ]
     assumed += [[key.source, key.meaning, str(key)] for key in engineering_values(scene)]
-    head = ("key", "value", "unit", "meaning")
-    given = (
-        table(head, changed, "Keys that differ from their defaults")
-        if changed
-        else paragraph("Every key is at its default.")
-    )
     return [
-        ("Scene", given + details("every key", table((*head, "default?"), everything))),
+        (
+            "Scene",
+            changed_keys(scene) + details("every key", table((*HEAD, "default?"), everything)),
+        ),
+            "Scene",
+            changed_keys(scene) + details("every key", table((*HEAD, "default?"), everything)),
+        ),
         (
             "Assumptions",
             paragraph(

@@ -114,6 +114,14 @@ class Result(Contents):
         """
         return WORKERS["quantity"]((self, name))
 
+    def view(self) -> Any:
+        """Return the run's page, an `exu_press.report.Page`: a notebook shows it in the cell."""
+        return WORKERS["page"](self)
+
+    def _repr_html_(self) -> str:
+        """Return the quantities as a table, for notebooks."""
+        return str(WORKERS["cell"](self))
+
     def save(self, path: str | Path) -> None:
         """Write everything to a NetCDF file; an existing one is replaced only when complete."""
         from exu_press.result.netcdf import write

@@ -254,6 +254,10 @@ class Scene(Table):
             except InputError as error:
                 raise InputError(by_group(str(error), groups, changes)) from None
 
+    def _repr_html_(self) -> str:
+        """Return what it is in words and the keys it gives, for notebooks."""
+        return str(WORKERS["cell"](self))
+
     def build(self) -> Any:
         """Return the assembled `exu_press.model.Model`; its mbs and SC are the real Exudyn objects.
 

@@ -1,0 +1,80 @@
+"""What a notebook shows of a scene, a mechanism, a result or a comparison."""
+
+import tempfile
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from exu_press.mechanism import Mechanism
+from exu_press.mechanism.examine import examine
+from exu_press.plots.drawing import drawing_figure
+from exu_press.plots.file import save_figure
+from exu_press.plots.words import describe
+from exu_press.quantities.table import comparison_cells, comparison_lines
+from exu_press.report.comparison import comparison_page
+from exu_press.report.html import paragraph, picture, table, warnings
+from exu_press.report.run import changed_keys, run_report, warnings_of
+from exu_press.report.shown import Page
+from exu_press.result import Result
+from exu_press.scene import Scene
+from exu_press.studies.compare import different_keys
+
+__all__ = ["Comparison", "cell", "page_of"]
+
+SMALL = "font-size: 0.9em"
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Runs beside each other.
+
+    Attributes:
+        results: by label.
+    """
+
+    results: Mapping[str, Result]
+
+    def view(self) -> Page:
+        """Return the page with their curves over each other; a notebook shows it."""
+        return Page(comparison_page(self.results, "comparison"))
+
+    def __str__(self) -> str:
+        """Return their quantities as a table."""
+        return "\n".join(comparison_lines(self.results))
+
+    def _repr_html_(self) -> str:
+        """Return what differs and what came out."""
+        head, *changed = different_keys({n: run.scene for n, run in self.results.items()})
+        names, *rows = comparison_cells(self.results)
+        return _framed(table(head, changed) + table(names, rows))
+
+
+def page_of(result: Result) -> Page:
+    """Return the page of a run."""
+    return Page(run_report(result, "this run"))
+
+
+def cell(thing: Any) -> str:
+    """Return the HTML of a scene, a mechanism or a result."""
+    if isinstance(thing, Scene):
+        return _framed(paragraph(describe([thing], 200)) + changed_keys(thing))
+    if isinstance(thing, Mechanism):
+        return _drawing(thing)
+    assert isinstance(thing, Result)
+    told = warnings_of(thing.summary())
+    head = paragraph(describe([thing.scene], 200)) + (warnings(told) if told else "")
+    numbers = comparison_cells({"": thing})[1:]
+    return _framed(head + table(("quantity", "value"), numbers))
+
+
+def _drawing(mechanism: Mechanism) -> str:
+    """Return the drawing of a mechanism with its names."""
+    with tempfile.TemporaryDirectory() as folder:
+        drawn = drawing_figure(examine(mechanism), mechanism.name)
+        path = save_figure(drawn, Path(folder) / "mechanism.png")
+        return picture(path, mechanism.name)
+
+
+def _framed(inner: str) -> str:
+    return f'<div style="{SMALL}">{inner}</div>'

@@ -1,4 +1,4 @@
-"""Report a run, a comparison or a sweep as one HTML page with everything in it."""
+"""Report a run, a comparison or a study as one HTML page: to zoom, to play, to send."""
 
 import argparse
 from pathlib import Path
@@ -13,7 +13,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "path",
         metavar="PATH",
-        help="a run.nc, or the directory that run, compare or sweep wrote to",
+        help="a run.nc, or the directory that run, compare, sweep, fit or optimise wrote to",
     )
     parser.add_argument(
         "--out", metavar="FILE.html", help="where to write (default: report.html beside it)"

@@ -45,6 +45,7 @@ def study_viewer(
     quantities: Sequence[Column],
     told: Sequence[str],
     first: tuple[str, str] | None = None,
+    colour: str = "",
 ) -> Live:
     """Return the live part of a study's page.
 
@@ -53,6 +54,7 @@ def study_viewer(
         quantities: numbers of the runs.
         told: of each run, what opens with its point: how it is run again.
         first: columns of the picture at first, across and up; None: the first key and quantity.
+        colour: column that the colours show at first; "": the first key that is not across.
     """
     from bokeh.document import Document
 
@@ -71,6 +73,7 @@ def study_viewer(
         "side": [column.name for column in (*keys, *quantities[:MOST_PARALLEL])],
         "across": across,
         "up": up,
+        "colour": colour or next((key.name for key in keys if key.name != across), ""),
         "told": list(told),
         "documents": {"page": document.to_json(deferred=False)},
         "roots": [figure.id for figure in figures],

@@ -15,6 +15,8 @@ class Kind(Enum):
     RUN = "run.nc"
     COMPARISON = "comparison.json"
     SWEEP = "table.csv"
+    OPTIMUM = "optimise.json"
+    FIT = "fit.json"
 
 
 def find_output(path: Path) -> tuple[Kind, Path]:
@@ -32,7 +34,7 @@ def find_output(path: Path) -> tuple[Kind, Path]:
             several = " and ".join(kind.value for kind in found)
             raise InputError(f"{path}: has {several}; name the file that is meant")
         return found[0], path / found[0].value
-    for kind in (Kind.COMPARISON, Kind.SWEEP):
+    for kind in (Kind.COMPARISON, Kind.SWEEP, Kind.OPTIMUM, Kind.FIT):
         if path.name == kind.value:
             return kind, path
     if path.suffix in (".json", ".csv"):
@@ -50,6 +52,14 @@ def report_of(kind: Kind, file: Path) -> str:
         from exu_press.report.sweep import sweep_report
 
         return sweep_report(file)
+    if kind is Kind.OPTIMUM:
+        from exu_press.report.optimum import optimum_report
+
+        return optimum_report(file)
+    if kind is Kind.FIT:
+        from exu_press.report.fit import fit_report
+
+        return fit_report(file)
     from exu_press.report.run import run_report
 
     return run_report(Result.load(file), f"{file.resolve().parent.name}/{file.name}")

@@ -96,14 +96,9 @@ def scene_parts(scene: Scene) -> list[tuple[str, str]]:
         for assumption, left in used_assumptions(scene).items()
     ]
     assumed += [[key.source, key.meaning, str(key)] for key in engineering_values(scene)]
+    every = details("every key", table((*HEAD, "default?"), everything))
     return [
-        (
-            "Scene",
-            changed_keys(scene) + details("every key", table((*HEAD, "default?"), everything)),
-        ),
-            "Scene",
-            changed_keys(scene) + details("every key", table((*HEAD, "default?"), everything)),
-        ),
+        ("Scene", changed_keys(scene) + every),
         (
             "Assumptions",
             paragraph(

@@ -60,8 +60,7 @@ class Study {
     }
     byId("across").value = this.data.across;
     byId("up").value = this.data.up;
-    const rest = this.data.keys.find(name => name !== this.data.across);
-    byId("colour").value = rest ?? "";
+    byId("colour").value = this.data.colour;
   }
 
   get across() { return this.columns.get(byId("across").value); }

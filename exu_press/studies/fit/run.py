@@ -119,6 +119,16 @@ class Report:
                 one.name: told.plain()
                 for one, (_, told) in zip(self.study.curve, self.curves, strict=True)
             },
+            "curves": {
+                one.name: {
+                    "channel": one.read.name,
+                    "across": "time, s" if one.read.over == "time" else "crank angle, deg",
+                    "at": one.read.at.tolist(),
+                    "measured": wanted.tolist(),
+                    "computed": told.values.tolist(),
+                }
+                for one, (wanted, told) in zip(self.study.curve, self.curves, strict=True)
+            },
             "profiles": {name: points.tolist() for name, points in self.profiles.items()},
             "runs": self.told,
         }  # fmt: skip

@@ -1,0 +1,113 @@
+"""Curves that zoom each by itself: measured beside computed, and how far keys are determined."""
+
+import html
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from exu_press.page.document import Live, data_element, scripts, styles
+from exu_press.plots.style import colour_of
+from exu_press.plots.typesetting import typeset
+
+__all__ = ["Line", "Panel", "lines_viewer"]
+
+
+@dataclass(frozen=True)
+class Line:
+    """One of a panel's curves.
+
+    Attributes:
+        label: of it.
+        x: across.
+        y: up.
+        points: whether it is drawn as points.
+        low: least values, where errors are known.
+        high: largest values.
+    """
+
+    label: str
+    x: Sequence[float]
+    y: Sequence[float]
+    points: bool = False
+    low: Sequence[float] | None = None
+    high: Sequence[float] | None = None
+
+
+@dataclass(frozen=True)
+class Panel:
+    """Curves over one axis.
+
+    Attributes:
+        title: above it.
+        across: what the x axis is, with its unit.
+        up: what the y axis is.
+        lines: drawn over each other.
+    """
+
+    title: str
+    across: str
+    up: str
+    lines: Sequence[Line]
+
+
+def lines_viewer(panels: Sequence[Panel]) -> Live:
+    """Return the live part of a page of curves."""
+    from bokeh.document import Document
+
+    document, roots = Document(), []
+    for panel in panels:
+        document.add_root(made := _figure(panel))
+        roots.append(made.id)
+    data = {"documents": {"page": document.to_json(deferred=False)}, "roots": roots}
+    parts = [_head(panel, number) for number, panel in enumerate(panels)]
+    body = (
+        '<div id="viewer" class="live" hidden>\n'
+        + "\n".join(parts)
+        + '\n<p class="told">Drag to zoom; a double click shows everything.</p></div>\n'
+        '<p id="failed" class="warnings" role="alert" hidden></p>\n'
+        + data_element("page-data", data)
+    )
+    return Live(body, scripts("data", "theme", "lines"), styles())
+
+
+def _head(panel: Panel, number: int) -> str:
+    """Return a panel's place with its words; texts stand outside the library's canvas."""
+    legend = "".join(
+        f'<span class="value" style="--run: {colour_of(place)}">{_text(line.label)}</span> '
+        for place, line in enumerate(panel.lines)
+    )
+    return (
+        f"<h3>{_text(panel.title)}</h3><p>{legend}</p>"
+        f'<div id="lines-{number}" class="plot" role="img" aria-label="{_text(panel.title)}"></div>'
+        f'<p class="told">across: {_text(panel.across)}; up: {_text(panel.up)} '
+        f'<output id="at-{number}"></output></p>'
+    )
+
+
+def _text(text: str) -> str:
+    return html.escape(typeset(text))
+
+
+def _figure(panel: Panel) -> Any:
+    """Return a figure of the library with the curves in it."""
+    from bokeh.models import BoxZoomTool, ColumnDataSource, PanTool, WheelZoomTool
+    from bokeh.models.annotations import Whisker
+    from bokeh.plotting import figure
+
+    made = figure(height=300, sizing_mode="stretch_width", tools=[], toolbar_location=None)
+    zoom, wheel = BoxZoomTool(), WheelZoomTool(modifiers={"ctrl": True})
+    made.add_tools(zoom, wheel, PanTool())
+    made.toolbar.active_drag, made.toolbar.active_scroll = zoom, wheel
+    for place, line in enumerate(panel.lines):
+        colour = colour_of(place)
+        if line.points:
+            made.scatter([*line.x], [*line.y], size=5, color=colour, alpha=0.8)
+        else:
+            made.line([*line.x], [*line.y], line_color=colour, line_width=1.5)
+        if line.low is not None and line.high is not None:
+            bars = {"x": [*line.x], "low": [*line.low], "high": [*line.high]}
+            source = ColumnDataSource(bars)
+            made.add_layout(
+                Whisker(base="x", lower="low", upper="high", source=source, line_color=colour)
+            )
+    return made

@@ -1,0 +1,98 @@
+"""The report of a fit: measured beside computed, and how well its keys are determined."""
+
+from pathlib import Path
+from typing import Any
+
+from exu_press.errors import InputError
+from exu_press.page import Live, has_library
+from exu_press.plots.words import describe
+from exu_press.report.html import page, paragraph, picture, stills, table
+from exu_press.report.run import scene_parts
+from exu_press.scene import load_scene
+from exu_press.stored import from_json
+from exu_press.studies.sweep.units import unit_of
+
+__all__ = ["fit_report"]
+
+
+def fit_report(file: Path) -> str:
+    """Return the page of a fit, from fit.json and fitted.toml beside it."""
+    try:
+        told = from_json(dict[str, Any], file.read_bytes(), file.name)
+        keys = [_key(name, one) for name, one in told["keys"].items()]
+        numbers = [_number(one) for one in told["measured"]]
+        live = _live(told) if has_library() else None
+        chi_square = f"{told['chi_square']:.4g} with {told['degrees_of_freedom']:g}"
+    except OSError as error:
+        raise InputError(f"{error.filename}: cannot be read ({error.strerror})") from None
+    except (ValueError, KeyError, IndexError, TypeError, AttributeError) as error:
+        raise InputError(f"{file}: not a fit of exu_press ({error!s:.200})") from None
+    scene = load_scene(file.parent / "fitted.toml", [])
+    pictures = [
+        picture(path, "The fit as it was drawn.")
+        for path in sorted(file.parent.glob("*.png"))
+        if path.is_file()
+    ]
+    return page(
+        f"Fit: {describe([scene], 200)}",
+        f"chi-square {chi_square} degrees of freedom; {file.parent.name}/{file.name}",
+        [
+            ("Keys", table(("key", "unit", "value", "low", "high"), keys)),
+            *([] if live is None else [("Measured and computed", live.body)]),
+            (
+                "Numbers",
+                table(("number", "measured", "uncertainty", "computed"), numbers)
+                if numbers
+                else paragraph("None was measured; there are curves."),
+            ),
+            ("Pictures", stills("\n".join(pictures) or paragraph("None was drawn."), live)),
+            *scene_parts(scene),
+        ],
+        live,
+    )
+
+
+def _key(name: str, one: dict[str, Any]) -> list[str]:
+    ends = [
+        f"{one[end]:.6g}" + (" (the range's)" if one[f"{end}_is_the_range's"] else "")
+        for end in ("low", "high")
+    ]
+    return [name, unit_of(name), f"{one['value']:.6g}", *ends]
+
+
+def _number(one: dict[str, Any]) -> list[str]:
+    values = (one[part] for part in ("value", "uncertainty", "computed"))
+    return [str(one["name"]), *("-" if value is None else f"{value:.6g}" for value in values)]
+
+
+def _live(told: dict[str, Any]) -> Live | None:
+    """Return the curves, the numbers in uncertainties, and chi-square over each key."""
+    from exu_press.page.lines import Line, Panel, lines_viewer
+
+    panels = [
+        Panel(
+            f"Curve {name}",
+            curve["across"],
+            f"{curve['channel']}, SI",
+            [
+                Line("measured", curve["at"], curve["measured"], points=True),
+                Line("computed, through the sensor", curve["at"], curve["computed"]),
+            ],
+        )
+        for name, curve in told["curves"].items()
+    ]
+    measured = [one for one in told["measured"] if one["uncertainty"]]
+    if measured:
+        far = [(one["computed"] - one["value"]) / one["uncertainty"] for one in measured]
+        errors = [one["error_over_uncertainty"] or 0.0 for one in measured]
+        low = [f - e for f, e in zip(far, errors, strict=True)]
+        high = [f + e for f, e in zip(far, errors, strict=True)]
+        line = Line("(computed - measured) / uncertainty", range(len(far)), far, True, low, high)
+        panels.append(Panel("Numbers", "place in the table below", "in uncertainties", [line]))
+    for name, profile in told["profiles"].items():
+        unit = unit_of(name)
+        across = f"{name}, {unit}" if unit else name
+        values, rises = zip(*profile, strict=True) if profile else ((), ())
+        line = Line("chi-square above its least value", values, rises)
+        panels.append(Panel(f"How well {name} is determined", across, "chi-square", [line]))
+    return lines_viewer(panels) if panels else None

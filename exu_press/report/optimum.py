@@ -1,0 +1,107 @@
+"""The report of an optimum: all trials as points, those of the front with their scenes."""
+
+import csv
+from pathlib import Path
+from typing import Any
+
+from exu_press.errors import InputError
+from exu_press.page import Live, has_library
+from exu_press.plots.words import describe
+from exu_press.report.html import page, paragraph, picture, stills, table
+from exu_press.report.run import scene_parts
+from exu_press.scene import load_scene
+from exu_press.stored import from_json
+from exu_press.studies.sweep.units import unit_of
+
+__all__ = ["optimum_report"]
+
+FRONT = "front"
+
+
+def optimum_report(file: Path) -> str:
+    """Return the page of an optimum, from optimise.json, trials.csv and the scenes beside it."""
+    try:
+        told = from_json(dict[str, Any], file.read_bytes(), file.name)
+        with (file.parent / "trials.csv").open(encoding="utf-8", newline="") as stream:
+            head, *lines = csv.reader(stream)
+        trials = [dict(zip(head, map(_value, line), strict=True)) for line in lines]
+        front = [{name: _plain(v) for name, v in one["keys"].items()} for one in told["front"]]
+        chosen = int(told["chosen"])
+        keys = list(front[chosen])
+        places = [_place(front, trial, keys) for trial in trials]
+    except OSError as error:
+        raise InputError(f"{error.filename}: cannot be read ({error.strerror})") from None
+    except (ValueError, KeyError, IndexError, TypeError, AttributeError, csv.Error) as error:
+        raise InputError(f"{file}: not an optimum of exu_press ({error!s:.200})") from None
+    scene = load_scene(file.parent / "chosen.toml", [])
+    live = _live(head, trials, keys, places) if has_library() else None
+    rows = [
+        [str(run), *(_shown(trial[name]) for name in head[:-1]), _of_front(place, chosen)]
+        for run, (trial, place) in enumerate(zip(trials, places, strict=True))
+    ]
+    names = [f"{name}, {unit_of(name)}" if unit_of(name) else name for name in head[:-1]]
+    pictures = [
+        picture(path, "The front: all trials, and those that no other one beats.")
+        for path in [file.parent / "front.png"]
+        if path.is_file()
+    ]
+    return page(
+        f"Optimum: {describe([scene], 200)}",
+        f"{len(trials)} trials, {len(front)} on the front; {file.parent.name}/{file.name}",
+        [
+            *([] if live is None else [("Points", live.body)]),
+            ("Trials", table(("run", *names, "front"), rows, name="runs")),
+            ("Pictures", stills("\n".join(pictures) or paragraph("None was drawn."), live)),
+            *scene_parts(scene),
+        ],
+        live,
+    )
+
+
+def _live(
+    head: list[str], trials: list[dict[str, Any]], keys: list[str], places: list[int | None]
+) -> Live:
+    """Return the trials as points; what opens with one of the front is its scene."""
+    from exu_press.page.study import Column, study_viewer
+
+    def column(name: str) -> Column:
+        return Column(name, unit_of(name), [trial[name] for trial in trials])
+
+    found = [name for name in head[:-1] if name not in keys]
+    on_front = ["trial" if place is None else "front" for place in places]
+    opens = [
+        "a trial that others beat" if place is None else f"exu-press run front/{place + 1:02}.toml"
+        for place in places
+    ]
+    across = (found[0], found[1]) if len(found) > 1 else (keys[0], found[0])
+    columns = [Column(FRONT, "", on_front), *(column(name) for name in keys)]
+    return study_viewer(columns, [column(name) for name in found], opens, across, colour=FRONT)
+
+
+def _place(front: list[dict[str, Any]], trial: dict[str, Any], keys: list[str]) -> int | None:
+    """Return a trial's place in the front, None of one that is beaten."""
+    if not trial[FRONT]:
+        return None
+    return next(n for n, one in enumerate(front) if all(one[k] == trial[k] for k in keys))
+
+
+def _of_front(place: int | None, chosen: int) -> str:
+    if place is None:
+        return ""
+    return f"{place + 1:02}.toml" + (", chosen" if place == chosen else "")
+
+
+def _value(text: str) -> float | str | None:
+    try:
+        return float(text)
+    except ValueError:
+        return text or None
+
+
+def _plain(value: Any) -> Any:
+    """Return a key's value as the table has it."""
+    return _value(str(value))
+
+
+def _shown(value: Any) -> str:
+    return "" if value is None else f"{value:.6g}" if isinstance(value, float) else str(value)

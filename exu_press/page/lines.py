@@ -90,7 +90,7 @@ def _text(text: str) -> str:
 
 def _figure(panel: Panel) -> Any:
     """Return a figure of the library with the curves in it."""
-    from bokeh.models import BoxZoomTool, ColumnDataSource, PanTool, WheelZoomTool
+    from bokeh.models import BoxZoomTool, ColumnDataSource, PanTool, Range1d, WheelZoomTool
     from bokeh.models.annotations import Whisker
     from bokeh.plotting import figure
 
@@ -98,6 +98,10 @@ def _figure(panel: Panel) -> Any:
     zoom, wheel = BoxZoomTool(), WheelZoomTool(modifiers={"ctrl": True})
     made.add_tools(zoom, wheel, PanTool())
     made.toolbar.active_drag, made.toolbar.active_scroll = zoom, wheel
+    heights = [y for line in panel.lines for y in (*line.y, *(line.low or ()), *(line.high or ()))]
+    if heights:
+        margin = 0.08 * (max(heights) - min(heights)) or 0.08 * abs(heights[0]) or 1.0
+        made.y_range = Range1d(start=min(heights) - margin, end=max(heights) + margin)
     for place, line in enumerate(panel.lines):
         colour = colour_of(place)
         if line.points:

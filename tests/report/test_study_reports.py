@@ -1,0 +1,93 @@
+"""Pages of optima and fits, from the files that those commands write."""
+
+import json
+
+import pytest
+from browser import opened
+
+from exu_press import Scene
+from exu_press.cli import main
+
+SCENE = Scene(mechanism="slider_crank", joints={"crank_pin": "ideal"}, revolutions=0.1)
+TRIALS = """speed_rpm,drive.peak_torque,peak_velocity,front
+100.0,5.0,1.0,1
+150.0,9.0,0.9,0
+200.0,7.0,2.0,1
+250.0,,,0
+"""
+
+
+@pytest.fixture
+def optimum(tmp_path):
+    front = [{"keys": {"speed_rpm": rpm}, "quantities": {}} for rpm in (100.0, 200.0)]
+    (tmp_path / "optimise.json").write_text(json.dumps({"front": front, "chosen": 1}))
+    (tmp_path / "trials.csv").write_text(TRIALS)
+    SCENE.save(tmp_path / "chosen.toml")
+    return tmp_path
+
+
+@pytest.fixture
+def fitted(tmp_path):
+    key = {"value": 3.0, "low": 2.0, "high": 4.0}
+    key |= {"low_is_the_range's": True, "high_is_the_range's": False}
+    number = {"name": "<i>force", "value": 10.0, "uncertainty": 2.0, "computed": 13.0}
+    told = {
+        "keys": {"speed_rpm": key},
+        "chi_square": 2.25,
+        "degrees_of_freedom": 1.0,
+        "measured": [{**number, "error_over_uncertainty": 0.1}],
+        "curves": {
+            "torque": {
+                "channel": "drive_torque",
+                "across": "time, s",
+                "at": [0.0, 1.0, 2.0],
+                "measured": [1.0, 2.0, 3.0],
+                "computed": [1.1, 2.1, 2.9],
+            }
+        },
+        "profiles": {"speed_rpm": [[2.0, 4.0], [3.0, 0.0], [4.0, 4.0]]},
+    }
+    (tmp_path / "fit.json").write_text(json.dumps(told))
+    SCENE.save(tmp_path / "fitted.toml")
+    return tmp_path
+
+
+def report_in(folder):
+    assert main(["report", str(folder), "--quiet"]) == 0
+    return folder / "report.html"
+
+
+def test_a_point_of_the_front_opens_its_scene(optimum, browser):
+    pytest.importorskip("bokeh")
+    with opened(browser, report_in(optimum)) as page:
+        page.click("#runs tbody tr:nth-child(3) button")
+        assert "exu-press run front/02.toml" in page.inner_text("#chosen")
+        page.click("#runs tbody tr:nth-child(2) button")
+        assert "others beat" in page.inner_text("#chosen")
+
+
+def test_the_table_of_trials(optimum):
+    text = report_in(optimum).read_text(encoding="utf-8")
+    assert "4 trials, 2 on the front" in text and "02.toml, chosen" in text
+
+
+def test_measured_and_computed_lie_over_each_other(fitted, browser):
+    pytest.importorskip("bokeh")
+    with opened(browser, report_in(fitted), 390, 844) as page:
+        assert page.locator("#viewer .plot canvas").count() >= 3
+        scroll, width = page.evaluate(
+            "() => [document.documentElement.scrollWidth, document.documentElement.clientWidth]"
+        )
+        assert scroll <= width
+        assert "<i>force" in page.inner_text("body")
+        assert "2 (the range's)" in page.inner_text("body")
+
+
+@pytest.mark.parametrize(
+    ("name", "content"), [("optimise.json", "{}"), ("fit.json", "{}"), ("fit.json", "[]")]
+)
+def test_what_no_study_wrote_is_refused(tmp_path, capsys, name, content):
+    (tmp_path / name).write_text(content)
+    (tmp_path / "trials.csv").write_text("a,front\n")
+    assert main(["report", str(tmp_path / name)]) == 2
+    assert name in capsys.readouterr().err

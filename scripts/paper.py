@@ -1,6 +1,6 @@
 """Section 5 of the paper, number by number, what moves each number, and the clearance to choose.
 
-Run with: python scripts/paper.py [--quick] [--out DIR] [--workers N]
+Run with: python scripts/paper.py [--quick] [--fit] [--out DIR] [--workers N]
 """
 
 import argparse
@@ -21,6 +21,14 @@ def parser() -> argparse.ArgumentParser:
         action="store_true",
         help="a reduced form in seconds, whose numbers say nothing of the paper",
     )
+    found.add_argument(
+        "--fit",
+        action="store_true",
+        help="which reading of what the paper leaves open brings its numbers nearest, instead",
+    )
+    found.add_argument(
+        "--trials", type=int, default=96, metavar="N", help="readings that --fit tries (96)"
+    )
     found.add_argument("--out", metavar="DIR", default="out/paper", help="where to write")
     found.add_argument(
         "--workers", type=int, metavar="N", help="processes at work (default: one a core)"
@@ -36,6 +44,8 @@ def run(options: argparse.Namespace) -> int:
     Runs of the sensitivity study that stop are part of what it reports.
     """
     directory = output_directory(Path(options.out))
+    if options.fit:
+        return run_fit(options, directory)
     study = paper(directory, quick=options.quick, workers=options.workers, quiet=options.quiet)
     write_json(directory / "paper.json", study.to_dict() | {"tables": tables(study)})
     written = ["paper.json"]
@@ -49,6 +59,27 @@ def run(options: argparse.Namespace) -> int:
     for name, reason in study.stopped.items():
         print(f"paper: {name}: {reason}", file=sys.stderr)
     return 3 if study.stopped else 0
+
+
+def run_fit(options: argparse.Namespace, directory: Path) -> int:
+    """Search the reading that brings the paper's numbers nearest; return 0."""
+    from paper.inverse import inverse
+    from paper.inverse_lines import inverse_lines, inverse_rows
+
+    if options.trials < 8:
+        raise InputError(f"--trials {options.trials}: allowed is a whole number >= 8")
+    found = inverse(
+        directory,
+        trials=options.trials,
+        quick=options.quick,
+        workers=options.workers,
+        quiet=options.quiet,
+    )
+    write_json(directory / "inverse.json", found.to_dict() | {"table": inverse_rows(found)})
+    if not options.quiet:
+        print("\n".join(inverse_lines(found)))
+        print("\nwritten: inverse.json in", directory)
+    return 0
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

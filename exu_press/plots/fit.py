@@ -80,11 +80,16 @@ def profiles_figure(report: Report) -> Figure:
         points = report.profiles[name]
         values, unit = in_unit(name, points[:, 0])
         scale = values[-1] / points[-1, 0] if points[-1, 0] else 1.0
-        panel.plot(values, points[:, 1], "o-", color=COLOURS["blue"], markersize=4)
+        dense = np.linspace(values[0], values[-1], 200)
+        best = report.values[name] * scale
+        roots = np.sqrt(np.maximum(points[:, 1], 0.0)) * np.sign(values - best)
+        rises = np.interp(dense, values, roots) ** 2  # of a linear model it is a parabola
+        panel.plot(dense, rises, color=COLOURS["blue"])
+        panel.plot(values, points[:, 1], "o", color=COLOURS["blue"], markersize=4)
         panel.axhline(rise, color=GREY, linewidth=1.0)
         for end in (report.low[name], report.high[name]):
             panel.axvline(end * scale, color=GREY, linewidth=1.0, linestyle="--")
-        panel.axvline(report.values[name] * scale, color="black", linewidth=0.8)
+        panel.axvline(best, color="black", linewidth=0.8)
         each = report.study.keys[name]
         if isinstance(each, Range) and each.log and points[-1, 0] > 4.0 * points[0, 0]:
             panel.set_xscale("log")

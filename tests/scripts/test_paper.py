@@ -6,8 +6,10 @@ import re
 import pytest
 from running import process, run
 
+from paper.inverse import CAP, distance
+from paper.open_keys import OURS, as_read
 from paper.published import published
-from paper.runs import DAMPINGS
+from paper.runs import DAMPINGS, paper_runs
 from paper.table import REAL
 
 WITH_ERROR = re.compile(r"\+- |exact| to ")
@@ -85,3 +87,25 @@ def test_wrong_input_is_refused_in_one_line(arguments, named, tmp_path):
     refused = process("paper.py", tmp_path, *arguments)
     assert refused.returncode == 2
     assert named in refused.stderr and refused.stderr.count("\n") == 1
+
+
+def test_section_5_inverted(tmp_path):
+    printed = run("paper.py", tmp_path, "--fit", "--trials", "8", "--out", ".")
+    report = json.loads((tmp_path / "inverse.json").read_text())
+    ours = [number for number in published().numbers if not number.reference]
+    assert len(report["table"]) == len(ours) + 1
+    assert len(report["trials"]) == 9
+    best, tried = report["best"][1], [ratios for _, ratios in report["trials"] if ratios]
+    assert distance(best, CAP) <= min(distance(ratios, CAP) for ratios in tried)
+    verdicts = {row[-1].partition(":")[0] for row in report["table"][1:]}
+    known = {"agrees", "agrees with the recommended reading", "agrees with another reading"}
+    assert verdicts <= known | {"no reading reaches it"}
+    assert "the numbers cannot tell" in printed
+
+
+def test_our_reading_is_what_the_scenes_have():
+    for damping in DAMPINGS:
+        for name, scene in paper_runs(damping, flexible=False).items():
+            if "ideal" not in name:
+                reading = {**OURS, "damping": DAMPINGS[damping]}
+                assert as_read(scene, reading) == scene

@@ -1,0 +1,261 @@
+"""Section 5 inverted: which reading of what the paper leaves open brings its numbers nearest."""
+
+import math
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from exu_press.arrays import Array
+from exu_press.batch import Batch
+from exu_press.errors import InputError
+from exu_press.scene import Scene, flexible_press
+from exu_press.studies.optimise.several import searched
+from exu_press.studies.optimise.study import TPE
+from paper.open_keys import OPEN, OURS, alternatives, as_read
+from paper.published import Number, published
+from paper.readings import MODELS
+from paper.runs import DEFAULT, paper_runs
+from paper.tasks import read
+
+__all__ = ["CAP", "Inverse", "Trial", "distance", "inverse"]
+
+CAP = math.log(4.0)
+"""Of a number's log ratio, in what the search makes small: how far beyond a factor of four a number
+lies tells nothing, and one that no reading reaches must not decide about all others."""
+
+TIME_LIMIT = 60.0
+"""Of a rigid run, s; TIME_LIMIT_FLEXIBLE of a flexible one."""
+
+TIME_LIMIT_FLEXIBLE = 300.0
+
+ROUNDS = 2
+"""Of changing the best reading by one key: the second one if the first has found a better."""
+
+FREE = 0.01
+"""Of the distance: what changes it by less cannot be told."""
+
+OBSERVED = "observation"
+
+
+@dataclass(frozen=True)
+class Trial:
+    """One reading and what it makes of the paper's numbers.
+
+    Attributes:
+        reading: name of what is open -> what it is taken for.
+        ratios: ours over the paper's, in the order of `Inverse.numbers`; None of a failed run.
+    """
+
+    reading: Mapping[str, Any]
+    ratios: tuple[float, ...] | None
+
+    @property
+    def distance(self) -> float:
+        """Root mean square of capped log ratios; infinite of a failed one."""
+        return math.inf if self.ratios is None else distance(self.ratios, CAP)
+
+
+def distance(ratios: Sequence[float], cap: float = math.inf) -> float:
+    """Return the root mean square of the logarithms of ratios, each capped.
+
+    >>> distance([math.e, 1 / math.e]), round(distance([1e9], CAP), 3)
+    (1.0, 1.386)
+    """
+    logs = [min(abs(math.log(ratio)), cap) for ratio in ratios]
+    return math.sqrt(sum(x * x for x in logs) / len(logs))
+
+
+@dataclass
+class Inverse:
+    """What was tried.
+
+    Attributes:
+        numbers: that the paper computed and prints, in its order.
+        trials: all readings, ours first.
+        ours, best, recommended: readings and what they make.
+        alone: name of what is open -> trials that differ from `base` in it alone.
+        flexible: the recommended reading with flexible bodies.
+        base: best reading before the last round of changes by one key.
+        failures: why runs gave no numbers -> how many.
+        runs: how many there were.
+    """
+
+    numbers: tuple[Number, ...]
+    trials: list[Trial]
+    ours: Trial
+    best: Trial
+    recommended: Trial
+    alone: Mapping[str, list[Trial]]
+    flexible: Trial
+    base: Trial
+    failures: Counter[str] = field(default_factory=Counter)
+    runs: int = 0
+
+    @property
+    def all(self) -> list[Trial]:
+        """Return every trial that has numbers."""
+        more = [one for each in self.alone.values() for one in each]
+        found = [*self.trials, self.best, self.recommended, *more]
+        return [one for one in found if one.ratios is not None]
+
+    def nearest(self, place: int) -> Trial:
+        """Return the trial that brings one number nearest."""
+        return min(self.all, key=lambda one: abs(math.log((one.ratios or ())[place])))
+
+    @property
+    def free(self) -> list[str]:
+        """Return what is open and changes the distance by less than FREE wherever it is."""
+        return [
+            name
+            for name, each in self.alone.items()
+            if all(abs(one.distance - self.best.distance) < FREE for one in each)
+        ]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the contents of inverse.json."""
+        return {
+            "numbers": [[n.quantity, n.figure, n.published] for n in self.numbers],
+            "trials": [[dict(t.reading), t.ratios] for t in self.trials],
+            "ours": [dict(self.ours.reading), self.ours.ratios],
+            "best": [dict(self.best.reading), self.best.ratios],
+            "recommended": [dict(self.recommended.reading), self.recommended.ratios],
+            "flexible": self.flexible.ratios,
+            "alone": {
+                name: [[one.reading[name], one.ratios] for one in each]
+                for name, each in self.alone.items()
+            },
+            "failures": dict(self.failures),
+            "runs": self.runs,
+        }
+
+
+def _alone(judge: "_Judge", best: Trial, quick: bool) -> dict[str, list[Trial]]:
+    """Return trials that differ from the best in one key, by its name."""
+    varied = {name: alternatives(name, best.reading[name]) for name in OPEN}
+    if quick:
+        varied = {name: values[:1] for name, values in list(varied.items())[:3]}
+    asked = [{**best.reading, n: v} for n, values in varied.items() for v in values]
+    found = iter(judge.of(asked))
+    return {name: [next(found) for _ in values] for name, values in varied.items()}
+
+
+class _Judge:
+    """Runs readings, several side by side, and remembers them."""
+
+    def __init__(self, batch: Batch, numbers: Sequence[Number], scenes: Mapping[str, Scene]):
+        self._batch, self._numbers, self._scenes = batch, numbers, scenes
+        self._names = list(dict.fromkeys(number.run for number in numbers))
+        self.trials: list[Trial] = []
+        self.failures: Counter[str] = Counter()
+        self._asked: set[str] = set()
+
+    @property
+    def runs(self) -> int:
+        """How many different ones were asked for."""
+        return len(self._asked)
+
+    def ask(self, points: Sequence[Mapping[str, Any]]) -> tuple[Array, Array]:
+        """Return the distances of readings as optuna's samplers ask for them.
+
+        A run is observed in each way at no cost: the best observation counts.
+        """
+        every = self.of([{**point, OBSERVED: how} for how in MODELS for point in points])
+        number = len(points)
+        found = [min(every[place::number], key=lambda one: one.distance) for place in range(number)]
+        self.trials += found
+        values = [one.distance if one.ratios else np.nan for one in found]
+        return np.array(values)[:, None], np.zeros(len(found))
+
+    def of(self, points: Sequence[Mapping[str, Any]]) -> list[Trial]:
+        """Return the trials of readings."""
+        tasks: list[dict[str, Any]] = []
+        places: list[dict[str, int] | None] = []
+        for point in points:
+            try:
+                scenes = {name: as_read(self._scenes[name], point) for name in self._names}
+            except InputError as error:
+                self.failures[f"not a scene: {str(error)[:90]}"] += 1
+                places.append(None)
+                continue
+            places.append({name: len(tasks) + n for n, name in enumerate(scenes)})
+            tasks += [{"scene": scene.to_dict()} for scene in scenes.values()]
+        rows = self._batch.rows(tasks)
+        self._asked |= {str(task) for task in tasks}
+        for row in rows:
+            if row["status"] != "completed":
+                self.failures[f"{row['status']}: {row['reason'][:90]}"] += 1
+        return [
+            Trial(dict(point), None if at is None else self._ratios(point, at, rows))
+            for point, at in zip(points, places, strict=True)
+        ]
+
+    def _ratios(
+        self, point: Mapping[str, Any], at: Mapping[str, int], rows: Sequence[Mapping[str, Any]]
+    ) -> tuple[float, ...] | None:
+        found = []
+        for number in self._numbers:
+            measure = number.measure
+            if measure.startswith("peak_acceleration."):
+                measure = f"peak_acceleration.{point[OBSERVED]}"
+            value = rows[at[number.run]].get("values", {}).get(measure)
+            if value is None or not value > 0.0:
+                return None
+            found.append(value / number.published)
+        return tuple(found)
+
+
+def inverse(
+    directory: Path, *, trials: int, quick: bool = False, workers: int | None = None,
+    quiet: bool = True,
+) -> Inverse:  # fmt: skip
+    """Search readings with rigid bodies, vary the best one by one key, run it with flexible ones.
+
+    Called again after a kill, it goes on.
+
+    Args:
+        directory: for the runs.
+        trials: readings of the search.
+        quick: a fraction of a revolution: tries the machinery only.
+        workers: processes; all cores unless told.
+        quiet: False shows the progress on standard error.
+
+    Raises:
+        InputError: the directory cannot be used, or no reading gives numbers.
+    """
+    numbers = tuple(number for number in published().numbers if not number.reference)
+    turns = 0.03 if quick else 2.0
+    scenes = paper_runs(DEFAULT, flexible=False, revolutions=turns)
+    told: dict[str, Any] = {"workers": workers, "quiet": quiet, "label": "readings"}
+    with Batch(read, directory, time_limit=TIME_LIMIT, **told) as batch:
+        judge = _Judge(batch, numbers, scenes)
+        (ours,) = judge.of([OURS])
+        judge.ask([OURS])
+        varying = {name: key for name, key in OPEN.items() if name != OBSERVED}
+        searched(judge.ask, varying, 1, trials, TPE, 0)
+        best = min(judge.trials, key=lambda one: one.distance)
+        if best.ratios is None:
+            raise InputError(f"no reading gives numbers: {judge.failures.most_common(2)}")
+        for _ in range(1 if quick else ROUNDS):
+            alone = _alone(judge, best, quick)
+            better = min((t for each in alone.values() for t in each), key=lambda t: t.distance)
+            base, best = best, min(best, better, key=lambda t: t.distance)
+            if better.distance > base.distance - FREE:
+                break
+        report = Inverse(numbers, judge.trials, ours, best, best, alone, best, base)
+        reading = {**best.reading, **{name: OURS[name] for name in report.free}}
+        (plain,) = judge.of([reading])
+        report.recommended = plain if plain.distance < best.distance + 2 * FREE else best
+        report.failures, report.runs = judge.failures, judge.runs
+    if quick:
+        return report
+    bodies = {name: scene.replace(bodies=flexible_press()) for name, scene in scenes.items()}
+    with Batch(read, directory, time_limit=TIME_LIMIT_FLEXIBLE, **told) as batch:
+        judge = _Judge(batch, numbers, bodies)
+        (report.flexible,) = judge.of([report.recommended.reading])
+        report.failures += judge.failures
+        report.runs += judge.runs
+    return report

@@ -1,0 +1,140 @@
+"""What the paper leaves open, as keys of a search: what each may be, what it does to a scene."""
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from exu_press.scene import Scene
+from exu_press.studies.base import Key, Range, Values
+from paper.readings import MODELS
+from paper.settings import LINK_MASSES
+
+__all__ = ["OPEN", "OURS", "alternatives", "as_read", "in_words"]
+
+OURS: Mapping[str, Any] = {
+    "observation": "mean_1ms",
+    "damping": 2.5545e8,
+    "damping depth": 1e-5,
+    "contact pulls (A-10)": False,
+    "friction": 0.01,
+    "start": "centred",
+    "start angle": 0.0,
+    "pin's clearance": 1.0,
+    "balls' clearance": 1.0,
+    "film's law": "pinkus",
+    "viscosity (A-11)": 0.4,
+    "bearing's length (A-12)": 0.1,
+    "pivots (A-2)": 0.1655,
+    "counter-eccentric (A-3)": 0.016,
+    "slide's mass (A-4)": 60.0,
+    "8 with ball 9 (A-5)": 155.3,
+    "linkage's centre (A-6)": 0.0,
+    "masses of 5 to 8 (A-7)": 1.0,
+    "guides (A-9)": "ideal",
+    "pulse's rise (A-14)": 1e-3,
+    "pulse's end (A-14)": 180.0,
+}
+"""What scenes have. A-1, the topology, and A-8, the datum, are not open; A-13, what a film does
+where surfaces touch, is met by no run of section 5."""
+
+OPEN: Mapping[str, Key] = {
+    "observation": Values(MODELS),
+    "damping": Values((2.5545e8, 8.08e6, 2.5545e5, 10.0, 0.01)),
+    "damping depth": Range(low=1e-6, high=1e-4, log=True),
+    "contact pulls (A-10)": Values((False, True)),
+    "friction": Range(low=1e-3, high=0.1, log=True),
+    "start": Values(("centred", "loaded")),
+    "start angle": Values((0.0, 90.0, 180.0)),
+    "pin's clearance": Values((1.0, 0.5, 2.0)),
+    "balls' clearance": Values((1.0, 0.5, 2.0)),
+    "film's law": Values(("pinkus", "pi_film", "short", "finite")),
+    "viscosity (A-11)": Range(low=0.05, high=1.0, log=True),
+    "bearing's length (A-12)": Range(low=0.05, high=0.2),
+    "pivots (A-2)": Range(low=0.16, high=0.17),
+    "counter-eccentric (A-3)": Range(low=0.012, high=0.02),
+    "slide's mass (A-4)": Range(low=30.0, high=120.0, log=True),
+    "8 with ball 9 (A-5)": Range(low=155.3, high=175.0),
+    "linkage's centre (A-6)": Range(low=-0.05, high=0.05),
+    "masses of 5 to 8 (A-7)": Values((1.0, 0.5)),
+    "guides (A-9)": Values(("ideal", 1e9, 3e8, 1e8)),
+    "pulse's rise (A-14)": Range(low=2e-4, high=1e-2, log=True),
+    "pulse's end (A-14)": Range(low=150.0, high=200.0),
+}
+"""Damping, N s/m: Table 2's value; 1 % of K in N/mm^1.5 as N s/mm; a thousandth of the first; 0.01
+in ADAMS' N s/mm; 0.01 as it stands. A clearance of half is a diametral one read as radial; two is
+the reverse. Guides: lateral stiffness, N/m."""
+
+
+def _times(table: str, factor: float) -> Callable[[Scene], dict[str, Any]]:
+    def change(scene: Scene) -> dict[str, Any]:
+        joint = scene.joints[scene.joints.members(table)[0]]
+        clearance = getattr(joint, "clearance", None)
+        return {} if clearance is None else {f"joints.{table}.clearance": factor * clearance}
+
+    return change
+
+
+def as_read(scene: Scene, reading: Mapping[str, Any]) -> Scene:
+    """Return one of the paper's scenes under a reading; what it has not is left out.
+
+    Raises:
+        InputError: the reading is not allowed.
+    """
+    changes: dict[str, Any] = {
+        "start": reading["start"],
+        "start_angle_deg": reading["start angle"],
+        "press.pivot_distance": reading["pivots (A-2)"],
+        "press.counter_eccentricity": reading["counter-eccentric (A-3)"],
+        "press.slide_mass": reading["slide's mass (A-4)"],
+        "press.plunger_mass": reading["8 with ball 9 (A-5)"] * reading["masses of 5 to 8 (A-7)"],
+        "press.linkage_mass_offset": reading["linkage's centre (A-6)"],
+    }
+    assert scene.press is not None
+    for name in LINK_MASSES:
+        if name != "press.plunger_mass":
+            mass = getattr(scene.press, name.removeprefix("press."))
+            changes[name] = mass * reading["masses of 5 to 8 (A-7)"]
+    if reading["guides (A-9)"] != "ideal":
+        changes["guide"] = {"lateral_stiffness": reading["guides (A-9)"]}
+    if scene.contact is not None:
+        changes |= {
+            "contact.damping_max": reading["damping"],
+            "contact.damping_depth": reading["damping depth"],
+            "contact.tension": reading["contact pulls (A-10)"],
+        }
+    if scene.friction is not None:
+        changes |= dict.fromkeys(("friction.mu_static", "friction.mu_kinetic"), reading["friction"])
+    if scene.film is not None:
+        changes |= {
+            "film.law": reading["film's law"],
+            "film.viscosity": reading["viscosity (A-11)"],
+            "film.length": reading["bearing's length (A-12)"],
+        }
+    if "blanking" in scene.load:
+        rise = reading["pulse's rise (A-14)"]
+        changes |= {
+            "load.blanking.rise": rise,
+            "load.blanking.fall": rise / 2.0,
+            "load.blanking.end_angle_deg": reading["pulse's end (A-14)"],
+        }
+    for table, key in (("crank_pin", "pin's clearance"), ("balls", "balls' clearance")):
+        if reading[key] != 1.0:
+            changes |= _times(table, reading[key])(scene)
+    return scene.replace(changes)
+
+
+def alternatives(name: str, value: Any) -> list[Any]:
+    """Return what else a key may be: all other values, or the ends and the middle of its range."""
+    key = OPEN[name]
+    if isinstance(key, Values):
+        return [other for other in key.values if other != value]
+    assert isinstance(key, Range)
+    middle = (key.low * key.high) ** 0.5 if key.log else (key.low + key.high) / 2.0
+    near = 0.15 * (key.high - key.low)
+    return [v for v in (key.low, middle, key.high) if key.log or abs(v - value) > near]
+
+
+def in_words(value: Any) -> str:
+    """Return a value as a table has it."""
+    if isinstance(value, bool) or not isinstance(value, float):
+        return {True: "yes", False: "no"}.get(value, str(value))
+    return f"{value:.3g}"

@@ -8,6 +8,7 @@ from scipy.stats import chi2
 
 from exu_press.plots.file import save_figure
 from exu_press.plots.headed import headed_figure
+from exu_press.plots.scales import log_axis
 from exu_press.plots.style import COLOURS, GREY, SHADE, styled
 from exu_press.plots.sweep_words import in_unit, words
 from exu_press.plots.typesetting import plain
@@ -92,7 +93,7 @@ def profiles_figure(report: Report) -> Figure:
         panel.axvline(best, color="black", linewidth=0.8)
         each = report.study.keys[name]
         if isinstance(each, Range) and each.log and points[-1, 0] > 4.0 * points[0, 0]:
-            panel.set_xscale("log")
+            log_axis(panel, "x", values)
         panel.set_ylim(0.0, 2.2 * rise)
         panel.margins(x=0.05)
         panel.set_xlabel(plain(f"{name}{f', {unit}' if unit else ''}"))

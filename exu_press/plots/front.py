@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from exu_press.arrays import Array
 from exu_press.plots.file import save_figure
 from exu_press.plots.headed import headed_figure
+from exu_press.plots.scales import log_axis
 from exu_press.plots.style import COLOURS, GREY, styled
 from exu_press.plots.sweep_words import in_unit, words
 from exu_press.plots.typesetting import plain, typeset
@@ -22,6 +23,9 @@ from exu_press.studies.optimise import Report
 __all__ = ["front_figure", "save_front"]
 
 ACROSS = 3
+
+WIDE = 3.0
+"""Largest over least value from which an axis is logarithmic."""
 
 
 @styled
@@ -51,7 +55,7 @@ def front_figure(report: Report) -> Figure:
         panel.set_xlabel(plain(words(name) + (f", {unit}" if unit else "")))
         each = study.keys[name]
         if isinstance(each, Range) and each.log:
-            panel.set_xscale("log")
+            log_axis(panel, "x", shown)
     for panel in panels[count:]:
         panel.axis("off")
     handles, labels = panels[0].get_legend_handles_labels()
@@ -100,9 +104,12 @@ def _points(panel: Axes, report: Report, across: Array, up: Array, names: tuple[
     )  # fmt: skip
     panel.margins(x=0.05, y=0.05)
     panel.set_ylabel(_label(report, names[1]))
-    finite = up[np.isfinite(up)]
-    if len(finite) and finite.min() > 0.0 and finite.max() > 30.0 * finite.min():
-        panel.set_yscale("log")
-    finite = across[np.isfinite(across)]
-    if names[0] and len(finite) and finite.min() > 0.0 and finite.max() > 30.0 * finite.min():
-        panel.set_xscale("log")
+    for which, values in (("x", across), ("y", up)):
+        if (which == "y" or names[0]) and _wide(values):
+            log_axis(panel, which, values)
+
+
+def _wide(values: Array) -> bool:
+    """Return whether positive values differ by more than WIDE."""
+    finite = values[np.isfinite(values)]
+    return len(finite) > 0 and finite.min() > 0.0 and finite.max() > WIDE * finite.min()

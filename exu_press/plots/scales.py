@@ -10,7 +10,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 from exu_press.arrays import Array
 from exu_press.plots.style import GREY, SHADE
 
-__all__ = ["angle_ticks", "crank_angle_axis", "impact_scale", "note", "widen"]
+__all__ = ["angle_ticks", "crank_angle_axis", "impact_scale", "log_axis", "note", "widen"]
 
 TICK_STEPS = (0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 45, 90, 180, 360)  # deg
 MOST_CENTRES = 100
@@ -152,3 +152,24 @@ def _round_up(value: float) -> float:
 def _number_text(value: float, _: int | None) -> str:
     """Return a tick's text with a typographic minus."""
     return f"{value:g}".replace("-", "\N{MINUS SIGN}")
+
+
+def log_axis(panel: Axes, which: str, values: Array) -> None:
+    """Make one axis logarithmic, with few ticks, written out.
+
+    Args:
+        panel: of the picture.
+        which: "x" or "y".
+        values: positive, that it is to show.
+    """
+    finite = values[np.isfinite(values)]
+    low, high = float(finite.min()), float(finite.max())
+    decades = range(math.floor(math.log10(low)) - 1, math.ceil(math.log10(high)) + 1)
+    steps = (1, 2, 5) if high > 10.0 * low else (1, 1.5, 2, 3, 4, 5, 7)
+    ticks = [step * 10.0**n for n in decades for step in steps]
+    axis = panel.xaxis if which == "x" else panel.yaxis
+    (panel.set_xscale if which == "x" else panel.set_yscale)("log")
+    axis.set_major_locator(FixedLocator([t for t in ticks if 0.9 * low <= t <= 1.1 * high]))
+    axis.set_minor_locator(NullLocator())
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    (panel.set_xlim if which == "x" else panel.set_ylim)(low / 1.08, high * 1.08)

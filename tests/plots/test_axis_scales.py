@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from exu_press.plots.scales import angle_ticks, crank_angle_axis, impact_scale, widen
+from exu_press.plots.scales import angle_ticks, crank_angle_axis, impact_scale, log_axis, widen
 
 
 @pytest.mark.parametrize(
@@ -99,3 +99,13 @@ def test_rounding_errors_do_not_fill_a_panel():
     axes.plot([0, 1], [0, 1e-9])
     widen(axes, 1.0)
     assert axes.get_ylim() == (-1.0, 1.0)
+
+
+@pytest.mark.parametrize(("low", "high", "ticks"), [(3.0, 40.0, [5, 10, 20]), (20.0, 80.0, 5)])
+def test_a_logarithmic_axis_has_few_ticks_written_out(low, high, ticks):
+    axes = Figure().subplots()
+    log_axis(axes, "y", np.array([low, np.nan, high]))
+    found = [tick for tick in axes.get_yticks() if low <= tick <= high]
+    assert found == ticks if isinstance(ticks, list) else len(found) == ticks
+    assert all("e" not in axes.yaxis.get_major_formatter()(tick) for tick in found)
+    assert axes.get_yscale() == "log"

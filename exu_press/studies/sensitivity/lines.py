@@ -91,4 +91,5 @@ def _number(value: float, quantity: Quantity) -> str:
 
 
 def _index(value: float, bounds: "np.ndarray[tuple[int], np.dtype[np.float64]]") -> str:
-    return f"{value:.2f} ({bounds[0]:.2f} to {bounds[1]:.2f})"
+    told, low, high = (f"{round(float(x), 2) + 0.0:.2f}" for x in (value, *bounds))
+    return f"{told} ({low} to {high})"

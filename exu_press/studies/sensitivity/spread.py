@@ -24,7 +24,7 @@ class Spread:
         low, middle, high: 5, 50 and 95 % lie below.
         mean: of all.
         deviation: standard deviation.
-        half: half the width of the interval in the middle that holds the share asked for.
+        half: no more than that from the median lies the share asked for.
         half_error: standard error of that, by resampling.
     """
 
@@ -60,8 +60,9 @@ def spread(values: Array, share: float) -> Spread:
 
 
 def _half(values: Array, share: float, axis: int) -> Array:
-    ends = np.quantile(values, [(1.0 - share) / 2.0, (1.0 + share) / 2.0], axis=axis)
-    return np.asarray((ends[1] - ends[0]) / 2.0)
+    """Return how far from the median this share of values lies at most."""
+    off = np.abs(values - np.median(values, axis=axis, keepdims=True))
+    return np.asarray(np.quantile(off, share, axis=axis))
 
 
 def tornado(evaluate: Callable[[Array], Array], keys: int) -> tuple[Array, Array]:

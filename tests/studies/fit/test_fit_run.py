@@ -50,8 +50,14 @@ def test_masses_are_found_from_forces(tmp_path):
     assert again.to_dict() == report.to_dict()
 
 
-def test_two_keys_that_act_as_one_and_one_without_effect_are_named(tmp_path):
-    """The wrist pin carries the slider alone; with gravity it weighs as much as it resists."""
+def test_differential_evolution_comes_near_too(tmp_path):
+    given = {"method": "differential_evolution", "generations": 6}
+    report = fit(study(fit=given), tmp_path, workers=1)
+    assert report.values[SLIDER] == pytest.approx(1250.0, rel=0.1)
+    assert report.low[SLIDER] < 1250.0 < report.high[SLIDER]
+
+
+def test_a_key_without_effect_is_named(tmp_path):
     keys = {
         SLIDER: KEYS[SLIDER],
         "slider_crank.rod_inertia": {"low": 2.0, "high": 3.0},
@@ -66,6 +72,23 @@ def test_two_keys_that_act_as_one_and_one_without_effect_are_named(tmp_path):
     text = "\n".join(report_lines(report))
     assert "not determined: slider_crank.rod_inertia; over its whole range" in text
     assert report.open["slider_crank.rod_inertia"] == (True, True)
+
+
+def test_two_keys_that_act_as_one_are_named(tmp_path):
+    """The force that holds the rod's weight and the slider's tells their sum alone."""
+    keys = {SLIDER: KEYS[SLIDER], "gravity": {"low": 5.0, "high": 20.0}}
+    scene = SCENE.replace({"speed_rpm": 1.0, "revolutions": 0.01, ROD: 1e-3})
+    force = simulate(scene).quantity("joints.wrist_pin.peak_force").value
+    given = [
+        {"quantity": f"joints.{name}.peak_force", "value": force, "uncertainty": 0.01 * force}
+        for name in ("wrist_pin", "crank_pin")
+    ]
+    report = fit(study(scene=scene, keys=keys, measured=given), tmp_path, workers=1)
+    text = "\n".join(report_lines(report))
+    assert "together leave every measured number where it is" in text
+    assert f"{SLIDER} +10.0 % and gravity -10." in text or "gravity +10.0 % and" in text
+    product = report.values[SLIDER] * report.values["gravity"]
+    assert product == pytest.approx(1250.0 * 9.81, rel=0.01)
 
 
 def test_a_curve_through_a_sensor(tmp_path):

@@ -1,0 +1,66 @@
+"""What a sensor adds to a curve: zero, clock and band, of sines whose answer is known."""
+
+import numpy as np
+import pytest
+
+from exu_press import InputError
+from exu_press.studies.fit.curve import Curve, matched
+from exu_press.studies.fit.curve_file import CurveFile
+
+AT = np.linspace(0.0, 2.0, 4001)
+PLACES = np.linspace(1.0, 1.9, 120)
+FREQUENCY = 10.0
+
+
+def curve(over="time", **keys):
+    read = CurveFile(over, PLACES, "slider_velocity", "mm/s", np.zeros(len(PLACES)))
+    return Curve(file="c.csv", uncertainty=0.01, measured=read, **keys)
+
+
+def sine(amplitude=1.0, lag=0.0):
+    return amplitude * np.sin(2.0 * np.pi * FREQUENCY * PLACES - lag)
+
+
+COMPUTED = np.sin(2.0 * np.pi * FREQUENCY * AT)
+
+
+def test_a_known_band():
+    """At its corner a filter of second order passes 1 / sqrt(2) and turns by 90 degrees."""
+    found = matched(curve(high_cut=[FREQUENCY]), sine(), AT, COMPUTED)
+    assert found.values == pytest.approx(sine(np.sqrt(0.5), np.pi / 2.0), abs=0.01)
+    found = matched(curve(low_cut=[FREQUENCY]), sine(), AT, COMPUTED)
+    assert found.values == pytest.approx(sine(np.sqrt(0.5), -np.pi / 2.0), abs=0.01)
+
+
+def test_unknown_zero_clock_and_corner_are_found():
+    wanted = 0.3 + matched(curve(high_cut=[17.0]), sine(), AT, COMPUTED).values
+    one = curve(offset=True, high_cut=[5.0, 40.0])
+    found = matched(one, wanted, AT, COMPUTED)
+    assert (one.nuisances, found.offset) == (2, pytest.approx(0.3, abs=1e-3))
+    assert found.high_cut == pytest.approx(17.0, rel=0.01)
+    shifted = curve(shift=[-0.02, 0.02])
+    found = matched(shifted, sine(lag=-2.0 * np.pi * FREQUENCY * 0.013), AT, COMPUTED)
+    assert found.shift == pytest.approx(0.013, abs=1e-5)
+
+
+def test_a_curve_that_is_longer_than_the_run_has_no_values():
+    assert matched(curve(), sine(), AT[AT < 1.5], COMPUTED[AT < 1.5]) is None
+
+
+def test_samples_that_are_not_independent_count_less():
+    assert curve().count == 120
+    assert curve(correlation=0.1).count == pytest.approx(10.0)
+
+
+@pytest.mark.parametrize(
+    ("keys", "said"),
+    [
+        ({"shift": [0.1, -0.1]}, r"allowed is \[low, high\]"),
+        ({"high_cut": [5.0, 1.0]}, r"allowed is \[frequency\]"),
+        ({"low_cut": [-5.0]}, r"allowed is \[frequency\]"),
+        ({"over": "crank_angle", "low_cut": [5.0]}, "has crank_angle; allowed is time"),
+    ],
+)
+def test_bad_input(keys, said):
+    with pytest.raises(InputError, match=said):
+        curve(**keys)

@@ -8,12 +8,22 @@ import math
 import numbers
 import types
 import typing
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from typing import Any, ClassVar, Self, TypeVar
 
 from exu_press.errors import InputError
 
-__all__ = ["RENAMED", "Table", "Uses", "given_in", "key", "nearest", "table_from", "table_with"]
+__all__ = [
+    "RENAMED",
+    "Table",
+    "Uses",
+    "demand_keys",
+    "given_in",
+    "key",
+    "nearest",
+    "table_from",
+    "table_with",
+]
 
 T = TypeVar("T")
 
@@ -26,6 +36,7 @@ RENAMED = {
     "contact.radius": "joints.NAME.radius",
     "flexible": "bodies.NAME",
     "blanking": "load.NAME with kind = 'blanking'",
+    "guide.damping_depth": "contact.damping_depth",
     "guide.slider_inertia": "a key of [press] or [slider_crank]",
     "guide.slide_inertia": "press.slide_inertia",
     "guide.counterweight_inertia": "press.counterweight_inertia",
@@ -194,6 +205,26 @@ def _float(value: Any) -> float:
         return float(value)
     except OverflowError:
         return math.inf
+
+
+def demand_keys(place: str, table: Table, keys: Collection[str], law: str, where: str) -> None:
+    """Raise InputError for the first of some keys that a table does not have.
+
+    Args:
+        place: what needs them.
+        table: with them.
+        keys: that are needed, each with an example.
+        law: name of the table in the message, if it has one.
+        where: they may be given.
+    """
+    for field in dataclasses.fields(table):
+        if field.name in keys and getattr(table, field.name) is None:
+            meta, name = field.metadata, f"{law}.{field.name}".lstrip(".")
+            raise InputError(
+                f"{place} needs {name} ({meta['meaning']}, {meta['unit']}), which decides its "
+                f"result and has no default; give it in {where}, as in "
+                f"{field.name} = {meta['example']:g}"
+            )
 
 
 def table_from(table: type[T], name: str, data: Any) -> T:

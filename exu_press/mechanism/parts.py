@@ -101,13 +101,13 @@ class Ways:
         clearance: on each side, m.
         length: of the body, from end to end, m; its centre of mass lies in the middle.
         half_width: of the body, m.
-        end: stiffness and damping that each end meets where it touches, N/m and N s/m.
+        stiffness: that each end meets where it touches, N/m.
     """
 
     clearance: float
     length: float
     half_width: float
-    end: Spring
+    stiffness: float
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from exu_press.integrate.scheme import follow_modes
 from exu_press.mechanism import Motion
 from exu_press.model.bodies import add_bodies
 from exu_press.model.drive import add_drive, crank_angle_of, hold_flexible_bodies
-from exu_press.model.guides import add_guide, add_ways
+from exu_press.model.guides import add_guide, add_guide_friction, add_ways, guides_rub
 from exu_press.model.joints import add_clearance_joint, add_ideal_joint
 from exu_press.model.loaded_start import moved_start
 from exu_press.model.loads import add_loads
@@ -52,9 +52,14 @@ def build(scene: Scene, *, quiet: bool = True) -> Model:
 
 
 def _settled(scene: Scene) -> dict[str, Any]:
-    """Return the change to ideal guides, where bodies have play in theirs and rest nowhere."""
-    play = scene.guide is not None and scene.guide.clearance is not None
-    return {"guide": None} if play else {}
+    """Return the change to guides without friction, or to ideal ones.
+
+    A body with clearance in its guide rests nowhere, and friction may hold it anywhere.
+    """
+    guide = scene.guide
+    if guide is None or guide.clearance is not None or not guide.soft:
+        return {"guide": None}
+    return {"guide.friction": "none"}
 
 
 def _assembled(
@@ -92,6 +97,11 @@ def _assembled(
         for guide in mechanism.guides
         if guide.ways is not None
     }
+    friction = {
+        guide.body: add_guide_friction(system, guide, guides[guide.body])
+        for guide in mechanism.guides
+        if guides_rub(system) and (guide.lateral or "force" in guides[guide.body])
+    }
     drive = add_drive(system)
     loads = add_loads(system)
     if system.flexible:
@@ -113,6 +123,7 @@ def _assembled(
         loads=loads,
         clocks=system.clocks,
         ways=ways,
+        guide_friction=friction,
         sensors=system.sensors,
         parts=system.parts,
         made=count_items(system.mbs),

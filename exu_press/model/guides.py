@@ -1,5 +1,6 @@
-"""The guides of a system: constraints where they are ideal, springs, or ways with play."""
+"""The guides of a system: constraints where they are ideal, springs, or clearance; and friction."""
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -14,17 +15,19 @@ from exudyn.itemInterface import (
 
 from exu_press.arrays import Array
 from exu_press.joints import ClearanceJoint, add_ways_contact
+from exu_press.joints.guide_friction import GuideFriction, HeldSide, SideForce, SpringSide
 from exu_press.mechanism import Guide, Point, Spring, Ways
 from exu_press.model.system import System
-from exu_press.scene.laws import ways_contact_law, ways_friction_law
+from exu_press.scene.laws import guide_contact_law, guide_friction_law
 
-__all__ = ["add_guide", "add_ways"]
+__all__ = ["add_guide", "add_guide_friction", "add_ways", "guides_rub"]
 
 
 def add_ways(system: System, guide: Guide, ways: Ways) -> tuple[ClearanceJoint, ClearanceJoint]:
     """Let both ends of a body touch the ways that it has play between."""
-    table = system.scene.guide
+    table, damped = system.scene.guide, system.scene.contact
     assert table is not None
+    assert damped is not None
     body = system.mechanism.body(guide.body)
     along = np.array(guide.direction)
 
@@ -36,12 +39,49 @@ def add_ways(system: System, guide: Guide, ways: Ways) -> tuple[ClearanceJoint, 
             middle=body.centre_of_mass,
             direction=guide.direction,
             clearance=ways.clearance,
-            contact=ways_contact_law(table, ways.end),
-            friction=ways_friction_law(table),
+            contact=guide_contact_law(damped, ways.stiffness),
+            friction=guide_friction_law(table, system.scene.friction),
             half_width=ways.half_width,
         )
 
     return end(-1.0), end(1.0)
+
+
+def guides_rub(system: System) -> bool:
+    """Return whether guides without clearance have friction."""
+    table = system.scene.guide
+    return table is not None and table.rubs and table.clearance is None
+
+
+def add_guide_friction(system: System, guide: Guide, held: Mapping[str, int]) -> GuideFriction:
+    """Add the friction of a guide without clearance.
+
+    Args:
+        system: with the guide in it.
+        guide: ideal or elastic.
+        held: as `add_guide` returns it.
+    """
+    table, mbs = system.scene.guide, system.mbs
+    assert table is not None
+    missed = np.zeros(3)
+    if guide.body in system.flexible:
+        from exu_press.flexible import guided_motion
+
+        body = system.flexible[guide.body]
+        values, rows = guided_motion(mbs, body, system.parts[guide.body])
+        missed = values - system.ideal[guide.body].position[0]
+        nodes = [body.node_rigid, *([] if body.node_modes is None else [body.node_modes])]
+    else:
+        nodes, rows = [system.rigid[guide.body].node], np.eye(3)
+    side: SideForce
+    if guide.lateral is None:
+        side = HeldSide(mbs, held["force"])
+    else:
+        across, spring = np.array(guide.across), guide.lateral
+        moved = float(across @ missed[:2])
+        side = SpringSide(spring.stiffness, spring.damping, across @ rows[:2], moved)
+    law = guide_friction_law(table, system.scene.friction)
+    return GuideFriction(mbs, nodes, np.array(guide.direction) @ rows[:2], side, law)
 
 
 def _end(system: System, body: str, point: Point) -> Any:

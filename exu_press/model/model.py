@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import exudyn as exu
 
 from exu_press.integrate import Outcome, Tuning
+from exu_press.joints.guide_friction import GuideFriction
 from exu_press.laws.load_curve import PulseClock
 from exu_press.model.drive import CrankAngle
 from exu_press.model.loads import Place, next_corner, torque_wanted
@@ -40,6 +41,7 @@ class Model(Assembled):
         crank_angle: tells the crank's angle and angular velocity.
         loads: name -> load that acts, and what tells its place on its curve.
         clocks: of pulses of loads.
+        guide_friction: name of a body in a guide without clearance -> its friction there.
         parts: name -> flexible body's part; empty for rigid bodies.
         made: number of objects and loads that the scene was made of.
     """
@@ -51,6 +53,7 @@ class Model(Assembled):
     crank_angle: CrankAngle
     loads: Mapping[str, tuple[AppliedLoad, Place]]
     clocks: list[PulseClock]
+    guide_friction: Mapping[str, GuideFriction]
     parts: Mapping[str, "PlacedPart"]
     made: int
 

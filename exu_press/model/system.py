@@ -21,6 +21,7 @@ from exu_press.mechanism.holding import by_constraints, holding_of
 from exu_press.rigid import RigidBody
 from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.applied import applied_loads
+from exu_press.scene.elastic import with_elastic_guides
 
 if TYPE_CHECKING:
     from exu_press.placed_part import PlacedPart
@@ -56,8 +57,11 @@ class System:
     def __init__(self, scene: Scene, parts: Mapping[str, "PlacedPart"]) -> None:
         """Make a system with nothing but the frame in it."""
         self.scene, self.parts = scene, parts
-        self.mechanism = mechanism_of(scene)
-        guided = {guide.body for guide in self.mechanism.guides} & scene.bodies.keys()
+        solids = {name: (part.reduced.mass, part.inertia) for name, part in parts.items()}
+        self.mechanism = with_elastic_guides(mechanism_of(scene), scene.guide, solids)
+        guided = frozenset(guide.body for guide in self.mechanism.guides)
+        if scene.guide is None or not scene.guide.rubs:
+            guided &= scene.bodies.keys()
         self.holding = by_constraints(
             holding_of(self.mechanism, scene.joints.ideal),
             _beside_flexible(scene, self.mechanism) | guided,

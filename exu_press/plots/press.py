@@ -62,7 +62,8 @@ def press_figure(result: Result) -> Figure:
     guides are elastic the slider's tilt (urad) and sideways motion (um); the speed of a
     motor's crank (rpm) and the loads (kN).
     """
-    elastic = result.scene.guide is not None
+    guide = result.scene.guide
+    elastic = guide is not None and guide.soft
     loads = list(applied_loads(result.scene))
     motor = result.scene.drive is not None
     rows = math.ceil((4 + bool(loads) + motor + 2 * elastic) / 2)

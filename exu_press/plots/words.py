@@ -83,11 +83,15 @@ def _parts(scene: Scene, joints: Collection[str], *, grouped: bool) -> dict[str,
 
 
 def _of_guides(guide: ElasticGuide) -> str:
-    """Return clearance and friction of the guides, which are elastic without a clearance."""
-    if guide.clearance is None:
-        return "guides elastic"
-    words = f"guides with clearance {guide.clearance * 1e3:g} mm"
-    return words if guide.friction == "none" else f"{words} and {guide.friction} friction"
+    """Return clearance, elasticity and friction of the guides."""
+    words = []
+    if guide.clearance is not None:
+        words.append(f"clearance {guide.clearance * 1e3:g} mm")
+    if guide.rubs:
+        words.append(f"{guide.friction} friction")
+    kinds = ["elastic"] if guide.soft and guide.clearance is None else []
+    kinds += [f"with {' and '.join(words)}"] if words else []
+    return f"guides {', '.join(kinds)}"
 
 
 def _of_bodies(scene: Scene) -> str:

@@ -30,9 +30,8 @@ def _counterweight(scene: Scene, _: str) -> bool:
 
 def _frictionless(scene: Scene, _: str = "") -> bool:
     """Return whether there are guides, all of them without friction."""
-    guides = mechanism_of(scene).guides
-    rubbing = scene.guide is not None and bool(scene.guide.clearance)
-    return bool(guides) and not (rubbing and scene.guide and scene.guide.friction != "none")
+    rubbing = scene.guide is not None and scene.guide.rubs
+    return bool(mechanism_of(scene).guides) and not rubbing
 
 
 def _guide(run: Reading, body: str) -> Guide:

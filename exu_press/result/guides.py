@@ -1,16 +1,18 @@
-"""What elastic guides and ways with play hold, store and turn into heat."""
+"""What guides hold, store and turn into heat: elastic ones, ones with clearance, and friction."""
+
+from collections.abc import Mapping
 
 import numpy as np
 
 from exu_press.arrays import Array
 from exu_press.model import Model
-from exu_press.result.channel import Channel
+from exu_press.result.channel import Channel, guide_channel
 from exu_press.result.energy import work
 from exu_press.result.flexible import guided_motion
 from exu_press.result.forces import guide_channels
 from exu_press.result.joints import states_of, stored_and_lost
 
-__all__ = ["record_guides", "record_ways"]
+__all__ = ["record_friction", "record_guides", "record_ways"]
 
 
 def record_guides(
@@ -49,6 +51,36 @@ def record_guides(
         channels |= guide_channels(model, guide.body, {"loss": lost})
         dissipated += lost
     return channels, stored, dissipated
+
+
+def record_friction(
+    model: Model, time: Array, velocity: Array, channels: Mapping[str, Channel]
+) -> tuple[dict[str, Channel], Array]:
+    """Return the friction of guides without clearance, their losses with it, and its sum, J.
+
+    Args:
+        model: integrated.
+        time: (n,), s.
+        velocity: (n, bodies, 3) of every body.
+        channels: with the guides' forces, and losses of elastic ones.
+    """
+    found: dict[str, Channel] = {}
+    dissipated = np.zeros_like(time)
+    names = [body.name for body in model.mechanism.bodies]
+    guides = {guide.body: guide for guide in model.mechanism.guides}
+    for name, rubbing in model.guide_friction.items():
+        flexible = name in model.parts
+        moving = guided_motion(model, name).velocity if flexible else velocity[:, names.index(name)]
+        speed = moving[:, :2] @ np.array(guides[name].direction)
+        shown = guide_channel(model.mechanism, name)
+        side = np.abs(channels[f"{shown}_force"].values)
+        friction = -rubbing.friction.coefficients(time, speed) * side
+        lost = -work(time, friction, speed)
+        dissipated += lost
+        if f"{shown}_loss" in channels:  # of its spring
+            lost = lost + channels[f"{shown}_loss"].values
+        found |= guide_channels(model, name, {"friction": friction, "loss": lost})
+    return found, dissipated
 
 
 def _relaxed(model: Model, name: str) -> Array:

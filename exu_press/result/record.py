@@ -16,7 +16,7 @@ from exu_press.result.energy import mechanical_energy, work
 from exu_press.result.equilibrium import equilibrium
 from exu_press.result.flexible import record_parts
 from exu_press.result.forces import frame_force, held_forces
-from exu_press.result.guides import record_guides, record_ways
+from exu_press.result.guides import record_friction, record_guides, record_ways
 from exu_press.result.info import Info, Stress
 from exu_press.result.joints import joint_states, record_joints
 from exu_press.result.loads import record_loads
@@ -81,6 +81,10 @@ def record(model: Model, outcome: Outcome) -> Result:
     in_ways, stored_in_ways, lost_in_ways = record_ways(model, time, position)
     channels |= in_ways
     channels |= equilibrium(model, motions, channels | in_joints, states)
+    in_guides, stored_in_guides, lost_in_guides = record_guides(model, time, position, velocity)
+    channels |= in_guides
+    rubbed, lost_by_friction = record_friction(model, time, velocity, channels)
+    channels |= rubbed
     channels["frame_force"] = frame_force(model, channels | in_joints)
     channels |= shaking_forces(model, acceleration)
     rigid = [index for index, name in enumerate(names) if name not in model.parts]
@@ -95,7 +99,7 @@ def record(model: Model, outcome: Outcome) -> Result:
         stored += 0.5 * flywheel * turned.velocity[:, 2] ** 2
     dissipated = np.zeros_like(time)
     for more, kept, lost in (
-        record_guides(model, time, position, velocity),
+        ({}, stored_in_guides, lost_in_guides),
         record_parts(model, time),
         (in_ways, stored_in_ways, lost_in_ways),
         (in_joints, stored_in_joints, lost_in_joints),
@@ -103,6 +107,7 @@ def record(model: Model, outcome: Outcome) -> Result:
         channels |= more
         stored += kept
         dissipated += lost
+    dissipated += lost_by_friction
     stressed, worst = record_stress(model, time)
     channels |= stressed
     torque = channels["drive_torque"].values

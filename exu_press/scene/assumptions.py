@@ -14,6 +14,7 @@ from exu_press.checks import Table
 from exu_press.mechanism import Mechanism
 from exu_press.scene.joint import LAW_TABLES, SIZES, Joint
 from exu_press.scene.scene import STARTS, Scene, mechanism_of
+from exu_press.scene.tables import USUAL_STIFFNESS
 from exu_press.scene.usage import TABLES
 
 __all__ = [
@@ -84,6 +85,9 @@ ASSUMPTIONS = (
 OF_EVERY_SCENE = (9, 13, 14)
 """Assumptions that other mechanisms than the paper's press rest on, too."""
 
+OF_A_MOTOR = ("inertia", "rated_torque", "table_speed_rpm", "table_torque")
+"""Keys of which a motor needs some."""
+
 FIRST_OF_A_RUN = 10
 """From this assumption on they belong to a run; those before describe the machine."""
 
@@ -124,6 +128,11 @@ def keys_of(scene: Scene) -> dict[str, Key]:
     defaults |= _law_defaults(scene)
     kinds = {field.name: field.default for field in dataclasses.fields(Scene)}
     kinds |= {"film.at_contact": "stop", "press.counterweight": True}
+    kinds |= {f"drive.{name}": None for name in OF_A_MOTOR}
+    if scene.guide is not None:
+        usual = USUAL_STIFFNESS if scene.guide.clearance is not None else None
+        kinds |= {"guide.lateral_stiffness": usual, "guide.clearance": None}
+        kinds |= {"guide.friction": "none"}
     kinds["start"] = mechanism_of(scene).defaults.get("start", STARTS[0])
     found = {}
     for name, (value, field) in _flat(scene):
@@ -153,7 +162,8 @@ def used_assumptions(scene: Scene) -> dict[Assumption, tuple[Key, ...]]:
             continue
         left = tuple(key for name, key in keys.items() if _named(name, assumption))
         left = tuple(key for key in left if key.assumed)
-        by_absence = assumption.keys == ("guide",) and scene.guide is None
+        ideal = scene.guide is None or not scene.guide.soft
+        by_absence = assumption.keys == ("guide",) and ideal
         by_kind = assumption.keys == ("press",) and scene.press is not None
         if left or by_absence or by_kind:
             used[assumption] = left
@@ -208,7 +218,14 @@ def _at_defaults(scene: Scene) -> Scene:
     kind: dict[str, Any] = {"mechanism": scene.mechanism, "joints": {}}
     if scene.press is not None:
         kind["press"] = {"counterweight": scene.press.counterweight}
-    kind |= {name: {} for name in ("drive", "guide") if getattr(scene, name) is not None}
+    if scene.drive is not None:
+        own = {name: getattr(scene.drive, name) for name in OF_A_MOTOR}
+        kind["drive"] = {name: value for name, value in own.items() if value is not None}
+    if scene.guide is not None:  # of the same kind
+        guide = scene.guide
+        kind["guide"] = {"clearance": guide.clearance, "friction": guide.friction}
+        if guide.clearance is None:
+            kind["guide"]["lateral_stiffness"] = guide.lateral_stiffness
     return Scene.from_dict(kind)
 
 

@@ -1,34 +1,54 @@
-"""Elastic guides in place of ideal ones (A-9)."""
+"""Guides that give way in place of ideal ones (A-9): springs and dampers, or clearance."""
 
 import math
+from collections.abc import Mapping
 from dataclasses import replace
 
-from exu_press.mechanism import Body, Guide, Mechanism, Spring, Ways
+from exu_press.mechanism import Guide, Mechanism, Spring, Ways
 from exu_press.scene.tables import ElasticGuide
 
 __all__ = ["with_elastic_guides"]
 
 
-def with_elastic_guides(drawn: Mechanism, elastic: ElasticGuide) -> Mechanism:
-    """Return a mechanism whose guides are springs and dampers, its guided bodies free to tilt."""
-    guides = tuple(_elastic(guide, drawn.body(guide.body), elastic) for guide in drawn.guides)
-    return replace(drawn, guides=guides)
+def with_elastic_guides(
+    drawn: Mechanism,
+    elastic: ElasticGuide | None,
+    solids: Mapping[str, tuple[float, float]] | None = None,
+) -> Mechanism:
+    """Return a mechanism with the guides that a scene asks for.
+
+    Args:
+        drawn: the mechanism.
+        elastic: [guide] of the scene; without it, or without stiffness, guides stay ideal.
+        solids: body -> mass, kg, and inertia, kg m^2, where these are not the drawn ones.
+    """
+    if elastic is None or elastic.lateral_stiffness is None:
+        return drawn
+    drawn_ones = {guide.body: drawn.body(guide.body) for guide in drawn.guides}
+    inertias = {name: (body.mass, body.inertia) for name, body in drawn_ones.items()}
+    inertias |= solids or {}
+    guides = (
+        _elastic(guide, inertias[guide.body], elastic, elastic.lateral_stiffness)
+        for guide in drawn.guides
+    )
+    return replace(drawn, guides=tuple(guides))
 
 
-def _elastic(guide: Guide, body: Body, elastic: ElasticGuide) -> Guide:
-    """Return a guide of springs, or of ways with play, in place of an ideal one (A-9)."""
-    lateral = elastic.lateral_stiffness
+def _elastic(
+    guide: Guide, inertia: tuple[float, float], elastic: ElasticGuide, lateral: float
+) -> Guide:
+    """Return a guide of springs, or of guideways with clearance, in place of an ideal one."""
     if elastic.clearance is not None:
-        whole = _spring(lateral, elastic.lateral_damping, elastic.damping_ratio, body.mass)
-        end = Spring(0.5 * whole.stiffness, 0.5 * whole.damping)
-        ways = Ways(elastic.clearance, elastic.length, 0.5 * elastic.width, end)
+        half_width = 0.5 * elastic.width
+        ways = Ways(elastic.clearance, elastic.length, half_width, 0.5 * lateral)
         return replace(guide, ways=ways)
+    mass, about_centre = inertia
     tilting = elastic.tilting_stiffness or lateral * elastic.length**2 / 12
     ratio = elastic.damping_ratio
     return replace(
         guide,
-        lateral=_spring(lateral, elastic.lateral_damping, ratio, body.mass),
-        tilting=_spring(tilting, elastic.tilting_damping, ratio, body.inertia),
+        lateral=_spring(lateral, elastic.lateral_damping, ratio, mass),
+        tilting=_spring(tilting, elastic.tilting_damping, ratio, about_centre),
     )
 
 

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar, Literal, cast
 
-from exu_press.checks import Table, key
+from exu_press.checks import Table, demand_keys, key
 from exu_press.errors import InputError
 from exu_press.scene.tables import Contact, Film, Friction, asperity_onset
 
@@ -20,6 +20,7 @@ __all__ = [
     "joint_dict",
     "keys_used",
     "refuse_missing",
+    "refuse_missing_damping",
 ]
 
 SIZES = ("clearance", "radius")
@@ -109,22 +110,24 @@ def refuse_missing(place: str, joint: Joint, *, revolute: bool) -> None:
         return
     needed: dict[str, tuple[Table, tuple[str, ...]]] = {"": (joint, SIZES)}
     if joint.contact is not None:
-        step = ("damping_max", "damping_depth") if joint.contact.damping == "step" else ()
         dry = isinstance(joint, DryJoint)
         length = ("length",) if dry and revolute and joint.contact.shape == "cylindrical" else ()
-        needed["contact"] = (joint.contact, length + step)
+        needed["contact"] = (joint.contact, length + _of_damping(joint.contact))
     if isinstance(joint, LubricatedJoint):
         needed["film"] = (joint.film, ("viscosity", "length"))
     for law, (table, keys) in needed.items():
-        for field in dataclasses.fields(table):
-            if field.name in keys and getattr(table, field.name) is None:
-                meta, name = field.metadata, f"{law}.{field.name}".lstrip(".")
-                where = f"in [{law}] or [{place}.{law}]" if law else f"in [{place}]"
-                raise InputError(
-                    f"{place} needs {name} ({meta['meaning']}, {meta['unit']}), which decides its "
-                    f"result and has no default; give it {where}, as in "
-                    f"{field.name} = {meta['example']:g}"
-                )
+        where = f"[{law}] or [{place}.{law}]" if law else f"[{place}]"
+        demand_keys(place, table, keys, law, where)
+
+
+def refuse_missing_damping(place: str, contact: Contact) -> None:
+    """Raise InputError for the first key that the damping of a contact needs and does not have."""
+    demand_keys(place, contact, _of_damping(contact), "contact", "[contact]")
+
+
+def _of_damping(contact: Contact) -> tuple[str, ...]:
+    """Return the keys without defaults that the damping of a contact needs."""
+    return ("damping_max", "damping_depth") if contact.damping == "step" else ()
 
 
 def joint_dict(joint: Joint, laws: Mapping[str, Table | None]) -> dict[str, Any]:

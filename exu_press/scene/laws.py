@@ -4,20 +4,33 @@ from collections.abc import Callable
 from typing import TypeVar
 
 from exu_press.errors import InputError
-from exu_press.laws.contact import DAMPING_LAWS, NormalContact, cylindrical, hertz, hertz_stiffness
+from exu_press.laws.contact import (
+    DAMPING_LAWS,
+    NormalContact,
+    Stiffness,
+    cylindrical,
+    hertz,
+    hertz_stiffness,
+)
 from exu_press.laws.film import FILM_LAWS, FilmLaw, with_asperities
 from exu_press.laws.friction import Friction as FrictionLaw
 from exu_press.laws.friction import LuGre, coulomb, lugre_steady, no_friction, stribeck
-from exu_press.mechanism import Spring
 from exu_press.scene.joint import DryJoint, LubricatedJoint
-from exu_press.scene.tables import ElasticGuide, Film, Friction, asperity_onset
+from exu_press.scene.tables import (
+    OF_FRICTION,
+    Contact,
+    ElasticGuide,
+    Film,
+    Friction,
+    asperity_onset,
+)
 
 __all__ = [
     "contact_law",
     "film_law",
     "friction_law",
-    "ways_contact_law",
-    "ways_friction_law",
+    "guide_contact_law",
+    "guide_friction_law",
 ]
 
 T = TypeVar("T")
@@ -42,6 +55,11 @@ def contact_law(joint: DryJoint | LubricatedJoint, *, revolute: bool) -> NormalC
         stiffness = hertz(hertz_stiffness(curvature_radius, table.modulus), table.exponent)
     else:
         stiffness = hertz(table.stiffness, table.exponent)
+    return _damped(table, stiffness)
+
+
+def _damped(table: Contact, stiffness: Stiffness) -> NormalContact:
+    """Return the normal contact with an elastic part and the damping of [contact]."""
     parameters: dict[str, float]
     if table.damping == "step":
         assert table.damping_max is not None and table.damping_depth is not None
@@ -67,19 +85,23 @@ def friction_law(table: Friction) -> FrictionLaw | LuGre:
     return _named("friction", laws[table.law])
 
 
-def ways_contact_law(table: ElasticGuide, end: Spring) -> NormalContact:
-    """Return the normal contact of a guided body's end with its ways, linear in the penetration."""
-    stiffness = hertz(end.stiffness, 1.0)
-    return DAMPING_LAWS["step"](
-        stiffness, damping_max=end.damping, damping_depth=table.damping_depth
-    )
+def guide_contact_law(contact: Contact, stiffness: float) -> NormalContact:
+    """Return the normal contact of a guided body's end with its guideways.
+
+    Args:
+        contact: [contact] of the scene, whose damping it has.
+        stiffness: of the end, N/m; the force is linear in the penetration.
+    """
+    return _damped(contact, hertz(stiffness, 1.0))
 
 
-def ways_friction_law(table: ElasticGuide) -> FrictionLaw | LuGre:
-    """Return the friction law of the ways; what [guide] does not say is as in [friction]."""
-    keys = ("mu_static", "mu_kinetic", "stribeck_velocity", "regularisation_velocity")
-    given = {key: each for key in keys if (each := getattr(table, key)) is not None}
-    return friction_law(Friction(law=table.friction, **given))
+def guide_friction_law(guide: ElasticGuide, friction: Friction | None) -> FrictionLaw | LuGre:
+    """Return the friction law of the guides; what [guide] does not have is as in [friction]."""
+    friction = friction or Friction()
+    keys = Friction.uses["law"][guide.friction]
+    own = {key: getattr(guide, key) for key in keys if key in OF_FRICTION}
+    other = {key: getattr(friction, key) for key in keys if key not in OF_FRICTION}
+    return friction_law(Friction(law=guide.friction, **own, **other))
 
 
 def film_law(table: Film, radius: float, clearance: float) -> FilmLaw:

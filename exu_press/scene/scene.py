@@ -24,7 +24,7 @@ from exu_press.mechanism import (
 from exu_press.scene.bodies import DRIVE_FACE, GUIDE_FACE, Flexible, bodies_of, body_dict
 from exu_press.scene.changes import changed_keys, drop, named
 from exu_press.scene.elastic import with_elastic_guides
-from exu_press.scene.joint import LAW_TABLES, SIZES, joint_dict
+from exu_press.scene.joint import LAW_TABLES, SIZES, joint_dict, refuse_missing_damping
 from exu_press.scene.joint_changes import by_group, kinds_of, unused_laws
 from exu_press.scene.joints import Joints, joints_of
 from exu_press.scene.load import Load
@@ -150,16 +150,26 @@ class Scene(Table):
         joints = joints_of(given, mechanism.name, spherical, mechanism.groups, complete, sizes)
         object.__setattr__(self, "joints", joints)
         unused = unused_laws(kinds_of(joints, None))
+        contact = complete["contact"]
+        assert isinstance(contact, Contact)
+        of_guides = {} if self.guide is None else self.guide.laws(contact)
         self._refuse(unused, "start", self.start)
         if self.start is None and "start" not in unused:
             object.__setattr__(self, "start", usual.get("start", STARTS[0]))
         for name, law in laws.items():
-            self._refuse(unused, name, law)
+            rubbed = of_guides.get(name, ())
             idle = joints.unused_by_all(name, joints)
+            if rubbed and name in unused:
+                why = f"{unused.pop(name)}, and guides do not use it"
+                idle = {field.name: why for field in dataclasses.fields(complete[name])}
+            idle = {key: why for key, why in idle.items() if key not in rubbed}
+            self._refuse(unused, name, law)
             for inner, value in given_in(law).items():
                 self._refuse(idle, inner, value, name)
             used = None if name in unused else complete[name].without(idle)
             object.__setattr__(self, name, used)
+        if of_guides.get("contact"):
+            refuse_missing_damping("guide.clearance", contact)
 
     def _settle_bodies(self) -> None:
         """Say which bodies are flexible."""
@@ -324,7 +334,7 @@ def mechanism_of(scene: Scene) -> Mechanism:
         drawn = shipped_mechanism(scene.mechanism)
     if scene.drive is not None:
         drawn = _with_flywheel(drawn, scene.drive.inertia)
-    return drawn if scene.guide is None else with_elastic_guides(drawn, scene.guide)
+    return with_elastic_guides(drawn, scene.guide)
 
 
 def _beyond(given: Mapping[str, Any], usual: Mapping[str, Any]) -> dict[str, Any]:

@@ -11,14 +11,16 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import ClassVar
 
-from exu_press.checks import Table, Uses, key
+from exu_press.checks import Table, Uses, demand_keys, key
 from exu_press.errors import InputError
 from exu_press.laws.contact import DAMPING_LAWS
 from exu_press.laws.film import FILM_LAWS
 from exu_press.laws.motor import MotorLaw, kloss, torque_table
 
 __all__ = [
+    "OF_FRICTION",
     "RPM",
+    "USUAL_STIFFNESS",
     "Contact",
     "ElasticGuide",
     "Film",
@@ -38,10 +40,13 @@ AT_CONTACT = ("stop", "mixed")
 HERTZ = 1.5
 
 OF_FRICTION = ("mu_static", "mu_kinetic", "stribeck_velocity", "regularisation_velocity")
-"""Keys of guides that rub."""
+"""Keys of friction that guides have of their own; what else their law needs is in [friction]."""
 
-OF_THE_WAYS = ("width", "friction", *OF_FRICTION, "damping_depth")
-"""Keys of guides with clearance."""
+OF_TILTING = ("tilting_stiffness", "tilting_damping")
+OF_SPRINGS = (*OF_TILTING, "damping_ratio", "lateral_damping")
+"""Keys of elastic guides."""
+
+USUAL_STIFFNESS = 1e9  # N/m
 
 OF_KLOSS = ("rated_torque", "slip", "breakdown_torque", "no_load_speed_rpm")
 """Keys of a motor without a table of its torque."""
@@ -186,9 +191,13 @@ class Motor(Table):
     """
 
     table: ClassVar[str] = "drive"
-    rated_torque: float = key(400.0, "at rated speed", "N m", above=0)
+    rated_torque: float | None = key(None, "at rated speed", "N m", above=0, example=400.0)
     slip: float = key(
-        0.05, "(speed without load - rated speed) / speed without load", above=0, at_most=1
+        0.05,
+        "(speed without load - rated speed) / speed without load",
+        above=0,
+        at_most=1,
+        source="least of NEMA MG 1, design D",
     )
     breakdown_torque: float | None = key(
         None,
@@ -204,19 +213,21 @@ class Motor(Table):
         None, "of a table of torques instead, which goes on at both ends", "rpm", numbers=0
     )
     table_torque: tuple[float, ...] | None = key(None, "at these speeds", "N m", numbers=0)
-    inertia: float = key(50.0, "of flywheel, gear and motor", "kg m^2", above=0)
+    inertia: float = key(None, "of flywheel, gear and motor", "kg m^2", above=0, example=50.0)
 
     def __post_init__(self) -> None:
         """Check the keys, the breakdown torque and the table."""
         super().__post_init__()
-        given = self.breakdown_torque
-        if given is not None and given < self.rated_torque:
-            raise InputError(
-                f"drive.breakdown_torque = {given!r}: allowed is a number >= drive.rated_torque = "
-                f"{self.rated_torque!r}"
-            )
+        demand_keys("[drive]", self, ("inertia",), "drive", "[drive]")
         speeds, torques = self.table_speed_rpm or (), self.table_torque or ()
         if self.table_speed_rpm is None and self.table_torque is None:
+            demand_keys("[drive]", self, ("rated_torque",), "drive", "[drive]")
+            given, rated = self.breakdown_torque, self.rated_torque
+            if given is not None and rated is not None and given < rated:
+                raise InputError(
+                    f"drive.breakdown_torque = {given!r}: allowed is a number >= "
+                    f"drive.rated_torque = {rated!r}"
+                )
             return
         if len(speeds) != len(torques) or len(speeds) < 2:
             raise InputError(
@@ -245,6 +256,7 @@ class Motor(Table):
         """Return the torque over the speed of the crank, which starts at speed_rpm."""
         if self.table_speed_rpm is not None and self.table_torque is not None:
             return torque_table([speed * RPM for speed in self.table_speed_rpm], self.table_torque)
+        assert self.rated_torque is not None
         largest = self.breakdown_torque or USUAL_BREAKDOWN * self.rated_torque
         return kloss(self.rated_torque, self.slip, largest, self.fastest(speed_rpm))
 
@@ -257,19 +269,28 @@ class Motor(Table):
 
 @dataclass(frozen=True)
 class ElasticGuide(Table):
-    """Elastic instead of ideal guides (A-9): one spring across the guide and one against tilting.
+    """Guides with friction, elastic ones or ones with clearance, instead of ideal ones (A-9).
 
-    With a clearance a body's two ends, `length` apart, touch the ways instead, each with half the
-    lateral stiffness and damping, and rub on them.
+    With a lateral stiffness one spring acts across the guide and one against tilting, in the body's
+    centre of mass. The tilting stiffness is that of an even bedding along the guide's length, k L^2
+    / 12, and each damping a part of the critical one of the guided mass or inertia alone, 2 D
+    sqrt(k m), unless they are given.
 
-    The springs act in the body's centre of mass. A guide's tilting stiffness is that of an even
-    bedding along its length, k L^2 / 12, and each damping a part of the critical one of the guided
-    mass or inertia alone, 2 D sqrt(k m), unless they are given.
+    With a clearance a body's two ends, `length` apart, touch the guideways instead, each with half
+    the lateral stiffness and the damping of [contact].
+
+    With neither the guide is ideal, and rubs with its side force times the coefficient.
     """
 
     table: ClassVar[str] = "guide"
-    lateral_stiffness: float = key(1e9, "of every guide", "N/m", above=0)
-    length: float = key(0.5, "of every guide, for its tilting stiffness", "m", above=0, at_most=100)
+    lateral_stiffness: float | None = key(
+        None,
+        "of every guide, which is ideal without it; 1e9 with a clearance unless given",
+        "N/m",
+        above=0,
+        source="assumed",
+    )
+    length: float = key(0.5, "of every guide with stiffness", "m", above=0, at_most=100)
     tilting_stiffness: float | None = key(
         None, "of every guide; from its length unless given", "N m/rad", above=0
     )
@@ -280,15 +301,14 @@ class ElasticGuide(Table):
         above=0,
     )
     width: float = key(0.0, "clearance: of every guided body", "m", at_least=0)
-    friction: str = key("none", "clearance: friction law of the ways", choices=FRICTION_LAWS)
-    mu_static: float = key(0.1, "clearance: static coefficient", above=0)
-    mu_kinetic: float = key(0.1, "clearance: kinetic coefficient", above=0)
-    stribeck_velocity: float = key(0.01, "clearance: v_s", "m/s", above=0)
-    regularisation_velocity: float = key(
-        1e-3, "clearance: sgn(v) of laws without bristle is tanh(v / this)", "m/s", above=0
+    friction: str = key(
+        "none", "law of friction, whose further keys are those of [friction]", choices=FRICTION_LAWS
     )
-    damping_depth: float = key(
-        1e-6, "clearance: penetration at which the ways damp in full", "m", above=0
+    mu_static: float = key(0.1, "static coefficient of guides", above=0, source=GREASED)
+    mu_kinetic: float = key(0.1, "kinetic coefficient of guides", above=0, source=GREASED)
+    stribeck_velocity: float = key(0.01, "v_s of guides", "m/s", above=0)
+    regularisation_velocity: float = key(
+        1e-3, "sgn(v) of laws without bristle is tanh(v / this)", "m/s", above=0
     )
     damping_ratio: float = key(0.05, "of the guided body alone on its guide", at_least=0)
     lateral_damping: float | None = key(
@@ -299,19 +319,54 @@ class ElasticGuide(Table):
     )
 
     def __post_init__(self) -> None:
-        """Check the keys, and that friction does not grow as sliding begins."""
+        """Check the keys, that they ask for something, and that sliding has less friction."""
         super().__post_init__()
-        _demand_static_friction(self.table, self.mu_static, self.mu_kinetic)
+        if self.clearance is not None and self.lateral_stiffness is None:
+            object.__setattr__(self, "lateral_stiffness", USUAL_STIFFNESS)
+        if not (self.soft or self.rubs):
+            raise InputError(
+                "[guide] has neither lateral_stiffness nor clearance nor friction: allowed is at "
+                "least one of them, as in guide.friction = 'coulomb'; without [guide] the guides "
+                "are ideal"
+            )
+        if "mu_static" not in self.unused():
+            _demand_static_friction(self.table, self.mu_static, self.mu_kinetic)
+
+    @property
+    def soft(self) -> bool:
+        """Whether guided bodies can move across their guides."""
+        return self.lateral_stiffness is not None
+
+    @property
+    def rubs(self) -> bool:
+        """Whether there is friction."""
+        return self.friction != "none"
 
     def unused(self, **instead: str) -> dict[str, str]:
-        """Return the keys that are not used: those of the ways, or of ideal tilting."""
+        """Return the keys that are not used: those of other guides, and of other laws."""
+        found = {}
         if self.clearance is None:
-            return dict.fromkeys(OF_THE_WAYS, "guide.clearance is not given")
-        why = "guide.clearance is given: the two ends of the body carry its tilting moment"
-        found = dict.fromkeys(("tilting_stiffness", "tilting_damping"), why)
-        if self.friction == "none":
-            found |= dict.fromkeys(OF_FRICTION, "guide.friction is 'none'")
-        return found
+            found = {"width": "guide.clearance is not given"}
+        else:
+            why = "guide.clearance is given: the two ends of the body carry its tilting moment"
+            found |= dict.fromkeys(OF_TILTING, why)
+            why = "guide.clearance is given: [contact] has the damping of its ends"
+            found |= dict.fromkeys(("damping_ratio", "lateral_damping"), why)
+        if not self.soft:
+            why = "guide.lateral_stiffness is not given: the guides are ideal"
+            found |= dict.fromkeys(("length", *OF_SPRINGS), why)
+        of_law = Friction.uses["law"][self.friction]
+        why = f"guide.friction is {self.friction!r}"
+        return found | {name: why for name in OF_FRICTION if name not in of_law}
+
+    def laws(self, contact: Contact) -> dict[str, tuple[str, ...]]:
+        """Return the keys of [contact] and of [friction] that the guides use."""
+        damping = ("damping", *Contact.uses["damping"][contact.damping], "tension")
+        of_law = Friction.uses["law"][self.friction]
+        return {
+            "contact": () if self.clearance is None else damping,
+            "friction": tuple(name for name in of_law if name not in OF_FRICTION),
+        }
 
 
 @dataclass(frozen=True)

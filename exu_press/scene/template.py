@@ -3,12 +3,12 @@
 import dataclasses
 import textwrap
 from collections.abc import Iterable, Iterator
+from typing import Any
 
 from exu_press.checks import Table
 from exu_press.scene.bodies import Flexible
 from exu_press.scene.joints import Joints
 from exu_press.scene.load import BlankingLoad, Load, TableLoad
-from exu_press.scene.output import Output
 from exu_press.scene.save import body_lines, joint_lines, load_lines, table_lines
 from exu_press.scene.scene import Scene, mechanism_of
 from exu_press.scene.usage import TABLES
@@ -58,6 +58,13 @@ def _lines(scene: Scene) -> Iterator[str]:
             yield from ("", *_not_in_use(lines))
 
 
+EXAMPLES: dict[str, dict[str, Any]] = {
+    "drive": {"rated_torque": 400.0, "inertia": 50.0},
+    "guide": {"lateral_stiffness": 1e9},
+    "output": {"samples": (0.0, 180.0)},
+}
+"""What tables that are not in use are shown with, since they need something."""
+
 OF_MECHANISMS = ("press", "slider_crank")
 """Tables of other mechanisms than the scene's, which it could not use."""
 
@@ -71,9 +78,8 @@ def _not_in_use(lines: Iterable[str]) -> Iterator[str]:
 
 def _usual(kind: type[Table]) -> Table:
     """Return a table at its defaults, without the keys that these do not use, or an example."""
-    if kind is Output:
-        return Output(samples=(0.0, 180.0))
-    return kind().without(kind().unused())
+    table = kind(**EXAMPLES.get(kind.table, {}))
+    return table.without(table.unused())
 
 
 def _loads() -> Iterator[str]:

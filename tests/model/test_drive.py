@@ -9,6 +9,7 @@ from scipy.integrate import solve_ivp
 
 from exu_press import InputError, Scene, simulate
 from exu_press.scene import Motor, mechanism_of
+from exu_press.scene.assumptions import assumed
 
 MOTOR = {"rated_torque": 300.0, "slip": 0.1, "no_load_speed_rpm": 250.0, "inertia": 12.0}
 
@@ -124,7 +125,7 @@ def test_a_motor_that_lags_over_one_revolution_has_a_mean_speed():
 def test_a_smaller_flywheel_fluctuates_more_and_a_huge_one_not():
     found = []
     for inertia in (5.0, 50.0, 5e6):
-        scene = Scene(joints={}, drive={"inertia": inertia}, revolutions=1.2)
+        scene = Scene(joints={}, drive={"rated_torque": 400.0, "inertia": inertia}, revolutions=1.2)
         found.append(simulate(scene).quantity("drive.fluctuation").value)
     assert found[0] > 3.0 * found[1] > 0.0
     assert found[2] < 1e-6
@@ -134,13 +135,15 @@ def test_a_smaller_flywheel_fluctuates_more_and_a_huge_one_not():
     "scene",
     [
         {},
-        {"joints": {"shaft": "lubricated", "balls": "dry"}, "guide": {}},
+        {"joints": {"shaft": "lubricated", "balls": "dry"}, "guide": {"lateral_stiffness": 1e9}},
         {"load": {"blanking": {"kind": "blanking", "force": 1e5, "end_angle_deg": 60.0}}},
     ],
     ids=str,
 )
 def test_the_balance_closes(scene):
-    result = simulate(Scene(**scene, drive={"inertia": 20.0}, revolutions=0.3))
+    result = simulate(
+        Scene(**scene, drive={"rated_torque": 400.0, "inertia": 20.0}, revolutions=0.3)
+    )
     assert result.completed
     assert result.quantity("energy.residual").value < 1e-3
 
@@ -215,7 +218,10 @@ def test_a_motor_by_its_table():
 @pytest.mark.parametrize(
     ("drive", "message"),
     [
-        ({"breakdown_torque": 300.0}, r"drive\.breakdown_torque = 300\.0: allowed is a number >="),
+        (
+            {"rated_torque": 400.0, "breakdown_torque": 300.0},
+            r"drive\.breakdown_torque = 300\.0: allowed is a number >=",
+        ),
         ({"table_torque": [1.0, 0.0]}, "table_speed_rpm, drive.table_torque: 0 and 2 values"),
         (
             {"table_torque": [1, 0], "table_speed_rpm": [2, 1]},
@@ -233,7 +239,7 @@ def test_a_motor_by_its_table():
 )
 def test_a_motor_that_is_refused(drive, message):
     with pytest.raises(InputError, match=message):
-        Scene(drive=drive)
+        Scene(drive={"inertia": 50.0, **drive})
 
 
 @pytest.mark.parametrize("place", ["start_angle_deg", "end_angle_deg"])
@@ -269,7 +275,7 @@ def test_a_flexible_crank_has_its_flywheel():
     scene = Scene(
         joints={},
         bodies={"crank": {"flexible": "crank", "modes": 4, "mesh_size": 0.05}},
-        drive={"inertia": 20.0},
+        drive={"rated_torque": 400.0, "inertia": 20.0},
         revolutions=0.1,
     )
     result = simulate(scene)
@@ -279,11 +285,16 @@ def test_a_flexible_crank_has_its_flywheel():
 
 
 def test_what_a_scene_says():
-    scene = Scene(drive={})
+    scene = Scene(drive={"rated_torque": 400.0, "inertia": 50.0})
     assert scene.drive == Motor(rated_torque=400.0, slip=0.05, inertia=50.0)
+    assert "drive.slip = 0.05 (least of NEMA MG 1, design D)" in assumed(scene)
     assert Scene().drive is None
     assert scene.replace("drive", None) == Scene()
     with pytest.raises(InputError, match=r"drive\.slip = 0\.0: allowed is a number > 0"):
         Scene(drive={"slip": 0.0})
+    with pytest.raises(InputError, match=r"\[drive\] needs drive\.inertia \(of flywheel, gear and"):
+        Scene(drive={"rated_torque": 400.0})
+    with pytest.raises(InputError, match=r"\[drive\] needs drive\.rated_torque \(at rated speed"):
+        Scene(drive={"inertia": 50.0})
     with pytest.raises(InputError, match=r"drive\.flywheel = 1\.0: unknown key"):
         Scene(drive={"flywheel": 1.0})

@@ -7,6 +7,7 @@ from independent.solid import displaced
 
 from exu_press import InputError, Scene, simulate
 from exu_press.model import build
+from exu_press.model.system import System
 from exu_press.placed_part import placed_parts
 from exu_press.quasi_static import quasi_static_motion
 from exu_press.result.flexible import guided_motion
@@ -80,7 +81,11 @@ def compared(flexible, rigid, channel, begin):
     return np.abs(one - two).max() / np.abs(two).max()
 
 
-@pytest.mark.parametrize("guide", [None, SOFT], ids=["ideal", "elastic"])
+RUBS = {"friction": "stribeck", "mu_kinetic": 0.2, "mu_static": 0.3}
+GUIDES = {"ideal": None, "elastic": SOFT, "rubbing": RUBS, "elastic, rubbing": SOFT | RUBS}
+
+
+@pytest.mark.parametrize("guide", GUIDES.values(), ids=GUIDES)
 @pytest.mark.parametrize("body", [STIFF, {"modes": 0}], ids=["stiff", "no modes"])
 def test_stiff_it_is_the_rigid_slider(slider, body, guide):
     """In its motion, in the drive, and in what the guide bears, stores and loses."""
@@ -89,9 +94,12 @@ def test_stiff_it_is_the_rigid_slider(slider, body, guide):
     result, other = simulate(flexible), simulate(rigid)
     assert result.completed and other.completed
     # forces alternate in the first steps; a flexible body starts on springs that bear its weight
-    starts_bent = guide is not None and "modes" not in body
+    soft = guide is not None and "lateral_stiffness" in guide
+    starts_bent = soft and "modes" not in body
     same = ["drive_torque", "slider_position", "wrist_pin_force", "guide_force", "guide_moment"]
-    if guide is not None and not starts_bent:
+    if guide is not None and "friction" in guide:
+        same += ["guide_friction"]
+    if soft and not starts_bent:
         same += ["slider_lateral", "slider_tilt", "guide_loss", "energy_stored"]
     for channel in same:
         limit = 1e-3 if starts_bent else 1e-4
@@ -104,7 +112,6 @@ PLAY = {
     "friction": "coulomb",
     "length": 0.2,
     "width": WIDTH,
-    "damping_ratio": 0.5,
     "lateral_stiffness": 2e8,
 }
 
@@ -212,7 +219,7 @@ def test_the_balance_closes_and_the_solid_may_be_drawn_on_its_own(slider):
     side = block().Move(Vec(0, -1e3 * WRIST, 0)).Rotate(Line(Pnt(0, 0, 0), Z), 90.0)
     bottom = {"x": [LENGTH - 1e-3, LENGTH + 1e-3]}
     run = {**RUN, "solver": {"tolerance": 1e-4}, "revolutions": 0.06}
-    for guide in (None, {}):
+    for guide in (None, {"lateral_stiffness": 1e9}):
         drawn = slider(load={"push": {**PUSH, "face": BOTTOM}}, guide=guide, **run)
         place = {"origin": [0.0, WRIST], "angle_deg": -90.0}
         turned = slider(
@@ -316,3 +323,15 @@ def test_the_start_fits_what_a_guide_holds(tmp_path):
         assert np.abs(result["slider_tilt"][0]) < 1e-9  # the mean of the whole body's
         # what was left of the tilt, 7e-6 rad, made 1e5 N m of steps of 2e-8 s; now it hangs free
         assert np.abs(result["guide_moment"]).max() < 100.0
+
+
+def test_the_damping_of_a_guide_is_that_of_the_solids_mass(slider):
+    """2 D sqrt(k m) of the body that moves, not of the drawn one."""
+    system = System(scene := slider(guide={"lateral_stiffness": 2e8}), placed_parts(scene))
+    (guide,) = system.mechanism.guides
+    part, ratio = system.parts["slider"], scene.guide.damping_ratio
+    drawn = mechanism_of(scene).body("slider").mass
+    assert abs(drawn / part.reduced.mass - 1.0) > 0.1
+    assert guide.lateral.damping == 2.0 * ratio * np.sqrt(2e8 * part.reduced.mass)
+    stiffness = guide.tilting.stiffness
+    assert guide.tilting.damping == 2.0 * ratio * np.sqrt(stiffness * part.inertia)

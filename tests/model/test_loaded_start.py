@@ -24,7 +24,7 @@ SCENES = {
         **ECCENTRIC,
         "load": {"f": {"kind": "table", "time": [0.0, 1.0], "force": [5e4, 5e4]}},
     },
-    "elastic guides": {**ECCENTRIC, "guide": {}},
+    "elastic guides": {**ECCENTRIC, "guide": {"lateral_stiffness": 1e9}},
     "a film": {"mechanism": "slider_crank"},
     "a mixed film": {
         "mechanism": "slider_crank",

@@ -15,7 +15,7 @@ SCENES = {
     },
     "elastic": {
         "joints": {"balls": "dry"},
-        "guide": {},
+        "guide": {"lateral_stiffness": 1e9},
         "start_angle_deg": 80.0,
         "revolutions": 0.6,
         "load": {"blanking": {"kind": "blanking", "force": 1e4, "offset": [0.1, 0.0]}},

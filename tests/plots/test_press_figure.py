@@ -76,7 +76,15 @@ def test_guides_are_one_curve_of_the_energy_picture(results):
 
 def test_a_motors_speed_and_loads_have_panels_and_a_rocker_no_dead_centre():
     load = {"die": {"kind": "table", "time": [0.0, 0.1], "force": [0.0, 2e3]}}
-    result = simulate(Scene(mechanism="four_bar", joints={}, drive={}, load=load, revolutions=1.1))
+    result = simulate(
+        Scene(
+            mechanism="four_bar",
+            joints={},
+            drive={"rated_torque": 400.0, "inertia": 50.0},
+            load=load,
+            revolutions=1.1,
+        )
+    )
     shown = panels(result)
     assert list(shown) == [*ALWAYS, "Crank speed", "Loads"]
     assert shown["Crank speed"].get_ylabel() == "rpm"

@@ -42,7 +42,7 @@ def test_guides_with_clearance_are_not_called_elastic():
 def test_guides_counterweight_and_an_eccentric_load():
     scene = Scene(
         load={"blanking": {"kind": "blanking", "force": 1e4, "offset": [-0.05, 0.0]}},
-        guide={},
+        guide={"lateral_stiffness": 1e9},
         press={"counterweight": False},
     )
     words = describe([scene])

@@ -18,7 +18,7 @@ from exu_press.scene import flexible_press
 SCENES = {
     "dry": {"mechanism": "slider_crank", "joints": {"crank_pin": "dry"}, "revolutions": 0.02},
     "press": {
-        "guide": {},
+        "guide": {"lateral_stiffness": 1e9},
         "load": {"blanking": {"kind": "blanking", "force": 1e4}},
         "revolutions": 0.005,
     },

@@ -59,7 +59,7 @@ def run():
     scene = {
         "revolutions": 2.25,
         "load": {"blanking": {"kind": "blanking", "force": 1e4, "offset": [0.1, 0.0]}},
-        "guide": {},
+        "guide": {"lateral_stiffness": 1e9},
     }
     return simulate(Scene.from_dict({**scene, "joints": {"crank_pin": "lubricated"}}))
 

@@ -154,7 +154,9 @@ def test_warnings_of_doubtful_runs(outputs):
 
 def test_a_flywheel_is_no_part_of_the_solid_that_a_crank_is():
     """Its inertia is compared without."""
-    result = simulate(Scene(joints={}, drive={"inertia": 50.0}, revolutions=0.005))
+    result = simulate(
+        Scene(joints={}, drive={"rated_torque": 400.0, "inertia": 50.0}, revolutions=0.005)
+    )
     crank = result.scene.press
     arm = crank.crank_mass * crank.crank_radius**2 / 12
     solid = {"mass": crank.crank_mass, "inertia": arm, "centre_of_mass": [0.0, 0.0], "modes": 1}

@@ -16,7 +16,7 @@ VARIANTS = [
     {"joints": {}},
     {"joints": {"crank_pin": "dry", "balls": "dry"}},
     {"joints": {"crank_pin": "lubricated", "balls": "dry"}},
-    {"joints": {"crank_pin": "lubricated", "balls": "dry"}, "guide": {}},
+    {"joints": {"crank_pin": "lubricated", "balls": "dry"}, "guide": {"lateral_stiffness": 1e9}},
     {"joints": {}, "guide": {"clearance": 5e-5, "friction": "coulomb", "width": 0.2}},
     {"joints": {"crank_pin": "lubricated", "balls": "dry"}, "press": {"counterweight": False}},
     {"joints": {"shaft": "lubricated", "pivots": "dry", "slide_pin": "dry"}},

@@ -44,7 +44,7 @@ def test_what_is_given_is_not_assumed():
         ({"mechanism": "slider_crank"}, {1, 2, 3, 4, 5, 6, 7, 8, 10, 11, 12}),
         ({"joints": {"crank_pin": "dry"}}, {11, 12, 13}),
         ({"joints": {}}, {10, 11, 12, 13}),
-        ({"guide": {}}, {9}),
+        ({"guide": {"lateral_stiffness": 1e9}}, {9}),
         ({"press": {"counterweight": False}}, {3}),
         ({"film": {"at_contact": "mixed"}}, {13}),
     ],

@@ -24,7 +24,7 @@ def test_without_the_table_every_guide_is_ideal():
 
 
 def test_the_table_makes_every_guide_elastic():
-    guides = press(guide={}).guides
+    guides = press(guide={"lateral_stiffness": 1e9}).guides
     assert {guide.body for guide in guides} == SLIDING
     assert all(guide.lateral and guide.tilting for guide in guides)
 
@@ -45,7 +45,12 @@ def test_stiffness_and_damping_as_documented():
 
 
 def test_what_is_given_counts():
-    given = {"tilting_stiffness": 1e6, "lateral_damping": 0.0, "tilting_damping": 7.0}
+    given = {
+        "lateral_stiffness": 1e9,
+        "tilting_stiffness": 1e6,
+        "lateral_damping": 0.0,
+        "tilting_damping": 7.0,
+    }
     for guide in press(guide=given).guides:
         assert guide.tilting.stiffness == 1e6
         assert guide.lateral.damping == 0.0
@@ -54,7 +59,10 @@ def test_what_is_given_counts():
 
 def test_inertia_of_a_steel_cube_unless_given():
     """m a^2 / 6 with a^3 = m / 7850; a plunger keeps its rod's inertia."""
-    bodies = {body.name: body for body in press(guide={}, press={"slide_inertia": 0.5}).bodies}
+    bodies = {
+        body.name: body
+        for body in press(guide={"lateral_stiffness": 1e9}, press={"slide_inertia": 0.5}).bodies
+    }
     assert bodies["slide"].inertia == 0.5
     side = (1347.0 / 7850.0) ** (1 / 3)
     assert bodies["slider"].inertia == pytest.approx(1347.0 * side**2 / 6)
@@ -62,7 +70,9 @@ def test_inertia_of_a_steel_cube_unless_given():
 
 
 def test_slider_crank_too():
-    (guide,) = mechanism_of(Scene(mechanism="slider_crank", guide={})).guides
+    (guide,) = mechanism_of(
+        Scene(mechanism="slider_crank", guide={"lateral_stiffness": 1e9})
+    ).guides
     assert guide.lateral.stiffness == 1e9
 
 

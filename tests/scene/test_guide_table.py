@@ -3,7 +3,13 @@
 import pytest
 
 from exu_press import InputError, Scene
-from exu_press.scene import parse_assignment
+from exu_press.laws.contact import delivered_restitution
+from exu_press.scene import mechanism_of, parse_assignment
+from exu_press.scene.assumptions import assumed
+from exu_press.scene.laws import guide_contact_law, guide_friction_law
+
+IDEAL = {"mechanism": "slider_crank", "joints": {}}
+LOOSE = {"clearance": 2e-5, "length": 0.3}
 
 
 def test_absent_means_ideal():
@@ -13,7 +19,7 @@ def test_absent_means_ideal():
 
 
 def test_an_empty_table_means_defaults():
-    scene = Scene(guide={})
+    scene = Scene(guide={"lateral_stiffness": 1e9})
     assert scene.guide.lateral_stiffness == 1e9
     assert Scene.from_dict(scene.to_dict()) == scene
 
@@ -28,7 +34,58 @@ def test_on_and_off_by_replace():
 
 
 def test_on_the_command_line():
-    assert Scene().replace(dict([parse_assignment("guide={}")])).guide == Scene(guide={}).guide
+    found = Scene().replace(dict([parse_assignment("guide={lateral_stiffness=2e9}")])).guide
+    assert found == Scene(guide={"lateral_stiffness": 2e9}).guide
+
+
+def test_a_table_that_asks_for_nothing_is_refused():
+    with pytest.raises(InputError, match=r"\[guide\] has neither lateral_stiffness nor clearance"):
+        Scene(guide={})
+    with pytest.raises(InputError, match=r"\[guide\] has neither lateral_stiffness nor clearance"):
+        Scene(guide={"friction": "none", "length": 0.3})
+
+
+def test_without_stiffness_guides_stay_ideal_and_rub():
+    scene = Scene(guide={"friction": "coulomb"})
+    assert not scene.guide.soft
+    assert scene.guide.length is None
+    assert mechanism_of(scene) == mechanism_of(Scene())
+    assert "guide.mu_kinetic = 0.1 (greased steel on steel, Marks' Handbook, 3.2)" in assumed(scene)
+    assert Scene.from_dict(scene.to_dict()) == scene
+    with pytest.raises(
+        InputError, match=r"guide\.length = 0\.3: not used .*lateral_stiffness is n"
+    ):
+        Scene(guide={"friction": "coulomb", "length": 0.3})
+
+
+def test_an_assumed_stiffness_is_said():
+    assert "guide.lateral_stiffness = 1e+09 N/m (assumed)" in assumed(Scene(guide=LOOSE))
+    given = Scene(guide={**LOOSE, "lateral_stiffness": 2e9})
+    assert not any("lateral_stiffness" in line for line in assumed(given))
+
+
+def test_what_friction_and_damping_of_guides_need_is_in_the_scenes_tables():
+    rubbing = {**IDEAL, "guide": {"friction": "lugre"}}
+    scene = Scene.from_dict({**rubbing, "friction": {"sigma_0": 2e4}})
+    assert scene.friction.sigma_0 == 2e4
+    assert scene.friction.law is None
+    assert Scene.from_dict(scene.to_dict()) == scene
+    assert guide_friction_law(scene.guide, scene.friction).sigma_0 == 2e4
+    with pytest.raises(
+        InputError, match=r"friction\.mu_kinetic = 0\.2: not used .*guides do not us"
+    ):
+        Scene.from_dict({**rubbing, "friction": {"mu_kinetic": 0.2}})
+    with pytest.raises(InputError, match=r"\[friction\]: not used .*no joint is 'dry'"):
+        Scene.from_dict({**IDEAL, "guide": {"friction": "coulomb"}, "friction": {"sigma_0": 2e4}})
+    damped = Scene.from_dict({**IDEAL, "guide": LOOSE, "contact": {"restitution": 0.5}})
+    assert damped.contact.damping == "hu_guo"
+    assert damped.contact.modulus is None
+    law = guide_contact_law(damped.contact, 1e8)
+    assert delivered_restitution(law, 10.0, 0.1) == pytest.approx(0.5, abs=0.02)
+    with pytest.raises(InputError, match=r"contact\.modulus = 1e\+?11|contact\.modulus = 1000"):
+        Scene.from_dict({**IDEAL, "guide": LOOSE, "contact": {"modulus": 1e11}})
+    with pytest.raises(InputError, match=r"guide\.clearance needs contact\.damping_max"):
+        Scene.from_dict({**IDEAL, "guide": LOOSE, "contact": {"damping": "step"}})
 
 
 @pytest.mark.parametrize(

@@ -34,7 +34,7 @@ def test_other_keys_of_the_table_are_kept():
 
 
 def test_a_table_that_was_not_there():
-    assert PRESS.replace("guide.length", 0.4).guide.length == 0.4
+    assert PRESS.replace("guide.clearance", 4e-5).guide.clearance == 4e-5
 
 
 def test_made_dry_it_loses_its_film_and_made_ideal_everything():

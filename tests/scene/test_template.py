@@ -31,7 +31,8 @@ def test_every_key_is_there_with_its_meaning_and_every_joint_is_named():
 @pytest.mark.parametrize(
     ("table", "value"),
     [
-        ("guide", {}),
+        ("guide", {"lateral_stiffness": 1e9}),
+        ("drive", {"rated_torque": 400.0, "inertia": 50.0}),
         ("load.blanking", {"kind": "blanking", "force": 1e4}),
         (
             "load.forming",

@@ -8,6 +8,8 @@ from exu_press.scene.joint import LAW_TABLES
 from exu_press.scene.tables import FRICTION_LAWS, Contact, Friction
 
 PIN = {"kind": "dry", "clearance": 5e-5, "radius": 0.03}
+TABLE = {"table_speed_rpm": [0, 300], "table_torque": [9, 0], "inertia": 9.0}
+RUBBING = {"friction": "coulomb"}
 BASE = {"mechanism": "slider_crank", "joints": {"crank_pin": PIN}, "contact": {"length": 0.05}}
 STEP = {"length": 0.05, "damping": "step", "damping_max": 1e5, "damping_depth": 1e-6}
 MIXED = {**PIN, "kind": "lubricated", "film": {"at_contact": "mixed"}}
@@ -41,11 +43,11 @@ MIXED = {**PIN, "kind": "lubricated", "film": {"at_contact": "mixed"}}
         ),
         ({"solver": {"step": 1e-5, "max_step_deg": 1.5}}, "solver.max_step_deg", "solver.step"),
         (
-            {"drive": {"table_speed_rpm": [0, 300], "table_torque": [9, 0], "slip": 0.05}},
+            {"drive": {**TABLE, "slip": 0.05}},
             "drive.slip",
             "drive.table_torque is given",
         ),
-        ({"guide": {"width": 0.0}}, "guide.width", "guide.clearance is not given"),
+        ({"guide": {**RUBBING, "width": 0.0}}, "guide.width", "guide.clearance is not given"),
         (
             {"joints": {"crank_pin": {**PIN, "kind": "lubricated"}}, "contact": None,
              "film": {"viscosity": 0.1, "length": 0.05, "roughness": 1e-7}},

@@ -23,7 +23,13 @@ def test_variants_differ_in_their_joints_alone():
 
 def test_a_changed_number_and_a_table_that_one_scene_has():
     base = Scene()
-    other = base.replace({"speed_rpm": 300.0, "joints.crank_pin.clearance": 5e-5, "guide": {}})
+    other = base.replace(
+        {
+            "speed_rpm": 300.0,
+            "joints.crank_pin.clearance": 5e-5,
+            "guide": {"lateral_stiffness": 1e9},
+        }
+    )
     loaded = other.replace("load.punch", {"kind": "blanking", "force": 1e4})
     found = rows({"a": base, "b": loaded})
     assert found["speed_rpm"] == ["240", "300"]

@@ -153,5 +153,5 @@ def case_of(name: str, scene: Scene) -> Case:
 
 def _has_closed_form(scene: Scene) -> bool:
     """Return whether the motion is that of a mechanism without any give, at constant speed."""
-    gives = scene.joints.with_clearance or scene.guide is not None or scene.bodies
+    gives = scene.joints.with_clearance or (scene.guide and scene.guide.soft) or scene.bodies
     return not gives and scene.drive is None

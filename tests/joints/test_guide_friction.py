@@ -1,0 +1,142 @@
+"""Friction of a guide without clearance: a block on a slope, the Jacobian, and no energy made."""
+
+import math
+
+import exudyn as exu
+import numpy as np
+import pytest
+from exudyn.itemInterface import (
+    LoadForceVector,
+    MarkerBodyRigid,
+    MarkerNodeCoordinates,
+    NodePointGround,
+    ObjectConnectorCoordinateVector,
+)
+from hypothesis import given
+from hypothesis import strategies as st
+from solving import planar_body, recorded
+
+from exu_press import Status, solve_dynamic
+from exu_press.joints.guide_friction import (
+    GuideFriction,
+    HeldSide,
+    SlidingFriction,
+    SpringSide,
+)
+from exu_press.laws.friction import LuGre, coulomb, no_friction, stribeck
+
+MASS, GRAVITY = 20.0, 9.81
+LAWS = {
+    "none": no_friction(),
+    "coulomb": coulomb(0.2, 1e-3),
+    "stribeck": stribeck(0.3, 0.2, 0.01, 2.0, 1e-3, 0.01),
+    "lugre": LuGre(0.3, 0.2, 1e5, 300.0, 0.0, 0.01, 2.0),
+}
+
+
+def block(slope, law, speed=0.0):
+    """Return a system with a block in an ideal guide that falls by a slope."""
+    container = exu.SystemContainer()
+    mbs = container.AddSystem()
+    along = np.array([math.cos(slope), -math.sin(slope)])
+    body, node = planar_body(mbs, MASS, 1.0, velocity=(*(speed * along), 0.0))
+    ground = mbs.AddNode(NodePointGround())
+    rows = [[math.sin(slope), math.cos(slope), 0.0], [0.0, 0.0, 1.0]]
+    markers = [mbs.AddMarker(MarkerNodeCoordinates(nodeNumber=n)) for n in (ground, node)]
+    held = [
+        mbs.AddObject(
+            ObjectConnectorCoordinateVector(
+                markerNumbers=markers, scalingMarker0=[], scalingMarker1=[row], offset=[0.0]
+            )
+        )
+        for row in rows
+    ]
+    marker = mbs.AddMarker(MarkerBodyRigid(bodyNumber=body))
+    mbs.AddLoad(LoadForceVector(markerNumber=marker, loadVector=[0.0, -MASS * GRAVITY, 0.0]))
+    GuideFriction(mbs, [node], np.append(along, 0.0), HeldSide(mbs, held[0]), law)
+    motion = recorded(mbs, node, "Coordinates_t")
+    mbs.Assemble()
+    return container, mbs, motion, along
+
+
+def speeds(mbs, motion, along, end=0.5, tolerance=1e-4):
+    settings = exu.SimulationSettings()
+    settings.timeIntegration.endTime = end
+    settings.timeIntegration.numberOfSteps = 100
+    settings.timeIntegration.verboseMode = 0
+    settings.solution.file.write = False
+    settings.solution.sensors.writePeriod = 0.0
+    outcome = solve_dynamic(mbs, settings, tolerance=tolerance)
+    assert outcome.status is Status.COMPLETED, outcome.reason
+    data = np.asarray(mbs.GetSensorStoredData(motion))
+    return data[:, 0], data[:, 1:3] @ along
+
+
+@pytest.mark.parametrize("degrees", [20.0, 45.0, 100.0])
+@pytest.mark.parametrize("tolerance", [1e-4, None])
+def test_a_block_slides_down_a_slope_as_coulomb_says(degrees, tolerance):
+    """A = g (sin - mu |cos|), whichever side of the guide it presses."""
+    slope, mu = math.radians(degrees), 0.2
+    _container, mbs, motion, along = block(slope, coulomb(mu, 1e-4), speed=1.0)
+    time, speed = speeds(mbs, motion, along, tolerance=tolerance)
+    expected = GRAVITY * (math.sin(slope) - mu * abs(math.cos(slope)))
+    begun = 0 if tolerance else 1  # the accelerations at the start are those without friction
+    gained = speed[begun:] - speed[begun]
+    assert gained == pytest.approx(expected * (time[begun:] - time[begun]), rel=1e-4, abs=1e-4)
+
+
+@pytest.mark.parametrize("law", ["coulomb", "lugre"])
+def test_at_a_constant_side_force_and_speed_it_loses_mu_n_v(law):
+    """Where mu = tan of the slope the speed stays, and all that gravity gives is lost."""
+    slope = math.atan(0.2)
+    _container, mbs, motion, along = block(slope, LAWS[law], speed=0.5)
+    _, speed = speeds(mbs, motion, along)
+    assert speed[-1] == pytest.approx(0.5, rel=1e-3 if law == "lugre" else 1e-5)  # bristles bend
+
+
+def test_a_block_at_rest_stays_on_a_slope_with_bristles():
+    slope = math.radians(10.0)
+    law = LAWS["lugre"]
+    _container, mbs, motion, along = block(slope, law)
+    _, speed = speeds(mbs, motion, along, end=1.0)
+    assert abs(speed[-1]) < 1e-6
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_the_jacobian_is_the_derivative_of_the_force(law):
+    rng = np.random.default_rng(3)
+    mbs = exu.SystemContainer().AddSystem()
+    _, node = planar_body(mbs, MASS, 1.0)
+    side = SpringSide(1e5, 30.0, np.array([0.6, 0.8, 0.0]), 1e-3)
+    friction = GuideFriction(mbs, [node], np.array([-0.8, 0.6, 0.0]), side, LAWS[law])
+    mbs.Assemble()
+    q, q_t = 1e-2 * rng.normal(size=3), 5e-3 * rng.normal(size=3)
+    by_q, by_q_t = 0.7, 0.3
+
+    def force(shift):
+        return np.array(friction._forces(mbs, 0.0, 0, q + by_q * shift, q_t + by_q_t * shift))
+
+    found = friction._jacobian(mbs, 0.0, 0, q, q_t, by_q, by_q_t).Convert2DenseMatrix()
+    eps = 1e-7
+    expected = [-(force(eps * row) - force(-eps * row)) / (2 * eps) for row in np.eye(3)]
+    assert found == pytest.approx(np.transpose(expected), rel=1e-5, abs=1e-3)
+
+
+@given(
+    law=st.sampled_from(sorted(LAWS)),
+    speeds=st.lists(st.floats(-1.0, 1.0), min_size=2, max_size=40),
+    step=st.floats(1e-6, 1e-2),
+)
+def test_friction_makes_no_energy(law, speeds, step):
+    """At a side force of 1 N; bristles give back what they store, sigma_0 z^2 / 2 at most."""
+    time = step * np.arange(len(speeds))
+    mu = SlidingFriction(LAWS[law]).coefficients(time, np.array(speeds))
+    if law == "lugre":
+        stored = 0.5 * 0.3**2 / 1e5
+        spent = np.cumsum(
+            0.5 * (mu[1:] + mu[:-1]) * np.diff(time) * np.convolve(speeds, [0.5, 0.5], "valid")
+        )
+        constant = np.ptp(speeds) == 0.0
+        assert spent.min() >= -stored or not constant
+    else:
+        assert (mu * speeds).min() >= 0.0

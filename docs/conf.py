@@ -24,6 +24,7 @@ extensions = [
     "sphinx-mathjax-offline",
     "sphinx_parts.docstrings",
     "sphinx_parts.directives",
+    "sphinx_parts.live",
 ]
 myst_enable_extensions = ["dollarmath", "amsmath", "deflist"]
 myst_heading_anchors = 3

@@ -24,6 +24,7 @@ LEFT_OUT = (
     "tabulate_",
     "flexible_",
     "six_bar_rod",
+    "page_",
     "paper",
     "precision",
     "stability",

@@ -36,6 +36,10 @@ def test_builds_without_a_warning(tmp_path):
     )
     assert done.returncode == 0, done.stderr
     assert (tmp_path / "site" / "gallery" / "run_press.html").exists()
+    live = (tmp_path / "site" / "live" / "press.html").read_text(encoding="utf-8")
+    assert 'id="viewer"' in live
+    seen = (tmp_path / "site" / "howto" / "see.html").read_text(encoding="utf-8")
+    assert 'src="../live/press.html"' in seen
     keys = (tmp_path / "site" / "reference" / "scene.html").read_text(encoding="utf-8")
     section = keys.partition('<section id="keys-of-every-table">')[2]
     assert 'id="keys-at-the-top"' in section

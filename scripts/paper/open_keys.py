@@ -123,14 +123,12 @@ def as_read(scene: Scene, reading: Mapping[str, Any]) -> Scene:
 
 
 def alternatives(name: str, value: Any) -> list[Any]:
-    """Return what else a key may be: all other values, or the ends and the middle of its range."""
+    """Return what else a key may be: all other values, or the ends of its range."""
     key = OPEN[name]
     if isinstance(key, Values):
         return [other for other in key.values if other != value]
     assert isinstance(key, Range)
-    middle = (key.low * key.high) ** 0.5 if key.log else (key.low + key.high) / 2.0
-    near = 0.15 * (key.high - key.low)
-    return [v for v in (key.low, middle, key.high) if key.log or abs(v - value) > near]
+    return [key.low, key.high]
 
 
 def in_words(value: Any) -> str:

@@ -153,7 +153,7 @@ def _first(results: Mapping[str, Result], curves: Mapping[str, list[Curve]]) -> 
 
 LAYOUT = """
 <div id="viewer" class="live" hidden>
-<div class="bar" role="toolbar" aria-label="playback">
+<div class="bar playback" role="toolbar" aria-label="playback">
 <button type="button" id="play" aria-keyshortcuts="Space">Play</button>
 <label>shown range in <select id="speed">
 <option value="2.5">2.5 s</option><option value="5">5 s</option>
@@ -188,13 +188,13 @@ LAYOUT = """
 <div id="legend"></div>
 <div id="panels"></div>
 <div class="panel" id="strip"></div>
+<p id="thinned" class="told"></p>
 <div class="bar"><button type="button" id="more">more curves</button>
 <button type="button" id="less">fewer</button>
 <span class="told">Drag across a curve, or turn the wheel with the control key, to zoom; a double
 click shows the whole run.</span></div>
 </div>
 </div>
-<p id="thinned" class="told"></p>
 <details><summary>Keys</summary><p>Space plays and pauses. The arrow keys go from step to step,
 page up and page down by ten. n and p go to the next and the previous impact, + and &minus; zoom,
 0 shows the whole run.</p></details>

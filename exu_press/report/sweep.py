@@ -87,17 +87,19 @@ def _live(runs: Table) -> Live | None:
         low, high = ([e[end] if e else None for e in errors] for end in ("low", "high"))
         return Column(name, unit_of(name), runs[name], low, high)
 
-    changes = [
-        "exu-press run SCENE.toml "
-        + " ".join(
-            f"--set {shlex.quote(f'{name}={value}')}"
-            for name in runs.study.keys
-            if (value := runs[name][run]) is not None
-        )
-        for run in range(len(runs))
-    ]
+    opens = [_command(runs, run) for run in range(len(runs))]
     keys = [column(name) for name in runs.study.keys]
-    return study_viewer(keys, [column(name) for name in names], changes)
+    return study_viewer(keys, [column(name) for name in names], opens)
+
+
+def _command(runs: Table, run: int) -> str:
+    """Return the command that shows a run again: its file's, or the one that computes it."""
+    if "file" in runs.columns:
+        return f"exu-press view {shlex.quote(str(runs['file'][run]))}"
+    changes = (
+        f"{name}={value}" for name in runs.study.keys if (value := runs[name][run]) is not None
+    )
+    return " ".join(["exu-press run SCENE.toml", *(f"--set {shlex.quote(c)}" for c in changes)])
 
 
 def _table(file: Path) -> Table:

@@ -88,7 +88,7 @@ def test_the_next_impact_opens(report, press, browser):
         page.click("#next")
         told = page.inner_text("#mark")
         begin = float(re.search(r"from (\S+) to", told)[1])
-        joint = re.search(r": ([^,]+(, \w+)?), from", told)[1]
+        joint = re.search(r": ([^,]+(, \w+)?), touching", told)[1]
         name = joint.lower().replace(", ", "_").replace(" ", "_")
         first = press.time[np.argmax(press.joints[name].gap < 0)] * 1e3
         assert begin == pytest.approx(first, rel=1e-5)

@@ -252,3 +252,13 @@ def test_many_joints_have_a_table_of_all():
     busiest = max(forces, key=forces.get)
     assert shown.index(joint_in_words(busiest)) < shown.index("Knuckle 7, left")
     assert f"{forces[busiest] * 1e-3:.4g}" in shown
+
+
+def test_without_the_library_the_page_has_pictures(outputs, tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr("exu_press.page.document.find_spec", lambda name: None)
+    for name in ("run", "compare", "sweep"):
+        target = tmp_path / f"{name}.html"
+        assert main(["report", str(outputs[name]), "--out", str(target)]) == 0
+        page = Page(target.read_text(encoding="utf-8"))
+        assert page.images and "script" not in target.read_text(encoding="utf-8").split("<body>")[1]
+        assert "to zoom and play: pip install exu-press[page]" in capsys.readouterr().out

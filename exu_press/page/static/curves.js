@@ -153,7 +153,11 @@ class Curves {
       least = Math.min(least, drawn.least);
       largest = Math.max(largest, drawn.largest);
       tiniest = Math.min(tiniest, drawn.tiniest);
-      this.peak(panel, run, r, factor);
+      const [low, high] = this.peak(panel, run, r, factor);
+      if (low <= high) {
+        least = Math.min(least, low);
+        largest = Math.max(largest, high);
+      }
     });
     if (!(largest >= least)) [least, largest] = [0, 1];
     const scale = panel.log ? "log" : "linear";
@@ -174,20 +178,22 @@ class Curves {
     }
   }
 
-  // Mark the peak that a quantity states, with its error.
+  // Mark the peak that a quantity states, with its error; return its bounds where it is shown.
   peak(panel, run, r, factor) {
     const peak = run.peaks[panel.name];
     const source = this.model(`peak-${panel.number}-${r}`);
     const none = {x: [], y: [], low: [], high: [], left: [], right: []};
-    if (!peak) { source.data = none; return; }
+    if (!peak) { source.data = none; return [NaN, NaN]; }
     const x = interpolated(1e3 * peak.at, run.x.time, run.x[this.axis]);
     const sign = panel.log ? Math.sign(peak.value) || 1 : 1;
     const [a, b] = [peak.low ?? peak.value, peak.high ?? peak.value].map(v => sign * factor * v);
     const ends = run.x[this.axis];
+    const low = Math.min(a, b), high = Math.max(a, b);
     source.data = {
-      x: [x], y: [sign * factor * peak.value], low: [Math.min(a, b)], high: [Math.max(a, b)],
+      x: [x], y: [sign * factor * peak.value], low: [low], high: [high],
       left: [ends[0]], right: [ends[ends.length - 1]],
     };
+    return x >= this.range.start && x <= this.range.end ? [low, high] : [NaN, NaN];
   }
 
   // Put impacts and dead centres of the main run into the strip.

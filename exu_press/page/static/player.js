@@ -55,6 +55,9 @@ class Player {
       `${one.label ? `${one.label}: ` : ""}the page holds the least and the largest value of every ${
         one.every} of ${one.count} steps, so that it stays small; no peak is lost.`);
     const more = run.unmarked ? [`${run.unmarked} weaker impacts are not marked.`] : [];
+    if (run.horizon !== null) {
+      more.push(`Hatched, from ${inWords(1e3 * run.horizon)} ms on: errors have grown beyond the figures.`);
+    }
     byId("thinned").textContent = [...thinned, ...more].join(" ");
     this.redraw();
   }
@@ -159,7 +162,7 @@ class Player {
     this.curves.zoom(place(mark.from - about), place(mark.from + 2 * about));
     this.put(place(mark.peak));
     byId("mark").textContent = `Impact ${number + 1} of ${this.run.impacts.length}: ${joint.label}, ` +
-      `from ${inWords(1e3 * mark.from)} to ${inWords(1e3 * mark.to)} ms, ` +
+      `touching from ${inWords(1e3 * mark.from)} to ${inWords(1e3 * mark.to)} ms, ` +
       `largest force ${inWords(mark.force / 1e3)} kN at ${inWords(1e3 * mark.peak)} ms.`;
   }
 

@@ -1,8 +1,11 @@
 """Fronts and minima that are known in closed form, through the code of the command."""
 
+import sys
+
 import numpy as np
 import pytest
 
+from exu_press import InputError
 from exu_press.studies.base import Range, Values
 from exu_press.studies.optimise.front import chosen, front
 from exu_press.studies.optimise.several import advised, searched
@@ -133,3 +136,9 @@ def test_differential_evolution_within_limits():
 def test_points_without_numbers_are_worse_than_any_other():
     found = judged(np.array([1.0, np.nan, 2.0]), np.array([0.0, 0.0, 0.5]), 1.0)
     assert found.argsort().tolist() == [0, 2, 1]
+
+
+def test_without_optuna_the_cure_is_told(monkeypatch):
+    monkeypatch.setitem(sys.modules, "optuna", None)
+    with pytest.raises(InputError, match=r"pip install 'exu-press\[optimise\]'"):
+        searched(Zdt1(), KEYS, 2, 8, TPE, 0)

@@ -18,6 +18,7 @@ COMMANDS = (
     "new",
     "draw",
     "run",
+    "spectrum",
     "compare",
     "sweep",
     "fit",

@@ -29,12 +29,14 @@ class Solid(TypedDict):
         centre_of_mass: from where the mechanism has it, in the body's frame, (2,), m.
         inertia: about it, kg m^2.
         modes: number of modal coordinates.
+        frequencies: natural ones with all interfaces held in their mean motion, Hz.
     """
 
     mass: float
     centre_of_mass: list[float]
     inertia: float
     modes: int
+    frequencies: NotRequired[list[float]]
 
 
 class Error(TypedDict):

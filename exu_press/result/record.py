@@ -163,6 +163,7 @@ def _info(model: Model, outcome: Outcome, worst: dict[str, Stress]) -> Info:
                 "centre_of_mass": [*part.centre_of_mass],
                 "inertia": part.inertia,
                 "modes": part.reduced.mode_count,
+                "frequencies": part.reduced.fixed_interface_frequencies.tolist(),
             }
             for name, part in model.parts.items()
         }

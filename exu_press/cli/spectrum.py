@@ -1,0 +1,64 @@
+"""Spectra of a run's channels: over frequency, over orders of the crank, over the crank angle."""
+
+import argparse
+from pathlib import Path
+
+from exu_press.errors import InputError
+from exu_press.report.find import Kind, find_output
+from exu_press.result import Result
+
+__all__ = ["EXAMPLE", "add_arguments", "execute"]
+
+EXAMPLE = "exu-press spectrum out/press/run.nc slider_acceleration crank_pin_force.x"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the command's arguments."""
+    parser.add_argument("path", metavar="RUN", help="a run.nc, or the directory that run wrote to")
+    parser.add_argument(
+        "channels",
+        metavar="CHANNEL",
+        nargs="*",
+        help="of the run; NAME.x is a column (default: slider_acceleration)",
+    )
+    parser.add_argument(
+        "--window",
+        default="flattop",
+        metavar="NAME",
+        help="flattop (amplitudes within 0.1%%), hann (narrower) or boxcar (none)",
+    )
+    parser.add_argument("--out", metavar="DIR", help="where to write (default: beside the run)")
+    parser.add_argument(
+        "--format", default=".png", metavar="ENDING", help="of pictures: .png, .svg or .pdf"
+    )
+    parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
+    parser.add_argument("--no-pictures", action="store_true", help="draw nothing")
+
+
+def execute(options: argparse.Namespace) -> int:
+    """Print and draw the spectra; return 0."""
+    from exu_press.output import output_directory
+    from exu_press.studies.spectrum import DEFAULT, marks_of, spectra
+
+    kind, file = find_output(Path(options.path))
+    if kind is not Kind.RUN:
+        raise InputError(f"{options.path}: allowed is a run.nc, or the directory that run wrote to")
+    run = Result.load(file)
+    found = spectra(run, options.channels or [DEFAULT], window=options.window)
+    marks = marks_of(run)
+    written: list[Path] = []
+    directory = output_directory(options.out or file.parent)
+    if not options.no_pictures:
+        from exu_press.plots.file import FORMATS
+        from exu_press.plots.spectrum import save_spectra
+
+        if options.format not in FORMATS:
+            raise InputError(f"--format {options.format}: allowed are {', '.join(FORMATS)}")
+        written = save_spectra(found, run.scene, marks, directory, options.format)
+    if not options.quiet:
+        lines = [line for one in found for line in one.lines()]
+        lines += [f"natural frequency: {mark.name}, {mark.frequency:.4g} Hz" for mark in marks]
+        print("\n".join(lines))
+        if written:
+            print("written:", ", ".join(path.name for path in written), f"in {directory}")
+    return 0

@@ -1,0 +1,95 @@
+"""Spectra of a channel: over frequency, over orders, and over the crank angle."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import LogNorm
+from matplotlib.figure import Figure
+
+from exu_press.plots.file import save_figure
+from exu_press.plots.headed import headed_figure
+from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, styled
+from exu_press.plots.typesetting import plain
+from exu_press.plots.words import describe
+from exu_press.scene import Scene
+from exu_press.signals.spectrum import Spectrum
+from exu_press.studies.spectrum import Mark, Spectra
+
+__all__ = ["draw_spectrum", "save_spectra", "spectrum_figure"]
+
+DECADES = 1e-4
+"""Of the largest amplitude, the smallest that is drawn."""
+
+HIGHEST_ORDER = 60.0
+
+
+def draw_spectrum(axes: Axes, spectrum: Spectrum, unit: str) -> None:
+    """Draw the amplitudes over a logarithmic scale, and the error of the resampling."""
+    axes.plot(spectrum.frequency, spectrum.amplitude, color=COLOURS["blue"], linewidth=0.9)
+    axes.axhline(
+        spectrum.error, color=GREY, linewidth=0.9, linestyle="--", label="error of the resampling"
+    )
+    axes.set_yscale("log")
+    largest = float(spectrum.amplitude.max()) or 1.0
+    axes.set_ylim(DECADES * largest, 2.0 * largest)
+    axes.set_ylabel(plain(f"amplitude, {unit}"))
+
+
+@styled
+def spectrum_figure(one: Spectra, scene: Scene, marks: Sequence[Mark] = ()) -> Figure:
+    """Return the picture of a channel's spectra, with natural frequencies as marks."""
+    over, orders = one.over_time, one.over_angle
+    text = f"{describe([scene], 110)}\n"
+    text += f"{over.cells} cells, window {over.window}, resolution {over.resolution:.3g} Hz"
+    heading = f"Spectrum of {plain(one.name.replace('_', ' '))}"
+    figure = headed_figure(heading, text, (9.5, 9.0 if orders else 6.4))
+    panels = list(figure.subplots(3 if orders else 2, 1, squeeze=False).flat)
+    draw_spectrum(panels[0], over, one.unit)
+    lowest = over.frequency[0]
+    panels[0].set_xscale("log")
+    panels[0].set_xlim(lowest, over.frequency[-1])
+    panels[0].set_xlabel("frequency, Hz")
+    for number, mark in enumerate(m for m in marks if lowest < m.frequency < over.frequency[-1]):
+        colour = list(COLOURS.values())[1 + number % (len(COLOURS) - 1)]
+        panels[0].axvline(
+            mark.frequency, color=colour, linewidth=1.2,
+            label=plain(f"{mark.name}, {mark.frequency:.0f} Hz"),
+        )  # fmt: skip
+    panels[0].legend(loc="lower left", ncols=2)
+    if orders:
+        draw_spectrum(panels[1], orders, one.unit)
+        panels[1].set_xlim(0.0, min(HIGHEST_ORDER, orders.frequency[-1]))
+        panels[1].set_xlabel(f"order, multiples of the crank; revolutions: {one.revolutions}")
+    changing, last = one.changing, panels[-1]
+    largest = float(changing.amplitude.max()) or 1.0
+    image = last.pcolormesh(
+        one.angle,
+        changing.frequency,
+        np.maximum(changing.amplitude, DECADES * largest),
+        norm=LogNorm(DECADES * largest, largest),
+        cmap=PATH_COLOURS,
+        shading="nearest",
+        rasterized=True,
+    )
+    last.grid(visible=False)
+    last.set_yscale("log")
+    last.set_ylim(changing.frequency[0], changing.frequency[-1])
+    last.set_xlabel(f"crank angle, deg (windows of {1e3 * changing.width:.3g} ms)")
+    last.set_ylabel("frequency, Hz")
+    figure.colorbar(image, ax=last, label=plain(f"amplitude, {one.unit}"))
+    return figure
+
+
+def save_spectra(
+    found: Sequence[Spectra], scene: Scene, marks: Sequence[Mark], directory: Path, form: str
+) -> list[Path]:
+    """Write a picture of each channel, spectrum_NAME and the format's ending; return the files."""
+    return [
+        save_figure(
+            spectrum_figure(one, scene, marks),
+            directory / f"spectrum_{one.name.replace('.', '_')}{form}",
+        )
+        for one in found
+    ]

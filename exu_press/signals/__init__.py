@@ -1,0 +1,1 @@
+"""Signals and states over many revolutions: cells, spectra, periods, exponents; arrays only."""

@@ -1,0 +1,144 @@
+"""Amplitudes over frequency of a curve with uneven steps, with the error of the resampling."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.signal import ShortTimeFFT, get_window, periodogram
+
+from exu_press.arrays import Array
+from exu_press.errors import InputError
+from exu_press.signals.cells import cell_means
+
+__all__ = ["WINDOWS", "Spectrogram", "Spectrum", "amplitude_spectrum", "spectrogram"]
+
+WINDOWS = ("flattop", "hann", "boxcar")
+
+FEWEST = 16
+"""Cells, of which a spectrum says something."""
+
+
+@dataclass(frozen=True)
+class Spectrum:
+    """Amplitudes of a curve over frequency; 0 is left out, as the mean is taken away.
+
+    Attributes:
+        frequency: (m,), in 1 over the unit of x: Hz, or orders where x is in revolutions.
+        amplitude: of a sine of that frequency, (m,), in the unit of the values.
+        error: largest change of an amplitude with cells of half the width, or with every other
+            value of the curve left out: what the resampling and the steps leave open.
+        window: its name.
+        resolution: width of the window's main lobe at half its power, as frequency is.
+        cells: number of even cells, each of which has the curve's mean in it.
+    """
+
+    frequency: Array
+    amplitude: Array
+    error: float
+    window: str
+    resolution: float
+    cells: int
+
+
+def amplitude_spectrum(
+    x: Array, values: Array, *, window: str = "flattop", cells: int | None = None
+) -> Spectrum:
+    """Return the amplitude spectrum of a curve.
+
+    The curve is averaged over even cells (`cell_means`), which damps a frequency f by
+    sin(pi f w) / (pi f w), w the cell's width; amplitudes are divided by that. The window is scaled
+    so that a sine has its amplitude: with the flat-top window within 0.1 % wherever it lies between
+    two bins, with Hann's up to 15 % less there, with none (boxcar) exact where a whole number of
+    its periods is in the curve (G. Heinzel et al., Spectrum and spectral density estimation by the
+    DFT, MPI Hannover 2002, table 2 and C.2).
+
+    Args:
+        x: (n,), increasing: s, or revolutions.
+        values: (n,).
+        window: one of WINDOWS.
+        cells: their number; None takes as many as the curve has values.
+
+    Raises:
+        InputError: the window is unknown, or the curve has too few values.
+    """
+    if window not in WINDOWS:
+        raise InputError(f"window = {window!r}: allowed are {', '.join(WINDOWS)}")
+    number = len(x) if cells is None else cells
+    if number < FEWEST or len(x) < FEWEST:
+        few = min(number, len(x))
+        raise InputError(f"a spectrum of {few} values: allowed are {FEWEST} or more")
+    span = float(x[-1] - x[0])
+    frequency, amplitude = _amplitudes(x, values, window, number)
+    finer = _amplitudes(x, values, window, 2 * number)[1][: len(amplitude)]
+    every = np.unique([*range(0, len(x), 2), len(x) - 1])
+    coarser = _amplitudes(x[every], values[every], window, number)[1]
+    error = max(float(np.abs(other - amplitude).max()) for other in (finer, coarser))
+    return Spectrum(frequency, amplitude, error, window, _lobe(window) / span, number)
+
+
+def _amplitudes(x: Array, values: Array, window: str, cells: int) -> tuple[Array, Array]:
+    """Return frequencies and amplitudes, without those of frequency 0 and of the last bin."""
+    edges = np.linspace(x[0], x[-1], cells + 1)
+    rate = cells / (x[-1] - x[0])
+    means = cell_means(x, values, edges)
+    frequency, power = periodogram(means, rate, window, detrend="constant", scaling="spectrum")
+    inner = slice(1, (cells + 1) // 2)
+    found = np.sqrt(2.0 * power[inner]) / np.sinc(frequency[inner] / rate)
+    return np.asarray(frequency[inner]), np.asarray(found)
+
+
+def _lobe(window: str) -> float:
+    """Return the width of a window's main lobe at half its power, in bins."""
+    shape, fine = get_window(window, 256), 256
+    power = np.abs(np.fft.rfft(shape, 256 * fine)) ** 2
+    return 2.0 * float(np.argmax(power < 0.5 * power[0])) / fine
+
+
+@dataclass(frozen=True)
+class Spectrogram:
+    """Amplitudes over frequency as they change.
+
+    Attributes:
+        x: centres of the windows, (k,).
+        frequency: (m,).
+        amplitude: (m, k).
+        width: of a window, as x is.
+    """
+
+    x: Array
+    frequency: Array
+    amplitude: Array
+    width: float
+
+
+def spectrogram(x: Array, values: Array, width: float, *, cells: int | None = None) -> Spectrogram:
+    """Return the amplitudes in Hann windows of a width, each a quarter of it further on.
+
+    Args:
+        x: (n,), increasing.
+        values: (n,).
+        width: of a window, as x is.
+        cells: as in `amplitude_spectrum`.
+
+    Raises:
+        InputError: a window has too few cells, or is wider than the curve.
+    """
+    number = len(x) if cells is None else cells
+    span = float(x[-1] - x[0])
+    length = round(width / span * number)
+    if not FEWEST <= length <= number:
+        raise InputError(
+            f"a spectrogram with windows of {length} of {number} values: allowed are {FEWEST} to "
+            f"{number}"
+        )
+    rate, edges = number / span, np.linspace(x[0], x[-1], number + 1)
+    means = cell_means(x, values, edges)
+    transform = ShortTimeFFT(
+        get_window("hann", length), max(1, length // 4), rate, scale_to="magnitude"
+    )
+    first, last = transform.lower_border_end[1], transform.upper_border_begin(number)[1]
+    found = np.abs(transform.stft_detrend(means, "constant", p0=first, p1=last))
+    frequency = transform.f[1:-1]
+    # one-sided: half of a sine's amplitude is at the negative frequency
+    amplitude = 2.0 * found[1:-1] / np.sinc(frequency / rate)[:, None]
+    centres = x[0] + transform.t(number, p0=first, p1=last)
+    return Spectrogram(np.asarray(centres), np.asarray(frequency), amplitude, length / rate)

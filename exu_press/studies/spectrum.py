@@ -1,0 +1,209 @@
+"""Spectra of a run's channels: over frequency, over orders of the crank, and as they change."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import brentq
+
+from exu_press.arrays import Array
+from exu_press.checks import nearest
+from exu_press.columns import columns
+from exu_press.errors import InputError
+from exu_press.mechanism import GROUND
+from exu_press.quantities.uncertain import significant
+from exu_press.result import Result
+from exu_press.result.channel import AXES
+from exu_press.result.windows import settled
+from exu_press.scene import IdealJoint, mechanism_of
+from exu_press.scene.laws import contact_law
+from exu_press.signals.spectrum import Spectrogram, Spectrum, amplitude_spectrum, spectrogram
+
+__all__ = ["DEFAULT", "Mark", "Spectra", "column_of", "marks_of", "spectra"]
+
+DEFAULT = "slider_acceleration"
+
+FEWEST_CELLS = 512
+"""In a revolution, however long the steps are: orders up to 255."""
+
+WINDOWS_A_REVOLUTION = 12.0
+
+STRONGEST = 5
+"""Lines that are printed."""
+
+
+@dataclass(frozen=True)
+class Mark:
+    """A natural frequency.
+
+    Attributes:
+        name: of what.
+        frequency: Hz.
+    """
+
+    name: str
+    frequency: float
+
+
+@dataclass(frozen=True)
+class Spectra:
+    """Spectra of one curve.
+
+    Attributes:
+        name: of the channel, with its column.
+        unit: of the amplitudes.
+        over_time: amplitudes over frequency, Hz.
+        over_angle: amplitudes over orders, multiples of the crank's frequency; None where the run
+            has no whole revolution.
+        changing: over frequency, Hz, in windows about instants.
+        angle: crank angle at the windows' centres, deg.
+        revolutions: whole ones in `over_angle`.
+    """
+
+    name: str
+    unit: str
+    over_time: Spectrum
+    over_angle: Spectrum | None
+    changing: Spectrogram
+    angle: Array
+    revolutions: int
+
+    def lines(self) -> list[str]:
+        """Return what stands on the terminal."""
+        found = [f"{self.name}, amplitudes in {self.unit}"]
+        for spectrum, unit in ((self.over_time, "Hz"), (self.over_angle, "orders")):
+            if spectrum is None:
+                found.append("  no order spectrum: the run has no whole revolution")
+                continue
+            found.append(
+                f"  over {unit}: {spectrum.cells} cells, window {spectrum.window}, resolution "
+                f"{spectrum.resolution:.4g} {unit}, error of the resampling "
+                f"{significant(spectrum.error, 2)} {self.unit}"
+            )
+            rows = [
+                (f"{spectrum.frequency[k]:.5g} {unit}", f"{spectrum.amplitude[k]:.4g} {self.unit}")
+                for k in _strongest(spectrum)
+            ]
+            found += columns(rows, indent=4)
+        return found
+
+
+def _strongest(spectrum: Spectrum) -> list[int]:
+    """Return the places of the highest peaks above the resolution, by frequency."""
+    padded = np.concatenate([[0.0], spectrum.amplitude, [0.0]])
+    peaks = np.flatnonzero((padded[1:-1] > padded[:-2]) & (padded[1:-1] >= padded[2:]))
+    peaks = peaks[spectrum.frequency[peaks] >= spectrum.resolution]
+    highest = peaks[np.argsort(spectrum.amplitude[peaks])[::-1][:STRONGEST]]
+    return sorted(highest.tolist())
+
+
+def column_of(result: Result, name: str) -> tuple[Array, str]:
+    """Return the values (n,) and the unit of a channel, or of NAME.COLUMN of one with columns.
+
+    Raises:
+        InputError: the run has no such channel, or the channel no such column.
+    """
+    channel, _, column = name.partition(".")
+    if channel not in result:
+        raise InputError(
+            f"channel {channel!r}: this run has none of that name{nearest(channel, list(result))}; "
+            f"allowed are {', '.join(sorted(result))}"
+        )
+    found = result.channels[channel]
+    allowed = AXES.get(found.axis) or tuple(str(k) for k in range(found.values.shape[-1]))
+    if found.values.ndim > 2:
+        raise InputError(f"channel {channel!r}: allowed is one with a value, or columns, a step")
+    if found.values.ndim == 1:
+        if column:
+            raise InputError(f"channel {name!r}: {channel} has no columns; allowed is {channel}")
+        return found.values, found.unit
+    if column not in allowed:
+        each = ", ".join(f"{channel}.{one}" for one in allowed)
+        raise InputError(f"channel {name!r}: allowed is a column of it: {each}")
+    return found.values[:, allowed.index(column)], found.unit
+
+
+def spectra(
+    run: Result, names: Sequence[str] = (DEFAULT,), *, window: str = "flattop"
+) -> list[Spectra]:
+    """Return the spectra of channels, of what quantities are read from (after `settle`).
+
+    Args:
+        run: with channels.
+        names: of channels; NAME.x is a column of one with columns.
+        window: of the spectrum over frequency. The order spectrum is of whole revolutions, and
+            needs none where the motion repeats itself in each of them.
+
+    Raises:
+        InputError: a name or the window is not allowed.
+    """
+    result = settled(run)
+    return [_spectra(result, name, window) for name in names]
+
+
+def _spectra(result: Result, name: str, window: str) -> Spectra:
+    values, unit = column_of(result, name)
+    time, angle = result.time, result["crank_angle"]
+    turns = (angle - angle[0]) / (2.0 * np.pi)
+    cells = max(len(time), int(FEWEST_CELLS * abs(turns[-1])))
+    over_time = amplitude_spectrum(time, values, window=window, cells=cells)
+    whole = int(turns[-1] + 1e-6)
+    over_angle = None
+    if whole and (np.diff(turns) > 0.0).all():
+        last = int(np.searchsorted(turns, whole - 1e-9)) + 1
+        x, y = turns[:last], values[:last]
+        if last == len(turns) or x[-1] > whole + 1e-9:  # ends a rounding beside it, or behind it
+            y = np.append(y[:-1], np.interp(whole, turns, values))
+            x = np.append(x[:-1], float(whole))
+        over_angle = amplitude_spectrum(
+            x, y, window="boxcar", cells=max(len(x), FEWEST_CELLS * whole)
+        )
+    period = 2.0 * np.pi / abs(float(angle[-1] - angle[0])) * float(time[-1] - time[0])
+    width = min(period / WINDOWS_A_REVOLUTION, 0.5 * float(time[-1] - time[0]))
+    changing = spectrogram(time, values, width, cells=cells)
+    centres = np.degrees(np.interp(changing.x, time, angle))
+    return Spectra(name, unit, over_time, over_angle, changing, centres, whole)
+
+
+def marks_of(run: Result) -> list[Mark]:
+    """Return natural frequencies: of flexible bodies, and of journals on their contacts.
+
+    A flexible body's are those with its interfaces held. A journal's is sqrt(k / m) / (2 pi): k
+    the contact's stiffness at the joint's mean force while the surfaces touch, m the reduced mass
+    of the two bodies that the joint connects (of the one where the other is the frame).
+    """
+    found = [
+        Mark(f"{name.replace('_', ' ')}, mode {number}", frequency)
+        for name, solid in run.info.get("solids", {}).items()
+        for number, frequency in enumerate(solid.get("frequencies", ()), start=1)
+    ]
+    return [*found, *_on_contacts(settled(run))]
+
+
+def _on_contacts(result: Result) -> Iterator[Mark]:
+    scene, mechanism = result.scene, mechanism_of(result.scene)
+    compliance = {body.name: 1.0 / body.mass for body in mechanism.bodies} | {GROUND: 0.0}
+    for joint in mechanism.joints:
+        kind = scene.joints[joint.name]
+        if isinstance(kind, IdealJoint) or kind.contact is None:
+            continue
+        away = np.linalg.norm(result[f"{joint.name}_eccentricity"], axis=1)
+        touches = away > kind.clearance
+        both = compliance[joint.journal] + compliance[joint.bearing]
+        if not touches.any() or both == 0.0:
+            continue
+        steps = np.gradient(result.time)
+        forces = np.linalg.norm(result[f"{joint.name}_force"], axis=1)
+        mean = float((forces * steps)[touches].sum() / steps[touches].sum())
+        law = contact_law(kind, revolute=not joint.spherical)
+
+        def missing(depth: float, law: object = law, mean: float = mean) -> float:
+            return float(law.force(depth, 0.0, 1.0)[0]) - mean  # type: ignore[attr-defined]
+
+        deepest = kind.clearance
+        while missing(deepest) < 0.0:
+            deepest *= 2.0
+        depth = float(brentq(missing, 0.0, deepest, xtol=1e-15))
+        stiffness = float(law.force(depth, 0.0, 1.0)[1])
+        words = f"{joint.name.replace('_', ' ')} on its contact"
+        yield Mark(words, float(np.sqrt(stiffness * both)) / (2.0 * np.pi))

@@ -1,0 +1,82 @@
+"""Spectra of a run: the command, its marks, and the names that it refuses."""
+
+import numpy as np
+import pytest
+
+from exu_press import InputError, Result, Scene, simulate
+from exu_press.cli import main
+from exu_press.studies.spectrum import column_of, marks_of, spectra
+
+PIN = {"clearance": 1e-4, "radius": 0.03}
+DRY = Scene(
+    mechanism="slider_crank",
+    joints={"crank_pin": {"kind": "dry", **PIN}},
+    contact={"length": 0.05},
+    revolutions=0.3,
+)
+
+
+@pytest.fixture(scope="module")
+def run():
+    return simulate(DRY)
+
+
+@pytest.fixture(scope="module")
+def ideal():
+    return simulate(Scene(mechanism="slider_crank", revolutions=3.0, solver={"step": 2e-4}))
+
+
+def test_orders_of_an_ideal_slider_are_those_of_its_closed_form(ideal):
+    one = spectra(ideal, ["slider_position"])[0]
+    assert one.revolutions == 2
+    # the travel over an even grid of angles, as the mechanism has it
+    angle, travel = ideal["crank_angle"], ideal["slider_position"]
+    even = angle[-1] - 2.0 * np.pi + 2.0 * np.pi * np.arange(256) / 256
+    series = 2.0 * np.abs(np.fft.rfft(np.interp(even, angle, travel))) / 256
+    for order in (1, 2):
+        place = int(np.argmin(np.abs(one.over_angle.frequency - order)))
+        assert one.over_angle.amplitude[place] == pytest.approx(series[order], rel=1e-3)
+    half = int(np.argmin(np.abs(one.over_angle.frequency - 0.5)))
+    assert one.over_angle.amplitude[half] < 1e-4 * series[1]
+
+
+def test_a_part_of_a_revolution_has_no_orders(run):
+    one = spectra(run)[0]
+    assert one.over_angle is None
+    assert "no order spectrum: the run has no whole revolution" in "\n".join(one.lines())
+
+
+def test_a_journal_on_a_linear_contact_has_its_frequency():
+    stiff = DRY.replace({"contact": {"shape": "point", "stiffness": 1e8, "exponent": 1.0}})
+    mark = marks_of(simulate(stiff))[0]
+    bodies = simulate(stiff.replace("revolutions", 0.01)).scene
+    from exu_press.scene import mechanism_of
+
+    rod = next(b.mass for b in mechanism_of(bodies).bodies if b.name == "rod")
+    crank = next(b.mass for b in mechanism_of(bodies).bodies if b.name == "crank")
+    assert mark.frequency == pytest.approx(
+        np.sqrt(1e8 * (1.0 / rod + 1.0 / crank)) / (2.0 * np.pi), rel=1e-6
+    )
+
+
+def test_the_command(run, tmp_path, capsys):
+    run.save(tmp_path / "run.nc")
+    assert main(["spectrum", str(tmp_path), "slider_velocity", "crank_pin_force.x"]) == 0
+    told = capsys.readouterr().out
+    assert "window flattop" in told
+    assert "natural frequency: crank pin on its contact" in told
+    assert (tmp_path / "spectrum_crank_pin_force_x.png").stat().st_size > 10_000
+    assert main(["spectrum", str(tmp_path), "--window", "round"]) == 2
+    assert main(["spectrum", str(tmp_path), "--format", ".bmp"]) == 2
+    assert Result.load(tmp_path / "run.nc").completed
+
+
+def test_names_that_are_refused(run):
+    with pytest.raises(InputError, match=r"channel 'slider_velocty': this run has none of that na"):
+        column_of(run, "slider_velocty")
+    with pytest.raises(InputError, match=r"a column of it: crank_pin_force.x, crank_pin_force.y"):
+        column_of(run, "crank_pin_force")
+    with pytest.raises(InputError, match="slider_velocity has no columns"):
+        column_of(run, "slider_velocity.x")
+    with pytest.raises(InputError, match="allowed is one with a value, or columns, a step"):
+        column_of(run, "body_position.x")

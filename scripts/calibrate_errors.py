@@ -2,20 +2,25 @@
 
     python scripts/calibrate_errors.py [--scenes 60] [--seed 1] [--minutes 25] [--out DIR]
 
-Presses and slider-cranks, dry, lubricated and mixed, 0.2 to 3 revolutions, clearances of 20 to
-200 um, 60 to 400 rpm, tolerances of 3e-4 to 3e-3, some flexible. Each scene's figures are held
-against those of the same scene at the finest of REFERENCES that is affordable. Beyond the horizon
-no tolerance gives a true value: there MEMBERS further runs at a tenth of the tolerance, which have
-nothing in common with each other, stand for it. Prints the share of figures whose stated error
+All shipped mechanisms and random own ones; ideal, dry, lubricated and mixed joints; all friction
+laws; guides with clearance, motors, loads, fixed steps; tolerances of 3e-5 to 1e-2; 0.1 to 0.35
+revolutions. Each scene's figures are held against those of the same scene at the finest of
+REFERENCES that is affordable, with small largest steps. Beyond the horizon no tolerance gives a
+true value: there MEMBERS further runs at a tenth of the tolerance, which have nothing in common
+with each other, stand for it. Prints, group by group, the share of figures whose stated error
 covers the true one, and, of figures whose true error the reference can tell, how many times as
 large it is in the median. Called again, it goes on where it was stopped, or where its minutes were
 over.
 """
 
 import argparse
+import contextlib
+import io
 import json
+import multiprocessing
 import sys
 import time
+import traceback
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -23,48 +28,176 @@ from typing import Any
 
 import numpy as np
 
-from exu_press import Result, Scene, simulate
-from exu_press.scene import flexible_press
+from exu_press import InputError, Result, Scene, simulate
+from exu_press.mechanism import SHIPPED
+from exu_press.scene import flexible_press, mechanism_of
 from exu_press.verification import simulate_with_errors
 from exu_press.verification.compared import compared
 
 REFERENCES = (1e-7, 1e-6, 1e-5)
 """Tolerances, of which the finest is taken whose run is not expected to take longer than LONGEST.
 """
-LONGEST = 12.0  # s
+LONGEST = 2.0  # s
+
+LIKE_FIXED = 1e-4
+"""Tolerance whose runs take about as long as those with fixed steps."""
+
+FINE_STEP = 0.25
+"""Largest step of references, degrees of the crank: none of the run's own."""
 
 GROWTH = 0.3
 """Power of one over the tolerance with which a run's time goes, measured: 0.2 to 0.3."""
+
+LIMIT = 90.0
+"""s, after which a scene's process is ended."""
+
+A_MINUTE = 60.0  # s
 
 MEMBERS = 4
 APART = 0.01
 """Of the tolerance: by how much those of the members differ."""
 
 
+LAWS = ("none", "coulomb", "stribeck", "lugre_steady", "lugre")
+MECHANISMS = ("press", "slider_crank", *SHIPPED)
+FORCES = {"press": 6e4, "eccentric_press": 6e4, "six_bar": 3e4}
+"""Largest forces of loads, N; of others 1 kN."""
+
+
+def own_mechanism(random: np.random.Generator) -> dict[str, Any]:
+    """Return a random eccentric press: crank, rod, and a slide beside the crank's centre."""
+    crank, aside = float(random.uniform(0.01, 0.15)), float(random.uniform(-0.3, 0.3))
+    rod = crank * float(random.uniform(3.0, 6.0))
+    aside *= crank
+    low = -float(np.sqrt(rod**2 - aside**2)) + crank
+    mass = float(10.0 ** random.uniform(-0.5, 2.0))
+    middle = [0.5 * aside, 0.5 * (low + crank)]
+    slide = mass * float(random.uniform(0.5, 5.0))
+    return {
+        "name": "own",
+        "crank": "wheel",
+        "output": {"body": "slide", "direction": [0, 1]},
+        "bodies": {
+            "wheel": {
+                "centre_of_mass": [0.0, crank * float(random.uniform(0.0, 0.5))],
+                "mass": mass,
+                "inertia": mass * crank**2,
+            },
+            "rod": {
+                "centre_of_mass": middle, "mass": 0.5 * mass, "inertia": mass * rod**2 / 24.0
+            },
+            "slide": {
+                "centre_of_mass": [aside, low], "mass": slide, "inertia": 0.1 * slide * crank**2
+            },
+        },
+        "joints": {
+            "main": {"at": [0.0, 0.0], "journal": "wheel", "bearing": "frame"},
+            "big_end": {"at": [0.0, crank], "journal": "wheel", "bearing": "rod"},
+            "small_end": {"at": [aside, low], "journal": "slide", "bearing": "rod"},
+        },
+        "guides": {"slide": {"direction": [0, 1]}},
+    }  # fmt: skip
+
+
+def one_of(random: np.random.Generator, choices: Sequence[Any]) -> Any:
+    """Return one of some choices."""
+    return choices[int(random.integers(len(choices)))]
+
+
 def random_scene(random: np.random.Generator, longest: float, flexible: float) -> Scene:
-    """Return a random scene of at most `longest` revolutions; some presses are flexible."""
-    press = random.random() < 0.5
-    pin = random.choice(["dry", "lubricated", "mixed"])
-    pin_joint = {
-        "kind": "dry" if pin == "dry" else "lubricated",
-        "clearance": float(10.0 ** random.uniform(-4.7, -3.7)),
-    }
-    given = {
-        "mechanism": "press" if press else "slider_crank",
+    """Return a random scene of 0.1 to `longest` revolutions; some presses are flexible."""
+    while True:
+        try:
+            return Scene.from_dict(_drawn(random, longest, flexible))
+        except InputError:  # a drawn clearance is none of this mechanism, or the like
+            continue
+
+
+def _drawn(random: np.random.Generator, longest: float, flexible: float) -> dict[str, Any]:
+    """Return what may be a scene."""
+    name = one_of(random, (*MECHANISMS, "own", "own"))
+    given: dict[str, Any] = {
+        "mechanism": own_mechanism(random) if name == "own" else name,
         "speed_rpm": float(random.uniform(60.0, 400.0)),
-        "revolutions": float(0.2 * (longest / 0.2) ** random.random()),
+        "revolutions": float(random.uniform(0.1, longest)),
         "start_angle_deg": float(random.uniform(0.0, 360.0)),
-        "joints": {"crank_pin": pin_joint},
-        "solver": {"tolerance": float(10.0 ** random.uniform(-3.5, -2.5))},
+        "joints": {},
+        "solver": {},
     }
-    if pin == "mixed":
-        given["film"] = {"at_contact": "mixed", "viscosity": float(10.0 ** random.uniform(-3, -1))}
-    if press:
-        balls = {"kind": "dry", "clearance": float(10.0 ** random.uniform(-4.7, -3.7))}
-        given["joints"]["balls"] = balls
-        if random.random() < flexible:
-            given["bodies"] = flexible_press()
-    return Scene.from_dict(given)
+    kinds = ("dry", "lubricated", "mixed", "ideal")
+    kind = kinds[int(random.choice(4, p=[0.45, 0.25, 0.15, 0.15]))]
+    mechanism = mechanism_of(Scene.from_dict({"mechanism": given["mechanism"]}))
+    joints = [joint.name for joint in mechanism.joints if not joint.spherical]
+    sizes = {} if name in ("press", "slider_crank", "eccentric_press") else {"radius": 0.02}
+    if kind != "ideal":
+        clearance = float(10.0 ** random.uniform(-4.7, -3.7))
+        given["joints"][one_of(random, joints)] = {
+            "kind": "dry" if kind == "dry" else "lubricated", "clearance": clearance, **sizes
+        }  # fmt: skip
+    if kind in ("lubricated", "mixed"):
+        at_contact = "mixed" if kind == "mixed" else "stop"
+        given["film"] = {"at_contact": at_contact, "viscosity": float(10 ** random.uniform(-2, -1))}
+        if sizes:
+            given["film"]["length"] = 0.03
+    if kind in ("dry", "mixed"):
+        law = one_of(random, LAWS)
+        given["friction"] = {"law": law}
+        if law != "none":
+            given["friction"]["mu_kinetic"] = float(random.uniform(0.05, 0.2))
+        if law not in ("none", "coulomb"):
+            given["friction"]["mu_static"] = 0.25
+        given["contact"] = {}
+        if name != "press":  # its contact is damped by steps
+            given["contact"]["restitution"] = float(random.uniform(0.5, 0.95))
+        if sizes:
+            given["contact"]["length"] = 0.03
+    if mechanism.guides and random.random() < 0.25:
+        law = one_of(random, LAWS)
+        given["guide"] = {"clearance": float(10.0 ** random.uniform(-5.0, -4.0)), "friction": law}
+    if random.random() < 0.2:
+        given["drive"] = {"inertia": float(10.0 ** random.uniform(1.0, 2.5))}
+    if random.random() < 0.3:
+        force = FORCES.get(name, 1e3) * float(random.uniform(0.1, 1.0))
+        end = float(given["start_angle_deg"] + 360.0 * given["revolutions"] * random.random())
+        given["load"] = {"blow": {"kind": "blanking", "force": force, "end_angle_deg": end % 360.0}}
+    if random.random() < 0.15:
+        given["solver"] = {"step": float(10.0 ** random.uniform(-5.5, -4.0))}
+    else:
+        given["solver"] = {"tolerance": float(10.0 ** random.uniform(-4.5, -2.0))}
+    if name == "press" and random.random() < flexible:
+        given["bodies"] = flexible_press()
+    return given
+
+
+def groups_of(scene: Scene) -> list[str]:
+    """Return the groups of the table that a scene counts in."""
+    solver, friction, guide = scene.solver, scene.friction, scene.guide
+    assert solver is not None
+    own = not isinstance(scene.mechanism, str)
+    kinds = {kind.kind for kind in scene.joints.values()}
+    found = ["mechanism: own" if own else f"mechanism: {scene.mechanism}"]
+    for kind in ("dry", "lubricated"):
+        if kind in kinds:
+            mixed = kind == "lubricated" and scene.film and scene.film.at_contact == "mixed"
+            found.append(f"joints: {'mixed' if mixed else kind}")
+    if not scene.joints.with_clearance:
+        found.append("joints: ideal")
+    if friction is not None and (kinds & {"dry"} or "joints: mixed" in found):
+        found.append(f"friction: {friction.law}")
+    if guide and guide.clearance:
+        found += ["guide with clearance", f"friction of ways: {guide.friction}"]
+    if scene.drive is not None:
+        found.append("motor")
+    if scene.load:
+        found.append("load")
+    if scene.bodies:
+        found.append("flexible")
+    if solver.step is not None:
+        found.append("steps: fixed")
+    elif solver.tolerance is not None:
+        fine = solver.tolerance < 1e-3
+        found.append(f"tolerance: {'below' if fine else 'from'} 1e-3{'' if fine else ' on'}")
+    return found
 
 
 def references(run: Result, cost: float) -> tuple[str, list[Result]]:
@@ -74,25 +207,55 @@ def references(run: Result, cost: float) -> tuple[str, list[Result]]:
         run: with its errors.
         cost: processor time that it took, with its companions, s.
     """
-    assert run.scene.solver is not None and run.scene.solver.tolerance is not None
-    tolerance = run.scene.solver.tolerance
+    solver = run.scene.solver
+    assert solver is not None
+    tolerance = solver.tolerance or LIKE_FIXED
+    as_tolerance = run.scene.replace({"solver.step": None, "solver.tolerance": tolerance})
     if run.info["horizon"] is None:
         for finest in REFERENCES:
             if 0.5 * cost * (tolerance / finest) ** GROWTH < LONGEST:
                 break
-        return f"{finest:.0e}", [simulate(run.scene.replace("solver.tolerance", finest))]
+        finest = min(finest, 0.1 * tolerance)
+        fine = {"solver.tolerance": finest, "solver.max_step_deg": FINE_STEP}
+        return f"{finest:.0e}", [simulate(as_tolerance.replace(fine))]
     members = [
-        simulate(run.scene.replace("solver.tolerance", 0.1 * tolerance * (1.0 + APART * number)))
+        simulate(as_tolerance.replace("solver.tolerance", 0.1 * tolerance * (1.0 + APART * number)))
         for number in range(MEMBERS)
     ]
     return f"{MEMBERS} runs", members
 
 
-def judged(scene: Scene) -> dict[str, Any]:
+def judged(number: int, scene: Scene) -> dict[str, Any]:
     """Return a scene's row; of each figure name, share covered, ratio and whether determined."""
-    begun = time.process_time()
-    run = simulate_with_errors(scene, beside=False)
-    words, others = references(run, time.process_time() - begun)
+    begun, clock = time.process_time(), time.monotonic()
+    row: dict[str, Any] = {
+        "number": number,
+        "groups": groups_of(scene),
+        "status": "refused",
+        "reference": "-",
+        "horizon": None,
+        "figures": [],
+    }
+    said = io.StringIO()
+    try:
+        with contextlib.redirect_stderr(said):
+            run = simulate_with_errors(scene, beside=False, quiet=False)
+        row |= {"status": run.info["status"], "horizon": run.info["horizon"]}
+        row["seconds_to_errors"] = time.monotonic() - clock
+        if run.completed:
+            row["reference"], others = references(run, time.process_time() - begun)
+            row["figures"] = held_against(run, others)
+    except InputError as error:
+        row["reason"] = str(error)
+    except Exception:  # the campaign is to find them
+        row |= {"status": "traceback", "reason": traceback.format_exc()}
+    row["said"] = " ".join(said.getvalue().split("\n")[:1])
+    row["seconds"] = time.monotonic() - clock
+    return row
+
+
+def held_against(run: Result, others: Sequence[Result]) -> list[list[Any]]:
+    """Return the figures of a run with its errors beside those of others."""
     every: dict[str, list[Any]] = {}
     for other in others:
         if other.completed:
@@ -105,26 +268,7 @@ def judged(scene: Scene) -> dict[str, Any]:
             covered = float(np.mean([one.covered for one in several]))
             ratio = float(np.median(ratios)) if ratios else None
             rows.append([name, covered, ratio, several[0].told["determined"]])
-    return {
-        "scene": in_words(scene),
-        "status": run.info["status"],
-        "reference": words,
-        "horizon": run.info["horizon"],
-        "seconds": time.process_time() - begun,
-        "figures": rows,
-    }
-
-
-def in_words(scene: Scene) -> str:
-    """Return what kind of scene it is."""
-    assert scene.solver is not None
-    pin = scene.joints["crank_pin"].kind
-    film = "mixed" if scene.film and scene.film.at_contact == "mixed" else pin
-    bodies = ", flexible" if scene.bodies else ""
-    return (
-        f"{scene.mechanism}{bodies}, {film}, {scene.revolutions:.2f} revolutions, "
-        f"tolerance {scene.solver.tolerance:.1e}"
-    )
+    return rows
 
 
 def summed(label: str, figures: Sequence[Sequence[Any]]) -> str:
@@ -138,31 +282,67 @@ def summed(label: str, figures: Sequence[Sequence[Any]]) -> str:
 
 
 def report_lines(rows: Sequence[dict[str, Any]]) -> Iterator[str]:
-    """Yield a line a scene, then what all of them say."""
-    for number, row in enumerate(rows, 1):
-        horizon = "" if row["horizon"] is None else f", horizon {row['horizon']:.3g} s"
-        yield summed(f"{number:3d} {row['scene']}{horizon}; {row['reference']}", row["figures"])
-    every = [(row, figure) for row in rows for figure in row["figures"]]
-    yield ""
-    for words in dict.fromkeys(row["reference"] for row in rows):
-        count = sum(row["reference"] == words for row in rows)
-        some = [figure for row, figure in every if row["reference"] == words]
-        yield summed(f"against {words} ({count} scenes)", some)
-    yield summed("determined", [figure for _, figure in every if figure[-1]])
-    yield summed("not determined", [figure for _, figure in every if not figure[-1]])
-    yield summed(f"all {len(rows)} scenes", [figure for _, figure in every])
-    missed = Counter(figure[0].split(".")[-1] for _, figure in every if figure[1] < 0.5)
-    most = ", ".join(f"{name} ({count})" for name, count in missed.most_common(5))
+    """Yield a line a group, then what all of them say."""
+    judged_rows = [row for row in rows if row["figures"]]
+    every = [(row, figure) for row in judged_rows for figure in row["figures"]]
+    yield f"{'group':32s} {'scenes':>6s} {'figures':>7s} {'covered':>8s} {'stated/true':>11s}"
+    groups = sorted({group for row in judged_rows for group in row["groups"]})
+    for group in groups:
+        yield in_a_row(group, [(row, one) for row, one in every if group in row["groups"]])
+    for reference in sorted({row["reference"] for row in judged_rows}):
+        some = [(row, one) for row, one in every if row["reference"] == reference]
+        yield in_a_row(f"against {reference}", some)
+    yield in_a_row("determined", [(row, one) for row, one in every if one[-1]])
+    yield in_a_row("not determined", [(row, one) for row, one in every if not one[-1]])
+    yield in_a_row("all", every)
+    missed = Counter(one[0].split(".")[-1] for _, one in every if one[1] < 0.5)
+    most = ", ".join(f"{name} ({count})" for name, count in missed.most_common(8))
     yield f"not covered most often: {most or 'none'}"
+    ends = Counter(row["status"] for row in rows)
+    yield "how they ended: " + ", ".join(f"{end} ({count})" for end, count in ends.most_common())
+    long = [row for row in rows if row.get("seconds_to_errors", row["seconds"]) > A_MINUTE]
+    silent = sum(not row["said"] for row in long)
+    yield f"longer than a minute: {len(long)}, of which {silent} had not said so"
+
+
+def in_a_row(label: str, figures: Sequence[tuple[dict[str, Any], Sequence[Any]]]) -> str:
+    """Return a line of the table on figures as rows have them."""
+    if not figures:
+        return f"{label:32s} {0:6d}"
+    scenes = len({row["number"] for row, _ in figures})
+    ratios = [one[2] for _, one in figures if one[2] is not None]
+    ratio = f"{np.median(ratios):.1f}" if ratios else "-"
+    covered = np.mean([one[1] for _, one in figures])
+    return f"{label:32s} {scenes:6d} {len(figures):7d} {covered:8.1%} {ratio:>11s}"
+
+
+def in_a_process(number: int, scene: Scene) -> dict[str, Any]:
+    """Return a scene's row from a process of its own, which may die or take too long."""
+    context = multiprocessing.get_context("fork")
+    here, there = context.Pipe(duplex=False)
+    process = context.Process(target=lambda: there.send(judged(number, scene)))
+    begun = time.monotonic()
+    process.start()
+    there.close()
+    row: dict[str, Any] = {"status": f"longer than {LIMIT:.0f} s", "said": "not known"}
+    try:
+        if here.poll(LIMIT):
+            row = here.recv()
+    except EOFError:
+        row = {"status": "process died", "said": ""}
+    process.kill()
+    process.join()
+    empty = {"number": number, "groups": groups_of(scene), "figures": [], "reference": "-"}
+    return {**empty, "seconds": time.monotonic() - begun, **row, "scene": scene.to_dict()}
 
 
 def main(arguments: list[str]) -> None:
     """Judge random scenes and print what came out."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("--scenes", type=int, default=60)
+    parser.add_argument("--scenes", type=int, default=200)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--minutes", type=float, default=25.0, help="no scene is begun later")
-    parser.add_argument("--longest", type=float, default=3.0, help="revolutions")
+    parser.add_argument("--longest", type=float, default=0.35, help="revolutions")
     parser.add_argument("--flexible", type=float, default=0.1, help="share of the presses")
     parser.add_argument("--out", default="out/calibration", help="where finished scenes are kept")
     options = parser.parse_args(arguments)
@@ -172,10 +352,13 @@ def main(arguments: list[str]) -> None:
     end = time.monotonic() + 60.0 * options.minutes
     while len(rows) < options.scenes and time.monotonic() < end:
         random = np.random.default_rng([options.seed, len(rows)])
-        rows.append(judged(random_scene(random, options.longest, options.flexible)))
+        scene = random_scene(random, options.longest, options.flexible)
+        rows.append(in_a_process(len(rows), scene))
         with file.open("a", encoding="utf-8") as stream:
             stream.write(json.dumps(rows[-1]) + "\n")
-        print(summed(f"{len(rows):3d} {rows[-1]['scene']}", rows[-1]["figures"]), file=sys.stderr)
+        label = f"{len(rows):3d} {rows[-1]['status']} {rows[-1]['seconds']:.0f} s"
+        words = summed(f"{label} {', '.join(rows[-1]['groups'])}", rows[-1]["figures"])
+        print(words, file=sys.stderr, flush=True)
     print("\n".join(report_lines(rows)))
 
 

@@ -30,7 +30,7 @@ class JointState:
             about its axis.
         angular_velocities: the angular velocities that the moments act on, rad/s.
         gap: clearance - |eccentricity|, m: the film's least thickness, or minus the penetration.
-        stored_energy: elastic energy of the contact, J.
+        stored_energy: elastic energy of the contact, and what bristles have taken up so far, J.
         stored_power: its rate, W.
     """
 

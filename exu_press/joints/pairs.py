@@ -94,8 +94,8 @@ class Pair:
         """Return the elastic energy at an eccentricity, J; none unless the pair says so."""
         return 0.0
 
-    def stored_force(self, e: float) -> float:
-        """Return the derivative of the elastic energy with respect to |e|, N."""
+    def stored_power(self, e: float, e_dot: float) -> float:
+        """Return the rate of the stored energy, W."""
         return 0.0
 
     def begin_step(self, step: float, accepted: bool) -> None:
@@ -147,6 +147,8 @@ class DryPair(Pair):
         self.approach = Approach()
         self._step = 0.0
         self._next_bristle = 0.0
+        self._normal = self._normal_before = 0.0
+        self._in_bristles = 0.0
         self._sliding: float | None = None
         self._sliding_before: float | None = None
 
@@ -170,10 +172,12 @@ class DryPair(Pair):
         if self.stateful:
             self._next_bristle = bristle
             self._sliding = sliding
+            self._normal = 0.0
             speed = self.approach.speed(penetration, e_dot)
             if penetration <= 0.0:
                 return None
         normal, stiffness, damping = self.contact.force(penetration, e_dot, speed)
+        self._normal = normal
         return self._loaded(e, normal, (mu, slope, normal, stiffness, damping))
 
     def _loaded(self, e: float, normal: float, response: Response) -> Load:
@@ -201,25 +205,43 @@ class DryPair(Pair):
         return self.radius, -(self.radius + e), 0.0, -1.0
 
     def stored_energy(self, e: float) -> float:
-        """Return the elastic energy of the penetration."""
-        return self.contact.elastic_energy(e - self.clearance - self.drift)
+        """Return the elastic energy of the penetration, and what the bristles have taken up."""
+        return (
+            self.contact.elastic_energy(e - self.clearance - self.drift)
+            + self._in_bristles
+            + self._into_bristles()
+        )
 
-    def stored_force(self, e: float) -> float:
-        """Return the elastic part of the normal force."""
+    def _into_bristles(self) -> float:
+        """Return what bristles have taken up in the last step, J, at its mean normal force."""
+        if not isinstance(self.friction, LuGre):
+            return 0.0
+        bent = self.friction.stored(self._next_bristle) - self.friction.stored(self.bristle)
+        return 0.5 * (self._normal + self._normal_before) * bent
+
+    def stored_power(self, e: float, e_dot: float) -> float:
+        """Return the power into the elastic part of the contact, and into the bristles."""
         depth = e - self.clearance - self.drift
-        return self.contact.stiffness.force(depth)[0] if depth > 0.0 else 0.0
+        power = self.contact.stiffness.force(depth)[0] * e_dot if depth > 0.0 else 0.0
+        if isinstance(self.friction, LuGre) and self._sliding is not None:
+            rate = self.friction.stored_power(self._sliding, self._next_bristle)
+            power += self._normal * rate
+        return power
 
     def begin_step(self, step: float, accepted: bool) -> None:
         """Keep bristle deflection and approach speed of the last step if it was accepted."""
         if accepted:
+            self._in_bristles += self._into_bristles()
             self.bristle = self._next_bristle
             self._sliding_before = self._sliding
+            self._normal_before = self._normal
             self.approach.accept()
         self._step = step
 
     def reset(self) -> None:
         """Relax the bristle."""
-        self.bristle = self._next_bristle = 0.0
+        self.bristle = self._next_bristle = self._in_bristles = 0.0
+        self._normal = self._normal_before = 0.0
         self._sliding = self._sliding_before = None
         self.approach.reset()
 
@@ -368,7 +390,7 @@ class PairedJoint:
             angular_velocities=(w_j, w_b),
             gap=self.clearance - e,
             stored_energy=sum(pair.stored_energy(e) for pair in self.pairs),
-            stored_power=sum(pair.stored_force(e) for pair in self.pairs) * e_dot,
+            stored_power=sum(pair.stored_power(e, e_dot) for pair in self.pairs),
         )
 
     def begin_step(self, step: float, accepted: bool) -> None:

@@ -46,6 +46,7 @@ class SpatialSpherical:
         self._next_bristle: Array = np.zeros(3)
         self._sliding: Array | None = None
         self._sliding_before: Array | None = None
+        self._normal = self._normal_before = self._in_bristles = 0.0
         self._e = self._step = 0.0
         self.reset()
 
@@ -54,8 +55,10 @@ class SpatialSpherical:
         if accepted:
             depth = self._e - self.reach
             self.path.go_on(self.eccentricity, self.relative_velocity, self._step, depth)
+            self._in_bristles += self._into_bristles()
             self._bristle = self._next_bristle
             self._sliding_before = self._sliding
+            self._normal_before = self._normal
             self._approach.accept()
         self._step = step
 
@@ -66,6 +69,7 @@ class SpatialSpherical:
         self._n, self._relative = np.array([1.0, 0.0, 0.0]), np.zeros(3)
         self._bristle = np.zeros(3)
         self._next_bristle = self._bristle
+        self._normal = self._normal_before = self._in_bristles = 0.0
         self._sliding = self._sliding_before = None
         self._approach.reset()
         self._touching = False
@@ -144,9 +148,30 @@ class SpatialSpherical:
             moments=tuple(moments.tolist()),
             angular_velocities=tuple(self._omegas.tolist()),
             gap=-depth,
-            stored_energy=self._contact.elastic_energy(pressed),
-            stored_power=elastic * float(self._n @ self._relative),
+            stored_energy=self._contact.elastic_energy(pressed)
+            + self._in_bristles
+            + self._into_bristles(),
+            stored_power=elastic * float(self._n @ self._relative) + self._power_of_bristles(),
         )
+
+    def _into_bristles(self) -> float:
+        """Return what bristles have taken up in the last step, J, at its mean normal force."""
+        if not isinstance(self._friction, LuGre):
+            return 0.0
+        before, after = (
+            self._friction.stored(float(np.linalg.norm(z)))
+            for z in (self._bristle, self._next_bristle)
+        )
+        return 0.5 * (self._normal + self._normal_before) * (after - before)
+
+    def _power_of_bristles(self) -> float:
+        """Return the rate of what the bristles store, W."""
+        if not isinstance(self._friction, LuGre) or self._sliding is None:
+            return 0.0
+        z, speed = self._next_bristle, float(np.linalg.norm(self._sliding))
+        relaxes = self._friction.rate(speed, 1.0) - speed
+        rate = self._sliding + relaxes * z
+        return self._normal * self._friction.sigma_0 * float(z @ rate)
 
     def _move(self, q: list[float], q_t: list[float]) -> None:
         """Find eccentricity, velocities and forces."""
@@ -159,6 +184,7 @@ class SpatialSpherical:
         self._relative = np.subtract(ball.velocity, socket.velocity)
         self._omegas = np.concatenate([ball.angular_velocity, socket.angular_velocity])
         self._normal_force = self._drag = np.zeros(3)
+        self._normal = 0.0
         penetration = e - self.clearance - self.path.drift
         self._touching = penetration > 0.0
         if not self._touching and not self._stateful:
@@ -174,7 +200,8 @@ class SpatialSpherical:
         speed = self._approach.speed(penetration, rate)
         if self._touching:
             self._law = self._contact.force(penetration, rate, speed)
-            self._normal_force = -self._law[0] * n
+            self._normal = self._law[0]
+            self._normal_force = -self._normal * n
             self._drag = -self._law[0] * self._mu
             self._drag_by_sliding = -self._law[0] * by_sliding
 

@@ -16,7 +16,7 @@ PASSIVE = 4.0 * sqrt(2.0 * exp(1.0))
 """sigma_1 v_d / mu_k: the largest one with which LuGre's bristle makes no energy."""
 
 SMALL = 1e-9
-"""Share of the bristle's time constant: in a shorter step its rate is constant."""
+"""Share of the bristle's distance g / sigma_0: over a shorter one its rate is constant."""
 
 Friction = Callable[[float], tuple[float, float]]
 
@@ -227,10 +227,10 @@ class LuGre:
     Notes
     -----
     Range: any speed. In steady sliding mu is `lugre_steady`, for small displacements it is the
-    spring sigma_0. At a constant normal force it is passive; so is a
-    step at constant speed. In a step in which the speed changes sign it may give back more than it
-    has stored; the smaller the step, the less. A normal force that
-    grows stretches the bristles that it adds, as the model has it: that is work of nobody.
+    spring sigma_0. At a constant normal force it is passive: in every state mu v is at least
+    `stored_power`, and in every step, whatever the speeds at its ends, the bristle's
+    force does at least the work that the bristle then stores. A normal force that grows stretches
+    the bristles that it adds, as the model has it: that is work of nobody.
 
     Examples
     --------
@@ -270,11 +270,14 @@ class LuGre:
     ) -> tuple[float, float, float]:
         """One step: (mu, dmu/dv at fixed z0, h and v_start, z1).
 
-        The bristle's equation is linear in z at a given speed, so that the mean speed of the step
-        gives z1 in closed form (exponential midpoint rule): of second order where the speed is
-        smooth, and stable however far the bristle's time constant g / (sigma_0 |v|) is below h.
-        With h = 0 it is the value at z0 itself. Commit z1 only when the step is accepted. dmu/dv
-        has a jump where the speed is zero; there it is the mean.
+        The speed goes linearly from start to end. Over the distance slid, the bristle's equation is
+        linear, dz/ds = sgn(v) - sigma_0 z / g, so that a stretch in one direction gives its end in
+        closed form, with g at the stretch's mean speed. A step in which the speed changes sign has
+        two stretches. That is of second order where the speed is smooth, and stable however far the
+        distance g / sigma_0 is below a stretch. On every stretch the bristle's force does at
+        least the work that the bristle then stores. With h = 0 it is the value at z0 itself.
+        Commit z1 only when the step is accepted. dmu/dv has a jump where the speed is zero; there
+        it is the mean.
 
         Args:
             v: sliding speed at the end, m/s.
@@ -282,15 +285,20 @@ class LuGre:
             h: size of the step, s.
             v_start: sliding speed at the start, m/s; v unless given.
         """
-        mean, part_of_v = (v, 1.0) if v_start is None else (0.5 * (v + v_start), 0.5)
-        g, v_times_slope = self._curve(mean)
-        relaxation = self.sigma_0 * abs(mean) / g  # [1/s]
-        decay = exp(-h * relaxation)
-        average = (1.0 - decay) / (h * relaxation) if h * relaxation > SMALL else 1.0
-        z1 = z0 + h * average * (mean - relaxation * z0)
-        bent = _sign(mean) * self.sigma_0 * z0 / g
-        bend = v_times_slope / g
-        z1_slope = part_of_v * h * (average * bend + decay * (1.0 - bend) * (1.0 - bent))
+        if v_start is None:
+            z1, by_stretch, by_mean, _ = self._slid(h * v, v, z0)
+            z1_slope = by_stretch * h + by_mean
+        elif v * v_start >= 0.0:
+            mean = 0.5 * (v + v_start)
+            z1, by_stretch, by_mean, _ = self._slid(h * mean, mean, z0)
+            z1_slope = 0.5 * (by_stretch * h + by_mean)
+        else:
+            change = v - v_start
+            there, back = -0.5 * h * v_start * v_start / change, 0.5 * h * v * v / change
+            turned, by_there, _, _ = self._slid(there, 0.5 * v_start, z0)
+            z1, by_back, by_mean, by_start = self._slid(back, 0.5 * v, turned)
+            z1_slope = by_back * (h * v - back) / change + 0.5 * by_mean
+            z1_slope -= by_start * by_there * there / change
 
         g, v_times_slope = self._curve(v)
         relaxation = self.sigma_0 * abs(v) / g
@@ -302,6 +310,28 @@ class LuGre:
         slope = self.sigma_0 * z1_slope + damping * z_dot_slope + self.sigma_2
         return mu, slope + damping_slope * z_dot, z1
 
+    def _slid(self, stretch: float, mean: float, z0: float) -> tuple[float, float, float, float]:
+        """Return z1 [m] after a stretch in one direction, and its derivatives.
+
+        By the stretch [-], the mean speed [s] and z0 [-].
+
+        Args:
+            stretch: distance, signed, m.
+            mean: its mean speed, of the same sign or 0, m/s.
+            z0: deflection at its start, m.
+        """
+        g, v_times_slope = self._curve(mean)
+        direction = _sign(mean)
+        over = self.sigma_0 * abs(stretch) / g
+        decay = exp(-over)
+        average = (1.0 - decay) / over if over > SMALL else 1.0
+        bent = direction * self.sigma_0 * z0 / g
+        z1 = z0 + stretch * average * (1.0 - bent)
+        by_mean = 0.0
+        if mean != 0.0:
+            by_mean = v_times_slope / g * (stretch / mean) * (average - decay * (1.0 - bent))
+        return z1, decay * (1.0 - bent), by_mean, decay
+
     def damping(self, v: float) -> tuple[float, float]:
         """sigma_1(v) [s/m] and its derivative [s^2/m^2]."""
         falling = self.sigma_1 / (PASSIVE * self.mu_kinetic)  # 1 / v_d
@@ -312,6 +342,14 @@ class LuGre:
     def rate(self, v: float, z: float) -> float:
         """z_dot [m/s] of the bristle's differential equation."""
         return v - self.sigma_0 * abs(v) * z / self._curve(v)[0]
+
+    def stored(self, z: float) -> float:
+        """Energy of a bristle per normal force, J/N."""
+        return 0.5 * self.sigma_0 * z * z
+
+    def stored_power(self, v: float, z: float) -> float:
+        """Rate of `stored` in a state, W/N."""
+        return self.sigma_0 * z * self.rate(v, z)
 
     def _curve(self, v: float) -> tuple[float, float]:
         """Stribeck's curve (g, v dg/dv); the product is finite at v = 0 for every exponent."""

@@ -7,8 +7,8 @@ import numpy as np
 from exu_press.arrays import Array
 from exu_press.joints import ClearanceJoint, JointState, history, overlay_of
 from exu_press.model import Model
+from exu_press.piecewise import integral
 from exu_press.result.channel import Channel
-from exu_press.result.energy import work
 from exu_press.result.forces import vectors
 from exu_press.result.motion import sensor
 
@@ -35,11 +35,13 @@ def states_of(
 
 
 def stored_and_lost(states: Sequence[JointState], time: Array) -> tuple[Array, Array]:
-    """Return what a joint stores and what it has dissipated since the start, (n,), J."""
-    elastic = np.array([state.stored_energy for state in states])
-    loads = np.array([state.force + state.moments for state in states])
-    rates = np.array([state.velocity + state.angular_velocities for state in states])
-    return elastic, -work(time, loads, rates) - (elastic - elastic[0])
+    """Return what a joint stores and what it has dissipated since the start, (n,), J.
+
+    What is dissipated is the integral of a power that is nowhere negative. As the difference of
+    two larger energies, work and what is stored, it would fall where an impact gives back.
+    """
+    stored = np.array([state.stored_energy for state in states])
+    return stored, integral(time, np.array([state.dissipated_power for state in states]))
 
 
 def moments_in_plane(state: JointState) -> tuple[float, float]:

@@ -71,7 +71,7 @@ def test_canudas_de_wit_1995_stick_slip_by_advance_is_first_order() -> None:
 
 
 def test_the_bristle_is_of_second_order() -> None:
-    """In a given, smooth motion with reversals, against its differential equation."""
+    """In a given, smooth motion, against its differential equation."""
     friction = LuGre(0.24, 0.21, 7e3, 400.0, 0.0, 0.01, 2.0)
 
     def speed(t: float) -> float:
@@ -89,6 +89,17 @@ def test_the_bristle_is_of_second_order() -> None:
     errors = [abs(stepped(count) - exact) for count in (200, 400, 800)]
     orders = [math.log2(a / b) for a, b in itertools.pairwise(errors)]
     assert orders == pytest.approx([2.0, 2.0], abs=0.1)
+
+
+def test_a_reversal_may_be_anywhere_in_a_step() -> None:
+    """A linear speed through zero in steps far above the bristle's time constant."""
+    friction = LuGre(0.21, 0.21, 1e5, 400.0, 0.0, 0.01, 2.0)
+    exact = solve_ivp(
+        lambda t, z: [friction.rate(0.01 - 10.0 * t, z[0])],
+        (0.0, 2.1e-3), [2.1e-6], rtol=1e-11, atol=1e-16,
+    ).y[0, -1]  # fmt: skip
+    assert friction.advance(-0.011, 2.1e-6, 2.1e-3, 0.01)[2] == pytest.approx(exact, rel=1e-6)
+    assert exact < -1.5e-6
 
 
 def test_canudas_de_wit_1995_presliding_loop_closes() -> None:
@@ -178,8 +189,7 @@ def test_the_scene_that_made_energy() -> None:
     result = simulate(scene)
     lost = result["energy_dissipated"]
     assert result.info["status"] == "completed"
-    # a bristle that relaxes gives back what it has stored, which is not counted as stored
-    assert lost[-1] > 0.0 and np.diff(lost).min() > -1e-4 * lost[-1]
+    assert lost[-1] > 0.0 and np.diff(lost).min() > -1e-5 * lost[-1]
 
 
 def test_bristle_derivative_against_finite_differences() -> None:
@@ -190,8 +200,9 @@ def test_bristle_derivative_against_finite_differences() -> None:
             v = rng.choice((-1, 1)) * 10 ** rng.uniform(-5, 0)
             z, h = rng.uniform(-2e-6, 2e-6), rng.choice((0.0, 1e-7, 1e-5, 1e-3))
             d = 1e-5 * abs(v)
-            low, high = (friction.advance(v + s * d, z, h)[0] for s in (-1, 1))
-            slope = friction.advance(v, z, h)[1]
+            start = rng.choice((None, rng.uniform(-2.0, 2.0) * v))
+            low, high = (friction.advance(v + s * d, z, h, start)[0] for s in (-1, 1))
+            slope = friction.advance(v, z, h, start)[1]
             tolerance = 1e-6 * abs(slope) + 1e-11 * abs(high) / d
             assert (high - low) / (2 * d) == pytest.approx(slope, abs=tolerance)
         for h in (0.0, 1e-4):  # v = 0: the mean of the two sides

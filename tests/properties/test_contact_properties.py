@@ -2,6 +2,7 @@
 
 import math
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -137,14 +138,54 @@ signed_speeds = st.builds(
 )
 
 
+histories = st.lists(st.tuples(signed_speeds, logarithmic(1e-8, 1e-2)), max_size=30)
+
+
+def work_on_a_bristle(friction, v_start, v, z, h):
+    """Work per normal force, along the step, on the bristle's spring; its end.
+
+    Of a stretch in one direction: sigma_0 times the integral of z over the distance, from the
+    bristle's equation.
+    """
+    stretches = [(v_start, v, h)]
+    if v_start * v < 0.0:
+        until = h * v_start / (v_start - v)
+        stretches = [(v_start, 0.0, until), (0.0, v, h - until)]
+    work = 0.0
+    for before, after, time in stretches:
+        mean = 0.5 * (before + after)
+        end = friction.advance(after, z, time, before)[2]
+        g = friction.mu_kinetic + (friction.mu_static - friction.mu_kinetic) * math.exp(
+            -(abs(mean / friction.stribeck_velocity) ** friction.stribeck_exponent)
+        )
+        work += g * (time * abs(mean) - math.copysign(1.0, mean) * (end - z))
+        z = end
+    return work, z
+
+
 @settings(max_examples=300, deadline=None)
-@given(passive_bristles, st.lists(st.tuples(signed_speeds, logarithmic(1e-8, 1e-2)), max_size=30))
+@given(passive_bristles, histories)
 def test_a_bristle_makes_no_energy(friction, history):
-    """Work done on it is never less than what it stores, in any history of sliding."""
-    z = 0.0
+    """In any history, reversals within a step included, whatever the size of its steps."""
+    z, v_start = 0.0, None
     for v, h in history:
-        mu, _, z_next = friction.advance(v, z, h)
-        stored = 0.5 * friction.sigma_0 * (z_next**2 - z**2)
-        work = mu * v * h
-        assert work - stored >= -1e-12 * (abs(work) + abs(stored))
-        z = z_next
+        mu, _, following = friction.advance(v, z, h, v_start)
+        work, end = work_on_a_bristle(friction, v if v_start is None else v_start, v, z, h)
+        stored = friction.stored(following) - friction.stored(z)
+        size = friction.mu_static * h * max(abs(v), abs(v_start or v)) + friction.stored(z)
+        assert following == pytest.approx(end, rel=1e-6, abs=1e-9 / friction.sigma_0)
+        assert work - stored >= -1e-9 * size
+        assert mu * v - friction.stored_power(v, following) >= -1e-12 * abs(mu * v)
+        z, v_start = following, v
+
+
+@settings(max_examples=300, deadline=None)
+@given(passive_bristles, signed_speeds, logarithmic(1e-8, 1e-2), st.floats(-1.0, 1.0), st.data())
+def test_after_a_reversal_within_a_step_friction_is_against_the_motion(friction, v, h, bent, data):
+    """Unless the way back is as short as a bristle bends."""
+    v_start = -v * data.draw(logarithmic(1e-3, 1e3))
+    z = bent * friction.mu_static / friction.sigma_0
+    back = 0.5 * h * v * v / abs(v - v_start)
+    mu, _, _ = friction.advance(v, z, h, v_start)
+    if back > friction.mu_static / friction.sigma_0:
+        assert mu * v > 0.0

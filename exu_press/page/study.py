@@ -119,11 +119,11 @@ LAYOUT = """
 <option value="pan">moves</option></select></label>
 <button type="button" id="whole">everything</button>
 </div>
-<div class="stage">
+<div class="stage studies">
 <div class="curves"><div class="plot" id="points"></div>
 <div id="legend"></div>
 <p id="near" class="told" role="status"></p></div>
-<div class="curves"><div class="plot" id="parallel"></div>
+<div class="curves" id="keys-beside"><div class="plot" id="parallel"></div>
 <div class="bar"><button type="button" id="clear">all runs</button>
 <span class="told">Drag along an axis: the runs in that range stay.</span></div></div>
 </div>

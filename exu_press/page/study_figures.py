@@ -55,6 +55,7 @@ def points() -> Any:
             line_color=colour_of,
             line_width=2 if name == "chosen" else 1,
             alpha=0.5 if name == "others" else 0.9,
+            name=f"glyphs-{name}",
         )
     return made
 

@@ -3,6 +3,12 @@
 const PALE_TO_DARK = ["#440154", "#46327e", "#365c8d", "#277f8e", "#1fa187", "#4ac16d", "#9fda3a"];
 const GROUPS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"];
 
+// So many points are drawn small.
+const MANY = 3000;
+
+// Over all keys, of many runs, so many lines are drawn, evenly chosen.
+const MOST_LINES = 1500;
+
 // A text that the library takes as it stands: two dollars would begin a formula.
 const asText = text => String(text).replaceAll("$$", "$\u200b$");
 
@@ -27,6 +33,7 @@ class Study {
       const largest = numbers.reduce((a, b) => Math.max(a, b), -Infinity);
       this.columns.set(column.name, {
         ...column, values, least, largest,
+        different: [...new Set(numbers)].sort((a, b) => a - b),
         low: column.low ? await block(column.low) : values,
         high: column.high ? await block(column.high) : values,
       });
@@ -43,6 +50,10 @@ class Study {
       paintFigure(this.parallel, dark);
       this.model("parallel-labels").glyph.text_color = {value: ink};
     });
+    if (this.count > MANY) {
+      for (const name of ["runs", "others"]) this.model(`glyphs-${name}`).glyph.size = {value: 2};
+    }
+    byId("keys-beside").hidden = data.side.length < 3;
     this.axes();
     this.whole();
     this.table();
@@ -75,9 +86,9 @@ class Study {
     if (!column) return GROUPS[0];
     const value = column.values[run];
     if (!isFinite(value)) return "#888888";
-    const different = new Set(column.values);
-    if (column.texts.length || different.size <= GROUPS.length) {
-      return GROUPS[[...different].sort((a, b) => a - b).indexOf(value) % GROUPS.length];
+    const {different} = column;
+    if (column.texts.length || different.length <= GROUPS.length) {
+      return GROUPS[different.indexOf(value) % GROUPS.length];
     }
     const share = (value - column.least) / (column.largest - column.least || 1);
     return PALE_TO_DARK[Math.min(Math.floor(share * PALE_TO_DARK.length), PALE_TO_DARK.length - 1)];
@@ -122,10 +133,12 @@ class Study {
         low: drawn.map(run => end(up.low, run)), high: drawn.map(run => end(up.high, run)),
         colour: drawn.map(run => this.colour(run)),
       };
+      const every = Math.ceil(members.length / MOST_LINES);
+      const lines = members.filter((_, k) => k % every === 0);
       this.model(`lines-${group}`).data = {
-        xs: members.map(() => side.map((_, k) => k)),
-        ys: members.map(run => side.map(column => this.share(column, run))),
-        colour: members.map(run => this.colour(run)),
+        xs: lines.map(() => side.map((_, k) => k)),
+        ys: lines.map(run => side.map(column => this.share(column, run))),
+        colour: lines.map(run => this.colour(run)),
       };
     }
     const marked = [...this.kept].map(([name, range]) => [this.data.side.indexOf(name), ...range]);
@@ -141,7 +154,7 @@ class Study {
     const column = this.columns.get(byId("colour").value), legend = byId("legend");
     legend.replaceChildren();
     if (!column) return;
-    const different = [...new Set(column.values)].filter(v => isFinite(v)).sort((a, b) => a - b);
+    const {different} = column;
     const few = column.texts.length || different.length <= GROUPS.length;
     const shown = few ? different : [different[0], different.at(-1)];
     for (const value of shown) {

@@ -21,6 +21,7 @@ COMMANDS = (
     "spectrum",
     "compare",
     "sweep",
+    "attractor",
     "fit",
     "sensitivity",
     "optimise",

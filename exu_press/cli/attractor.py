@@ -1,0 +1,65 @@
+"""Find what a press does in the long run: period, Lyapunov exponent, figures by revolution."""
+
+import argparse
+import sys
+
+from exu_press.cli.options import add_scene_arguments, directory_of, scene_of, show_warnings
+from exu_press.output import output_directory, write_json
+from exu_press.scene.warnings import scene_warnings
+
+__all__ = ["EXAMPLE", "add_arguments", "execute"]
+
+EXAMPLE = "exu-press attractor press --set joints.crank_pin=dry --revolutions 100 --skip 30"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the command's arguments."""
+    add_scene_arguments(parser)
+    parser.add_argument(
+        "--revolutions", type=int, default=100, metavar="N", help="after the transient (100)"
+    )
+    parser.add_argument(
+        "--skip", type=int, default=30, metavar="N", help="revolutions of the transient (30)"
+    )
+    parser.add_argument(
+        "--longest", type=int, default=16, metavar="N", help="longest period looked for (16)"
+    )
+    parser.add_argument(
+        "--quantity",
+        action="append",
+        default=[],
+        metavar="NAME",
+        help="keep this quantity of each revolution; may be repeated (the headline ones)",
+    )
+
+
+def execute(options: argparse.Namespace) -> int:
+    """Run for long; print and draw what the press does."""
+    from exu_press.studies.attractor import attractor
+    from exu_press.studies.attractor.lines import attractor_lines
+
+    scene = scene_of(options)
+    directory = output_directory(directory_of(options))
+    found = attractor(
+        scene,
+        revolutions=options.revolutions,
+        skip=options.skip,
+        names=options.quantity,
+        most=options.longest,
+        quiet=options.quiet,
+    )
+    write_json(directory / "attractor.json", found.to_dict())
+    written = ["attractor.json"]
+    if not options.quiet:
+        print("\n".join(attractor_lines(found)), flush=True)
+        show_warnings(scene_warnings(scene))
+    if not options.no_pictures:
+        from exu_press.plots.attractor import attractor_figure
+        from exu_press.plots.file import save_figure
+
+        written.append(save_figure(attractor_figure(found), directory / "attractor.png").name)
+    if not options.quiet:
+        print("written:", ", ".join(written), f"in {directory}")
+    if not found.period.told:
+        print(f"exu-press: the period is {found.period}", file=sys.stderr)
+    return 0

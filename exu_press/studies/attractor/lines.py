@@ -1,0 +1,56 @@
+"""What a terminal says of the motion in the long run."""
+
+import math
+
+import numpy as np
+
+from exu_press.columns import columns
+from exu_press.quantities import quantity_of
+from exu_press.studies.attractor.study import Attractor
+from exu_press.verification.distribution import percentiles
+
+__all__ = ["attractor_lines"]
+
+
+def attractor_lines(found: Attractor) -> list[str]:
+    """Return period, exponent, and mean, scatter and percentiles of each figure."""
+    period, exponent = found.period, found.exponent
+    value, low, high = found.per_second
+    lines = [
+        f"section at crank angle {found.scene.start_angle_deg:g} deg, {len(found.points)} "
+        f"revolutions after {found.skip}",
+        f"period: {period}",
+        f"  points 1 revolution apart differ by up to {period.distances[0]:.2g}, known within "
+        f"{found.error:.2g} (clearances)",
+    ]
+    if not period.told and period.finer < 1.0:
+        assert found.scene.solver is not None and found.scene.solver.tolerance is not None
+        tolerance = period.finer * found.scene.solver.tolerance
+        lines.append(f"  try --set solver.tolerance={tolerance:.1g}")
+    if math.isfinite(low):
+        told = f"{value:.3g} 1/s, 95 % in [{low:.3g}, {high:.3g}]"
+        told += f"; per revolution {exponent.value:.3g} [{exponent.low:.3g}, {exponent.high:.3g}]"
+    else:
+        told = f"below {high:.3g} 1/s ({exponent.high:.3g} per revolution): neighbours come"
+        told += " together within the error of a revolution"
+    lines += [f"largest Lyapunov exponent: {told}", f"  motion: {exponent.sign}"]
+    return [*lines, *columns(_figures(found))]
+
+
+def _figures(found: Attractor) -> list[list[str]]:
+    """Return a table of the figures over revolutions."""
+    rows = [["quantity", "mean", "scatter", "5 %", "50 %", "95 %"]]
+    for name, each in found.figures.items():
+        values = each[np.isfinite(each)]
+        unit = quantity_of(found.scene, name).quantity.unit
+        head = f"{name}, {unit}" if unit else name
+        if not len(values):
+            rows.append([head, *["-"] * 5])
+            continue
+        numbers = [float(values.mean()), float(values.std(ddof=1))]
+        bounds = [
+            f"{at:.5g} [{low:.5g}, {high:.5g}]"
+            for at, low, high in percentiles([float(value) for value in values]).values()
+        ]
+        rows.append([head, f"{numbers[0]:.6g}", f"{numbers[1]:.2g}", *bounds])
+    return rows

@@ -1,0 +1,140 @@
+"""A motion that goes on revolution by revolution, from section to section."""
+
+import copy
+from collections.abc import Sequence
+
+import numpy as np
+
+from exu_press.arrays import Array
+from exu_press.errors import InputError
+from exu_press.integrate import Status
+from exu_press.joints.joint import ClearanceJoint
+from exu_press.mechanism.parts import DRIVE
+from exu_press.model import build
+from exu_press.model.state import State, go_on_from, state_of
+from exu_press.result import Result, record
+from exu_press.scene import Scene, mechanism_of
+from exu_press.solving.solve import scales
+
+__all__ = ["Orbit"]
+
+ENDED = (Status.COMPLETED, Status.UNDER_RESOLVED)
+
+
+class Orbit:
+    """A press whose crank is at the section; each advance is one revolution.
+
+    The section is where the scene starts. At constant speed the state of journals and balls in
+    their clearances, and of bodies in their guideways, is all that is free there.
+
+    Attributes:
+        scene: of one revolution.
+        revolutions: done so far.
+    """
+
+    def __init__(self, scene: Scene, state: State | None = None) -> None:
+        """Start as the scene does, or in a state on the section.
+
+        Raises:
+            InputError: the scene has a motor, fixed steps, or nothing that is free.
+        """
+        if scene.drive is not None:
+            raise InputError(
+                "[drive]: sections are for a crank at constant speed; allowed is a scene without it"
+            )
+        self.scene = scene.replace({"revolutions": 1.0, "settle": 0.0})
+        model = build(self.scene)
+        self._model = model if state is None else go_on_from(model, state)
+        ways = [end for ends in model.ways.values() for end in ends]
+        self._joints: list[ClearanceJoint] = [*model.clearance_joints.values(), *ways]
+        found = scales(scene).speed
+        assert found is not None
+        self._speed: float = found
+        self._state = state
+        self.revolutions = 0
+        self._free = self._all_but_the_crank()
+        if not self._joints:
+            raise InputError(
+                "joints: none has clearance, so that the crank alone determines the motion: its "
+                "period is one revolution; allowed is a scene with clearance in joints or guides"
+            )
+
+    @property
+    def state(self) -> State:
+        """The state on the section; of an orbit that has not begun, that after one revolution."""
+        if self._state is None:
+            self.advance()
+        assert self._state is not None
+        return self._state
+
+    def advance(self, *, recorded: bool = False) -> Result | None:
+        """Go on by one revolution; return its record if that is wanted.
+
+        Raises:
+            InputError: the motion does not get to the next section.
+        """
+        model = self._model
+        outcome = model.solve()
+        if outcome.status not in ENDED:
+            raise InputError(f"no motion in the long run: {outcome.reason}")
+        result = record(model, outcome) if recorded else None
+        self.revolutions += 1
+        self._state = state_of(model)
+        self._model = go_on_from(model, self._state)
+        return result
+
+    def put(self, state: State) -> None:
+        """Go on from another state on the section, at its time."""
+        self._state = state
+        self._model = go_on_from(self._model, state)
+
+    def point(self) -> Array:
+        """Return the point in the section, (k,), without dimension.
+
+        Of each clearance joint and each end in guideways: the eccentricity over the clearance and
+        its rate over the scene's largest speed.
+        """
+        parts: list[Sequence[float]] = []
+        speed = self._speed
+        for joint in self._joints:
+            parts.append([part / joint.clearance for part in joint.eccentricity])
+            parts.append([part / speed for part in joint.relative_velocity])
+        return np.concatenate([np.asarray(part, dtype=float) for part in parts])
+
+    def close(self) -> None:
+        """Give the model back; Exudyn's systems and solvers hold each other."""
+        self._model.SC.Reset()
+
+    def towards(self, other: State, part: float) -> State:
+        """Return the state on the line to another: at 0 the orbit's own, at 1 the other.
+
+        The crank stays where it is: what rounding leaves between two cranks would grow to a shift
+        in time. What joints remember is the orbit's own, without the path of the last step.
+        """
+        own = self.state["coordinates"][:2]
+        q, q_t = (
+            np.array(one) + part * self._free * (np.array(two) - np.array(one))
+            for one, two in zip(own, other["coordinates"][:2], strict=True)
+        )
+        return _with(self.state, q, q_t)
+
+    def _all_but_the_crank(self) -> Array:
+        """Return 1.0 for each coordinate that is free, 0.0 for the crank's and its drive's."""
+        model = self._model
+        free = np.ones(len(model.mbs.systemData.GetODE2Coordinates()))
+        crank = mechanism_of(self.scene).crank
+        for name, node in model.nodes.items():
+            if name in (crank, DRIVE):
+                first = model.mbs.GetNodeODE2Index(node)
+                size = len(model.mbs.GetNodeParameter(node, "referenceCoordinates"))
+                free[first : first + size] = 0.0
+        return free
+
+
+def _with(state: State, q: Array, q_t: Array) -> State:
+    """Return a state with other coordinates and rates."""
+    changed = copy.deepcopy(state)
+    changed["coordinates"][:2] = [q.tolist(), q_t.tolist()]
+    for joint in (changed["joints"] or {"joints": []})["joints"]:
+        joint[1][1:] = [[], [], []]  # the path's eccentricity, velocity and acceleration
+    return changed

@@ -1,0 +1,98 @@
+"""After how many revolutions a motion comes back to itself, as far as its error can tell."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from exu_press.arrays import Array
+from exu_press.errors import InputError
+
+__all__ = ["MOST", "Period", "period_of"]
+
+MOST = 16
+"""Revolutions up to which a period is looked for."""
+
+SAME = 3.0
+"""Times the error of a revolution: two points that are nearer than this are the same."""
+
+APART = 10.0
+"""Times the error: two points that are further apart are different."""
+
+SETTLED = 0.5
+"""A distance that falls below this part of itself from one half of the points to the next is that
+of a motion that still settles."""
+
+
+@dataclass(frozen=True)
+class Period:
+    """After how many revolutions a motion comes back.
+
+    Attributes:
+        revolutions: the least number; None where there is none up to `most`, or it is not told.
+        told: whether the points tell it: False where the error is too large, or the motion has not
+            settled.
+        why: what keeps it from being told, or nothing.
+        most: up to which number was looked.
+        distances: (most,) largest distance of points 1, 2, ... revolutions apart.
+        error: of a point, by which they were judged.
+        finer: factor on the tolerance that would tell; 1.0 where it is told.
+    """
+
+    revolutions: int | None
+    told: bool
+    why: str
+    most: int
+    distances: Array
+    error: float
+    finer: float = 1.0
+
+    def __str__(self) -> str:
+        """Return it in words."""
+        if not self.told:
+            return f"not told apart ({self.why})"
+        if self.revolutions is None:
+            return f"none up to {self.most} revolutions"
+        return f"{self.revolutions} revolution{'s' if self.revolutions > 1 else ''}"
+
+
+def period_of(points: Array, error: float, most: int = MOST) -> Period:
+    """Return the period of a motion from its points in a section.
+
+    >>> turn = np.array([[0.0], [1.0]] * 12)
+    >>> str(period_of(turn, error=1e-3, most=4))
+    '2 revolutions'
+
+    Args:
+        points: (n, k), one a revolution, after the transient; n at least 3 `most`.
+        error: largest error of a point, in the same measure.
+        most: revolutions.
+
+    Raises:
+        InputError: there are too few points.
+    """
+    if len(points) < 3 * most:
+        raise InputError(
+            f"{len(points)} revolutions in the section: allowed are at least {3 * most} for "
+            f"periods up to {most}"
+        )
+    distances = np.array([_distance(points, n) for n in range(1, most + 1)])
+    same = np.flatnonzero(distances <= SAME * error)
+    if len(same):
+        return Period(int(same[0]) + 1, True, "", most, distances, error)
+    nearest = int(np.argmin(distances))
+    half = len(points) // 2
+    first, second = (_distance(part, nearest + 1) for part in (points[:half], points[half:]))
+    if second < SETTLED * first:
+        why = "it still settles: skip more revolutions"
+        return Period(None, False, why, most, distances, error)
+    if distances[nearest] < APART * error:
+        finer = distances[nearest] / (APART * error)
+        why = f"points lie {distances[nearest]:.2g} apart, with an error of {error:.2g}"
+        return Period(None, False, why, most, distances, error, float(finer))
+    return Period(None, True, "", most, distances, error)
+
+
+def _distance(points: Array, revolutions: int) -> float:
+    """Return the largest distance of points so many revolutions apart."""
+    apart = points[revolutions:] - points[:-revolutions]
+    return float(np.sqrt((apart**2).sum(axis=1)).max(initial=0.0))

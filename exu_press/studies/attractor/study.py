@@ -1,0 +1,229 @@
+"""The study: a long and lean run, its points in the section, its neighbours, its figures."""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from exu_press.arrays import Array
+from exu_press.errors import InputError
+from exu_press.progress import Progress
+from exu_press.quantities import quantities_of
+from exu_press.quantities.value import numbers_of
+from exu_press.result import Result
+from exu_press.scene import Scene
+from exu_press.studies.attractor.lyapunov import BATCHES, Exponent, combined
+from exu_press.studies.attractor.orbit import Orbit
+from exu_press.studies.attractor.period import MOST, Period, period_of
+
+__all__ = ["DISTANCES", "Attractor", "attractor"]
+
+DISTANCES = (1e-2, 1e-3)
+"""Between neighbouring motions at the beginning of a revolution, without dimension."""
+
+FINER = 0.1
+"""Of the tolerance: what a revolution's error is measured against."""
+
+MEASURED = 5
+"""Revolutions whose error is measured."""
+
+NOISE = 1e-12
+"""Least distance, without dimension."""
+
+SHOWN = 4
+"""Revolutions at the end whose channels are kept for the pictures."""
+
+
+@dataclass(frozen=True)
+class Attractor:
+    """What a press does in the long run.
+
+    Attributes:
+        scene: complete.
+        skip: revolutions before the first point.
+        points: (n, k) in the section, one a revolution, without dimension (`Orbit.point`).
+        error: largest error of a point that a revolution makes.
+        period: after which the motion comes back.
+        exponent: largest Lyapunov exponent.
+        figures: quantity -> its value in each revolution, (n,).
+        last: records of the last revolutions.
+        transient: (skip,) distance of each point before from the last one.
+    """
+
+    scene: Scene
+    skip: int
+    points: Array
+    error: float
+    period: Period
+    exponent: Exponent
+    figures: Mapping[str, Array]
+    last: Sequence[Result]
+    transient: Array
+
+    @property
+    def per_second(self) -> tuple[float, float, float]:
+        """The exponent and the ends of its interval, 1/s."""
+        turns = self.scene.speed_rpm / 60.0
+        return tuple(
+            turns * x for x in (self.exponent.value, self.exponent.low, self.exponent.high)
+        )  # type: ignore[return-value]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the entries of attractor.json."""
+        value, low, high = self.per_second
+        return {
+            "scene": self.scene.to_dict(),
+            "skip": self.skip,
+            "revolutions": len(self.points),
+            "section_deg": self.scene.start_angle_deg,
+            "period": {
+                "revolutions": self.period.revolutions,
+                "told": self.period.told,
+                "in_words": str(self.period),
+                "distances": self.period.distances.tolist(),
+                "error": self.error,
+                "finer": self.period.finer,
+            },
+            "lyapunov_exponent": {
+                "per_revolution": self.exponent.value,
+                "low": _finite(self.exponent.low),
+                "high": self.exponent.high,
+                "per_second": value,
+                "low_per_second": _finite(low),
+                "high_per_second": high,
+                "distances": list(self.exponent.distances),
+                "revolutions": self.exponent.revolutions,
+                "motion": self.exponent.sign,
+            },
+            "figures": {name: each.tolist() for name, each in self.figures.items()},
+            "points": self.points.tolist(),
+        }
+
+
+def attractor(
+    scene: Scene,
+    *,
+    revolutions: int = 100,
+    skip: int = 30,
+    names: Sequence[str] = (),
+    most: int = MOST,
+    quiet: bool = True,
+) -> Attractor:
+    """Run a press for long, and return what it does.
+
+    Args:
+        scene: with clearance somewhere and a crank at constant speed; its own length does not
+            count. The section is its crank angle at the start.
+        revolutions: after the transient.
+        skip: revolutions of the transient.
+        names: of quantities whose values in each revolution are kept; those of the headline unless
+            told.
+        most: revolutions up to which a period is looked for.
+        quiet: False shows the progress.
+
+    Raises:
+        InputError: there is no such quantity, there are too few revolutions, the scene has no
+            section, or a run does not get to it.
+    """
+    if revolutions < max(3 * most, 2 * BATCHES):
+        raise InputError(
+            f"--revolutions {revolutions}: allowed are at least {max(3 * most, 2 * BATCHES)}, for "
+            f"periods up to {most}"
+        )
+    if skip < 1:
+        raise InputError(f"--skip {skip}: allowed is a whole number >= 1")
+    if scene.solver is None or scene.solver.tolerance is None:
+        raise InputError("solver.step: sections need solver.tolerance, whose error is measured")
+    declared = quantities_of(scene)
+    for name in names:
+        if name not in declared:
+            raise InputError(f"--quantity {name}: allowed are {', '.join(declared)}")
+    if not names:
+        names = [name for name, placed in declared.items() if placed.quantity.headline]
+    wanted = {name: declared[name] for name in names}
+    total = skip + revolutions
+    orbit = Orbit(scene)
+    neighbours = [Orbit(scene) for _ in DISTANCES]
+    other = _finer(scene)
+    before: list[Array] = []
+    points: list[Array] = []
+    values: list[dict[str, float]] = []
+    last: list[Result] = []
+    growths: list[list[float]] = [[] for _ in DISTANCES]
+    with Progress("attractor", total, "revolutions", quiet=quiet) as progress:
+        for done in range(total):
+            if done == skip - 1:
+                other.put(orbit.state)
+            result = orbit.advance(recorded=done >= skip)
+            point = orbit.point()
+            if done == skip - 1:  # a state that fits all constraints, as the orbit's own does
+                other.advance()
+                for neighbour, distance in zip(neighbours, DISTANCES, strict=True):
+                    _bring_back(orbit, neighbour, other, distance)
+            (points if done >= skip else before).append(point)
+            if result is not None:
+                values.append(numbers_of(result, wanted))
+                last = [*last[-SHOWN + 1 :], result]
+                for i, neighbour in enumerate(neighbours):
+                    growths[i].append(_grown(orbit, neighbour, DISTANCES[i]))
+            progress.update(done + 1)
+    error = max(_error(orbit, other), NOISE)
+    for each in (orbit, other, *neighbours):
+        each.close()
+    # the first growth is from a random direction, and from a state that did not fit its constraints
+    exponent = combined([np.array(each[1:]) for each in growths], DISTANCES, error)
+    section = np.array(points)
+    kept = error * _amplified(exponent)
+    return Attractor(
+        scene=scene,
+        skip=skip,
+        points=section,
+        error=kept,
+        period=period_of(section, kept, most),
+        exponent=exponent,
+        figures={name: np.array([each.get(name, math.nan) for each in values]) for name in wanted},
+        last=last,
+        transient=np.linalg.norm(np.array(before) - section[-1], axis=1),
+    )
+
+
+def _grown(orbit: Orbit, neighbour: Orbit, distance: float) -> float:
+    """Advance a neighbour; return how its distance has grown, and bring it back to `distance`."""
+    neighbour.advance()
+    return math.log(_bring_back(orbit, neighbour, neighbour, distance) / distance)
+
+
+def _bring_back(orbit: Orbit, neighbour: Orbit, other: Orbit, distance: float) -> float:
+    """Put a neighbour at a distance from the orbit, towards another one; return how far that is."""
+    apart = max(float(np.linalg.norm(other.point() - orbit.point())), NOISE)
+    neighbour.put(orbit.towards(other.state, distance / apart))
+    return apart
+
+
+def _finer(scene: Scene) -> Orbit:
+    """Return an orbit at a finer tolerance."""
+    assert scene.solver is not None and scene.solver.tolerance is not None
+    return Orbit(scene.replace("solver.tolerance", max(FINER * scene.solver.tolerance, 1e-8)))
+
+
+def _error(orbit: Orbit, finer: Orbit) -> float:
+    """Return the largest distance that a revolution's error makes, against a finer tolerance."""
+    found = 0.0
+    for _ in range(MEASURED):
+        finer.put(orbit.state)
+        orbit.advance()
+        finer.advance()
+        found = max(found, float(np.linalg.norm(orbit.point() - finer.point())))
+    return found
+
+
+def _amplified(exponent: Exponent) -> float:
+    """Return what the errors of all revolutions before add up to, over one revolution's."""
+    rate = min(exponent.high, -0.05)  # a motion that does not come together has no period
+    return 1.0 / (1.0 - math.exp(rate))
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None

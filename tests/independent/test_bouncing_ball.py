@@ -1,0 +1,149 @@
+"""A ball that bounces on a table that moves as a sine, against its closed form.
+
+In the limit of a stiff contact of restitution e the ball comes back after one period of the table
+from Gamma = pi (1 - e) / (1 + e) on, and after two from Gamma^2 = [pi (1 - e) / (1 + e)]^2 +
+[2 (1 + e^2) / (1 + e)^2]^2 on, Gamma being the table's largest acceleration over g (Holmes, Journal
+of Sound and Vibration 84 (1982) 173-189). The contact here lasts a four-hundredth of the table's
+period.
+"""
+
+import math
+
+import exudyn as exu
+import numpy as np
+import pytest
+from exudyn.itemInterface import (
+    MarkerNodeCoordinate,
+    Node1D,
+    NodePointGround,
+    ObjectConnectorCoordinateSpringDamper,
+    ObjectMass1D,
+    SensorNode,
+)
+from scipy.optimize import brentq
+
+from exu_press import solve_dynamic
+from exu_press.studies.attractor import period_of
+
+GRAVITY = 9.81
+PERIOD = 0.1
+OMEGA = 2.0 * math.pi / PERIOD
+CONTACT = 2.0 * math.pi / (PERIOD / 200.0)  # rad/s: half a period of it is the contact
+SAME = 2e-3  # of the table's amplitude and speed: what the integration leaves, measured below
+
+
+def restitution(ratio):
+    """Restitution of a spring with a dashpot that does not pull (Schwager and Poeschel 2007)."""
+    damped = math.sqrt(1.0 - ratio**2)
+    angle = math.pi - math.atan2(2.0 * ratio * damped, 2.0 * ratio**2 - 1.0)
+    if ratio < math.sqrt(0.5):
+        angle = math.pi - math.atan(2.0 * ratio * damped / (1.0 - 2.0 * ratio**2))
+    else:
+        angle = math.atan(2.0 * ratio * damped / (2.0 * ratio**2 - 1.0))
+    return math.exp(-ratio / damped * angle)
+
+
+def starts_at(e):
+    """Return where periods of one and of two begin."""
+    one = math.pi * (1.0 - e) / (1.0 + e)
+    return one, math.hypot(one, 2.0 * (1.0 + e**2) / (1.0 + e) ** 2)
+
+
+def section(gamma, e, periods):
+    """Return height and speed of the ball in the middle of its flights, over the table's."""
+    ratio = brentq(lambda zeta: restitution(zeta) - e, 1e-3, 0.95)
+    amplitude = gamma * GRAVITY / OMEGA**2
+    one = math.pi * (1.0 - e) / (1.0 + e)
+    phase = math.acos(min(one / gamma, 1.0))
+
+    def table(time):
+        angle = OMEGA * time + phase
+        return amplitude * math.sin(angle), amplitude * OMEGA * math.cos(angle)
+
+    def contact(mbs, time, item, height, speed, k, d, offset):
+        place, rate = table(time)
+        depth = place - height
+        push = CONTACT**2 * depth + 2.0 * ratio * CONTACT * (rate - speed)
+        return GRAVITY - (push if depth > 0.0 and push > 0.0 else 0.0)
+
+    system = exu.SystemContainer()
+    mbs = system.AddSystem()
+    height, _ = table(0.0)
+    ball = mbs.AddNode(
+        Node1D(
+            referenceCoordinates=[0.0],
+            initialCoordinates=[height],
+            initialVelocities=[0.5 * GRAVITY * PERIOD],
+        )
+    )
+    mbs.AddObject(ObjectMass1D(mass=1.0, nodeNumber=ball))
+    ground = mbs.AddNode(NodePointGround())
+    markers = [
+        mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=n, coordinate=0)) for n in (ground, ball)
+    ]
+    mbs.AddObject(
+        ObjectConnectorCoordinateSpringDamper(
+            markerNumbers=markers, springForceUserFunction=contact
+        )
+    )
+    sensors = [
+        mbs.AddSensor(SensorNode(nodeNumber=ball, outputVariableType=kind, storeInternal=True))
+        for kind in (exu.OutputVariableType.Coordinates, exu.OutputVariableType.Coordinates_t)
+    ]
+    mbs.Assemble()
+    settings = exu.SimulationSettings()
+    settings.timeIntegration.endTime = periods * PERIOD
+    settings.timeIntegration.numberOfSteps = 20 * periods
+    settings.timeIntegration.minimumStepSize = 1e-10
+    settings.solution.sensors.writePeriod = 0.0
+
+    def middle(time):
+        number = math.floor(time / PERIOD - 0.5 + 1e-9) + 1
+        return (number + 0.5) * PERIOD
+
+    solve_dynamic(mbs, settings, tolerance=1e-4, next_corner=middle).check()
+    time, places = mbs.GetSensorStoredData(sensors[0]).T
+    _, speeds = mbs.GetSensorStoredData(sensors[1]).T
+    wanted = (np.arange(periods) + 0.5) * PERIOD
+    rows = np.searchsorted(time, wanted - 1e-9)
+    assert time[rows] == pytest.approx(wanted, abs=1e-9)
+    system.Reset()
+    return np.stack([places[rows] / amplitude, speeds[rows] / (amplitude * OMEGA)], axis=1)
+
+
+def test_the_contact_has_the_restitution_that_is_wanted():
+    assert restitution(1e-9) == pytest.approx(1.0, abs=1e-8)
+    assert restitution(0.2) == pytest.approx(0.56, abs=0.02)
+
+
+def test_periods_of_the_closed_form():
+    assert starts_at(0.5) == (pytest.approx(1.0472, abs=1e-4), pytest.approx(1.52682, abs=1e-5))
+    assert starts_at(0.8) == (pytest.approx(0.34907, abs=1e-5), pytest.approx(1.07084, abs=1e-5))
+
+
+def bounces_once_a_period(gamma, e, periods):
+    """Return whether the ball is in the middle of its flights where the closed form has it."""
+    sine = math.sqrt(1.0 - (math.pi * (1.0 - e) / (1.0 + e) / gamma) ** 2)
+    middle = sine + GRAVITY * PERIOD**2 / 8.0 / (gamma * GRAVITY / OMEGA**2)
+    points = section(gamma, e, periods)[-8:]
+    return np.abs(points - [middle, 0.0]).max() < 0.05
+
+
+def test_period_one_begins_within_a_hundredth():
+    """Below, the ball comes to rest on the table in every period, and is thrown off again."""
+    begins, _ = starts_at(0.5)
+    assert bounces_once_a_period(1.01 * begins, 0.5, 40)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("e", [0.5, 0.8])
+def test_thresholds_within_a_hundredth(e):
+    begins, doubles = starts_at(e)
+    assert bounces_once_a_period(1.01 * begins, e, 200)
+    with pytest.raises(ValueError, match="math domain"):
+        bounces_once_a_period(0.99 * begins, e, 1)  # the closed form ends
+    below, above = (
+        period_of(section(factor * doubles, e, 400)[-48:], SAME, 8).revolutions
+        for factor in (0.99, 1.01)
+    )
+    assert (below, above) == (1, 2)

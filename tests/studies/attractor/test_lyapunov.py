@@ -1,0 +1,126 @@
+"""Lyapunov exponents: of maps with known ones through the same mean, and of presses."""
+
+import math
+
+import numpy as np
+import pytest
+
+from exu_press import InputError, Scene
+from exu_press.cli import main
+from exu_press.quantities import quantities_of
+from exu_press.studies.attractor import attractor
+from exu_press.studies.attractor.lyapunov import combined, exponent_of
+
+FILM = Scene(
+    mechanism="slider_crank",
+    joints={"crank_pin": {"kind": "lubricated", "clearance": 1e-4, "radius": 0.03}},
+    film={"length": 0.05, "viscosity": 0.1},
+)
+
+
+def grown(step, x, distance, count):
+    """Return logarithms of growth of two neighbours of a map, brought back in every step."""
+    y, found = x + distance, []
+    for _ in range(count):
+        x, y = step(x), step(y)
+        apart = float(np.linalg.norm(y - x))
+        found.append(math.log(apart / distance))
+        y = x + (y - x) * distance / apart
+    return np.array(found)
+
+
+def logistic(x):
+    return 4.0 * x * (1.0 - x)
+
+
+def henon(x):
+    return np.array([1.0 - 1.4 * x[0] ** 2 + x[1], 0.3 * x[0]])
+
+
+def test_the_logistic_map_has_the_logarithm_of_two():
+    growths = [grown(logistic, np.array([0.3]), d, 4000) for d in (1e-6, 1e-7)]
+    found = combined(growths, (1e-6, 1e-7), 1e-15)
+    assert found.low < math.log(2.0) < found.high
+    assert found.high - found.low < 0.1
+    assert found.sign == "chaotic"
+
+
+def test_the_henon_map_has_its_exponent():
+    growths = [grown(henon, np.array([0.1, 0.1]), d, 4000) for d in (1e-6, 1e-7)]
+    found = combined(growths, (1e-6, 1e-7), 1e-15)
+    assert found.low < 0.4192 < found.high, "Sprott 2003, 5.2"
+
+
+def test_a_contraction_is_known_down_to_the_error():
+    growths = [np.full(40, math.log(0.5)) + 1e-3 * np.arange(40) for _ in range(2)]
+    found = combined(growths, (1e-2, 1e-3), 1e-6)
+    assert found.value == pytest.approx(math.log(0.5), abs=0.03)
+    assert found.sign == "regular"
+    below = combined([np.full(40, math.log(1e-6 / d)) for d in (1e-2, 1e-3)], (1e-2, 1e-3), 1e-6)
+    assert below.low == -math.inf
+    assert below.sign == "regular"
+
+
+def test_the_interval_holds_the_mean_in_most_of_many_series():
+    random = np.random.default_rng(1)
+    inside = 0
+    for _ in range(200):
+        noise = random.standard_normal(205)
+        _, low, high = exponent_of(0.3 + noise[5:] + 0.5 * noise[4:-1])
+        inside += low < 0.3 < high
+    assert inside > 180
+
+
+@pytest.fixture(scope="module")
+def lubricated():
+    return attractor(FILM, revolutions=20, skip=2, most=4)
+
+
+def test_a_lubricated_press_is_regular_and_comes_back(lubricated):
+    assert lubricated.period.revolutions == 1
+    assert lubricated.exponent.high < 0.0
+    assert lubricated.exponent.sign == "regular"
+    assert lubricated.per_second[2] == pytest.approx(4.0 * lubricated.exponent.high)
+    assert lubricated.transient[-1] < 1e-2
+
+
+def test_figures_of_each_revolution_are_kept(lubricated):
+    values = lubricated.figures["joints.crank_pin.peak_force"]
+    assert values.shape == (20,)
+    assert np.ptp(values) < 1e-3 * values.mean()
+    assert set(lubricated.figures) == {
+        name for name, placed in quantities_of(FILM).items() if placed.quantity.headline
+    }
+
+
+def test_the_command_writes_what_it_found(tmp_path, capsys):
+    scene = tmp_path / "film.toml"
+    FILM.save(scene)
+    given = ["attractor", str(scene), "--revolutions", "20", "--skip", "2", "--longest", "4"]
+    given += ["--quantity", "joints.crank_pin.peak_force", "--out", str(tmp_path / "out")]
+    assert main(given) == 0
+    told = capsys.readouterr().out
+    assert "period: 1 revolution" in told
+    assert "largest Lyapunov exponent: below" in told or "95 % in [" in told
+    assert (tmp_path / "out" / "attractor.png").stat().st_size > 10_000
+    assert (tmp_path / "out" / "attractor.json").exists()
+
+
+@pytest.mark.parametrize(
+    ("scene", "options", "message"),
+    [
+        (FILM, {"revolutions": 10}, "--revolutions 10: allowed are at least 48"),
+        (FILM, {"skip": 0}, "--skip 0: allowed is a whole number >= 1"),
+        (FILM, {"names": ["nothing"]}, "--quantity nothing: allowed are stroke"),
+        (FILM.replace("solver.step", 1e-4), {}, "solver.step: sections need solver.tolerance"),
+        (
+            FILM.replace("drive", {"rated_torque": 200.0, "inertia": 2.0}),
+            {},
+            r"\[drive\]: sections are for a crank at constant speed",
+        ),
+        (FILM.replace("joints.crank_pin", "ideal"), {}, "joints: none has clearance"),
+    ],
+)
+def test_what_is_refused(scene, options, message):
+    with pytest.raises(InputError, match=message):
+        attractor(scene, **options)

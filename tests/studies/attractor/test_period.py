@@ -1,0 +1,53 @@
+"""After how many revolutions points come back, judged against their error."""
+
+import numpy as np
+import pytest
+
+from exu_press import InputError
+from exu_press.studies.attractor import period_of
+
+ERROR = 1e-4
+RANDOM = np.random.default_rng(5)
+
+
+def repeated(pattern, count=60, noise=0.0):
+    """Return points that repeat a pattern, with noise."""
+    points = np.resize(np.array(pattern, dtype=float), (count,))[:, None]
+    return np.hstack([points, -points]) + noise * RANDOM.standard_normal((count, 2))
+
+
+@pytest.mark.parametrize("period", [1, 2, 3, 8])
+def test_a_pattern_has_its_period(period):
+    found = period_of(repeated(RANDOM.uniform(size=period), noise=0.2 * ERROR), ERROR, 16)
+    assert (found.revolutions, found.told) == (period, True)
+
+
+def test_chaos_has_none():
+    x = [0.3]
+    for _ in range(80):
+        x.append(4.0 * x[-1] * (1.0 - x[-1]))
+    found = period_of(np.array(x)[:, None], ERROR, 16)
+    assert (found.revolutions, found.told) == (None, True)
+    assert str(found) == "none up to 16 revolutions"
+
+
+def test_what_the_error_hides_is_not_told_apart():
+    """Points that alternate by five times their error may be one point or two."""
+    found = period_of(repeated([0.0, 5.0 * ERROR / np.sqrt(2.0)], noise=1.5 * ERROR), ERROR, 8)
+    assert not found.told
+    assert 0.1 < found.finer < 1.0
+    assert "not told apart (points lie" in str(found)
+    finer = period_of(repeated([0.0, 5.0 * ERROR / np.sqrt(2.0)]), ERROR / 100.0, 8)
+    assert finer.revolutions == 2
+
+
+def test_a_motion_that_still_settles_is_not_told():
+    points = repeated([1.0]) + np.exp(-0.05 * np.arange(60))[:, None]
+    found = period_of(points, 1e-6, 8)
+    assert not found.told
+    assert "skip more revolutions" in str(found)
+
+
+def test_too_few_revolutions_are_refused():
+    with pytest.raises(InputError, match="47 revolutions in the section: allowed are at least 48"):
+        period_of(repeated([1.0], 47), ERROR, 16)

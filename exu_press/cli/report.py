@@ -18,6 +18,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--out", metavar="FILE.html", help="where to write (default: report.html beside it)"
     )
+    parser.add_argument(
+        "--from", dest="start", type=float, metavar="S", help="begin of the curves of runs (s)"
+    )
+    parser.add_argument("--to", dest="stop", type=float, metavar="S", help="their end (s)")
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
 
 
@@ -29,7 +33,7 @@ def execute(options: argparse.Namespace) -> int:
     kind, file = find_output(Path(options.path))
     target = Path(options.out) if options.out else file.parent / "report.html"
     check_page(target)
-    write_page(report_of(kind, file), target)
+    write_page(report_of(kind, file, (options.start, options.stop)), target)
     if not options.quiet:
         print(f"written: {target} ({target.stat().st_size / 1e6:.1f} MB)")
         tell_extra()

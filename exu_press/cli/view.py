@@ -84,12 +84,11 @@ def _open(options: argparse.Namespace) -> int:
     from exu_press.cli.report import tell_extra
     from exu_press.report.shown import open_file, write_page
 
-    named = {"from": "start", "to": "stop", **{name: name for name in OF_ANIMATIONS}}
-    for option, name in named.items():
-        if (value := getattr(options, name)) is not None:
+    for option in OF_ANIMATIONS:
+        if (value := getattr(options, option)) is not None:
             raise InputError(f"--{option} {value}: allowed with --save; in the page it is chosen")
     kind, file = find_output(Path(options.path))
-    page = write_page(report_of(kind, file), _page_of(file))
+    page = write_page(report_of(kind, file, (options.start, options.stop)), _page_of(file))
     if not options.quiet:
         print(f"written: {page} ({page.stat().st_size / 1e6:.1f} MB)")
         tell_extra()

@@ -18,6 +18,7 @@ from exu_press.plots.style import colour_of
 from exu_press.plots.typesetting import typeset
 from exu_press.result import Result
 from exu_press.result.channel import Channel
+from exu_press.result.windows import window
 
 __all__ = ["viewer"]
 
@@ -27,20 +28,35 @@ FIRST = ("slider_position", "slider_velocity", "slider_acceleration")
 SCRIPTS = ("data", "theme", "thin", "curves", "mechanism", "joint", "surface", "player")
 
 
-def viewer(results: Mapping[str, Result]) -> Live:
-    """Return the live part for one run, or for several by label."""
+def viewer(
+    results: Mapping[str, Result], spans: Mapping[str, tuple[float, float]] | None = None
+) -> Live:
+    """Return the live part for one run, or for several by label.
+
+    Args:
+        results: by label.
+        spans: begin and end of each run's curves, s; None: all of them.
+    """
     from bokeh.document import Document
 
     from exu_press.page.figures import curve_panels
 
     blocks = Blocks()
+    shown = {n: run if spans is None else window(run, *spans[n]) for n, run in results.items()}
     curves = {label: curves_of(result) for label, result in results.items()}
     thinned = thinning(
-        [len(result.time) for result in results.values()],
-        [sum(result[name][0].size for name in result) for result in results.values()],
+        [len(result.time) for result in shown.values()],
+        [sum(result[name][0].size for name in result) for result in shown.values()],
     )
     runs = [
-        _run(result, label, colour_of(index), curves[label], thinned[index], blocks)
+        {
+            "label": label,
+            "colour": colour_of(index),
+            **_recorded(shown[label], curves[label], thinned[index], blocks),
+            **_marked(result, curves[label], shown[label]),
+            "scenery": scenery(result),
+            "surfaces": surfaces(shown[label], blocks),
+        }
         for index, (label, result) in enumerate(results.items())
     ]
     panels = curve_panels([run["colour"] for run in runs])
@@ -49,7 +65,7 @@ def viewer(results: Mapping[str, Result]) -> Live:
         document.add_root(panel)
     data = {
         "runs": runs,
-        "groups": _groups(results, curves),
+        "groups": _groups(shown, curves),
         "first": _first(results, curves),
         "documents": {"page": document.to_json(deferred=False)},
         "roots": [panel.id for panel in panels],
@@ -59,37 +75,39 @@ def viewer(results: Mapping[str, Result]) -> Live:
     return Live(body, scripts(*SCRIPTS), styles())
 
 
-def _run(
-    result: Result,
-    label: str,
-    colour: str,
-    curves: list[Curve],
-    thinned: Thinning,
-    blocks: Blocks,
+def _recorded(
+    result: Result, curves: list[Curve], thinned: Thinning, blocks: Blocks
 ) -> dict[str, Any]:
-    """Return what the page knows of a run."""
+    """Return what the page has of a run's record."""
     kept = thinned.kept
-    stored: dict[str, Any] = {}
-    for channel in dict.fromkeys(curve.channel for curve in curves):
-        stored[channel] = blocks.add(_columns(result.channels[channel], thinned))
-    marked, more = impacts(result)
+    stored = {
+        channel: blocks.add(_columns(result.channels[channel], thinned))
+        for channel in dict.fromkeys(curve.channel for curve in curves)
+    }
     return {
-        "label": label,
-        "colour": colour,
         "count": thinned.count,
         "every": thinned.every,
         "time": blocks.add(result.time[kept], "f8"),
         "angle": blocks.add(np.degrees(result["crank_angle"][kept]), "f8"),
         "channels": stored,
         "curves": {curve.name: _recipe(result, curve, thinned) for curve in curves},
-        "peaks": peaks(result, curves),
-        "impacts": marked,
+    }
+
+
+def _marked(result: Result, curves: list[Curve], shown: Result) -> dict[str, Any]:
+    """Return what is marked in the part of a run that is shown; read from all of it."""
+    begin, end = float(shown.time[0]), float(shown.time[-1])
+    found, more = impacts(result)
+    stated = peaks(result, curves)
+    horizon, settled = result.info.get("horizon"), 60.0 / result.scene.speed_rpm
+    settled *= result.scene.settled
+    return {
+        "peaks": {name: one for name, one in stated.items() if begin <= one["at"] <= end},
+        "impacts": [one for one in found if begin <= one["peak"] <= end],
         "unmarked": more,
-        "ends": dead_centres(result),
-        "horizon": result.info.get("horizon"),
-        "settled": 60.0 / result.scene.speed_rpm * result.scene.settled,
-        "scenery": scenery(result),
-        "surfaces": surfaces(result, blocks),
+        "ends": [one for one in dead_centres(result) if begin <= one["at"] <= end],
+        "horizon": None if horizon is None or horizon > end else max(horizon, begin),
+        "settled": settled if settled > begin else 0.0,
     }
 
 

@@ -11,6 +11,7 @@ from exu_press.plots.words import describe
 from exu_press.quantities.table import comparison_cells
 from exu_press.report.html import page, picture, stills, table, warnings
 from exu_press.report.run import live_part, scene_parts, warnings_of
+from exu_press.report.span import ALL, Span
 from exu_press.result import Result
 from exu_press.stored import from_json, shown
 from exu_press.studies.compare import different_keys
@@ -23,23 +24,24 @@ CAPTIONS = {
 }
 
 
-def comparison_report(file: Path) -> str:
+def comparison_report(file: Path, span: Span = ALL) -> str:
     """Return the page of a comparison, from comparison.json and the variants' run.nc beside it."""
     results = {label: Result.load(path) for label, path in _runs(file).items()}
-    return comparison_page(results, f"{file.parent.name}/{file.name}")
+    return comparison_page(results, f"{file.parent.name}/{file.name}", span)
 
 
-def comparison_page(results: Mapping[str, Result], source: str) -> str:
+def comparison_page(results: Mapping[str, Result], source: str, span: Span = ALL) -> str:
     """Return the page of runs by label.
 
     Args:
         results: by label.
         source: where they are from, to be shown.
+        span: begin and end of their curves, s; None: those of the records.
     """
     summaries = {label: result.summary() for label, result in results.items()}
     head, *rows = comparison_cells(results)
     keys, *changed = different_keys({label: run.scene for label, run in results.items()})
-    live = live_part(results)
+    live = live_part(results, span)
     with tempfile.TemporaryDirectory() as folder:
         shown = [
             picture(path, CAPTIONS.get(path.stem, path.stem))

@@ -4,6 +4,7 @@ from enum import Enum
 from pathlib import Path
 
 from exu_press.errors import InputError
+from exu_press.report.span import ALL, Span
 from exu_press.result import Result
 
 __all__ = ["Kind", "find_output", "report_of"]
@@ -42,12 +43,23 @@ def find_output(path: Path) -> tuple[Kind, Path]:
     return Kind.RUN, path
 
 
-def report_of(kind: Kind, file: Path) -> str:
-    """Return the page (HTML) of what `find_output` found."""
+def report_of(kind: Kind, file: Path, span: Span = ALL) -> str:
+    """Return the page (HTML) of what `find_output` found.
+
+    Args:
+        kind: of the file.
+        file: to be read.
+        span: begin and end of the curves of runs, s; None: those of the record.
+
+    Raises:
+        InputError: the file is not what its name says, or the span is not in it.
+    """
     if kind is Kind.COMPARISON:
         from exu_press.report.comparison import comparison_report
 
-        return comparison_report(file)
+        return comparison_report(file, span)
+    if kind is not Kind.RUN and span != ALL:
+        raise InputError(f"--from, --to: {file.name} has no curves over time; allowed for runs")
     if kind is Kind.SWEEP:
         from exu_press.report.sweep import sweep_report
 
@@ -62,4 +74,4 @@ def report_of(kind: Kind, file: Path) -> str:
         return fit_report(file)
     from exu_press.report.run import run_report
 
-    return run_report(Result.load(file), f"{file.resolve().parent.name}/{file.name}")
+    return run_report(Result.load(file), f"{file.resolve().parent.name}/{file.name}", span)

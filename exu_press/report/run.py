@@ -17,11 +17,13 @@ from exu_press.quantities.energy import BALANCE, has_balance
 from exu_press.quantities.table import comparison_cells, shown_value
 from exu_press.report.html import details, page, paragraph, picture, stills, table, warnings
 from exu_press.report.joints import joint_table
+from exu_press.report.span import ALL, Span
 from exu_press.result import Result
 from exu_press.scene import Scene
 from exu_press.scene.assumptions import engineering_values, keys_of, used_assumptions
 from exu_press.view import Animation, moment, save_picture
 from exu_press.view.animation import SIZE
+from exu_press.view.instants import interval
 
 __all__ = ["changed_keys", "live_part", "run_report", "scene_parts", "warnings_of"]
 
@@ -40,16 +42,17 @@ MOST_NUMBERS = 4
 """Numbers of a list that are shown one by one."""
 
 
-def run_report(result: Result, source: str) -> str:
+def run_report(result: Result, source: str, span: Span = ALL) -> str:
     """Return the page of a run.
 
     Args:
         result: of the run.
         source: name of its file, to be shown.
+        span: begin and end of its curves, s; None: those of the record.
     """
     summary = result.summary()
     numbers = comparison_cells({"": result})[1:]
-    live = live_part({"": result})
+    live = live_part({"": result}, span)
     return page(
         describe([result.scene], 200),
         f"{source}: {summary['status']} at t = {summary['end_time']:.6g} s, "
@@ -66,13 +69,14 @@ def run_report(result: Result, source: str) -> str:
     )
 
 
-def live_part(results: Mapping[str, Result]) -> Live | None:
+def live_part(results: Mapping[str, Result], span: Span = ALL) -> Live | None:
     """Return what moves in the page of runs; nothing without the extra `page`."""
+    ends = {label: interval(result, *span) for label, result in results.items()}
     if not has_library():
         return None
     from exu_press.page.viewer import viewer
 
-    return viewer(results)
+    return viewer(results, ends if span != ALL else None)
 
 
 def changed_keys(scene: Scene) -> str:

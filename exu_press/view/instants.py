@@ -9,7 +9,7 @@ from exu_press.arrays import Array
 from exu_press.errors import InputError
 from exu_press.result import Result
 
-__all__ = ["SECONDS_PER_REVOLUTION", "Instants", "instants", "moment"]
+__all__ = ["SECONDS_PER_REVOLUTION", "Instants", "instants", "interval", "moment"]
 
 SECONDS_PER_REVOLUTION = 5.0
 """Of the animation, unless told otherwise, s."""
@@ -68,7 +68,7 @@ def instants(
     Raises:
         InputError: a number is outside its range, or lies outside the record.
     """
-    begin, end = _interval(result, start, stop)
+    begin, end = interval(result, start, stop)
     if not 1.0 <= fps <= 120.0:
         raise InputError(f"--fps {fps:g}: allowed is 1 to 120 frames a second")
     if frames is not None:
@@ -97,7 +97,7 @@ def moment(
     Raises:
         InputError: a time lies outside the record, or the instant outside the interval.
     """
-    begin, end = _interval(result, start, stop)
+    begin, end = interval(result, start, stop)
     now = end if at is None else at
     if not begin <= now <= end:
         raise InputError(f"--at {now:g}: allowed is {begin:g} to {end:g} s")
@@ -105,8 +105,12 @@ def moment(
     return Instants(shown, _steps(result.time, shown), 1.0, 1.0, still=True)
 
 
-def _interval(result: Result, start: float | None, stop: float | None) -> tuple[float, float]:
-    """Return begin and end, s."""
+def interval(result: Result, start: float | None, stop: float | None) -> tuple[float, float]:
+    """Return begin and end of what is shown, s; those of the record where none are given.
+
+    Raises:
+        InputError: they lie outside the record, or in another order.
+    """
     first, last = float(result.time[0]), float(result.time[-1])
     for option, value in (("--from", start), ("--to", stop)):
         if value is not None and not first <= value <= last:

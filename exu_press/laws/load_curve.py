@@ -3,8 +3,9 @@
 import math
 from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
+from typing import Protocol
 
-__all__ = ["REVOLUTION", "LoadCurve", "PulseClock", "blanking_pulse", "closing"]
+__all__ = ["REVOLUTION", "Clock", "LoadCurve", "PulseClock", "blanking_pulse", "closing"]
 
 
 REVOLUTION = 2.0 * math.pi
@@ -87,6 +88,19 @@ class LoadCurve:
             return place
         first = self.places[0]
         return first + (place - first) % self.period
+
+
+class Clock(Protocol):
+    """What a load remembers from step to step."""
+
+    def memory(self) -> tuple[float, float | None]:
+        """Return what it remembers."""
+
+    def recall(self, memory: tuple[float, float | None]) -> None:
+        """Take over what another one remembers."""
+
+    def accept(self, time: float, place: float, rate: float, /) -> None:
+        """Keep the state at the end of a step."""
 
 
 class PulseClock:

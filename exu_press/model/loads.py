@@ -9,6 +9,7 @@ import numpy as np
 from exudyn.itemInterface import LoadForceVector
 
 from exu_press.laws.load_curve import PulseClock
+from exu_press.laws.sheet import Cut
 from exu_press.mechanism import Mechanism
 from exu_press.model.drive import crank_angle_of
 from exu_press.model.system import System
@@ -30,8 +31,11 @@ rest of the way would be a step so short that it rings."""
 
 def add_loads(system: System) -> dict[str, tuple[AppliedLoad, Place]]:
     """Let every load press its body; return the loads, each with its place on its curve."""
-    added = {}
+    added: dict[str, tuple[AppliedLoad, Place]] = {}
     for name, load in system.loads.items():
+        if load.sheet is not None:
+            added[name] = load, _add_sheet(system, name, load)
+            continue
         place = _place(system, load)
         _add_load(system, name, load, place)
         added[name] = load, place
@@ -47,6 +51,10 @@ def next_corner(loads: Mapping[str, tuple[AppliedLoad, Place]], scene: Scene, ti
     soonest = math.inf
     for load, place in loads.values():
         now, rate = place(time)
+        if isinstance(place, Cutting):
+            close = FORESEEN * abs(rate) * 60.0 / scene.speed_rpm
+            soonest = min(soonest, place.cut.next(time, now, rate, close))
+            continue
         exact = load.over == "time" or (scene.drive is None and load.over == "crank_angle_deg")
         part = CLOSE if exact else FORESEEN
         close = part * abs(rate) * 60.0 / scene.speed_rpm
@@ -83,13 +91,45 @@ def torque_wanted(
 def _add_load(system: System, name: str, load: AppliedLoad, place: Place) -> None:
     """Press a point of a body, in a direction that stays; on a flexible one the faces carry it."""
     x, y = load.direction
-    velocity = _height(system) if load.fade is not None else None
+    velocity = _height(system) if load.fade is not None or load.damping else None
 
     def force(mbs: exu.MainSystem, t: float, _: Any) -> list[float]:
         size = load.at(place(t)[0], velocity(t)[1] if velocity else 0.0)
         return [size * x, size * y, 0.0]
 
-    function: Any = force
+    _press(system, name, load, force)
+
+
+class Cutting:
+    """What tells the penetration into a sheet, m, and its rate, m/s, of the current state."""
+
+    def __init__(self, cut: Cut, top: float, height: Place) -> None:
+        """Cut a sheet whose upper face is at a height, m."""
+        self.cut, self._top, self._height = cut, top, height
+
+    def __call__(self, time: float) -> tuple[float, float]:
+        """Return penetration and rate."""
+        height, velocity = self._height(time)
+        return self._top - height, -velocity
+
+
+def _add_sheet(system: System, name: str, load: AppliedLoad) -> Cutting:
+    """Let a sheet resist the punch, by what has become of it."""
+    assert load.sheet is not None
+    place = Cutting(Cut(load.sheet), load.top, _height(system))
+    cut, (x, y) = place.cut, load.direction
+    system.clocks.append((cut, place))
+
+    def force(mbs: exu.MainSystem, t: float, _: Any) -> list[float]:
+        size = cut.force(t, *place(t))
+        return [size * x, size * y, 0.0]
+
+    _press(system, name, load, force)
+    return place
+
+
+def _press(system: System, name: str, load: AppliedLoad, function: Any) -> None:
+    """Put a force on a rigid body's point, or on a flexible body's faces."""
     if load.body in system.flexible:
         from exu_press.flexible import load_point
 
@@ -121,7 +161,7 @@ def _since_the_beginning(system: System, clock: Callable[[float, float], PulseCl
     """Return what tells the time since the beginning of a pulse, which the system's clocks keep."""
     scene, crank = system.scene, crank_angle_of(system)
     running = clock(scene.start_angle, scene.angular_speed)
-    system.clocks.append(running)
+    system.clocks.append((running, lambda time: crank()))
 
     def place(time: float) -> tuple[float, float]:
         since = running.place(time, *crank())

@@ -2,14 +2,14 @@
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import exudyn as exu
 
 from exu_press.integrate import Outcome, Tuning
 from exu_press.joints.guide_friction import GuideFriction
-from exu_press.laws.load_curve import PulseClock
+from exu_press.laws.load_curve import Clock
 from exu_press.model.drive import CrankAngle
 from exu_press.model.loads import Place, next_corner, torque_wanted
 from exu_press.rigid import RigidBody
@@ -40,7 +40,8 @@ class Model(Assembled):
         drive: object number of what turns the crank.
         crank_angle: tells the crank's angle and angular velocity.
         loads: name -> load that acts, and what tells its place on its curve.
-        clocks: of pulses of loads.
+        clocks: of pulses and sheets of loads, and what reads their state.
+        remembered: by those, where the run goes on from another one.
         guide_friction: name of a body in a guide without clearance -> its friction there.
         parts: name -> flexible body's part; empty for rigid bodies.
         made: number of objects and loads that the scene was made of.
@@ -52,10 +53,11 @@ class Model(Assembled):
     drive: int
     crank_angle: CrankAngle
     loads: Mapping[str, tuple[AppliedLoad, Place]]
-    clocks: list[PulseClock]
+    clocks: list[tuple[Clock, Place]]
     guide_friction: Mapping[str, GuideFriction]
     parts: Mapping[str, "PlacedPart"]
     made: int
+    remembered: tuple[tuple[float, float | None], ...] = field(default=(), kw_only=True)
 
     @property
     def own_items(self) -> int:
@@ -94,12 +96,12 @@ class Model(Assembled):
 
     def watch(self, time: float) -> str:
         """Return why the press goes no further, after a step that ends at a time, s, or nothing."""
+        for clock, state in self.clocks:
+            clock.accept(time, *state(time))
         motor = self.scene.drive
         if motor is None:
             return ""
         angle, speed = self.crank_angle()
-        for clock in self.clocks:
-            clock.accept(time, angle, speed)
         if speed > STALLED * min(self.scene.angular_speed, motor.fastest(self.scene.speed_rpm)):
             return ""
         places = {name: place(time)[0] for name, (_, place) in self.loads.items()}

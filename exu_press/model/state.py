@@ -24,7 +24,7 @@ class State(TypedDict):
             constraint forces, data variables; without the reference's values.
         accelerations: of the second-order coordinates.
         joints: what clearance joints and guideways remember: bristles, approach speeds, paths.
-        clocks: what pulses of loads remember.
+        clocks: what pulses and sheets of loads remember.
     """
 
     time: float
@@ -45,7 +45,7 @@ def state_of(model: Model) -> State:
         "coordinates": [np.asarray(part).tolist() for part in data.GetSystemState()],
         "accelerations": np.asarray(data.GetODE2Coordinates_tt()).tolist(),
         "joints": None if overlay is None else overlay.memory(),
-        "clocks": [clock.memory() for clock in model.clocks],
+        "clocks": [clock.memory() for clock, _ in model.clocks],
     }
 
 
@@ -60,11 +60,11 @@ def go_on_from(model: Model, state: State) -> Model:
     overlay = Problem.of(model.mbs).joints
     sizes = [len(part) for part in data.GetSystemState(configuration=initial)]
     given = [len(part) for part in state["coordinates"]]
-    remembered = 0 if state["joints"] is None else len(state["joints"]["joints"])
+    histories = 0 if state["joints"] is None else len(state["joints"]["joints"])
     joints = 0 if overlay is None else len(overlay.joints)
-    if sizes != given or remembered != joints or len(state["clocks"]) != len(model.clocks):
+    if sizes != given or histories != joints or len(state["clocks"]) != len(model.clocks):
         raise InputError(
-            f"the state has {given[0]} coordinates and {remembered} joints with clearance, the "
+            f"the state has {given[0]} coordinates and {histories} joints with clearance, the "
             f"scene {sizes[0]} and {joints}: allowed is a run of the same bodies, joints and loads"
         )
     parts: list[Array] = [np.array(part) for part in state["coordinates"]]
@@ -73,6 +73,7 @@ def go_on_from(model: Model, state: State) -> Model:
     data.SetTime(newTime=state["time"], configurationType=initial)
     if overlay is not None and state["joints"] is not None:
         overlay.recall(state["joints"])
-    for clock, memory in zip(model.clocks, state["clocks"], strict=True):
+    for (clock, _), memory in zip(model.clocks, state["clocks"], strict=True):
         clock.recall(memory)
-    return replace(model, begin=state["time"], first_step=state["step"])
+    remembered = tuple(state["clocks"])
+    return replace(model, begin=state["time"], first_step=state["step"], remembered=remembered)

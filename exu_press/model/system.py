@@ -1,6 +1,6 @@
 """An Exudyn system under construction: its bodies by name, and markers and springs on them."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +15,7 @@ from exudyn.itemInterface import (
     ObjectGround,
 )
 
-from exu_press.laws.load_curve import PulseClock
+from exu_press.laws.load_curve import Clock
 from exu_press.mechanism import GROUND, Joint, Mechanism, Point, Spring
 from exu_press.mechanism.holding import by_constraints, holding_of
 from exu_press.rigid import RigidBody
@@ -40,7 +40,8 @@ class System:
         holding: which ideal joints and guides hold what.
         ideal: name -> motion of the ideal mechanism at the start.
         loads: name -> load.
-        clocks: of pulses of loads; each is told the state at the end of every step.
+        clocks: of pulses and sheets, each with what reads its state; it is told that at the end of
+            every step.
         SC: Exudyn's system container.
         mbs: Exudyn's main system, not yet assembled.
         ground: object number of the frame.
@@ -73,7 +74,7 @@ class System:
             else load
             for name, load in applied_loads(scene).items()
         }
-        self.clocks: list[PulseClock] = []
+        self.clocks: list[tuple[Clock, Callable[[float], tuple[float, float]]]] = []
         self.SC = exu.SystemContainer()
         self.mbs = self.SC.AddSystem()
         self.ground = int(self.mbs.AddObject(ObjectGround()))

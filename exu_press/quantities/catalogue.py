@@ -11,6 +11,7 @@ from exu_press.quantities.joints import JOINTS
 from exu_press.quantities.press import DRIVE, GUIDES, LOADS, SHAKING
 from exu_press.quantities.quantity import Place, Quantity
 from exu_press.quantities.reading import Reading
+from exu_press.quantities.sheet import SHEETS
 from exu_press.quantities.slider import SLIDER, STROKES
 from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.applied import applied_loads
@@ -24,6 +25,7 @@ CATALOGUE: list[Quantity] = [
     *DRIVE,
     *SHAKING,
     *LOADS,
+    *SHEETS,
     *GUIDES,
     *BODIES,
     *BALANCE,

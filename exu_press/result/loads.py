@@ -35,8 +35,11 @@ def record_loads(
     """
     channels: dict[str, Channel] = {}
     all_work = np.zeros_like(time)
+    lasting = [name for name, (load, _) in model.loads.items() if load.clock or load.sheet]
+    memory = dict(zip(lasting, model.remembered, strict=False))  # empty in a run of its own
+    height = slider[0] - model.mechanism.bottom, slider[1]
     for name, (load, _) in model.loads.items():
-        force = load.force(time, crank, (slider[0] - model.mechanism.bottom, slider[1]))
+        force = load.force(time, crank, height, memory.get(name))
         if load.body in model.parts:
             part = model.parts[load.body]
             velocity = carried_motion(model, load.body, part.loads[name], load.point)[1]

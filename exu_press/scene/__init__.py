@@ -5,7 +5,7 @@ from exu_press.scene.bodies import Face, Flexible, flexible_press
 from exu_press.scene.file import load_scene, parse_assignment
 from exu_press.scene.joint import DryJoint, IdealJoint, LubricatedJoint
 from exu_press.scene.joints import Joints
-from exu_press.scene.load import BlankingLoad, TableLoad
+from exu_press.scene.load import BlankingLoad, SheetLoad, SpringLoad, TableLoad
 from exu_press.scene.scene import Scene, mechanism_of
 from exu_press.scene.tables import Contact, ElasticGuide, Film, Friction, Motor, Solver
 
@@ -24,8 +24,10 @@ __all__ = [
     "Motor",
     "Press",
     "Scene",
+    "SheetLoad",
     "SliderCrank",
     "Solver",
+    "SpringLoad",
     "TableLoad",
     "flexible_press",
     "load_scene",

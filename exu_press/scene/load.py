@@ -1,5 +1,6 @@
-"""What one load is: a blanking pulse, or a table of forces."""
+"""What one load is: a blanking pulse, a table of forces, a sheet or a spring."""
 
+import dataclasses
 import math
 from dataclasses import dataclass
 from itertools import pairwise
@@ -8,9 +9,10 @@ from typing import Any, ClassVar, Literal
 from exu_press.checks import Table, key
 from exu_press.errors import InputError
 from exu_press.laws.load_curve import REVOLUTION, LoadCurve, PulseClock, blanking_pulse
+from exu_press.laws.sheet import SHAPE, Sheet, shear_force
 from exu_press.scene.bodies import Face, patch_given
 
-__all__ = ["COLUMNS", "LOAD_KINDS", "BlankingLoad", "Load", "TableLoad"]
+__all__ = ["COLUMNS", "LOAD_KINDS", "BlankingLoad", "Load", "SheetLoad", "SpringLoad", "TableLoad"]
 
 COLUMNS = ("time", "crank_angle_deg", "height")
 """What a table's forces are given over."""
@@ -153,9 +155,7 @@ class TableLoad(_Placed):
                 f"{given[0]}, force: {len(places)} and {len(self.force)} values; allowed are at "
                 "least two, as many of both"
             )
-        for before, after in pairwise(places):
-            if not after > before:
-                raise InputError(f"{given[0]} = {after!r} after {before!r}: allowed is increasing")
+        _increasing(given[0], places)
         if given[0] == "crank_angle_deg":
             turn = places[-1] - places[0]
             if turn > 360.0 or (turn == 360.0 and self.force[0] != self.force[-1]):
@@ -185,5 +185,154 @@ class TableLoad(_Placed):
         return LoadCurve([math.radians(place) for place in places], forces, REVOLUTION)
 
 
-Load = BlankingLoad | TableLoad
-LOAD_KINDS: dict[str, type[Load]] = {kind.kind: kind for kind in (BlankingLoad, TableLoad)}
+@dataclass(frozen=True)
+class SheetLoad(_Placed):
+    """A sheet that is cut once a stroke: the output's place decides, not the clock.
+
+    A sheet of its own lies on the die for every stroke. Its fracture ends a step.
+    """
+
+    kind: ClassVar[Literal["sheet"]] = "sheet"
+    height: float | None = key(
+        None, "of the sheet's upper face above bottom dead centre", "m", above=0
+    )
+    thickness: float | None = key(None, "of the sheet", "m", above=0)
+    shear_strength: float | None = key(
+        None, "of the sheet, about 0.8 of its tensile strength", "Pa", above=0
+    )
+    cut_length: float | None = key(None, "of the line that is cut", "m", above=0)
+    penetration: float | None = key(
+        None, "of the punch at fracture over the thickness", above=0, at_most=1
+    )
+    crack_time: float | None = key(None, "from fracture to no force", "s", above=0)
+    stripping: float = key(0.0, "force on the way up over the largest force", at_least=0, at_most=1)
+    over_fracture: tuple[float, ...] = key(
+        SHAPE[0], "penetrations of the curve over that at fracture, from 0 to 1", numbers=0
+    )
+    over_peak: tuple[float, ...] = key(
+        SHAPE[1], "forces of the curve over shear_strength cut_length thickness", numbers=0
+    )
+
+    def __post_init__(self) -> None:
+        """Check the keys; the sheet is given, and its curve is one."""
+        super().__post_init__()
+        for field in dataclasses.fields(self):
+            if field.name in _OF_A_SHEET and getattr(self, field.name) is None:
+                unit = field.metadata["unit"]
+                words = ", ".join(filter(None, (field.metadata["meaning"], unit)))
+                raise InputError(f"{field.name}: missing; allowed is a number > 0 ({words})")
+        if len(self.over_fracture) < 2 or len(self.over_fracture) != len(self.over_peak):
+            raise InputError(
+                f"over_fracture, over_peak: {len(self.over_fracture)} and {len(self.over_peak)} "
+                "values; allowed are at least two, as many of both"
+            )
+        if (self.over_fracture[0], self.over_fracture[-1], self.over_peak[0]) != (0.0, 1.0, 0.0):
+            raise InputError(
+                f"over_fracture from {self.over_fracture[0]!r} to {self.over_fracture[-1]!r}, "
+                f"over_peak from {self.over_peak[0]!r}: allowed is from 0 to 1, and from 0"
+            )
+        _increasing("over_fracture", self.over_fracture)
+        if not min(self.over_peak[1:]) > 0.0:
+            raise InputError(
+                f"over_peak = {min(self.over_peak[1:])!r}: allowed is > 0 after the first"
+            )
+
+    @property
+    def over(self) -> str:
+        """What the curve is given over."""
+        return "penetration"
+
+    @property
+    def closing(self) -> bool:
+        """Whether it depends on the way that the output goes."""
+        return True
+
+    @property
+    def top(self) -> float:
+        """Height of the upper face, m."""
+        assert self.height is not None
+        return self.height
+
+    def curve(self, angular_speed: float) -> LoadCurve:
+        """Return the force over the penetration up to fracture, m."""
+        assert self.shear_strength and self.cut_length and self.thickness and self.penetration
+        peak = shear_force(self.shear_strength, self.cut_length, self.thickness)
+        depth = self.penetration * self.thickness
+        return LoadCurve(
+            [depth * x for x in self.over_fracture], [peak * y for y in self.over_peak]
+        )
+
+    def sheet(self, fade: float) -> Sheet:
+        """Return the sheet, with the speed from which stripping acts in full, m/s."""
+        assert self.thickness and self.crack_time
+        curve = self.curve(0.0)
+        return Sheet(curve, self.thickness, self.crack_time, self.stripping * curve.peak, fade)
+
+
+@dataclass(frozen=True)
+class SpringLoad(_Placed):
+    """A gas spring, cushion or buffer: force over its travel, with damping.
+
+    The force is F(x) (1 + d dx/dt), as long as that pushes.
+    """
+
+    kind: ClassVar[Literal["spring"]] = "spring"
+    height: float | None = key(
+        None, "of the output above bottom dead centre where it meets the spring", "m", above=0
+    )
+    travel: tuple[float, ...] | None = key(None, "of the forces, from 0", "m", numbers=0)
+    force: tuple[float, ...] | None = key(None, "over the travel, from 0", "N", numbers=0)
+    damping: float = key(0.0, "d, of the force per speed over the force", "s/m", at_least=0)
+
+    def __post_init__(self) -> None:
+        """Check the keys; it has a place and a curve without a jump."""
+        super().__post_init__()
+        for name in ("height", "travel", "force"):
+            if getattr(self, name) is None:
+                raise InputError(f"{name}: missing; allowed are height, travel and force together")
+        assert self.travel is not None
+        assert self.force is not None
+        if len(self.travel) < 2 or len(self.travel) != len(self.force):
+            raise InputError(
+                f"travel, force: {len(self.travel)} and {len(self.force)} values; allowed are at "
+                "least two, as many of both"
+            )
+        if self.travel[0] != 0.0 or self.force[0] != 0.0 or min(self.force) < 0.0:
+            raise InputError(
+                f"travel from {self.travel[0]!r}, force from {self.force[0]!r}: allowed is from 0 "
+                "and 0, and pushing; let a preload rise over a short travel, as its seat gives way"
+            )
+        _increasing("travel", self.travel)
+
+    @property
+    def over(self) -> str:
+        """What the curve is given over."""
+        return "height"
+
+    @property
+    def closing(self) -> bool:
+        """Whether it acts while the output closes only."""
+        return False
+
+    def curve(self, angular_speed: float) -> LoadCurve:
+        """Return the force over the output's height, m."""
+        assert self.height is not None
+        assert self.travel is not None
+        assert self.force is not None
+        places = [self.height - x for x in reversed(self.travel)]
+        return LoadCurve(places, tuple(reversed(self.force)))
+
+
+_OF_A_SHEET = ("height", "thickness", "shear_strength", "cut_length", "penetration", "crack_time")
+
+
+def _increasing(name: str, values: tuple[float, ...]) -> None:
+    for before, after in pairwise(values):
+        if not after > before:
+            raise InputError(f"{name} = {after!r} after {before!r}: allowed is increasing")
+
+
+Load = BlankingLoad | TableLoad | SheetLoad | SpringLoad
+LOAD_KINDS: dict[str, type[Load]] = {
+    kind.kind: kind for kind in (BlankingLoad, TableLoad, SheetLoad, SpringLoad)
+}

@@ -1,15 +1,18 @@
 """Every load of a scene by its name, from what is given."""
 
 import dataclasses
+import math
 from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from exu_press.checks import nearest
 from exu_press.errors import InputError
 from exu_press.mechanism import Mechanism
 from exu_press.scene.bodies import face_dict
-from exu_press.scene.load import COLUMNS, LOAD_KINDS, BlankingLoad, Load, TableLoad
+from exu_press.scene.load import COLUMNS, LOAD_KINDS, BlankingLoad, Load, SheetLoad, SpringLoad
 from exu_press.scene.load_file import MOVED, read_load_table
 
 __all__ = ["changed_loads", "load_dict", "loads_of", "with_files_beside"]
@@ -44,6 +47,8 @@ def loads_of(
             text = str(error)
             raise InputError(text if text.startswith(where) else f"{where}.{text}") from None
         _check_body(where, load, mechanism, flexible)
+        if isinstance(load, SheetLoad | SpringLoad):
+            _check_height(where, load, mechanism)
         if isinstance(load, BlankingLoad) and load.rise + load.fall > 60.0 / speed_rpm:
             raise InputError(
                 f"{where}.rise + fall = {load.rise + load.fall!r}: allowed is at most one "
@@ -108,7 +113,7 @@ _PLACES = ("body", "offset", "joint", "face", "direction")
 
 def _load(where: str, given: Any) -> Load:
     """Return one load, checked."""
-    if isinstance(given, BlankingLoad | TableLoad):
+    if isinstance(given, Load):
         return given
     if not isinstance(given, Mapping):
         raise InputError(f"{where} = {given!r}: allowed is a table of keys")
@@ -141,6 +146,32 @@ def _load(where: str, given: Any) -> Load:
         except InputError as error:
             raise InputError(f"file: {error}") from None
     return LOAD_KINDS[kind](**keys)
+
+
+def _check_height(where: str, load: SheetLoad | SpringLoad, mechanism: Mechanism) -> None:
+    """Check that the output leaves what it meets, and that it cuts a sheet through."""
+    angle = np.linspace(0.0, 2.0 * math.pi, 721)
+    stroke = float(mechanism.ideal_slider(angle, 1.0)[0].max()) - mechanism.bottom
+    assert load.height is not None
+    if load.height >= stroke:
+        raise InputError(
+            f"{where}.height = {load.height!r}: the output rises {stroke:.4g} m above bottom dead "
+            "centre and never leaves it; allowed is less than that"
+        )
+    if isinstance(load, SheetLoad):
+        assert load.thickness and load.penetration
+        depth = load.thickness * load.penetration
+        if depth >= load.height:
+            raise InputError(
+                f"{where}.thickness = {load.thickness!r}: it fractures {depth:.4g} m deep, and the "
+                f"output goes {load.height!r} m into it; allowed is a larger height, or a thinner "
+                "sheet"
+            )
+    elif load.travel and load.travel[-1] < load.height:
+        raise InputError(
+            f"{where}.travel to {load.travel[-1]!r}: the output compresses it by {load.height!r} "
+            "m; allowed is a travel as long as that"
+        )
 
 
 def _check_body(where: str, load: Load, mechanism: Mechanism, flexible: Collection[str]) -> None:

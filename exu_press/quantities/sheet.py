@@ -1,0 +1,170 @@
+"""Quantities of a sheet that is cut: what the press does when the resistance is gone."""
+
+from collections.abc import Callable
+from functools import partial
+
+import numpy as np
+
+from exu_press.arrays import Array
+from exu_press.quantities.acceleration import peak
+from exu_press.quantities.kind import ENERGY, LOAD, MOTION
+from exu_press.quantities.quantity import Extreme, Place, Quantity
+from exu_press.quantities.reading import Reading
+from exu_press.result.energy import work
+from exu_press.scene import Scene
+from exu_press.scene.applied import applied_loads
+
+__all__ = ["SHEETS", "given_back"]
+
+
+def _is_sheet(scene: Scene, load: str) -> bool:
+    return scene.load[load].kind == "sheet"
+
+
+def _strokes(run: Reading, load: str) -> list[tuple[Array, Array]]:
+    """Return, of each stroke that fractures the sheet, the steps before and after the fracture.
+
+    From the first touch to the fracture, and from there until the punch goes up again: to the end
+    of the crack and on to the bottom dead centre, where impacts of the way back have not begun.
+    """
+    sheet = applied_loads(run.result.scene)[load].sheet
+    assert sheet is not None
+    depth = _penetration(run, load)
+    found = []
+    inside = np.flatnonzero(np.diff(np.concatenate([[0], (depth > 0.0).astype(int), [0]])))
+    for first, behind in inside.reshape(-1, 2):
+        steps = np.arange(first, behind)
+        deep = np.flatnonzero(depth[steps] >= sheet.fracture)
+        lowest = int(np.argmax(depth[steps]))
+        if first > 0 and deep.size and deep[0] < lowest:
+            found.append((steps[: deep[0]], steps[deep[0] : lowest + 1]))
+    return found
+
+
+def _penetration(run: Reading, load: str) -> Array:
+    top = applied_loads(run.result.scene)[load].top
+    return np.asarray(run.mechanism.bottom + top - run["slider_position"])
+
+
+def _pull(run: Reading, load: str) -> Array:
+    """Return the force that lifts the output, (n,), N, beyond weight and the ideal inertia."""
+    mass = run.mechanism.body(run.mechanism.slider).mass
+    return np.asarray(mass * _above_ideal(run)[2] - run[f"load_{load}_force"])
+
+
+def _above_ideal(run: Reading) -> tuple[Array, Array, Array]:
+    """Return how far above the ideal motion the output is, (n,), m, and its rates, m/s, m/s^2."""
+    speed = run["crank_speed"]
+    place, velocity, acceleration = run.mechanism.ideal_slider(run["crank_angle"], 1.0)
+    return (
+        run["slider_position"] - place,
+        run["slider_velocity"] - speed * velocity,
+        run["slider_acceleration"] - speed**2 * acceleration,
+    )
+
+
+def given_back(time: Array, pull: Array, rate: Array) -> float:
+    """Return the work on an output that is released, J, until what pressed it pulls.
+
+    Args:
+        time: from the fracture on, (n,), s.
+        pull: force that lifts the output, (n,), N; negative as long as it is pressed down.
+        rate: at which it rises beside the ideal motion, (n,), m/s.
+    """
+    pulls = np.flatnonzero(pull >= 0.0)
+    end = pulls[0] + 1 if pulls.size else len(time)
+    return float(work(time[:end], np.minimum(pull[:end], 0.0), rate[:end])[-1])
+
+
+def _largest(
+    read: Callable[[Reading, str, Array, Array], float], run: Reading, load: str
+) -> float | None:
+    """Return the largest value of all strokes, None where none fractures the sheet."""
+    strokes = _strokes(run, load)
+    return max((read(run, load, *stroke) for stroke in strokes), default=None)
+
+
+def _reverse(run: Reading, load: str, before: Array, after: Array) -> float:
+    return max(0.0, float(_pull(run, load)[after].max()))
+
+
+def _reverse_share(run: Reading, load: str) -> float | None:
+    reverse = _largest(_reverse, run, load)
+    return None if reverse is None else reverse / peak(run[f"load_{load}_force"])
+
+
+def _downward(run: Reading, load: str, before: Array, after: Array) -> float:
+    return max(0.0, float(-run["slider_acceleration"][after].min()))
+
+
+def _stack_up(run: Reading, load: str, before: Array, after: Array) -> float:
+    above = _above_ideal(run)[0]
+    pressed = above[before].max() if before.size else above[after[0]]
+    return float(pressed - above[after].min())
+
+
+def _released(run: Reading, load: str, before: Array, after: Array) -> float:
+    rising = _above_ideal(run)[1]
+    return given_back(run.time[after], _pull(run, load)[after], rising[after])
+
+
+SHEETS = (
+    Quantity(
+        "reverse_force",
+        "N",
+        "largest pull at the output after the fracture, beyond its weight and ideal inertia",
+        LOAD,
+        partial(_largest, _reverse),
+        Place.LOAD,
+        _is_sheet,
+        title="reverse load, max",
+        shown="kN",
+        under=True,
+        extreme=Extreme.LARGEST,
+    ),
+    Quantity(
+        "reverse_share",
+        "",
+        "reverse load over the largest load; builders of presses allow about 0.1",
+        LOAD,
+        _reverse_share,
+        Place.LOAD,
+        _is_sheet,
+        title="over the largest load",
+        under=True,
+        extreme=Extreme.LARGEST,
+    ),
+    Quantity(
+        "release_acceleration",
+        "m/s^2",
+        "largest downward acceleration of the output after the fracture",
+        LOAD,
+        partial(_largest, _downward),
+        Place.LOAD,
+        _is_sheet,
+        extreme=Extreme.LARGEST,
+    ),
+    Quantity(
+        "snap_through_energy",
+        "J",
+        "energy that mechanism and drive give back after the fracture, until they pull",
+        ENERGY,
+        partial(_largest, _released),
+        Place.LOAD,
+        _is_sheet,
+        extreme=Extreme.LARGEST,
+    ),
+    Quantity(
+        "stack_up",
+        "m",
+        "way by which the output jumps ahead of the ideal motion as clearances change sides",
+        MOTION,
+        partial(_largest, _stack_up),
+        Place.LOAD,
+        _is_sheet,
+        title="stack-up",
+        shown="um",
+        under=True,
+        extreme=Extreme.LARGEST,
+    ),
+)

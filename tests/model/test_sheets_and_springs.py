@@ -1,0 +1,130 @@
+"""A sheet and a spring in a press, against the ideal motion; what is refused."""
+
+import numpy as np
+import pytest
+
+from exu_press import InputError, Scene, simulate
+from exu_press.scene import mechanism_of
+
+SHEET = {
+    "kind": "sheet",
+    "height": 3e-3,
+    "thickness": 2e-3,
+    "shear_strength": 3e8,
+    "cut_length": 0.2,
+    "penetration": 0.4,
+    "crack_time": 2e-4,
+}
+SPRING = {"kind": "spring", "height": 0.02, "travel": [0.0, 5e-4, 0.021], "force": [0, 1e4, 2e4]}
+
+
+def ideal(load, **keys):
+    given = {"mechanism": "slider_crank", "joints": {}, "revolutions": 1.0} | keys
+    return Scene(**given, load={"part": load})
+
+
+@pytest.fixture(scope="module")
+def cutting():
+    return {t: simulate(ideal(SHEET, solver={"tolerance": t})) for t in (1e-3, 1e-4)}
+
+
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-4])
+def test_a_step_ends_on_the_fracture_whatever_the_tolerance(cutting, tolerance):
+    result = cutting[tolerance]
+    angle = np.linspace(0.0, 2.0 * np.pi, 200001)
+    mechanism = mechanism_of(result.scene)
+    height = mechanism.ideal_slider(angle, 1.0)[0] - mechanism.bottom
+    fractures = np.interp(-(3e-3 - 0.8e-3), -height[: height.argmin()], angle[: height.argmin()])
+    instant = fractures / result.scene.angular_speed
+    assert np.abs(result.time - instant).min() < 1e-6
+    assert np.abs(result.time - instant - 2e-4).min() < 1e-6
+
+
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-4])
+def test_work_is_that_of_the_curve_and_the_crack(cutting, tolerance):
+    """The area of the curve up to fracture, and the crack's mean force times the ideal way."""
+    result = cutting[tolerance]
+    peak, deep = 3e8 * 0.2 * 2e-3, 0.8e-3
+    area = peak * deep * (0.5 * 0.15 * 0.8 + 0.35 * 0.9 + 0.5 * 0.975)
+    begin = np.flatnonzero(result["load_part_force"] > 0.94 * peak)[-1]
+    time = np.linspace(result.time[begin], result.time[begin] + 2e-4, 1001)
+    height = mechanism_of(result.scene).ideal_slider(time * result.scene.angular_speed, 1.0)[0]
+    crack = np.trapezoid(0.95 * peak * np.linspace(1.0, 0.0, 1001), -height)
+    assert result.quantity("loads.part.work").value == pytest.approx(-area - crack, rel=2e-3)
+    assert result.quantity("loads.part.peak_force").value == pytest.approx(peak, rel=1e-4)
+    assert result.quantity("energy.residual").value < 1e-3
+    assert result.quantity("loads.part.stack_up").value < 1e-9
+
+
+def test_clearance_stacks_up():
+    keys = {"kind": "dry", "clearance": 1e-4}
+    scene = ideal(SHEET, joints={"crank_pin": keys}, revolutions=0.6, start_angle_deg=100.0)
+    result = simulate(scene)
+    assert result.completed
+    up = result.quantity("loads.part.stack_up").value
+    assert 2e-4 < up < 3e-4  # the clearance's two sides, and the contact's penetrations
+    assert result.quantity("loads.part.reverse_force").value > 0.0
+    assert result.quantity("energy.residual").value < 1e-3
+
+
+def test_a_spring_without_damping_takes_nothing():
+    result = simulate(ideal(SPRING))
+    stored = 0.5 * 1e4 * 5e-4 + (0.02 - 5e-4) * 0.5 * (1e4 + 1e4 + 1e4 * 19.5 / 20.5)
+    assert -result["load_part_work"].min() == pytest.approx(stored, rel=1e-3)
+    assert abs(result.quantity("loads.part.work").value) < 1e-3 * stored
+
+
+def test_damping_takes_out_its_integral():
+    """Of F d v over the way there and back, with the ideal motion's velocity."""
+    damped = simulate(ideal(SPRING | {"damping": 0.2}))
+    speed = damped.scene.angular_speed
+    mechanism = mechanism_of(damped.scene)
+    angle = np.linspace(0.0, 2.0 * np.pi, 20001)
+    place, velocity, _ = mechanism.ideal_slider(angle, speed)
+    travel = np.maximum(0.02 - (place - mechanism.bottom), 0.0)
+    force = np.interp(travel, SPRING["travel"], SPRING["force"])
+    lost = np.trapezoid(0.2 * force * velocity**2, angle / speed)
+    assert -damped.quantity("loads.part.work").value == pytest.approx(lost, rel=5e-3)
+    assert damped.quantity("energy.residual").value < 1e-3
+
+
+def test_a_run_goes_on_in_the_sheet():
+    whole = ideal(SHEET)
+    angle, speed = whole.start_angle, whole.angular_speed
+    position = mechanism_of(whole).ideal_slider(np.linspace(0, 2 * np.pi, 3601) + angle, speed)[0]
+    height = position - mechanism_of(whole).bottom
+    inside = int(np.flatnonzero(height < 2.6e-3)[0])  # before the fracture
+    first = simulate(whole.replace("revolutions", inside / 3600))
+    rest = whole.replace("revolutions", 1.0 - inside / 3600)
+    second = simulate(rest, start=first.info["state"])
+    together = first.quantity("loads.part.work").value + second.quantity("loads.part.work").value
+    assert second.quantity("loads.part.peak_force").value > 1.1e5
+    assert together == pytest.approx(simulate(whole).quantity("loads.part.work").value, rel=5e-3)
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"height": 10.0}, "never leaves it"),
+        ({"thickness": 8e-3}, "thinner sheet"),
+        ({"crack_time": None}, "crack_time: missing"),
+        ({"over_peak": [0.0, 1.0]}, "as many of both"),
+        ({"over_fracture": [0.0, 0.5, 0.5, 1.0]}, "increasing"),
+    ],
+)
+def test_sheets_that_are_refused(changes, words):
+    with pytest.raises(InputError, match=words):
+        ideal({k: v for k, v in (SHEET | changes).items() if v is not None})
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"force": [1e4, 1e4, 2e4]}, "preload"),
+        ({"travel": [0.0, 5e-4, 0.01]}, "as long as that"),
+        ({"height": None}, "height: missing"),
+    ],
+)
+def test_springs_that_are_refused(changes, words):
+    with pytest.raises(InputError, match=words):
+        ideal({k: v for k, v in (SPRING | changes).items() if v is not None})

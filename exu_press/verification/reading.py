@@ -14,6 +14,9 @@ __all__ = ["OF_FIRST_STEP", "overshot", "smoothed", "unbalanced"]
 LOADS = frozenset({"m/s^2", "N", "N m", "W"})
 """Units of the channels that follow from accelerations."""
 
+SPEEDS = frozenset({"m/s", "rad/s"})
+"""Units of the channels whose peaks lie between steps, too; positions are read as cubics there."""
+
 OF_FIRST_STEP = 0.25
 """Of a load's change in the first step, its overshoot: 0.07 to 0.18 were measured with films."""
 
@@ -22,14 +25,14 @@ AT_ONCE = 1e-6
 
 
 def smoothed(run: Result) -> Result:
-    """Return a run whose loads are averaged, at each step, with the line through its neighbours.
+    """Return a run with loads and speeds averaged, at each step, with the line of its neighbours.
 
     The constraints of generalized-alpha leave loads that alternate from step to step, most so at
     the start and in the small steps of impacts; this takes the alternating part away. Of a peak
     that lies between steps it takes twice what it may be higher than the steps say. So the
     difference of a figure of the two is what reading it leaves open.
     """
-    return _with_loads(run, _averaged)
+    return _with(run, LOADS | SPEEDS, _averaged)
 
 
 def overshot(run: Result) -> Result:
@@ -42,7 +45,7 @@ def overshot(run: Result) -> Result:
         return run
     begun = {name: np.concatenate([run[name][:1], run[name]]) for name in run}
     begun["time"][1] += AT_ONCE * (run.time[1] - run.time[0])
-    return _with_loads(run.with_values(begun), _overshot)
+    return _with(run.with_values(begun), LOADS, _overshot)
 
 
 def unbalanced(run: Result) -> Result:
@@ -59,10 +62,10 @@ def unbalanced(run: Result) -> Result:
     return run.with_values({"energy_input": np.concatenate([given[:1], given[1:] + missed])})
 
 
-def _with_loads(run: Result, change: Callable[[Array, Array], Array]) -> Result:
-    """Return a run with other loads: change(time (n,), values (n, ...))."""
-    loads = [name for name, channel in run.channels.items() if channel.unit in LOADS]
-    return run.with_values({name: change(run.time, run[name]) for name in loads})
+def _with(run: Result, units: frozenset[str], change: Callable[[Array, Array], Array]) -> Result:
+    """Return a run with other channels of these units: change(time (n,), values (n, ...))."""
+    changed = [name for name, channel in run.channels.items() if channel.unit in units]
+    return run.with_values({name: change(run.time, run[name]) for name in changed})
 
 
 def _averaged(time: Array, values: Array) -> Array:

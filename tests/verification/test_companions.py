@@ -137,3 +137,13 @@ def test_impacts_on_flexible_bodies_have_a_finer_companion():
     assert list(plan(Scene(bodies=bodies))) == [0.5, 8.0]
     assert list(plan(Scene(bodies=bodies, solver={"tolerance": 3e-3}))) == [0.25, 8.0]
     assert min(plan(Scene(bodies=bodies, joints={}))) > 1.0
+
+
+def test_the_largest_step_of_one_companion_is_another_one():
+    """Where it sets the steps of all runs, their agreement says nothing of its error."""
+    scene = Scene(mechanism="slider_crank", joints={"crank_pin": "lubricated"})
+    assert scene.solver is not None
+    own = scene.solver.max_step_deg
+    *others, (ratio, last) = plan(scene).items()
+    assert [each.solver.max_step_deg for _, each in others] == [own] * len(others)
+    assert last.solver.max_step_deg == pytest.approx(ratio**0.5 * own)

@@ -58,10 +58,22 @@ def test_energy_is_as_unsure_as_its_balance(run):
     assert more[1:] == pytest.approx(np.abs(missed).max())
 
 
-def test_motion_is_left_alone(run):
+def test_positions_are_left_alone(run):
+    """They are read as cubics between steps."""
     found = smoothed(run)
-    for name in ("slider_position", "slider_velocity", "crank_pin_eccentricity", "energy_input"):
+    for name in ("slider_position", "crank_pin_eccentricity", "energy_input"):
         assert found[name] is run[name]
+
+
+def test_a_peak_velocity_between_steps_is_stated(run):
+    """Runs that share their steps pass over it alike, and agree."""
+    peak = run.time[100] + 0.5 * (run.time[101] - run.time[100])
+    speed = 0.3 - 10.0 * (run.time - peak) ** 2
+    alike = run.with_values({"slider_velocity": speed})
+    told = errors_of(alike, [(4.0, alike), (8.0, alike)])["errors"]["peak_velocity"]
+    passed_over = 0.3 - speed.max()
+    assert passed_over > 0.0
+    assert told["error"] >= passed_over
 
 
 def test_an_alternating_peak_is_stated_as_unsure(run):

@@ -187,3 +187,8 @@ def test_bodies_have_the_coordinates_that_their_ideal_joints_leave():
     elastic = build(guide={"lateral_stiffness": 1e9})
     assert elastic.mbs.systemData.ODE2Size() == 3 + 11 * 3
     assert elastic.rigid["slider"].coordinates == ("x", "y", "angle")
+
+
+def test_to_be_told_what_is_wrong_draws_nothing():
+    modules = imported_after("import exu_press.cli.view, exu_press.cli.report")
+    assert not {name.partition(".")[0] for name in modules} & {"matplotlib", "bokeh"}

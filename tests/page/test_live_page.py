@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 from browser import opened
 
+from exu_press.report import Page
+
 pytest.importorskip("bokeh")
 
 DRAWN = "name => Array.from(Bokeh.documents[0].get_model_by_name(name).data.y)"
@@ -164,3 +166,12 @@ def test_paper_has_pictures(report, browser):
         page.emulate_media(media="print")
         assert page.locator(".stills img").first.is_visible()
         assert not page.is_visible("#viewer")
+
+
+def test_it_runs_in_the_frame_of_a_notebook(report, tmp_path, browser):
+    cell = tmp_path / "cell.html"
+    cell.write_text(f"<body>{Page(report.read_text(encoding='utf-8'))._repr_html_()}</body>")
+    with opened(browser, cell, live=False) as page:
+        inner = page.frame_locator("iframe")
+        inner.locator("html[data-ready]").wait_for(state="attached", timeout=20_000)
+        assert inner.locator("#mechanism .body").count() == 14

@@ -20,7 +20,7 @@ FULL = {
     "revolutions": 0.02 if QUICK else 1.0,
     "film": {"law": "finite"},
     "friction": {"law": "lugre"},
-    "guide": {},
+    "guide": {"lateral_stiffness": 1e9},
 }
 RIGID = {"bodies": {}}
 CHOICES = {

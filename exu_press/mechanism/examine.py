@@ -12,7 +12,7 @@ from exu_press.mechanism.refusal import MotionError
 from exu_press.mechanism.stroke import Stroke, stroke_of
 from exu_press.mechanism.transmission import transmission_angles
 
-__all__ = ["Examination", "examine"]
+__all__ = ["Examination", "examine", "require_turning"]
 
 ANGLES = np.radians(np.arange(361.0))
 
@@ -63,20 +63,33 @@ class Examination:
         """What is wrong, a sentence each; none where the crank turns through a revolution."""
         if self.refusal is None:
             return ()
-        mobility, found = self.mobility, [str(self.refusal)]
+        return str(self.refusal), *self.misfits
+
+    @property
+    def misfits(self) -> tuple[str, ...]:
+        """Degrees of freedom too many or too few, and which joints to look at, a sentence each."""
+        mobility, found = self.mobility, []
         if mobility.loose:
             spare = mobility.degrees - mobility.turns
+            near = {name: None for body in mobility.loose for name in self._holding(body)}
             found.append(
                 f"{_degrees(spare)} too many: with the crank held, "
-                f"{', '.join(mobility.loose)} can still move"
+                f"{', '.join(mobility.loose)} can still move, held by {', '.join(near)} alone"
             )
         if not mobility.turns:
             cure = f"; it could without one of {', '.join(mobility.too_many)}"
             found.append(
-                "too few degrees of freedom: the crank cannot turn in the drawing"
-                f"{cure if mobility.too_many else ''}"
+                f"{_degrees(max(1, 1 - mobility.counted))} too few: the crank cannot turn in the "
+                f"drawing{cure if mobility.too_many else ''}"
             )
         return tuple(found)
+
+    def _holding(self, body: str) -> tuple[str, ...]:
+        """Return the joints and guides of a body, as the file names them."""
+        joints = [
+            f"joints.{j.name}" for j in self.mechanism.joints if body in (j.journal, j.bearing)
+        ]
+        return (*joints, *(f"guides.{g.body}" for g in self.mechanism.guides if g.body == body))
 
 
 def examine(mechanism: Mechanism) -> Examination:
@@ -88,6 +101,19 @@ def examine(mechanism: Mechanism) -> Examination:
     except MotionError as refusal:
         return Examination(mechanism, mobility, refusal, None, {})
     return Examination(mechanism, mobility, None, stroke, transmission)
+
+
+def require_turning(mechanism: Mechanism) -> None:
+    """Refuse a mechanism whose crank does not turn through a revolution.
+
+    Raises:
+        MotionError: with the degrees of freedom too many or too few, and the joints to look at.
+    """
+    try:
+        mechanism.require_turning()
+    except MotionError as refusal:
+        found = examine(mechanism).complaints
+        raise MotionError(". ".join(found), refusal.bodies, refusal.angle, refusal.poses) from None
 
 
 def _degrees(count: int) -> str:

@@ -21,6 +21,7 @@ from exu_press.mechanism import (
     shipped_mechanism,
     slider_crank,
 )
+from exu_press.mechanism.examine import require_turning
 from exu_press.scene.bodies import DRIVE_FACE, GUIDE_FACE, Flexible, bodies_of, body_dict
 from exu_press.scene.changes import changed_keys, drop, named
 from exu_press.scene.elastic import with_elastic_guides
@@ -138,7 +139,7 @@ class Scene(Table):
         if given is None:
             given = usual.get("joints", {})
         object.__setattr__(self, "joints", None)
-        mechanism.require_turning()
+        require_turning(mechanism)
         complete = {
             name: table_with(
                 LAW_TABLES[name], name, {} if law is None else law, usual.get(name, {})

@@ -27,7 +27,7 @@ SETTINGS: Mapping[str, Changes] = {
     "linkage's centre 0.05 m up (A-6)": {"press.linkage_mass_offset": -0.05},
     "linkage's inertia 3.5 kg m² (A-6)": {"press.linkage_inertia": 3.5},
     "half the masses of 5 to 8 (A-7)": dict.fromkeys(LINK_MASSES, times(0.5)),
-    "elastic guides, 1e9 N/m (A-9)": {"guide": {}},
+    "elastic guides, 1e9 N/m (A-9)": {"guide": {"lateral_stiffness": 1e9}},
     "elastic guides, 1e8 N/m (A-9)": {"guide": {"lateral_stiffness": 1e8}},
     "contact pulls, as printed (A-10)": {"contact.tension": True},
     "viscosity 0.05 Pa s (A-11)": {"film.viscosity": 0.05},

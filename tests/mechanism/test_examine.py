@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 from drawings import four_bar, slider_crank
 
+from exu_press import InputError, Scene
+from exu_press.mechanism import GROUND, Body, Joint
 from exu_press.mechanism.examine import examine
 
 
@@ -34,4 +36,29 @@ def test_links_that_are_too_short_are_named_with_the_position_of_their_lock():
 def test_a_body_that_nothing_holds_is_named():
     found = examine(replace(slider_crank(), guides=()))
     assert set(found.wrong_bodies) == {"rod", "slider"}
-    assert any(text.startswith("2 degrees of freedom too many") for text in found.complaints)
+    said = (
+        "2 degrees of freedom too many: with the crank held, rod, slider can still move, held by "
+    )
+    assert found.complaints[1] == said + "joints.rod_big_end, joints.rod_small_end alone"
+    with pytest.raises(InputError, match=said):
+        Scene(mechanism=found.mechanism, joints={})
+
+
+def test_a_misfit_says_in_a_run_what_it_says_in_a_drawing():
+    """A second link across the four-bar's coupler: three bodies, five joints, no mobility left."""
+    whole = four_bar()
+    coupler = whole.bodies[1]
+    brace = Body("brace", 1.0, 0.1, centre_of_mass=(0.1, 0.1))
+    joints = (
+        *whole.joints,
+        Joint("brace_foot", (0.05, 0.0), "brace", GROUND),
+        Joint("brace_head", coupler.centre_of_mass, "brace", coupler.name),
+    )
+    braced = replace(whole, bodies=(*whole.bodies, brace), joints=joints)
+    found = examine(braced)
+    assert found.mobility.counted == 0
+    assert found.complaints[1].startswith("1 degree of freedom too few: the crank cannot turn")
+    with pytest.raises(
+        InputError, match=r"1 degree of freedom too few.*it could without one of .*joi"
+    ):
+        Scene(mechanism=braced, joints={})

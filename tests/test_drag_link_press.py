@@ -117,7 +117,7 @@ def test_its_defaults_are_physical_and_said():
 
 
 def test_the_rod_of_its_step_file_fits(tmp_path):
-    """The lines that the scene has as comments: the pins lie in the bores, the mass is the rod's."""
+    """As the scene has it in comments: the pins lie in the bores, the mass is the rod's."""
     pytest.importorskip("ngsolve")
     from exu_press.placed_part import placed_parts
 

@@ -51,7 +51,7 @@ USUAL_STIFFNESS = 1e9  # N/m
 OF_KLOSS = ("rated_torque", "slip", "breakdown_torque", "no_load_speed_rpm")
 """Keys of a motor without a table of its torque."""
 
-GREASED = "greased steel on steel, Marks' Handbook, 3.2"
+OILED = "steel on steel with oil, Kirk-Othmer, Encyclopedia of Chemical Technology"
 
 
 @dataclass(frozen=True)
@@ -141,11 +141,9 @@ class Friction(Table):
     }
 
     law: str = key("coulomb", "friction law", choices=FRICTION_LAWS)
-    mu_static: float = key(
-        0.1, "static coefficient; law = 'none' for zero", above=0, source=GREASED
-    )
+    mu_static: float = key(0.1, "static coefficient; law = 'none' for zero", above=0, source=OILED)
     mu_kinetic: float = key(
-        0.1, "kinetic coefficient; law = 'none' for zero", above=0, source=GREASED
+        0.1, "kinetic coefficient; law = 'none' for zero", above=0, source=OILED
     )
     sigma_0: float = key(1e5, "bristle stiffness per normal force", "1/m", above=0)
     sigma_1: float = key(316.0, "bristle damping per normal force", "s/m", at_least=0)
@@ -197,7 +195,7 @@ class Motor(Table):
         "(speed without load - rated speed) / speed without load",
         above=0,
         at_most=1,
-        source="least of NEMA MG 1, design D",
+        source="the least of design D, NEMA MG 10, Table 2-1",
     )
     breakdown_torque: float | None = key(
         None,
@@ -304,8 +302,8 @@ class ElasticGuide(Table):
     friction: str = key(
         "none", "law of friction, whose further keys are those of [friction]", choices=FRICTION_LAWS
     )
-    mu_static: float = key(0.1, "static coefficient of guides", above=0, source=GREASED)
-    mu_kinetic: float = key(0.1, "kinetic coefficient of guides", above=0, source=GREASED)
+    mu_static: float = key(0.1, "static coefficient of guides", above=0, source=OILED)
+    mu_kinetic: float = key(0.1, "kinetic coefficient of guides", above=0, source=OILED)
     stribeck_velocity: float = key(0.01, "v_s of guides", "m/s", above=0)
     regularisation_velocity: float = key(
         1e-3, "sgn(v) of laws without bristle is tanh(v / this)", "m/s", above=0

@@ -287,7 +287,7 @@ def test_a_flexible_crank_has_its_flywheel():
 def test_what_a_scene_says():
     scene = Scene(drive={"rated_torque": 400.0, "inertia": 50.0})
     assert scene.drive == Motor(rated_torque=400.0, slip=0.05, inertia=50.0)
-    assert "drive.slip = 0.05 (least of NEMA MG 1, design D)" in assumed(scene)
+    assert "drive.slip = 0.05 (the least of design D, NEMA MG 10, Table 2-1)" in assumed(scene)
     assert Scene().drive is None
     assert scene.replace("drive", None) == Scene()
     with pytest.raises(InputError, match=r"drive\.slip = 0\.0: allowed is a number > 0"):

@@ -50,7 +50,8 @@ def test_without_stiffness_guides_stay_ideal_and_rub():
     assert not scene.guide.soft
     assert scene.guide.length is None
     assert mechanism_of(scene) == mechanism_of(Scene())
-    assert "guide.mu_kinetic = 0.1 (greased steel on steel, Marks' Handbook, 3.2)" in assumed(scene)
+    said = "guide.mu_kinetic = 0.1 (steel on steel with oil, Kirk-Othmer"
+    assert any(line.startswith(said) for line in assumed(scene))
     assert Scene.from_dict(scene.to_dict()) == scene
     with pytest.raises(
         InputError, match=r"guide\.length = 0\.3: not used .*lateral_stiffness is n"

@@ -1,0 +1,98 @@
+"""Curves, marks and blocks against the run and its quantities."""
+
+import base64
+import gzip
+import re
+
+import numpy as np
+import pytest
+
+from exu_press.page.blocks import Blocks
+from exu_press.page.curves import PEAKS, curves_of, shown_unit
+from exu_press.page.marks import dead_centres, impacts, peaks, values_on
+from exu_press.page.scenery import scenery
+from exu_press.quantities.catalogue import declared
+
+
+def test_every_channel_is_in_a_curve(press):
+    curves = curves_of(press)
+    assert {curve.channel for curve in curves} == set(press) - {"time", "crank_angle"}
+    assert len({curve.name for curve in curves}) == len(curves)
+    assert {curve.group for curve in curves} >= {
+        "Mechanism", "Joint crank pin", "Guide of slide", "Body slider",
+    }  # fmt: skip
+
+
+def test_curves_are_what_they_are_called(press):
+    by_name = {curve.name: curve for curve in curves_of(press)}
+    ball = press.joints["ball_left"]
+    for name, expected in (
+        ("ball_left_force", np.linalg.norm(ball.force, axis=1)),
+        ("ball_left_force:y", ball.force[:, 1]),
+        ("ball_left:ratio", ball.distance / ball.clearance),
+        ("ball_left:gap", ball.gap),
+        ("slider:y", press["body_position"][:, press.bodies.index("slider"), 1]),
+    ):
+        assert values_on(press, by_name[name]) == pytest.approx(expected, rel=1e-12, abs=1e-15)
+
+
+def test_peaks_are_on_their_curves(press):
+    """Those that quantities read between the steps are beyond the steps by little."""
+    assert all(declared(name) is not None for name in PEAKS.values())
+    curves = {curve.name: curve for curve in curves_of(press)}
+    found = peaks(press, curves.values())
+    assert {"slider_acceleration", "crank_pin_force", "crank_pin:gap", "drive_torque"} <= set(found)
+    for name, peak in found.items():
+        value = np.interp(peak["at"], press.time, values_on(press, curves[name]))
+        assert value == pytest.approx(peak["value"], rel=1e-3, abs=1e-12), name
+
+
+def test_impacts_are_those_that_are_counted(press):
+    found, more = impacts(press)
+    assert more == 0
+    for name in ("ball_left", "ball_right"):
+        count = press.quantity(f"joints.{name}.impacts").value
+        mine = [one for one in found if one["joint"] == name]
+        assert len(mine) == count
+        largest = max(one["force"] for one in mine)
+        assert largest == pytest.approx(press.quantity(f"joints.{name}.peak_force").value)
+    assert all(one["from"] <= one["peak"] <= one["to"] for one in found)
+
+
+def test_dead_centres_of_two_revolutions(press):
+    found = dead_centres(press)
+    assert [one["kind"] for one in found] == ["TDC", "BDC", "TDC", "BDC", "TDC"]
+    angles = np.degrees(np.interp([one["at"] for one in found], press.time, press["crank_angle"]))
+    assert angles[::2] == pytest.approx([0.0, 360.0, 720.0], abs=1e-6)
+    assert angles[1::2] == pytest.approx([180.0, 540.0], abs=10.0)
+
+
+def test_joints_are_drawn_where_they_are(press):
+    """A joint's place in its body, at the pose of the first step, is where its bearing is."""
+    drawn = scenery(press)
+    for joint in drawn["joints"]:
+        if joint["name"] == "shaft":
+            x, y, angle = press["body_position"][0, joint["body"]]
+            px, py = joint["at"]
+            c, s = np.cos(angle), np.sin(angle)
+            place = np.array([x + c * px - s * py, y + s * px + c * py])
+            assert min(np.linalg.norm(place - pivot) for pivot in drawn["pivots"]) < 1e-4
+            break
+    else:
+        pytest.fail("no shaft")
+
+
+def test_a_block_is_unpacked_as_the_script_does():
+    values = np.random.default_rng(1).normal(size=(1000, 3))
+    blocks = Blocks()
+    told = blocks.add(values, "f8")
+    packed = re.search(r">([^<]*)<", blocks.html())[1]
+    ordered = np.frombuffer(gzip.decompress(base64.b64decode(packed)), np.uint8)
+    back = np.ascontiguousarray(ordered.reshape(8, -1).T).view("<f8").reshape(told["columns"], -1)
+    assert (values == back.T).all()
+
+
+def test_units_are_those_that_people_read():
+    assert shown_unit("N m", 3e3) == ("kN m", 1e-3)
+    assert shown_unit("Pa", 2.5e7) == ("MPa", 1e-6)
+    assert shown_unit("", 2.5e7) == ("", 1.0)

@@ -66,6 +66,14 @@ class Progress(AbstractContextManager["Progress", None]):
                     flush=True,
                 )
 
+    def say(self, text: str) -> None:
+        """Write a line, above the bar if there is one."""
+        line = f"{self._label}: {text}"
+        if self._bar is not None:
+            self._bar.write(line, file=self._stream)
+        elif not self._quiet:
+            print(line, file=self._stream, flush=True)
+
     def __exit__(self, *_: object) -> None:
         """Close the bar where it stands."""
         if self._bar is not None:

@@ -446,6 +446,7 @@ class StepError:
 
     Attributes:
         start: accelerations of all coordinates at the run's start, where they are not Exudyn's.
+        limiting: in how many tries each clearance joint had the largest error.
     """
 
     def __init__(self, task: Task) -> None:
@@ -463,6 +464,7 @@ class StepError:
         self._step = 0.0  # last tried, s
         self._first_order: FirstOrderError | None = None
         self._joints: list[JointError] = []
+        self.limiting: list[int] = []
 
     def __call__(self, step: float) -> float:
         """Return the error of the step (s) that ends in the current state."""
@@ -497,12 +499,16 @@ class StepError:
             error = max(error, self._first_order.error(step))
         if self._switching:
             error = max(error, self.of_switch(step))
-        for joint in self._joints:
+        largest = -1
+        for number, joint in enumerate(self._joints):
             found = joint.error(step)
             if found > 1.0:
                 left = left or self._left_in_constraints()
                 found = joint.error(step, left)
-            error = max(error, found)
+            if found > error:
+                error, largest = found, number
+        if largest >= 0:
+            self.limiting[largest] += 1
         return error
 
     def of_switch(self, step: float) -> float:
@@ -562,6 +568,7 @@ class StepError:
                 JointError(j, whole * j.clearance, per_time * j.clearance, noise, penetration)
                 for j in problem.joints.joints
             ]
+            self.limiting = [0] * len(self._joints)
         start = self.start or problem.start.accelerations.tolist()
         return BodyError(start, per_step, self._scales, tuning, noise, self._tolerance)
 

@@ -25,11 +25,19 @@ from exu_press.integrate.sampling import Event, Sampling
 from exu_press.integrate.scheme import ModalMass, Newton
 from exu_press.integrate.settings import Task
 from exu_press.integrate.stepping import FixedSteps, Resolution, StepControl
+from exu_press.joints import ClearanceJoint
 from exu_press.progress import Progress
 
 __all__ = ["Monitor"]
 
 SECONDS_BETWEEN_UPDATES = 0.1
+
+SOON = 4.0
+"""s, after which a run says that it will be long."""
+
+LONG = 40.0
+"""s left, from which on it does: less than a minute, as the estimate is rough."""
+
 ACCEPTED = [0.0, -1.0]
 
 
@@ -62,6 +70,7 @@ class Monitor:
         max_steps: int,
         sample: float | None = None,
         event: Callable[[Any, float], float] | None = None,
+        why_long: Callable[[float, ClearanceJoint | None], str] | None = None,
     ) -> None:
         """Watch a run.
 
@@ -73,6 +82,8 @@ class Monitor:
             max_steps: budget.
             sample: period of a pre-step function, s; None: the largest step, 0.0: every step.
             event: function of the system and the time, s; steps end where its sign changes.
+            why_long: says why a run is long, of its mean step, s, and the clearance joint that
+                limits most steps, if one does.
         """
         self.tries = self.steps = 0
         self.interrupted = self.over_budget = False
@@ -106,7 +117,9 @@ class Monitor:
         self.resolution = Resolution(task)
         self._iteration: Any = task.solver.it  # holds the step
         self._accelerations = task.problem.current.accelerations
-        self._next_update = time.monotonic() + SECONDS_BETWEEN_UPDATES
+        self._begun = time.monotonic()
+        self._next_update = self._begun + SECONDS_BETWEEN_UPDATES
+        self._why_long = why_long
         self._start = self._time = task.start  # of the run and of the step under way, s
         self._users: tuple[Any, Any, Any, Any] = 0, 0, 0, 0
 
@@ -163,12 +176,32 @@ class Monitor:
         if not self.tries % 16 and time.monotonic() > self._next_update:
             self._next_update = time.monotonic() + SECONDS_BETWEEN_UPDATES
             self._progress.update(end - self._start)
+            if self._why_long is not None and self._next_update - self._begun > SOON:
+                self._say_if_long(self._why_long)
         self._modal_mass.fit(end - self._time)
         self._step_change.before_try(self._time, end - self._time)
         self.over_budget = self.tries >= self.max_steps
         if self._users[0] and not self._sampling.call(self._users[0], mbs, self._time, end):
             self.go_on = False
         return self.go_on and not (self.interrupted or self.over_budget)
+
+    def _say_if_long(self, why: Callable[[float, ClearanceJoint | None], str]) -> None:
+        """Say once, early, how long the run will be, if that is long, and why."""
+        gone, whole = self._time - self._start, self._task.end - self._start
+        if gone <= 0.0:
+            return
+        left = (time.monotonic() - self._begun) * (whole / gone - 1.0)
+        if left > LONG:
+            self._why_long = None
+            steps = gone / max(self.steps, 1)
+            self._progress.say(f"about {left:.0f} s left: {why(steps, self._limiting())}")
+
+    def _limiting(self) -> ClearanceJoint | None:
+        """Return the clearance joint that limits more than half of the steps, if one does."""
+        joints, counts = self._task.problem.joints, self._estimate.limiting
+        if joints is None or not counts or max(counts) < 0.5 * self.tries:
+            return None
+        return joints.joints[counts.index(max(counts))]
 
     def _before_residual(self, mbs: exu.MainSystem, end: float, iteration: int, other: int) -> None:
         if self._users[1]:

@@ -122,6 +122,22 @@ class Advice:
         """Return what helps where too many steps were needed."""
         return f"an earlier end time, a larger {self.setting} or max_steps"
 
+    def long(self, step: float, joint: ClearanceJoint | None) -> str:
+        """Return why a run of such a mean step, s, is long, and what makes it shorter.
+
+        Args:
+            step: s.
+            joint: that limits most steps, if one does.
+        """
+        words = f"steps of {step:.2g} s"
+        if joint is not None:
+            words += f", as {self.joint(joint)} needs them{self.stiff(joint)}"
+        return f"{words}; a larger {self.setting} makes it shorter"
+
+    def stiff(self, joint: ClearanceJoint) -> str:
+        """Return which keys make a joint need small steps, or nothing."""
+        return ""
+
     def convergence(self) -> str:
         """Return what helps where Newton's method did not converge."""
         return f"a smaller {self.setting}"
@@ -229,7 +245,7 @@ def solve_dynamic(
     task = Task(problem, settings, tolerance, scales, tuning)
     solver, failure = task.solver, ""
     with Progress("run", task.end - task.start, quiet=quiet) as progress:
-        monitor = Monitor(task, next_corner, watch, progress, max_steps, sample, event)
+        monitor = Monitor(task, next_corner, watch, progress, max_steps, sample, event, words.long)
         mbs.sys["dynamicSolver"], mbs.sys["simulationSettings"] = solver, settings
         begun = clock.perf_counter()
         # matrices of a hundred rows: further threads only wait for each other

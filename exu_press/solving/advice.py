@@ -67,6 +67,16 @@ class SceneAdvice(Advice):
         """Return what helps where too many steps were needed."""
         return f"fewer revolutions, a larger {self.setting} or solver.max_steps"
 
+    def stiff(self, joint: ClearanceJoint) -> str:
+        """Return the keys of a guide or of a joint that make it need small steps."""
+        scene = self._scene
+        if any(joint in ends for ends in self._model.ways.values()):
+            assert scene.guide is not None
+            return f" (guide.friction = {scene.guide.friction!r}, guide.clearance)"
+        if scene.friction is not None and not joint.lubricated:
+            return f" (friction.law = {scene.friction.law!r}, contact)"
+        return " (film.viscosity, clearance)" if joint.lubricated else " (contact)"
+
     def cause(self) -> str:
         """Return that the pin seizes, a film is too thin or a size hardly meant, or nothing."""
         slips = self._slips()

@@ -1,0 +1,53 @@
+"""Runs of presses with clearance under force tables: they end, and their energy closes."""
+
+import pytest
+
+from exu_press import Scene, simulate
+
+DRAWING = {
+    "kind": "table",
+    "height": [0.0, 0.001, 0.01, 0.03, 0.045],
+    "force": [240e3, 240e3, 260e3, 180e3, 0.0],
+    "offset": [0.05, 0.0],
+}
+CUSHION = {"kind": "table", "height": [0.0, 0.02], "force": [40e3, 0.0], "acts": "both"}
+PRESS = {"mechanism": "eccentric_press", "speed_rpm": 60.0}
+
+
+@pytest.mark.parametrize("acts", ["closing", "both"])
+def test_dry_pins_from_the_bottom_at_a_coarse_tolerance(acts):
+    """Impacts under a table load, where Newton's iterates go astray and steps are repeated."""
+    pins = {"crank_pin": "dry", "wrist_pin": "dry"}
+    coarse = {"start_angle_deg": 180.0, "revolutions": 0.1, "solver": {"tolerance": 3e-3}}
+    result = simulate(
+        Scene(**PRESS, joints=pins, load={"drawing": {**DRAWING, "acts": acts}}, **coarse)
+    )
+    assert result.completed, result.info["reason"]
+    assert result.info["rejected_steps"] > 10
+    assert result.quantity("energy.residual").value < 1e-4
+    work = result.quantity("loads.drawing.work").value
+    assert abs(work) < 1.0 if acts == "closing" else work > 1000.0
+
+
+def test_a_cushion_gives_back_what_it_takes():
+    """A spring of 2e6 N/m under the ram, from 15 degrees before the bottom to 15 behind it."""
+    result = simulate(
+        Scene(
+            **PRESS,
+            joints={"crank_pin": "lubricated", "balls": "dry"},
+            film={"at_contact": "mixed"},
+            load={"drawing": DRAWING, "cushion": CUSHION},
+            start_angle_deg=165.0,
+            revolutions=30.0 / 360.0,
+        )
+    )
+    assert result.completed, result.info["reason"]
+    stored = (
+        0.5
+        * 2e6
+        * (0.02**2 - (0.02 - (result["slider_position"][0] - result["slider_position"].min())) ** 2)
+    )
+    assert abs(result["load_cushion_work"]).max() == pytest.approx(stored, rel=0.05)
+    assert abs(result.quantity("loads.cushion.work").value) < 0.05 * stored
+    assert result.quantity("loads.drawing.work").value < -200.0
+    assert result.quantity("energy.residual").value < 1e-3

@@ -13,6 +13,7 @@ from exu_press.quantities.quantity import Place, Quantity
 from exu_press.quantities.reading import Reading
 from exu_press.quantities.sheet import SHEETS
 from exu_press.quantities.slider import SLIDER, STROKES
+from exu_press.quantities.wear import WEAR
 from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.applied import applied_loads
 
@@ -21,6 +22,7 @@ __all__ = ["CATALOGUE", "Placed", "add", "declared", "quantities_of", "quantity_
 CATALOGUE: list[Quantity] = [
     *SLIDER,
     *JOINTS,
+    *WEAR,
     *STROKES,
     *DRIVE,
     *SHAKING,

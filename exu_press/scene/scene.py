@@ -34,6 +34,7 @@ from exu_press.scene.output import Output
 from exu_press.scene.save import save_scene
 from exu_press.scene.tables import RPM, Contact, ElasticGuide, Film, Friction, Motor, Solver
 from exu_press.scene.usage import TABLES, unused_tables
+from exu_press.scene.wear import Wear
 
 __all__ = ["STARTS", "Scene", "mechanism_of"]
 
@@ -46,7 +47,7 @@ LONGEST_RUN = 1e9
 STARTS = ("loaded", "centred")
 """The first one is that of a mechanism without a default of its own."""
 
-ONLY_WHERE_GIVEN = ("drive", "guide", "output")
+ONLY_WHERE_GIVEN = ("drive", "guide", "output", "wear")
 """Tables that a scene without them does not have: constant speed, ideal guides, no samples."""
 
 
@@ -93,6 +94,7 @@ class Scene(Table):
     drive: Motor | None = None
     guide: ElasticGuide | None = None
     output: Output | None = None
+    wear: Wear | None = None
     solver: Solver | None = None
     press: Press | None = None
     slider_crank: SliderCrank | None = None
@@ -129,6 +131,8 @@ class Scene(Table):
                 "output.samples: allowed with solver.tolerance, as fixed steps end on a grid"
             )
         self._settle_joints()
+        if self.wear is not None and not self._rubbing():
+            self._refuse({"wear": "no revolute joint is dry"}, "wear", self.wear)
         self._settle_bodies()
         self._settle_loads()
 
@@ -171,6 +175,11 @@ class Scene(Table):
             object.__setattr__(self, name, used)
         if of_guides.get("contact"):
             refuse_missing_damping("guide.clearance", contact)
+
+    def _rubbing(self) -> bool:
+        """Return whether a dry revolute joint is there."""
+        joints = mechanism_of(self).joints
+        return any(self.joints[j.name].kind == "dry" and not j.spherical for j in joints)
 
     def _settle_bodies(self) -> None:
         """Say which bodies are flexible."""

@@ -62,6 +62,7 @@ EXAMPLES: dict[str, dict[str, Any]] = {
     "drive": {"rated_torque": 400.0, "inertia": 50.0},
     "guide": {"lateral_stiffness": 1e9},
     "output": {"samples": (0.0, 180.0)},
+    "wear": {"coefficient": 1e-5, "hardness": 2e9, "length": 0.1},
 }
 """What tables that are not in use are shown with, since they need something."""
 

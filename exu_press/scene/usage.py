@@ -5,6 +5,7 @@ from typing import Any
 from exu_press.mechanism import Press, SliderCrank
 from exu_press.scene.output import Output
 from exu_press.scene.tables import Contact, ElasticGuide, Film, Friction, Motor, Solver
+from exu_press.scene.wear import Wear
 
 __all__ = ["TABLES", "unused_tables"]
 
@@ -15,6 +16,7 @@ TABLES = {
     "drive": Motor,
     "guide": ElasticGuide,
     "output": Output,
+    "wear": Wear,
     "solver": Solver,
     "press": Press,
     "slider_crank": SliderCrank,

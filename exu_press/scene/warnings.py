@@ -35,13 +35,16 @@ SHORT = 0.02
 
 MILLI = 1e-3
 
+MOST_WEAR = 0.05
+"""Archard's coefficient: mild steel on itself has 7e-3, dry (Archard 1953)."""
+
 REACHED = 0.01
 """Of a table's heights, that the output has at least where they are meant in m."""
 
 
 def scene_warnings(scene: Scene) -> list[str]:
     """Return what is allowed but hardly meant: the key, what was given, and what it changes."""
-    return [*doubtful_sizes(scene), *_film_law(scene), *_forming(scene)]
+    return [*doubtful_sizes(scene), *_film_law(scene), *_forming(scene), *_wear(scene)]
 
 
 def doubtful_sizes(scene: Scene) -> list[str]:
@@ -172,6 +175,16 @@ def _heights(scene: Scene) -> Iterator[str]:
                 f"{stroke:.4g} m above bottom dead centre. Beyond the table its first or last "
                 f"force goes on.{_slip(high, 1e-3 * stroke, stroke, 'm')}"
             )
+
+
+def _wear(scene: Scene) -> Iterator[str]:
+    """Yield a coefficient of wear that no pair of metals has."""
+    wear = scene.wear
+    if wear is not None and wear.coefficient > MOST_WEAR:
+        yield (
+            f"wear.coefficient = {wear.coefficient:g} is above {MOST_WEAR:g}. Steel on steel has "
+            "7e-3 dry and 1e-6 to 1e-4 greased: is it a coefficient over the hardness, 1/Pa?"
+        )
 
 
 def _forming(scene: Scene) -> Iterator[str]:

@@ -1,0 +1,131 @@
+"""Viscosity of an oil over temperature and pressure."""
+
+import math
+
+__all__ = ["barus", "roelands", "walther"]
+
+SHIFT = 0.7
+"""mm^2/s, of ASTM D341 for kinematic viscosities above 2 mm^2/s."""
+
+KELVIN = 273.15
+
+
+def walther(
+    temperature: float, first: tuple[float, float], second: tuple[float, float]
+) -> tuple[float, float]:
+    r"""Return an oil's kinematic viscosity from two of its data sheet, and its derivative.
+
+    .. math::
+        \log_{10} \log_{10} (\nu + 0.7) = A - B \log_{10} T
+
+    with nu in mm^2/s and T in K; A and B follow from the two points.
+
+    Parameters
+    ----------
+    temperature : [deg C]
+    first : temperature [deg C] and kinematic viscosity [mm^2/s] of a point
+    second : the same of another one, warmer and thinner
+
+    Returns
+    -------
+    nu [mm^2/s] and d nu/d T [mm^2/(s K)].
+
+    Notes
+    -----
+    Range: between the pour point and about 150 deg C, from 2 to 2e7 mm^2/s. Times the density in
+    kg/m^3 and 1e-6 it is the dynamic viscosity in Pa s.
+
+    Examples
+    --------
+    An oil of 30 mm^2/s at 40 deg C and 5.23 at 100 deg C has at 60 deg C
+
+    >>> round(walther(60.0, (40.0, 30.0), (100.0, 5.23))[0], 1)
+    14.4
+
+    References
+    ----------
+    .. [1] ASTM D341-20. Standard practice for viscosity-temperature equations and charts for liquid
+       petroleum or hydrocarbon products.
+    """
+    slopes = [math.log10(math.log10(nu + SHIFT)) for _, nu in (first, second)]
+    logs = [math.log10(t + KELVIN) for t, _ in (first, second)]
+    b = (slopes[0] - slopes[1]) / (logs[1] - logs[0])
+    kelvin = temperature + KELVIN
+    inner = 10.0 ** (slopes[0] - b * (math.log10(kelvin) - logs[0]))
+    shifted = 10.0**inner
+    return shifted - SHIFT, -shifted * math.log(10.0) * inner * b / kelvin
+
+
+def barus(viscosity: float, coefficient: float, pressure: float) -> tuple[float, float]:
+    r"""Return the viscosity under pressure, and its derivative.
+
+    .. math::
+        \eta = \eta_0 \, e^{\alpha p}
+
+    Parameters
+    ----------
+    viscosity : eta_0 without pressure [Pa s]
+    coefficient : alpha [1/Pa], of mineral oils 1e-8 to 3e-8
+    pressure : p [Pa]
+
+    Returns
+    -------
+    eta [Pa s] and d eta/d p [s].
+
+    Notes
+    -----
+    Range: up to some 0.1 GPa; above it gives far too much (`roelands`).
+
+    Examples
+    --------
+    >>> round(barus(0.1, 2e-8, 5e7)[0], 4)
+    0.2718
+
+    References
+    ----------
+    .. [1] Barus, C. Isothermals, isopiestics and isometrics relative to viscosity. Am. J. Sci. 45
+       (1893) 87-96.
+    """
+    found = viscosity * math.exp(coefficient * pressure)
+    return found, coefficient * found
+
+
+def roelands(viscosity: float, coefficient: float, pressure: float) -> tuple[float, float]:
+    r"""Return the viscosity under pressure, and its derivative.
+
+    .. math::
+        \eta = \eta_0 \exp\left[(\ln \eta_0 + 9.67)
+        \left(\left(1 + p / p_0\right)^Z - 1\right)\right], \quad
+        Z = \frac{\alpha p_0}{\ln \eta_0 + 9.67}
+
+    with p_0 = 0.196 GPa. Z is such that the derivative without pressure is that of `barus`.
+
+    Parameters
+    ----------
+    viscosity : eta_0 without pressure [Pa s], above 6.4e-5
+    coefficient : alpha [1/Pa]
+    pressure : p [Pa], not negative
+
+    Returns
+    -------
+    eta [Pa s] and d eta/d p [s].
+
+    Notes
+    -----
+    Range: up to about 1 GPa.
+
+    Examples
+    --------
+    >>> [round(law(0.1, 2e-8, 5e8)[0], 1) for law in (roelands, barus)]
+    [120.2, 2202.6]
+
+    References
+    ----------
+    .. [1] Roelands, C. J. A. Correlational aspects of the viscosity-temperature-pressure
+       relationship of lubricating oils. Thesis, Delft, 1966.
+    """
+    reference, above = 1.96e8, math.log(viscosity) + 9.67
+    z = coefficient * reference / above
+    ratio = 1.0 + pressure / reference
+    found = viscosity * math.exp(above * (ratio**z - 1.0))
+    return found, found * coefficient * ratio ** (z - 1.0)

@@ -13,13 +13,21 @@ if TYPE_CHECKING:
     from typing import Any
 
     from exu_press.errors import InputError
-    from exu_press.integrate import Scales, Status, Tuning, solve_dynamic
+    from exu_press.integrate import (
+        Outcome,
+        Scales,
+        Status,
+        Tuning,
+        follow_modes,
+        solve_dynamic,
+    )
     from exu_press.joints import (
         FlexiblePoint,
         add_dry_revolute,
         add_dry_spherical,
         add_joint_sensor,
         add_lubricated_revolute,
+        add_ways_contact,
     )
     from exu_press.report.cells import Comparison
     from exu_press.result import Result
@@ -32,6 +40,7 @@ __all__ = [
     "Comparison",
     "FlexiblePoint",
     "InputError",
+    "Outcome",
     "Result",
     "Scales",
     "Scene",
@@ -42,6 +51,8 @@ __all__ = [
     "add_dry_spherical",
     "add_joint_sensor",
     "add_lubricated_revolute",
+    "add_ways_contact",
+    "follow_modes",
     "load_scene",
     "simulate",
     "solve_dynamic",
@@ -51,6 +62,7 @@ _HOMES = {
     "Comparison": "exu_press.report.cells",
     "FlexiblePoint": "exu_press.joints",
     "InputError": "exu_press.errors",
+    "Outcome": "exu_press.integrate",
     "Result": "exu_press.result",
     "Scales": "exu_press.integrate",
     "Scene": "exu_press.scene",
@@ -60,6 +72,8 @@ _HOMES = {
     "add_dry_spherical": "exu_press.joints",
     "add_joint_sensor": "exu_press.joints",
     "add_lubricated_revolute": "exu_press.joints",
+    "add_ways_contact": "exu_press.joints",
+    "follow_modes": "exu_press.integrate",
     "load_scene": "exu_press.scene",
     "simulate": "exu_press.simulation",
     "solve_dynamic": "exu_press.integrate",

@@ -37,9 +37,6 @@ TIME_LIMIT = 60.0
 
 TIME_LIMIT_FLEXIBLE = 300.0
 
-ROUNDS = 2
-"""Of changing the best reading by one key: the second one if the first has found a better."""
-
 FREE = 0.01
 """Of the distance: what changes it by less cannot be told."""
 
@@ -84,7 +81,7 @@ class Inverse:
         ours, best, recommended: readings and what they make.
         alone: name of what is open -> trials that differ from `base` in it alone.
         flexible: the recommended reading with flexible bodies.
-        base: best reading before the last round of changes by one key.
+        base: best reading of the search, before the changes by one key.
         failures: why runs gave no numbers -> how many.
         runs: how many there were.
     """
@@ -244,12 +241,9 @@ def inverse(
         best = min(judge.trials, key=lambda one: one.distance)
         if best.ratios is None:
             raise InputError(f"no reading gives numbers: {judge.failures.most_common(2)}")
-        for _ in range(1 if quick else ROUNDS):
-            alone = _alone(judge, best, quick)
-            better = min((t for each in alone.values() for t in each), key=lambda t: t.distance)
-            base, best = best, min(best, better, key=lambda t: t.distance)
-            if better.distance > base.distance - FREE:
-                break
+        alone = _alone(judge, best, quick)
+        better = min((t for each in alone.values() for t in each), key=lambda t: t.distance)
+        base, best = best, min(best, better, key=lambda t: t.distance)
         report = Inverse(numbers, judge.trials, ours, best, best, alone, best, base)
         reading = {**best.reading, **{name: OURS[name] for name in report.free}}
         (plain,) = judge.of([reading])

@@ -136,13 +136,25 @@ class Inverse:
 
 
 def _alone(judge: "_Judge", best: Trial, quick: bool) -> dict[str, list[Trial]]:
-    """Return trials that differ from the best in one key, by its name."""
+    """Return trials that differ from the best in one key, by its name; each observed at its best.
+
+    Little damping and resolved peaks go together, as much damping and means do.
+    """
     varied = {name: alternatives(name, best.reading[name]) for name in OPEN}
     if quick:
         varied = {name: values[:1] for name, values in list(varied.items())[:3]}
-    asked = [{**best.reading, n: v} for n, values in varied.items() for v in values]
+    ways = {name: (best.reading[OBSERVED],) if name == OBSERVED else MODELS for name in varied}
+    asked = [
+        {**best.reading, OBSERVED: how, name: value}
+        for name, values in varied.items()
+        for value in values
+        for how in ways[name]
+    ]
     found = iter(judge.of(asked))
-    return {name: [next(found) for _ in values] for name, values in varied.items()}
+    return {
+        name: [min((next(found) for _ in ways[name]), key=lambda one: one.distance) for _ in values]
+        for name, values in varied.items()
+    }
 
 
 class _Judge:

@@ -52,14 +52,18 @@ def unbalanced(run: Result) -> Result:
     """Return a run that is put in as much more energy as its balance misses at worst.
 
     The energy put in is the integral of a power that is read at steps. Where it flows back and
-    forth, as over whole revolutions, errors cancel at the end, which is luck.
+    forth, as over whole revolutions, errors cancel at the end, which is luck. The drive's power is
+    more by as much in the mean.
     """
     if not has_balance(run):
         return run
     run = settled(run)
     given = run["energy_input"]
     missed = np.abs(given - run["energy_stored"] - run["energy_dissipated"]).max()
-    return run.with_values({"energy_input": np.concatenate([given[:1], given[1:] + missed])})
+    changed = {"energy_input": np.concatenate([given[:1], given[1:] + missed])}
+    if len(run.time) > 1:
+        changed["drive_power"] = run["drive_power"] + missed / (run.time[-1] - run.time[0])
+    return run.with_values(changed)
 
 
 def _with(run: Result, units: frozenset[str], change: Callable[[Array, Array], Array]) -> Result:

@@ -136,7 +136,8 @@ def errors_of(
             )
             by_end = {at: {1.0: read(until(result, at))} for at in (end, beside, horizon)}
             after = {1.0: read(window(result, horizon, end))} if horizon < end else {}
-            reads = [read(changed(result)) for changed in (smoothed, overshot, unbalanced)]
+            ways = (OF_READING, smoothed), (OF_READING, overshot), (1.0, unbalanced)
+            reads = [(part, read(changed(result))) for part, changed in ways]
         for instant, found in by_end.items():
             found[ratio] = read(until(run, instant))
         if after:
@@ -149,12 +150,12 @@ def errors_of(
     errors: dict[str, Error] = {}
     sizes = _Sizes.of(by_end[end][1.0], told)
     for name, value in by_end[end][1.0].items():
-        left_open = max(abs(value - changed[name]) for changed in reads)
+        left_open = max(part * abs(value - changed[name]) for part, changed in reads)
         quantity = told[name].quantity
         least = _least(
             quantity, [found[name] for found in by_end[end].values() if name in found], sizes
         )
-        least += OF_READING * left_open
+        least += left_open
         errors[name] = error = _error(name, quantity.extreme, by_end[end], until_then, after, least)
         if value >= 0.0 and not quantity.signed:
             error["low"] = max(error["low"], 0.0)

@@ -58,6 +58,29 @@ def test_energy_is_as_unsure_as_its_balance(run):
     assert more[1:] == pytest.approx(np.abs(missed).max())
 
 
+def test_the_mean_power_is_as_unsure_as_the_energy_put_in(run):
+    missed = run["energy_input"] - run["energy_stored"] - run["energy_dissipated"]
+    more = unbalanced(run)["drive_power"] - run["drive_power"]
+    assert np.trapezoid(more, run.time) == pytest.approx(np.abs(missed).max())
+
+
+def test_what_the_balance_misses_is_stated():
+    """Of a guide with clearance: dissipated and stored energy are known far better."""
+    scene = Scene.from_dict(
+        {
+            "mechanism": "slider_crank",
+            "speed_rpm": 60.0,
+            "joints": {"crank_pin": "ideal"},
+            "guide": {"clearance": 2e-5, "width": 0.1},
+        }
+    )
+    run = simulate(scene)
+    told = errors_of(run, [(4.0, run), (8.0, run)])["errors"]["drive.mean_power"]
+    balance = run.quantity("energy.dissipated").value + run.quantity("energy.stored").value
+    off = abs(run.quantity("drive.mean_power").value - balance)
+    assert told["error"] >= 0.99 * off > 0.01 * balance
+
+
 def test_positions_are_left_alone(run):
     """They are read as cubics between steps."""
     found = smoothed(run)

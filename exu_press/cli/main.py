@@ -22,6 +22,7 @@ COMMANDS = (
     "compare",
     "sweep",
     "attractor",
+    "bifurcation",
     "fit",
     "sensitivity",
     "optimise",

@@ -1,6 +1,5 @@
 """What is determined of figures where motion is chaotic: their distribution over revolutions."""
 
-import math
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
@@ -57,13 +56,14 @@ def percentiles(values: Sequence[float]) -> dict[float, tuple[float, float, floa
     are, with less confidence. Revolutions that follow each other are not independent of each other
     for sure; where motion is chaotic, the next one remembers little.
     """
+    from scipy.stats import binom  # takes as long to import as a short run
+
     ordered, count = np.sort(values), len(values)
     tail = 0.5 * (1.0 - CONFIDENCE)
     found = {}
     for percent in PERCENTILES:
-        p = percent / 100.0
-        below = [math.comb(count, k) * p**k * (1.0 - p) ** (count - k) for k in range(count + 1)]
-        low, high = np.searchsorted(np.cumsum(below), [tail, 1.0 - tail])
+        below = binom.cdf(np.arange(count + 1), count, percent / 100.0)
+        low, high = np.searchsorted(below, [tail, 1.0 - tail])
         bounds = float(ordered[max(low - 1, 0)]), float(ordered[min(high, count - 1)])
         found[percent] = float(np.percentile(ordered, percent)), *bounds
     return found

@@ -44,3 +44,10 @@ def test_a_run_that_stops_early_leaves_none():
     scene = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, solver={"max_steps": 20})
     with pytest.raises(InputError, match=r"no distribution, as a run .*20 steps"):
         distributions(scene, [NAME], within=0.01)
+
+
+def test_percentiles_of_thousands_of_revolutions():
+    values = np.random.default_rng(3).normal(5.0, 2.0, 4000)
+    middle, low, high = percentiles(values.tolist())[95.0]
+    assert low < 5.0 + 1.6449 * 2.0 < high
+    assert middle == pytest.approx(5.0 + 1.6449 * 2.0, rel=0.03)

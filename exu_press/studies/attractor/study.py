@@ -9,6 +9,7 @@ import numpy as np
 
 from exu_press.arrays import Array
 from exu_press.errors import InputError
+from exu_press.model.state import State
 from exu_press.progress import Progress
 from exu_press.quantities import quantities_of
 from exu_press.quantities.value import numbers_of
@@ -50,6 +51,7 @@ class Attractor:
         figures: quantity -> its value in each revolution, (n,).
         last: records of the last revolutions.
         transient: (skip,) distance of each point before from the last one.
+        state: on the section, at the end.
     """
 
     scene: Scene
@@ -61,6 +63,7 @@ class Attractor:
     figures: Mapping[str, Array]
     last: Sequence[Result]
     transient: Array
+    state: State
 
     @property
     def per_second(self) -> tuple[float, float, float]:
@@ -109,6 +112,7 @@ def attractor(
     skip: int = 30,
     names: Sequence[str] = (),
     most: int = MOST,
+    start: State | None = None,
     quiet: bool = True,
 ) -> Attractor:
     """Run a press for long, and return what it does.
@@ -121,6 +125,7 @@ def attractor(
         names: of quantities whose values in each revolution are kept; those of the headline unless
             told.
         most: revolutions up to which a period is looked for.
+        start: state on the section to begin with; the scene's own start unless told.
         quiet: False shows the progress.
 
     Raises:
@@ -144,7 +149,7 @@ def attractor(
         names = [name for name, placed in declared.items() if placed.quantity.headline]
     wanted = {name: declared[name] for name in names}
     total = skip + revolutions
-    orbit = Orbit(scene)
+    orbit = Orbit(scene, start)
     neighbours = [Orbit(scene) for _ in DISTANCES]
     other = _finer(scene)
     before: list[Array] = []
@@ -169,7 +174,7 @@ def attractor(
                 for i, neighbour in enumerate(neighbours):
                     growths[i].append(_grown(orbit, neighbour, DISTANCES[i]))
             progress.update(done + 1)
-    error = max(_error(orbit, other), NOISE)
+    error, state = max(_error(orbit, other), NOISE), orbit.state
     for each in (orbit, other, *neighbours):
         each.close()
     # the first growth is from a random direction, and from a state that did not fit its constraints
@@ -186,6 +191,7 @@ def attractor(
         figures={name: np.array([each.get(name, math.nan) for each in values]) for name in wanted},
         last=last,
         transient=np.linalg.norm(np.array(before) - section[-1], axis=1),
+        state=state,
     )
 
 

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any, Self
 
 from exu_press.batch import Batch, Row, locked
+from exu_press.batch.task import Function
 from exu_press.output import output_directory
 from exu_press.quantities import values_of
 from exu_press.result import Result
@@ -31,6 +32,7 @@ class Runs(ExitStack):
         *,
         written: Sequence[str] = (),
         label: str = "study",
+        function: Function | None = None,
         workers: int | None = None,
         dask: str | None = None,
         quiet: bool = True,
@@ -42,6 +44,7 @@ class Runs(ExitStack):
             directory: of this study alone.
             written: names of the files that the study writes in the end.
             label: of the progress bar.
+            function: of a run's arguments, for `rows`; `run_scene` unless told.
             workers: number of processes; all cores unless told.
             dask: address of a Dask scheduler instead.
             quiet: False shows the progress on standard error.
@@ -49,6 +52,7 @@ class Runs(ExitStack):
         super().__init__()
         self.directory = Path(directory)
         self._study, self._written = study, written
+        self._function = run_scene if function is None else function
         self._told: dict[str, Any] = {
             "label": label,
             "workers": workers,
@@ -70,7 +74,7 @@ class Runs(ExitStack):
             self.enter_context(locked(self.directory))
             claim(self.directory, self._study.to_dict(), self._written)
             self._batch = self.enter_context(
-                Batch(run_scene, self.directory, kept=_file_is_whole, **self._told)
+                Batch(self._function, self.directory, kept=_file_is_whole, **self._told)
             )
         except BaseException:
             self.close()
@@ -93,6 +97,10 @@ class Runs(ExitStack):
             path = self.directory / file
             output_directory(path.parent)
             each["save"] = str(path.resolve())
+        return self._batch.rows(arguments)
+
+    def rows(self, arguments: Sequence[Mapping[str, Any]]) -> list[Row]:
+        """Return the row of the study's own function for each of the arguments."""
         return self._batch.rows(arguments)
 
 

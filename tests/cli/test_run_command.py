@@ -133,3 +133,16 @@ def test_the_figures_are_printed_before_the_pictures_are_drawn(tmp_path, capsys,
     arguments = ["run", "slider_crank", "--set", "revolutions=0.01", "--no-error"]
     assert main([*arguments, "--out", str(tmp_path)]) == 0
     assert capsys.readouterr().out.startswith("written: ")
+
+
+def test_a_run_that_is_not_known_goes_on_unless_it_is_to_run_once(tmp_path, capsys):
+    """A dry press at a coarse tolerance: the first run's figures are not within 5 %."""
+    coarse = ["joints.crank_pin=dry", "solver.tolerance=5e-2", "revolutions=0.3"]
+    arguments = [text for change in coarse for text in ("--set", change)]
+    said = []
+    for more in ([], ["--once"]):
+        out = str(tmp_path / f"out{len(more)}")
+        assert main(["run", "press", *arguments, *more, "--out", out]) == 0
+        said.append(" ".join("".join(capsys.readouterr()).split()))
+    assert "not known within 5%; goes on at a tolerance of 0.013" in said[0]
+    assert "goes on" not in said[1]

@@ -13,7 +13,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "path",
         metavar="PATH",
-        help="a run.nc, or the directory that run, compare, sweep, fit or optimise wrote to",
+        help="a run.nc, or the directory of a run, a comparison or a study",
     )
     parser.add_argument(
         "--out", metavar="FILE.html", help="where to write (default: report.html beside it)"

@@ -91,3 +91,22 @@ def test_what_no_study_wrote_is_refused(tmp_path, capsys, name, content):
     (tmp_path / "trials.csv").write_text("a,front\n")
     assert main(["report", str(tmp_path / name)]) == 2
     assert name in capsys.readouterr().err
+
+
+def test_every_point_of_a_section_is_in_the_diagram(tmp_path, browser):
+    pytest.importorskip("bokeh")
+    rows = [
+        {"value": value, "status": "completed", "reason": "", "points": [[x, 0.0] for x in found],
+         "in_words": f"period {len(found)}", "exponent": [-1.0, None, -0.5], "motion": "periodic"}
+        for value, found in ((100.0, [0.5]), (200.0, [0.4, 0.6]))
+    ]  # fmt: skip
+    rows.append({"value": 300.0, "status": "failed", "reason": "<b>why"})
+    told = {"key": "speed_rpm", "branches": {"up": rows}}
+    (tmp_path / "bifurcation.json").write_text(json.dumps(told))
+    with opened(browser, report_in(tmp_path)) as page:
+        found = page.evaluate(
+            """() => { const d = Bokeh.documents[0].get_model_by_name('points-runs').data;
+            return [[...d.x], [...d.y]]; }"""
+        )
+        assert found == [[100.0, 200.0, 200.0], [0.5, 0.4, 0.6]]
+        assert "<b>why" in page.inner_text("body")

@@ -16,7 +16,7 @@ from exu_press.model.system import System
 from exu_press.scene import Scene
 from exu_press.scene.applied import AppliedLoad, applied_loads
 
-__all__ = ["Place", "add_loads", "next_corner", "torque_wanted"]
+__all__ = ["Place", "add_loads", "force_at", "next_corner", "torque_wanted"]
 
 Place = Callable[[float], tuple[float, float]]
 """Of a load's curve: time -> the place where the load is now, and how fast that changes."""
@@ -65,15 +65,21 @@ def next_corner(loads: Mapping[str, tuple[AppliedLoad, Place]], scene: Scene, ti
     return soonest
 
 
+def force_at(load: AppliedLoad, place: Place, time: float) -> float:
+    """Return a load's force in the current state, N; that of forming does not fade at rest."""
+    now = place(time)
+    return place.cut.force(time, *now) if isinstance(place, Cutting) else load.curve(now[0])
+
+
 def torque_wanted(
-    mechanism: Mechanism, scene: Scene, places: Mapping[str, float], angle: float
+    mechanism: Mechanism, scene: Scene, forces: Mapping[str, float], angle: float
 ) -> float:
     """Return the crank's torque that holds loads and weights, N m, by virtual work.
 
     Args:
         mechanism: ideal, and without friction.
         scene: with the loads.
-        places: of the loads on their curves.
+        forces: of the loads, as they were before the output came to rest, N.
         angle: of the crank, rad.
     """
     per_angle = mechanism.motion(np.array([angle]), 1.0)
@@ -84,7 +90,7 @@ def torque_wanted(
     for name, load in applied_loads(scene).items():
         if load.fade is None or closes:
             moved = per_angle[load.body].at(load.point).velocity[0, :2]
-            wanted -= load.curve(places[name]) * float(moved @ np.array(load.direction))
+            wanted -= forces[name] * float(moved @ np.array(load.direction))
     return wanted
 
 

@@ -11,7 +11,7 @@ from exu_press.integrate import Outcome, Tuning
 from exu_press.joints.guide_friction import GuideFriction
 from exu_press.laws.load_curve import Clock
 from exu_press.model.drive import CrankAngle
-from exu_press.model.loads import Place, next_corner, torque_wanted
+from exu_press.model.loads import Place, force_at, next_corner, torque_wanted
 from exu_press.rigid import RigidBody
 from exu_press.scene.applied import AppliedLoad
 from exu_press.solving import DEFAULTS, Assembled, solve
@@ -104,13 +104,14 @@ class Model(Assembled):
         angle, speed = self.crank_angle()
         if speed > STALLED * min(self.scene.angular_speed, motor.fastest(self.scene.speed_rpm)):
             return ""
-        places = {name: place(time)[0] for name, (_, place) in self.loads.items()}
-        wanted = torque_wanted(self.mechanism, self.scene, places, angle)
+        forces = {name: force_at(load, place, time) for name, (load, place) in self.loads.items()}
+        wanted = torque_wanted(self.mechanism, self.scene, forces, angle)
         there = motor.law(self.scene.speed_rpm)(speed)[0]
         return (
             f"the press stalled at t = {time:.6g} s, crank angle {math.degrees(angle) % 360.0:.2f} "
-            f"deg: loads and weights want {wanted:.4g} N m there, and the motor has {there:.4g} N "
-            "m; try a larger drive.inertia, or a motor of a larger torque"
+            f"deg: loads and weights, without friction, want {wanted:.4g} N m there, "
+            f"and the motor has {there:.4g} N m; try a larger drive.inertia, or a "
+            "motor of a larger torque"
         )
 
 

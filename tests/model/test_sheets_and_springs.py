@@ -1,9 +1,12 @@
 """A sheet and a spring in a press, against the ideal motion; what is refused."""
 
+import re
+
 import numpy as np
 import pytest
 
 from exu_press import InputError, Scene, simulate
+from exu_press.laws.sheet import SHAPE
 from exu_press.scene import mechanism_of
 
 SHEET = {
@@ -100,6 +103,22 @@ def test_a_run_goes_on_in_the_sheet():
     together = first.quantity("loads.part.work").value + second.quantity("loads.part.work").value
     assert second.quantity("loads.part.peak_force").value > 1.1e5
     assert together == pytest.approx(simulate(whole).quantity("loads.part.work").value, rel=5e-3)
+
+
+def test_a_motor_stalls_in_a_sheet_that_is_too_strong():
+    """And asks for the torque of virtual work at the sheet's force there."""
+    strong = SHEET | {"shear_strength": 3e9, "thickness": 4e-3, "height": 5e-3}
+    motor = {"rated_torque": 20.0, "inertia": 0.1}
+    result = simulate(ideal(strong, drive=motor, speed_rpm=60.0))
+    assert result.info["status"] == "stalled"
+    told = float(re.search(r"want (\S+) N m there", result.info["reason"])[1])
+    angle = result["crank_angle"][-1:]
+    place, per_angle, _ = mechanism_of(result.scene).ideal_slider(angle, 1.0)
+    depth = 5e-3 - (place[0] - mechanism_of(result.scene).bottom)
+    assert 0.0 < depth < 0.4 * 4e-3
+    force = 3e9 * 0.2 * 4e-3 * np.interp(depth / 1.6e-3, *SHAPE)
+    assert told == pytest.approx(-force * per_angle[0], rel=0.05)  # and weights
+    assert result.quantity("energy.residual").value < 1e-3
 
 
 @pytest.mark.parametrize(

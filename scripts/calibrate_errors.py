@@ -1,6 +1,6 @@
 """Do the stated errors cover the true ones? Random scenes, each against much finer runs.
 
-    python scripts/calibrate_errors.py [--scenes 60] [--seed 1] [--minutes 25] [--out DIR]
+    python scripts/calibrate_errors.py [--scenes 200] [--seed 1] [--minutes 25] [--out DIR]
 
 All shipped mechanisms and random own ones; ideal, dry, lubricated and mixed joints; all friction
 laws; guides with clearance, motors, loads, fixed steps; tolerances of 3e-5 to 1e-2; 0.1 to 0.35

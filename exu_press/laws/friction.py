@@ -6,7 +6,7 @@ v [m/s] -> (mu, dmu/dv [s/m]); `LuGre` carries the bristle's deflection as a sta
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import copysign, exp, sqrt, tanh
+from math import copysign, exp, expm1, sqrt, tanh
 
 from exu_press.laws.contact_parameters import demand, not_negative, positive
 
@@ -14,9 +14,6 @@ __all__ = ["Friction", "LuGre", "coulomb", "lugre_steady", "no_friction", "strib
 
 PASSIVE = 4.0 * sqrt(2.0 * exp(1.0))
 """sigma_1 v_d / mu_k: the largest one with which LuGre's bristle makes no energy."""
-
-SMALL = 1e-9
-"""Share of the bristle's distance g / sigma_0: over a shorter one its rate is constant."""
 
 Friction = Callable[[float], tuple[float, float]]
 
@@ -324,7 +321,7 @@ class LuGre:
         direction = _sign(mean)
         over = self.sigma_0 * abs(stretch) / g
         decay = exp(-over)
-        average = (1.0 - decay) / over if over > SMALL else 1.0
+        average = -expm1(-over) / over if over > 0.0 else 1.0
         bent = direction * self.sigma_0 * z0 / g
         z1 = z0 + stretch * average * (1.0 - bent)
         by_mean = 0.0

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from exu_press.plots.words import joint_in_words
+from exu_press.quantities.catalogue import CATALOGUE
 from exu_press.quantities.quantity import Place
 from exu_press.result import Result
 from exu_press.result.channel import AXES, guide_channel
@@ -14,20 +15,8 @@ __all__ = ["Curve", "curves_of", "shown_unit"]
 
 WORDS = {"x": "x", "y": "y", "z": "z", "angle": "angle"}
 
-PEAKS = {
-    "slider_velocity": "peak_velocity",
-    "slider_acceleration": "peak_acceleration.resolved",
-    "drive_torque": "drive.peak_torque",
-    "drive_power": "drive.peak_power",
-    "crank_torque": "drive.peak_crank_torque",
-    "slider_tilt": "slider_tilt",
-    "slider_lateral": "slider_lateral",
-    "shaking_force:x": "shaking.horizontal",
-    "shaking_force:y": "shaking.vertical",
-    "frame_force:x": "shaking.frame.horizontal",
-    "frame_force:y": "shaking.frame.vertical",
-}
-"""Curve of a run -> the quantity that is its largest absolute value."""
+PEAKS = {(each.place, each.curve): each for each in CATALOGUE if each.curve}
+"""Place and curve -> the quantity that is its extreme."""
 
 
 @dataclass(frozen=True)
@@ -69,26 +58,24 @@ def curves_of(result: Result) -> list[Curve]:
         places += _joint(result, name)
     for guide in mechanism.guides:
         begin = guide_channel(mechanism, guide.body)
-        peaks = {"force": "peak_force", "moment": "peak_moment", "friction": "peak_friction"}
         group = f"Guide of {_words(guide.body)}"
-        places += _beginning(result, begin, group, Place.GUIDE, guide.body, peaks)
+        places += _beginning(result, begin, group, Place.GUIDE, guide.body)
     for load in applied_loads(result.scene):
-        places += _beginning(result, f"load_{load}", f"Load {_words(load)}", Place.LOAD, load, {})
+        places += _beginning(result, f"load_{load}", f"Load {_words(load)}", Place.LOAD, load)
     for index, body in enumerate(result.bodies):
         places += _body(result, index, body)
     used = {curve.channel for curve in places} | {"time", "crank_angle"}
     rest = [name for name in sorted(result.channels) if name not in used]
-    whole = [curve for name in rest for curve in _plain(result, name, "Mechanism", "", PEAKS)]
+    peaks = {curve: each.name for (place, curve), each in PEAKS.items() if place is Place.RUN}
+    whole = [curve for name in rest for curve in _plain(result, name, "Mechanism", "", peaks)]
     return [*whole, *places]
 
 
 def _joint(result: Result, name: str) -> Iterator[Curve]:
     """Yield what a joint does."""
-    group, joint, at = f"Joint {_words(name)}", result.joints[name], Place.JOINT.value
-    begin = f"{at}.{name}."
-    yield from _plain(
-        result, f"{name}_force", group, "force", {f"{name}_force": begin + "peak_force"}
-    )
+    group, joint = f"Joint {_words(name)}", result.joints[name]
+    force = f"{name}_force"
+    yield from _plain(result, force, group, "force", {force: _peak(Place.JOINT, "force", name)})
     apart = f"{name}_eccentricity"
     if apart in result:
         columns = tuple(range(result[apart].shape[1]))
@@ -99,7 +86,7 @@ def _joint(result: Result, name: str) -> Iterator[Curve]:
             label="eccentricity ratio",
             unit="",
             factor=1.0 / clearance,
-            peak=begin + "max_eccentricity_ratio",
+            peak=_peak(Place.JOINT, "ratio", name),
             **of_size,  # type: ignore[arg-type]
         )
         yield Curve(
@@ -108,7 +95,7 @@ def _joint(result: Result, name: str) -> Iterator[Curve]:
             unit="m",
             offset=clearance,
             factor=-1.0,
-            peak=begin + "min_film",
+            peak=_peak(Place.JOINT, "gap", name),
             least=True,
             **of_size,  # type: ignore[arg-type]
         )
@@ -118,15 +105,19 @@ def _joint(result: Result, name: str) -> Iterator[Curve]:
             yield from _plain(result, f"{name}_{what}", group, words, {})
 
 
-def _beginning(
-    result: Result, begin: str, group: str, place: Place, at: str, peaks: dict[str, str]
-) -> Iterator[Curve]:
+def _peak(place: Place, curve: str, at: str) -> str:
+    """Return the full name of the quantity that is a curve's extreme, or nothing."""
+    quantity = PEAKS.get((place, curve))
+    return "" if quantity is None else quantity.at(at)
+
+
+def _beginning(result: Result, begin: str, group: str, place: Place, at: str) -> Iterator[Curve]:
     """Yield all channels that a guide or a load has."""
     for name in result.channels:
         if name.startswith(f"{begin}_"):
             what = name.removeprefix(f"{begin}_")
-            peak = {name: f"{place.value}.{at}.{peaks[what]}"} if what in peaks else {}
-            yield from _plain(result, name, group, _words(what), peak)
+            peak = _peak(place, what, at)
+            yield from _plain(result, name, group, _words(what), {name: peak} if peak else {})
 
 
 def _body(result: Result, index: int, body: str) -> Iterator[Curve]:

@@ -99,6 +99,7 @@ JOINTS = (
         title="eccentricity ratio, max",
         extreme=Extreme.LARGEST,
         headline=True,
+        curve="ratio",
     ),
     Quantity(
         "peak_force",
@@ -111,6 +112,7 @@ JOINTS = (
         shown="kN",
         extreme=Extreme.LARGEST,
         headline=True,
+        curve="force",
     ),
     START,
     Quantity(
@@ -136,6 +138,7 @@ JOINTS = (
         title="film thickness, min",
         shown="um",
         extreme=Extreme.LEAST,
+        curve="gap",
     ),
     IMPACTS,
     Quantity(

@@ -102,6 +102,7 @@ DRIVE = (
         title="drive torque, max",
         shown="kN m",
         extreme=Extreme.LARGEST,
+        curve="drive_torque",
     ),
     Quantity(
         "drive.peak_torque_mean_1ms",
@@ -121,6 +122,7 @@ DRIVE = (
         title="crank torque, max",
         shown="kN m",
         extreme=Extreme.LARGEST,
+        curve="crank_torque",
     ),
     Quantity(
         "drive.peak_crank_torque_mean_1ms",
@@ -146,6 +148,7 @@ DRIVE = (
         LOAD,
         lambda run, _: peak(run["drive_power"]),
         extreme=Extreme.LARGEST,
+        curve="drive_power",
     ),
     Quantity(
         "drive.mean_power",
@@ -233,6 +236,7 @@ def _resultants() -> Iterator[Quantity]:
                     shown="kN",
                     under=under,
                     extreme=Extreme.LARGEST,
+                    curve="" if ending else f"{channel}:{'xy'[column]}",
                 )
 
 
@@ -249,6 +253,7 @@ LOADS = (
         title="load, max",
         shown="kN",
         extreme=Extreme.LARGEST,
+        curve="force",
     ),
     Quantity(
         "work",
@@ -273,6 +278,7 @@ GUIDES = (
         _guide_peak("force"),
         Place.GUIDE,
         extreme=Extreme.LARGEST,
+        curve="force",
     ),
     Quantity(
         "sliding_power",
@@ -291,6 +297,7 @@ GUIDES = (
         _guide_peak("friction"),
         Place.GUIDE,
         extreme=Extreme.LARGEST,
+        curve="friction",
     ),
     Quantity(
         "peak_moment",
@@ -300,6 +307,7 @@ GUIDES = (
         _guide_peak("moment"),
         Place.GUIDE,
         extreme=Extreme.LARGEST,
+        curve="moment",
     ),
     Quantity(
         "dissipated",

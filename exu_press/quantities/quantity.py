@@ -59,6 +59,8 @@ class Quantity:
         extreme: of what it is an extreme.
         headline: whether it is among those that everybody looks at first.
         cumulative: whether it adds up over a run.
+        curve: whose extreme it is: a channel, CHANNEL:x of one of its columns, or, at a place, what
+            the place's channel ends in; "ratio" and "gap" follow from a joint's eccentricity.
     """
 
     name: str
@@ -76,6 +78,7 @@ class Quantity:
     extreme: Extreme = Extreme.NONE
     headline: bool = False
     cumulative: bool = False
+    curve: str = ""
 
     def at(self, place: str) -> str:
         """Return the full name at a place.

@@ -67,6 +67,7 @@ SLIDER = (
         title="peak velocity",
         extreme=Extreme.LARGEST,
         headline=True,
+        curve="slider_velocity",
     ),
     Quantity(
         "peak_acceleration.resolved",
@@ -77,6 +78,7 @@ SLIDER = (
         title="peak acceleration",
         extreme=Extreme.LARGEST,
         headline=True,
+        curve="slider_acceleration",
     ),
     Quantity(
         "peak_acceleration.mean_1ms",
@@ -140,6 +142,7 @@ STROKES = (
         title="slider tilt, max",
         shown="urad",
         extreme=Extreme.LARGEST,
+        curve="slider_tilt",
     ),
     Quantity(
         "slider_lateral",
@@ -149,5 +152,6 @@ STROKES = (
         lambda run, _: peak(run["slider_lateral"]),
         has=_guided_softly,
         extreme=Extreme.LARGEST,
+        curve="slider_lateral",
     ),
 )

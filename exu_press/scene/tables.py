@@ -141,7 +141,9 @@ class Friction(Table):
     }
 
     law: str = key("coulomb", "friction law", choices=FRICTION_LAWS)
-    mu_static: float = key(0.1, "static coefficient; law = 'none' for zero", above=0, source=OILED)
+    mu_static: float = key(
+        0.1, "static coefficient; law = 'none' for zero", above=0, source="taken as the kinetic one"
+    )
     mu_kinetic: float = key(
         0.1, "kinetic coefficient; law = 'none' for zero", above=0, source=OILED
     )
@@ -302,7 +304,9 @@ class ElasticGuide(Table):
     friction: str = key(
         "none", "law of friction, whose further keys are those of [friction]", choices=FRICTION_LAWS
     )
-    mu_static: float = key(0.1, "static coefficient of guides", above=0, source=OILED)
+    mu_static: float = key(
+        0.1, "static coefficient of guides", above=0, source="taken as the kinetic one"
+    )
     mu_kinetic: float = key(0.1, "kinetic coefficient of guides", above=0, source=OILED)
     stribeck_velocity: float = key(0.01, "v_s of guides", "m/s", above=0)
     regularisation_velocity: float = key(

@@ -15,7 +15,7 @@ class Measured(Table):
     """A table [[measured]]: what an instrument read.
 
     Attributes:
-        quantity: full name, with its kind of observation, as "peak_acceleration.mean_1ms".
+        quantity: full name, with its kind of observation, as a peak averaged over 1 ms.
         under: keys of the scene that differ where it was measured -> their values.
 
     Raises:

@@ -119,7 +119,7 @@ def test_the_command_exits_with_3_and_does_not_speak_of_a_stop(tmp_path, capsys)
     ]
     assert main(["run", "slider_crank", *arguments, "--no-pictures", "--out", str(out)]) == 3
     error = capsys.readouterr().err
-    assert error.startswith("exu-press: under-resolved at t = ")
+    assert "\nexu-press: under-resolved at t = " in f"\n{error}"
     summary = json.loads((out / "summary.json").read_text())
     assert summary["status"] == "under-resolved"
     assert Result.load(out / "run.nc").completed

@@ -19,7 +19,7 @@ SCENES = {
         "joints": {name: {"kind": "dry", **PIN} for name in ("crank_pin", "knuckle", "pivot")},
     },
     "a group and balls": ECCENTRIC,
-    "a motor": {**ECCENTRIC, "drive": {}},
+    "a motor": {**ECCENTRIC, "drive": {"rated_torque": 400.0, "inertia": 50.0}},
     "a load": {
         **ECCENTRIC,
         "load": {"f": {"kind": "table", "time": [0.0, 1.0], "force": [5e4, 5e4]}},

@@ -52,6 +52,9 @@ class Cluster(AbstractContextManager["Cluster", None]):
                 f"dask = {address}: the scheduler has no workers; `dask worker {address}` "
                 "starts one"
             ) from None
+        except OSError:
+            self._client.close()
+            raise self._gone() from None
         self._executor = self._client.get_executor(pure=False)
         self.window = TASKS_AHEAD * sum(self._client.nthreads().values())
 
@@ -73,15 +76,18 @@ class Cluster(AbstractContextManager["Cluster", None]):
         except KilledWorker as error:
             return worker_died(f"with every Dask worker it was given to: {_in_a_line(error)}")
         except CancelledError:
-            raise InputError(
-                f"dask = {self._address}: the scheduler is gone; finished runs are kept, and the "
-                "same call goes on with them"
-            ) from None
+            raise self._gone() from None
         except Exception as error:
             raise InputError(
                 f"dask = {self._address}: its workers cannot do this ({_in_a_line(error)}); they "
                 "need the packages that are installed here"
             ) from None
+
+    def _gone(self) -> InputError:
+        return InputError(
+            f"dask = {self._address}: the scheduler is gone; finished runs are kept, and the same "
+            "call goes on with them"
+        )
 
     def __exit__(self, *_: object) -> None:
         """Give back the tasks not begun, and leave the cluster running."""

@@ -71,9 +71,9 @@ def test_the_scheduler_goes_away(cluster, tmp_path):
     arguments = [{"x": x, "marks": str(tmp_path / "marks")} for x in range(200)]
 
     def close():
-        while not (tmp_path / "runs.jsonl").exists():
+        rows = tmp_path / "runs.jsonl"
+        while not (rows.exists() and rows.stat().st_size):
             time.sleep(0.01)
-        time.sleep(0.3)
         cluster.close()
 
     closer = threading.Thread(target=close, daemon=True)

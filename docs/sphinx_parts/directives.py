@@ -15,7 +15,6 @@ from exu_press.quantities import CATALOGUE
 from exu_press.scene import DryJoint, Flexible
 from exu_press.scene.joint import LAW_TABLES
 from exu_press.scene.load import LOAD_KINDS
-from exu_press.scene.output import Output
 from exu_press.scene.usage import TABLES
 
 
@@ -135,10 +134,9 @@ def _usual(name: str, kind: Any) -> Any:
         return kind()
     if kind is Flexible:
         return Flexible("linkage")
-    if kind in (*LOAD_KINDS.values(), Output):
-        return SimpleNamespace(**{field.name: field.default for field in dataclasses.fields(kind)})
     found = (getattr(scene, name, None) for scene in scenes)
-    return next((table for table in found if table is not None), None) or kind()
+    declared = {field.name: field.default for field in dataclasses.fields(kind)}
+    return next((table for table in found if table is not None), SimpleNamespace(**declared))
 
 
 def _default(value: Any) -> str:

@@ -116,7 +116,9 @@ def extensions() -> list:
         Path(name).write_text(text, encoding="utf-8")
     os.environ["MYPYPATH"] = "build/stubs"
     gc.disable()  # of a million of mypy's objects, all in use
-    options = ["--config-file=", "--ignore-missing-imports", "--follow-imports=silent"]
+    # what is installed beside is not read: Bokeh's types would take minutes
+    options = ["--config-file=", "--no-site-packages", "--ignore-missing-imports"]
+    options += ["--follow-imports=silent"]
     sources = [f"exu_press/{module}.py" for module in MODULES]
     try:
         found = mypycify(

@@ -14,10 +14,10 @@ if TYPE_CHECKING:
 
     from exu_press.errors import InputError
     from exu_press.integrate import (
+        ErrorScales,
         Outcome,
-        Scales,
-        Status,
-        Tuning,
+        SolverStatus,
+        SolverTuning,
         follow_modes,
         solve_dynamic,
     )
@@ -25,9 +25,9 @@ if TYPE_CHECKING:
         FlexiblePoint,
         add_dry_revolute,
         add_dry_spherical,
+        add_guideway_contact,
         add_joint_sensor,
         add_lubricated_revolute,
-        add_ways_contact,
     )
     from exu_press.report.cells import Comparison
     from exu_press.result import Result
@@ -38,20 +38,20 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Comparison",
+    "ErrorScales",
     "FlexiblePoint",
     "InputError",
     "Outcome",
     "Result",
-    "Scales",
     "Scene",
-    "Status",
-    "Tuning",
+    "SolverStatus",
+    "SolverTuning",
     "__version__",
     "add_dry_revolute",
     "add_dry_spherical",
+    "add_guideway_contact",
     "add_joint_sensor",
     "add_lubricated_revolute",
-    "add_ways_contact",
     "follow_modes",
     "load_scene",
     "simulate",
@@ -64,15 +64,15 @@ _HOMES = {
     "InputError": "exu_press.errors",
     "Outcome": "exu_press.integrate",
     "Result": "exu_press.result",
-    "Scales": "exu_press.integrate",
+    "ErrorScales": "exu_press.integrate",
     "Scene": "exu_press.scene",
-    "Status": "exu_press.integrate",
-    "Tuning": "exu_press.integrate",
+    "SolverStatus": "exu_press.integrate",
+    "SolverTuning": "exu_press.integrate",
     "add_dry_revolute": "exu_press.joints",
     "add_dry_spherical": "exu_press.joints",
     "add_joint_sensor": "exu_press.joints",
     "add_lubricated_revolute": "exu_press.joints",
-    "add_ways_contact": "exu_press.joints",
+    "add_guideway_contact": "exu_press.joints",
     "follow_modes": "exu_press.integrate",
     "load_scene": "exu_press.scene",
     "simulate": "exu_press.simulation",
@@ -81,7 +81,9 @@ _HOMES = {
 
 
 WORKERS.update(
-    build=lambda scene: importlib.import_module("exu_press.graphics").build_with_graphics(scene),
+    build=lambda scene: importlib.import_module("exu_press.model.graphics").build_with_graphics(
+        scene
+    ),
     quantity=lambda result: importlib.import_module("exu_press.quantities").value_of(*result),
     cell=lambda thing: importlib.import_module("exu_press.report.cells").cell(thing),
     page=lambda result: importlib.import_module("exu_press.report.cells").page_of(result),

@@ -18,7 +18,7 @@ import exudyn as exu
 import exudyn.utilities as items
 import numpy as np
 
-from exu_press import Scene, Status, Tuning, solve_dynamic
+from exu_press import Scene, SolverStatus, SolverTuning, solve_dynamic
 from exu_press.mechanism.press import PAPER_LAWS
 from exu_press.scene import flexible_press
 
@@ -138,7 +138,7 @@ SYSTEMS: dict[str, Callable] = {
 def error_of(run, reference):
     """Largest difference of the outputs over the common time, over the largest output."""
     (time, values, outcome), (fine_time, fine, _) = run, reference
-    if outcome.status not in (Status.COMPLETED, Status.UNDER_RESOLVED):
+    if outcome.status not in (SolverStatus.COMPLETED, SolverStatus.UNDER_RESOLVED):
         return math.inf
     grid = np.linspace(0.0, fine_time[-1], GRID)
     difference = np.interp(grid, time, values) - np.interp(grid, fine_time, fine)
@@ -147,8 +147,8 @@ def error_of(run, reference):
 
 def variants():
     """Name and numbers of every variant."""
-    defaults = Tuning()
-    for field in dataclasses.fields(Tuning):
+    defaults = SolverTuning()
+    for field in dataclasses.fields(SolverTuning):
         value = getattr(defaults, field.name)
         for word, factor in (("half", 0.5), ("double", 2.0)):
             changed = type(value)(value * factor)
@@ -168,7 +168,7 @@ def main():
     systems = dict(list(SYSTEMS.items())[:: 5 if options.quick else 1])
     chosen = list(variants())[:4] if options.quick else list(variants())
     width = max(len(name) for name, _ in chosen) + 2
-    defaults = Tuning()
+    defaults = SolverTuning()
     references, usual = {}, {}
     for name, run in systems.items():
         references[name] = run(FINER * options.tolerance, defaults)
@@ -193,7 +193,7 @@ def row(variant, tolerance, *, systems, references, usual):
     numbers = variant[1]
     cells = []
     for name in systems:
-        tried = SYSTEMS[name](tolerance, Tuning(**numbers))
+        tried = SYSTEMS[name](tolerance, SolverTuning(**numbers))
         before = error_of(usual[name], references[name])
         work = tried[2].newton_iterations / usual[name][2].newton_iterations
         error = error_of(tried, references[name])

@@ -1,4 +1,4 @@
-"""What stated errors cost: a run with its companions beside it over the same run alone.
+"""What stated errors cost: a run with its refinements beside it over the same run alone.
 
     python scripts/benchmark_errors.py [--repeats 3]
 

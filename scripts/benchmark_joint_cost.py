@@ -23,7 +23,7 @@ from exudyn.itemInterface import (
 )
 
 from exu_press import Scene, add_lubricated_revolute
-from exu_press.integrate import Scales, Status, Tuning
+from exu_press.integrate import ErrorScales, SolverStatus, SolverTuning
 from exu_press.integrate.problem import Problem
 from exu_press.integrate.settings import Task, prepared
 from exu_press.joints import COMPILED
@@ -50,7 +50,7 @@ def run_press(joints, steps):
         "solver": {"step": STEP},
     }
     outcome = Scene.from_dict(scene).build().solve()
-    assert outcome.status is Status.COMPLETED, outcome
+    assert outcome.status is SolverStatus.COMPLETED, outcome
     steps = outcome.steps  # a film begins with a few shorter ones
     return outcome.wall_time / steps * 1e6, outcome.newton_iterations / steps
 
@@ -73,7 +73,7 @@ def run_chain(add_joint, steps):
     settings.timeIntegration.endTime, settings.timeIntegration.numberOfSteps = steps * STEP, steps
     # accelerations to 1e-4 of gravity's, as a scene with fixed steps has them
     settings.timeIntegration.newton.absoluteTolerance = 1e-4 * BODIES * MASS * 9.81
-    task = Task(Problem.of(mbs), settings, None, Scales(), Tuning())
+    task = Task(Problem.of(mbs), settings, None, ErrorScales(), SolverTuning())
     task.smallest = STEP / 1024
     start = time.perf_counter()
     with prepared(settings, task):

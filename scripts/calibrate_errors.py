@@ -205,7 +205,7 @@ def references(run: Result, cost: float) -> tuple[str, list[Result]]:
 
     Args:
         run: with its errors.
-        cost: processor time that it took, with its companions, s.
+        cost: processor time that it took, with its refinements, s.
     """
     solver = run.scene.solver
     assert solver is not None

@@ -6,7 +6,7 @@ Run with: python scripts/compare_variants.py [--quick]
 import argparse
 
 from exu_press import Scene, simulate
-from exu_press.output import output_directory
+from exu_press.files.output_directory import output_directory
 from exu_press.plots import save_comparison
 from exu_press.quantities.table import comparison_lines
 from exu_press.studies.compare import variants

@@ -13,9 +13,9 @@ from pathlib import Path
 import numpy as np
 
 from exu_press import Result, Scene
-from exu_press.columns import columns
 from exu_press.quantities.uncertain import uncertain
 from exu_press.result.windows import revolutions_of
+from exu_press.terminal.columns import columns
 from exu_press.verification import simulate_with_errors
 
 sys.path.append(str(Path(__file__).parents[1] / "tests"))

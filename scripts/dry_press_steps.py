@@ -18,7 +18,7 @@ from scipy.ndimage import uniform_filter1d
 
 from exu_press import Result, Scene, simulate
 from exu_press.arrays import Array
-from exu_press.columns import columns
+from exu_press.terminal.columns import columns
 
 parser = argparse.ArgumentParser(description=__doc__)
 parser.add_argument("--quick", action="store_true", help="a fifth of a revolution, coarse")

@@ -6,7 +6,7 @@ Run with: python scripts/error_vs_runtime.py [--quick]
 import argparse
 
 from exu_press import Scene
-from exu_press.output import output_directory
+from exu_press.files.output_directory import output_directory
 from exu_press.plots.precision import save_precision
 from exu_press.studies.precision import case_of, precision
 

@@ -14,12 +14,12 @@ import time as clock
 import exudyn
 import numpy as np
 
-from exu_press import Status
+from exu_press import SolverStatus
 from exudyn_examples import EXAMPLES
 from exudyn_examples.measure import error, run
 
 TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
-ENDED = Status.COMPLETED, Status.UNDER_RESOLVED
+ENDED = SolverStatus.COMPLETED, SolverStatus.UNDER_RESOLVED
 FIXED = [100 * 4**k for k in range(6)]  # numbers of fixed steps
 
 

@@ -8,8 +8,8 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from exu_press.columns import columns
 from exu_press.errors import InputError
+from exu_press.terminal.columns import columns
 from recovery.cases import CASES
 from recovery.study import recover
 

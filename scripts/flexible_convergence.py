@@ -14,11 +14,11 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from exu_press import Scene, load_scene, simulate
-from exu_press.columns import columns
-from exu_press.placed_part import IN_THE_PLANE, placed_parts
+from exu_press.model.placed_part import IN_THE_PLANE, placed_parts
 from exu_press.plots.file import save_figure
 from exu_press.plots.style import COLOURS, look
 from exu_press.scene import flexible_press
+from exu_press.terminal.columns import columns
 
 parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
 parser.add_argument("scene", nargs="?", help="with flexible bodies; the shipped press unless given")

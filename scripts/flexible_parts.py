@@ -10,12 +10,12 @@ import argparse
 from pathlib import Path
 
 from exu_press import Result, Scene, simulate
-from exu_press.columns import columns
 from exu_press.quantities import Placed, Quantity
 from exu_press.quantities.kind import LOAD, MOTION
 from exu_press.quantities.uncertain import uncertain
 from exu_press.scene import flexible_press
-from exu_press.verification.companions import plan
+from exu_press.terminal.columns import columns
+from exu_press.verification.refinement import plan
 from exu_press.verification.run import errors_of
 from fe_models import clamped_frequencies, draw_mode_shapes, shipped_part
 from fe_models.clamped import MODE_NUMBERS, PUBLISHED_HZ, relative_errors

@@ -12,7 +12,7 @@ import numpy as np
 from exudyn.itemInterface import LoadForceVector, MarkerBodyRigid, ObjectGround, ObjectJointGeneric
 from netgen.occ import Box, Pnt
 
-from exu_press.output import output_directory
+from exu_press.files.output_directory import output_directory
 from fe_models import (
     Interface,
     Material,

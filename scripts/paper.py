@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from exu_press.errors import InputError
-from exu_press.output import output_directory, write_json
+from exu_press.files.output_directory import output_directory, write_json
 from paper.study import paper
 from paper.table import report_lines, tables
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from exu_press.cli.precision import tell
 from exu_press.errors import InputError
-from exu_press.output import output_directory, write_json
+from exu_press.files.output_directory import output_directory, write_json
 from exu_press.studies.precision import Report, precision
 from precision.cases import chosen
 from precision.goals import goals_of

@@ -7,7 +7,7 @@ import argparse
 import sys
 
 from exu_press import Scene, simulate
-from exu_press.output import output_directory
+from exu_press.files.output_directory import output_directory
 from exu_press.plots import save_pictures
 from exu_press.quantities.table import run_lines
 

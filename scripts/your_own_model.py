@@ -9,7 +9,7 @@ import exudyn as exu
 import exudyn.utilities as items
 import numpy as np
 
-from exu_press import Status, add_dry_revolute, solve_dynamic
+from exu_press import SolverStatus, add_dry_revolute, solve_dynamic
 from exu_press.laws.contact import hertz, hunt_crossley
 from exu_press.laws.friction import no_friction
 
@@ -96,7 +96,7 @@ def solve(clearance, tolerance):
     settings.timeIntegration.endTime = REVOLUTIONS * 2.0 * np.pi / SPEED
     settings.solution.file.write, settings.solution.sensors.writePeriod = False, 0.0
     outcome = solve_dynamic(mbs, settings, tolerance=tolerance)
-    assert outcome.status is Status.COMPLETED, outcome.reason
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
     return np.linalg.norm(mbs.GetSensorStoredData(sensor)[:, 1:], axis=1).max(), outcome
 
 

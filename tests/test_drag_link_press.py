@@ -119,7 +119,7 @@ def test_its_defaults_are_physical_and_said():
 def test_the_rod_of_its_step_file_fits(tmp_path):
     """As the scene has it in comments: the pins lie in the bores, the mass is the rod's."""
     pytest.importorskip("ngsolve")
-    from exu_press.placed_part import placed_parts
+    from exu_press.model.placed_part import placed_parts
 
     lines = SCENE.read_text().replace('"six_bar_rod.step"', f'"{SCENE.parent}/six_bar_rod.step"')
     start = lines.index("# [bodies.rod]")

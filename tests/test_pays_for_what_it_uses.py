@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from exu_press import Scene
-from exu_press.batch.sources import FOR_READERS
-from exu_press.joints import overlay_of
+from exu_press.joints import user_force_of
+from exu_press.parallel.sources import FOR_READERS
 
 
 def imported_after(code):
@@ -117,7 +117,7 @@ def test_an_ideal_scene_has_no_overlay_and_no_callback():
     assert "GenericODE2" not in kinds(model)
     assert user_functions(model) == []
     assert model.clearance_joints == {}
-    assert overlay_of(model.mbs).item is None
+    assert user_force_of(model.mbs).item is None
 
 
 @pytest.mark.parametrize(

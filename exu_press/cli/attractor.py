@@ -4,7 +4,7 @@ import argparse
 import sys
 
 from exu_press.cli.options import add_scene_arguments, directory_of, scene_of, show_warnings
-from exu_press.output import output_directory, write_json
+from exu_press.files.output_directory import output_directory, write_json
 from exu_press.scene.warnings import scene_warnings
 
 __all__ = ["EXAMPLE", "add_arguments", "execute"]

@@ -12,16 +12,16 @@ from exu_press.cli.options import (
     shipped_names,
     show_warnings,
 )
-from exu_press.columns import columns
 from exu_press.errors import InputError
-from exu_press.integrate import Status
-from exu_press.output import output_directory, remove_pictures, write_json
+from exu_press.files.output_directory import output_directory, remove_pictures, write_json
+from exu_press.integrate import SolverStatus
 from exu_press.quantities.differences import difference_lines
 from exu_press.quantities.table import comparison_lines
 from exu_press.result import Result
 from exu_press.scene import Scene, load_scene
 from exu_press.simulation import simulate
 from exu_press.studies.compare import different_keys, variants
+from exu_press.terminal.columns import columns
 from exu_press.verification import simulate_with_errors
 
 __all__ = ["EXAMPLE", "add_arguments", "execute"]
@@ -56,7 +56,9 @@ def execute(options: argparse.Namespace) -> int:
         if isinstance(one, Scene) and not options.quiet:
             print(f"{label} ...", file=sys.stderr)
         results[label] = run(one, quiet=options.quiet) if isinstance(one, Scene) else one
-        if results[label].info["status"] == Status.INTERRUPTED.value and isinstance(one, Scene):
+        if results[label].info["status"] == SolverStatus.INTERRUPTED.value and isinstance(
+            one, Scene
+        ):
             break  # Ctrl-C means all of them
     summaries = {label: result.summary() for label, result in results.items()}
     for label, result in results.items():

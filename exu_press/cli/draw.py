@@ -10,9 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.checks import nearest, table_from
 from exu_press.cli.options import SHIPPED, shipped_names
-from exu_press.columns import columns
 from exu_press.errors import InputError
 from exu_press.mechanism import SHIPPED as MECHANISMS
 from exu_press.mechanism import (
@@ -27,7 +25,9 @@ from exu_press.mechanism import (
 )
 from exu_press.mechanism.examine import Examination, examine
 from exu_press.mechanism.transmission import alike
-from exu_press.toml import read_toml
+from exu_press.schema.checks import nearest, table_from
+from exu_press.schema.toml import read_toml
+from exu_press.terminal.columns import columns
 
 __all__ = ["EXAMPLE", "add_arguments", "execute"]
 

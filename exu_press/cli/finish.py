@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any, Protocol
 
-from exu_press.output import write_json
+from exu_press.files.output_directory import write_json
 
 __all__ = ["finish"]
 

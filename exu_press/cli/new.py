@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 
 from exu_press.errors import InputError
-from exu_press.output import replacing
+from exu_press.files.output_directory import replacing
 from exu_press.scene import Scene
 from exu_press.scene.template import template
 

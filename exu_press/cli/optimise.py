@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 
 from exu_press.cli.options import add_study_arguments, resumable, show_warnings
-from exu_press.output import remove_pictures
+from exu_press.files.output_directory import remove_pictures
 from exu_press.scene.warnings import scene_warnings
 
 __all__ = ["EXAMPLE", "add_arguments", "execute"]

@@ -6,9 +6,9 @@ import textwrap
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
-from exu_press.checks import nearest
 from exu_press.errors import InputError
 from exu_press.scene import Scene, load_scene
+from exu_press.schema.checks import nearest
 
 __all__ = [
     "add_error_argument",

@@ -12,8 +12,8 @@ from exu_press.cli.options import (
     show_warnings,
 )
 from exu_press.errors import InputError
+from exu_press.files.output_directory import output_directory, remove_pictures, write_json
 from exu_press.model.state import State
-from exu_press.output import output_directory, remove_pictures, write_json
 from exu_press.quantities.table import run_lines
 from exu_press.result import Result
 from exu_press.scene.assumptions import assumed_line

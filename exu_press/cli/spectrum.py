@@ -37,7 +37,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def execute(options: argparse.Namespace) -> int:
     """Print and draw the spectra; return 0."""
-    from exu_press.output import output_directory
+    from exu_press.files.output_directory import output_directory
     from exu_press.studies.spectrum import DEFAULT, marks_of, spectra
 
     kind, file = find_output(Path(options.path))

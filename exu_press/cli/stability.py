@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from exu_press.cli.finish import finish
 from exu_press.cli.options import add_scene_arguments, directory_of, scene_of
 from exu_press.errors import InputError
-from exu_press.output import output_directory
+from exu_press.files.output_directory import output_directory
 
 if TYPE_CHECKING:
     from exu_press.studies.stability import Case

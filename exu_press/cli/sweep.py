@@ -4,10 +4,10 @@ import argparse
 import sys
 from pathlib import Path
 
-from exu_press.batch.task import FAILED, TIME_LIMIT, WORKER_DIED
 from exu_press.cli.options import add_study_arguments, resumable, show_warnings
 from exu_press.errors import InputError
-from exu_press.output import remove_pictures
+from exu_press.files.output_directory import remove_pictures
+from exu_press.parallel.task import FAILED, TIME_LIMIT, WORKER_DIED
 from exu_press.scene.warnings import scene_warnings
 
 __all__ = ["EXAMPLE", "add_arguments", "execute"]

@@ -6,9 +6,9 @@ import tempfile
 from pathlib import Path
 
 from exu_press.errors import InputError
-from exu_press.progress import Progress
 from exu_press.report.find import Kind, find_output, report_of
 from exu_press.result import Result
+from exu_press.terminal.progress import Progress
 
 __all__ = ["EXAMPLE", "add_arguments", "execute"]
 

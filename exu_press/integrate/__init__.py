@@ -1,8 +1,16 @@
 """Integration: Exudyn's generalized-alpha with steps by tolerance, for any Exudyn system."""
 
-from exu_press.integrate.problem import Scales
+from exu_press.integrate.problem import ErrorScales
 from exu_press.integrate.scheme import follow_modes
-from exu_press.integrate.settings import Tuning
-from exu_press.integrate.solve import Advice, Outcome, Status, solve_dynamic
+from exu_press.integrate.settings import SolverTuning
+from exu_press.integrate.solve import Advice, Outcome, SolverStatus, solve_dynamic
 
-__all__ = ["Advice", "Outcome", "Scales", "Status", "Tuning", "follow_modes", "solve_dynamic"]
+__all__ = [
+    "Advice",
+    "ErrorScales",
+    "Outcome",
+    "SolverStatus",
+    "SolverTuning",
+    "follow_modes",
+    "solve_dynamic",
+]

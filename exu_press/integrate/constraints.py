@@ -188,7 +188,7 @@ class _Start:
         second = (2.0 * now - 5.0 * one + 4.0 * two - three) / (h * h)
         return first, second, (three - 3.0 * two + 3.0 * one - now) / (h * h * h)
 
-    def mended(self, vector: Array, violated: Array, fits: float) -> Array:
+    def projected(self, vector: Array, violated: Array, fits: float) -> Array:
         """Return the nearest vector, in the kinetic norm, without violations; itself if it fits."""
         right = np.concatenate([np.zeros(len(vector)), violated])
         try:
@@ -229,14 +229,14 @@ def fit_start(task: Task, constraints: Constraints) -> tuple[Array, Array] | Non
         violated = np.where(held, start.violated(), 0.0)
         if np.abs(violated).max() <= FITS[0] * length:
             break
-        start.q = start.mended(start.q, violated, 0.0)
+        start.q = start.projected(start.q, violated, 0.0)
     accelerations, start.a = start.a, np.zeros_like(start.a)
-    start.v = start.mended(start.v, np.where(held, start.rates()[0], start.violated()), FITS[1])
+    start.v = start.projected(start.v, np.where(held, start.rates()[0], start.violated()), FITS[1])
     start.a = accelerations
     first, second, _ = start.rates()
-    start.a = start.mended(start.a, np.where(held, second, first), FITS[2])
+    start.a = start.projected(start.a, np.where(held, second, first), FITS[2])
     _, second, third = start.rates()
-    rate = start.mended(np.zeros_like(start.a), np.where(held, third, second), 0.0)
+    rate = start.projected(np.zeros_like(start.a), np.where(held, third, second), 0.0)
     start.put()
     return start.a, rate
 
@@ -458,13 +458,13 @@ class StepChange:
         jacobian = np.asarray(solver.GetSystemJacobian())
         directions, forces = jacobian[-count:, :size], jacobian[:size, :size]
         inertia = inertia_factor(solver) * solver.GetSystemMassMatrix()
-        found = self._mended(0.5 * (forces + forces.T), directions)
+        found = self._projection(0.5 * (forces + forces.T), directions)
         for change in found:
             if change @ forces @ change < MORE * (change @ inertia @ change):
-                return self._mended(inertia, directions)
+                return self._projection(inertia, directions)
         return found
 
-    def _mended(self, norm: Array, directions: Array) -> tuple[Array, Array]:
+    def _projection(self, norm: Array, directions: Array) -> tuple[Array, Array]:
         """Return the least changes of positions and velocities that the constraints ask for.
 
         The directions in which constraints act are those of the last Jacobian, perhaps a degree of

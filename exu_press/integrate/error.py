@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from exu_press.integrate.problem import FoundScales, Problem
-from exu_press.integrate.settings import SAME, Task, Tuning, inertia_factor
+from exu_press.integrate.settings import SAME, SolverTuning, Task, inertia_factor
 from exu_press.joints.joint import ClearanceJoint
 
 __all__ = ["BodyError", "ErrorPerStep", "FirstOrderError", "JointError", "StepError", "Turning"]
@@ -213,7 +213,7 @@ class BodyError:
         accelerations: list[float],
         per_step: ErrorPerStep,
         scales: FoundScales,
-        tuning: Tuning,
+        tuning: SolverTuning,
         noise: float,
         tolerance: float = 1.0,
     ) -> None:
@@ -380,7 +380,7 @@ class JointError:
         self._penetration = penetration
         self._limit = limit
         self._rounding = rounding
-        self._drift = drift if joint.reach == math.inf else math.inf
+        self._drift = drift if joint.contact_onset == math.inf else math.inf
 
     def error(self, step: float, left: float = 0.0) -> float:
         """Return the error of a step (s) that ends where the joint was last asked for its force.
@@ -393,7 +393,7 @@ class JointError:
         place = joint.eccentricity
         missed, along = joint.path.missed(place, joint.relative_velocity, step)
         error = missed / max(min(self._limit, self._drift * step), rounding)
-        depth = math.hypot(*place) - joint.reach
+        depth = math.hypot(*place) - joint.contact_onset
         if depth > 0.0:
             relative = max(LEAST_PENETRATION, self._penetration * depth / joint.clearance)
             error = max(error, abs(along) / max(relative * self._limit, rounding))

@@ -26,7 +26,7 @@ from exu_press.integrate.scheme import ModalMass, Newton
 from exu_press.integrate.settings import Task
 from exu_press.integrate.stepping import FixedSteps, Resolution, StepControl
 from exu_press.joints import ClearanceJoint
-from exu_press.progress import Progress
+from exu_press.terminal.progress import Progress
 
 __all__ = ["Monitor"]
 

@@ -14,16 +14,16 @@ import numpy as np
 
 from exu_press.arrays import Array
 from exu_press.errors import InputError
-from exu_press.joints import overlay_of
-from exu_press.joints.overlay import JointOverlay
+from exu_press.joints import user_force_of
+from exu_press.joints.user_force import UserForceElement
 
 __all__ = [
     "FLEXIBLE",
     "MODES",
+    "ErrorScales",
     "FoundScales",
     "Node",
     "Problem",
-    "Scales",
     "State",
     "modal_item",
     "weights",
@@ -152,7 +152,7 @@ class Problem:
     reference: Array
     kinds: tuple[str, ...]
     nodes: tuple[Node, ...]
-    joints: JointOverlay | None
+    joints: UserForceElement | None
     modes: bool
     modal_stiffness: bool
     switching: bool
@@ -178,7 +178,7 @@ class Problem:
             raise InputError("mbs is not assembled: call mbs.Assemble() first")
         data: Any = mbs.systemData
         objects = [mbs.GetObject(number) for number in range(data.NumberOfObjects())]
-        joints, modes = overlay_of(mbs), modal_item(mbs)
+        joints, modes = user_force_of(mbs), modal_item(mbs)
         kinds = [item["objectType"] for item in objects]
         others = (
             kind
@@ -303,7 +303,7 @@ def _length(data: Any, reference: Array, nodes: tuple[Node, ...]) -> float:
 
 
 @dataclass(frozen=True)
-class Scales:
+class ErrorScales:
     """What errors are relative to; None is found from the motion as it goes.
 
     Attributes:
@@ -337,7 +337,7 @@ class FoundScales:
 
     def __init__(
         self,
-        given: Scales,
+        given: ErrorScales,
         problem: Problem,
         longest: float,
         first: float = math.inf,

@@ -102,7 +102,7 @@ class Newton:
             if self._jacobian is not None:
                 self._jacobian.begin(step)
         elif iteration in (2, 3) and self._jacobian is not None:
-            self._jacobian.wears(iteration)
+            self._jacobian.outdated(iteration)
         elif iteration == PATIENCE:
             self._accept(max(self._tolerance(), self._rounded()))
 
@@ -197,7 +197,7 @@ class LastingJacobian:
         if self._wait:
             self._wait -= 1
 
-    def wears(self, iteration: int) -> None:
+    def outdated(self, iteration: int) -> None:
         """Be told that a step has needed so many iterations."""
         if not self._kept:
             return
@@ -243,7 +243,7 @@ class FlexibleJacobian:
         self._convergence.jacobianUpdateRequested = not self._kept
         self._serves = self._joints is not None
 
-    def wears(self, iteration: int) -> None:
+    def outdated(self, iteration: int) -> None:
         """Be told of a second iteration, or a third; for the latter, make a fresh one."""
         self._serves = False
         if self._kept and iteration == 2:
@@ -265,7 +265,7 @@ class FlexibleJacobian:
             self._combined = np.dot(self._factors, self._bodies).reshape(size, size)
         bodies += self._combined
         if self._joints is not None:
-            self._joints.add_slopes(jacobian, by_q, by_q_t)
+            self._joints.add_partials(jacobian, by_q, by_q_t)
         solver.SetSystemJacobian(jacobian)
         solver.ComputeJacobianAE(mbs, 1.0, by_q_t / by_q)  # adds the constraints
         return True

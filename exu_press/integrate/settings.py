@@ -1,7 +1,7 @@
 """What a run is asked for: its numbers, and what it needs in Exudyn's settings, with reasons.
 
-`solve_dynamic(..., tuning=Tuning(safety=0.8))` varies a number; `scripts/ablation.py` prints what
-each of them buys in error and run time. Exudyn's settings are put back after the run.
+`solve_dynamic(..., tuning=SolverTuning(safety=0.8))` varies a number; `scripts/ablation.py` prints
+what each of them buys in error and run time. Exudyn's settings are put back after the run.
 """
 
 import math
@@ -14,9 +14,17 @@ from typing import Any
 import exudyn as exu
 
 from exu_press.errors import InputError
-from exu_press.integrate.problem import FoundScales, Problem, Scales
+from exu_press.integrate.problem import ErrorScales, FoundScales, Problem
 
-__all__ = ["SAME", "SWITCHED", "Task", "Tuning", "inertia_factor", "prepared", "refuse_unusable"]
+__all__ = [
+    "SAME",
+    "SWITCHED",
+    "SolverTuning",
+    "Task",
+    "inertia_factor",
+    "prepared",
+    "refuse_unusable",
+]
 
 SAME = 1e-6
 """Steps that differ by less, relative, are one size: the clock's last digits."""
@@ -52,7 +60,7 @@ NEWMARKS_RADIUS = 0.9
 
 
 @dataclass(frozen=True)
-class Tuning:
+class SolverTuning:
     """The numbers of step control, error estimate, predictor and step change.
 
     All are ratios, unless a unit is named.
@@ -143,8 +151,8 @@ class Task:
         problem: Problem,
         settings: exu.SimulationSettings,
         tolerance: float | None,
-        scales: Scales,
-        tuning: Tuning,
+        scales: ErrorScales,
+        tuning: SolverTuning,
     ) -> None:
         """Take a problem and what is asked of it."""
         integration = settings.timeIntegration

@@ -17,17 +17,17 @@ import numpy as np
 
 from exu_press.errors import InputError
 from exu_press.integrate.monitor import Monitor
-from exu_press.integrate.problem import Node, Problem, Scales
-from exu_press.integrate.settings import Task, Tuning, prepared, refuse_unusable
+from exu_press.integrate.problem import ErrorScales, Node, Problem
+from exu_press.integrate.settings import SolverTuning, Task, prepared, refuse_unusable
 from exu_press.integrate.stepping import Unresolved
 from exu_press.joints.joint import ClearanceJoint
-from exu_press.progress import Progress
-from exu_press.threads import one_thread
+from exu_press.numerics.threads import one_thread
+from exu_press.terminal.progress import Progress
 
-__all__ = ["Advice", "Outcome", "Status", "solve_dynamic"]
+__all__ = ["Advice", "Outcome", "SolverStatus", "solve_dynamic"]
 
-NO_SCALES = Scales()
-DEFAULTS = Tuning()
+NO_SCALES = ErrorScales()
+DEFAULTS = SolverTuning()
 
 SPENT = 1e-3
 """Film thickness over clearance at which a run that gets no further has lost its film."""
@@ -37,7 +37,7 @@ EXUDYN_ENDS = 1e-10
 """Before its end, at most how early Exudyn ends a run, s."""
 
 
-class Status(Enum):
+class SolverStatus(Enum):
     """How a run ended; everything but COMPLETED makes exit status 3.
 
     UNDER_RESOLVED reached its end too, but its steps did not resolve its impacts: its peaks are not
@@ -56,7 +56,7 @@ class Status(Enum):
 
 @dataclass(frozen=True)
 class Outcome:
-    """Status, reason and statistics of an integration.
+    """SolverStatus, reason and statistics of an integration.
 
     Attributes:
         status: how it ended.
@@ -69,7 +69,7 @@ class Outcome:
         law_evaluations: how often the clearance joints' forces were asked for.
     """
 
-    status: Status
+    status: SolverStatus
     reason: str
     end_time: float
     wall_time: float
@@ -84,7 +84,7 @@ class Outcome:
         Raises:
             RuntimeError: it was not; with the reason.
         """
-        if self.status is not Status.COMPLETED:
+        if self.status is not SolverStatus.COMPLETED:
             raise RuntimeError(f"{self.status.value}: {self.reason}")
         return self
 
@@ -177,8 +177,8 @@ def solve_dynamic(
     settings: exu.SimulationSettings,
     *,
     tolerance: float | None = 1e-3,
-    scales: Scales = NO_SCALES,
-    tuning: Tuning = DEFAULTS,
+    scales: ErrorScales = NO_SCALES,
+    tuning: SolverTuning = DEFAULTS,
     next_corner: Callable[[float], float] = _never,
     watch: Callable[[float], str] = _nothing,
     sample: float | None = None,
@@ -305,7 +305,7 @@ def _silent_console() -> Iterator[None]:
 
 def _how_it_ended(
     task: Task, monitor: Monitor, advice: Advice, *, time: float, failure: str
-) -> tuple[Status, str]:
+) -> tuple[SolverStatus, str]:
     """Return status and reason of a run.
 
     Args:
@@ -321,40 +321,40 @@ def _how_it_ended(
     if gone >= 1.0 - 1e-9 or exudyn_ended:
         worst = monitor.resolution.worst()
         if worst is None:
-            return Status.COMPLETED, ""
-        return Status.UNDER_RESOLVED, (
+            return SolverStatus.COMPLETED, ""
+        return SolverStatus.UNDER_RESOLVED, (
             f"under-resolved {advice.place(worst.time)}: {worst.jump:.0%} of the largest inertia "
             f"force ({problem.nodes[worst.node].name}) within a step of {worst.step:.2g} s; peaks "
             f"are the step's; try {advice.resolution(worst)}"
         )
     if monitor.stalled:
-        return Status.STALLED, monitor.stalled
+        return SolverStatus.STALLED, monitor.stalled
     where = advice.place(time)
     if monitor.interrupted:
-        return Status.INTERRUPTED, f"interrupted {where}"
+        return SolverStatus.INTERRUPTED, f"interrupted {where}"
     if not monitor.go_on:
-        return Status.INTERRUPTED, f"stopped by a user function {where}"
+        return SolverStatus.INTERRUPTED, f"stopped by a user function {where}"
     if monitor.over_budget:
-        return Status.TOO_MANY_STEPS, (
+        return SolverStatus.TOO_MANY_STEPS, (
             f"{monitor.max_steps} steps were used up {where}, {gone:.1%} of the run; try "
             f"{advice.budget()}{advice.cause()}"
         )
     for joint, ratio in _spent_films(problem):
-        return Status.FILM_BROKE_DOWN, (
+        return SolverStatus.FILM_BROKE_DOWN, (
             f"film broke down {where}, eccentricity ratio {ratio:.4f} ({advice.joint(joint)}); "
             f"try {advice.film()}"
         )
     busiest = _busiest_joint(problem, advice)
     if not monitor.control.error <= 1.0:
-        return Status.STEP_TOO_SMALL, (
+        return SolverStatus.STEP_TOO_SMALL, (
             f"the tolerance needs a step below {smallest:.2g} s {where}{busiest}; try "
             f"{advice.smallest()}{advice.cause()}"
         )
     found = _what_is_wrong(task, monitor, advice, time)
     if found:
-        return Status.NOT_CONVERGED, f"Newton's method did not converge {where}: {found}"
+        return SolverStatus.NOT_CONVERGED, f"Newton's method did not converge {where}: {found}"
     said = f" [{failure.strip().splitlines()[0]}]" if failure.strip() else ""
-    return Status.NOT_CONVERGED, (
+    return SolverStatus.NOT_CONVERGED, (
         f"Newton's method did not converge {where}{busiest}, down to a step of {smallest:.2g} s; "
         f"try {advice.convergence()}{advice.cause()}{said}"
     )
@@ -398,7 +398,7 @@ def _spent_films(problem: Problem) -> Iterator[tuple[ClearanceJoint, float]]:
     if problem.joints is None:
         return
     for joint in problem.joints.joints:
-        if joint.reach < math.inf:
+        if joint.contact_onset < math.inf:
             continue  # what lies beyond the film is in its model
         if joint.outside is not None:
             yield joint, joint.outside

@@ -3,14 +3,14 @@
 from exu_press.joints.add import (
     add_dry_revolute,
     add_dry_spherical,
+    add_guideway_contact,
     add_joint_sensor,
     add_lubricated_revolute,
-    add_ways_contact,
 )
 from exu_press.joints.compiled import COMPILED
 from exu_press.joints.ends import FlexiblePoint
 from exu_press.joints.joint import ClearanceJoint, JointState, history
-from exu_press.joints.overlay import overlay_of
+from exu_press.joints.user_force import user_force_of
 
 __all__ = [
     "COMPILED",
@@ -19,9 +19,9 @@ __all__ = [
     "JointState",
     "add_dry_revolute",
     "add_dry_spherical",
+    "add_guideway_contact",
     "add_joint_sensor",
     "add_lubricated_revolute",
-    "add_ways_contact",
     "history",
-    "overlay_of",
+    "user_force_of",
 ]

@@ -8,14 +8,14 @@ import exudyn as exu
 from exudyn.itemInterface import SensorUserFunction
 
 from exu_press.errors import InputError
+from exu_press.joints.guideway import GuidewayContact, SpatialGuidewayContact
+from exu_press.joints.interface import DryInterface, FilmInterface, InterfaceLaw
 from exu_press.joints.joint import ClearanceJoint
 from exu_press.joints.on_bodies import BodyPoint, in_plane, planar_end, spatial_end
-from exu_press.joints.overlay import overlay_of
-from exu_press.joints.pairs import DryPair, FilmPair, Pair
 from exu_press.joints.planar import PlanarJoint
 from exu_press.joints.spatial import SpatialRevolute
 from exu_press.joints.spherical import SpatialSpherical
-from exu_press.joints.ways import SpatialWaysContact, WaysContact
+from exu_press.joints.user_force import user_force_of
 from exu_press.laws.contact import NormalContact
 from exu_press.laws.film import FilmLaw, film_scale
 from exu_press.laws.friction import Friction, LuGre, no_friction
@@ -23,9 +23,9 @@ from exu_press.laws.friction import Friction, LuGre, no_friction
 __all__ = [
     "add_dry_revolute",
     "add_dry_spherical",
+    "add_guideway_contact",
     "add_joint_sensor",
     "add_lubricated_revolute",
-    "add_ways_contact",
 ]
 
 
@@ -62,7 +62,9 @@ def add_dry_revolute(
             assembled already.
     """
     _check(mbs, contact=contact, friction=friction, radius=radius, clearance=clearance)
-    return _revolute(mbs, journal, bearing, axis, [DryPair(contact, friction, radius, clearance)])
+    return _revolute(
+        mbs, journal, bearing, axis, [DryInterface(contact, friction, radius, clearance)]
+    )
 
 
 def add_dry_spherical(
@@ -96,12 +98,12 @@ def add_dry_spherical(
     """
     _check(mbs, contact=contact, friction=friction, radius=radius, clearance=clearance)
     if in_plane(mbs, ball) and in_plane(mbs, socket):
-        pairs: list[Pair] = [DryPair(contact, friction, radius, clearance)]
-        return _revolute(mbs, ball, socket, (0, 0, 1), pairs)
+        interfaces: list[InterfaceLaw] = [DryInterface(contact, friction, radius, clearance)]
+        return _revolute(mbs, ball, socket, (0, 0, 1), interfaces)
     joint = SpatialSpherical(
         spatial_end(mbs, ball), spatial_end(mbs, socket), contact, friction, radius, clearance
     )
-    overlay_of(mbs).add(joint)
+    user_force_of(mbs).add(joint)
     return joint
 
 
@@ -147,14 +149,14 @@ def add_lubricated_revolute(
     """
     _check(mbs, contact=contact, friction=friction, law=law, radius=radius, clearance=clearance)
     scale = film_scale(viscosity, length, radius, clearance)
-    pairs: list[Pair] = [FilmPair(law, scale, clearance)]
+    interfaces: list[InterfaceLaw] = [FilmInterface(law, scale, clearance)]
     if contact is not None:
         friction = no_friction() if friction is None else friction
-        pairs.append(DryPair(contact, friction, radius, clearance - asperity_onset))
-    return _revolute(mbs, journal, bearing, axis, pairs)
+        interfaces.append(DryInterface(contact, friction, radius, clearance - asperity_onset))
+    return _revolute(mbs, journal, bearing, axis, interfaces)
 
 
-def add_ways_contact(
+def add_guideway_contact(
     mbs: exu.MainSystem,
     body: BodyPoint,
     *,
@@ -196,14 +198,14 @@ def add_ways_contact(
             ">= 0 (m)"
         )
     across = direction[1] / length, -direction[0] / length
-    pair = DryPair(contact, friction, half_width, clearance)
+    interface = DryInterface(contact, friction, half_width, clearance)
     place = float(middle[0]), float(middle[1])
     joint: ClearanceJoint
     if in_plane(mbs, body):
-        joint = WaysContact(planar_end(mbs, body), place, across, pair)
+        joint = GuidewayContact(planar_end(mbs, body), place, across, interface)
     else:
-        joint = SpatialWaysContact(spatial_end(mbs, body), place, across, pair)
-    overlay_of(mbs).add(joint)
+        joint = SpatialGuidewayContact(spatial_end(mbs, body), place, across, interface)
+    user_force_of(mbs).add(joint)
     return joint
 
 
@@ -215,10 +217,10 @@ def add_joint_sensor(mbs: exu.MainSystem, joint: ClearanceJoint) -> int:
     three each for a spherical joint in space); the gap (m: the film's least thickness, or minus the
     penetration); the dissipated power (W).
     """
-    overlay = overlay_of(mbs)
+    user_force = user_force_of(mbs)
 
     def values(mbs: Any, t: float, sensors: Any, factors: Any, configuration: Any) -> list[float]:
-        state = overlay.state(joint)
+        state = user_force.state(joint)
         vectors = [*state.eccentricity, *state.force, *state.moments]
         return [*vectors, state.gap, state.dissipated_power]
 
@@ -256,15 +258,17 @@ def _revolute(
     journal: BodyPoint,
     bearing: BodyPoint,
     axis: Sequence[float],
-    pairs: Sequence[Pair],
+    interfaces: Sequence[InterfaceLaw],
 ) -> ClearanceJoint:
-    """Join two bodies by pairs; planar bodies have a joint of their own, ten times faster."""
+    """Join two bodies by interfaces; planar bodies have a joint of their own, ten times faster."""
     joint: ClearanceJoint
     if in_plane(mbs, journal) and in_plane(mbs, bearing):
         if tuple(axis) != (0, 0, 1):
             raise InputError(f"axis = {tuple(axis)}: allowed between planar bodies is (0, 0, 1)")
-        joint = PlanarJoint(planar_end(mbs, journal), planar_end(mbs, bearing), pairs)
+        joint = PlanarJoint(planar_end(mbs, journal), planar_end(mbs, bearing), interfaces)
     else:
-        joint = SpatialRevolute(spatial_end(mbs, journal), spatial_end(mbs, bearing), axis, pairs)
-    overlay_of(mbs).add(joint)
+        joint = SpatialRevolute(
+            spatial_end(mbs, journal), spatial_end(mbs, bearing), axis, interfaces
+        )
+    user_force_of(mbs).add(joint)
     return joint

@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
-from exu_press.joints import pairs
+from exu_press.joints import interface
 
 __all__ = ["COMPILED"]
 
-COMPILED = Path(pairs.__file__).suffix != ".py"
+COMPILED = Path(interface.__file__).suffix != ".py"
 """Whether forces and Jacobians of the joints come from compiled code."""

@@ -30,14 +30,14 @@ class SideForce(Protocol):
         """Return it, N."""
 
     @property
-    def slopes(self) -> tuple[Array, Array] | None:
+    def partials(self) -> tuple[Array, Array] | None:
         """Its derivatives by the coordinates and by their rates, (n,); None: as if it were even."""
 
 
 class HeldSide:
     """That of a constraint which holds the body across an ideal guide."""
 
-    slopes: tuple[Array, Array] | None = None
+    partials: tuple[Array, Array] | None = None
 
     def __init__(self, mbs: exu.MainSystem, constraint: int) -> None:
         """Take the object number of a constraint with one row of length 1."""
@@ -74,7 +74,7 @@ class SpringSide:
         return self._stiffness * moved + self._damping * float(self._across @ q_t)
 
     @property
-    def slopes(self) -> tuple[Array, Array] | None:
+    def partials(self) -> tuple[Array, Array] | None:
         """Its derivatives by the coordinates and by their rates."""
         return self._stiffness * self._across, self._damping * self._across
 
@@ -176,8 +176,8 @@ class GuideFriction:
         mu, slope = self.friction(float(self._along @ q_t))
         side = self._side.force(q, q_t)
         row = by_q_t * slope * abs(side) * self._along
-        if self._side.slopes is not None:
-            by_places, by_rates = self._side.slopes
+        if self._side.partials is not None:
+            by_places, by_rates = self._side.partials
             row = row + mu * np.sign(side) * (by_q * by_places + by_q_t * by_rates)
         matrix = exu.MatrixContainer()  # a container would add to what it was given before
         matrix.SetWithDenseMatrix(np.outer(self._along, row))

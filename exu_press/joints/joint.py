@@ -1,4 +1,4 @@
-"""What the overlay needs of a joint, and what a joint says of itself."""
+"""What the user force element needs of a joint, and what a joint says of itself."""
 
 from dataclasses import dataclass
 from typing import Any, Protocol
@@ -56,14 +56,14 @@ class JointState:
 
 
 class ClearanceJoint(Protocol):
-    """A joint over some of the coordinates of the overlay's item."""
+    """A joint over some of the coordinates of the user force element's item."""
 
     clearance: float
     """Radial clearance, m."""
-    reach: float
+    contact_onset: float
     """Eccentricity at which its surfaces begin to touch, m, less than the clearance where they are
     rough; infinite where a film alone lies between them."""
-    deepest: float
+    largest_eccentricity: float
     """Eccentricity up to which its contact laws hold, m; infinite without contact."""
     lubricated: bool
     """Whether it has a film."""
@@ -115,7 +115,7 @@ def history(joint: ClearanceJoint, time: Array, q: Array, q_t: Array) -> list[Jo
     Args:
         joint: forgets what it remembers, and goes through the steps again.
         time: (n,), s.
-        q: (n, m) coordinates of the overlay's item.
+        q: (n, m) coordinates of the user force element's item.
         q_t: (n, m) their rates.
     """
     joint.reset()

@@ -8,8 +8,8 @@ import numpy as np
 
 from exu_press.errors import InputError
 from exu_press.joints.ends import NODES, BodyEnd, FlexiblePoint
-from exu_press.joints.overlay import overlay_of
 from exu_press.joints.planar import PlanarEnd
+from exu_press.joints.user_force import user_force_of
 
 __all__ = ["BodyPoint", "in_plane", "planar_end", "spatial_end"]
 
@@ -36,14 +36,14 @@ def planar_end(mbs: exu.MainSystem, point: BodyPoint) -> PlanarEnd:
     body, centre = point
     item = mbs.GetObject(body)
     local = (float(centre[0]), float(centre[1]))
-    overlay = overlay_of(mbs)
-    still = overlay.index_of(None)
+    user_force = user_force_of(mbs)
+    still = user_force.index_of(None)
     indices = still, still + 1, still + 2
     if item["objectType"] == "Ground":
         x, y, _ = (float(value) for value in item["referencePosition"])
         return PlanarEnd(indices, (x, y, 0.0), local)
     node = int(item["nodeNumber"])
-    first = overlay.index_of(node)
+    first = user_force.index_of(node)
     start = [float(v) for v in mbs.GetNodeParameter(node, "referenceCoordinates")]
     if item["objectType"] == "RigidBody2D":
         x, y, angle = start
@@ -90,8 +90,8 @@ def spatial_end(mbs: exu.MainSystem, point: BodyPoint) -> BodyEnd:
     if node_kind not in NODES:
         raise InputError(f"body {body} has a {node_kind} node: allowed are {', '.join(NODES)}")
     reference = np.array(mbs.GetNodeParameter(rigid, "referenceCoordinates"), dtype=float)
-    index = overlay_of(mbs).index_of(rigid)
+    index = user_force_of(mbs).index_of(rigid)
     if flexible is None or modal is None:
         return BodyEnd(node_kind, index, reference, local)
-    modes = (overlay_of(mbs).index_of(modal), flexible.translation, flexible.rotation)
+    modes = (user_force_of(mbs).index_of(modal), flexible.translation, flexible.rotation)
     return BodyEnd(node_kind, index, reference, local, modes)

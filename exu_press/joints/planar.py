@@ -1,10 +1,10 @@
-"""A clearance joint between two planar bodies: from coordinates to the pair and back to forces."""
+"""A clearance joint between two planar bodies: from coordinates to interface laws and back."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import atan2, cos, hypot, sin, sqrt
 
-from exu_press.joints.pairs import Load, Pair, PairedJoint
+from exu_press.joints.interface import InterfaceJoint, InterfaceLaw, Load
 
 __all__ = ["PlanarEnd", "PlanarJoint"]
 
@@ -31,12 +31,14 @@ class PlanarEnd:
         return hypot(x, y), atan2(y, x) + self.reference[2]
 
 
-class PlanarJoint(PairedJoint):
-    """One journal in one bearing, acting through one pair or several in parallel."""
+class PlanarJoint(InterfaceJoint):
+    """One journal in one bearing, acting through one interface or several in parallel."""
 
-    def __init__(self, journal: PlanarEnd, bearing: PlanarEnd, pairs: Sequence[Pair]) -> None:
-        """Join the two ends by the pairs."""
-        super().__init__(pairs)
+    def __init__(
+        self, journal: PlanarEnd, bearing: PlanarEnd, interfaces: Sequence[InterfaceLaw]
+    ) -> None:
+        """Join the two ends by the interfaces."""
+        super().__init__(interfaces)
         self.journal = journal
         self.bearing = bearing
         self.indices = [*journal.indices, *bearing.indices]
@@ -78,7 +80,7 @@ class PlanarJoint(PairedJoint):
         Exact in the first state; then a film's dependence on its speeds is a secant.
 
         Q are the six generalised forces, q the journal's and the bearing's coordinates; 36 numbers,
-        row by row. None where no pair acts.
+        row by row. None where no interface acts.
         """
         matrix: list[float] | None = None
         for i, load in enumerate(self._loads):
@@ -92,13 +94,13 @@ class PlanarJoint(PairedJoint):
         return matrix
 
     def _jacobian_of(self, i: int, load: Load, by_q: float, by_q_t: float) -> list[float]:
-        """Return one pair's part of the Jacobian."""
+        """Return one interface's part of the Jacobian."""
         e, e_dot, v_t, w_j, w_b = self._motion
         n_x, n_y, j_x, j_y, b_x, b_y = self._directions
         f_n, f_t, _, _, response = load
-        (n_e, n_r, n_v, n_wj, n_wb), (t_e, t_r, t_v, t_wj, t_wb) = self._slopes(i, load)
-        lever_j, lever_b, slope_j, slope_b = self.pairs[i].arms(e)
-        shear_e, shear_w = self.pairs[i].shear_slopes(response, w_j, w_b)
+        (n_e, n_r, n_v, n_wj, n_wb), (t_e, t_r, t_v, t_wj, t_wb) = self._partials(i, load)
+        lever_j, lever_b, slope_j, slope_b = self.interfaces[i].arms(e)
+        shear_e, shear_w = self.interfaces[i].shear_partials(response, w_j, w_b)
         slope_j = by_q * (slope_j * f_t - shear_e)
         slope_b = by_q * (slope_b * f_t + shear_e)
         shear_w *= by_q_t

@@ -1,4 +1,4 @@
-"""A revolute clearance joint between bodies of any kind, through the same pairs as in the plane."""
+"""A revolute clearance joint between bodies of any kind, with the interface laws of the plane."""
 
 from collections.abc import Sequence
 from math import sqrt
@@ -7,12 +7,12 @@ import numpy as np
 
 from exu_press.arrays import Array
 from exu_press.joints.ends import BodyEnd, Vector, cross, dot, turned
-from exu_press.joints.pairs import Pair, PairedJoint
+from exu_press.joints.interface import InterfaceJoint, InterfaceLaw
 
 __all__ = ["SpatialRevolute"]
 
 
-class SpatialRevolute(PairedJoint):
+class SpatialRevolute(InterfaceJoint):
     """A journal in a bearing whose axis is fixed in the bearing's body.
 
     Forces act in the plane normal to the axis through the journal's centre, moments about the axis;
@@ -20,10 +20,14 @@ class SpatialRevolute(PairedJoint):
     """
 
     def __init__(
-        self, journal: BodyEnd, bearing: BodyEnd, axis: Sequence[float], pairs: Sequence[Pair]
+        self,
+        journal: BodyEnd,
+        bearing: BodyEnd,
+        axis: Sequence[float],
+        interfaces: Sequence[InterfaceLaw],
     ) -> None:
-        """Join the two ends by the pairs; `axis` is the bearing's, in its body's frame."""
-        super().__init__(pairs)
+        """Join the two ends by the interfaces; `axis` is the bearing's, in its body's frame."""
+        super().__init__(interfaces)
         self.journal = journal
         self.bearing = bearing
         x, y, z = (float(component) for component in axis)
@@ -78,8 +82,8 @@ class SpatialRevolute(PairedJoint):
                 continue
             acting = True
             f_n, f_t, _, _, response = load
-            (n_e, n_r, n_v, n_wj, n_wb), (t_e, t_r, t_v, t_wj, t_wb) = self._slopes(i, load)
-            arm_j, arm_b, slope_j, slope_b = self.pairs[i].arms(e)
+            (n_e, n_r, n_v, n_wj, n_wb), (t_e, t_r, t_v, t_wj, t_wb) = self._partials(i, load)
+            arm_j, arm_b, slope_j, slope_b = self.interfaces[i].arms(e)
             n_side = turn * (n_r * v_t - n_v * e_dot - f_t)
             t_side = turn * (t_r * v_t - t_v * e_dot)
             normal[0] += by_q * n_e + by_q_t * n_r
@@ -97,7 +101,7 @@ class SpatialRevolute(PairedJoint):
                 on_journal[c] += arm_j * drag[c]
                 on_bearing[c] += arm_b * drag[c]
             across[1] += by_q * turn * f_n
-            shear_e, shear_w = self.pairs[i].shear_slopes(response, w_j, w_b)
+            shear_e, shear_w = self.interfaces[i].shear_partials(response, w_j, w_b)
             on_journal[0] += by_q * (slope_j * f_t - shear_e)
             on_bearing[0] += by_q * (slope_b * f_t + shear_e)
             sheared = by_q_t * shear_w
@@ -108,8 +112,8 @@ class SpatialRevolute(PairedJoint):
         if not acting:
             return None
         rates = self._rates()
-        slopes = np.array([normal, across, on_journal, on_bearing])
-        return np.asarray(rates.T @ -(slopes @ rates)).ravel()
+        partials = np.array([normal, across, on_journal, on_bearing])
+        return np.asarray(rates.T @ -(partials @ rates)).ravel()
 
     def in_frame(self, along_n: float, along_t: float) -> tuple[float, ...]:
         """Return a vector of the joint's plane at the last `add_force` in the global frame."""

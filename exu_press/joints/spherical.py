@@ -39,8 +39,8 @@ class SpatialSpherical:
         self._stateful = isinstance(friction, LuGre) or contact.needs_impact_speed
         self._contact, self._friction = contact, friction
         self._radius = radius
-        self.clearance = self.reach = clearance
-        self.deepest = clearance + SHALLOW * radius
+        self.clearance = self.contact_onset = clearance
+        self.largest_eccentricity = clearance + SHALLOW * radius
         self.lubricated = False
         self._approach = Approach()
         self._next_bristle: Array = np.zeros(3)
@@ -53,7 +53,7 @@ class SpatialSpherical:
     def begin_step(self, step: float, accepted: bool) -> None:
         """Keep bristle deflection and approach speed of the last step if it was accepted."""
         if accepted:
-            depth = self._e - self.reach
+            depth = self._e - self.contact_onset
             self.path.go_on(self.eccentricity, self.relative_velocity, self._step, depth)
             self._in_bristles += self._into_bristles()
             self._bristle = self._next_bristle

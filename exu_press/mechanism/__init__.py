@@ -10,7 +10,7 @@ from exu_press.mechanism.file import (
 )
 from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.motion import Motion
-from exu_press.mechanism.parts import GROUND, Body, Guide, Joint, Output, Point, Spring, Ways
+from exu_press.mechanism.parts import GROUND, Body, Guide, Guideway, Joint, Output, Point, Spring
 from exu_press.mechanism.press import Press, press
 from exu_press.mechanism.slider_crank import SliderCrank, slider_crank
 
@@ -19,6 +19,7 @@ __all__ = [
     "SHIPPED",
     "Body",
     "Guide",
+    "Guideway",
     "Joint",
     "Mechanism",
     "Motion",
@@ -27,7 +28,6 @@ __all__ = [
     "Press",
     "SliderCrank",
     "Spring",
-    "Ways",
     "load_mechanism",
     "mechanism_from",
     "mechanism_lines",

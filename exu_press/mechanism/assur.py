@@ -54,18 +54,18 @@ class Drawing(NamedTuple):
 class Pose:
     """A body's position: centre, direction e = exp(i angle), and their derivatives by crank angle.
 
-    `slopes` are the centre's derivatives by its group's coordinates, `column` is the coordinate
+    `partials` are the centre's derivatives by its group's coordinates, `column` is the coordinate
     that is the body's angle, if any.
     """
 
-    __slots__ = ("a", "angle", "column", "e", "slopes", "w", "z", "z1", "z2")
+    __slots__ = ("a", "angle", "column", "e", "partials", "w", "z", "z1", "z2")
 
     def __init__(
-        self, z: Number, angle: Number, slopes: Sequence[Number] = (), column: int | None = None
+        self, z: Number, angle: Number, partials: Sequence[Number] = (), column: int | None = None
     ) -> None:
         """Stand still at a position."""
         self.z, self.angle, self.e = z, angle, np.exp(1j * angle)
-        self.slopes, self.column = slopes, column
+        self.partials, self.column = partials, column
         self.z1: Number = 0.0
         self.z2: Number = 0.0
         self.w: Number = 0.0
@@ -83,12 +83,12 @@ class Pose:
         """Return how it is accelerated."""
         return self.z2 + (1j * self.a - self.w * self.w) * (self.e * local)
 
-    def point_slopes(self, local: complex, count: int) -> list[Number]:
+    def point_partials(self, local: complex, count: int) -> list[Number]:
         """Return the point's derivatives by the group's coordinates."""
-        slopes = list(self.slopes) or [0.0] * count
+        partials = list(self.partials) or [0.0] * count
         if self.column is not None:
-            slopes[self.column] = slopes[self.column] + 1j * (self.e * local)
-        return slopes
+            partials[self.column] = partials[self.column] + 1j * (self.e * local)
+        return partials
 
 
 @dataclass(frozen=True)
@@ -146,26 +146,26 @@ class Group:
         """Add the members' poses for coordinates of shape (k,) or (k, n)."""
         count = len(self.members)
         for column, member in enumerate(self.members):
-            slopes: list[Number] = [0.0] * count
+            partials: list[Number] = [0.0] * count
             if member.direction is not None:
-                slopes[column] = member.direction
+                partials[column] = member.direction
                 z = member.centre + member.direction * u[column]
-                poses[member.body] = Pose(z, member.angle, slopes)
+                poses[member.body] = Pose(z, member.angle, partials)
                 continue
             before = poses[member.before]
             pose = Pose(0.0, u[column], (), column)
             arm = pose.e * member.point
             pose.z = before.point(member.point_before) - arm
-            if before.slopes:
-                slopes = before.point_slopes(member.point_before, count)
-            slopes[column] = slopes[column] - 1j * arm
-            pose.slopes = slopes
+            if before.partials:
+                partials = before.point_partials(member.point_before, count)
+            partials[column] = partials[column] - 1j * arm
+            pose.partials = partials
             poses[member.body] = pose
 
     def settle(self, poses: Mapping[str, Pose]) -> None:
         """Make the members' poses known ones, which depend on no coordinates."""
         for body in self.bodies:
-            poses[body].slopes, poses[body].column = (), None
+            poses[body].partials, poses[body].column = (), None
 
     def gaps(self, poses: Mapping[str, Pose]) -> Array:
         """Return by how much the loops do not close, (..., 2 loops)."""
@@ -174,10 +174,11 @@ class Group:
     def jacobian(self, poses: Mapping[str, Pose]) -> Array:
         """Return the gaps' derivatives by the coordinates, (..., 2 loops, k)."""
         count = len(self.members)
-        slopes = [
-            (a.point_slopes(p, count), b.point_slopes(q, count)) for a, p, b, q in self._ends(poses)
+        partials = [
+            (a.point_partials(p, count), b.point_partials(q, count))
+            for a, p, b, q in self._ends(poses)
         ]
-        columns = _real([one[k] - other[k] for k in range(count) for one, other in slopes])
+        columns = _real([one[k] - other[k] for k in range(count) for one, other in partials])
         return columns.reshape(*columns.shape[:-1], count, -1).swapaxes(-1, -2)
 
     def move(self, poses: Mapping[str, Pose], inverse: Array) -> tuple[Array, Array]:
@@ -197,7 +198,7 @@ class Group:
         u_1 = -_times(inverse, gaps)
         for member, rate in zip(self.members, u_1, strict=True):
             pose = poses[member.body]
-            pose.z1 = pose.z1 + sum(s * r for s, r in zip(pose.slopes, u_1, strict=True))
+            pose.z1 = pose.z1 + sum(s * r for s, r in zip(pose.partials, u_1, strict=True))
             pose.w = rate if member.direction is None else 0.0
         for member in self.members:
             if member.direction is None:
@@ -208,7 +209,7 @@ class Group:
         u_2 = -_times(inverse, gaps)
         for member, alpha in zip(self.members, u_2, strict=True):
             pose = poses[member.body]
-            pose.z2 = pose.z2 + sum(s * t for s, t in zip(pose.slopes, u_2, strict=True))
+            pose.z2 = pose.z2 + sum(s * t for s, t in zip(pose.partials, u_2, strict=True))
             pose.a = alpha if member.direction is None else 0.0
         self.settle(poses)
         return u_1, u_2

@@ -4,9 +4,9 @@ import math
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import Any, TypeVar
 
-from exu_press.checks import nearest
 from exu_press.errors import InputError
 from exu_press.mechanism.parts import DRIVE, GROUND, Body, Guide, Joint, Output
+from exu_press.schema.checks import nearest
 
 __all__ = ["all_of", "check", "check_defaults"]
 

@@ -27,11 +27,11 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from exu_press.checks import nearest
 from exu_press.errors import InputError
 from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.parts import Body, Guide, Joint, Output
-from exu_press.toml import read_toml, toml_text
+from exu_press.schema.checks import nearest
+from exu_press.schema.toml import read_toml, toml_text
 
 __all__ = [
     "SHIPPED",

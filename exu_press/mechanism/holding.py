@@ -25,7 +25,7 @@ from exu_press.errors import InputError
 from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.parts import GROUND, Guide, Joint, Point
 
-__all__ = ["HalfHeld", "Holding", "by_constraints", "holding_of"]
+__all__ = ["Holding", "SingleAxis", "by_constraints", "holding_of"]
 
 SOMEWHERE = (1.0, 2.3)
 """Crank angles that are none of those in which mechanisms are drawn, rad."""
@@ -41,7 +41,7 @@ KEPT = 1e-6
 
 
 @dataclass(frozen=True)
-class HalfHeld:
+class SingleAxis:
     """A joint that holds its two bodies together in one direction alone.
 
     Attributes:
@@ -62,7 +62,7 @@ class Holding:
         sliding: names of bodies whose ideal guide, along x or y, leaves them nothing but a
             displacement along it.
         joints: names of the other ideal joints that hold both directions.
-        half_held: names of those that hold one.
+        single_axis: names of those that hold one.
         guides: bodies that are not sliding -> whether their guide holds them across, and the angle.
         redundant: names of joints and guides of which something is left out.
         twice: whether nothing is left out although some of it is redundant at most crank angles.
@@ -71,7 +71,7 @@ class Holding:
     pivoted: Mapping[str, Joint]
     sliding: frozenset[str]
     joints: tuple[str, ...]
-    half_held: Mapping[str, HalfHeld]
+    single_axis: Mapping[str, SingleAxis]
     guides: Mapping[str, tuple[bool, bool]]
     redundant: tuple[str, ...]
     twice: bool = False
@@ -105,8 +105,8 @@ def holding_of(mechanism: Mechanism, ideal: frozenset[str]) -> Holding:
         pivoted=pivoted,
         sliding=sliding,
         joints=tuple(joint.name for joint in others if len(first.directions[joint.name]) == 2),
-        half_held={
-            joint.name: _half_held(joint, first, second)
+        single_axis={
+            joint.name: _single_axis(joint, first, second)
             for joint in others
             if len(first.directions[joint.name]) == 1
         },
@@ -118,7 +118,7 @@ def holding_of(mechanism: Mechanism, ideal: frozenset[str]) -> Holding:
     return replace(
         found,
         joints=(*found.joints, *first.lost),
-        half_held={n: half for n, half in found.half_held.items() if n not in first.lost},
+        single_axis={n: half for n, half in found.single_axis.items() if n not in first.lost},
         twice=True,
     )
 
@@ -216,7 +216,7 @@ class _Selection:
         rows = [self._angle_row(self._mechanism.crank)]
         for joint in self._mechanism.joints:
             both = self._joint_rows(joint)
-            half = holding.half_held.get(joint.name)
+            half = holding.single_axis.get(joint.name)
             if half is not None:
                 angle = half.angle + self.angles[half.body]
                 rows.append(np.array([math.cos(angle), math.sin(angle)]) @ both)
@@ -286,9 +286,9 @@ def _parallel(joint: Joint, guides: Mapping[str, Guide]) -> Point | None:
     return one if abs(across) < INDEPENDENT else None
 
 
-def _half_held(joint: Joint, first: _Selection, second: _Selection) -> HalfHeld:
+def _single_axis(joint: Joint, first: _Selection, second: _Selection) -> SingleAxis:
     """Return the direction that a joint holds, in the frame of a body that keeps it."""
-    best: tuple[float, HalfHeld] | None = None
+    best: tuple[float, SingleAxis] | None = None
     for body in (joint.bearing, joint.journal):
         angles = []
         for found in (first, second):
@@ -300,7 +300,7 @@ def _half_held(joint: Joint, first: _Selection, second: _Selection) -> HalfHeld:
         else:
             apart = abs(math.remainder(angles[1] - angles[0], math.pi))  # either sense
             if best is None or apart < best[0]:
-                best = apart, HalfHeld(body, angles[0])
+                best = apart, SingleAxis(body, angles[0])
     if best is None or best[0] > KEPT:
         raise InputError(
             f"joints.{joint.name}: one of its constraints is redundant, in a direction that turns "

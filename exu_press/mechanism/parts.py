@@ -9,11 +9,11 @@ __all__ = [
     "ROD",
     "Body",
     "Guide",
+    "Guideway",
     "Joint",
     "Output",
     "Point",
     "Spring",
-    "Ways",
     "steel_cube",
 ]
 
@@ -94,8 +94,8 @@ class Spring:
 
 
 @dataclass(frozen=True)
-class Ways:
-    """What a body with play slides between: it touches them with its two ends.
+class Guideway:
+    """What a body slides between with clearance: it touches them with its two ends.
 
     Attributes:
         clearance: on each side, m.
@@ -119,24 +119,24 @@ class Guide:
         direction: along the guide; `Mechanism` makes it a unit vector.
         lateral: what holds the body across the guide, or None where the guide is ideal.
         tilting: what holds its angle, or None.
-        ways: what the body has play between, or None.
+        guideway: what the body slides between with clearance, or None.
     """
 
     body: str
     direction: Point = (0.0, 1.0)
     lateral: Spring | None = None
     tilting: Spring | None = None
-    ways: Ways | None = None
+    guideway: Guideway | None = None
 
     @property
     def holds_across(self) -> bool:
         """Whether it holds the body across its direction without any give."""
-        return self.lateral is None and self.ways is None
+        return self.lateral is None and self.guideway is None
 
     @property
     def holds_angle(self) -> bool:
         """Whether it holds the body's angle without any give."""
-        return self.tilting is None and self.ways is None
+        return self.tilting is None and self.guideway is None
 
     @property
     def across(self) -> Point:

@@ -5,11 +5,11 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, ClassVar
 
-from exu_press.checks import Table, Uses, key
 from exu_press.errors import InputError
 from exu_press.mechanism.draw import meet, middle, onto
 from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.parts import GROUND, Body, Guide, Joint, Output, Point, steel_cube
+from exu_press.schema.checks import Table, Uses, key
 
 __all__ = ["PAPER_LAWS", "TABLE_2", "Press", "press"]
 

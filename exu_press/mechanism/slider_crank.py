@@ -5,10 +5,10 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, ClassVar
 
-from exu_press.checks import Table, key
 from exu_press.mechanism.draw import middle, onto
 from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.parts import GROUND, Body, Guide, Joint, Output, steel_cube
+from exu_press.schema.checks import Table, key
 
 __all__ = ["SliderCrank", "slider_crank"]
 

@@ -7,7 +7,7 @@ from exu_press.integrate.scheme import follow_modes
 from exu_press.mechanism import Motion
 from exu_press.model.bodies import add_bodies
 from exu_press.model.drive import add_drive, crank_angle_of, hold_flexible_bodies
-from exu_press.model.guides import add_guide, add_guide_friction, add_ways, guides_rub
+from exu_press.model.guides import add_guide, add_guide_friction, add_guideways, guides_rub
 from exu_press.model.joints import add_clearance_joint, add_ideal_joint
 from exu_press.model.loaded_start import moved_start
 from exu_press.model.loads import add_loads
@@ -18,8 +18,8 @@ from exu_press.model.system import System
 from exu_press.scene import IdealJoint, Scene
 
 if TYPE_CHECKING:
-    from exu_press.flexible import FrameStart
-    from exu_press.placed_part import PlacedPart
+    from exu_press.model.flexible_body import FrameStart
+    from exu_press.model.placed_part import PlacedPart
 
 __all__ = ["build"]
 
@@ -35,7 +35,7 @@ def build(scene: Scene, *, quiet: bool = True) -> Model:
     """
     parts: Mapping[str, PlacedPart] = {}
     if scene.bodies:
-        from exu_press.placed_part import placed_parts
+        from exu_press.model.placed_part import placed_parts
 
         parts = placed_parts(scene, quiet=quiet)
     start: dict[str, Motion] = {}
@@ -79,7 +79,7 @@ def _assembled(
         for joint in mechanism.joints
         if not isinstance(kind := joints[joint.name], IdealJoint)
     }
-    held = {*holding.joints, *holding.half_held}
+    held = {*holding.joints, *holding.single_axis}
     ideal = {
         joint.name: add_ideal_joint(system, joint)
         for joint in mechanism.joints
@@ -92,10 +92,10 @@ def _assembled(
         for guide in mechanism.guides
         if guide.body not in holding.sliding
     }
-    ways = {
-        guide.body: add_ways(system, guide, guide.ways)
+    guideways = {
+        guide.body: add_guideways(system, guide, guide.guideway)
         for guide in mechanism.guides
-        if guide.ways is not None
+        if guide.guideway is not None
     }
     friction = {
         guide.body: add_guide_friction(system, guide, guides[guide.body])
@@ -122,7 +122,7 @@ def _assembled(
         crank_angle=crank_angle_of(system),
         loads=loads,
         clocks=system.clocks,
-        ways=ways,
+        guideways=guideways,
         guide_friction=friction,
         sensors=system.sensors,
         parts=system.parts,

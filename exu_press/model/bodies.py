@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 from exudyn.itemInterface import LoadForceVector
 
 from exu_press.mechanism import Body, Motion
+from exu_press.model.rigid_body import PivotedBody, RigidBody, SlidingBody
 from exu_press.model.system import System
-from exu_press.rigid import PivotedBody, RigidBody, SlidingBody
 
 if TYPE_CHECKING:
-    from exu_press.flexible import FrameStart
+    from exu_press.model.flexible_body import FrameStart
 
 __all__ = ["add_bodies"]
 
@@ -69,7 +69,7 @@ def _add_flexible_body(
     system: System, name: str, start: Motion, deformed: "FrameStart | None"
 ) -> None:
     """Add a flexible body; its frame lies where the solid's does, not in the centre of mass."""
-    from exu_press.flexible import add_part, fitted_to_guide, undeformed
+    from exu_press.model.flexible_body import add_part, fitted_to_guide, undeformed
 
     part = system.parts[name]
     begin = deformed or undeformed(part.frame(start))

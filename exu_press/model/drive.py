@@ -8,8 +8,8 @@ from exudyn.itemInterface import ObjectConnectorCoordinateSpringDamper
 
 from exu_press.mechanism import Body, Motion
 from exu_press.mechanism.parts import DRIVE
+from exu_press.model.rigid_body import RigidBody
 from exu_press.model.system import System
-from exu_press.rigid import RigidBody
 
 __all__ = ["CrankAngle", "add_drive", "crank_angle_of", "hold_flexible_bodies", "turned_body"]
 
@@ -78,7 +78,7 @@ def hold_flexible_bodies(system: System, start: Mapping[str, Motion]) -> dict[st
     Returns:
         name of a joint with the frame, numbered where it holds several faces -> object number.
     """
-    from exu_press.flexible import hold_driven, hold_pivot, hold_upright
+    from exu_press.model.flexible_body import hold_driven, hold_pivot, hold_upright
 
     mbs = system.mbs
     held: dict[str, int] = {}

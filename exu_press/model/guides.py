@@ -14,17 +14,19 @@ from exudyn.itemInterface import (
 )
 
 from exu_press.arrays import Array
-from exu_press.joints import ClearanceJoint, add_ways_contact
+from exu_press.joints import ClearanceJoint, add_guideway_contact
 from exu_press.joints.guide_friction import GuideFriction, HeldSide, SideForce, SpringSide
-from exu_press.mechanism import Guide, Point, Spring, Ways
+from exu_press.mechanism import Guide, Guideway, Point, Spring
 from exu_press.model.system import System
 from exu_press.scene.laws import guide_contact_law, guide_friction_law
 
-__all__ = ["add_guide", "add_guide_friction", "add_ways", "guides_rub"]
+__all__ = ["add_guide", "add_guide_friction", "add_guideways", "guides_rub"]
 
 
-def add_ways(system: System, guide: Guide, ways: Ways) -> tuple[ClearanceJoint, ClearanceJoint]:
-    """Let both ends of a body touch the ways that it has play between."""
+def add_guideways(
+    system: System, guide: Guide, ways: Guideway
+) -> tuple[ClearanceJoint, ClearanceJoint]:
+    """Let both ends of a body touch its guideways with clearance."""
     table, damped = system.scene.guide, system.scene.contact
     assert table is not None
     assert damped is not None
@@ -33,7 +35,7 @@ def add_ways(system: System, guide: Guide, ways: Ways) -> tuple[ClearanceJoint, 
 
     def end(side: float) -> ClearanceJoint:
         drawn = np.array(body.centre_of_mass) + 0.5 * side * ways.length * along
-        return add_ways_contact(
+        return add_guideway_contact(
             system.mbs,
             _end(system, guide.body, body.local((float(drawn[0]), float(drawn[1])))),
             middle=body.centre_of_mass,
@@ -65,7 +67,7 @@ def add_guide_friction(system: System, guide: Guide, held: Mapping[str, int]) ->
     assert table is not None
     missed = np.zeros(3)
     if guide.body in system.flexible:
-        from exu_press.flexible import guided_motion
+        from exu_press.model.flexible_body import guided_motion
 
         body = system.flexible[guide.body]
         values, rows = guided_motion(mbs, body, system.parts[guide.body])
@@ -88,7 +90,7 @@ def _end(system: System, body: str, point: Point) -> Any:
     """Return a point of a guided body for its ways to touch."""
     if body not in system.flexible:
         return system.bodies[body], system.rigid[body].local(point)
-    from exu_press.flexible import guide_end
+    from exu_press.model.flexible_body import guide_end
 
     return guide_end(system.flexible[body], system.parts[body], point)
 
@@ -119,7 +121,7 @@ def _add_flexible_guide(system: System, guide: Guide) -> dict[str, int]:
 
     Springs are one item with constant matrices, whose forces follow from the motion.
     """
-    from exu_press.flexible import guided_motion
+    from exu_press.model.flexible_body import guided_motion
 
     mbs, body = system.mbs, system.flexible[guide.body]
     values, rows = guided_motion(mbs, body, system.parts[guide.body])

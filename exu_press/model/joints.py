@@ -19,21 +19,21 @@ from exu_press.joints import (
     add_dry_spherical,
     add_lubricated_revolute,
 )
-from exu_press.joints.pairs import DryPair, FilmPair, Pair
+from exu_press.joints.interface import DryInterface, FilmInterface, InterfaceLaw
 from exu_press.laws.film import film_scale
 from exu_press.laws.friction import no_friction
 from exu_press.mechanism import GROUND, Joint, Point
-from exu_press.mechanism.holding import HalfHeld
+from exu_press.mechanism.holding import SingleAxis
 from exu_press.model.system import System
 from exu_press.scene import DryJoint, LubricatedJoint
 from exu_press.scene.laws import contact_law, film_law, friction_law
 
-__all__ = ["add_clearance_joint", "add_ideal_joint", "pairs_of"]
+__all__ = ["add_clearance_joint", "add_ideal_joint", "interfaces_of"]
 
 
 def add_ideal_joint(system: System, joint: Joint) -> int:
     """Add a revolute joint, or what holds the one direction that nothing else holds."""
-    half = system.holding.half_held.get(joint.name)
+    half = system.holding.single_axis.get(joint.name)
     if half is not None:
         return _hold_half(system, joint, half)
     markers = [system.joint_marker(joint, *end) for end in system.mechanism.ends(joint)]
@@ -77,19 +77,19 @@ def add_clearance_joint(
     )
 
 
-def pairs_of(joint: Joint, kind: DryJoint | LubricatedJoint) -> list[Pair]:
+def interfaces_of(joint: Joint, kind: DryJoint | LubricatedJoint) -> list[InterfaceLaw]:
     """Return the surfaces of a joint with clearance, in its plane."""
-    pairs: list[Pair] = []
+    interfaces: list[InterfaceLaw] = []
     if isinstance(kind, LubricatedJoint):
         radius, clearance, oil = kind.radius, kind.clearance, kind.film
         scale = film_scale(oil.viscosity, oil.length, radius, clearance)
-        pairs.append(FilmPair(film_law(oil, radius, clearance), scale, clearance))
+        interfaces.append(FilmInterface(film_law(oil, radius, clearance), scale, clearance))
     if kind.contact is not None:
         contact = contact_law(kind, revolute=not joint.spherical)
         friction = no_friction() if kind.friction is None else friction_law(kind.friction)
         reach = kind.clearance - (kind.onset or 0.0)
-        pairs.append(DryPair(contact, friction, kind.radius, reach))
-    return pairs
+        interfaces.append(DryInterface(contact, friction, kind.radius, reach))
+    return interfaces
 
 
 def _end(system: System, joint: Joint, body: str, point: Point) -> Any:
@@ -98,12 +98,12 @@ def _end(system: System, joint: Joint, body: str, point: Point) -> Any:
         return system.ground, point
     if body not in system.flexible:
         return system.bodies[body], system.rigid[body].local(point)
-    from exu_press.flexible import joint_end
+    from exu_press.model.flexible_body import joint_end
 
     return joint_end(system.flexible[body], system.parts[body], joint, point)
 
 
-def _hold_half(system: System, joint: Joint, half: HalfHeld) -> int:
+def _hold_half(system: System, joint: Joint, half: SingleAxis) -> int:
     """Hold a joint's two bodies together in one direction, which turns with one of them."""
     journal, bearing = system.mechanism.ends(joint)
     (body, point), end = (journal, bearing) if half.body == joint.journal else (bearing, journal)
@@ -126,7 +126,7 @@ def _hold_half(system: System, joint: Joint, half: HalfHeld) -> int:
     return number
 
 
-def _hold_along(system: System, joint: Joint, half: HalfHeld, flexible: str) -> int:
+def _hold_along(system: System, joint: Joint, half: SingleAxis, flexible: str) -> int:
     """Hold a flexible body's joint in the one direction, where a guide keeps that along x or y."""
     guided = {guide.body for guide in system.mechanism.guides}
     angle = half.angle

@@ -14,15 +14,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from exu_press.arrays import Array
+from exu_press.joints.interface import DryInterface, InterfaceLaw
 from exu_press.joints.joint import SHALLOW
-from exu_press.joints.pairs import DryPair, Pair
 from exu_press.mechanism import GROUND, Joint, Motion
-from exu_press.model.joints import pairs_of
+from exu_press.model.joints import interfaces_of
 from exu_press.model.system import System
 from exu_press.scene import IdealJoint
 
 if TYPE_CHECKING:
-    from exu_press.flexible import FrameStart
+    from exu_press.model.flexible_body import FrameStart
 
 __all__ = ["loaded_start", "moved_start"]
 
@@ -59,7 +59,7 @@ def moved_start(
             np.zeros_like(ideal.position),
         )
         if name in frames:
-            from exu_press.flexible import shifted
+            from exu_press.model.flexible_body import shifted
 
             bent[name] = shifted(frames[name], ideal, away)
         else:
@@ -237,8 +237,8 @@ class _Instant:
             kind = scene[joints[k].name]
             assert not isinstance(kind, IdealJoint)
             turning = self._omega[joints[k].journal], self._omega[joints[k].bearing]
-            pairs = pairs_of(joints[k], kind)
-            e = _borne(pairs, complex(self.forces[k]), *turning)
+            interfaces = interfaces_of(joints[k], kind)
+            e = _borne(interfaces, complex(self.forces[k]), *turning)
             found[k] = (math.nan, math.nan) if e is None else (e.real, e.imag)
         return found
 
@@ -255,11 +255,13 @@ class _Instant:
         return q
 
 
-def _borne(pairs: list[Pair], force: complex, omega_j: float, omega_b: float) -> complex | None:
+def _borne(
+    interfaces: list[InterfaceLaw], force: complex, omega_j: float, omega_b: float
+) -> complex | None:
     """Return the eccentricity at which surfaces exert a force on a journal at rest, or None.
 
     Args:
-        pairs: acting in parallel.
+        interfaces: acting in parallel.
         force: N.
         omega_j: angular velocity of the journal, rad/s.
         omega_b: of the bearing, rad/s.
@@ -267,10 +269,10 @@ def _borne(pairs: list[Pair], force: complex, omega_j: float, omega_b: float) ->
 
     def exerted(e: float) -> complex:
         """Return the force along the eccentricity and a quarter turn from it, at rest there."""
-        loads = [pair.load(e, 0.0, 0.0, omega_j, omega_b) for pair in pairs]
+        loads = [interface.load(e, 0.0, 0.0, omega_j, omega_b) for interface in interfaces]
         return sum((complex(f[0], f[1]) for f in loads if f is not None), 0j)
 
-    size = _bearing_eccentricity(exerted, pairs, abs(force))
+    size = _bearing_eccentricity(exerted, interfaces, abs(force))
     if size is None:
         return None
     along = force / exerted(size)
@@ -278,14 +280,14 @@ def _borne(pairs: list[Pair], force: complex, omega_j: float, omega_b: float) ->
 
 
 def _bearing_eccentricity(
-    exerted: Callable[[float], complex], pairs: list[Pair], wanted: float
+    exerted: Callable[[float], complex], interfaces: list[InterfaceLaw], wanted: float
 ) -> float | None:
     """Return the size of the eccentricity at which a force of a wanted size is exerted, or None."""
-    dry = [pair for pair in pairs if isinstance(pair, DryPair)]
-    low, high = 0.0, THICKEST * pairs[0].clearance
+    dry = [interface for interface in interfaces if isinstance(interface, DryInterface)]
+    low, high = 0.0, THICKEST * interfaces[0].clearance
     if dry:
         high = dry[0].clearance + SHALLOW * dry[0].radius
-        low = dry[0].clearance if len(dry) == len(pairs) else 0.0
+        low = dry[0].clearance if len(dry) == len(interfaces) else 0.0
     if not abs(exerted(low)) < wanted <= abs(exerted(high)):
         return None
     while high - low > 1e-15 + 1e-12 * high:

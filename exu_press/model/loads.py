@@ -137,7 +137,7 @@ def _add_sheet(system: System, name: str, load: AppliedLoad) -> Cutting:
 def _press(system: System, name: str, load: AppliedLoad, function: Any) -> None:
     """Put a force on a rigid body's point, or on a flexible body's faces."""
     if load.body in system.flexible:
-        from exu_press.flexible import load_point
+        from exu_press.model.flexible_body import load_point
 
         count = len(system.parts[load.body].loads[name])
         points = (load_point(name, number) for number in range(count))

@@ -7,17 +7,17 @@ from typing import TYPE_CHECKING
 
 import exudyn as exu
 
-from exu_press.integrate import Outcome, Tuning
+from exu_press.integrate import Outcome, SolverTuning
 from exu_press.joints.guide_friction import GuideFriction
 from exu_press.laws.load_curve import Clock
 from exu_press.model.drive import CrankAngle
 from exu_press.model.loads import Place, force_at, next_corner, torque_wanted
-from exu_press.rigid import RigidBody
+from exu_press.model.rigid_body import RigidBody
 from exu_press.scene.applied import AppliedLoad
 from exu_press.solving import DEFAULTS, Assembled, solve
 
 if TYPE_CHECKING:
-    from exu_press.placed_part import PlacedPart
+    from exu_press.model.placed_part import PlacedPart
 
 __all__ = ["Model", "count_items"]
 
@@ -64,7 +64,7 @@ class Model(Assembled):
         """Number of objects and loads that the user has added since."""
         return count_items(self.mbs) - self.made
 
-    def solve(self, *, tuning: Tuning = DEFAULTS, quiet: bool = True) -> Outcome:
+    def solve(self, *, tuning: SolverTuning = DEFAULTS, quiet: bool = True) -> Outcome:
         """Run to the end time or to an early stop; what was computed stays in the sensors.
 
         Items that were added to `mbs` since, and assembled, take part.

@@ -9,12 +9,12 @@ from exu_press.arrays import Array
 from exu_press.errors import InputError
 from exu_press.mechanism import Motion
 from exu_press.model.drive import turned_body
+from exu_press.model.quasi_static import quasi_static_motion
 from exu_press.model.system import System
-from exu_press.quasi_static import quasi_static_motion
 from exu_press.scene import Scene
 
 if TYPE_CHECKING:
-    from exu_press.flexible import FrameStart
+    from exu_press.model.flexible_body import FrameStart
     from fe_models import FlexibleBody
 
 __all__ = ["deformed_start"]
@@ -33,7 +33,7 @@ def deformed_start(ideal: System, drive: int) -> tuple[dict[str, Motion], dict[s
     Raises:
         InputError: a body is so soft that it does not stay in shape.
     """
-    from exu_press.flexible import deformed
+    from exu_press.model.flexible_body import deformed
 
     mbs = ideal.mbs
     turned = turned_body(ideal)

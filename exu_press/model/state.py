@@ -38,13 +38,13 @@ class State(TypedDict):
 def state_of(model: Model) -> State:
     """Return the state in which a model is after it was solved."""
     data: Any = model.mbs.systemData
-    overlay = Problem.of(model.mbs).joints
+    user_force = Problem.of(model.mbs).joints
     return {
         "time": float(data.GetTime()),
         "step": float(model.mbs.sys["dynamicSolver"].it.currentStepSize),
         "coordinates": [np.asarray(part).tolist() for part in data.GetSystemState()],
         "accelerations": np.asarray(data.GetODE2Coordinates_tt()).tolist(),
-        "joints": None if overlay is None else overlay.memory(),
+        "joints": None if user_force is None else user_force.memory(),
         "clocks": [clock.memory() for clock, _ in model.clocks],
     }
 
@@ -57,11 +57,11 @@ def go_on_from(model: Model, state: State) -> Model:
     """
     data: Any = model.mbs.systemData
     initial = exu.ConfigurationType.Initial
-    overlay = Problem.of(model.mbs).joints
+    user_force = Problem.of(model.mbs).joints
     sizes = [len(part) for part in data.GetSystemState(configuration=initial)]
     given = [len(part) for part in state["coordinates"]]
     histories = 0 if state["joints"] is None else len(state["joints"]["joints"])
-    joints = 0 if overlay is None else len(overlay.joints)
+    joints = 0 if user_force is None else len(user_force.joints)
     if sizes != given or histories != joints or len(state["clocks"]) != len(model.clocks):
         raise InputError(
             f"the state has {given[0]} coordinates and {histories} joints with clearance, the "
@@ -71,8 +71,8 @@ def go_on_from(model: Model, state: State) -> Model:
     data.SetSystemState(systemStateList=parts, configuration=initial)
     data.SetODE2Coordinates_tt(coordinates=state["accelerations"], configuration=initial)
     data.SetTime(newTime=state["time"], configurationType=initial)
-    if overlay is not None and state["joints"] is not None:
-        overlay.recall(state["joints"])
+    if user_force is not None and state["joints"] is not None:
+        user_force.recall(state["joints"])
     for (clock, _), memory in zip(model.clocks, state["clocks"], strict=True):
         clock.recall(memory)
     remembered = tuple(state["clocks"])

@@ -18,13 +18,13 @@ from exudyn.itemInterface import (
 from exu_press.laws.load_curve import Clock
 from exu_press.mechanism import GROUND, Joint, Mechanism, Point, Spring
 from exu_press.mechanism.holding import by_constraints, holding_of
-from exu_press.rigid import RigidBody
+from exu_press.model.rigid_body import RigidBody
 from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.applied import applied_loads
 from exu_press.scene.elastic import with_elastic_guides
 
 if TYPE_CHECKING:
-    from exu_press.placed_part import PlacedPart
+    from exu_press.model.placed_part import PlacedPart
     from fe_models import FlexibleBody
 
 __all__ = ["System"]
@@ -103,7 +103,7 @@ class System:
         """Add a marker for a joint; on a flexible body it follows its faces' mean motion."""
         if body not in self.flexible:
             return self.marker(body, point)
-        from exu_press.flexible import point_name
+        from exu_press.model.flexible_body import point_name
 
         count = len(self.parts[body].faces[joint.name])
         points = (point_name(joint, number) for number in range(count))

@@ -5,11 +5,11 @@ from collections.abc import Collection, Iterable, Mapping
 import numpy as np
 from matplotlib.axes import Axes
 
-from exu_press.columns import columns
 from exu_press.plots.peaks import with_error
 from exu_press.plots.sides import joint_titles
 from exu_press.quantities.catalogue import ECCENTRICITY_RATIO, JOINT_FORCE
 from exu_press.result import Result
+from exu_press.terminal.columns import columns
 
 __all__ = ["busiest", "draw_rest", "rest_lines"]
 

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from exu_press.errors import InputError
-from exu_press.output import replacing
+from exu_press.files.output_directory import replacing
 from exu_press.plots.style import DPI, look
 
 __all__ = ["FORMATS", "check_picture", "save_figure"]

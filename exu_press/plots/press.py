@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from exu_press.arrays import Array
 from exu_press.mechanism import Mechanism
-from exu_press.piecewise import evaluate, hermite, integral
+from exu_press.numerics.piecewise import evaluate, hermite, integral
 from exu_press.plots.canvas import (
     angle_axis,
     crank_degrees,

@@ -7,7 +7,7 @@ program that prints one value a millisecond, or an instrument that differentiate
 import numpy as np
 
 from exu_press.arrays import Array
-from exu_press.piecewise import evaluate, hermite, integral
+from exu_press.numerics.piecewise import evaluate, hermite, integral
 
 __all__ = ["differentiated_peak", "mean_peak", "mean_peak_of", "peak"]
 

@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 
-from exu_press.checks import nearest
 from exu_press.errors import InputError
 from exu_press.quantities.cost import COSTS
 from exu_press.quantities.energy import BALANCE
@@ -16,6 +15,7 @@ from exu_press.quantities.slider import SLIDER, STROKES
 from exu_press.quantities.wear import WEAR
 from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.applied import applied_loads
+from exu_press.schema.checks import nearest
 
 __all__ = ["CATALOGUE", "Placed", "add", "declared", "quantities_of", "quantity_of"]
 

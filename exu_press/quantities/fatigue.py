@@ -20,7 +20,7 @@ def _stressed(scene: Scene, body: str) -> bool:
 
 
 def _lasting(scene: Scene, body: str) -> bool:
-    return body in scene.bodies and scene.bodies[body].woehler_stress is not None
+    return body in scene.bodies and scene.bodies[body].sn_stress is not None
 
 
 def _peak_stress(run: Reading, body: str) -> float | None:
@@ -115,13 +115,13 @@ BODIES = (
 
 
 def damage(cycles: Sequence[tuple[float, float]], body: Flexible) -> float:
-    """Return Miner's sum of (amplitude in Pa, number) over the Woehler line, 1 at the end of life.
+    """Return Miner's sum of (amplitude in Pa, number) over the S-N curve, 1 at the end of life.
 
-    >>> line = Flexible("linkage", woehler_stress=1e8, woehler_cycles=1e6, woehler_slope=5.0)
+    >>> line = Flexible("linkage", sn_stress=1e8, sn_cycles=1e6, sn_slope=5.0)
     >>> damage([(1e8, 1e6)], line), damage([(2e8, 1e6)], line)
     (1.0, 32.0)
     """
-    assert body.woehler_stress is not None
+    assert body.sn_stress is not None
     amplitudes, numbers = np.array(cycles, dtype=float).reshape(-1, 2).T
-    relative = (amplitudes / body.woehler_stress) ** body.woehler_slope
-    return float((numbers * relative).sum() / body.woehler_cycles)
+    relative = (amplitudes / body.sn_stress) ** body.sn_slope
+    return float((numbers * relative).sum() / body.sn_cycles)

@@ -8,7 +8,7 @@ import numpy as np
 
 from exu_press.arrays import Array
 from exu_press.mechanism import Mechanism
-from exu_press.piecewise import integral
+from exu_press.numerics.piecewise import integral
 from exu_press.quantities.dead_centre import DeadCentre, bottom_dead_centres
 from exu_press.result import Result
 from exu_press.result.windows import settled

@@ -17,7 +17,7 @@ def _guided_softly(scene: Scene, _: str) -> bool:
     """Return whether the slider's guide lets it tilt: what rigid guides leave is rounding."""
     mechanism = mechanism_of(scene)
     return any(
-        guide.body == mechanism.slider and (guide.lateral or guide.tilting or guide.ways)
+        guide.body == mechanism.slider and (guide.lateral or guide.tilting or guide.guideway)
         for guide in mechanism.guides
     )
 

@@ -3,7 +3,6 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from exu_press.columns import columns
 from exu_press.quantities.catalogue import CATALOGUE
 from exu_press.quantities.kind import LOAD
 from exu_press.quantities.quantity import Place, Quantity
@@ -12,6 +11,7 @@ from exu_press.quantities.uncertain import uncertain
 from exu_press.quantities.value import Value, values_of
 from exu_press.result import Result
 from exu_press.scene import mechanism_of
+from exu_press.terminal.columns import columns
 
 __all__ = ["comparison_cells", "comparison_lines", "run_lines", "shown_value"]
 

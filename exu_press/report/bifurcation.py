@@ -6,7 +6,7 @@ from typing import Any
 from exu_press.errors import InputError
 from exu_press.page import Live, has_library
 from exu_press.report.html import page, paragraph, picture, stills, table
-from exu_press.stored import from_json
+from exu_press.schema.stored import from_json
 from exu_press.studies.sweep.units import unit_of
 
 __all__ = ["bifurcation_report"]

@@ -13,7 +13,7 @@ from exu_press.report.html import page, picture, stills, table, warnings
 from exu_press.report.run import live_part, scene_parts, warnings_of
 from exu_press.report.span import ALL, Span
 from exu_press.result import Result
-from exu_press.stored import from_json, shown
+from exu_press.schema.stored import from_json, shown
 from exu_press.studies.compare import different_keys
 
 __all__ = ["comparison_page", "comparison_report"]

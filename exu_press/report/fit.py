@@ -9,7 +9,7 @@ from exu_press.plots.words import describe
 from exu_press.report.html import page, paragraph, picture, stills, table
 from exu_press.report.run import scene_parts
 from exu_press.scene import load_scene
-from exu_press.stored import from_json
+from exu_press.schema.stored import from_json
 from exu_press.studies.sweep.units import unit_of
 
 __all__ = ["fit_report"]

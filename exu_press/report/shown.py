@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from exu_press.errors import InputError
-from exu_press.output import check_writable, replacing
+from exu_press.files.output_directory import check_writable, replacing
 
 __all__ = ["Page", "check_page", "open_file", "write_page"]
 

@@ -7,7 +7,6 @@ from collections import Counter
 from pathlib import Path
 from typing import Any
 
-from exu_press.checks import table_from
 from exu_press.errors import InputError
 from exu_press.page import Live, has_library
 from exu_press.plots.sweep import save_sweep
@@ -17,7 +16,8 @@ from exu_press.quantities.kind import COST
 from exu_press.report.html import page, paragraph, picture, stills, table, warnings
 from exu_press.report.run import scene_parts
 from exu_press.scene.warnings import scene_warnings
-from exu_press.stored import LARGEST, from_json
+from exu_press.schema.checks import table_from
+from exu_press.schema.stored import LARGEST, from_json
 from exu_press.studies.sweep import Sweep, Table
 from exu_press.studies.sweep.lines import shown
 from exu_press.studies.sweep.table import cell

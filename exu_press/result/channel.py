@@ -7,7 +7,7 @@ import numpy as np
 from exu_press.arrays import Array
 from exu_press.errors import InputError
 from exu_press.mechanism import Mechanism, Point
-from exu_press.stored import LARGEST
+from exu_press.schema.stored import LARGEST
 
 __all__ = ["AXES", "Channel", "guide_channel", "positive"]
 

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.errors import InputError
-from exu_press.stored import shown
+from exu_press.schema.stored import shown
 
 __all__ = ["Classic", "Variable", "open_classic"]
 

@@ -6,14 +6,14 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from exu_press.errors import InputError
-from exu_press.integrate import Status
+from exu_press.integrate import SolverStatus
 from exu_press.mechanism import Mechanism
 from exu_press.result.channel import Channel
 from exu_press.result.info import Info
 from exu_press.result.surface import Surface
 from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.applied import applied_loads
-from exu_press.stored import shown
+from exu_press.schema.stored import shown
 
 __all__ = ["Contents"]
 
@@ -55,8 +55,8 @@ class Contents:
 def _check(result: Contents) -> None:
     """Raise InputError for the first thing in which a result contradicts itself or its scene."""
     status = result.info["status"]
-    if status not in (each.value for each in Status):
-        allowed = ", ".join(repr(each.value) for each in Status)
+    if status not in (each.value for each in SolverStatus):
+        allowed = ", ".join(repr(each.value) for each in SolverStatus)
         raise InputError(f"info.status = {shown(status)}: allowed is one of {allowed}")
     scene, mechanism = result.scene, mechanism_of(result.scene)
     bodies = tuple(body.name for body in mechanism.bodies)

@@ -1,6 +1,7 @@
 """What ideal guides and pivots hold their bodies with: the equilibrium of all that acts on these.
 
-Such a body has one coordinate (see `exu_press/rigid.py`), so that no constraint tells the force.
+Such a body has one coordinate (`exu_press.model.rigid_body`), so that no constraint tells the
+force.
 """
 
 from collections.abc import Mapping, Sequence

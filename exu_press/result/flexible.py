@@ -12,7 +12,7 @@ from exu_press.result.energy import work
 from exu_press.result.motion import frame_motion, moving_point, point_motion, sensor
 
 if TYPE_CHECKING:
-    from exu_press.placed_part import PlacedPart
+    from exu_press.model.placed_part import PlacedPart
     from fe_models import ReducedPart
 
 __all__ = ["carried_motion", "deflection", "guided_motion", "modal", "record_parts"]

@@ -29,8 +29,8 @@ def held_forces(model: Model) -> dict[str, Channel]:
             body = name.removesuffix("_guide")
             channels |= guide_channels(model, body, {quantity: -values[:, 0]})
         else:
-            if name in model.holding.half_held and not _flexible(model, name):
-                values = _half_held(model, name, values[:, 0])
+            if name in model.holding.single_axis and not _flexible(model, name):
+                values = _single_axis(model, name, values[:, 0])
             channels[f"{name}_force"] = vectors(
                 values[:, :2], "N", f"{in_words}: force on journal", name in spherical
             )
@@ -75,9 +75,9 @@ def _flexible(model: Model, joint: str) -> bool:
     return any(joint in part.faces for part in model.parts.values())
 
 
-def _half_held(model: Model, joint: str, force: Array) -> Array:
+def _single_axis(model: Model, joint: str, force: Array) -> Array:
     """Return the force on the journal, (n, 2), N, of a joint that holds one direction."""
-    held = model.holding.half_held[joint]
+    held = model.holding.single_axis[joint]
     described = next(one for one in model.mechanism.joints if one.name == joint)
     turned = 0.0 if held.body == GROUND else body_motion(model, held.body).position[:, 2]
     angle = held.angle + turned * np.ones_like(force)

@@ -12,7 +12,7 @@ from exu_press.result.flexible import guided_motion
 from exu_press.result.forces import guide_channels
 from exu_press.result.joints import states_of, stored_and_lost
 
-__all__ = ["record_friction", "record_guides", "record_ways"]
+__all__ = ["record_friction", "record_guides", "record_guideways"]
 
 
 def record_guides(
@@ -91,10 +91,10 @@ def _relaxed(model: Model, name: str) -> Array:
     return np.asarray(start.position[0])
 
 
-def record_ways(
+def record_guideways(
     model: Model, time: Array, position: Array
 ) -> tuple[dict[str, Channel], Array, Array]:
-    """Return what ways with play do to their bodies, their stored and their lost energy, J.
+    """Return what guideways do to their bodies, their stored and their lost energy, J.
 
     Args:
         model: integrated.
@@ -107,11 +107,13 @@ def record_ways(
     """
     channels: dict[str, Channel] = {}
     all_stored, all_lost = np.zeros_like(time), np.zeros_like(time)
-    ends = {f"{body} {n}": end for body, both in model.ways.items() for n, end in enumerate(both)}
+    ends = {
+        f"{body} {n}": end for body, both in model.guideways.items() for n, end in enumerate(both)
+    }
     states = states_of(model, time, ends)
     names = [body.name for body in model.mechanism.bodies]
     for guide in model.mechanism.guides:
-        if guide.ways is None:
+        if guide.guideway is None:
             continue
         angle = position[:, names.index(guide.body), 2]
         angle = angle - model.mechanism.body(guide.body).angle
@@ -120,7 +122,7 @@ def record_ways(
         for n, side in enumerate((-1.0, 1.0)):
             end = states[f"{guide.body} {n}"]
             pressed = np.array([state.force[:2] for state in end])
-            reach = 0.5 * side * guide.ways.length
+            reach = 0.5 * side * guide.guideway.length
             arm_x = reach * (np.cos(angle) * x - np.sin(angle) * y)
             arm_y = reach * (np.sin(angle) * x + np.cos(angle) * y)
             force += pressed

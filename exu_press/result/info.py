@@ -71,12 +71,12 @@ class Errors(TypedDict):
 
 
 class Info(TypedDict):
-    """Status, reason, statistics and versions, as they stand in the summary.
+    """SolverStatus, reason, statistics and versions, as they stand in the summary.
 
     This is all that a result's file may say of its run; it is read as it is written.
 
     Attributes:
-        status: value of an `exu_press.integrate.Status`.
+        status: value of an `exu_press.integrate.SolverStatus`.
         reason: when, where, why it stopped, and what to try; empty when completed.
         end_time: the time reached, s.
         wall_time: the integration alone, s.

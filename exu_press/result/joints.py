@@ -5,9 +5,9 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from exu_press.arrays import Array
-from exu_press.joints import ClearanceJoint, JointState, history, overlay_of
+from exu_press.joints import ClearanceJoint, JointState, history, user_force_of
 from exu_press.model import Model
-from exu_press.piecewise import integral
+from exu_press.numerics.piecewise import integral
 from exu_press.result.channel import Channel
 from exu_press.result.forces import vectors
 from exu_press.result.motion import sensor
@@ -23,12 +23,12 @@ def joint_states(model: Model, time: Array) -> dict[str, list[JointState]]:
 def states_of(
     model: Model, time: Array, joints: Mapping[str, ClearanceJoint]
 ) -> dict[str, list[JointState]]:
-    """Return what some of the overlay's joints did at the recorded instants."""
+    """Return what some of the user force element's joints did at the recorded instants."""
     if not joints:
         return {}
     names = {number: name for name, number in model.nodes.items()}
     q, q_t = (
-        np.hstack([sensor(model, names[node], level) for node in overlay_of(model.mbs).nodes])
+        np.hstack([sensor(model, names[node], level) for node in user_force_of(model.mbs).nodes])
         for level in ("position", "velocity")
     )
     return {name: history(joint, time, q, q_t) for name, joint in joints.items()}

@@ -9,14 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.errors import InputError
-from exu_press.output import replacing
+from exu_press.files.output_directory import replacing
 from exu_press.result.channel import AXES, Channel
 from exu_press.result.classic import Classic, Variable, open_classic
 from exu_press.result.contents import Contents
 from exu_press.result.info import Info
 from exu_press.result.surface import ARRAYS, Surface
 from exu_press.scene import Scene
-from exu_press.stored import from_json, shown
+from exu_press.schema.stored import from_json, shown
 
 if TYPE_CHECKING:
     from scipy.io import netcdf_file

@@ -16,7 +16,7 @@ from exu_press.result.energy import mechanical_energy, work
 from exu_press.result.equilibrium import equilibrium
 from exu_press.result.flexible import record_parts
 from exu_press.result.forces import frame_force, held_forces
-from exu_press.result.guides import record_friction, record_guides, record_ways
+from exu_press.result.guides import record_friction, record_guides, record_guideways
 from exu_press.result.info import Info, Stress
 from exu_press.result.joints import joint_states, record_joints
 from exu_press.result.loads import record_loads
@@ -78,8 +78,8 @@ def record(model: Model, outcome: Outcome) -> Result:
         model, time, (angle, turned.velocity[:, 2]), slider_motion, motions
     )
     channels |= loads
-    in_ways, stored_in_ways, lost_in_ways = record_ways(model, time, position)
-    channels |= in_ways
+    in_guideways, stored_in_guideways, lost_in_guideways = record_guideways(model, time, position)
+    channels |= in_guideways
     channels |= equilibrium(model, motions, channels | in_joints, states)
     in_guides, stored_in_guides, lost_in_guides = record_guides(model, time, position, velocity)
     channels |= in_guides
@@ -101,7 +101,7 @@ def record(model: Model, outcome: Outcome) -> Result:
     for more, kept, lost in (
         ({}, stored_in_guides, lost_in_guides),
         record_parts(model, time),
-        (in_ways, stored_in_ways, lost_in_ways),
+        (in_guideways, stored_in_guideways, lost_in_guideways),
         (in_joints, stored_in_joints, lost_in_joints),
     ):
         channels |= more

@@ -10,13 +10,13 @@ import numpy as np
 
 from exu_press.above import WORKERS
 from exu_press.arrays import Array
-from exu_press.checks import nearest
 from exu_press.errors import InputError
 from exu_press.result.contents import Contents
 from exu_press.result.joint import JointRecord
 from exu_press.result.samples import Samples, samples_of
 from exu_press.scene import IdealJoint
 from exu_press.scene.joint import Joint
+from exu_press.schema.checks import nearest
 
 __all__ = ["Result"]
 

@@ -12,7 +12,7 @@ from exu_press.result.flexible import modal
 from exu_press.result.info import Stress
 
 if TYPE_CHECKING:
-    from exu_press.placed_part import PlacedPart
+    from exu_press.model.placed_part import PlacedPart
 
 __all__ = ["record_stress"]
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from exu_press.errors import InputError
 
 if TYPE_CHECKING:
-    from exu_press.placed_part import PlacedPart
+    from exu_press.model.placed_part import PlacedPart
 
 __all__ = ["ARRAYS", "Surface", "surfaces_of"]
 

@@ -10,12 +10,12 @@ from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from typing import Any
 
-from exu_press.checks import Table
 from exu_press.mechanism import Mechanism
 from exu_press.scene.joint import LAW_TABLES, SIZES, Joint
 from exu_press.scene.scene import STARTS, Scene, mechanism_of
 from exu_press.scene.tables import USUAL_STIFFNESS
 from exu_press.scene.usage import TABLES
+from exu_press.schema.checks import Table
 
 __all__ = [
     "ASSUMPTIONS",

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from exu_press.checks import Table, key, nearest, table_from
 from exu_press.errors import InputError
+from exu_press.schema.checks import Table, key, nearest, table_from
 
 __all__ = [
     "DRIVE_FACE",
@@ -110,14 +110,14 @@ class Flexible(Table):
     angle_deg: float | None = key(
         None, "direction of the solid's x axis in the drawing; 0, or fitted likewise", "deg"
     )
-    woehler_stress: float | None = key(
+    sn_stress: float | None = key(
         None,
-        "stress amplitude endured for woehler_cycles; the summary then has the fatigue life",
+        "stress amplitude endured for sn_cycles; the summary then has the fatigue life",
         "Pa",
         above=0,
     )
-    woehler_cycles: float = key(2e6, "cycles at woehler_stress", above=0)
-    woehler_slope: float = key(5.0, "k of cycles ~ amplitude^-k", above=1, at_most=50)
+    sn_cycles: float = key(2e6, "cycles at sn_stress", above=0)
+    sn_slope: float = key(5.0, "k of cycles ~ amplitude^-k", above=1, at_most=50)
     faces: Mapping[str, tuple[Face, ...]] = dataclasses.field(default_factory=dict, hash=False)
 
     def __post_init__(self) -> None:
@@ -250,8 +250,7 @@ def require_rainflow() -> Any:
         return importlib.import_module("rainflow")
     except ModuleNotFoundError:
         raise InputError(
-            "woehler_stress: needs the package rainflow; install it by pip install "
-            "'exu-press[fatigue]'"
+            "sn_stress: needs the package rainflow; install it by pip install 'exu-press[fatigue]'"
         ) from None
 
 

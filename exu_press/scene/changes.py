@@ -3,12 +3,12 @@
 from collections.abc import Mapping
 from typing import Any
 
-from exu_press.checks import RENAMED, given_in
 from exu_press.errors import InputError
 from exu_press.scene.bodies import changed_bodies
 from exu_press.scene.joint_changes import changed_joints
 from exu_press.scene.loads import changed_loads
 from exu_press.scene.usage import TABLES
+from exu_press.schema.checks import RENAMED, given_in
 
 __all__ = ["changed_keys", "drop", "named"]
 

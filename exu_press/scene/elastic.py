@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import replace
 
-from exu_press.mechanism import Guide, Mechanism, Spring, Ways
+from exu_press.mechanism import Guide, Guideway, Mechanism, Spring
 from exu_press.scene.tables import ElasticGuide
 
 __all__ = ["with_elastic_guides"]
@@ -40,8 +40,8 @@ def _elastic(
     """Return a guide of springs, or of guideways with clearance, in place of an ideal one."""
     if elastic.clearance is not None:
         half_width = 0.5 * elastic.width
-        ways = Ways(elastic.clearance, elastic.length, half_width, 0.5 * lateral)
-        return replace(guide, ways=ways)
+        guideway = Guideway(elastic.clearance, elastic.length, half_width, 0.5 * lateral)
+        return replace(guide, guideway=guideway)
     mass, about_centre = inertia
     tilting = elastic.tilting_stiffness or lateral * elastic.length**2 / 12
     ratio = elastic.damping_ratio

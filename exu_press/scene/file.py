@@ -9,7 +9,7 @@ from exu_press.errors import InputError
 from exu_press.scene.bodies import STEP_FILES
 from exu_press.scene.loads import with_files_beside
 from exu_press.scene.scene import Scene
-from exu_press.toml import parse_toml, read_toml
+from exu_press.schema.toml import parse_toml, read_toml
 
 __all__ = ["load_scene", "parse_assignment"]
 

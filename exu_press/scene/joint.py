@@ -5,9 +5,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar, Literal, cast
 
-from exu_press.checks import Table, demand_keys, key
 from exu_press.errors import InputError
 from exu_press.scene.tables import Contact, Film, Friction, asperity_onset
+from exu_press.schema.checks import Table, demand_keys, key
 
 __all__ = [
     "JOINT_KINDS",

@@ -4,7 +4,6 @@ import dataclasses
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
-from exu_press.checks import Table, given_in, nearest, table_with
 from exu_press.errors import InputError, UnusedKeyError
 from exu_press.scene.joint import (
     JOINT_KINDS,
@@ -19,6 +18,7 @@ from exu_press.scene.joint import (
 )
 from exu_press.scene.laws import contact_law, film_law, friction_law
 from exu_press.scene.tables import Contact, Film
+from exu_press.schema.checks import Table, given_in, nearest, table_with
 
 __all__ = ["Joints", "joints_of", "keys_given"]
 

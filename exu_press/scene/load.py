@@ -6,11 +6,11 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any, ClassVar, Literal
 
-from exu_press.checks import Table, key
 from exu_press.errors import InputError
 from exu_press.laws.load_curve import REVOLUTION, LoadCurve, PulseClock, blanking_pulse
 from exu_press.laws.sheet import SHAPE, Sheet, shear_force
 from exu_press.scene.bodies import Face, patch_given
+from exu_press.schema.checks import Table, key
 
 __all__ = ["COLUMNS", "LOAD_KINDS", "BlankingLoad", "Load", "SheetLoad", "SpringLoad", "TableLoad"]
 

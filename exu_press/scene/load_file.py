@@ -5,7 +5,7 @@ import math
 from pathlib import Path
 
 from exu_press.errors import InputError
-from exu_press.input_file import read_text
+from exu_press.files.input_file import read_text
 from exu_press.scene.load import COLUMNS
 
 __all__ = ["MOVED", "read_load_table"]

@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.checks import nearest
 from exu_press.errors import InputError
 from exu_press.mechanism import Mechanism
 from exu_press.scene.bodies import face_dict
 from exu_press.scene.load import COLUMNS, LOAD_KINDS, BlankingLoad, Load, SheetLoad, SpringLoad
 from exu_press.scene.load_file import MOVED, read_load_table
+from exu_press.schema.checks import nearest
 
 __all__ = ["changed_loads", "load_dict", "loads_of", "with_files_beside"]
 

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import ClassVar
 
-from exu_press.checks import Table, key
 from exu_press.errors import InputError
 from exu_press.mechanism.section import Section
+from exu_press.schema.checks import Table, key
 
 __all__ = ["Output"]
 

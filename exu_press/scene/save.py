@@ -6,16 +6,16 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from exu_press.checks import Table
 from exu_press.errors import InputError
+from exu_press.files.output_directory import replacing
 from exu_press.mechanism import Mechanism, mechanism_lines
-from exu_press.output import replacing
 from exu_press.scene.bodies import Flexible, body_dict
 from exu_press.scene.joint import joint_dict
 from exu_press.scene.joints import Joints
 from exu_press.scene.load import LOAD_KINDS, Load
 from exu_press.scene.loads import load_dict
-from exu_press.toml import toml_text
+from exu_press.schema.checks import Table
+from exu_press.schema.toml import toml_text
 
 Laws = Mapping[str, Table | None]
 """The scene's own "contact", "friction" and "film"."""

@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Any, ClassVar, cast
 
 from exu_press.above import WORKERS
-from exu_press.checks import Table, given_in, key, table_from, table_with
 from exu_press.errors import InputError, UnusedKeyError
 from exu_press.mechanism import (
     SHIPPED,
@@ -35,6 +34,7 @@ from exu_press.scene.save import save_scene
 from exu_press.scene.tables import RPM, Contact, ElasticGuide, Film, Friction, Motor, Solver
 from exu_press.scene.usage import TABLES, unused_tables
 from exu_press.scene.wear import Wear
+from exu_press.schema.checks import Table, given_in, key, table_from, table_with
 
 __all__ = ["STARTS", "Scene", "mechanism_of"]
 

@@ -11,11 +11,11 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import ClassVar
 
-from exu_press.checks import Table, Uses, demand_keys, key
 from exu_press.errors import InputError
 from exu_press.laws.contact import DAMPING_LAWS
 from exu_press.laws.film import FILM_LAWS
 from exu_press.laws.motor import MotorLaw, kloss, torque_table
+from exu_press.schema.checks import Table, Uses, demand_keys, key
 
 __all__ = [
     "OF_FRICTION",

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import ClassVar
 
-from exu_press.checks import Table, demand_keys, key
+from exu_press.schema.checks import Table, demand_keys, key
 
 __all__ = ["Wear"]
 

@@ -48,7 +48,7 @@ class SceneAdvice(Advice):
 
     def joint(self, joint: ClearanceJoint) -> str:
         """Return a joint's name."""
-        for body, ends in self._model.ways.items():
+        for body, ends in self._model.guideways.items():
             if joint in ends:
                 return f"{body}'s guide"
         return next(n for n, other in self._model.clearance_joints.items() if other is joint)
@@ -70,7 +70,7 @@ class SceneAdvice(Advice):
     def stiff(self, joint: ClearanceJoint) -> str:
         """Return the keys of a guide or of a joint that make it need small steps."""
         scene = self._scene
-        if any(joint in ends for ends in self._model.ways.values()):
+        if any(joint in ends for ends in self._model.guideways.values()):
             assert scene.guide is not None
             return f" (guide.friction = {scene.guide.friction!r}, guide.clearance)"
         if scene.friction is not None and not joint.lubricated:

@@ -24,7 +24,7 @@ class Assembled:
         mbs: Exudyn's main system, assembled.
         nodes: name -> node number.
         clearance_joints: name -> joint.
-        ways: name of a body with play in its guide -> the contacts of its two ends.
+        ways: name of a body with clearance in its guide -> the contacts of its two ends.
         sensors: (name, quantity) -> sensor number.
         begin: time of the start, s.
         first_step: s; 0.0 where the integration finds it.
@@ -36,7 +36,7 @@ class Assembled:
     mbs: exu.MainSystem
     nodes: dict[str, int]
     clearance_joints: dict[str, ClearanceJoint]
-    ways: Mapping[str, tuple[ClearanceJoint, ClearanceJoint]]
+    guideways: Mapping[str, tuple[ClearanceJoint, ClearanceJoint]]
     sensors: dict[tuple[str, str], int]
     begin: float = field(default=0.0, kw_only=True)
     first_step: float = field(default=0.0, kw_only=True)

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from exu_press.arrays import Array
-from exu_press.joints import history, overlay_of
+from exu_press.joints import history, user_force_of
 from exu_press.laws.contact import NormalContact
 from exu_press.mechanism import GROUND
 from exu_press.scene import IdealJoint
@@ -25,9 +25,9 @@ def impact_steps(model: Assembled) -> Iterator[float]:
     The impact of the lighter body alone: what hangs on it makes the true one slower.
     """
     scene = model.scene
-    if not any(joint.reach < math.inf for joint in model.clearance_joints.values()):
+    if not any(joint.contact_onset < math.inf for joint in model.clearance_joints.values()):
         return
-    overlay = overlay_of(model.mbs)
+    user_force = user_force_of(model.mbs)
     held = {number: name for name, number in model.nodes.items()}
     masses = {body.name: body.mass for body in model.mechanism.bodies} | {GROUND: math.inf}
     if model.mechanism.crank in model.holding.pivoted:
@@ -38,7 +38,7 @@ def impact_steps(model: Assembled) -> Iterator[float]:
         np.hstack(
             [
                 np.asarray(model.mbs.GetSensorStoredData(model.sensors[held[node], level]))[:, 1:]
-                for node in overlay.nodes
+                for node in user_force.nodes
             ]
         )
         for level in ("position", "velocity")

@@ -5,7 +5,7 @@ import math
 
 import exudyn as exu
 
-from exu_press.integrate import Outcome, Scales, Status, Tuning, solve_dynamic
+from exu_press.integrate import ErrorScales, Outcome, SolverStatus, SolverTuning, solve_dynamic
 from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.applied import applied_loads
 from exu_press.solving.advice import SceneAdvice, leapt_over_load
@@ -13,7 +13,7 @@ from exu_press.solving.assembled import Assembled
 
 __all__ = ["DEFAULTS", "largest_step", "scales", "settings_for", "solve"]
 
-DEFAULTS = Tuning()
+DEFAULTS = SolverTuning()
 
 FALL = 0.03
 """Of free fall's acceleration, what counts as usual at least where there is clearance: parts fall
@@ -21,7 +21,7 @@ through it, however slowly the crank turns. Asked for less (below 30 rpm), Newto
 on what rounding leaves: at 0.01 rpm a hundred times for each step of 1e-4 s."""
 
 
-def solve(model: Assembled, *, tuning: Tuning = DEFAULTS, quiet: bool = True) -> Outcome:
+def solve(model: Assembled, *, tuning: SolverTuning = DEFAULTS, quiet: bool = True) -> Outcome:
     """Run a model to its end time or to an early stop; what was computed stays in its sensors.
 
     Args:
@@ -53,9 +53,9 @@ def solve(model: Assembled, *, tuning: Tuning = DEFAULTS, quiet: bool = True) ->
         max_steps=solver.max_steps,
         quiet=quiet,
     )
-    leapt = leapt_over_load(model) if outcome.status is Status.COMPLETED else ""
+    leapt = leapt_over_load(model) if outcome.status is SolverStatus.COMPLETED else ""
     if leapt:
-        return dataclasses.replace(outcome, status=Status.UNDER_RESOLVED, reason=leapt)
+        return dataclasses.replace(outcome, status=SolverStatus.UNDER_RESOLVED, reason=leapt)
     return outcome
 
 
@@ -91,16 +91,16 @@ def largest_step(scene: Scene) -> float:
     return solver.step or math.radians(solver.max_step_deg) / scene.angular_speed
 
 
-def scales(scene: Scene) -> Scales:
+def scales(scene: Scene) -> ErrorScales:
     """Return the crank pin's speed, and what its acceleration takes of all bodies.
 
     With a slow crank, the speed at which a journal has fallen through its clearance.
     """
     mechanism = mechanism_of(scene)
-    play = 0.0 if scene.guide is None else scene.guide.clearance or 0.0
-    widest = max([play, *(joint.clearance for joint in scene.joints.values())])
+    in_guides = 0.0 if scene.guide is None else scene.guide.clearance or 0.0
+    widest = max([in_guides, *(joint.clearance for joint in scene.joints.values())])
     usual = scene.angular_speed * scene.pin_speed
-    return Scales(
+    return ErrorScales(
         speed=max(scene.pin_speed, math.sqrt(4.0 * scene.gravity * widest)),
         force=sum(body.mass for body in mechanism.bodies)
         * max(usual, FALL * scene.gravity if widest else 0.0),

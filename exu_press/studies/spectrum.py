@@ -7,8 +7,6 @@ import numpy as np
 from scipy.optimize import brentq
 
 from exu_press.arrays import Array
-from exu_press.checks import nearest
-from exu_press.columns import columns
 from exu_press.errors import InputError
 from exu_press.mechanism import GROUND
 from exu_press.quantities.uncertain import significant
@@ -17,7 +15,9 @@ from exu_press.result.channel import AXES
 from exu_press.result.windows import settled
 from exu_press.scene import IdealJoint, mechanism_of
 from exu_press.scene.laws import contact_law
+from exu_press.schema.checks import nearest
 from exu_press.signals.spectrum import Spectrogram, Spectrum, amplitude_spectrum, spectrogram
+from exu_press.terminal.columns import columns
 
 __all__ = ["DEFAULT", "Mark", "Spectra", "column_of", "marks_of", "spectra"]
 

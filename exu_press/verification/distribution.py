@@ -6,12 +6,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from exu_press.errors import InputError
-from exu_press.progress import Progress
 from exu_press.quantities import quantities_of
 from exu_press.quantities.value import numbers_of
 from exu_press.result.windows import revolutions_of
 from exu_press.scene import Scene
 from exu_press.simulation import simulate
+from exu_press.terminal.progress import Progress
 
 __all__ = ["LEAST_REVOLUTIONS", "Distribution", "distributions", "percentiles"]
 

@@ -25,7 +25,7 @@ SAFETY_OF_STEPS = 3.0
 by half of it."""
 
 AMPLIFIED = 1.7
-"""Factor on either where the companions have parted and the run itself, which is nearer to the
+"""Factor on either where the refinements have diverged and the run itself, which is nearer to the
 truth, has not yet."""
 
 NINETEEN_IN_TWENTY = {1: 11.0, 2: 3.85, 3: 2.9, 4: 2.55}

@@ -14,7 +14,7 @@ LEAST_SPAN = 10.0
 
 
 LEAST_DISTANCE = 1e-3
-"""Over that of motions that have parted: two that never get so far from each other differ by
+"""Over that of motions that have diverged: two that never get so far from each other differ by
 rounding and by their tolerances, which says nothing of how errors grow."""
 
 
@@ -33,7 +33,7 @@ class Growth:
 
 
 def growth(time: Array, distance: Array, apart: float) -> Growth:
-    """Return how fast a distance grows until motions have parted.
+    """Return how fast a distance grows until motions have diverged.
 
     The rate is the least-squares slope of the logarithm of the largest distance so far, from where
     there first is one until the horizon.
@@ -42,7 +42,7 @@ def growth(time: Array, distance: Array, apart: float) -> Growth:
         time: (n,), s, increasing.
         distance: (n,) of two motions that start beside each other; of several pairs (pairs, n),
             whose logarithms are averaged.
-        apart: the distance from which on they have parted, in the unit of `distance`.
+        apart: the distance from which on they have diverged, in the unit of `distance`.
 
     >>> time = np.linspace(0.0, 10.0, 1001)
     >>> found = growth(time, np.minimum(1e-6 * np.exp(2.0 * time), 1.0), apart=0.1)
@@ -52,9 +52,9 @@ def growth(time: Array, distance: Array, apart: float) -> Growth:
     with np.errstate(divide="ignore"):
         logarithm = np.log(np.atleast_2d(distance)).mean(axis=0)
     largest = np.maximum.accumulate(logarithm)
-    parted = np.flatnonzero(largest >= math.log(apart))
-    end = int(parted[0]) if len(parted) else len(time)
-    horizon = float(time[end]) if len(parted) else None
+    diverged = np.flatnonzero(largest >= math.log(apart))
+    end = int(diverged[0]) if len(diverged) else len(time)
+    horizon = float(time[end]) if len(diverged) else None
     begun = np.flatnonzero(np.isfinite(largest[:end]))
     near = largest[end - 1] < math.log(LEAST_DISTANCE * apart)
     if near or len(begun) < 3 or largest[end - 1] - largest[begun[0]] < math.log(LEAST_SPAN):

@@ -15,7 +15,7 @@ from exu_press.result.info import Error, Errors
 from exu_press.result.windows import until, window
 from exu_press.scene import Scene
 from exu_press.simulation import simulate
-from exu_press.verification.companions import Companions, plan
+from exu_press.verification.divergence import Divergence, divergence
 from exu_press.verification.estimate import (
     AMPLIFIED,
     SAFETY,
@@ -23,13 +23,13 @@ from exu_press.verification.estimate import (
     converging,
     scattered,
 )
-from exu_press.verification.parting import Parting, parting
 from exu_press.verification.reading import overshot, smoothed, unbalanced
+from exu_press.verification.refinement import RefinementRuns, plan
 
 __all__ = ["errors_of", "simulate_with_errors", "with_errors"]
 
 Numbers = Mapping[float, Mapping[str, float]]
-"""Quantities of the run and its companions, by the ratio of their tolerance to the run's."""
+"""Quantities of the run and its refinements, by the ratio of their tolerance to the run's."""
 
 OF_THE_START = 1e-4
 """Least error of loads over themselves where all runs agree: they are from the start then, and what
@@ -46,13 +46,13 @@ SAME = 1e-9
 def simulate_with_errors(
     scene: Scene, *, start: State | None = None, quiet: bool = True, beside: bool = True
 ) -> Result:
-    """Do what `simulate` does, with companion runs.
+    """Do what `simulate` does, with refinement runs.
 
     Args:
         scene: what to simulate.
-        start: state of another run, from which this one and its companions go on.
+        start: state of another run, from which this one and its refinements go on.
         quiet: False shows the progress.
-        beside: the companions run in a further process meanwhile; else in this one afterwards, as
+        beside: the refinements run in a further process meanwhile; else in this one afterwards, as
             where all cores have their runs already.
 
     Returns:
@@ -61,55 +61,56 @@ def simulate_with_errors(
     """
     if not beside:
         return with_errors(simulate(scene, start=start, quiet=quiet), start=start, beside=False)
-    with Companions(scene, start) as companions:
-        return _beside(simulate(scene, start=start, quiet=quiet), companions)
+    with RefinementRuns(scene, start) as refinements:
+        return _beside(simulate(scene, start=start, quiet=quiet), refinements)
 
 
 def with_errors(result: Result, *, start: State | None = None, beside: bool = True) -> Result:
-    """Return a result with the errors of its figures, by companion runs of its scene.
+    """Return a result with the errors of its figures, by refinement runs of its scene.
 
     Args:
         result: of a run.
         start: state of another run from which it went on.
-        beside: the companions run in a further process, else in this one.
+        beside: the refinements run in a further process, else in this one.
     """
     if not result.completed:
         return _told(result, ())
     if not beside:
         runs = ((r, simulate(scene, start=start)) for r, scene in plan(result.scene).items())
         return _told(result, runs)
-    with Companions(result.scene, start) as companions:
-        return _beside(result, companions)
+    with RefinementRuns(result.scene, start) as refinements:
+        return _beside(result, refinements)
 
 
-def _beside(result: Result, companions: Companions) -> Result:
-    """Return a result with its errors; without, with a warning, if the companions have failed."""
+def _beside(result: Result, refinements: RefinementRuns) -> Result:
+    """Return a result with its errors; without, with a warning, if the refinements have failed."""
     try:
-        return _told(result, companions.results() if result.completed else ())
+        return _told(result, refinements.results() if result.completed else ())
     except (RuntimeError, KeyboardInterrupt) as error:  # the run itself is done: it is kept
         why = "interrupted" if isinstance(error, KeyboardInterrupt) else str(error)
         warnings.warn(f"no errors of the quantities are known: {why}", stacklevel=3)
         return _told(result, ())
 
 
-def _told(result: Result, companions: Iterable[tuple[float, Result]]) -> Result:
+def _told(result: Result, refinements: Iterable[tuple[float, Result]]) -> Result:
     """Return a result that tells its errors."""
-    return replace(result, info={**result.info, **errors_of(result, companions)})
+    return replace(result, info={**result.info, **errors_of(result, refinements)})
 
 
 def errors_of(
     result: Result,
-    companions: Iterable[tuple[float, Result]],
+    refinements: Iterable[tuple[float, Result]],
     declared: Mapping[str, Placed] | None = None,
 ) -> Errors:
     """Return what a summary says of errors.
 
-    Companions that stopped before the run itself did are left out; without any nothing is known.
+    Refinement runs that stopped before the run itself did are left out; without any nothing is
+    known.
     Each is read as it comes, while the next one may still be on its way.
 
     Args:
         result: of a run.
-        companions: the same at other tolerances or steps, after their ratio to its own; the least
+        refinements: the same at other tolerances or steps, after their ratio to its own; the least
             ratio, whose run is the nearest one, is first.
         declared: quantities by name; those of the scene unless told.
     """
@@ -121,18 +122,18 @@ def errors_of(
         return numbers_of(run, told)
 
     end = float(result.time[-1])
-    parted: Parting | None = None
+    diverged: Divergence | None = None
     by_end: dict[float, dict[float, Mapping[str, float]]] = {}
     after: dict[float, Mapping[str, float]] = {}
-    for ratio, companion in companions:
-        if companion.time[-1] < end * (1.0 - 1e-9):
+    for ratio, refinement in refinements:
+        if refinement.time[-1] < end * (1.0 - 1e-9):
             continue
-        run = until(companion, end)
-        if parted is None:
-            parted = parting(result, run, ratio)
+        run = until(refinement, end)
+        if diverged is None:
+            diverged = divergence(result, run, ratio)
             beside, horizon = (
                 end if instant is None else instant
-                for instant in (parted.beside, parted.growth.horizon)
+                for instant in (diverged.beside, diverged.growth.horizon)
             )
             by_end = {at: {1.0: read(until(result, at))} for at in (end, beside, horizon)}
             after = {1.0: read(window(result, horizon, end))} if horizon < end else {}
@@ -142,7 +143,7 @@ def errors_of(
             found[ratio] = read(until(run, instant))
         if after:
             after[ratio] = read(window(run, horizon, end))
-    if parted is None:
+    if diverged is None:
         return {"errors": {}, "horizon": None, "lyapunov_exponent": None}
     solver = result.scene.solver
     safety = SAFETY if solver is not None and solver.step is None else SAFETY_OF_STEPS
@@ -161,8 +162,8 @@ def errors_of(
             error["low"] = max(error["low"], 0.0)
     return {
         "errors": errors,
-        "horizon": parted.growth.horizon,
-        "lyapunov_exponent": parted.growth.rate,
+        "horizon": diverged.growth.horizon,
+        "lyapunov_exponent": diverged.growth.rate,
     }
 
 
@@ -176,8 +177,8 @@ def _error(
 ) -> Error:
     """Return the error of a quantity.
 
-    Beyond the horizon, an extreme is that of the run continued as each companion goes on: what
-    companions did before, where the run is right, does not widen its bounds.
+    Beyond the horizon, an extreme is that of the run continued as each refinement goes on: what
+    refinements did before, where the run is right, does not widen its bounds.
 
     Args:
         name: of the quantity.

@@ -13,8 +13,8 @@ from matplotlib.colors import to_rgb
 from PIL import Image
 
 from exu_press.errors import InputError
+from exu_press.files.output_directory import check_writable, replacing
 from exu_press.mechanism.shapes import COLOURS as BODIES
-from exu_press.output import check_writable, replacing
 from exu_press.plots.style import COLOURS
 from exu_press.view.animation import Animation, Painter
 from exu_press.view.flexible_panel import COLOURS as SURFACES

@@ -2,7 +2,7 @@
 
 import math
 
-from exu_press.columns import columns
+from exu_press.terminal.columns import columns
 from paper.inverse import FREE, Inverse, Trial, distance
 from paper.open_keys import OPEN, OURS, in_words
 

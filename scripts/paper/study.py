@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from exu_press.batch import run_batch
-from exu_press.output import output_directory
+from exu_press.files.output_directory import output_directory
+from exu_press.parallel import run_batch
 from exu_press.scene import Scene
 from paper.choice import LINE, MAP, separate
 from paper.published import published
@@ -17,7 +17,7 @@ from paper.value import Value
 
 __all__ = ["VARIED", "Study", "paper"]
 
-TIME_LIMIT = 300.0  # s for one run with its companions
+TIME_LIMIT = 300.0  # s for one run with its refinements
 
 VARIED = {
     "dry, 0.01 mm": "no load, dry, rigid",

@@ -2,8 +2,8 @@
 
 from collections.abc import Mapping, Sequence
 
-from exu_press.columns import columns
 from exu_press.scene import Scene
+from exu_press.terminal.columns import columns
 from paper.choice import WEIGHTS, cost, least, radii
 from paper.published import Number, Trend, published
 from paper.readings import MODELS, OBSERVED

@@ -5,7 +5,7 @@ from typing import Any
 
 from exu_press.scene import Scene
 from exu_press.simulation import simulate
-from exu_press.verification.companions import plan
+from exu_press.verification.refinement import plan
 from exu_press.verification.run import errors_of
 from paper.readings import declared, readings
 
@@ -16,7 +16,7 @@ COARSER = 1.5
 
 
 def observe(arguments: dict[str, Any]) -> dict[str, Any]:
-    """Run a scene and its companions, and read them off.
+    """Run a scene and its refinements, and read them off.
 
     Args:
         arguments: scene (as Scene.to_dict), and if wanted save (file for the whole result).
@@ -36,8 +36,8 @@ def observe(arguments: dict[str, Any]) -> dict[str, Any]:
     row["residual"] = result.quantity("energy.residual").value
     if result.time[-1] < scene.duration * (1.0 - 1e-9):
         return {**row, "values": {}}
-    companions = ((ratio, simulate(other)) for ratio, other in plan(scene).items())
-    errors = errors_of(result, companions, declared(result))["errors"]
+    refinements = ((ratio, simulate(other)) for ratio, other in plan(scene).items())
+    errors = errors_of(result, refinements, declared(result))["errors"]
     values = {
         name: {"value": value} | {key: errors[name][key] for key in ("low", "high", "determined")}
         for name, value in readings(result).items()

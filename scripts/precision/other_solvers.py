@@ -7,7 +7,7 @@ from exu_press.scene import Scene
 from exu_press.studies.precision.cases import Amount, Case
 from exu_press.studies.precision.errors import Errors, Late, errors_of
 from exu_press.studies.precision.measured import Attempt, Measured
-from exu_press.studies.precision.references import Reference, parting
+from exu_press.studies.precision.references import Reference, divergence
 from precision.compiled import CompiledModel, compile_model
 from precision.peers import PEERS, peer_attempts
 from precision.squeezer import DURATION, squeezer_attempts, squeezer_errors
@@ -35,9 +35,9 @@ class Reduced(Case):
         tight = {"SciPy Radau": 1e-10 * amount.loosen, "SciPy LSODA": 1e-12 * amount.loosen}
         radau, lsoda = (peers[name].trajectory(model, tol) for name, tol in tight.items())
         method = " against ".join(f"{name} {tol:.0e}" for name, tol in tight.items())
-        parted = parting(self._scene, radau, lsoda)
-        difference = errors_of(lsoda, radau, parted.horizon or self.duration)
-        return Reference(f"two coordinates: {method}", radau, difference, parted)
+        diverged = divergence(self._scene, radau, lsoda)
+        difference = errors_of(lsoda, radau, diverged.horizon or self.duration)
+        return Reference(f"two coordinates: {method}", radau, difference, diverged)
 
     def attempts(self, amount: Amount) -> list[Attempt]:
         """Return the package's own runs and those of every peer that is installed."""

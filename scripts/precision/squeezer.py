@@ -28,9 +28,9 @@ from exudyn.itemInterface import (
 )
 
 from exu_press.arrays import Array
-from exu_press.integrate import Status, solve_dynamic
+from exu_press.integrate import SolverStatus, solve_dynamic
 from exu_press.mechanism import Body, Motion
-from exu_press.rigid import RigidBody
+from exu_press.model.rigid_body import RigidBody
 from exu_press.studies.precision.errors import Errors
 from exu_press.studies.precision.measured import Attempt, Measured
 from exu_press.studies.precision.own import FIXED, TOLERANCE
@@ -137,7 +137,7 @@ def _run(steps: int, tolerance: float | None) -> Measured:
     start = time.process_time()
     outcome = solve_dynamic(mbs, settings, tolerance=tolerance, max_steps=10_000_000)
     cpu_time = time.process_time() - start
-    done = outcome.status is Status.COMPLETED
+    done = outcome.status is SolverStatus.COMPLETED
     return Measured(
         trajectory=_end_of(mbs, nodes) if done else None,
         wall_times=(outcome.wall_time,),

@@ -6,10 +6,10 @@ from functools import partial
 
 import exudyn as exu
 
-from exu_press.integrate import Outcome, Scales, Status, Tuning
+from exu_press.integrate import ErrorScales, Outcome, SolverStatus, SolverTuning
 from exu_press.integrate.problem import Problem
 from exu_press.integrate.settings import Task, prepared
-from exu_press.joints import overlay_of
+from exu_press.joints import user_force_of
 from exu_press.result import record
 from exu_press.scene import Scene
 from exu_press.solving import settings_for
@@ -92,14 +92,14 @@ def _with_newton(scene: Scene, mode: str, step: float) -> Measured:
     silent, exu.config.printToConsole = exu.config.printToConsole, False
     start, cpu_start = time.perf_counter(), time.process_time()
     try:
-        task = Task(Problem.of(model.mbs), settings, None, Scales(), Tuning())
+        task = Task(Problem.of(model.mbs), settings, None, ErrorScales(), SolverTuning())
         task.smallest = SMALLEST
         with prepared(settings, task):
             newton.useModifiedNewton, newton.modifiedNewtonJacUpdatePerStep = NEWTON_MODES[mode]
             model.mbs.SolveDynamic(settings, showHints=False)
-        status, reason = Status.COMPLETED, ""
+        status, reason = SolverStatus.COMPLETED, ""
     except exu.ExudynError as error:
-        status, reason = Status.NOT_CONVERGED, str(error).strip().splitlines()[0]
+        status, reason = SolverStatus.NOT_CONVERGED, str(error).strip().splitlines()[0]
     finally:
         wall_time, cpu_time = time.perf_counter() - start, time.process_time() - cpu_start
         exu.config.printToConsole = silent
@@ -112,7 +112,7 @@ def _with_newton(scene: Scene, mode: str, step: float) -> Measured:
         steps=solver.it.currentStepIndex,
         rejected_steps=0,
         newton_iterations=solver.it.newtonStepsCount,
-        law_evaluations=overlay_of(model.mbs).evaluations,
+        law_evaluations=user_force_of(model.mbs).evaluations,
     )
     result = record(model, outcome)
     model.SC.Reset()

@@ -7,7 +7,7 @@ import pytest
 
 from exu_press import Result
 from exu_press.cli import main
-from exu_press.output import PICTURES
+from exu_press.files.output_directory import PICTURES
 
 QUICK = ["--set", "revolutions=0.02", "--no-pictures", "--no-error"]
 KEYS = {

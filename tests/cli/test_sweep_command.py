@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from exu_press.batch import cluster
 from exu_press.cli import main
+from exu_press.parallel import cluster
 
 STUDY = """
 {top}

@@ -9,7 +9,7 @@ import pytest
 from patched import PATCHED
 from scipy.integrate import solve_ivp
 
-from exu_press import Scene, Status, simulate, solve_dynamic
+from exu_press import Scene, SolverStatus, simulate, solve_dynamic
 from exu_press.integrate.constraints import StepChange
 from exu_press.integrate.stepping import FixedSteps, StepControl
 from exudyn_examples import EXAMPLES
@@ -68,7 +68,7 @@ def test_a_prescribed_motion_starts_as_it_is_prescribed():
     """x = 1 - cos(5 t) + 2 t: at 2 m/s and 25 m/s^2, of which Exudyn knows nothing."""
     mbs = swing(offset=lambda mbs, time, item, offset: 1.0 - np.cos(5.0 * time) + 2.0 * time)
     (_, velocity, acceleration), outcome, found = states(mbs)
-    assert outcome.status is Status.COMPLETED
+    assert outcome.status is SolverStatus.COMPLETED
     assert velocity == pytest.approx([2.0, 0.0], rel=1e-6, abs=1e-6)
     assert acceleration == pytest.approx([25.0, -9.81], rel=1e-4)
     speed = found[-1][1][0]
@@ -79,7 +79,7 @@ def test_a_prescribed_motion_starts_as_it_is_prescribed():
 def test_a_system_at_rest_that_is_set_moving_later():
     mbs = swing(offset=lambda mbs, time, item, offset: 0.1 * max(time - 0.2, 0.0) ** 2, load=0.0)
     _, outcome, found = states(mbs)
-    assert outcome.status is Status.COMPLETED, outcome.reason
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
     assert found[-1][1][0] == pytest.approx(0.06, rel=5e-3)
 
 
@@ -87,7 +87,7 @@ def test_a_drawing_of_few_digits_is_put_together():
     """Off by 20 um, and by a millimetre a second: a first step of 10 us would make 4 m/s of it."""
     mbs = swing(place=(0.6, 0.80002), velocity=(0.001, 0.0))
     (place, velocity, _), outcome, _ = states(mbs)
-    assert outcome.status is Status.COMPLETED
+    assert outcome.status is SolverStatus.COMPLETED
     assert np.hypot(*place) == pytest.approx(1.0, abs=1e-9)
     assert place @ velocity == pytest.approx(0.0, abs=1e-6)
     assert outcome.steps < 200
@@ -119,7 +119,7 @@ def test_a_point_without_mass_moves_as_its_damper_lets_it(solver):
     chosen = settings(1.0)
     chosen.linearSolver.solverType = solver
     outcome = solve_dynamic(mbs, chosen, tolerance=1e-5)
-    assert outcome.status is Status.COMPLETED, outcome.reason
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
     assert chosen.timeIntegration.generalizedAlpha.computeInitialAccelerations, "put back"
 
     def rates(time, state):
@@ -162,7 +162,7 @@ def test_a_start_with_coordinates_without_mass(solver):
     mbs.Assemble()
     chosen = settings(5e-3)
     chosen.linearSolver.solverType = solver
-    assert solve_dynamic(mbs, chosen, tolerance=1e-2).status is Status.COMPLETED
+    assert solve_dynamic(mbs, chosen, tolerance=1e-2).status is SolverStatus.COMPLETED
 
 
 STEPS = [4e-4] * 8 + [5e-5] * 8 + [1e-4] * 3 + [2e-4] * 3

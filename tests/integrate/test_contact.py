@@ -4,7 +4,7 @@ import exudyn as exu
 import exudyn.utilities as items
 import pytest
 
-from exu_press import Status, solve_dynamic
+from exu_press import SolverStatus, solve_dynamic
 
 SPEED = 10.0  # m/s, of every ball
 RESTITUTION = 0.7
@@ -51,7 +51,7 @@ def rebound(*gaps, end=0.1):
     settings.timeIntegration.endTime, settings.solution.file.write = end, False
     settings.timeIntegration.numberOfSteps = 100
     outcome = solve_dynamic(mbs, settings, tolerance=1e-3)
-    assert outcome.status is Status.COMPLETED, outcome.reason
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
     return [mbs.GetNodeOutput(n, exu.OutputVariableType.Velocity)[1] for n in nodes]
 
 
@@ -72,5 +72,5 @@ def test_guesses_that_exudyn_mends_itself_are_left_alone():
     mbs.SetPreStepUserFunction(look)
     settings = exu.SimulationSettings()
     settings.timeIntegration.endTime, settings.solution.file.write = 1e-3, False
-    assert solve_dynamic(mbs, settings).status is Status.COMPLETED
+    assert solve_dynamic(mbs, settings).status is SolverStatus.COMPLETED
     assert list(started[0][0::4]) == [0.1, 0.1]

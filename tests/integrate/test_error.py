@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 from stand_in import problem_at
 
-from exu_press import Scene, Status, simulate, solve_dynamic
+from exu_press import Scene, SolverStatus, simulate, solve_dynamic
 from exu_press.integrate.error import BodyError, ErrorPerStep, JointError, Quiet, Turning
-from exu_press.integrate.problem import FoundScales, Node, Scales
-from exu_press.integrate.settings import Tuning
+from exu_press.integrate.problem import ErrorScales, FoundScales, Node
+from exu_press.integrate.settings import SolverTuning
 from exu_press.joints.path import Path
 from exu_press.scene import flexible_press
 
-TUNING = Tuning()
+TUNING = SolverTuning()
 NOISE = 1e-13
 
 
@@ -25,7 +25,7 @@ def errors(velocity_limit=1e-3, masses=(2.0,)):
     rest = np.zeros(3 * len(masses))
     nodes = (Node(i, "", 3 * i, 3, mass) for i, mass in enumerate(masses))
     problem = problem_at(nodes, rest)
-    scales = FoundScales(Scales(speed=1.0, force=1.0), problem, longest=1.0)
+    scales = FoundScales(ErrorScales(speed=1.0, force=1.0), problem, longest=1.0)
     scales.begin(np.diag([value for mass in masses for value in (mass, mass, 0.5)]))
     return BodyError(
         rest.tolist(),
@@ -219,7 +219,7 @@ def turning_after(motion, *, duration=10.0, time=2.0, steps=2000, quaternion=Fal
     node = Node(0, "", 0, size, 2.0, displacements=2, quaternion=quaternion)
     problem = problem_at([node], np.zeros(size))
     state = problem.current
-    scales = FoundScales(Scales(speed=1.0, force=1.0), problem, longest=1.0)
+    scales = FoundScales(ErrorScales(speed=1.0, force=1.0), problem, longest=1.0)
     scales.masses, scales.inertias = [2.0], [2.0] * size
     turning = Turning(problem, scales, duration, foreseen=3.0)
     for i in range(1, steps + 1):
@@ -278,7 +278,7 @@ def test_a_vibration_below_the_tolerance_is_not_followed_however_long_it_lasts()
     settings = exu.SimulationSettings()
     settings.timeIntegration.endTime, settings.solution.file.write = 2.0, False
     outcome = solve_dynamic(mbs, settings, tolerance=1e-3, max_steps=4000)
-    assert outcome.status is Status.COMPLETED, outcome.reason
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
     speed = mbs.systemData.GetODE2Coordinates_t()[0]
     assert speed == pytest.approx(math.cos(4.0), abs=2e-3)
 
@@ -286,7 +286,7 @@ def test_a_vibration_below_the_tolerance_is_not_followed_however_long_it_lasts()
 def test_the_amplitude_of_a_vibration_is_told_by_its_accelerations():
     """v = V cos(omega t), sampled forty times a period; and where a step is too long to tell."""
     nodes = (Node(0, "a", 0, 1, 1.0, 1),)
-    scales = FoundScales(Scales(1.0, 1.0), problem_at(nodes, np.zeros(1)), 1.0)
+    scales = FoundScales(ErrorScales(1.0, 1.0), problem_at(nodes, np.zeros(1)), 1.0)
     scales.begin(np.eye(1))
     quiet, omega, step = Quiet(scales), 2.0 * math.pi, 1.0 / 40.0
     assert quiet.amplitude([1.0], step) == math.inf

@@ -4,11 +4,11 @@ from functools import cache
 
 import pytest
 
-from exu_press import Status
+from exu_press import SolverStatus
 from exudyn_examples import EXAMPLES
 from exudyn_examples.measure import error, run
 
-ENDED = Status.COMPLETED, Status.UNDER_RESOLVED
+ENDED = SolverStatus.COMPLETED, SolverStatus.UNDER_RESOLVED
 
 
 @cache
@@ -60,5 +60,5 @@ def test_what_turns_many_times_is_no_phase_ahead(name):
 def test_redundant_constraints_are_no_error():
     """The filter's last digits made errors of 1e12, and the run stopped at 1.24 s."""
     done = run(EXAMPLES["four-bar, redundant"], tolerance=1e-5, end=1.3)
-    assert done.outcome.status is Status.COMPLETED, done.outcome.reason
+    assert done.outcome.status is SolverStatus.COMPLETED, done.outcome.reason
     assert done.rejected < 10

@@ -2,7 +2,7 @@
 
 import exudyn as exu
 
-from exu_press import Status, solve_dynamic
+from exu_press import SolverStatus, solve_dynamic
 from exudyn_examples import EXAMPLES
 
 EXAMPLE = EXAMPLES["IFToMM pendulum"]
@@ -48,7 +48,7 @@ def test_a_step_that_the_user_wants_shorter_is_repeated():
 
     mbs.SetPostNewtonUserFunction(at_most)
     outcome = solve_dynamic(mbs, EXAMPLE.settings(0.1))
-    assert outcome.status is Status.COMPLETED
+    assert outcome.status is SolverStatus.COMPLETED
     assert outcome.rejected_steps == sum(step > 1.01e-3 for step in tried) > 0
     assert outcome.steps >= 100
 
@@ -61,5 +61,5 @@ def test_a_function_that_asks_to_stop_before_a_step_ends_the_run():
     mbs = system()
     mbs.SetPreStepUserFunction(lambda mbs, time: time < 0.05)
     outcome = solve_dynamic(mbs, EXAMPLE.settings(0.1))
-    assert outcome.status is Status.INTERRUPTED
+    assert outcome.status is SolverStatus.INTERRUPTED
     assert outcome.reason.startswith("stopped by a user function at t = 0.0")

@@ -5,7 +5,7 @@ import exudyn.utilities as items
 import numpy as np
 import pytest
 
-from exu_press import Status, solve_dynamic
+from exu_press import SolverStatus, solve_dynamic
 from exu_press.integrate.output import between
 
 OMEGA = 7.0  # 1/s
@@ -96,6 +96,6 @@ def test_a_run_goes_on_where_another_one_ended():
 def test_an_early_stop_raises_where_it_is_checked():
     mbs, _ = spring()
     outcome = solve_dynamic(mbs, settings(), max_steps=10)
-    assert outcome.status is Status.TOO_MANY_STEPS
+    assert outcome.status is SolverStatus.TOO_MANY_STEPS
     with pytest.raises(RuntimeError, match="too many steps: 10 steps were used up"):
         outcome.check()

@@ -10,7 +10,7 @@ from patched import PATCHED
 from stand_in import problem_at
 
 from exu_press import InputError
-from exu_press.integrate.problem import FoundScales, Node, Problem, Scales, weights
+from exu_press.integrate.problem import ErrorScales, FoundScales, Node, Problem, weights
 from exudyn_examples import EXAMPLES
 
 
@@ -137,7 +137,7 @@ def bodies(*masses):
 
 def scales(nodes, inertias, velocities, given=None, **changes):
     problem = problem_at(nodes, velocities, length=2.0, **changes)
-    found = FoundScales(given or Scales(), problem, longest=0.1)
+    found = FoundScales(given or ErrorScales(), problem, longest=0.1)
     found.begin(np.diag(inertias))
     return found
 
@@ -157,7 +157,7 @@ def test_speed_and_force_are_the_largest_so_far():
 
 
 def test_what_is_given_stays():
-    given = Scales(speed=7.0, force=9.0)
+    given = ErrorScales(speed=7.0, force=9.0)
     found = scales(bodies(None), [2.0, 2.0, 0.5], [3.0, 4.0, 0.0], given)
     found.update([60.0, 80.0, 0.0], [100.0, 0.0, 0.0])
     assert found.fixed and (found.speed, found.force) == (7.0, 9.0)

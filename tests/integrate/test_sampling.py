@@ -5,7 +5,7 @@ import exudyn.utilities as items
 import numpy as np
 import pytest
 
-from exu_press import InputError, Status, solve_dynamic
+from exu_press import InputError, SolverStatus, solve_dynamic
 
 PERIOD = 0.02  # s
 
@@ -48,7 +48,7 @@ def test_a_controller_is_sampled_on_its_grid_and_its_output_is_held():
 
     mbs = mass(controller)
     outcome = solve_dynamic(mbs, settings(0.2), tolerance=1e-4, sample=PERIOD)
-    assert outcome.status is Status.COMPLETED, outcome.reason
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
     assert called == pytest.approx(PERIOD * np.arange(1, 11))
     expected = 0.0
     for _ in called:
@@ -70,7 +70,7 @@ def test_without_a_period_the_largest_step_is_one():
         return look
 
     mbs = mass(switch)
-    assert solve_dynamic(mbs, settings(), tolerance=1e-4).status is Status.COMPLETED
+    assert solve_dynamic(mbs, settings(), tolerance=1e-4).status is SolverStatus.COMPLETED
     assert times == pytest.approx(np.arange(1, 21) / 20.0)
     assert velocity(mbs) == pytest.approx(2.0 * 0.55, rel=1e-3)
 
@@ -116,7 +116,7 @@ def test_a_step_ends_right_behind_an_event():
         tolerance=1e-4,
         event=lambda mbs, time: mbs.systemData.GetODE2Coordinates()[0] - 0.1,
     )
-    assert outcome.status is Status.COMPLETED, outcome.reason
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
     (time,) = turned
     assert time == pytest.approx(np.sqrt(0.2), abs=1e-6)
     assert velocity(mbs) == pytest.approx(2.0 * np.sqrt(0.2) - 1.0, abs=2e-4)

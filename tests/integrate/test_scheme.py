@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from patched import PATCHED
 
-from exu_press import Scene, Status, Tuning, simulate, solve_dynamic
+from exu_press import Scene, SolverStatus, SolverTuning, simulate, solve_dynamic
 from exu_press.integrate import scheme
 from exu_press.integrate.problem import modal_item
 from exu_press.integrate.scheme import FlexibleJacobian, Newton, follow_modes
@@ -21,7 +21,7 @@ NGSOLVE = pytest.mark.skipif(find_spec("ngsolve") is None, reason="flexible part
 
 def tuned(scene, **numbers):
     model = scene.build()
-    return record(model, model.solve(tuning=Tuning(**numbers)))
+    return record(model, model.solve(tuning=SolverTuning(**numbers)))
 
 
 @PATCHED
@@ -217,8 +217,11 @@ def run(mbs, sensor, steps, tolerance=None, **numbers):
     settings.timeIntegration.numberOfSteps = steps
     settings.timeIntegration.generalizedAlpha.spectralRadius = 0.8
     settings.solution.file.write, settings.solution.sensors.writePeriod = False, 0.0
-    outcome = solve_dynamic(mbs, settings, tolerance=tolerance, tuning=Tuning(**numbers))
-    assert outcome.status in (Status.COMPLETED, Status.UNDER_RESOLVED)  # of the fast mode
+    outcome = solve_dynamic(mbs, settings, tolerance=tolerance, tuning=SolverTuning(**numbers))
+    assert outcome.status in (
+        SolverStatus.COMPLETED,
+        SolverStatus.UNDER_RESOLVED,
+    )  # of the fast mode
     record = mbs.GetSensorStoredData(sensor)
     return record[:, 0], record[:, 1:]
 
@@ -298,7 +301,7 @@ def test_the_jacobian_of_a_large_system_is_kept():
     settings = exu.SimulationSettings()
     settings.timeIntegration.endTime, settings.solution.file.write = 1.0, False
     outcome = solve_dynamic(mbs, settings, tolerance=1e-3)
-    assert outcome.status is Status.COMPLETED, outcome.reason
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
     omega = 200.0 * math.sin(math.pi / (2.0 * (count + 1)))
     assert mbs.systemData.GetODE2Coordinates() == pytest.approx(shape * math.cos(omega), abs=2e-3)
     assert len(asked) < 60 * outcome.steps

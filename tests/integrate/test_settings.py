@@ -6,8 +6,8 @@ import exudyn as exu
 import pytest
 
 from exu_press import InputError, Scene
-from exu_press.integrate.problem import Problem, Scales
-from exu_press.integrate.settings import Task, Tuning, prepared, refuse_unusable
+from exu_press.integrate.problem import ErrorScales, Problem
+from exu_press.integrate.settings import SolverTuning, Task, prepared, refuse_unusable
 from exudyn_examples import EXAMPLES
 
 LUBRICATED = Scene(mechanism="slider_crank", joints={"crank_pin": "lubricated"})
@@ -37,7 +37,7 @@ def settings(**changes):
 )
 def test_the_first_step(scene, tolerance, changes, expected):
     problem = Problem.of(scene.build().mbs)
-    task = Task(problem, settings(**changes), tolerance, Scales(), Tuning())
+    task = Task(problem, settings(**changes), tolerance, ErrorScales(), SolverTuning())
     assert task.largest == pytest.approx(0.02)
     assert task.first == pytest.approx(expected)
 
@@ -50,7 +50,7 @@ def test_settings_are_put_back_even_after_an_error(name):
     chosen = settings()
     discontinuous = chosen.timeIntegration.discontinuous
     own, before = discontinuous.maxIterations, chosen.GetDictionary()
-    task = Task(Problem.of(mbs), chosen, 1e-3, Scales(), Tuning())
+    task = Task(Problem.of(mbs), chosen, 1e-3, ErrorScales(), SolverTuning())
     task.smallest = 1e-7
     with pytest.raises(ZeroDivisionError), prepared(chosen, task):
         assert chosen.timeIntegration.minimumStepSize == 1e-7

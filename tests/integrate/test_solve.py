@@ -23,7 +23,7 @@ from exu_press import (
     InputError,
     Result,
     Scene,
-    Status,
+    SolverStatus,
     add_dry_revolute,
     add_lubricated_revolute,
     simulate,
@@ -93,7 +93,7 @@ def test_a_pendulum_from_rest(tolerance):
     ).y[:, -1]
     mbs, node = pendulum()
     outcome = solve_dynamic(mbs, settings(3.0), tolerance=tolerance)
-    assert outcome.status is Status.COMPLETED
+    assert outcome.status is SolverStatus.COMPLETED
     rate = mbs.GetNodeOutput(node, exu.OutputVariableType.Coordinates_t)[2]
     assert 0.1 < abs(rate - expected[1]) / 4.6 / tolerance < 5.0
 
@@ -108,7 +108,7 @@ def steps_of(joint, length, mass, time):
     chosen = settings((3.0 if joint == "ideal" else 0.3) * time)
     chosen.timeIntegration.minimumStepSize *= time
     outcome = solve_dynamic(mbs, chosen)
-    assert outcome.status is Status.COMPLETED, outcome.reason
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
     return outcome.steps
 
 
@@ -141,7 +141,7 @@ def test_a_body_that_rotates_in_space(tolerance):
     )
     mbs.AddObject(items.ObjectRigidBody(nodeNumber=node, mass=1.0, inertia=[*inertia, 0, 0, 0]))
     mbs.Assemble()
-    assert solve_dynamic(mbs, settings(0.5), tolerance=tolerance).status is Status.COMPLETED
+    assert solve_dynamic(mbs, settings(0.5), tolerance=tolerance).status is SolverStatus.COMPLETED
     spin = mbs.GetNodeOutput(node, exu.OutputVariableType.AngularVelocityLocal)
     assert np.abs(spin - expected).max() / 10.0 < 18.0 * tolerance
 
@@ -162,7 +162,7 @@ def test_first_order_coordinates(tolerance):
         items.ObjectGenericODE1(nodeNumbers=[node], systemMatrix=matrix, rhsVector=[0.0, 0.0])
     )
     mbs.Assemble()
-    assert solve_dynamic(mbs, settings(10.0), tolerance=tolerance).status is Status.COMPLETED
+    assert solve_dynamic(mbs, settings(10.0), tolerance=tolerance).status is SolverStatus.COMPLETED
     expected = expm(10.0 * np.array(matrix)) @ [1.0, 0.0]
     assert np.abs(mbs.GetNodeOutput(node, POSITION) - expected).max() < 5.0 * tolerance
 
@@ -175,7 +175,7 @@ def test_friction_of_exudyns_own_with_its_switching():
         stick_slip(mbs)
         mbs.Assemble()
         outcome = solve_dynamic(mbs, settings(2.0), tolerance=tolerance)
-        assert outcome.status is Status.COMPLETED
+        assert outcome.status is SolverStatus.COMPLETED
         ends.append(float(mbs.GetNodeOutput(0, POSITION)))
     assert abs(ends[1]) < 8.0 / 100.0, "it rests where friction holds the spring"
     assert ends[0] == pytest.approx(ends[1], abs=3e-4)  # of 0.4 m
@@ -209,7 +209,7 @@ def test_general_contact_of_exudyns_own_lets_go(tolerance):
             marker, radius=0.1, contactStiffness=1e4, contactDamping=0.0, frictionMaterialIndex=0
         )
     mbs.Assemble()
-    assert solve_dynamic(mbs, settings(0.2), tolerance=tolerance).status is Status.COMPLETED
+    assert solve_dynamic(mbs, settings(0.2), tolerance=tolerance).status is SolverStatus.COMPLETED
     speed = mbs.GetNodeOutput(nodes[1], exu.OutputVariableType.Velocity)[1]
     expected = rebound(0.05, 0.5e4, 0.2)  # two springs in series
     assert abs(speed - expected) < 3.0 * tolerance
@@ -219,7 +219,7 @@ def test_clearance_joints_in_a_system_of_ones_own():
     """A rod falls into its bearing and swings: it passes below with 5/2 of its weight at least."""
     mbs, _ = pendulum(0.5, 10.0, joint="dry", force=0.35)
     outcome = solve_dynamic(mbs, settings(0.2), tolerance=1e-3)
-    assert outcome.status is Status.COMPLETED, outcome.reason
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
     assert outcome.law_evaluations > outcome.steps
 
 
@@ -243,7 +243,7 @@ def test_functions_and_settings_of_the_user_take_part_and_stay():
     assert called["before"] == outcome.steps + outcome.rejected_steps
     assert called["after"] == outcome.steps + 1  # at the start too, as Exudyn does
     assert 0.5 <= outcome.end_time < 0.7
-    assert outcome.status is Status.INTERRUPTED
+    assert outcome.status is SolverStatus.INTERRUPTED
     assert chosen.timeIntegration.newton.maxIterations == 17
     mbs.SolveDynamic(chosen)
     assert called["after"] > outcome.steps + 2, "it is still there"
@@ -269,7 +269,7 @@ def test_constraints_that_a_pre_step_function_moves_are_named():
     mbs.SetPreStepUserFunction(push)
     mbs.Assemble()
     outcome = solve_dynamic(mbs, settings(2.0))
-    assert outcome.status is Status.STEP_TOO_SMALL
+    assert outcome.status is SolverStatus.STEP_TOO_SMALL
     assert "offsetUserFunction" in outcome.reason
 
 
@@ -289,7 +289,7 @@ def test_a_prescribed_motion_that_jumps_is_thought_of():
     mbs.AddObject(items.ObjectConnectorCoordinate(markerNumbers=ends, offsetUserFunction=push))
     mbs.Assemble()
     outcome = solve_dynamic(mbs, settings(0.02), tolerance=1e-4)
-    assert outcome.status is Status.STEP_TOO_SMALL
+    assert outcome.status is SolverStatus.STEP_TOO_SMALL
     assert outcome.end_time == pytest.approx(0.01) and "without jumps" in outcome.reason
 
 
@@ -307,7 +307,7 @@ def test_a_load_that_jumps_at_a_tight_tolerance():
     )
     mbs.Assemble()
     outcome = solve_dynamic(mbs, settings(0.12), tolerance=1e-6)
-    assert outcome.status is not Status.STEP_TOO_SMALL, outcome.reason
+    assert outcome.status is not SolverStatus.STEP_TOO_SMALL, outcome.reason
 
 
 def hanging(mbs):
@@ -337,7 +337,7 @@ def test_an_equilibrium_is_at_rest(system, tolerance):
     mbs = exu.SystemContainer().AddSystem()
     system(mbs)
     outcome = solve_dynamic(mbs, settings(1.0), tolerance=tolerance)
-    assert outcome.status is Status.COMPLETED, outcome.reason
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
     assert outcome.steps < 200 and outcome.rejected_steps < 5
     assert np.abs(mbs.systemData.GetODE2Coordinates_t()).max() < 1e-9
 
@@ -362,7 +362,7 @@ def oscillator(kind, place, speed, frequency, duration, beside=False):
     chosen = settings(duration)
     chosen.timeIntegration.minimumStepSize = 1e-6 * duration
     outcome = solve_dynamic(mbs, chosen)
-    assert outcome.status is Status.COMPLETED, outcome.reason
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
     end = mbs.GetNodeOutput(node, exu.OutputVariableType.Coordinates_t)
     return abs(end / speed - np.cos(2.0 * np.pi * frequency * duration))
 
@@ -419,7 +419,7 @@ def test_what_keeps_newtons_method_from_converging_is_named(build, reason):
     build(mbs)
     mbs.Assemble()
     outcome = solve_dynamic(mbs, settings(0.3))
-    assert outcome.status is Status.NOT_CONVERGED
+    assert outcome.status is SolverStatus.NOT_CONVERGED
     assert re.search(reason, outcome.reason), outcome.reason
 
 
@@ -486,7 +486,7 @@ def test_another_implicit_method_is_switched_to_generalized_alpha_with_a_warning
     chosen.timeIntegration.endTime = 0.2
     before = chosen.timeIntegration.generalizedAlpha.useNewmark
     with pytest.warns(UserWarning, match="solved with GeneralizedAlpha"):
-        assert solve_dynamic(mbs, chosen).status is Status.COMPLETED
+        assert solve_dynamic(mbs, chosen).status is SolverStatus.COMPLETED
     assert mbs.GetNodeOutput(node, exu.OutputVariableType.Coordinates).tolist() == expected.tolist()
     assert chosen.timeIntegration.generalizedAlpha.useNewmark == before
 
@@ -535,7 +535,7 @@ def test_a_system_of_hundreds_of_coordinates():
         mbs.AddLoad(items.LoadForceVector(markerNumber=at, loadVector=[0.0, -9.81, 0.0]))
     mbs.Assemble()
     chosen = settings(0.1)
-    assert solve_dynamic(mbs, chosen).status is Status.COMPLETED
+    assert solve_dynamic(mbs, chosen).status is SolverStatus.COMPLETED
     fall = mbs.GetNodeOutput(node, exu.OutputVariableType.Displacement)[1]
     assert fall == pytest.approx(-0.5 * 9.81 * 0.1**2, rel=1e-6)
 
@@ -728,5 +728,5 @@ def test_a_run_ends_where_what_watches_it_says_why():
         return "late" if time >= 0.3 else ""
 
     outcome = solve_dynamic(mbs, settings(1.0), watch=late)
-    assert (outcome.status, outcome.reason) == (Status.STALLED, "late")
+    assert (outcome.status, outcome.reason) == (SolverStatus.STALLED, "late")
     assert 0.3 <= outcome.end_time < 0.35

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 from patched import PATCHED
 
-from exu_press import Result, Scene, Status, simulate, solve_dynamic
+from exu_press import Result, Scene, SolverStatus, simulate, solve_dynamic
 from exu_press.cli import main
-from exu_press.integrate.settings import Tuning
+from exu_press.integrate.settings import SolverTuning
 from exu_press.integrate.stepping import FixedSteps, StepControl
 from exu_press.mechanism.press import PAPER_LAWS
 
@@ -127,7 +127,7 @@ def test_the_command_exits_with_3_and_does_not_speak_of_a_stop(tmp_path, capsys)
 
 def task(**changes):
     usual = {"largest": 1e-3, "smallest": 1e-9, "first": 1e-3, "start": 0.0, "end": 1.0}
-    return SimpleNamespace(**{**usual, "tuning": Tuning(), **changes})
+    return SimpleNamespace(**{**usual, "tuning": SolverTuning(), **changes})
 
 
 def test_fixed_steps_return_to_their_grid_after_a_halved_one():
@@ -173,9 +173,9 @@ def steps(good, corner=math.inf, **changes):
 def test_steps_grow_slowly_to_what_their_errors_allow():
     sizes, repeated = steps(good=1e-3, first=1e-5, end=0.1)
     growth = np.array(sizes[1:-2]) / sizes[:-3]
-    assert growth.max() == pytest.approx(Tuning().factor_max)
-    aim = Tuning().safety ** (1.0 / 3.0) * 1e-3
-    assert aim / Tuning().factor_max <= sizes[-5] <= aim
+    assert growth.max() == pytest.approx(SolverTuning().factor_max)
+    aim = SolverTuning().safety ** (1.0 / 3.0) * 1e-3
+    assert aim / SolverTuning().factor_max <= sizes[-5] <= aim
     assert repeated == 0
 
 
@@ -183,7 +183,7 @@ def test_steps_grow_slowly_to_what_their_errors_allow():
 def test_a_step_that_is_too_long_is_repeated_once():
     sizes, repeated = steps(good=2e-4, end=0.01)
     assert repeated == 1
-    assert sizes[0] == pytest.approx(2e-4 * Tuning().safety ** (1.0 / 3.0))
+    assert sizes[0] == pytest.approx(2e-4 * SolverTuning().safety ** (1.0 / 3.0))
 
 
 @PATCHED
@@ -217,4 +217,4 @@ def test_a_load_that_jumps_late_in_a_run_is_passed():
     settings.timeIntegration.startTime, settings.timeIntegration.endTime = 600.0, 601.0
     settings.solution.file.write = False
     outcome = solve_dynamic(mbs, settings, tolerance=1e-3)
-    assert outcome.status is Status.COMPLETED, outcome.reason
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason

@@ -14,7 +14,7 @@ from exudyn.itemInterface import (
 
 from exu_press import (
     InputError,
-    Status,
+    SolverStatus,
     add_dry_revolute,
     add_dry_spherical,
     add_lubricated_revolute,
@@ -136,4 +136,4 @@ def test_a_start_too_far_out_is_refused(add, arguments, out, allowed):
 def test_a_start_not_quite_as_far_out_is_solved(add, arguments, out, allowed):
     out = 0.99 * min(out, 1e-4 if arguments is FILM else 3e-4)
     _container, mbs, settings = start(add, arguments, out)
-    assert solve_dynamic(mbs, settings).status is Status.COMPLETED
+    assert solve_dynamic(mbs, settings).status is SolverStatus.COMPLETED

@@ -9,7 +9,7 @@ import pytest
 
 import exu_press
 from exu_press.joints import COMPILED
-from exu_press.joints.pairs import FilmPair
+from exu_press.joints.interface import FilmInterface
 from exu_press.laws.film import pinkus
 
 ROOT = Path(__file__).parents[2]
@@ -17,13 +17,13 @@ ROOT = Path(__file__).parents[2]
 
 def test_it_knows_whether_it_is_compiled():
     """A compiled class keeps what it is given as its type; one in Python takes anything."""
-    pair = FilmPair(pinkus(), 1.0, 1e-4)
+    interface = FilmInterface(pinkus(), 1.0, 1e-4)
     if COMPILED:
         with pytest.raises(TypeError):
-            pair.scale = "thick"
+            interface.scale = "thick"
     else:
-        pair.scale = "thick"
-        assert pair.scale == "thick"
+        interface.scale = "thick"
+        assert interface.scale == "thick"
 
 
 def test_all_modules_are_compiled_or_none():

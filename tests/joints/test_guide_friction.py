@@ -16,7 +16,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from solving import planar_body, recorded
 
-from exu_press import Status, solve_dynamic
+from exu_press import SolverStatus, solve_dynamic
 from exu_press.joints.guide_friction import (
     GuideFriction,
     HeldSide,
@@ -67,7 +67,7 @@ def speeds(mbs, motion, along, end=0.5, tolerance=1e-4):
     settings.solution.file.write = False
     settings.solution.sensors.writePeriod = 0.0
     outcome = solve_dynamic(mbs, settings, tolerance=tolerance)
-    assert outcome.status is Status.COMPLETED, outcome.reason
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
     data = np.asarray(mbs.GetSensorStoredData(motion))
     return data[:, 0], data[:, 1:3] @ along
 

@@ -16,7 +16,7 @@ from exudyn.itemInterface import (
 from solving import planar_body, recorded, solve
 
 from exu_press import InputError, add_dry_revolute
-from exu_press.joints import overlay_of
+from exu_press.joints import user_force_of
 from exu_press.laws.contact import hertz, step_damping
 from exu_press.laws.friction import lugre_steady
 
@@ -125,4 +125,4 @@ def test_other_directions_are_refused(rotation, says):
     body, point, node = one.slide(rotation)
     with pytest.raises(InputError, match=f"body 0.*{says}.*allowed"):
         one.run(body, point, node, (0.0, 0.0))
-    assert not overlay_of(one.mbs).joints
+    assert not user_force_of(one.mbs).joints

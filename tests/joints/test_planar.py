@@ -7,8 +7,8 @@ import random
 import numpy as np
 import pytest
 
+from exu_press.joints.interface import DryInterface, FilmInterface
 from exu_press.joints.joint import GROUND
-from exu_press.joints.pairs import DryPair, FilmPair
 from exu_press.joints.planar import PlanarEnd, PlanarJoint
 from exu_press.laws.contact import hertz, hunt_crossley, step_damping
 from exu_press.laws.film import film_scale, finite, pi_film, pinkus, short, with_asperities
@@ -21,22 +21,22 @@ SCALE = film_scale(0.4, 0.1, RADIUS, CLEARANCE)
 
 def dry(friction, contact=None):
     contact = contact or step_damping(hertz(2.5545e10), 2.5545e6, 1e-5)
-    return DryPair(contact, friction, RADIUS, CLEARANCE)
+    return DryInterface(contact, friction, RADIUS, CLEARANCE)
 
 
 def bristle():
-    pair = dry(LuGre(0.15, 0.1, 1e4, 40.0, 1e-3, 0.1, 2.0))
-    pair.bristle = 0.5e-5
-    pair.begin_step(1e-6, accepted=False)
-    return pair
+    interface = dry(LuGre(0.15, 0.1, 1e4, 40.0, 1e-3, 0.1, 2.0))
+    interface.bristle = 0.5e-5
+    interface.begin_step(1e-6, accepted=False)
+    return interface
 
 
 def mixed():
     """Film and contact in parallel."""
     contact = step_damping(hertz(2.5545e10), 2.5545e6, 1e-5)
     return [
-        FilmPair(with_asperities(pi_film(), 0.1), SCALE, CLEARANCE),
-        DryPair(contact, STEADY, RADIUS, 0.9 * CLEARANCE),
+        FilmInterface(with_asperities(pi_film(), 0.1), SCALE, CLEARANCE),
+        DryInterface(contact, STEADY, RADIUS, 0.9 * CLEARANCE),
     ]
 
 
@@ -49,24 +49,24 @@ DRY = {
 LAWS = {"pinkus": pinkus(), "pi_film": pi_film(), "short": short(0.7), "finite": finite(0.7)}
 FILMS = {
     **{
-        name: functools.partial(lambda law: [FilmPair(law, SCALE, CLEARANCE)], law)
+        name: functools.partial(lambda law: [FilmInterface(law, SCALE, CLEARANCE)], law)
         for name, law in LAWS.items()
     },
     "mixed": mixed,
 }
-BOTH = pytest.mark.parametrize("pairs", [*DRY.values(), *FILMS.values()], ids=[*DRY, *FILMS])
+BOTH = pytest.mark.parametrize("interfaces", [*DRY.values(), *FILMS.values()], ids=[*DRY, *FILMS])
 
 
-def eccentricities(pairs, rng):
-    """Where the pairs act: in contact where all are dry, within the clearance else."""
-    if all(isinstance(pair, DryPair) for pair in pairs):
+def eccentricities(interfaces, rng):
+    """Where the interfaces act: in contact where all are dry, within the clearance else."""
+    if all(isinstance(interface, DryInterface) for interface in interfaces):
         return CLEARANCE + 10 ** rng.uniform(-6, -4.5)
-    if len(pairs) > 1:
+    if len(interfaces) > 1:
         return CLEARANCE * rng.uniform(0.85, 1.1)
     return CLEARANCE * rng.uniform(0.05, 0.95)
 
 
-def random_joint(pairs, rng):
+def random_joint(interfaces, rng):
     """Return a joint between two bodies anywhere, and a state that has it act."""
     ends, points = [], []
     for index in (0, 3):
@@ -74,11 +74,11 @@ def random_joint(pairs, rng):
         point = (rng.uniform(-0.2, 0.2), rng.uniform(-0.2, 0.2))
         ends.append(PlanarEnd((index, index + 1, index + 2), reference, point))
         points.append(point)
-    joint = PlanarJoint(*ends, pairs)
+    joint = PlanarJoint(*ends, interfaces)
     q = [rng.uniform(-0.1, 0.1) for _ in range(6)]
     q_t = [rng.uniform(-0.2, 0.2), rng.uniform(-0.2, 0.2), rng.uniform(-30, 30)] * 2
     q_t[5] = rng.uniform(-30, 30)
-    e, direction = eccentricities(pairs, rng), rng.uniform(-math.pi, math.pi)
+    e, direction = eccentricities(interfaces, rng), rng.uniform(-math.pi, math.pi)
     journal, bearing = centres(joint, q)
     q[3:5] = np.array(q[3:5]) + journal - bearing - e * unit(direction)
     # relative velocity of the centres: slow across the gap
@@ -122,10 +122,10 @@ def forces(joint, q, q_t):
 
 
 @BOTH
-def test_forces_and_moments_sum_to_zero_about_any_point(pairs):
+def test_forces_and_moments_sum_to_zero_about_any_point(interfaces):
     rng = random.Random(5)
     for _ in range(200):
-        joint, q, q_t = random_joint(pairs(), rng)
+        joint, q, q_t = random_joint(interfaces(), rng)
         total = forces(joint, q, q_t)
         size = np.abs(total[:2]).max()
         assert total[:2] + total[3:5] == pytest.approx([0.0, 0.0], abs=1e-12 * max(size, 1.0))
@@ -138,11 +138,11 @@ def test_forces_and_moments_sum_to_zero_about_any_point(pairs):
 
 
 @BOTH
-def test_state_agrees_with_the_generalised_forces(pairs):
+def test_state_agrees_with_the_generalised_forces(interfaces):
     """Power = Q . q_t, and the force of the state is the one on the journal's body."""
     rng = random.Random(6)
     for _ in range(50):
-        joint, q, q_t = random_joint(pairs(), rng)
+        joint, q, q_t = random_joint(interfaces(), rng)
         total = forces(joint, q, q_t)
         state = joint.state([*q, *GROUND], [*q_t, *GROUND])
         journal, bearing = centres(joint, q)
@@ -153,14 +153,16 @@ def test_state_agrees_with_the_generalised_forces(pairs):
 
 
 @pytest.mark.parametrize(
-    "pairs", [DRY["without friction"], DRY["steady friction"]], ids=["frictionless", "friction"]
+    "interfaces",
+    [DRY["without friction"], DRY["steady friction"]],
+    ids=["frictionless", "friction"],
 )
-def test_dry_joint_loses_what_it_does_not_store(pairs):
+def test_dry_joint_loses_what_it_does_not_store(interfaces):
     """Power into the bodies + d(stored)/dt <= 0."""
     rng = random.Random(8)
     seen = 0
     for _ in range(1000):
-        joint, q, q_t = random_joint(pairs(), rng)
+        joint, q, q_t = random_joint(interfaces(), rng)
         state = joint.state([*q, *GROUND], [*q_t, *GROUND])
         e_x, e_y = state.eccentricity
         depth = math.hypot(e_x, e_y) - CLEARANCE
@@ -181,13 +183,13 @@ def test_dry_joint_loses_what_it_does_not_store(pairs):
 
 @BOTH
 @pytest.mark.parametrize("factors", [(1.0, 0.0), (0.0, 1.0), (1.3, -0.07), (1.0, 2e4)])
-def test_jacobian_against_differences(pairs, factors):
+def test_jacobian_against_differences(interfaces, factors):
     """-(by_q dQ/dq + by_q_t dQ/dq_t), row by row; journal first, then bearing."""
     by_q, by_q_t = factors
     rng = random.Random(9)
     acting = 0
     for _ in range(15):
-        joint, q, q_t = random_joint(pairs(), rng)
+        joint, q, q_t = random_joint(interfaces(), rng)
         if not forces(joint, q, q_t).any():
             continue  # held at zero: no tension
         acting += 1
@@ -216,11 +218,11 @@ def test_no_jacobian_where_nothing_acts():
     assert joint.jacobian(1.0, 1.0) is None
 
 
-@pytest.mark.parametrize("pairs", FILMS.values(), ids=FILMS)
-def test_centred_journal_has_finite_forces(pairs):
+@pytest.mark.parametrize("interfaces", FILMS.values(), ids=FILMS)
+def test_centred_journal_has_finite_forces(interfaces):
     """Every run starts there."""
     end = PlanarEnd((0, 1, 2), (0.0, 0.0, 0.0), (0.0, 0.0))
-    joint = PlanarJoint(end, PlanarEnd((3, 4, 5), (0.0, 0.0, 0.0), (0.0, 0.0)), pairs())
+    joint = PlanarJoint(end, PlanarEnd((3, 4, 5), (0.0, 0.0, 0.0), (0.0, 0.0)), interfaces())
     for q_t in ([0.0] * 6, [0.01, 0.02, 25.0, 0.0, 0.0, 3.0]):
         assert np.all(np.isfinite(forces(joint, [0.0] * 6, q_t)))
         assert np.all(np.isfinite(joint.jacobian(1.0, 1e4)))

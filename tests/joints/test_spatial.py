@@ -19,7 +19,7 @@ from exu_press import (
     add_joint_sensor,
     add_lubricated_revolute,
 )
-from exu_press.joints import overlay_of
+from exu_press.joints import user_force_of
 from exu_press.laws.contact import hertz, step_damping
 from exu_press.laws.film import pi_film
 from exu_press.laws.friction import LuGre, lugre_steady
@@ -135,7 +135,7 @@ def test_jacobian_against_differences(kind, joint):
         mbs, (first, (0.2, 0.0, 0.0)), (second, (-0.1, 0.0, 0.0)),
         radius=RADIUS, clearance=CLEARANCE, **laws,
     )  # fmt: skip
-    size = overlay_of(mbs).size
+    size = user_force_of(mbs).size
     q, q_t = np.zeros(size), np.random.default_rng(1).normal(size=size) * 1e-2
     q[:2] = (CLEARANCE + 2e-4, 3e-4) if joint != "lubricated" else (4e-4, 3e-4)
 

@@ -61,16 +61,16 @@ def test_force_is_continuous_at_touch_and_zero_apart(name: str, tension: bool) -
 
 @pytest.mark.parametrize("name", [*DELIVERED, "step"])
 def test_dissipative_and_never_pulling_without_tension(name: str) -> None:
-    pulling, parting = contacts(tension=True)[name], contacts()[name]
+    pulling, divergence = contacts(tension=True)[name], contacts()[name]
     pulled = 0
     for penetration, rate, speed in random_states(1000):
-        force = parting.force(penetration, rate, speed)[0]
+        force = divergence.force(penetration, rate, speed)[0]
         pull = pulling.force(penetration, rate, speed)[0]
-        elastic = parting.stiffness.force(penetration)[0]
+        elastic = divergence.stiffness.force(penetration)[0]
         assert force == max(pull, 0.0)
         assert rate * (force - elastic) >= 0.0
         assert rate * (pull - elastic) >= 0.0
-        assert parting.dissipated_power(penetration, rate, speed) == rate * (force - elastic)
+        assert divergence.dissipated_power(penetration, rate, speed) == rate * (force - elastic)
         pulled += pull < 0.0
     assert pulled > 10  # the states do reach where A-10 matters
 

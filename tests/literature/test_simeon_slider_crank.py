@@ -13,9 +13,9 @@ from beam import line_part
 from exudyn.rigidBodyUtilities import RotationMatrixZ
 
 from exu_press import Scene, simulate
-from exu_press.flexible import FrameStart
 from exu_press.mechanism import GROUND, Body, Guide, Joint, Mechanism, Motion, Output
-from exu_press.placed_part import PlacedPart
+from exu_press.model.flexible_body import FrameStart
+from exu_press.model.placed_part import PlacedPart
 
 CRANK, ROD = 0.15, 0.30  # m
 SPEED = 150.0  # rad/s
@@ -128,7 +128,7 @@ def his_start(beam):
 
 def run(scene, rod, start=None):
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("exu_press.placed_part.placed_parts", lambda *_, **__: {"rod": rod})
+        patch.setattr("exu_press.model.placed_part.placed_parts", lambda *_, **__: {"rod": rod})
         if start is not None:
             patch.setattr("exu_press.model.assemble.deformed_start", lambda *_: start)
         return simulate(scene)

@@ -29,7 +29,7 @@ def kept(mechanism, *loose):
     """How many coordinates the mechanism keeps."""
     found = holding(mechanism, *loose)
     constraints = 2 * len(found.pivoted) + 2 * len(found.sliding)
-    constraints += 2 * len(found.joints) + len(found.half_held)
+    constraints += 2 * len(found.joints) + len(found.single_axis)
     constraints += sum(map(sum, found.guides.values()))
     return 3 * len(mechanism.bodies) - constraints
 
@@ -60,8 +60,8 @@ def test_every_joint_with_clearance_frees_two_coordinates():
 
 def test_two_balls_hold_the_slider_upright_and_share_its_load():
     found = holding(PRESS)
-    assert set(found.half_held) == set(BALLS)
-    for half in found.half_held.values():
+    assert set(found.single_axis) == set(BALLS)
+    for half in found.single_axis.values():
         assert abs(np.sin(half.angle)) == pytest.approx(1.0)
     assert found.guides == {"slider": (True, False)}
     assert set(found.redundant) == {"slider", *BALLS}
@@ -92,10 +92,12 @@ def test_a_pivot_may_carry_the_journal():
 
 def test_half_of_a_second_rod_is_left_out_whatever_its_direction():
     found = holding(slider_crank(second_rod=True))
-    (name,) = found.half_held
+    (name,) = found.single_axis
     assert name.startswith("other_rod")
-    assert found.half_held[name].body == "other_rod"
-    across = np.array([np.cos(found.half_held[name].angle), np.sin(found.half_held[name].angle)])
+    assert found.single_axis[name].body == "other_rod"
+    across = np.array(
+        [np.cos(found.single_axis[name].angle), np.sin(found.single_axis[name].angle)]
+    )
     along = np.diff(slider_crank(second_rod=True).points("other_rod"), axis=0)[0]
     assert across @ along == pytest.approx(0.0, abs=1e-9)
 
@@ -119,14 +121,14 @@ def test_half_a_joint_holds_no_flexible_body():
 def test_elastic_guides_leave_their_work_to_no_joint():
     found = holding(elastic(PRESS))
     assert not found.sliding
-    assert not found.half_held
+    assert not found.single_axis
     assert set(found.guides.values()) == {(False, False)}
 
 
 def test_coupled_cranks_are_held_by_both_rods():
     """In a dead centre of one rod the other one alone turns the follower."""
     found = holding(coupled_cranks())
-    assert found.twice and not found.half_held
+    assert found.twice and not found.single_axis
     assert set(found.joints) == {"pin", "far_pin", "other_pin", "other_far_pin"}
     assert not holding(slider_crank(second_rod=True)).twice
     assert not holding(PRESS).twice

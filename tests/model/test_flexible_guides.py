@@ -7,9 +7,9 @@ from independent.solid import displaced
 
 from exu_press import InputError, Scene, simulate
 from exu_press.model import build
+from exu_press.model.placed_part import placed_parts
+from exu_press.model.quasi_static import quasi_static_motion
 from exu_press.model.system import System
-from exu_press.placed_part import placed_parts
-from exu_press.quasi_static import quasi_static_motion
 from exu_press.result.flexible import guided_motion
 from exu_press.result.joints import states_of
 from exu_press.result.record import record
@@ -142,7 +142,7 @@ def test_in_its_play_a_soft_slider_touches_with_what_its_guide_holds(slider):
     model = build(slider(body=soft, load=load, guide=PLAY, **run))
     result = record(model, model.solve())
     held = guided_motion(model, "slider").position
-    ends = {str(number): end for number, end in enumerate(model.ways["slider"])}
+    ends = {str(number): end for number, end in enumerate(model.guideways["slider"])}
     low, high = (
         np.array([state.eccentricity[0] for state in states])
         for states in states_of(model, result.time, ends).values()

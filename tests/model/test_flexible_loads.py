@@ -9,14 +9,14 @@ from independent.solid import displaced
 
 from exu_press import InputError, Scene, simulate
 from exu_press.model import build
-from exu_press.quasi_static import quasi_static_motion
+from exu_press.model.quasi_static import quasi_static_motion
 from exu_press.scene import mechanism_of
 
 pytest.importorskip("ngsolve")
 
 from netgen.occ import Box, Cylinder, Pnt, Z
 
-from exu_press.placed_part import placed_parts
+from exu_press.model.placed_part import placed_parts
 from fe_models import CRANK_STEEL, Axis, Interface, Part, Patch, StepFile
 from fe_models.elasticity import full_model
 

@@ -14,9 +14,9 @@ from exudyn.itemInterface import (
 )
 from independent.solid import displaced
 
-from exu_press import Status, solve_dynamic
+from exu_press import SolverStatus, solve_dynamic
 from exu_press.mechanism import Body, Motion
-from exu_press.rigid import PivotedBody
+from exu_press.model.rigid_body import PivotedBody
 from fe_models import add_flexible_body
 
 SPEED = 100.0  # rad/s
@@ -79,7 +79,7 @@ def spun(part):
     settings.timeIntegration.generalizedAlpha.spectralRadius = 0.8
     settings.solution.file.write = False
     outcome = solve_dynamic(mbs, settings, tolerance=1e-6)
-    assert outcome.status is Status.COMPLETED, outcome.reason
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
     x, y, _ = mbs.GetMarkerOutput(marker, exu.OutputVariableType.Position)
     turn = float(mbs.GetNodeOutput(disc.node, exu.OutputVariableType.Coordinates))
     c, s = np.cos(turn), np.sin(turn)

@@ -3,7 +3,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from exu_press.errors import InputError
-from exu_press.output import PICTURES
+from exu_press.files.output_directory import PICTURES
 from exu_press.plots import save_comparison, save_pictures
 from exu_press.plots.file import save_figure
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from exu_press import Scene, simulate
 from exu_press.cli import main
 from exu_press.errors import InputError
-from exu_press.integrate import Status
+from exu_press.integrate import SolverStatus
 from exu_press.scene.usage import TABLES
 
 anything = st.one_of(
@@ -162,7 +162,7 @@ def run_or_be_refused(data):
     except InputError:
         return
     result = simulate(scene)
-    assert result.info["status"] in {status.value for status in Status}
+    assert result.info["status"] in {status.value for status in SolverStatus}
     assert (result.info["reason"] == "") == (result.info["status"] == "completed")
     json.dumps(result.summary(), allow_nan=False)
 

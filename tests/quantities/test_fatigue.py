@@ -13,7 +13,7 @@ from exu_press.scene.bodies import require_rainflow
 
 pytest.importorskip("rainflow")
 
-LINE = Flexible("linkage", woehler_stress=1e8, woehler_cycles=2e6, woehler_slope=5.0)
+LINE = Flexible("linkage", sn_stress=1e8, sn_cycles=2e6, sn_slope=5.0)
 
 
 def test_the_example_of_the_standard():
@@ -55,5 +55,5 @@ def test_one_cycle_a_revolution():
 
 def test_without_the_package_it_says_how_to_get_it(monkeypatch):
     monkeypatch.setitem(sys.modules, "rainflow", None)
-    with pytest.raises(InputError, match=r"woehler_stress: needs the package rainflow"):
+    with pytest.raises(InputError, match=r"sn_stress: needs the package rainflow"):
         require_rainflow()

@@ -3,7 +3,7 @@ import pytest
 from scipy.io import netcdf_file
 
 from exu_press import Result, Scene, simulate
-from exu_press.placed_part import placed_parts
+from exu_press.model.placed_part import placed_parts
 from exu_press.scene import flexible_press
 
 

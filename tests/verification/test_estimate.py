@@ -19,12 +19,12 @@ def test_two_values_that_agree_by_chance_do_not_hide_the_error():
     assert converging([5.0, 5.0, 5.04], [1.0, 4.0, 8.0])["error"] >= SAFETY * 0.009
 
 
-@pytest.mark.parametrize("companions", [1, 2, 3])
-def test_nineteen_in_twenty_further_runs_lie_within_the_bounds(companions):
+@pytest.mark.parametrize("refinements", [1, 2, 3])
+def test_nineteen_in_twenty_further_runs_lie_within_the_bounds(refinements):
     random = np.random.default_rng(1)
     inside = 0
     for _ in range(2000):
-        *runs, further = random.normal(1000.0, 50.0, companions + 2)
+        *runs, further = random.normal(1000.0, 50.0, refinements + 2)
         found = scattered(runs)
         assert not found["determined"] or found["error"] <= 0.05 * runs[0]
         inside += found["low"] <= further <= found["high"]

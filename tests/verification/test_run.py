@@ -12,8 +12,8 @@ from exu_press.quantities.kind import MOTION
 from exu_press.quantities.value import numbers_of
 from exu_press.scene import flexible_press
 from exu_press.verification import simulate_with_errors, with_errors
-from exu_press.verification.companions import Companions, plan
 from exu_press.verification.estimate import AMPLIFIED
+from exu_press.verification.refinement import RefinementRuns, plan
 from exu_press.verification.run import errors_of
 
 DRY = {
@@ -76,7 +76,7 @@ def test_errors_stand_in_the_summary_and_in_the_file(tmp_path):
 
 
 def test_motions_that_part_leave_bounds():
-    """Companions whose journal is elsewhere: what happens later is not determined."""
+    """RefinementRuns whose journal is elsewhere: what happens later is not determined."""
     scene = Scene(**DRY, revolutions=0.1)
     result = simulate(scene)
     other = simulate(scene.replace("joints.crank_pin.clearance", 2e-4))
@@ -86,7 +86,7 @@ def test_motions_that_part_leave_bounds():
 
 
 def test_a_run_that_has_not_parted_itself_tells_a_larger_error():
-    """Its companion has, of which it is three times as near to the truth."""
+    """Its refinement has, of which it is three times as near to the truth."""
     scene = Scene(**DRY, revolutions=0.1)
     result = simulate(scene)
     clearance = scene.joints["crank_pin"].clearance
@@ -105,7 +105,7 @@ def test_a_run_that_has_not_parted_itself_tells_a_larger_error():
     assert most > 3.0 * more
 
 
-def test_what_companions_did_before_the_horizon_widens_no_bounds():
+def test_what_refinements_did_before_the_horizon_widens_no_bounds():
     """A peak does not fall below the one until then."""
     scene = Scene(**DRY, revolutions=0.1)
     result = simulate(scene)
@@ -144,11 +144,11 @@ def test_magnitudes_are_not_below_zero_and_energies_may_be():
         ({"step": 1e-5}, [2.0, 3.0, 4.0]),
     ],
 )
-def test_companions_are_coarser_where_that_is_allowed(solver, ratios):
+def test_refinements_are_coarser_where_that_is_allowed(solver, ratios):
     assert list(plan(Scene(solver=solver))) == ratios
 
 
-def test_smooth_motion_has_fewer_companions_with_longer_steps():
+def test_smooth_motion_has_fewer_refinements_with_longer_steps():
     smooth = Scene(joints={})
     for scene in (smooth, smooth.replace("guide", {"lateral_stiffness": 1e9})):
         assert list(plan(scene)) == [4.0, 8.0]
@@ -183,13 +183,13 @@ def test_a_shaking_force_that_cancels_is_known_to_rounding():
     assert told[name]["low"] <= finer.quantity(name).value <= told[name]["high"]
 
 
-def test_a_run_is_not_lost_with_its_companions(monkeypatch):
+def test_a_run_is_not_lost_with_its_refinements(monkeypatch):
     """Their process may be ended from outside, as where memory is short."""
 
-    def fails(companions):
-        raise RuntimeError("a companion run failed (-9)")
+    def fails(refinements):
+        raise RuntimeError("a refinement run failed (-9)")
 
-    monkeypatch.setattr(Companions, "results", fails)
+    monkeypatch.setattr(RefinementRuns, "results", fails)
     scene = Scene(mechanism="slider_crank", joints={}, revolutions=0.02)
     with pytest.warns(UserWarning, match=r"no errors of the quantities are known: .*\(-9\)"):
         result = simulate_with_errors(scene)
@@ -200,11 +200,11 @@ def test_a_run_is_not_lost_with_its_companions(monkeypatch):
 def test_errors_of_a_quantity_of_ones_own_are_those_of_the_declared_one():
     scene = Scene(**DRY, revolutions=0.2)
     result = simulate(scene)
-    companions = [(ratio, simulate(other)) for ratio, other in plan(scene).items()]
-    told = errors_of(result, companions)["errors"]
+    refinements = [(ratio, simulate(other)) for ratio, other in plan(scene).items()]
+    told = errors_of(result, refinements)["errors"]
     force = quantities_of(scene)["joints.crank_pin.peak_force"]
     own = {"force": Placed(replace(force.quantity, name="force"), "crank_pin")}
-    mine = errors_of(result, companions, own)["errors"]["force"]
+    mine = errors_of(result, refinements, own)["errors"]["force"]
     assert mine["error"] == pytest.approx(told["joints.crank_pin.peak_force"]["error"])
     late = {
         "late": Placed(
@@ -217,4 +217,4 @@ def test_errors_of_a_quantity_of_ones_own_are_those_of_the_declared_one():
             )
         )
     }
-    assert set(errors_of(result, companions, late)["errors"]) == {"late"}
+    assert set(errors_of(result, refinements, late)["errors"]) == {"late"}

@@ -159,7 +159,7 @@ def _spline(
     """Knots of -ln(1 - eps) and of the direction, and the patches of ln E and m between them."""
     import numpy as np  # the law itself is plain floats
 
-    from exu_press.piecewise import evaluate, spline
+    from exu_press.numerics.piecewise import evaluate, spline
 
     table = np.load(Path(__file__).with_name("finite_bearing.npz"))
     x, y, ratio = -np.log1p(-table["eps"]), table["turn"], np.log(table["ratio"])

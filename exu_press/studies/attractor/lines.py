@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 
-from exu_press.columns import columns
 from exu_press.quantities import quantity_of
 from exu_press.studies.attractor.study import Attractor
+from exu_press.terminal.columns import columns
 from exu_press.verification.distribution import percentiles
 
 __all__ = ["attractor_lines"]

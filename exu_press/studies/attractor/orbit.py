@@ -7,7 +7,7 @@ import numpy as np
 
 from exu_press.arrays import Array
 from exu_press.errors import InputError
-from exu_press.integrate import Status
+from exu_press.integrate import SolverStatus
 from exu_press.joints.joint import ClearanceJoint
 from exu_press.mechanism.parts import DRIVE
 from exu_press.model import build
@@ -18,7 +18,7 @@ from exu_press.solving.solve import scales
 
 __all__ = ["Orbit"]
 
-ENDED = (Status.COMPLETED, Status.UNDER_RESOLVED)
+ENDED = (SolverStatus.COMPLETED, SolverStatus.UNDER_RESOLVED)
 
 
 class Orbit:
@@ -45,7 +45,7 @@ class Orbit:
         self.scene = scene.replace({"revolutions": 1.0, "settle": 0.0})
         model = build(self.scene)
         self._model = model if state is None else go_on_from(model, state)
-        ways = [end for ends in model.ways.values() for end in ends]
+        ways = [end for ends in model.guideways.values() for end in ends]
         self._joints: list[ClearanceJoint] = [*model.clearance_joints.values(), *ways]
         found = scales(scene).speed
         assert found is not None

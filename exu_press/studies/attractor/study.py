@@ -10,7 +10,6 @@ import numpy as np
 from exu_press.arrays import Array
 from exu_press.errors import InputError
 from exu_press.model.state import State
-from exu_press.progress import Progress
 from exu_press.quantities import quantities_of
 from exu_press.quantities.value import numbers_of
 from exu_press.result import Result
@@ -18,6 +17,7 @@ from exu_press.scene import Scene
 from exu_press.studies.attractor.lyapunov import BATCHES, Exponent, combined
 from exu_press.studies.attractor.orbit import Orbit
 from exu_press.studies.attractor.period import MOST, Period, period_of
+from exu_press.terminal.progress import Progress
 
 __all__ = ["DISTANCES", "Attractor", "attractor"]
 

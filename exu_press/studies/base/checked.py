@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from exu_press.batch.task import Row
+from exu_press.parallel.task import Row
 from exu_press.scene import Scene
 from exu_press.studies.base.runs import Runs
 from exu_press.studies.base.study import Study

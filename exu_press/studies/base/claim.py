@@ -5,10 +5,10 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from exu_press.batch import FILE
 from exu_press.errors import InputError
-from exu_press.output import write_json
-from exu_press.stored import from_json
+from exu_press.files.output_directory import write_json
+from exu_press.parallel import FILE
+from exu_press.schema.stored import from_json
 
 __all__ = ["STUDY_FILE", "claim"]
 

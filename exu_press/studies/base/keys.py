@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.checks import Table, key, table_from
 from exu_press.errors import InputError
+from exu_press.schema.checks import Table, key, table_from
 
 __all__ = ["Key", "Normal", "Range", "Values", "key_from", "keys_from"]
 

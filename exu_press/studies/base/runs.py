@@ -5,9 +5,9 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import Any, Self
 
-from exu_press.batch import Batch, Row, locked
-from exu_press.batch.task import Function
-from exu_press.output import output_directory
+from exu_press.files.output_directory import output_directory
+from exu_press.parallel import Batch, Row, locked
+from exu_press.parallel.task import Function
 from exu_press.quantities import values_of
 from exu_press.result import Result
 from exu_press.scene import Scene

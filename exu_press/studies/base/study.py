@@ -5,11 +5,11 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, TypeVar
 
-from exu_press.checks import Table, key, table_from
 from exu_press.errors import InputError
 from exu_press.scene import Scene, load_scene
+from exu_press.schema.checks import Table, key, table_from
+from exu_press.schema.toml import read_toml
 from exu_press.studies.base.keys import Key, keys_from
-from exu_press.toml import read_toml
 
 __all__ = ["Study", "load_study"]
 

@@ -6,14 +6,14 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
-from exu_press.checks import Table, key, table_from
-from exu_press.columns import columns
 from exu_press.errors import InputError
-from exu_press.output import write_json
+from exu_press.files.output_directory import write_json
 from exu_press.scene import Scene
+from exu_press.schema.checks import Table, key, table_from
 from exu_press.studies.attractor.lyapunov import BATCHES
 from exu_press.studies.base import Row, Runs, Study, Values
 from exu_press.studies.bifurcation.point import run_point
+from exu_press.terminal.columns import columns
 
 __all__ = ["Bifurcation", "Branch", "Report", "bifurcation"]
 

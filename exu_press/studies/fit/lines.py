@@ -4,12 +4,12 @@ import math
 
 import numpy as np
 
-from exu_press.columns import columns
 from exu_press.quantities.uncertain import significant
 from exu_press.studies.base import Range
 from exu_press.studies.fit.determined import Direction
 from exu_press.studies.fit.run import Report
 from exu_press.studies.sweep.units import unit_of
+from exu_press.terminal.columns import columns
 
 __all__ = ["report_lines"]
 

@@ -4,8 +4,8 @@ import dataclasses
 from collections.abc import Mapping
 from typing import Any
 
-from exu_press.checks import Table, key, table_from
 from exu_press.errors import InputError
+from exu_press.schema.checks import Table, key, table_from
 
 __all__ = ["Measured", "under_of"]
 

@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 
 from exu_press.arrays import Array
-from exu_press.batch.task import COMPLETED, Row
-from exu_press.checks import nearest
 from exu_press.errors import InputError
+from exu_press.parallel.task import COMPLETED, Row
 from exu_press.result import Result
 from exu_press.scene import Scene
+from exu_press.schema.checks import nearest
 from exu_press.studies.base import Range
 from exu_press.studies.base.checked import error_in
 from exu_press.studies.base.evaluation import Evaluation, Point, numbers_in

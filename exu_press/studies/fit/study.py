@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from exu_press.checks import Table, key, nearest, table_from
 from exu_press.errors import InputError
 from exu_press.quantities import quantity_of
+from exu_press.schema.checks import Table, key, nearest, table_from
 from exu_press.studies.base import Range, Study
 from exu_press.studies.base.evaluation import ranged
 from exu_press.studies.fit.curve import Curve

@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from exu_press.columns import columns
 from exu_press.quantities import quantity_of
 from exu_press.quantities.uncertain import significant, uncertain
 from exu_press.studies.optimise.run import Report
 from exu_press.studies.sweep.units import unit_of
+from exu_press.terminal.columns import columns
 
 __all__ = ["report_lines"]
 

@@ -15,7 +15,7 @@ from exu_press.studies.precision.own import moved, run_scene
 from exu_press.studies.precision.trajectory import Trajectory
 from exu_press.verification import Growth, growth
 
-__all__ = ["Reference", "closed_form", "from_own", "parting"]
+__all__ = ["Reference", "closed_form", "divergence", "from_own"]
 
 RESERVE = 10.0
 """An error must be this many times the references' mutual difference to be believed."""
@@ -43,8 +43,8 @@ class Reference:
         method: where it comes from, in words.
         trajectory: None if it could not be made.
         difference: between the two integrators, up to the horizon; zeros where it is exact.
-        parted: how fast neighbouring motions part, and the horizon: from when on errors exceed what
-            is looked at.
+        diverged: how fast neighbouring motions diverge, and the horizon: from when on errors exceed
+            what is looked at.
         starts: further trajectories, of starts that differ by what nobody knows, where motions part
             before the end.
     """
@@ -52,7 +52,7 @@ class Reference:
     method: str
     trajectory: Trajectory | None
     difference: Errors
-    parted: Growth = STAYS
+    diverged: Growth = STAYS
     starts: tuple[Trajectory, ...] = ()
 
     @property
@@ -88,11 +88,11 @@ def from_own(scene: Scene, tolerance: float, step: float, starts: int) -> Refere
     near = run_scene(scene, "tolerance", NEIGHBOUR * tolerance).trajectory
     if tight is None or near is None:
         return Reference(f"{method}: not all of them reached the end", None, NOTHING)
-    parted = parting(scene, tight, near)
+    diverged = divergence(scene, tight, near)
     horizon = scene.duration
-    if parted.horizon is not None:  # of whole milliseconds, as steps are
-        horizon = INSTANTS_APART * max(1.0, np.floor(parted.horizon / INSTANTS_APART))
-        parted = replace(parted, horizon=horizon)
+    if diverged.horizon is not None:  # of whole milliseconds, as steps are
+        horizon = INSTANTS_APART * max(1.0, np.floor(diverged.horizon / INSTANTS_APART))
+        diverged = replace(diverged, horizon=horizon)
     until_horizon = scene.replace(revolutions=scene.revolutions * horizon / scene.duration)
     coarse = run_scene(until_horizon, "step", 2.0 * step).trajectory
     fine = run_scene(until_horizon, "step", step).trajectory
@@ -105,16 +105,20 @@ def from_own(scene: Scene, tolerance: float, step: float, starts: int) -> Refere
     )
     peak = errors_of(fine, tight, horizon).peak_acceleration  # as sampled; no order to rely on
     difference = Errors(position, velocity, peak)
-    beside = [moved(scene, -n) for n in range(1, starts + 1)] if parted.horizon is not None else []
+    beside = (
+        [moved(scene, -n) for n in range(1, starts + 1)] if diverged.horizon is not None else []
+    )
     runs = [run_scene(other, "tolerance", LOOSER * tolerance).trajectory for other in beside]
     others = tuple(run for run in runs if run is not None)
-    return Reference(f"{method}, extrapolated", tight, difference, parted, others)
+    return Reference(f"{method}, extrapolated", tight, difference, diverged, others)
 
 
-def parting(scene: Scene, one: Trajectory, other: Trajectory) -> Growth:
+def divergence(scene: Scene, one: Trajectory, other: Trajectory) -> Growth:
     """Return how two trajectories of a scene part, until they are KNOWN apart."""
     clearances = [joint.clearance for joint in scene.joints.with_clearance.values()]
-    clearances += [g.ways.clearance for g in mechanism_of(scene).guides if g.ways is not None]
+    clearances += [
+        g.guideway.clearance for g in mechanism_of(scene).guides if g.guideway is not None
+    ]
     if not clearances:
         return STAYS
     there, _ = other.at(np.clip(one.time, other.time[0], other.time[-1]))

@@ -5,7 +5,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from typing import Any
 
-from exu_press.progress import Progress
 from exu_press.studies.precision.cases import FULL, QUICK, Amount, Case
 from exu_press.studies.precision.machine import machine
 from exu_press.studies.precision.measured import LONG_RUN, timed
@@ -13,6 +12,7 @@ from exu_press.studies.precision.references import Reference
 from exu_press.studies.precision.report import Goal, Report
 from exu_press.studies.precision.rows import ERRORS, Row, orders_of, row_of
 from exu_press.studies.precision.stated import Stated
+from exu_press.terminal.progress import Progress
 
 __all__ = ["precision"]
 
@@ -57,7 +57,7 @@ def precision(
 
     for case in (whole.within(amount) for whole in chosen):
         reference = case.reference(amount)
-        horizon = reference.parted.horizon or case.duration
+        horizon = reference.diverged.horizon or case.duration
         some = _run(case, amount, reference, horizon, quiet)
         rows += some
         stated += case.stated(amount, horizon)
@@ -97,7 +97,7 @@ def _describe(
         "scene": None if case.scene is None else case.scene.to_dict(),
         "duration": case.duration,
         "horizon": horizon,
-        "amplification": reference.parted.rate,
+        "amplification": reference.diverged.rate,
         "reference": {
             "status": "ok" if told else "no reference",
             "method": reference.method,

@@ -5,10 +5,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import astuple
 from typing import Any
 
-from exu_press.columns import columns
 from exu_press.studies.precision.errors import PEAKS_APART
 from exu_press.studies.precision.rows import ERRORS, Row
 from exu_press.studies.precision.stated import Stated
+from exu_press.terminal.columns import columns
 
 __all__ = ["case_lines", "horizon_words", "machine_lines", "order_lines", "stated_lines"]
 

@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 
-from exu_press.columns import columns
 from exu_press.quantities import Quantity, quantity_of
 from exu_press.quantities.uncertain import significant, uncertain
 from exu_press.studies.sensitivity.run import Report
+from exu_press.terminal.columns import columns
 
 __all__ = ["report_lines"]
 

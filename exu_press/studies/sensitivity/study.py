@@ -3,9 +3,9 @@
 import dataclasses
 from typing import Any, cast
 
-from exu_press.checks import Table, key, table_from
 from exu_press.errors import InputError
 from exu_press.quantities import quantity_of
+from exu_press.schema.checks import Table, key, table_from
 from exu_press.studies.base import Normal, Range, Study
 from exu_press.studies.base.evaluation import ranged
 

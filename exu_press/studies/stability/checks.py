@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from exu_press.arrays import Array
-from exu_press.integrate import Tuning
+from exu_press.integrate import SolverTuning
 from exu_press.laws.film.contract import film_scale
 from exu_press.mechanism import GROUND
 from exu_press.quantities.catalogue import ECCENTRICITY_RATIO, JOINT_FORCE, quantity_of
@@ -207,7 +207,7 @@ def _rounding(scene: Scene, name: str) -> float:
         return 0.0
     film, c = joint.film, joint.clearance
     damping = 12.0 * math.pi * film_scale(film.viscosity, film.length, joint.radius, c) / c
-    return Tuning().rounding * scene.pin_speed * damping
+    return SolverTuning().rounding * scene.pin_speed * damping
 
 
 def _ratio(value: float, scale: float) -> float:

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from exu_press.integrate import Status
+from exu_press.integrate import SolverStatus
 from exu_press.scene import Scene
 from exu_press.simulation import simulate
 from exu_press.studies.stability.checks import agreement, checks_of
@@ -15,7 +15,7 @@ RIGHT, STOPPED, WRONG = "right", "stopped", "wrong"
 FINEST = 1e-8
 """Smallest tolerance that a scene may ask for."""
 
-TOO_FINE = (Status.STEP_TOO_SMALL, Status.NOT_CONVERGED)
+TOO_FINE = (SolverStatus.STEP_TOO_SMALL, SolverStatus.NOT_CONVERGED)
 
 LESS_FINE = 0.5
 """Part of the tolerance for the finer run where a tenth cannot be had, as says its status."""

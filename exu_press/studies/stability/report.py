@@ -5,8 +5,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from exu_press.columns import columns
 from exu_press.studies.stability.judge import RIGHT, STOPPED, WRONG
+from exu_press.terminal.columns import columns
 
 __all__ = ["Report", "Row"]
 

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from exu_press.batch import run_batch
+from exu_press.parallel import run_batch
 from exu_press.studies.stability.cases import Case
 from exu_press.studies.stability.judge import WRONG, judge
 from exu_press.studies.stability.report import Report, Row

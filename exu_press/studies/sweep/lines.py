@@ -5,12 +5,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from exu_press.columns import columns
 from exu_press.errors import InputError
 from exu_press.quantities import Place, Quantity
 from exu_press.quantities.catalogue import declared
 from exu_press.studies.sweep.table import Table
 from exu_press.studies.sweep.units import unit_of
+from exu_press.terminal.columns import columns
 
 __all__ = ["shown", "table_lines"]
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 from scipy.io import netcdf_file
 
-from exu_press.output import replacing
+from exu_press.files.output_directory import replacing
 from exu_press.studies.sweep.table import Table
 from exu_press.studies.sweep.units import meaning_of, unit_of
 

@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from exu_press.batch import FILE
 from exu_press.errors import InputError
+from exu_press.parallel import FILE
 from exu_press.studies.base import Runs
 from exu_press.studies.sweep.study import Sweep
 from exu_press.studies.sweep.table import Table, table_of
@@ -23,7 +23,7 @@ def sweep(
 ) -> Table:
     """Run what is not run yet, write table.csv and table.nc, and return the table.
 
-    Called again after a kill or Ctrl-C, it goes on; see `exu_press.batch.Batch`.
+    Called again after a kill or Ctrl-C, it goes on; see `exu_press.parallel.Batch`.
 
     Args:
         study: what to run.

@@ -4,9 +4,9 @@ import dataclasses
 from functools import cached_property
 from typing import Any
 
-from exu_press.checks import Table, key, table_from
 from exu_press.errors import InputError
 from exu_press.scene import Scene
+from exu_press.schema.checks import Table, key, table_from
 from exu_press.studies.base import Study
 from exu_press.studies.base.study import load_study as load
 from exu_press.studies.sweep.points import Points, grid, listed, sample

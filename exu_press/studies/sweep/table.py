@@ -12,12 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.errors import InputError
-from exu_press.output import replacing
+from exu_press.files.output_directory import replacing
 from exu_press.quantities.cost import COSTS
 from exu_press.quantities.uncertain import uncertain
-from exu_press.stored import shown
+from exu_press.schema.stored import shown
+from exu_press.schema.toml import toml_text
 from exu_press.studies.sweep.study import Sweep
-from exu_press.toml import toml_text
 
 __all__ = ["RUN_TIMES", "Table", "cell", "table_of"]
 

@@ -4,11 +4,11 @@ import dataclasses
 from collections.abc import Mapping
 from typing import Any
 
-from exu_press.checks import Table
 from exu_press.quantities.catalogue import declared
 from exu_press.scene import DryJoint, Flexible, Scene
 from exu_press.scene.load import LOAD_KINDS
 from exu_press.scene.usage import TABLES
+from exu_press.schema.checks import Table
 
 __all__ = ["meaning_of", "unit_of"]
 

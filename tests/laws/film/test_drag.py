@@ -7,14 +7,14 @@ import pytest
 from exact_bearings import long_full_film_moments, long_half_film_moments, wall_moments
 from test_finite_bearing import ATTITUDE, ROTATION, WIDTHS, rows
 
-from exu_press.joints.pairs import FilmPair
+from exu_press.joints.interface import FilmInterface
 from exu_press.laws.film import finite, pi_film
 from exu_press.laws.film.reynolds import solve_reynolds
 
 
 def moments(law, eps, eps_dot, eps_w, spin):
     """On journal and bearing of a pair with P c = 1; the film's W is eps_w / eps."""
-    pair = FilmPair(law, 1.0, 1.0)
+    pair = FilmInterface(law, 1.0, 1.0)
     v_t = 0.5 * (eps * spin - eps_w)  # the bearing stands still
     load = pair.load(eps, eps_dot, v_t, spin, 0.0)
     return load[2], load[3]

@@ -3,7 +3,7 @@
 import pytest
 
 from exu_press import InputError, Scene
-from exu_press.batch import FILE
+from exu_press.parallel import FILE
 from exu_press.studies.base import Runs, Study
 
 SCENE = Scene(joints={"crank_pin": "ideal", "balls": "ideal"}, revolutions=0.01)

@@ -9,7 +9,7 @@ import pytest
 from exu_press import Scene
 from exu_press.studies.precision import case_of, precision
 from exu_press.studies.precision.cases import QUICK
-from exu_press.studies.precision.references import parting
+from exu_press.studies.precision.references import divergence
 from exu_press.studies.precision.table import horizon_words
 from exu_press.studies.precision.trajectory import Trajectory
 
@@ -48,10 +48,10 @@ def test_a_horizon_is_measured_where_neighbours_part(report):
     time = np.linspace(0.0, 0.2, 2001)
     one = Trajectory(time, np.zeros_like(time), np.zeros_like(time), np.zeros_like(time))
     apart = 1e-7 * clearance * 10.0 ** (time / 0.02)
-    found = parting(scene, one, dataclasses.replace(one, position=apart))
+    found = divergence(scene, one, dataclasses.replace(one, position=apart))
     assert found.horizon == pytest.approx(0.08, abs=2e-4)
     assert found.rate == pytest.approx(np.log(10.0) / 0.02, rel=1e-2)
-    assert parting(scene, one, one).horizon is None
+    assert divergence(scene, one, one).horizon is None
     text = "\n".join(report.lines())
     assert "no horizon: neighbouring motions " in text
     case = {"duration": 0.2, "horizon": 0.08, "amplification": found.rate}

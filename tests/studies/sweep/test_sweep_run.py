@@ -7,7 +7,7 @@ import sys
 import pytest
 
 from exu_press import InputError, Result, Scene, simulate
-from exu_press.batch import run_batch
+from exu_press.parallel import run_batch
 from exu_press.studies.base import run_scene
 from exu_press.studies.sweep import Sweep, sweep
 from exu_press.studies.sweep.table import RUN_TIMES

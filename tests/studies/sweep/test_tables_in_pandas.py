@@ -5,7 +5,7 @@ import json
 import pytest
 
 from exu_press import Scene, simulate
-from exu_press.output import write_json
+from exu_press.files.output_directory import write_json
 from exu_press.studies.compare import variants
 from exu_press.studies.precision import case_of, precision
 from exu_press.studies.sweep import Sweep, sweep

@@ -1,0 +1,1 @@
+"""Files that a user names, and directories for results."""

@@ -1,0 +1,336 @@
+"""The one place where laws become an Exudyn item: a massless object over the bodies' own nodes.
+
+Exudyn differentiates connectors numerically, so that a Python law is called a dozen times for each
+Jacobian. An ObjectGenericODE2 without mass, laid over the nodes of the joined bodies, takes forces
+and an analytic Jacobian instead. All clearance joints of a system share one such item, since each
+item costs a call of its own.
+"""
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from struct import Struct
+from typing import Any
+
+import exudyn as exu
+import numpy as np
+from exudyn.itemInterface import (
+    ObjectGenericODE2,
+    VObjectGenericODE2,
+)
+from numpy.typing import NDArray
+
+from exu_press.errors import InputError
+from exu_press.joints.joint import GROUND, SHALLOW, ClearanceJoint, JointState
+
+__all__ = ["UserForceElement", "user_force_of"]
+
+REGISTRY = "exu_press_joints"
+
+START = exu.ConfigurationType.StartOfStep
+
+Block = list[float] | NDArray[np.float64] | None
+"""A joint's Jacobian over its own coordinates, by rows; None where nothing acts."""
+
+
+class UserForceElement:
+    """The clearance joints of one Exudyn system, as one massless item.
+
+    Attributes:
+        joints: in the order in which they were added.
+        evaluations: how often forces were asked for.
+        item: Exudyn's object number.
+        nodes: node number -> where its coordinates start among the item's.
+        size: number of the item's coordinates.
+    """
+
+    def __init__(self, mbs: exu.MainSystem) -> None:
+        """Start without joints; the item is made with the first one."""
+        self.joints: list[ClearanceJoint] = []
+        self.evaluations = 0
+        self.item: int | None = None
+        self._mbs = mbs
+        self._data: Any = mbs.systemData
+        self.nodes: dict[int, int] = {}
+        self.size = 0
+        self._step: tuple[float, float] | None = None  # start and end of the last try, s
+        self._jacobian_time: float | None = None
+        self._last: tuple[Any, Any] = None, None
+        self._time = 0.0  # of it, s
+        self._idle: list[list[float]] = []
+        self._kept: NDArray[np.intp] | None = None
+        self._triplets: NDArray[np.float64] = np.zeros((0, 3))
+        self._pack = Struct("").pack
+        self._matrix = exu.MatrixContainer()
+        self._within: list[tuple[NDArray[np.intp], NDArray[np.intp], int]] = []
+        self._silent = False
+        self._started = False
+        self._blocks: list[Block] = []
+        self._by_q_t = 1.0
+
+    def index_of(self, node: int | None) -> int:
+        """Return where a node's coordinates start; a node that is new is taken in.
+
+        The ground has no coordinates: three zeros behind all others stand for it.
+        """
+        if node is None:
+            return -len(GROUND)
+        if node not in self.nodes:
+            self.nodes[node] = self.size
+            self.size += len(self._mbs.GetNodeParameter(node, "referenceCoordinates"))
+        return self.nodes[node]
+
+    def add(self, joint: ClearanceJoint) -> None:
+        """Take in a joint whose ends' indices come from `index_of`."""
+        self.joints.append(joint)
+        nodes = list(self.nodes)
+        entries = [
+            (row, column)
+            for joint in self.joints
+            for row in joint.indices
+            for column in joint.indices
+        ]
+        self._idle = [[0.0] * len(joint.indices) ** 2 for joint in self.joints]
+        self._pack = Struct(f"{len(entries)}d").pack
+        kept = [i for i, (row, column) in enumerate(entries) if row >= 0 and column >= 0]
+        self._kept = np.array(kept) if len(kept) < len(entries) else None  # all but the ground's
+        self._triplets = np.zeros((len(kept), 3))
+        self._triplets[:, :2] = [entries[i] for i in kept]
+        if self.item is None:
+            forces: Any = self._forces
+            jacobian: Any = self._jacobian
+            item = ObjectGenericODE2(
+                nodeNumbers=nodes,
+                forceUserFunction=forces,
+                jacobianUserFunction=jacobian,
+                visualization=VObjectGenericODE2(show=False),
+            )
+            self.item = int(self._mbs.AddObject(item))
+        else:
+            self._mbs.SetObjectParameter(self.item, "nodeNumbers", nodes)
+
+    def state(self, joint: ClearanceJoint) -> JointState:
+        """Return what a joint did when forces were last asked for."""
+        q, q_t = self._last
+        if q is None:
+            q = q_t = [0.0] * self.size
+        return joint.state([*q, *GROUND], [*q_t, *GROUND])
+
+    def refuse_start(self, called: Callable[[ClearanceJoint], str]) -> None:
+        """Refuse initial values with which a joint starts further out than its laws hold.
+
+        Args:
+            called: a joint -> what it is called.
+
+        Raises:
+            InputError: a joint does; its message has the joint, its eccentricity, its clearance and
+                what is allowed.
+        """
+        data: Any = self._mbs.systemData
+        q = self._of_item(data.GetODE2Coordinates(exu.ConfigurationType.Initial))
+        self._check_start(q, called)
+
+    def _of_item(self, values: Any) -> list[float]:
+        """Return the item's part of all coordinates of the system."""
+        q = [0.0] * self.size
+        for node, start in self.nodes.items():
+            index = self._mbs.GetNodeODE2Index(node)
+            for i in range(len(self._mbs.GetNodeParameter(node, "referenceCoordinates"))):
+                q[start + i] = float(values[index + i])
+        return q
+
+    def memory(self) -> dict[str, Any]:
+        """Return what all joints remember, for a run that goes on from here."""
+        step = None if self._step is None else list(self._step)
+        return {"step": step, "joints": [joint.memory() for joint in self.joints]}
+
+    def recall(self, memory: Mapping[str, Any]) -> None:
+        """Go on from what the joints of a system like this one remember, in the initial state."""
+        data: Any = self._mbs.systemData
+        q = self._of_item(data.GetODE2Coordinates(exu.ConfigurationType.Initial))
+        q_t = self._of_item(data.GetODE2Coordinates_t(exu.ConfigurationType.Initial))
+        for joint in self.joints:
+            joint.state([*q, *GROUND], [*q_t, *GROUND])
+        self._last = q, q_t
+        self._step = None if memory["step"] is None else tuple(memory["step"])
+        for joint, each in zip(self.joints, memory["joints"], strict=True):
+            joint.recall(each)
+
+    def _check_start(self, q: list[float], called: Callable[[ClearanceJoint], str]) -> None:
+        """Raise InputError for a joint that is further out in a state than its laws hold."""
+        self._started = True
+        if self._last[0] == q:
+            return  # a run that goes on where the last one ended: joints keep what they remember
+        for joint in self.joints:
+            e = joint.clearance - joint.state([*q, *GROUND], [0.0] * (self.size + 3)).gap
+            spent = joint.outside is not None
+            joint.reset()
+            if not spent and e <= joint.largest_eccentricity:
+                continue
+            allowed = (
+                "less, since a film ends where the surfaces touch (one with contact= goes on)"
+                if spent
+                else f"{joint.largest_eccentricity:.4g} m, a penetration of {SHALLOW:.0%} of the "
+                "radius, up to which contact laws hold"
+            )
+            raise InputError(
+                f"{called(joint)} starts with an eccentricity of {e:.4g} m at a clearance of "
+                f"{joint.clearance:.4g} m: allowed is {allowed}"
+            )
+
+    def number(self, joint: ClearanceJoint) -> str:
+        """Return a joint by its number, in the order in which they were added."""
+        return f"clearance joint {self.joints.index(joint)}"
+
+    @property
+    def lubricated(self) -> bool:
+        """Whether any joint has a film."""
+        return any(joint.lubricated for joint in self.joints)
+
+    @property
+    def widest(self) -> float:
+        """The largest clearance, m; 0.0 without joints."""
+        return max((joint.clearance for joint in self.joints), default=0.0)
+
+    @property
+    def damping(self) -> float:
+        """The most that any force changed with a speed, N s/m, in the last Jacobian.
+
+        With what the force's point of attack adds: a speed moves it within the step.
+        """
+        largest = (float(np.abs(block).max()) for block in self._blocks if block is not None)
+        return max(largest, default=0.0) / self._by_q_t
+
+    @contextmanager
+    def left_out(self) -> Iterator[None]:
+        """Keep the joints out of the Jacobians that Exudyn computes meanwhile."""
+        self._silent = True
+        try:
+            yield
+        finally:
+            self._silent = False
+
+    def add_partials(self, matrix: NDArray[np.float64], by_q: float, by_q_t: float) -> None:
+        """Add -(by_q dQ/dq + by_q_t dQ/dq_t) to a matrix over all coordinates of the system.
+
+        Q are the forces that the joints were last asked for.
+
+        Args:
+            matrix: (m, m) in one piece, m >= n, the coordinates first.
+            by_q: factor.
+            by_q_t: factor, s.
+        """
+        if not self._within:
+            self._within = [self._entries_within(joint, matrix.shape[1]) for joint in self.joints]
+        entries = matrix.reshape(-1)
+        q, q_t = self._last
+        blocks = self._partials(self._time, q, q_t, by_q, by_q_t)
+        for joint, block, (kept, within, first) in zip(
+            self.joints, blocks, self._within, strict=True
+        ):
+            if block is None:
+                continue
+            if first >= 0:
+                size = len(joint.indices)
+                matrix[first : first + size, first : first + size] += np.reshape(
+                    block, (size, size)
+                )
+            else:
+                entries[within] += np.asarray(block)[kept]  # no entry is there twice
+
+    def _entries_within(
+        self, joint: ClearanceJoint, size: int
+    ) -> tuple[NDArray[np.intp], NDArray[np.intp], int]:
+        """Return which entries of a joint's block count, and where in a matrix of the system.
+
+        The third is where they begin on its diagonal if they are one piece of it, else -1.
+        """
+        at = np.zeros(self.size, dtype=np.intp)
+        for node, start in self.nodes.items():  # a later one overwrites what is behind this one
+            at[start:] = self._mbs.GetNodeODE2Index(node) + np.arange(self.size - start)
+        indices = np.array(joint.indices)
+        rows, columns = (axis.ravel() for axis in np.meshgrid(indices, indices, indexing="ij"))
+        kept = np.flatnonzero((rows >= 0) & (columns >= 0))  # all but the ground's
+        together = bool((indices >= 0).all()) and bool((np.diff(at[indices]) == 1).all())
+        first = int(at[indices[0]]) if together else -1
+        return kept, at[rows[kept]] * size + at[columns[kept]], first
+
+    def _forces(self, mbs: exu.MainSystem, time: float, item: int, q: Any, q_t: Any) -> Any:
+        """Return the generalised forces of all joints, a list as Exudyn passes and takes it.
+
+        Not a number where a state is so far out that a law overflows.
+        """
+        self.evaluations += 1
+        if not self._started:  # of Exudyn's own solvers, which would end without a word
+            self._check_start(q, self.number)
+        self._begin_step(time)
+        self._last, self._time = (q, q_t), time
+        size = len(q)
+        q, q_t = [*q, *GROUND], [*q_t, *GROUND]
+        out = [0.0] * (size + 3)
+        try:
+            for joint in self.joints:
+                joint.add_force(q, q_t, out)
+        except OverflowError:  # Newton's method went astray, and is told so
+            return [math.nan] * size
+        return out[:size]
+
+    def _jacobian(
+        self,
+        mbs: exu.MainSystem,
+        time: float,
+        item: int,
+        q: Any,
+        q_t: Any,
+        by_q: float,
+        by_q_t: float,
+    ) -> Any:
+        """Return the Jacobian of the left-hand side: rows, columns and values; doubles add up."""
+        if self._silent:
+            self._matrix.SetWithSparseMatrix(np.zeros((0, 3)), self.size, self.size)
+            return self._matrix
+        values: list[float] = []
+        blocks = self._partials(time, q, q_t, by_q, by_q_t)
+        for block, idle in zip(blocks, self._idle, strict=True):
+            if block is None:
+                values += idle
+            elif isinstance(block, list):
+                values += block
+            else:
+                values += block.tolist()
+        weights = np.frombuffer(self._pack(*values))  # a third of the time of np.array(values)
+        self._triplets[:, 2] = weights if self._kept is None else weights[self._kept]
+        self._matrix.SetWithSparseMatrix(self._triplets, self.size, self.size)
+        return self._matrix
+
+    def _partials(self, time: float, q: Any, q_t: Any, by_q: float, by_q_t: float) -> list[Block]:
+        """Return each joint's part of the Jacobian of the left-hand side in a state."""
+        # Forces asked for twice in one state leave a joint with nothing but its tangent: the right
+        # thing for all but a step's first Jacobian, which may use where the last step ended.
+        if time == self._jacobian_time or self._last != (q, q_t):
+            self._forces(self._mbs, time, 0, q, q_t)
+        self._jacobian_time = time
+        try:
+            self._blocks = [joint.jacobian(by_q, by_q_t) for joint in self.joints]
+        except OverflowError:
+            self._blocks = [None] * len(self.joints)
+        self._by_q_t = by_q_t
+        return self._blocks
+
+    def _begin_step(self, time: float) -> None:
+        """Tell the joints about the step that is being tried."""
+        if self._step is not None and self._step[1] == time:
+            return
+        start = self._data.GetTime(START)
+        accepted = self._step is None or start != self._step[0] or start == self._step[1]
+        self._step = start, time
+        for joint in self.joints:
+            joint.begin_step(time - start, accepted)
+
+
+def user_force_of(mbs: exu.MainSystem) -> UserForceElement:
+    """Return the user force element of a system, kept with the system's own variables."""
+    user_force = mbs.variables.get(REGISTRY)
+    if user_force is None:
+        user_force = mbs.variables[REGISTRY] = UserForceElement(mbs)
+    return user_force

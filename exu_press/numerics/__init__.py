@@ -1,0 +1,1 @@
+"""Numerical methods shared by laws, quantities and the start of a run."""

@@ -1,0 +1,175 @@
+"""Run a batch: what is finished already is read, the rest is run, each row kept as it comes."""
+
+import os
+import sys
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, wait
+from contextlib import AbstractContextManager, ExitStack
+from itertools import islice
+from pathlib import Path
+from typing import Any, Protocol, Self
+
+from exu_press.errors import InputError
+from exu_press.files.output_directory import output_directory
+from exu_press.parallel.lock import locked
+from exu_press.parallel.processes import Processes
+from exu_press.parallel.rows import RowFile
+from exu_press.parallel.task import TIME_LIMIT, Function, Row, Task, name_of, task_of
+from exu_press.terminal.progress import Progress
+
+__all__ = ["FILE", "Batch", "run_batch"]
+
+FILE = "runs.jsonl"
+
+
+class Pool(Protocol):
+    """What performs tasks.
+
+    Attributes:
+        window: how many tasks are handed over at a time.
+    """
+
+    window: int
+
+    def submit(self, task: Task) -> Future[Row]:
+        """Return the future row of a task."""
+        ...
+
+    def row(self, future: Future[Row]) -> Row:
+        """Return the row of a future that is done."""
+        ...
+
+
+class Batch(ExitStack):
+    """Runs of one function in one directory, in calls that go on where others stopped.
+
+    Finished rows are appended to directory/runs.jsonl, on the disk before the next one; called
+    again, the batch goes on where it was stopped or killed. What a row says of a run that did not
+    get there: `status` is "failed" (an exception), "time limit" or "worker died" (killed or
+    crashed, also when tried once more), and `reason` says more in one line. Every row has both.
+    """
+
+    def __init__(
+        self,
+        function: Function,
+        directory: str | Path,
+        *,
+        workers: int | None = None,
+        dask: str | None = None,
+        time_limit: float | None = None,
+        kept: Callable[[Mapping[str, Any]], bool] | None = None,
+        label: str = "sweep",
+        quiet: bool = False,
+    ) -> None:
+        """Prepare; a process starts with the first run that is not finished yet.
+
+        Args:
+            function: takes and returns a JSON-able dictionary; it stands at the top level of a
+                module, from where workers import it. NaN and infinity become None.
+            directory: belongs to one batch at a time.
+            workers: number of processes, each with one BLAS thread; all cores unless told.
+            dask: address of a Dask scheduler, tcp://host:port, whose workers are used instead.
+            time_limit: of one run, s; a run over it is stopped.
+            kept: says of a run's arguments whether the files that it wrote are still there; a
+                finished run is done again where they are not.
+            label: of the progress bar.
+            quiet: no progress bar.
+
+        Raises:
+            InputError: the number of workers or the time limit is not positive.
+            ValueError: the function cannot be imported.
+        """
+        super().__init__()
+        if workers is not None and workers < 1:
+            raise InputError(f"workers = {workers}: allowed is a whole number >= 1")
+        if time_limit is not None and not time_limit > 0.0:
+            raise InputError(f"time_limit = {time_limit:g}: allowed is a number > 0 (s)")
+        self._name = name_of(function)
+        self._directory = Path(directory)
+        self._workers, self._dask, self._limit = workers or os.cpu_count() or 1, dask, time_limit
+        self._kept, self._label, self._quiet = kept, label, quiet
+        self._pool: Pool | None = None
+
+    def __enter__(self) -> Self:
+        """Take the directory and read what is finished.
+
+        Raises:
+            InputError: `directory` cannot be used, or another batch is at work in it.
+        """
+        super().__enter__()
+        try:
+            output_directory(self._directory)
+            self.enter_context(locked(self._directory))
+            self._file = self.enter_context(RowFile(self._directory / FILE))
+        except BaseException:
+            self.close()
+            raise
+        return self
+
+    def rows(self, arguments: Sequence[Mapping[str, Any]]) -> list[Row]:
+        """Return the function's row for each of the arguments, in their order.
+
+        Args:
+            arguments: one dictionary a run; equal ones are run once.
+
+        Raises:
+            InputError: no scheduler answers, or a row cannot be written.
+            ValueError, TypeError: the arguments are no JSON.
+            KeyboardInterrupt: after Ctrl-C; finished rows are kept.
+        """
+        tasks = [task_of(self._name, each) for each in arguments]
+        rows = {task.key: self._file.finished(task.key, self._limit) for task in tasks}
+        for task, each in zip(tasks, arguments, strict=True):
+            row = rows[task.key]
+            if self._kept and row and row["status"] != TIME_LIMIT and not self._kept(each):
+                rows[task.key] = None
+        todo = list({task.key: task for task in tasks if rows[task.key] is None}.values())
+        if len(todo) < len(rows) and not self._quiet:
+            there = f"{len(rows) - len(todo)} of {len(rows)}"
+            print(f"{self._label}: {there} are there", file=sys.stderr)
+        if todo:
+            pool = self._pool or self.enter_context(_pool(self._workers, self._dask, self._limit))
+            self._pool = pool
+            with Progress(self._label, len(todo), "runs", quiet=self._quiet) as progress:
+                for done, (task, row) in enumerate(_performed(pool, todo), start=1):
+                    self._file.append(task.key, self._limit, row)
+                    rows[task.key] = row
+                    progress.update(done)
+        return [dict(rows[task.key] or {}) for task in tasks]
+
+
+def run_batch(
+    function: Function,
+    arguments: Sequence[Mapping[str, Any]],
+    directory: str | Path,
+    **options: Any,
+) -> list[Row]:
+    """Return the rows of one call: `Batch` with these options, and its `rows`."""
+    with Batch(function, directory, **options) as batch:
+        return batch.rows(arguments)
+
+
+def _pool(
+    workers: int, dask: str | None, time_limit: float | None
+) -> AbstractContextManager[Pool, None]:
+    """Return where tasks are performed."""
+    if dask is None:
+        return Processes(workers, time_limit)
+    from exu_press.parallel.cluster import Cluster
+
+    return Cluster(dask, time_limit)
+
+
+def _performed(pool: Pool, tasks: Iterable[Task]) -> Iterator[tuple[Task, Row]]:
+    """Yield tasks and rows as they finish.
+
+    Only pool.window tasks are under way at a time, and another one begins when the caller is done
+    with a row: so many at most are lost with the caller.
+    """
+    remaining = iter(tasks)
+    running = {pool.submit(task): task for task in islice(remaining, pool.window)}
+    while running:
+        finished, _ = wait(running, return_when=FIRST_COMPLETED)
+        for future in finished:
+            yield running.pop(future), pool.row(future)
+            running |= {pool.submit(task): task for task in islice(remaining, 1)}

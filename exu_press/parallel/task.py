@@ -1,0 +1,101 @@
+"""One run of a batch: which function, with which arguments, under which versions."""
+
+import hashlib
+import importlib
+import json
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from exu_press.parallel.sources import source_digest
+from exu_press.versions import version_of
+
+__all__ = [
+    "COMPLETED",
+    "FAILED",
+    "TIME_LIMIT",
+    "WORKER_DIED",
+    "Function",
+    "Row",
+    "Task",
+    "function_of",
+    "name_of",
+    "task_of",
+    "versions",
+]
+
+Row = dict[str, Any]
+Function = Callable[[dict[str, Any]], Row]
+
+COMPLETED = "completed"
+FAILED = "failed"
+TIME_LIMIT = "time limit"
+WORKER_DIED = "worker died"
+
+PACKAGES = ("exu-press", "exudyn", "ngsolve")
+"""Whose version changes what a run gives."""
+
+
+@dataclass(frozen=True)
+class Task:
+    """One run.
+
+    Attributes:
+        key: sha256 of everything that determines the row.
+        function: "module:name".
+        arguments: canonical JSON.
+        versions: of PACKAGES and of the sources; a worker with others refuses.
+    """
+
+    key: str
+    function: str
+    arguments: str
+    versions: Mapping[str, str | None]
+
+
+def task_of(function: str, arguments: Mapping[str, Any]) -> Task:
+    """Return the task of a function's name and its arguments.
+
+    Raises:
+        ValueError, TypeError: the arguments are no JSON.
+    """
+    text = _canonical(arguments)
+    known = versions(function)
+    everything = _canonical({"function": function, "arguments": text, "versions": known})
+    return Task(hashlib.sha256(everything.encode()).hexdigest(), function, text, known)
+
+
+def versions(function: str) -> dict[str, str | None]:
+    """Return the versions of PACKAGES, None for what is not installed, and of a function's sources.
+
+    Our own version alone would not do: sources change between two versions.
+    """
+    sources = source_digest(function.partition(":")[0].partition(".")[0])
+    return {"sources": sources, **{package: version_of(package) for package in PACKAGES}}
+
+
+def name_of(function: Function) -> str:
+    """Return "module:name" of a function that a worker can import.
+
+    Raises:
+        ValueError: it is a lambda, a method, inside a function, or in the script that is run.
+    """
+    module, name = function.__module__, function.__qualname__
+    if module == "__main__" or getattr(importlib.import_module(module), name, None) is not function:
+        raise ValueError(
+            f"{module}.{name}: a worker cannot import it; allowed is a function at the top level "
+            "of a module that is not the script itself"
+        )
+    return f"{module}:{name}"
+
+
+def function_of(name: str) -> Function:
+    """Return the function of "module:name"."""
+    module, _, inner = name.partition(":")
+    function: Function = getattr(importlib.import_module(module), inner)
+    return function
+
+
+def _canonical(data: Any) -> str:
+    """Return JSON that is the same for equal data: sorted keys, no spaces, no NaN."""
+    return json.dumps(data, sort_keys=True, separators=(",", ":"), allow_nan=False)

@@ -1,0 +1,1 @@
+"""Typed tables of TOML and JSON: one validation."""

@@ -1,0 +1,280 @@
+"""How a key of the scene states what it allows, and its validation."""
+
+import copy
+import dataclasses
+import difflib
+import itertools
+import math
+import numbers
+import types
+import typing
+from collections.abc import Collection, Iterable, Mapping
+from typing import Any, ClassVar, Self, TypeVar
+
+from exu_press.errors import InputError
+
+__all__ = [
+    "RENAMED",
+    "Table",
+    "Uses",
+    "demand_keys",
+    "given_in",
+    "key",
+    "nearest",
+    "table_from",
+    "table_with",
+]
+
+T = TypeVar("T")
+
+Uses = Mapping[str, Mapping[Any, tuple[str, ...]]]
+
+RENAMED = {
+    "crank_pin": "joints.crank_pin",
+    "balls": "joints.balls",
+    "clearance": "joints.NAME.clearance",
+    "contact.radius": "joints.NAME.radius",
+    "flexible": "bodies.NAME",
+    "blanking": "load.NAME with kind = 'blanking'",
+    "guide.damping_depth": "contact.damping_depth",
+    "woehler_stress": "sn_stress, of the S-N curve",
+    "woehler_cycles": "sn_cycles, of the S-N curve",
+    "woehler_slope": "sn_slope, of the S-N curve",
+    "guide.slider_inertia": "a key of [press] or [slider_crank]",
+    "guide.slide_inertia": "press.slide_inertia",
+    "guide.counterweight_inertia": "press.counterweight_inertia",
+}
+"""Keys of before -> what is written instead."""
+
+
+def key(
+    default: Any,
+    meaning: str,
+    unit: str = "",
+    *,
+    above: float | None = None,
+    at_least: float | None = None,
+    at_most: float | None = None,
+    choices: tuple[str, ...] = (),
+    also: type | None = None,
+    numbers: int | None = None,
+    source: str = "",
+    example: float | None = None,
+) -> Any:
+    """Declare one key of a scene table: its default, meaning, unit and allowed range.
+
+    `also` is a class whose objects are allowed as they are; `numbers` says that the value is a list
+    of so many numbers, of any number of them where that is 0. `source` says where a default is
+    from that decides results; `example` is shown where a key has none and is needed.
+    """
+    metadata = {
+        "meaning": meaning,
+        "unit": unit,
+        "above": above,
+        "at_least": at_least,
+        "at_most": at_most,
+        "choices": choices,
+        "also": also,
+        "numbers": numbers,
+        "source": source,
+        "example": example,
+    }
+    return dataclasses.field(default=default, metadata=metadata)
+
+
+def _allowed(field: dataclasses.Field[Any]) -> str:
+    """Return what a key allows, in words."""
+    meta = field.metadata
+    if meta.get("choices"):
+        also = f", or {meta['meaning']}" if meta.get("also") else ""
+        return "one of " + ", ".join(repr(choice) for choice in meta["choices"]) + also
+    if meta.get("numbers") is not None:
+        count = f"{meta['numbers']} numbers" if meta["numbers"] else "numbers"
+        return f"a list of {count} ({meta['meaning']}{', ' + meta['unit'] if meta['unit'] else ''})"
+    kind = _kind(field)
+    noun = {float: "a number", int: "a whole number", bool: "true or false", str: "a text"}[kind]
+    bounds = [
+        f"{sign} {meta[name]:g}"
+        for name, sign in (("above", ">"), ("at_least", ">="), ("at_most", "<="))
+        if meta.get(name) is not None
+    ]
+    text = " ".join([noun, " and ".join(bounds)]).strip()
+    return f"{text} ({meta['meaning']}{', ' + meta['unit'] if meta['unit'] else ''})"
+
+
+@dataclasses.dataclass(frozen=True)
+class Table:
+    """A table of the scene: frozen, and checked once, when it is made."""
+
+    table: ClassVar[str] = ""
+
+    uses: ClassVar[Uses] = {}
+    """Key that is a choice -> what is chosen -> the keys that only some choices use."""
+
+    def __new__(cls, *values: Any, **keys: Any) -> Self:
+        """Remember which keys are given, so that a default gives way to a mechanism's own."""
+        made = super().__new__(cls)
+        names = [field.name for field in dataclasses.fields(cls)][: len(values)]
+        object.__setattr__(made, "_given", frozenset([*names, *keys]))
+        return made
+
+    @property
+    def given(self) -> dict[str, Any]:
+        """The keys that were given, and what they are."""
+        names: frozenset[str] = self._given  # type: ignore[attr-defined]
+        values = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
+        return {name: v for name, v in values.items() if name in names and v is not None}
+
+    def unused(self, **instead: str) -> dict[str, str]:
+        """Return the keys that this table does not use -> the reason.
+
+        Args:
+            instead: other choices than the table's own.
+        """
+        found = {}
+        for choice, by_chosen in self.uses.items():
+            chosen = instead.get(choice, getattr(self, choice))
+            used = by_chosen[chosen]
+            for key in itertools.chain(*by_chosen.values()):
+                if key not in used:
+                    shown = str(chosen).lower() if isinstance(chosen, bool) else repr(chosen)
+                    found[key] = f"{self.table}.{choice} is {shown}"
+        return found
+
+    def without(self, unused: Iterable[str]) -> Self:
+        """Return the table with None for keys that are not used."""
+        other = copy.copy(self)
+        for name in unused:
+            object.__setattr__(other, name, None)
+        return other
+
+    def __post_init__(self) -> None:
+        """Check every key; raise InputError for the first one that is not allowed."""
+        for field in dataclasses.fields(self):
+            if "meaning" in field.metadata:
+                name = f"{self.table}.{field.name}" if self.table else field.name
+                value = _checked(field, name, getattr(self, field.name))
+                object.__setattr__(self, field.name, value)
+
+
+def _checked(field: dataclasses.Field[Any], name: str, value: Any) -> Any:
+    """Return the value of one key in its declared type, or raise InputError.
+
+    A whole number is taken for a number; nothing else is converted, clamped or defaulted.
+    """
+    if value is None and field.default is None:
+        return None
+    if field.metadata.get("also") and isinstance(value, field.metadata["also"]):
+        return value
+    if field.metadata.get("numbers") is not None:
+        return _numbers(field, name, value)
+    kind = _kind(field)
+    if not isinstance(value, bool):
+        if kind is float and isinstance(value, numbers.Real):
+            value = _float(value)
+        elif kind is int and isinstance(value, numbers.Integral):
+            value = int(value)
+    meta = field.metadata
+    right = (
+        type(value) is kind
+        and (kind is not float or math.isfinite(typing.cast(float, value)))
+        and (meta["above"] is None or value > meta["above"])
+        and (meta["at_least"] is None or value >= meta["at_least"])
+        and (meta["at_most"] is None or value <= meta["at_most"])
+        and (not meta["choices"] or value in meta["choices"])
+    )
+    if not right:
+        raise InputError(f"{name} = {value!r:.200}: allowed is {_allowed(field)}")
+    return value
+
+
+def _numbers(field: dataclasses.Field[Any], name: str, value: Any) -> tuple[float, ...]:
+    """Return a list of finite numbers as a tuple, or raise InputError."""
+    count = field.metadata["numbers"]
+    if isinstance(value, list | tuple) and (not count or len(value) == count):
+        found = [
+            _float(each)
+            if isinstance(each, numbers.Real) and not isinstance(each, bool)
+            else math.nan
+            for each in value
+        ]
+        if all(map(math.isfinite, found)):
+            return tuple(found)
+    raise InputError(f"{name} = {value!r:.80}: allowed is {_allowed(field)}")
+
+
+def _float(value: Any) -> float:
+    try:
+        return float(value)
+    except OverflowError:
+        return math.inf
+
+
+def demand_keys(place: str, table: Table, keys: Collection[str], law: str, where: str) -> None:
+    """Raise InputError for the first of some keys that a table does not have.
+
+    Args:
+        place: what needs them.
+        table: with them.
+        keys: that are needed, each with an example.
+        law: name of the table in the message, if it has one.
+        where: they may be given.
+    """
+    for field in dataclasses.fields(table):
+        if field.name in keys and getattr(table, field.name) is None:
+            meta, name = field.metadata, f"{law}.{field.name}".lstrip(".")
+            raise InputError(
+                f"{place} needs {name} ({meta['meaning']}, {meta['unit']}), which decides its "
+                f"result and has no default; give it in {where}, as in "
+                f"{field.name} = {meta['example']:g}"
+            )
+
+
+def table_from(table: type[T], name: str, data: Any) -> T:
+    """Return the table `name` of a scene from a mapping of its keys ("" is the scene itself)."""
+    if isinstance(data, table):
+        return data
+    if not isinstance(data, Mapping):
+        raise InputError(f"{name} = {data!r:.200}: allowed is a table of keys")
+    known = [field.name for field in dataclasses.fields(table)]  # type: ignore[arg-type]
+    for given in data:
+        if given not in known:
+            path = f"{name}.{given}" if name else given
+            raise InputError(
+                f"{path} = {data[given]!r:.200}: "
+                + (
+                    f"is {RENAMED.get(path) or RENAMED[given]} now"
+                    if {path, given} & RENAMED.keys()
+                    else f"unknown key{nearest(given, known)}; allowed are {', '.join(known)}"
+                )
+            )
+    return table(**data)
+
+
+def table_with(table: type[T], name: str, data: Any, usual: Mapping[str, Any]) -> T:
+    """Return the table `name` of a scene; what `data` does not give is as in `usual`."""
+    if isinstance(data, table):
+        data = typing.cast(Table, data).given
+    return table_from(table, name, {**usual, **data} if isinstance(data, Mapping) else data)
+
+
+def given_in(table: Any) -> dict[str, Any]:
+    """Return the keys that a table gives, as a mapping or as its dataclass; none of None."""
+    keys = table.given if isinstance(table, Table) else table or {}
+    return dict(keys) if isinstance(keys, Mapping) else {}
+
+
+def nearest(name: Any, known: Iterable[str]) -> str:
+    """Return a question after the known name that is most like a misspelt one, or nothing.
+
+    >>> nearest("viscocity", ["law", "viscosity"])
+    " (did you mean 'viscosity'?)"
+    """
+    found = difflib.get_close_matches(str(name), list(known), n=1)
+    return f" (did you mean {found[0]!r}?)" if found else ""
+
+
+def _kind(field: dataclasses.Field[Any]) -> type:
+    """Return the scalar type of a field declared as `kind` or `kind | None`."""
+    kinds = typing.get_args(field.type) or (field.type,)
+    return next(kind for kind in kinds if isinstance(kind, type) and kind is not types.NoneType)

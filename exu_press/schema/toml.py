@@ -1,0 +1,53 @@
+"""TOML: read from a file, or say in one line why it cannot be; and values as it has them."""
+
+import json
+import re
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from exu_press.errors import InputError
+from exu_press.files.input_file import read_text
+
+__all__ = ["parse_toml", "read_toml", "toml_text"]
+
+DECIMAL_COMMA = re.compile(r"^\s*[\w.]+\s*=\s*[-+]?\d+,\d+", re.MULTILINE)
+
+
+def read_toml(path: Path) -> dict[str, Any]:
+    """Return what a TOML file holds.
+
+    Raises:
+        InputError: the file cannot be read or parsed.
+    """
+    return parse_toml(read_text(path), str(path))
+
+
+def parse_toml(text: str, where: str) -> dict[str, Any]:
+    """Return what a text in TOML holds.
+
+    Raises:
+        InputError: the text is no TOML, nests too deep, or has a number of too many digits.
+    """
+    try:
+        return tomllib.loads(text)
+    except RecursionError:
+        raise InputError(f"{where}: nests too deep; allowed are some 100 levels") from None
+    except tomllib.TOMLDecodeError as error:
+        comma = DECIMAL_COMMA.search(text)
+        found = f"; {comma[0]!r} has a decimal comma, TOML a point" if comma else ""
+        raise InputError(f"{where}: not a TOML file ({error}{found})") from None
+    except ValueError:  # Python's own limit on whole numbers
+        raise InputError(f"{where}: a number has too many digits; allowed are 4300") from None
+
+
+def toml_text(value: Any) -> str:
+    """Return a value in TOML: JSON's texts and switches are TOML's, and so is Python's float."""
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(f"{key} = {toml_text(inner)}" for key, inner in value.items()) + "}"
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(map(toml_text, value)) + "]"
+    if type(value) is float and float(short := f"{value:g}") == value:
+        return short if set(short) & set(".e") else f"{short}.0"
+    return repr(value) if type(value) in (float, int) else json.dumps(value, ensure_ascii=False)

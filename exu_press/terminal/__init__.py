@@ -1,0 +1,1 @@
+"""What a terminal shows: texts in columns, and how far a long job is."""

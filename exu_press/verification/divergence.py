@@ -1,0 +1,65 @@
+"""How a run and one beside it diverge: in joints and guides with clearance."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from exu_press.arrays import Array
+from exu_press.result import Result
+from exu_press.scene import mechanism_of
+from exu_press.verification.growth import Growth, growth
+
+__all__ = ["Divergence", "divergence"]
+
+APART = 0.3
+"""Of a clearance: journals that differ by this have nothing in common any more."""
+
+
+@dataclass(frozen=True)
+class Divergence:
+    """How a run parts from the truth, as far as one beside it tells.
+
+    Attributes:
+        beside: instant from which on the two have nothing in common, s, or None.
+        growth: of their distance, until the run itself has nothing in common with the truth.
+    """
+
+    beside: float | None
+    growth: Growth
+
+
+def divergence(result: Result, other: Result, ratio: float) -> Divergence:
+    """Return how fast two runs of a scene part, in clearances, and from when on they have diverged.
+
+    As long as errors go with the tolerance, the run is nearer to the truth than to the other one,
+    by the ratio less one.
+
+    Args:
+        result: whose instants count.
+        other: at another tolerance or step.
+        ratio: of the other one's tolerance or step to the run's.
+    """
+    distance = np.zeros_like(result.time)
+    for (clearance, here), (_, there) in zip(_plays(result), _plays(other), strict=True):
+        squares = [
+            (np.interp(result.time, other.time, there[:, i]) - here[:, i]) ** 2
+            for i in range(here.shape[1])
+        ]
+        distance = np.maximum(distance, np.sqrt(np.sum(squares, axis=0)) / clearance)
+    beside = growth(result.time, distance, APART).horizon
+    return Divergence(beside, growth(result.time, distance, APART * max(1.0, ratio - 1.0)))
+
+
+def _plays(run: Result) -> Iterator[tuple[float, Array]]:
+    """Yield each clearance, m, and where in it the body is, (n, k), m."""
+    for name in run.clearance_joints:
+        yield run.joints[name].clearance, run[f"{name}_eccentricity"]
+    mechanism = mechanism_of(run.scene)
+    for guide in mechanism.guides:
+        if guide.guideway is not None:
+            position = run["body_position"][:, run.bodies.index(guide.body)]
+            beside = position[:, :2] @ np.array(guide.across)
+            angle = position[:, 2] - mechanism.body(guide.body).angle
+            reach = 0.5 * guide.guideway.length * np.sin(angle)
+            yield guide.guideway.clearance, np.stack([beside - reach, beside + reach], axis=1)

@@ -1,0 +1,199 @@
+"""Runs of the same scene at other tolerances, beside the run itself, in further processes."""
+
+import math
+import multiprocessing
+import pickle
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Iterator, Sequence
+from multiprocessing.process import BaseProcess
+from pathlib import Path
+
+from exu_press.model.state import State
+from exu_press.result import Result
+from exu_press.scene import Scene
+from exu_press.verification import refinement_process
+
+__all__ = ["RefinementRuns", "plan"]
+
+OF_STEPS = (2.0, 3.0, 4.0)
+"""Fixed steps of the refinements over the run's: their errors and cost go with the step."""
+
+PLANS: dict[str, dict[float, tuple[float, ...]]] = {
+    "smooth": {
+        16.0: (4.0, 8.0),
+        4.0: (2.0, 4.0),
+        2.0: (0.5, 2.0),
+        0.0: (0.25, 0.5),
+    },
+    "rigid": {
+        16.0: (4.0, 8.0, 16.0),
+        8.0: (2.0, 4.0, 8.0),
+        4.0: (2.0, 4.0),
+        2.0: (0.5, 2.0),
+        0.0: (0.25, 0.5),
+    },
+    "flexible": {64.0: (0.5, 8.0), 8.0: (0.25, 8.0), 0.0: (0.25, 0.5)},
+}
+"""Tolerances of the refinements over the run's, by kind of scene and by how much looser is allowed.
+
+- At least two, as a single one may agree with the run by chance; coarser ones, as all of them
+  together then take little longer than the run.
+- Smooth: nothing has clearance. Coarser runs take little less time there, and two cover 96 % of
+  figures, three 97 %.
+- Flexible bodies beside clearances: coarser runs do not follow vibrations of some kHz, so that
+  their figures agree with each other and not with the truth. At loose tolerances many errors are
+  nearly the same at half of it, too. In six runs at 1e-2 and 1e-3 a half covers 98 % of figures, a
+  quarter 99.8 %, which takes a third more time; three coarser refinements cover 94 %.
+
+The least ratio is first: it tells where the motions part, and the coarsest are done soonest.
+"""
+
+LOOSEST = 0.1
+"""No run has a looser tolerance."""
+
+LARGEST_STEP = 15.0
+"""degrees"""
+
+POLL = 2e-3
+"""s, between two looks for a result."""
+
+Process = BaseProcess | subprocess.Popen[bytes]
+
+SAID = "said_{}.txt"
+"""What the process of the refinement of this number wrote to its terminal."""
+
+
+def plan(scene: Scene) -> dict[float, Scene]:
+    """Return the refinements of a scene, by the ratio of their tolerance (or step) to its own."""
+    solver = scene.solver
+    assert solver is not None
+    if solver.step is not None:
+        return {ratio: scene.replace("solver.step", ratio * solver.step) for ratio in OF_STEPS}
+    tolerance = solver.tolerance
+    assert tolerance is not None
+    loose = scene.joints.with_clearance or (scene.guide and scene.guide.clearance)
+    kind = "smooth" if not loose else "flexible" if scene.bodies else "rigid"
+    room = next(least for least in PLANS[kind] if least * tolerance <= LOOSEST)
+    found = {}
+    ratios = PLANS[kind][room]
+    for ratio in ratios:
+        change = {"solver.tolerance": ratio * tolerance}
+        # impacts and films keep most steps far below the largest one: their error is seen best
+        # where that is the same, and the last refinement tells where it sets the steps
+        if not loose or ratio == ratios[-1]:
+            longest = math.sqrt(ratio) * solver.max_step_deg
+            change["solver.max_step_deg"] = min(longest, LARGEST_STEP)
+        found[ratio] = scene.replace(change)
+    return found
+
+
+def _may_fork() -> bool:
+    """Return whether a copy of this process can go on by itself.
+
+    It has this thread alone, so a lock that another one holds is never released in it; NGSolve has
+    threads of its own. A process of multiprocessing's pools may have no children of that kind.
+    """
+    return (
+        sys.platform == "linux"
+        and threading.active_count() == 1
+        and "ngsolve" not in sys.modules
+        and not multiprocessing.current_process().daemon
+    )
+
+
+def _forked(directory: Path, numbers: Sequence[int]) -> None:
+    """Do in a copy of this process what `refinement_process` does in a new one."""
+    sys.stdout = sys.stderr = _said(directory, numbers).open("w", encoding="utf-8")
+    refinement_process.main(directory, numbers)
+
+
+def _said(directory: Path, numbers: Sequence[int]) -> Path:
+    """Return what the process of these refinements writes to its terminal."""
+    return directory / SAID.format(numbers[0])
+
+
+def _started(directory: Path, numbers: Sequence[int]) -> Process:
+    """Start a process for refinements.
+
+    A copy of this process is there at once; a new one takes as long as a short run to load the
+    package, and is started by hand, as multiprocessing would run the user's script again in it.
+    """
+    said = _said(directory, numbers)
+    said.touch()
+    if _may_fork():
+        fork = multiprocessing.get_context("fork")
+        process = fork.Process(target=_forked, args=(directory, numbers))
+        process.start()
+        return process
+    command = [
+        sys.executable,
+        "-m",
+        refinement_process.__name__,
+        str(directory),
+        *map(str, numbers),
+    ]
+    with said.open("wb") as terminal:
+        return subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=terminal, stderr=terminal)
+
+
+class RefinementRuns:
+    """The refinements of a scene under way; a context manager that leaves no process behind."""
+
+    def __init__(self, scene: Scene, start: State | None = None) -> None:
+        """Start them, one after the other in a process of their own.
+
+        A first one that is finer than the run takes longer than it. The others then have a process
+        that gives way to it, so that two cores are busy until all are done.
+        """
+        self._scenes = plan(scene)
+        self._temporary = tempfile.TemporaryDirectory(prefix="exu_press_")
+        self._directory = Path(self._temporary.name)
+        (self._directory / refinement_process.SCENES).write_bytes(
+            pickle.dumps([(each, start) for each in self._scenes.values()])
+        )
+        numbers = range(len(self._scenes))
+        finer = next(iter(self._scenes)) < 1.0
+        self._parts = [numbers[:1], numbers[1:]] if finer else [numbers]
+        self._processes = [_started(self._directory, numbers) for numbers in self._parts]
+
+    def results(self) -> Iterator[tuple[float, Result]]:
+        """Yield ratio and result of each, as soon as it is there.
+
+        Raises:
+            RuntimeError: the process failed.
+        """
+        ratios = [*self._scenes]
+        for numbers, process in zip(self._parts, self._processes, strict=True):
+            for number in numbers:
+                path = self._directory / refinement_process.RESULT.format(number)
+                while not path.exists():
+                    if (status := _status(process)) is not None and not path.exists():
+                        said = _said(self._directory, numbers)
+                        words = said.read_text(encoding="utf-8", errors="replace").strip()
+                        raise RuntimeError(f"a refinement run failed ({status}): {words[-2000:]}")
+                    time.sleep(POLL)
+                yield ratios[number], pickle.loads(path.read_bytes())
+
+    def __enter__(self) -> "RefinementRuns":
+        """Return the refinements."""
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """End the processes that are not done, and clear away what they wrote."""
+        for process in self._processes:
+            process.kill()
+        for process in self._processes:
+            if isinstance(process, subprocess.Popen):
+                process.wait()
+            else:
+                process.join()
+        self._temporary.cleanup()
+
+
+def _status(process: Process) -> int | None:
+    """Return a process's exit status, None as long as it runs."""
+    return process.poll() if isinstance(process, subprocess.Popen) else process.exitcode

@@ -1,0 +1,122 @@
+"""[guide] with clearance: Coulomb's law in a slider-crank, contact, energy, bad input."""
+
+import numpy as np
+import pytest
+from pressed import pressed_slider_crank
+
+from exu_press import InputError, Scene, simulate
+from exu_press.scene import mechanism_of
+
+MU, FORCE, CLEARANCE = 0.2, 1e5, 2e-5
+
+
+@pytest.fixture(scope="module")
+def pressed():
+    guide = {"clearance": CLEARANCE, "friction": "coulomb", "mu_kinetic": MU}
+    calm = {"contact": {"restitution": 0.1}, "solver": {"tolerance": 1e-4}}
+    return pressed_slider_crank(FORCE, start_angle_deg=20.0, revolutions=0.85, guide=guide, **calm)
+
+
+def coulomb(result):
+    """Return side force, speed and drive torque by statics, for where the slider slides.
+
+    With S along the rod, N across: N = S sin, F + mu N = S cos on the way down, F - mu N on the way
+    up.
+    """
+    size, speed = result.scene.slider_crank, result.scene.angular_speed
+    angle = result["crank_angle"]
+    sine = size.crank_radius * np.sin(angle) / size.rod_length
+    tangent = sine / np.sqrt(1 - sine**2)
+    velocity = mechanism_of(result.scene).ideal_slider(angle, speed)[1]
+    # the friction's part grows with |N| and acts against the velocity
+    side = FORCE * tangent / (1 - MU * np.abs(tangent) * -np.sign(velocity))
+    torque = (-FORCE * velocity + MU * np.abs(side * velocity)) / speed
+    return side, velocity, torque
+
+
+def test_side_force_friction_and_torque_are_those_of_statics(pressed):
+    side, velocity, torque = coulomb(pressed)
+    settled = (pressed.time > 0.5) & (np.abs(velocity) > 5e-3) & (np.abs(side) > 500.0)
+    assert settled.sum() > 500
+    scale = np.abs(side).max()
+    assert np.abs(np.abs(pressed["guide_force"]) - np.abs(side))[settled].max() < 5e-3 * scale
+    found = pressed["guide_friction"][settled]
+    assert found == pytest.approx(
+        -MU * np.sign(velocity[settled]) * np.abs(pressed["guide_force"][settled]), rel=1e-3
+    )
+    wrong = np.abs(pressed["drive_torque"] - torque)[settled].max()
+    assert wrong < 5e-3 * np.abs(torque).max()
+
+
+def test_the_losses_are_the_work_of_friction(pressed):
+    power = np.abs(pressed["guide_friction"] * pressed["slider_velocity"])
+    work = np.trapezoid(power, pressed.time)
+    assert pressed["guide_loss"][-1] == pytest.approx(work, rel=1e-2)
+    assert pressed["guide_loss"][-1] > 20.0
+    summary = pressed.summary()
+    assert summary["quantities"]["energy.residual"]["value"] < 2e-4
+    assert summary["quantities"]["guides.slider.dissipated"]["value"] == pressed["guide_loss"][-1]
+    assert summary["quantities"]["guides.slider.peak_friction"]["value"] > 1e3
+
+
+def test_the_slider_has_its_play_and_what_the_ways_give(pressed):
+    stiffness = pressed.scene.guide.lateral_stiffness
+    beside = np.abs(pressed["slider_lateral"])
+    expected = CLEARANCE + np.abs(pressed["guide_force"]) / stiffness
+    side, velocity, _ = coulomb(pressed)
+    lying = (pressed.time > 0.5) & (np.abs(velocity) > 5e-3) & (np.abs(side) > 500.0)
+    assert np.abs(beside - expected)[lying].max() < 1e-7
+    assert pressed["slider_lateral"].max() > CLEARANCE
+    assert pressed["slider_lateral"].min() < -CLEARANCE
+
+
+@pytest.mark.parametrize("friction", ["none", "stribeck", "lugre"])
+def test_the_balance_of_the_press_closes(friction):
+    guide = {"clearance": 5e-5, "friction": friction, "width": 0.2}
+    result = simulate(Scene(revolutions=0.15, guide=guide))
+    assert result.completed
+    summary = result.summary()
+    assert summary["quantities"]["energy.residual"]["value"] < 1e-4
+    guides = [guide.body for guide in mechanism_of(result.scene).guides]
+    lost = sum(result.quantity(f"guides.{name}.dissipated").value for name in guides)
+    joints = sum(result[f"{name}_loss"][-1] for name in result.clearance_joints)
+    assert lost + joints == pytest.approx(
+        summary["quantities"]["energy.dissipated"]["value"], rel=1e-9
+    )
+
+
+@pytest.mark.parametrize("mechanism", ["eccentric_press", "six_bar"])
+def test_any_mechanisms_guides_have_it(mechanism):
+    guide = {"clearance": 5e-5, "friction": "coulomb"}
+    result = simulate(Scene(mechanism=mechanism, joints={}, revolutions=0.3, guide=guide))
+    assert result.completed
+    assert result.quantity("energy.residual").value < 1e-3
+    guides = [guide.body for guide in mechanism_of(result.scene).guides]
+    assert any(result.quantity(f"guides.{name}.peak_friction").value > 0.0 for name in guides)
+
+
+def test_what_is_refused_and_dropped():
+    with pytest.raises(InputError, match=r"guide\.clearance = 0\.0: allowed is a number > 0"):
+        Scene(guide={"clearance": 0.0})
+    with pytest.raises(InputError, match=r"guide\.width = 0\.1: not used .*clearance is not given"):
+        Scene(guide={"friction": "coulomb", "width": 0.1})
+    with pytest.raises(
+        InputError, match=r"guide\.damping_ratio = 0\.1: not used .*\[contact\] has"
+    ):
+        Scene(guide={"clearance": 1e-5, "damping_ratio": 0.1})
+    with pytest.raises(
+        InputError, match=r"guide\.damping_depth = 1e-06: is contact\.damping_depth"
+    ):
+        Scene(guide={"clearance": 1e-5, "damping_depth": 1e-6})
+    with pytest.raises(InputError, match=r"guide\.tilting_stiffness = 1000000\.0: not used"):
+        Scene(guide={"clearance": 1e-5, "tilting_stiffness": 1e6})
+    with pytest.raises(InputError, match=r"guide\.mu_static = 0\.05: allowed is a number >= guide"):
+        Scene(guide={"clearance": 1e-5, "friction": "stribeck", "mu_static": 0.05})
+    with pytest.raises(InputError, match=r"guide\.mu_kinetic = 0\.05: not used .*friction is"):
+        Scene(guide={"clearance": 1e-5, "mu_kinetic": 0.05})
+    with pytest.raises(InputError, match=r"guide\.friction = 'dry': allowed is one of 'none'"):
+        Scene(guide={"clearance": 1e-5, "friction": "dry"})
+    loose = Scene(guide={"clearance": 1e-5, "friction": "coulomb"})
+    elastic = Scene(guide={"lateral_stiffness": 1e9, "friction": "coulomb"})
+    assert loose.replace("guide.clearance", None) == elastic
+    assert Scene.from_dict(loose.to_dict()) == loose

@@ -1,0 +1,39 @@
+"""Piecewise cubic polynomials against SciPy's."""
+
+import numpy as np
+import pytest
+from scipy.integrate import cumulative_trapezoid
+from scipy.interpolate import CubicHermiteSpline, CubicSpline
+
+from exu_press.numerics.piecewise import evaluate, hermite, integral, spline
+
+X = np.array([-1.0, -0.4, 0.1, 0.2, 1.0, 1.7])
+VALUES = np.array([[2.0, -1.0, 0.5, 0.7, 3.0, 1.0], np.sin(X)])
+AT = np.array([-1.5, -1.0, -0.7, 0.1, 0.15, 0.9, 1.7, 2.0])
+
+
+@pytest.mark.parametrize("ends", ["clamped", "natural", "not-a-knot"])
+def test_splines_are_those_of_scipy(ends):
+    values = np.moveaxis(np.array([VALUES, VALUES**2, np.exp(VALUES)]), 0, 1)  # another order
+    theirs = CubicSpline(X, values, axis=2, bc_type=ends)
+    ours = spline(X, values, ends)
+    assert np.allclose(ours, np.moveaxis(theirs.c[::-1], 1, -1), rtol=1e-11, atol=1e-11)
+    assert np.allclose(evaluate(X, ours, AT), theirs(AT), rtol=1e-11, atol=1e-11)
+    assert np.allclose(evaluate(X, ours, AT, derivative=1), theirs(AT, 1), rtol=1e-11, atol=1e-11)
+
+
+def test_a_cubic_is_its_own_spline():
+    cubic = np.polynomial.Polynomial([1.0, -2.0, 0.5, 3.0])
+    assert evaluate(X, spline(X, cubic(X)), 0.33) == pytest.approx(cubic(0.33), rel=1e-13)
+
+
+def test_values_and_slopes_are_met_as_by_scipy():
+    slopes = np.cos(X)
+    theirs = CubicHermiteSpline(X, VALUES[1], slopes)
+    assert np.allclose(evaluate(X, hermite(X, VALUES[1], slopes), AT), theirs(AT), rtol=1e-13)
+
+
+def test_the_integral_is_that_of_straight_lines():
+    assert np.allclose(
+        integral(X, VALUES[0]), cumulative_trapezoid(VALUES[0], X, initial=0.0), rtol=1e-14
+    )

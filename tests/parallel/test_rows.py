@@ -1,0 +1,81 @@
+"""The file of finished rows, and what it makes of what a kill leaves."""
+
+import json
+
+import pytest
+
+from exu_press import InputError
+from exu_press.parallel.rows import RowFile
+
+ROW = {"status": "completed", "reason": "", "value": 0.1 + 0.2}
+
+
+def write(path, *keys):
+    with RowFile(path) as file:
+        for key in keys:
+            file.append(key, None, ROW)
+
+
+def test_rows_come_back_bit_by_bit(tmp_path):
+    path = tmp_path / "runs.jsonl"
+    write(path, "a", "b")
+    with RowFile(path) as file:
+        assert file.finished("a", None) == file.finished("b", None) == ROW
+        assert file.finished("c", None) is None
+
+
+@pytest.mark.parametrize("kept", [1, 20, -1])
+def test_a_torn_last_line_is_cut_off(tmp_path, kept):
+    path = tmp_path / "runs.jsonl"
+    write(path, "a", "b")
+    whole = path.read_bytes()
+    first, second = whole.splitlines(keepends=True)
+    path.write_bytes(first + second[:kept])
+    with RowFile(path) as file:
+        assert file.finished("a", None) == ROW
+        assert file.finished("b", None) is None
+        file.append("b", None, ROW)
+    assert path.read_bytes() == whole
+
+
+def test_a_row_is_there_before_the_file_is_closed(tmp_path):
+    with RowFile(tmp_path / "runs.jsonl") as file:
+        file.append("a", None, ROW)
+        assert json.loads((tmp_path / "runs.jsonl").read_text())["key"] == "a"
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "name,value",
+        "[1, 2]",
+        '{"key": "a"}',
+        "",
+        "[" * 100_000,
+        '{"key": "a", "time_limit": null, "row": {"reason": ""}}',
+        '{"key": "a", "time_limit": null, "row": {"status": 5, "reason": ""}}',
+        '{"key": "a", "time_limit": "long", "row": {"status": "completed", "reason": ""}}',
+        '{"key": ["a"], "time_limit": null, "row": {"status": "completed", "reason": ""}}',
+        '{"key": "a", "time_limit": null, "row": {"status": "completed", "reason": "\\ud800"}}',
+        '{"key": "a", "time_limit": null, "row": {"status": "a", "reason": "", "x": NaN}}',
+    ],
+)
+def test_a_file_of_something_else_is_refused_and_left_alone(tmp_path, line):
+    path = tmp_path / "runs.jsonl"
+    path.write_text(f"{line}\nsomething")
+    with pytest.raises(InputError, match="line 1: not a row"):
+        RowFile(path)
+    assert path.read_text() == f"{line}\nsomething"
+
+
+def test_what_is_tried_again(tmp_path):
+    with RowFile(tmp_path / "runs.jsonl") as file:
+        for status in ("failed", "worker died", "time limit", "film broke down"):
+            file.append(status, 10.0, {"status": status, "reason": "some"})
+    with RowFile(tmp_path / "runs.jsonl") as file:
+        assert file.finished("failed", 10.0) is None
+        assert file.finished("worker died", 10.0) is None
+        assert file.finished("film broke down", 10.0) is not None
+        assert [file.finished("time limit", s) is None for s in (5.0, 10.0, 11.0, None)] == [
+            False, False, True, True,
+        ]  # fmt: skip

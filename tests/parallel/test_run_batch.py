@@ -1,0 +1,177 @@
+"""Rows, their order, what becomes of runs that go wrong, and memory."""
+
+import json
+import subprocess
+import sys
+import time
+
+import batch_functions
+import pytest
+
+from exu_press import InputError
+from exu_press.parallel import run_batch
+
+
+def batch(function, arguments, directory, **options):
+    return run_batch(function, arguments, directory, **{"workers": 2, "quiet": True, **options})
+
+
+def test_rows_come_in_the_order_of_the_arguments(tmp_path):
+    arguments = [{"seconds": s} for s in (0.3, 0.0, 0.1, 0.0)]
+    rows = batch(batch_functions.sleeps, arguments, tmp_path)
+    assert [row["slept"] for row in rows] == [0.3, 0.0, 0.1, 0.0]
+    assert all(row["status"] == "completed" and row["reason"] == "" for row in rows)
+    assert len((tmp_path / "runs.jsonl").read_text().splitlines()) == 3  # equal ones run once
+
+
+def test_one_worker_and_two_give_the_same_bits(tmp_path):
+    arguments = [{"x": x} for x in range(20)]
+    one, two = (batch(batch_functions.digits, arguments, tmp_path / str(n), workers=n)
+                for n in (1, 2))  # fmt: skip
+    here = [batch_functions.digits(each) for each in arguments]
+    assert one == two == [{"status": "completed", "reason": "", **row} for row in here]
+
+
+def test_finished_runs_are_not_run_again(tmp_path):
+    marks = str(tmp_path / "marks")
+    arguments = [{"x": x, "marks": marks} for x in range(6)]
+    first = batch(batch_functions.slow_digits, arguments[:4], tmp_path)
+    second = batch(batch_functions.slow_digits, arguments, tmp_path)
+    assert second[:4] == first
+    assert sorted(x for x, _ in batch_functions.marks(marks)) == list(range(6))
+
+
+EDITED = """
+import sys; sys.path[:] = {path!r}
+import edited
+from exu_press.parallel import run_batch
+print(run_batch(edited.function, [{{}}], "out", workers=1, quiet=True)[0]["value"])
+"""
+
+
+def test_edited_code_gives_new_rows(tmp_path):
+    code = EDITED.format(path=[str(tmp_path), *sys.path])
+    for value in (1, 2):
+        (tmp_path / "edited.py").write_text(f"def function(_):\n    return {{'value': {value}}}\n")
+        done = subprocess.run(
+            [sys.executable, "-B", "-c", code], capture_output=True, text=True, cwd=tmp_path
+        )
+        assert done.stdout == f"{value}\n", done.stderr
+
+
+def test_a_run_whose_file_is_gone_is_run_again(tmp_path):
+    marks = str(tmp_path / "marks")
+    arguments = [{"x": x, "marks": marks} for x in range(3)]
+    for _ in range(2):
+        batch(batch_functions.slow_digits, arguments, tmp_path, kept=lambda each: each["x"] != 1)
+    assert sorted(x for x, _ in batch_functions.marks(marks)) == [0, 1, 1, 2]
+
+
+def test_rows_are_strict_json(tmp_path):
+    (row,) = batch(batch_functions.nothing_finite, [{}], tmp_path)
+    assert row == {
+        "status": "completed", "reason": "", "nan": None, "list": [1.0, None],
+        "inner": {"value": None}, "numpy": 0.1, "whole": 3, "array": [0.5, None],
+    }  # fmt: skip
+    assert "NaN" not in (tmp_path / "runs.jsonl").read_text()
+
+
+@pytest.mark.parametrize(
+    ("function", "status", "reason"),
+    [
+        ("raises", "failed", "ValueError: no number"),
+        ("no_json", "failed", "TypeError: PosixPath in a row: allowed are"),
+        ("dies", "worker died", "2 times; the last: killed by SIGKILL"),
+        ("exits", "worker died", "2 times; the last: exit status 7"),
+        ("own_status", "film broke down", "at 0.1 s"),
+    ],
+)
+def test_a_run_that_goes_wrong_is_a_row(function, status, reason, tmp_path):
+    (row,) = batch(getattr(batch_functions, function), [{}], tmp_path)
+    assert row["status"] == status
+    assert row["reason"].startswith(reason)
+    assert "\n" not in row["reason"]
+
+
+def test_a_run_whose_worker_dies_is_tried_once_more(tmp_path):
+    arguments = [{"x": x, "mark": str(tmp_path / f"mark{x % 2}")} for x in range(5)]
+    rows = batch(batch_functions.dies_once, arguments, tmp_path)
+    assert [row["x"] for row in rows] == list(range(5))
+
+
+def test_a_run_over_its_time_limit_is_stopped(tmp_path):
+    arguments = [{"seconds": s} for s in (0.0, 60.0, 0.01, 61.0, 0.02)]
+    start = time.monotonic()
+    rows = batch(batch_functions.sleeps, arguments, tmp_path, time_limit=0.5)
+    assert time.monotonic() - start < 20.0
+    assert [row["status"] for row in rows] == [
+        "completed", "time limit", "completed", "time limit", "completed",
+    ]  # fmt: skip
+    assert rows[1]["reason"] == "stopped after 0.5 s"
+
+
+def test_a_run_may_take_longer_the_next_time(tmp_path):
+    arguments = [{"seconds": 0.8}]
+    (row,) = batch(batch_functions.sleeps, arguments, tmp_path, time_limit=0.2)
+    assert row["status"] == "time limit"
+    (row,) = batch(batch_functions.sleeps, arguments, tmp_path)
+    assert row["status"] == "completed"
+
+
+def test_what_a_run_prints_is_no_row(tmp_path, capfd):
+    (row,) = batch(batch_functions.prints, [{}], tmp_path)
+    assert row == {"status": "completed", "reason": "", "x": 1}
+    assert capfd.readouterr().out == ""
+
+
+def test_a_worker_has_one_thread(tmp_path):
+    (row,) = batch(batch_functions.threads, [{}], tmp_path)
+    assert (row["omp"], row["blas"]) == ("1", "1")
+
+
+@pytest.mark.parametrize(
+    ("options", "named"),
+    [
+        ({"workers": 0}, "workers = 0"),
+        ({"time_limit": 0.0}, "time_limit = 0"),
+        ({"time_limit": float("nan")}, "time_limit = nan"),
+    ],
+)
+def test_wrong_options_are_refused(options, named, tmp_path):
+    with pytest.raises(InputError, match=named):
+        batch(batch_functions.digits, [{"x": 1}], tmp_path / "new", **options)
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_worker_of_other_versions_is_refused(tmp_path, monkeypatch):
+    monkeypatch.setattr("exu_press.parallel.task.versions", lambda function: {"exudyn": "0.0"})
+    with pytest.raises(InputError, match=r"allowed are the versions here, \{'exudyn': '0.0'\}"):
+        batch(batch_functions.digits, [{"x": 1}], tmp_path)
+
+
+def test_nothing_to_run_is_no_rows(tmp_path):
+    assert batch(batch_functions.digits, [], tmp_path) == []
+
+
+THOUSAND = """
+import resource, batch_functions
+from exu_press.parallel import run_batch
+def peak():
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+arguments = [{{"x": x}} for x in range(1000)]
+run_batch(batch_functions.memory, arguments[:100], r"{0}", workers=2, quiet=True)
+before = peak()
+rows = run_batch(batch_functions.memory, arguments, r"{0}", workers=2, quiet=True)
+print(before, peak(), *(row["megabytes"] for row in rows))
+"""
+
+
+def test_a_thousand_runs_hold_memory_flat(tmp_path):
+    code = f"import sys; sys.path[:] = {sys.path!r}\n" + THOUSAND.format(tmp_path)
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+    before, after, *workers = map(float, done.stdout.split())
+    assert after - before < 10.0  # MB; the rows themselves are one of them
+    assert max(workers) - min(workers) < 5.0
+    lines = (tmp_path / "runs.jsonl").read_text().splitlines()
+    assert len({json.loads(line)["key"] for line in lines}) == len(lines) == 1000

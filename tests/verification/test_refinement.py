@@ -1,0 +1,151 @@
+"""The process of refinement runs: how it starts, fails and ends."""
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import pytest
+
+from exu_press import Scene
+from exu_press.scene import flexible_press
+from exu_press.verification import refinement, refinement_process
+from exu_press.verification.refinement import OF_STEPS, PLANS, RefinementRuns, _may_fork, plan
+
+SHORT = Scene(mechanism="slider_crank", revolutions=0.02)
+LONG = Scene(joints={"crank_pin": "dry", "balls": "dry"}, revolutions=100.0)
+
+posix = pytest.mark.skipif(sys.platform == "win32", reason="processes are asked otherwise there")
+linux = pytest.mark.skipif(sys.platform != "linux", reason="no process is copied there")
+way = pytest.mark.parametrize(
+    "forks", [pytest.param(True, marks=linux, id="copied"), pytest.param(False, id="new")]
+)
+
+
+@pytest.fixture
+def by(monkeypatch):
+    """Set how the process is started."""
+    return lambda forks: monkeypatch.setattr(
+        "exu_press.verification.refinement._may_fork", lambda: forks
+    )
+
+
+@way
+def test_results_are_those_of_the_plan(by, forks, capfd):
+    by(forks)
+    with RefinementRuns(SHORT) as refinements:
+        found = dict(refinements.results())
+    assert {ratio: run.scene for ratio, run in found.items()} == plan(SHORT)
+    assert capfd.readouterr() == ("", "")
+
+
+def test_results_are_there_as_soon_as_they_are_done(monkeypatch):
+    monkeypatch.setattr(refinement, "plan", lambda _: {4.0: SHORT, 8.0: LONG})
+    with RefinementRuns(SHORT) as refinements:
+        ratio, run = next(refinements.results())
+    assert (ratio, run.scene) == (4.0, SHORT)
+
+
+def test_the_nearest_one_is_first():
+    """It tells from when on the motions part."""
+    for kind in (*PLANS.values(), {0.0: OF_STEPS}):
+        for ratios in kind.values():
+            assert len(ratios) >= 2
+            assert list(ratios) == sorted(ratios)
+
+
+@posix
+@way
+def test_no_process_and_no_file_is_left_behind(by, forks, monkeypatch):
+    by(forks)
+    monkeypatch.setattr(refinement, "plan", lambda _: {0.5: LONG, 8.0: LONG})
+    begun = time.monotonic()
+    with RefinementRuns(LONG) as refinements:
+        directory, processes = refinements._directory, [p.pid for p in refinements._processes]
+    assert time.monotonic() - begun < 10.0
+    assert not directory.exists()
+    assert len(processes) == 2
+    for process in processes:
+        with pytest.raises(ProcessLookupError):
+            os.kill(process, 0)
+
+
+@posix
+@way
+@pytest.mark.parametrize("number", [0, 1])
+def test_a_process_that_is_killed_says_so(by, forks, number, monkeypatch):
+    by(forks)
+    scenes = {0.5: SHORT, 4.0: SHORT, 8.0: SHORT}
+    scenes[(0.5, 4.0)[number]] = LONG
+    monkeypatch.setattr(refinement, "plan", lambda _: scenes)
+    with RefinementRuns(LONG) as refinements:
+        os.kill(refinements._processes[number].pid, signal.SIGTERM)
+        with pytest.raises(RuntimeError, match=r"refinement run failed \(-15\)"):
+            list(refinements.results())
+
+
+@linux
+def test_what_goes_wrong_in_it_is_told(by, monkeypatch):
+    def fails(scene, start):
+        raise ValueError("no oil")
+
+    by(True)
+    monkeypatch.setattr(refinement_process, "simulate", fails)
+    with (
+        RefinementRuns(SHORT) as refinements,
+        pytest.raises(RuntimeError, match="ValueError: no oil"),
+    ):
+        list(refinements.results())
+
+
+def test_beside_another_thread_the_process_is_a_new_one():
+    done = threading.Event()
+    thread = threading.Thread(target=done.wait)
+    thread.start()
+    assert not _may_fork()
+    done.set()
+    thread.join()
+
+
+@linux
+def test_ctrl_c_ends_both_at_once(tmp_path):
+    """As a terminal does it: to the whole group of processes."""
+    changes = ["--set", "joints.crank_pin=dry", "--set", "revolutions=100"]
+    run = subprocess.Popen(
+        [sys.executable, "-m", "exu_press", "run", "press", *changes, "--out", str(tmp_path)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+    children = Path(f"/proc/{run.pid}/task/{run.pid}/children")
+    while run.poll() is None and not children.read_text():
+        time.sleep(0.02)
+    time.sleep(0.3)
+    os.killpg(run.pid, signal.SIGINT)
+    _, said = run.communicate(timeout=30)
+    assert "Traceback" not in said
+    assert run.returncode in (3, 130)
+    with pytest.raises(ProcessLookupError):
+        os.killpg(run.pid, 0)
+
+
+def test_impacts_on_flexible_bodies_have_a_finer_refinement():
+    """Coarser runs do not follow the vibrations: peaks agree at 1e-3 and 4e-3, 1.5 % off both."""
+    bodies = flexible_press(modes=4)
+    assert list(plan(Scene(bodies=bodies))) == [0.5, 8.0]
+    assert list(plan(Scene(bodies=bodies, solver={"tolerance": 3e-3}))) == [0.25, 8.0]
+    assert min(plan(Scene(bodies=bodies, joints={}))) > 1.0
+
+
+def test_the_largest_step_of_one_refinement_is_another_one():
+    """Where it sets the steps of all runs, their agreement says nothing of its error."""
+    scene = Scene(mechanism="slider_crank", joints={"crank_pin": "lubricated"})
+    assert scene.solver is not None
+    own = scene.solver.max_step_deg
+    *others, (ratio, last) = plan(scene).items()
+    assert [each.solver.max_step_deg for _, each in others] == [own] * len(others)
+    assert last.solver.max_step_deg == pytest.approx(ratio**0.5 * own)

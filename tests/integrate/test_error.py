@@ -113,14 +113,14 @@ def test_what_alternates_or_jumps_is_no_curvature(accelerations):
 CLEARANCE, LIMIT = 1e-4, 1e-9
 
 
-def error_of(missed, *, place, reach=CLEARANCE, drift=math.inf, step=1e-4):
+def error_of(missed, *, place, contact_onset=CLEARANCE, drift=math.inf, step=1e-4):
     """The error of a step in which a joint at rest is found `missed` away from its place."""
     path = Path()
     path.go_on(place, (0.0, 0.0), step, depth=0.0)
     there = tuple(p + m for p, m in zip(place, missed, strict=True))
     joint = SimpleNamespace(
         clearance=CLEARANCE,
-        reach=reach,
+        contact_onset=contact_onset,
         path=path,
         eccentricity=there,
         relative_velocity=(0.0, 0.0),
@@ -153,7 +153,7 @@ def test_contacts_follow_the_tolerance_too():
 
 def test_in_a_film_alone_errors_count_over_time():
     in_film = {"place": (5e-5, 0.0), "drift": 1e-6}
-    assert error_of((1e-10, 0.0), reach=math.inf, **in_film) == pytest.approx(1.0)
+    assert error_of((1e-10, 0.0), contact_onset=math.inf, **in_film) == pytest.approx(1.0)
     assert error_of((1e-10, 0.0), **in_film) == pytest.approx(0.1)
 
 

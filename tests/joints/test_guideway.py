@@ -160,7 +160,7 @@ def test_in_space_it_is_the_same(side):
         assert getattr(other, name)[:2] == pytest.approx(getattr(one, name), rel=1e-9)
     assert other.power == pytest.approx(one.power, rel=1e-9)
     assert spatial.relative_velocity[:2] == pytest.approx(planar.relative_velocity)
-    assert spatial.largest_eccentricity == planar.deepest
+    assert spatial.largest_eccentricity == planar.largest_eccentricity
     for by_q, by_q_t in ((1.0, 0.0), (0.0, 1.0)):
         found, expected = (
             np.reshape(contact.jacobian(by_q, by_q_t), (3, 3)) for contact in (spatial, planar)

@@ -1,42 +1,45 @@
-"""One scene, front to back."""
+"""What users call: a scene in, a result out."""
 
-import time
-from dataclasses import replace
-
-from exu_press.model import build
-from exu_press.model.state import State, go_on_from
-from exu_press.result import Result, record
+from exu_press.model.state import State
+from exu_press.result import Result
+from exu_press.result.run import run_once
 from exu_press.scene import Scene
 
 __all__ = ["simulate"]
 
 
-def simulate(scene: Scene, *, start: State | None = None, quiet: bool = True) -> Result:
+def simulate(
+    scene: Scene,
+    *,
+    errors: bool = False,
+    start: State | None = None,
+    quiet: bool = True,
+    beside: bool = True,
+) -> Result:
     """Build a scene's model, advance it to its end or an early stop, and return what came out.
 
     Args:
         scene: what is asked.
+        errors: whether every quantity gets its error, by refinement runs: runs of the scene at
+            other tolerances, which take about as long as the run itself.
         start: `info["state"]` of another run, from whose end this one goes on, for as long as the
             scene says. Time and crank angle go on, too. Steps begin as the others ended, but what
             step control remembers is lost: a run in two pieces is within its tolerance of one in
             one piece, not equal to the last digit.
         quiet: False shows the progress on standard error.
+        beside: refinement runs go in a further process meanwhile; else in this one afterwards, as
+            is right where all cores have their runs already.
 
     Returns:
         The result. After an early stop too, `completed` False and `info["reason"]` saying when,
-        where, why and what to try.
+        where, why and what to try. With errors, `info` and the summary have the error of each
+        quantity, `horizon` and `lyapunov_exponent`; a run that stopped early has none.
 
     Raises:
         InputError: `start` is the state of a run with other bodies, joints or loads.
     """
-    begun = time.perf_counter()
-    model = build(scene, quiet=quiet)
-    if start is not None:
-        model = go_on_from(model, start)
-    try:
-        outcome = model.solve(quiet=quiet)
-        result = record(model, outcome)
-    finally:
-        model.SC.Reset()  # its systems and their solvers hold each other: never freed otherwise
-    total = time.perf_counter() - begun
-    return replace(result, info={**result.info, "total_time": total})
+    if not errors:
+        return run_once(scene, start=start, quiet=quiet)
+    from exu_press.verification import simulate_with_errors  # a run without them loads less
+
+    return simulate_with_errors(scene, start=start, quiet=quiet, beside=beside)

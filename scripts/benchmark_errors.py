@@ -15,7 +15,6 @@ from collections.abc import Callable
 
 from exu_press import Result, Scene, simulate
 from exu_press.scene import flexible_press
-from exu_press.verification import simulate_with_errors
 
 SCENES = {
     "press, two revolutions": Scene(),
@@ -47,6 +46,10 @@ def taken(run: Callable[[Scene], Result], scene: Scene) -> tuple[float, float]:
     return wall, processor
 
 
+def with_errors(scene: Scene) -> Result:
+    return simulate(scene, errors=True)
+
+
 def main(arguments: list[str]) -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--repeats", type=int, default=3, help="the median counts")
@@ -56,7 +59,7 @@ def main(arguments: list[str]) -> None:
     print(f"{'':38}  alone: wall, processor, s  with errors   ratios: wall, processor")
     for name, scene in SCENES.items():
         simulate(scene.replace(revolutions=0.01))  # what is imported and compiled once
-        pairs = [(taken(simulate, scene), taken(simulate_with_errors, scene))
+        pairs = [(taken(simulate, scene), taken(with_errors, scene))
                  for _ in range(options.repeats)]  # fmt: skip
         alone, told = (
             [statistics.median(pair[which][kind] for pair in pairs) for kind in (0, 1)]

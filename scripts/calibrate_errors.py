@@ -31,7 +31,6 @@ import numpy as np
 from exu_press import InputError, Result, Scene, simulate
 from exu_press.mechanism import SHIPPED
 from exu_press.scene import flexible_press, mechanism_of
-from exu_press.verification import simulate_with_errors
 from exu_press.verification.compared import compared
 
 REFERENCES = (1e-7, 1e-6, 1e-5)
@@ -239,7 +238,7 @@ def judged(number: int, scene: Scene) -> dict[str, Any]:
     said = io.StringIO()
     try:
         with contextlib.redirect_stderr(said):
-            run = simulate_with_errors(scene, beside=False, quiet=False)
+            run = simulate(scene, beside=False, quiet=False, errors=True)
         row |= {"status": run.info["status"], "horizon": run.info["horizon"]}
         row["seconds_to_errors"] = time.monotonic() - clock
         if run.completed:

@@ -12,11 +12,10 @@ from pathlib import Path
 
 import numpy as np
 
-from exu_press import Result, Scene
+from exu_press import Result, Scene, simulate
 from exu_press.quantities.uncertain import uncertain
 from exu_press.result.windows import revolutions_of
 from exu_press.terminal.columns import columns
-from exu_press.verification import simulate_with_errors
 
 sys.path.append(str(Path(__file__).parents[1] / "tests"))
 from independent.reduced_slider_crank import Numbers
@@ -55,7 +54,7 @@ true = true_peaks()
 rows = [("tolerance", "by revolution, m/s^2", "off", "whole run, as stated")]
 for tolerance in TOLERANCES:
     change = {"solver.tolerance": tolerance, "revolutions": REVOLUTIONS}
-    run = simulate_with_errors(DRY.replace(change))
+    run = simulate(DRY.replace(change), errors=True)
     found = peaks(run)
     rows.append(
         (

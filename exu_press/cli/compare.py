@@ -22,7 +22,6 @@ from exu_press.scene import Scene, load_scene
 from exu_press.simulation import simulate
 from exu_press.studies.compare import different_keys, variants
 from exu_press.terminal.columns import columns
-from exu_press.verification import simulate_with_errors
 
 __all__ = ["EXAMPLE", "add_arguments", "execute"]
 
@@ -51,14 +50,14 @@ def execute(options: argparse.Namespace) -> int:
     default = Path("out") / (Path(options.given[0]).stem if len(options.given) == 1 else "compare")
     directory = output_directory(options.out or default)
     results: dict[str, Result] = {}
-    run = simulate if options.no_error else simulate_with_errors
     for label, one in compared.items():
         if isinstance(one, Scene) and not options.quiet:
             print(f"{label} ...", file=sys.stderr)
-        results[label] = run(one, quiet=options.quiet) if isinstance(one, Scene) else one
-        if results[label].info["status"] == SolverStatus.INTERRUPTED.value and isinstance(
-            one, Scene
-        ):
+        if not isinstance(one, Scene):
+            results[label] = one
+            continue
+        results[label] = simulate(one, errors=not options.no_error, quiet=options.quiet)
+        if results[label].info["status"] == SolverStatus.INTERRUPTED.value:
             break  # Ctrl-C means all of them
     summaries = {label: result.summary() for label, result in results.items()}
     for label, result in results.items():

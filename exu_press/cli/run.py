@@ -18,7 +18,7 @@ from exu_press.quantities.table import run_lines
 from exu_press.result import Result
 from exu_press.scene.assumptions import assumed_line
 from exu_press.simulation import simulate
-from exu_press.verification import deliver, simulate_with_errors
+from exu_press.verification import deliver
 from exu_press.verification.refine import refined
 from exu_press.verification.told import delivered_lines
 
@@ -88,10 +88,9 @@ def execute(options: argparse.Namespace) -> int:
         result, found = delivered.result, delivered_lines(delivered, options.within)
     elif options.figure is not None:
         raise InputError(f"--figure {options.figure}: only together with --within")
-    elif options.no_error:
-        result = simulate(scene, start=start, quiet=options.quiet)
-    elif options.once:
-        result = simulate_with_errors(scene, start=start, quiet=options.quiet)
+    elif options.no_error or options.once:
+        errors = not options.no_error
+        result = simulate(scene, errors=errors, start=start, quiet=options.quiet)
     else:
         result = refined(scene, start=start, quiet=options.quiet, told=found.append)
     summary = result.summary()

@@ -8,9 +8,9 @@ import numpy as np
 from exu_press.errors import InputError
 from exu_press.quantities import quantities_of
 from exu_press.quantities.value import numbers_of
+from exu_press.result.run import run_once
 from exu_press.result.windows import revolutions_of
 from exu_press.scene import Scene
-from exu_press.simulation import simulate
 from exu_press.terminal.progress import Progress
 
 __all__ = ["LEAST_REVOLUTIONS", "Distribution", "distributions", "percentiles"]
@@ -106,7 +106,7 @@ def distributions(
     with Progress("distribution", most, "revolutions", quiet=quiet) as progress:
         while values and count < most:
             angle = (scene.start_angle_deg + GOLDEN * start) % 360.0
-            run = simulate(scene.replace({"revolutions": AT_A_TIME, "start_angle_deg": angle}))
+            run = run_once(scene.replace({"revolutions": AT_A_TIME, "start_angle_deg": angle}))
             if not run.completed:
                 raise InputError(f"no distribution, as a run {run.info['reason']}")
             each = [numbers_of(one, declared) for one in revolutions_of(run)[1:]]

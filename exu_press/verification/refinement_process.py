@@ -8,7 +8,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from exu_press.simulation import simulate
+from exu_press.result.run import run_once
 
 __all__ = ["RESULT", "SCENES", "main"]
 
@@ -33,7 +33,7 @@ def main(directory: Path, numbers: Sequence[int]) -> None:
         result = directory / RESULT.format(number)
         unfinished = result.with_suffix(".unfinished")
         scene, start = scenes[number]
-        unfinished.write_bytes(pickle.dumps(simulate(scene, start=start)))
+        unfinished.write_bytes(pickle.dumps(run_once(scene, start=start)))
         unfinished.rename(result)
 
 

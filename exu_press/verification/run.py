@@ -12,9 +12,9 @@ from exu_press.quantities.kind import RESULTANT
 from exu_press.quantities.value import numbers_of
 from exu_press.result import Result
 from exu_press.result.info import Error, Errors
+from exu_press.result.run import run_once
 from exu_press.result.windows import until, window
 from exu_press.scene import Scene
-from exu_press.simulation import simulate
 from exu_press.verification.divergence import Divergence, divergence
 from exu_press.verification.estimate import (
     AMPLIFIED,
@@ -60,9 +60,9 @@ def simulate_with_errors(
         `lyapunov_exponent` too. Of a run that stopped early, or was stopped, nothing is known.
     """
     if not beside:
-        return with_errors(simulate(scene, start=start, quiet=quiet), start=start, beside=False)
+        return with_errors(run_once(scene, start=start, quiet=quiet), start=start, beside=False)
     with RefinementRuns(scene, start) as refinements:
-        return _beside(simulate(scene, start=start, quiet=quiet), refinements)
+        return _beside(run_once(scene, start=start, quiet=quiet), refinements)
 
 
 def with_errors(result: Result, *, start: State | None = None, beside: bool = True) -> Result:
@@ -76,7 +76,7 @@ def with_errors(result: Result, *, start: State | None = None, beside: bool = Tr
     if not result.completed:
         return _told(result, ())
     if not beside:
-        runs = ((r, simulate(scene, start=start)) for r, scene in plan(result.scene).items())
+        runs = ((r, run_once(scene, start=start)) for r, scene in plan(result.scene).items())
         return _told(result, runs)
     with RefinementRuns(result.scene, start) as refinements:
         return _beside(result, refinements)

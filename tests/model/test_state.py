@@ -10,7 +10,6 @@ from exu_press.cli import main
 from exu_press.integrate.problem import Problem
 from exu_press.model import build
 from exu_press.model.state import go_on_from
-from exu_press.verification import simulate_with_errors
 
 PIN = {"clearance": 1e-4, "radius": 0.03}
 DRY = Scene(
@@ -79,7 +78,7 @@ def test_fixed_steps_go_on_nearly_to_the_last_digit():
 
 def test_keys_may_change_and_errors_are_found():
     state = simulate(FILM).info["state"]
-    run = simulate_with_errors(FILM.replace("film.viscosity", 0.2), start=state)
+    run = simulate(FILM.replace("film.viscosity", 0.2), errors=True, start=state)
     value = run.quantity("joints.crank_pin.peak_force")
     assert value.error < 0.05 * value.value
 

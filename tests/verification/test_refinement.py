@@ -93,7 +93,7 @@ def test_what_goes_wrong_in_it_is_told(by, monkeypatch):
         raise ValueError("no oil")
 
     by(True)
-    monkeypatch.setattr(refinement_process, "simulate", fails)
+    monkeypatch.setattr(refinement_process, "run_once", fails)
     with (
         RefinementRuns(SHORT) as refinements,
         pytest.raises(RuntimeError, match="ValueError: no oil"),

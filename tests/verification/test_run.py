@@ -11,7 +11,7 @@ from exu_press.quantities import Placed, Quantity, quantities_of
 from exu_press.quantities.kind import MOTION
 from exu_press.quantities.value import numbers_of
 from exu_press.scene import flexible_press
-from exu_press.verification import simulate_with_errors, with_errors
+from exu_press.verification import with_errors
 from exu_press.verification.estimate import AMPLIFIED
 from exu_press.verification.refinement import RefinementRuns, plan
 from exu_press.verification.run import errors_of
@@ -66,7 +66,7 @@ def test_stated_errors_cover_the_true_ones(name):
 
 def test_errors_stand_in_the_summary_and_in_the_file(tmp_path):
     scene = Scene(**DRY, revolutions=0.05)
-    result = simulate_with_errors(scene)
+    result = simulate(scene, errors=True)
     told = result.info["errors"]["peak_acceleration.resolved"]
     assert set(told) == {"error", "determined", "low", "high"}
     result.save(tmp_path / "run.nc")
@@ -192,7 +192,7 @@ def test_a_run_is_not_lost_with_its_refinements(monkeypatch):
     monkeypatch.setattr(RefinementRuns, "results", fails)
     scene = Scene(mechanism="slider_crank", joints={}, revolutions=0.02)
     with pytest.warns(UserWarning, match=r"no errors of the quantities are known: .*\(-9\)"):
-        result = simulate_with_errors(scene)
+        result = simulate(scene, errors=True)
     assert result.completed
     assert result.info["errors"] == {}
 

@@ -107,11 +107,9 @@ class Runs(ExitStack):
 def run_scene(arguments: dict[str, Any]) -> dict[str, Any]:
     """Run {"scene": ...}, with "save": file and "errors": True if wanted; return its row."""
     from exu_press.simulation import simulate
-    from exu_press.verification import simulate_with_errors
 
     scene = Scene.from_dict(arguments["scene"])
-    wanted = arguments.get("errors")
-    result = simulate_with_errors(scene, beside=False) if wanted else simulate(scene)
+    result = simulate(scene, errors=bool(arguments.get("errors")), beside=False)
     if "save" in arguments:
         result.save(arguments["save"])
     return row_of(result)

@@ -7,7 +7,6 @@ from statistics import median
 from exu_press.quantities.catalogue import PEAK_ACCELERATION
 from exu_press.scene import Scene
 from exu_press.simulation import simulate
-from exu_press.verification import simulate_with_errors
 from exu_press.verification.compared import compared
 
 __all__ = ["Stated", "stated_errors"]
@@ -52,7 +51,7 @@ def stated_errors(
         return []
     found = []
     for tolerance in tolerances:
-        run = simulate_with_errors(scene.replace("solver.tolerance", tolerance), beside=False)
+        run = simulate(scene.replace("solver.tolerance", tolerance), errors=True, beside=False)
         if not run.completed:
             continue
         every = list(compared(run, true))

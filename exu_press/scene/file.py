@@ -1,30 +1,23 @@
 """A scene file: TOML in, TOML out."""
 
 import tomllib
-from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
 from exu_press.errors import InputError
 from exu_press.scene.bodies import STEP_FILES
 from exu_press.scene.loads import with_files_beside
-from exu_press.scene.scene import Scene
 from exu_press.schema.toml import parse_toml, read_toml
 
-__all__ = ["load_scene", "parse_assignment"]
+__all__ = ["parse_assignment", "scene_tables"]
 
 
-def load_scene(path: str | Path, assignments: Iterable[str] = ()) -> Scene:
-    """Return the scene of a TOML file, changed by "key=value" assignments.
-
-    Args:
-        path: of the file.
-        assignments: as behind `--set`, for `parse_assignment`.
+def scene_tables(path: Path) -> dict[str, Any]:
+    """Return the tables of a scene file; paths in them are relative to it no more.
 
     Raises:
-        InputError: the file cannot be read or parsed, or the scene is not allowed.
+        InputError: the file cannot be read or parsed, or is a mechanism's.
     """
-    path = Path(path)
     data = read_toml(path)
     if {"crank", "output"} <= data.keys():
         raise InputError(
@@ -38,12 +31,7 @@ def load_scene(path: str | Path, assignments: Iterable[str] = ()) -> Scene:
         data["bodies"] = {name: _beside(path, body) for name, body in bodies.items()}
     if "load" in data:
         data["load"] = with_files_beside(data["load"], path.parent)
-    try:
-        scene = Scene.from_dict(data)
-    except InputError as error:
-        raise InputError(f"{path}: {error}") from None
-    changes = dict(map(parse_assignment, assignments))
-    return scene.replace(changes) if changes else scene
+    return data
 
 
 def _beside(scene: Path, body: Any) -> Any:

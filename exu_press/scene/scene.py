@@ -2,9 +2,9 @@
 
 import dataclasses
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
-from typing import Any, ClassVar, cast
+from typing import TYPE_CHECKING, Any, ClassVar, cast, overload
 
 from exu_press.above import WORKERS
 from exu_press.errors import InputError, UnusedKeyError
@@ -51,6 +51,19 @@ ONLY_WHERE_GIVEN = ("drive", "guide", "output", "wear")
 """Tables that a scene without them does not have: constant speed, ideal guides, no samples."""
 
 
+if TYPE_CHECKING:
+
+    class LoadTables:
+        """`load`: of the class it reads a file, of a scene it is its [load] tables."""
+
+        @overload
+        def __get__(self, scene: None, owner: "type[Scene]") -> "Callable[..., Scene]": ...
+        @overload
+        def __get__(self, scene: "Scene", owner: "type[Scene]") -> Mapping[str, Load]: ...
+        def __get__(self, scene: Any, owner: Any) -> Any: ...
+        def __set__(self, scene: "Scene", tables: Mapping[str, Any]) -> None: ...
+
+
 @dataclasses.dataclass(frozen=True)
 class Scene(Table):
     """One simulation, complete: what is not given has its default, what is not used is None.
@@ -90,7 +103,7 @@ class Scene(Table):
     contact: Contact | None = None
     friction: Friction | None = None
     film: Film | None = None
-    load: Mapping[str, Load] = dataclasses.field(default_factory=dict, hash=False)
+    load: "LoadTables" = dataclasses.field(default_factory=cast(Any, dict), hash=False)
     drive: Motor | None = None
     guide: ElasticGuide | None = None
     output: Output | None = None
@@ -222,7 +235,7 @@ class Scene(Table):
         return complete
 
     def save(self, path: str | Path, *, comments: bool = False, overwrite: bool = False) -> None:
-        """Write the complete scene as TOML, for `load_scene` and the command line.
+        """Write the complete scene as TOML, for `Scene.load` and the command line.
 
         Args:
             path: of the file.
@@ -330,6 +343,29 @@ class Scene(Table):
             dotted = f"{table}.{name}" if table else name
             shown = f"[{name}]" if dotted in TABLES else f"{dotted} = {given!r}"
             raise UnusedKeyError(dotted, shown, unused[name])
+
+
+def _load(path: str | Path, assignments: Iterable[str] = ()) -> Scene:
+    """Return the scene of a TOML file, changed by "key=value" assignments.
+
+    Args:
+        path: of the file.
+        assignments: as behind `--set`, for `parse_assignment`.
+
+    Raises:
+        InputError: the file cannot be read or parsed, or the scene is not allowed.
+    """
+    path = Path(path)
+    data = scene_tables(path)
+    try:
+        scene = Scene.from_dict(data)
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
+    changes = dict(map(parse_assignment, assignments))
+    return scene.replace(changes) if changes else scene
+
+
+type.__setattr__(Scene, "load", staticmethod(_load))  # of a scene `load` has its [load] tables
 
 
 def mechanism_of(scene: Scene) -> Mechanism:

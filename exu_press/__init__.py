@@ -29,9 +29,10 @@ if TYPE_CHECKING:
         add_joint_sensor,
         add_lubricated_revolute,
     )
+    from exu_press.mechanism import Mechanism
     from exu_press.report.cells import Comparison
     from exu_press.result import Result
-    from exu_press.scene import Scene, load_scene
+    from exu_press.scene import Scene
     from exu_press.simulation import simulate
 
     __version__: str
@@ -41,6 +42,7 @@ __all__ = [
     "ErrorScales",
     "FlexiblePoint",
     "InputError",
+    "Mechanism",
     "Outcome",
     "Result",
     "Scene",
@@ -53,7 +55,6 @@ __all__ = [
     "add_joint_sensor",
     "add_lubricated_revolute",
     "follow_modes",
-    "load_scene",
     "simulate",
     "solve_dynamic",
 ]
@@ -62,6 +63,7 @@ _HOMES = {
     "Comparison": "exu_press.report.cells",
     "FlexiblePoint": "exu_press.joints",
     "InputError": "exu_press.errors",
+    "Mechanism": "exu_press.mechanism",
     "Outcome": "exu_press.integrate",
     "Result": "exu_press.result",
     "ErrorScales": "exu_press.integrate",
@@ -74,11 +76,12 @@ _HOMES = {
     "add_lubricated_revolute": "exu_press.joints",
     "add_guideway_contact": "exu_press.joints",
     "follow_modes": "exu_press.integrate",
-    "load_scene": "exu_press.scene",
     "simulate": "exu_press.simulation",
     "solve_dynamic": "exu_press.integrate",
 }
 
+_ROOMS = ("laws", "quantities")
+"""Packages that are used by their own names: `exu_press.quantities`."""
 
 WORKERS.update(
     build=lambda scene: importlib.import_module("exu_press.model.graphics").build_with_graphics(
@@ -97,6 +100,8 @@ def __getattr__(name: str) -> "Any":
         from importlib.metadata import version
 
         return version("exu-press")
+    if name in _ROOMS:
+        return importlib.import_module(f"exu_press.{name}")
     if name not in _HOMES:
         raise AttributeError(f"module 'exu_press' has no attribute {name!r}")
     value = getattr(importlib.import_module(_HOMES[name]), name)

@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from exu_press import Scene, load_scene, simulate
+from exu_press import Scene, simulate
 from exu_press.model.placed_part import IN_THE_PLANE, placed_parts
 from exu_press.plots.file import save_figure
 from exu_press.plots.style import COLOURS, look
@@ -32,7 +32,7 @@ MOST_SHOWN = 8
 UNITS = {"m/s^2": (1.0, "m/s^2"), "m": (1e6, "um"), "rad": (1e6, "urad"), "Pa": (1e-6, "MPa")}
 
 if options.scene:
-    scene = load_scene(options.scene)
+    scene = Scene.load(options.scene)
 else:
     scene = Scene(bodies=flexible_press(), revolutions=0.1)
 if options.quick:

@@ -8,7 +8,7 @@ import shutil
 import tempfile
 from pathlib import Path
 
-from exu_press import load_scene, simulate
+from exu_press import Scene, simulate
 from exu_press.cli.options import scene_path
 from exu_press.report.run import run_report
 
@@ -23,7 +23,7 @@ def main():
     options = parser.parse_args()
     from playwright.sync_api import sync_playwright
 
-    result = simulate(load_scene(scene_path("press"), CHANGES), errors=True)
+    result = simulate(Scene.load(scene_path("press"), CHANGES), errors=True)
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as play:
         path = Path(folder) / "page.html"
         path.write_text(run_report(result, "out/press/run.nc"), encoding="utf-8")

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import exu_press
-from exu_press import load_scene, simulate
+from exu_press import Scene, simulate
 from exu_press.scene import mechanism_of
 from exu_press.scene.assumptions import assumed
 
@@ -20,7 +20,7 @@ ROD, RAM = 0.82747, 500.0 + 26.6  # m; kg, with the rod
 @pytest.fixture(scope="module")
 def pressed():
     """Return the run over the end of the working stroke, where the force is largest."""
-    scene = load_scene(SCENE).replace({"start_angle_deg": 180.0, "revolutions": 0.09})
+    scene = Scene.load(SCENE).replace({"start_angle_deg": 180.0, "revolutions": 0.09})
     result = simulate(scene)
     assert result.completed, result.info["reason"]
     return result
@@ -107,7 +107,7 @@ def test_the_guide_loses_mu_times_its_force_times_the_way(pressed):
 
 def test_its_defaults_are_physical_and_said():
     """None of the paper's values stands where the scene gives none."""
-    scene = load_scene(SCENE)
+    scene = Scene.load(SCENE)
     said = assumed(scene)
     assert scene.contact.damping == "hu_guo"
     assert any(line.startswith("contact.restitution = 0.9 (") for line in said)
@@ -125,7 +125,7 @@ def test_the_rod_of_its_step_file_fits(tmp_path):
     start = lines.index("# [bodies.rod]")
     own = lines[:start] + lines[start:].replace("# ", "")
     (tmp_path / "own.toml").write_text(own)
-    scene = load_scene(tmp_path / "own.toml")
+    scene = Scene.load(tmp_path / "own.toml")
     part = placed_parts(scene)["rod"]
     drawn = mechanism_of(scene).body("rod")
     assert part.reduced.mass == pytest.approx(drawn.mass, rel=5e-3)

@@ -6,7 +6,7 @@ from typing import Any
 from docutils import nodes
 from docutils.parsers.rst import Directive
 
-from exu_press import load_scene, simulate
+from exu_press import Scene, simulate
 from exu_press.cli.options import scene_path
 from exu_press.report.run import run_report
 
@@ -50,6 +50,6 @@ def write_pages(app: Any, exception: Exception | None) -> None:
     folder = Path(app.outdir) / "live"
     folder.mkdir(exist_ok=True)
     for name, changes in PAGES.items():
-        scene = load_scene(scene_path("press"), changes)
+        scene = Scene.load(scene_path("press"), changes)
         text = run_report(simulate(scene), "exu-press run press")
         (folder / f"{name}.html").write_text(text, encoding="utf-8")

@@ -18,7 +18,7 @@ from exu_press.integrate import SolverStatus
 from exu_press.quantities.differences import difference_lines
 from exu_press.quantities.table import comparison_lines
 from exu_press.result import Result
-from exu_press.scene import Scene, load_scene
+from exu_press.scene import Scene
 from exu_press.simulation import simulate
 from exu_press.studies.compare import different_keys, variants
 from exu_press.terminal.columns import columns
@@ -93,7 +93,7 @@ def _compared(given: list[str], assignments: list[str]) -> Mapping[str, Scene | 
         if file.suffix == ".nc":
             one: Scene | Result = Result.load(file)
         else:
-            one = load_scene(scene_path(name), assignments)
+            one = Scene.load(scene_path(name), assignments)
         label = file.resolve().parent.name if file.name == RESULT else path.stem
         twins = [other for other in found if other.partition(" ")[0] == label]
         found[f"{label} {len(twins) + 1}" if twins else label] = one

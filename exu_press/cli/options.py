@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from exu_press.errors import InputError
-from exu_press.scene import Scene, load_scene
+from exu_press.scene import Scene
 from exu_press.schema.checks import nearest
 
 __all__ = [
@@ -98,7 +98,7 @@ def resumable(
 
 def scene_of(options: argparse.Namespace) -> Scene:
     """Return the scene that is asked for, with its changes."""
-    return load_scene(scene_path(options.scene), options.set)
+    return Scene.load(scene_path(options.scene), options.set)
 
 
 def directory_of(options: argparse.Namespace) -> Path:

@@ -8,7 +8,7 @@ from exu_press.page import Live, has_library
 from exu_press.plots.words import describe
 from exu_press.report.html import page, paragraph, picture, stills, table
 from exu_press.report.run import scene_parts
-from exu_press.scene import load_scene
+from exu_press.scene import Scene
 from exu_press.schema.stored import from_json
 from exu_press.studies.sweep.units import unit_of
 
@@ -27,7 +27,7 @@ def fit_report(file: Path) -> str:
         raise InputError(f"{error.filename}: cannot be read ({error.strerror})") from None
     except (ValueError, KeyError, IndexError, TypeError, AttributeError) as error:
         raise InputError(f"{file}: not a fit of exu_press ({error!s:.200})") from None
-    scene = load_scene(file.parent / "fitted.toml", [])
+    scene = Scene.load(file.parent / "fitted.toml", [])
     pictures = [
         picture(path, "The fit as it was drawn.")
         for path in sorted(file.parent.glob("*.png"))

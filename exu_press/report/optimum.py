@@ -9,7 +9,7 @@ from exu_press.page import Live, has_library
 from exu_press.plots.words import describe
 from exu_press.report.html import page, paragraph, picture, stills, table
 from exu_press.report.run import scene_parts
-from exu_press.scene import load_scene
+from exu_press.scene import Scene
 from exu_press.schema.stored import from_json
 from exu_press.studies.sweep.units import unit_of
 
@@ -33,7 +33,7 @@ def optimum_report(file: Path) -> str:
         raise InputError(f"{error.filename}: cannot be read ({error.strerror})") from None
     except (ValueError, KeyError, IndexError, TypeError, AttributeError, csv.Error) as error:
         raise InputError(f"{file}: not an optimum of exu_press ({error!s:.200})") from None
-    scene = load_scene(file.parent / "chosen.toml", [])
+    scene = Scene.load(file.parent / "chosen.toml", [])
     live = _live(head, trials, keys, places) if has_library() else None
     rows = [
         [str(run), *(_shown(trial[name]) for name in head[:-1]), _of_front(place, chosen)]

@@ -2,7 +2,7 @@
 
 from exu_press.mechanism import Press, SliderCrank
 from exu_press.scene.bodies import Face, Flexible, flexible_press
-from exu_press.scene.file import load_scene, parse_assignment
+from exu_press.scene.file import parse_assignment
 from exu_press.scene.joint import DryJoint, IdealJoint, LubricatedJoint
 from exu_press.scene.joints import Joints
 from exu_press.scene.load import BlankingLoad, SheetLoad, SpringLoad, TableLoad
@@ -30,7 +30,6 @@ __all__ = [
     "SpringLoad",
     "TableLoad",
     "flexible_press",
-    "load_scene",
     "mechanism_of",
     "parse_assignment",
 ]

@@ -1,4 +1,4 @@
-"""A scene as a TOML file that `load_scene` reads back equal."""
+"""A scene as a TOML file that `Scene.load` reads back equal."""
 
 import dataclasses
 import os

@@ -22,8 +22,10 @@ from exu_press.mechanism import (
 )
 from exu_press.mechanism.examine import require_turning
 from exu_press.scene.bodies import DRIVE_FACE, GUIDE_FACE, Flexible, bodies_of, body_dict
+from exu_press.scene.built import Built
 from exu_press.scene.changes import changed_keys, drop, named
 from exu_press.scene.elastic import with_elastic_guides
+from exu_press.scene.file import parse_assignment, scene_tables
 from exu_press.scene.joint import LAW_TABLES, SIZES, joint_dict, refuse_missing_damping
 from exu_press.scene.joint_changes import by_group, kinds_of, unused_laws
 from exu_press.scene.joints import Joints, joints_of
@@ -291,12 +293,12 @@ class Scene(Table):
         """Return what it is in words and the keys it gives, for notebooks."""
         return str(WORKERS["cell"](self))
 
-    def build(self) -> Any:
+    def build(self) -> Built:
         """Return the assembled `exu_press.model.Model`; its mbs and SC are the real Exudyn objects.
 
         Every body has graphics for Exudyn's own renderer and SolutionViewer.
         """
-        return WORKERS["build"](self)
+        return cast(Built, WORKERS["build"](self))
 
     @property
     def shipped(self) -> str:

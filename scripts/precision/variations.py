@@ -10,6 +10,7 @@ from exu_press.integrate import ErrorScales, Outcome, SolverStatus, SolverTuning
 from exu_press.integrate.problem import Problem
 from exu_press.integrate.settings import Task, prepared
 from exu_press.joints import user_force_of
+from exu_press.model import build
 from exu_press.result import record
 from exu_press.scene import Scene
 from exu_press.solving import settings_for
@@ -86,7 +87,7 @@ def newton_modes(scene: Scene, amount: Amount) -> list[Attempt]:
 def _with_newton(scene: Scene, mode: str, step: float) -> Measured:
     """Run fixed steps with another Newton mode, which is no key of a scene."""
     scene = scene.replace("solver.step", step)
-    model = scene.build()
+    model = build(scene)
     settings = settings_for(scene)
     newton = settings.timeIntegration.newton
     silent, exu.config.printToConsole = exu.config.printToConsole, False

@@ -5,7 +5,7 @@ import re
 
 import pytest
 
-from exu_press import Result, load_scene
+from exu_press import Result, Scene
 from exu_press.cli import main
 
 QUICK = ["--set", "revolutions=0.01", "--no-pictures"]
@@ -36,7 +36,7 @@ def test_scenes_and_a_result(mine, tmp_path, capsys):
     assert comparison["mine"]["scene"]["joints"]["wrist_pin"]["kind"] == "dry"
     assert "first ..." not in captured.err, "a result is not run again"
     assert (first / "run.nc").read_bytes() == was
-    assert Result.load(out / "mine" / "run.nc").scene == load_scene(mine)
+    assert Result.load(out / "mine" / "run.nc").scene == Scene.load(mine)
 
 
 def test_variants_of_the_joints_that_a_scene_has(mine, tmp_path):

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 import exu_press
-from exu_press import Scene, load_scene
+from exu_press import Scene
 from exu_press.cli import main
 
 
@@ -13,7 +13,7 @@ def test_what_is_written_runs(tmp_path, capsys):
     path = tmp_path / "mine.toml"
     assert main(["new", str(path), "--mechanism", "slider_crank"]) == 0
     assert f"exu-press run {path}" in capsys.readouterr().out
-    assert load_scene(path) == Scene(mechanism="slider_crank")
+    assert Scene.load(path) == Scene(mechanism="slider_crank")
     arguments = ["--set", "revolutions=0.01", "--no-pictures", "--out", str(tmp_path / "out")]
     assert main(["run", str(path), *arguments]) == 0
 
@@ -26,7 +26,7 @@ def test_a_mechanism_file_is_named_as_the_scenes_directory_has_it(tmp_path, monk
     assert main(["new", "mine/scene.toml", "--mechanism", "mine/bar.toml"]) == 0
     path = tmp_path / "mine" / "scene.toml"
     assert 'mechanism = "bar.toml"' in path.read_text()
-    assert list(load_scene(path).joints) == ["shaft", "crank_pin", "knuckle", "pivot"]
+    assert list(Scene.load(path).joints) == ["shaft", "crank_pin", "knuckle", "pivot"]
 
 
 @pytest.mark.parametrize(

@@ -4,8 +4,8 @@ import json
 
 import pytest
 
-from exu_press import load_scene
 from exu_press.cli import main
+from exu_press.scene import Scene
 
 STUDY = """
 [scene]
@@ -44,7 +44,7 @@ def test_several_objectives(tmp_path, capsys):
     told = json.loads((out / "optimise.json").read_text())
     assert len(told["front"]) == len(list((out / "front").glob("*.toml")))
     keys = told["front"][told["chosen"]]["keys"]
-    scene = load_scene(out / "chosen.toml")
+    scene = Scene.load(out / "chosen.toml")
     assert scene.slider_crank.rod_length == keys["slider_crank.rod_length"]
     assert (out / "front.png").stat().st_size > 10_000
     assert len((out / "trials.csv").read_text().splitlines()) == 17
@@ -54,7 +54,7 @@ def test_one_objective_that_a_solver_of_scipy_finds(tmp_path, capsys):
     """The lightest slider loads the wrist pin least; the limit keeps the rod from its shortest."""
     assert run(tmp_path, ONE.replace("trials = 16", "trials = 60")) == 0
     assert "method: nelder_mead (a run's error is" in capsys.readouterr().out
-    keys = load_scene(tmp_path / "out" / "chosen.toml").slider_crank
+    keys = Scene.load(tmp_path / "out" / "chosen.toml").slider_crank
     assert keys.slider_mass == pytest.approx(800.0, rel=0.02)
 
 

@@ -116,7 +116,7 @@ def read(block: Block, place: Path) -> None:
     """Read a scene, a study or a mechanism as the commands do."""
     import tomllib
 
-    from exu_press import load_scene
+    from exu_press import Scene
     from exu_press.mechanism import load_mechanism
     from exu_press.studies.base import load_study
 
@@ -127,7 +127,7 @@ def read(block: Block, place: Path) -> None:
     elif "scene" in tomllib.loads(block.text):
         load_study(path, kind_of(tomllib.loads(block.text)))
     else:
-        load_scene(path)
+        Scene.load(path)
 
 
 def kind_of(tables: dict[str, object]) -> type:

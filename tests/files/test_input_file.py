@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from exu_press import InputError, load_scene
+from exu_press import InputError, Scene
 from exu_press.cli import main
 from exu_press.files.input_file import read_bytes, read_text
 
@@ -20,7 +20,7 @@ def test_devices_and_directories_are_refused(path):
 def test_a_pipe_is_refused_and_not_waited_for(tmp_path):
     os.mkfifo(tmp_path / "pipe.toml")
     with pytest.raises(InputError, match="no regular file"):
-        load_scene(tmp_path / "pipe.toml")
+        Scene.load(tmp_path / "pipe.toml")
 
 
 def test_a_file_of_gigabytes_is_refused_unread(tmp_path):
@@ -34,7 +34,7 @@ def test_a_file_of_gigabytes_is_refused_unread(tmp_path):
 def test_a_mark_of_byte_order_is_no_part_of_the_text(tmp_path):
     path = tmp_path / "scene.toml"
     path.write_text("\ufeffrevolutions = 0.5\n", encoding="utf-8")
-    assert load_scene(path).revolutions == 0.5
+    assert Scene.load(path).revolutions == 0.5
 
 
 @pytest.mark.parametrize(

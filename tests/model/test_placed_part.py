@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import exu_press
-from exu_press import InputError, Scene, load_scene, simulate
+from exu_press import InputError, Scene, simulate
 from exu_press.model.placed_part import placed_parts
 from exu_press.scene import mechanism_of
 
@@ -174,7 +174,7 @@ def test_a_rod_from_a_step_file_bends_in_the_six_bar_press(rod):
 def test_the_shipped_rod_is_what_its_script_draws():
     """By mass and place; a mesh of a few hundred tetrahedra."""
     path = Path(exu_press.__file__).parent / "scenes" / "six_bar_rod.toml"
-    scene = load_scene(path, ["bodies.rod.mesh_size=0.06", "bodies.rod.modes=0"])
+    scene = Scene.load(path, ["bodies.rod.mesh_size=0.06", "bodies.rod.modes=0"])
     part = placed(scene)
     web = (LENGTH - 2 * 65) * 80 * 40
     chord = 65**2 * math.asin(40 / 65) - 40 * math.sqrt(65**2 - 40**2)  # between eye and bar

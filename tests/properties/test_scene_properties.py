@@ -141,10 +141,9 @@ def toml(data):
 def test_a_file_that_is_refused_exits_with_2(content, tmp_path, capsys):
     path = tmp_path / "scene.toml"
     path.write_bytes(content)
-    from exu_press.scene import load_scene
 
     try:
-        load_scene(path)
+        Scene.load(path)
     except InputError:
         capsys.readouterr()
         assert main(["run", str(path), "--out", str(tmp_path / "out")]) == 2

@@ -2,7 +2,7 @@
 
 import pytest
 
-from exu_press import InputError, Scene, load_scene
+from exu_press import InputError, Scene
 from exu_press.scene import Face, Flexible, flexible_press
 from exu_press.scene.template import template
 
@@ -98,7 +98,7 @@ def test_a_file_lies_beside_its_scene(tmp_path):
     (tmp_path / "scenes").mkdir()
     path = tmp_path / "scenes" / "mine.toml"
     path.write_text('mechanism = "four_bar"\n[bodies]\ncoupler = "my.step"\n')
-    scene = load_scene(path)
+    scene = Scene.load(path)
     assert scene.bodies["coupler"].path == tmp_path / "scenes" / "my.step"
     scene.save(tmp_path / "other.toml")
     assert 'flexible = "scenes/my.step"' in (tmp_path / "other.toml").read_text()
@@ -112,4 +112,4 @@ def test_the_template_has_an_example_that_is_right(mechanism, body, tmp_path):
         given = line.partition("  #")[0].partition("=")[2].strip() or line.startswith("# [")
         lines.append(line.removeprefix("# ") if inside and given else line)
     (tmp_path / "scene.toml").write_text("\n".join(lines))
-    assert list(load_scene(tmp_path / "scene.toml").bodies) == [body]
+    assert list(Scene.load(tmp_path / "scene.toml").bodies) == [body]

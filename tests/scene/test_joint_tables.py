@@ -2,7 +2,7 @@
 
 import pytest
 
-from exu_press import InputError, Scene, load_scene
+from exu_press import InputError, Scene
 from exu_press.scene import DryJoint, Film, IdealJoint, LubricatedJoint, mechanism_of
 
 
@@ -180,9 +180,9 @@ def test_saved_and_read_back(tmp_path):
     for comments in (False, True):
         path = tmp_path / f"{comments}.toml"
         scene.save(path, comments=comments)
-        assert load_scene(path) == scene
+        assert Scene.load(path) == scene
     text = path.read_text()
     assert "[joints.knuckles]" in text and "[joints.ball_left]" in text
     ideal = tmp_path / "ideal.toml"
     press().save(ideal)
-    assert load_scene(ideal) == press(), "not the shipped press's own joints"
+    assert Scene.load(ideal) == press(), "not the shipped press's own joints"

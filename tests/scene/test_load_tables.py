@@ -5,7 +5,7 @@ import math
 
 import pytest
 
-from exu_press import InputError, Scene, load_scene
+from exu_press import InputError, Scene
 from exu_press.scene import BlankingLoad, TableLoad, mechanism_of
 from exu_press.scene.applied import applied_loads
 from exu_press.scene.warnings import scene_warnings
@@ -40,7 +40,7 @@ def test_a_scene_with_loads_comes_back_equal(tmp_path):
     assert Scene.from_dict(complete) == scene
     assert hash(Scene.from_dict(complete)) == hash(scene)
     scene.save(tmp_path / "scene.toml", comments=True)
-    assert load_scene(tmp_path / "scene.toml") == scene
+    assert Scene.load(tmp_path / "scene.toml") == scene
 
 
 def test_by_default_it_acts_on_the_output_in_its_direction():
@@ -70,7 +70,7 @@ def test_keys_on_the_command_line_and_in_sweeps():
 def test_a_csv_file_lies_beside_the_scene(tmp_path):
     (tmp_path / "force.csv").write_text("# drawing\n\ncrank_angle_deg, force\n90,0\n180, 2e5\n")
     (tmp_path / "scene.toml").write_text('[load.a]\nkind = "table"\nfile = "force.csv"\n')
-    load = load_scene(tmp_path / "scene.toml").load["a"]
+    load = Scene.load(tmp_path / "scene.toml").load["a"]
     assert load == TableLoad(crank_angle_deg=(90.0, 180.0), force=(0.0, 2e5))
 
 
@@ -181,7 +181,7 @@ def test_a_load_on_a_joint_or_a_face_is_saved_and_read_back(tmp_path):
     scene = Scene(bodies={"linkage": "linkage"}, load=load)
     assert Scene.from_dict(scene.to_dict()) == scene
     scene.save(tmp_path / "scene.toml")
-    assert load_scene(tmp_path / "scene.toml") == scene
+    assert Scene.load(tmp_path / "scene.toml") == scene
     moved = scene.replace("load.pin.joint", "crank_pin")
     assert moved.load["pin"].joint == "crank_pin"
 

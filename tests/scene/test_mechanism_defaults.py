@@ -4,7 +4,7 @@ import dataclasses
 
 import pytest
 
-from exu_press import InputError, Scene, load_scene, simulate
+from exu_press import InputError, Scene, simulate
 from exu_press.laws.contact import hertz_stiffness
 from exu_press.mechanism import mechanism_from, mechanism_lines, shipped_mechanism
 from exu_press.mechanism.press import TABLE_2
@@ -109,7 +109,7 @@ def test_a_mechanism_file_gives_sizes_and_laws_for_all_its_scenes(tmp_path):
     own = dataclasses.replace(FOUR_BAR, defaults=defaults)
     (tmp_path / "bar.toml").write_text("\n".join(mechanism_lines(own)))
     (tmp_path / "scene.toml").write_text('mechanism = "bar.toml"\njoints.knuckle = "dry"\n')
-    loaded = load_scene(tmp_path / "scene.toml")
+    loaded = Scene.load(tmp_path / "scene.toml")
     assert loaded.mechanism == own
     assert loaded.joints["knuckle"] == scene().joints["knuckle"]
     assert Scene.from_dict(loaded.to_dict()) == loaded

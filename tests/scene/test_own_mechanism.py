@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from exu_press import InputError, Result, Scene, load_scene, simulate
+from exu_press import InputError, Result, Scene, simulate
 from exu_press.mechanism import Guide, mechanism_lines, shipped_mechanism
 from exu_press.scene import mechanism_of
 
@@ -28,7 +28,7 @@ def folder(tmp_path):
 
 def test_a_path_is_relative_to_the_scene_file(folder, monkeypatch):
     monkeypatch.chdir("/")
-    scene = load_scene(folder / "scene.toml")
+    scene = Scene.load(folder / "scene.toml")
     assert scene.mechanism == FOUR_BAR
     assert scene.joints["knuckle"].kind == "dry"
     assert scene.joints["pivot"].kind == "ideal"
@@ -41,10 +41,10 @@ def test_the_same_from_an_object_or_data():
 
 
 def test_a_saved_scene_is_complete_without_the_mechanism_file(folder):
-    scene = load_scene(folder / "scene.toml")
+    scene = Scene.load(folder / "scene.toml")
     scene.save(folder / "saved.toml", comments=True)
     (folder / "my_press.toml").unlink()
-    assert load_scene(folder / "saved.toml") == scene
+    assert Scene.load(folder / "saved.toml") == scene
 
 
 def test_a_changed_scene_keeps_its_mechanism():
@@ -58,7 +58,7 @@ def test_a_changed_scene_keeps_its_mechanism():
 
 
 def test_a_result_file_needs_no_mechanism_file(folder):
-    result = simulate(load_scene(folder / "scene.toml"))
+    result = simulate(Scene.load(folder / "scene.toml"))
     result.save(folder / "run.nc")
     (folder / "my_press.toml").unlink()
     again = Result.load(folder / "run.nc")
@@ -82,7 +82,7 @@ def refusal(**scene):
 def test_a_file_that_is_not_there(tmp_path):
     (tmp_path / "scene.toml").write_text('mechanism = "none.toml"')
     with pytest.raises(InputError, match=r"scene\.toml: .*none\.toml: cannot be read"):
-        load_scene(tmp_path / "scene.toml")
+        Scene.load(tmp_path / "scene.toml")
 
 
 def test_what_is_wrong_with_it_is_said_by_name():

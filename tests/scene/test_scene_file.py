@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 import exu_press
-from exu_press import InputError, Scene, load_scene
+from exu_press import InputError, Scene
 from exu_press.scene import parse_assignment
 
 SHIPPED = sorted((Path(exu_press.__file__).parent / "scenes").glob("*.toml"))
@@ -19,7 +19,7 @@ def write(directory, text):
 
 def refusal(path, assignments=()):
     with pytest.raises(InputError) as caught:
-        load_scene(path, assignments)
+        Scene.load(path, assignments)
     message = str(caught.value)
     assert "\n" not in message
     return message
@@ -31,7 +31,7 @@ def test_file_with_tables(tmp_path):
         'mechanism = "slider_crank"\nspeed_rpm = 300\n[film]\nviscosity = 0.1\n'
         "[joints.crank_pin]\nkind = 'lubricated'\nclearance = 5e-5\n",
     )
-    scene = load_scene(path)
+    scene = Scene.load(path)
     assert scene == Scene.from_dict(
         {
             "mechanism": "slider_crank",
@@ -40,11 +40,11 @@ def test_file_with_tables(tmp_path):
             "joints": {"crank_pin": {"kind": "lubricated", "clearance": 5e-5}},
         }
     )
-    assert load_scene(str(path)) == scene
+    assert Scene.load(str(path)) == scene
 
 
 def test_empty_file_is_the_default_scene(tmp_path):
-    assert load_scene(write(tmp_path, "")) == Scene()
+    assert Scene.load(write(tmp_path, "")) == Scene()
 
 
 @pytest.mark.parametrize(
@@ -94,18 +94,18 @@ def test_directory_for_a_file(tmp_path):
 
 @pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)
 def test_shipped_scenes_load(path):
-    assert path.stem.startswith(load_scene(path).mechanism)
+    assert path.stem.startswith(Scene.load(path).mechanism)
 
 
 def test_assignments_change_the_file(tmp_path):
     path = write(tmp_path, "speed_rpm = 300\n[film]\nviscosity = 0.1")
-    scene = load_scene(path, ["speed_rpm=200", "film.viscosity = 0.2", "film.law=pi_film"])
+    scene = Scene.load(path, ["speed_rpm=200", "film.viscosity = 0.2", "film.law=pi_film"])
     assert (scene.speed_rpm, scene.film.viscosity, scene.film.law) == (200.0, 0.2, "pi_film")
 
 
 def test_assignment_drops_what_is_no_longer_used(tmp_path):
     path = write(tmp_path, "[film]\nviscosity = 0.1")
-    assert load_scene(path, ["joints.crank_pin=dry"]).film is None
+    assert Scene.load(path, ["joints.crank_pin=dry"]).film is None
 
 
 @pytest.mark.parametrize(

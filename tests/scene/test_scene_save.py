@@ -5,7 +5,7 @@ import tomllib
 
 import pytest
 
-from exu_press import InputError, Scene, load_scene
+from exu_press import InputError, Scene
 
 SCENES = {
     "press": {},
@@ -46,7 +46,7 @@ def test_round_trip(keys, comments, tmp_path, monkeypatch):
     complete = scene.to_dict()
     assert json.loads(json.dumps(complete)) == complete == Scene.from_dict(complete).to_dict()
     scene.save("scene.toml", comments=comments)
-    assert load_scene("scene.toml") == scene
+    assert Scene.load("scene.toml") == scene
 
 
 def test_every_key_is_there_and_nothing_else(tmp_path):
@@ -78,7 +78,7 @@ def test_a_file_that_is_there_is_kept(tmp_path):
         Scene().save(path)
     assert path.read_text() == "# mine\n"
     Scene().save(path, overwrite=True)
-    assert load_scene(path) == Scene()
+    assert Scene.load(path) == Scene()
 
 
 def test_a_directory_that_is_not_there(tmp_path):
@@ -89,4 +89,4 @@ def test_a_directory_that_is_not_there(tmp_path):
 def test_comments_of_a_file_are_no_part_of_the_scene(tmp_path):
     path = tmp_path / "scene.toml"
     path.write_text('# why\njoints.crank_pin = "dry"  # because\n\n[contact]  # all\n')
-    assert load_scene(path) == Scene(joints={"crank_pin": "dry"})
+    assert Scene.load(path) == Scene(joints={"crank_pin": "dry"})

@@ -4,7 +4,7 @@ import dataclasses
 
 import pytest
 
-from exu_press import InputError, Scene, load_scene
+from exu_press import InputError, Scene
 from exu_press.scene.template import template
 from exu_press.scene.usage import TABLES
 
@@ -13,7 +13,7 @@ from exu_press.scene.usage import TABLES
 def test_it_is_the_mechanisms_own_scene(mechanism, tmp_path):
     path = tmp_path / "scene.toml"
     path.write_text(template(mechanism))
-    assert load_scene(path) == Scene(mechanism=mechanism)
+    assert Scene.load(path) == Scene(mechanism=mechanism)
 
 
 def test_every_key_is_there_with_its_meaning_and_every_joint_is_named():
@@ -49,7 +49,7 @@ def test_a_table_that_is_not_in_use_is_right_when_it_is_put_to_use(table, value,
         lines.append(line.removeprefix("# ") if inside and given else line)
     path = tmp_path / "scene.toml"
     path.write_text("\n".join(lines))
-    assert load_scene(path) == Scene().replace(table, value)
+    assert Scene.load(path) == Scene().replace(table, value)
 
 
 def test_an_unknown_mechanism_is_refused():

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 import exu_press
-from exu_press import InputError, Scene, load_scene, simulate
+from exu_press import InputError, Scene, simulate
 from exu_press.laws.film import finite, pinkus
 from exu_press.mechanism import mechanism_to_dict, shipped_mechanism
 from exu_press.scene.warnings import doubtful_sizes, scene_warnings
@@ -174,4 +174,4 @@ def test_a_mechanism_file_is_called_one(tmp_path):
     shipped = Path(exu_press.__file__).parent / "mechanism" / "files" / "eccentric_press.toml"
     path.write_text(shipped.read_text())
     with pytest.raises(InputError, match="is a mechanism, not a scene"):
-        load_scene(path)
+        Scene.load(path)

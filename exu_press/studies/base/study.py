@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from exu_press.errors import InputError
-from exu_press.scene import Scene, load_scene
+from exu_press.scene import Scene
 from exu_press.schema.checks import Table, key, table_from
 from exu_press.schema.toml import read_toml
 from exu_press.studies.base.keys import Key, keys_from
@@ -104,7 +104,7 @@ def load_study(path: str | Path, kind: type[S]) -> S:
             told = _before(data) if name == "keys" else ""
             raise InputError(f"{path}: no {name}; allowed is {name} = {example}{told}")
     if isinstance(data["scene"], str):
-        data["scene"] = load_scene(path.parent / data["scene"])
+        data["scene"] = Scene.load(path.parent / data["scene"])
     try:
         return table_from(kind, "", kind.located(data, path.parent))
     except InputError as error:

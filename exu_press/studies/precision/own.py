@@ -3,6 +3,7 @@
 import time
 from collections.abc import Iterable
 
+from exu_press.model import build
 from exu_press.result import record
 from exu_press.scene import Scene
 from exu_press.studies.precision.measured import Attempt, Measured, measured_of
@@ -32,7 +33,7 @@ def run_scene(scene: Scene, setting: str, value: float) -> Measured:
 
 def run(scene: Scene) -> Measured:
     """Run a scene as it is."""
-    model = scene.build()
+    model = build(scene)
     start = time.process_time()
     outcome = model.solve()
     cpu_time = time.process_time() - start

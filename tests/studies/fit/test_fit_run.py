@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from exu_press import InputError, Scene, load_scene, simulate
+from exu_press import InputError, Scene, simulate
 from exu_press.studies.base import load_study
 from exu_press.studies.fit import Fit, fit
 from exu_press.studies.fit.lines import report_lines
@@ -43,7 +43,7 @@ def test_masses_are_found_from_forces(tmp_path):
     assert report.high[SLIDER] - report.low[SLIDER] < 200.0
     assert report.chi_square == pytest.approx(0.0, abs=0.01)
     assert report.freedom == 1
-    assert load_scene(tmp_path / "fitted.toml") == report.scene
+    assert Scene.load(tmp_path / "fitted.toml") == report.scene
     lines = report_lines(report)
     assert any(line.startswith(SLIDER) and " to " in line for line in lines)
     again = fit(study(start={SLIDER: 1000.0}), tmp_path, workers=1)

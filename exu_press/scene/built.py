@@ -1,0 +1,39 @@
+"""What a scene is built into, as its users see it."""
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, Protocol
+
+if TYPE_CHECKING:
+    import exudyn as exu
+
+    from exu_press.integrate import Outcome
+
+__all__ = ["Built"]
+
+
+class Built(Protocol):
+    """An assembled Exudyn system; what it is made of is told by `exu_press.model.Model`."""
+
+    @property
+    def mbs(self) -> "exu.MainSystem":
+        """Exudyn's main system."""
+        ...
+
+    @property
+    def SC(self) -> "exu.SystemContainer":  # noqa: N802 - Exudyn's own name
+        """Exudyn's system container."""
+        ...
+
+    @property
+    def bodies(self) -> Mapping[str, int]:
+        """Object numbers by the names of the bodies."""
+        ...
+
+    @property
+    def clearance_joints(self) -> Mapping[str, Any]:
+        """Joints with clearance by their names."""
+        ...
+
+    def solve(self, *, quiet: bool = True) -> "Outcome":
+        """Run to the end time or to an early stop."""
+        ...

@@ -2,23 +2,25 @@
 
     python scripts/calibrate_errors.py [--scenes 200] [--seed 1] [--minutes 25] [--out DIR]
 
-All shipped mechanisms and random own ones; ideal, dry, lubricated and mixed joints; all friction
-laws; guides with clearance, motors, loads, fixed steps; tolerances of 3e-5 to 1e-2; 0.1 to 0.35
-revolutions. Each scene's figures are held against those of the same scene at the finest of
-REFERENCES that is affordable, with small largest steps. Beyond the horizon no tolerance gives a
+All shipped mechanisms and random own ones; ideal, dry, lubricated and mixed joints, alone and in
+pairs; all friction laws; guides with clearance, elasticity and friction; motors; pulses, tables of
+forces, sheets and springs; flexible bodies; fixed steps, and tolerances of 3e-5 to 1e-2; 0.1 to
+0.35 revolutions: `calibration.scenes` draws them. Each scene's figures are held against those of
+the same scene at the finest of REFERENCES that is affordable, with small largest steps. Beyond the horizon no tolerance gives a
 true value: there MEMBERS further runs at a tenth of the tolerance, which have nothing in common
-with each other, stand for it. Prints, group by group, the share of figures whose stated error
-covers the true one, and, of figures whose true error the reference can tell, how many times as
-large it is in the median. Called again, it goes on where it was stopped, or where its minutes were
-over.
+with each other, stand for it.
+
+Prints, group by group, the share of figures whose stated error covers the true one, and, of figures
+whose true error the reference can tell, how many times as large it is in the median. Called again,
+it goes on where it was stopped, or where its minutes were over.
 """
 
 import argparse
-import contextlib
-import io
 import json
 import multiprocessing
+import os
 import sys
+import tempfile
 import time
 import traceback
 from collections import Counter
@@ -28,9 +30,8 @@ from typing import Any
 
 import numpy as np
 
+from calibration.scenes import groups_of, random_scene
 from exu_press import InputError, Result, Scene, simulate
-from exu_press.mechanism import SHIPPED
-from exu_press.scene import flexible_press, mechanism_of
 from exu_press.verification.compared import compared
 
 REFERENCES = (1e-7, 1e-6, 1e-5)
@@ -55,148 +56,6 @@ A_MINUTE = 60.0  # s
 MEMBERS = 4
 APART = 0.01
 """Of the tolerance: by how much those of the members differ."""
-
-
-LAWS = ("none", "coulomb", "stribeck", "lugre_steady", "lugre")
-MECHANISMS = ("press", "slider_crank", *SHIPPED)
-FORCES = {"press": 6e4, "eccentric_press": 6e4, "six_bar": 3e4}
-"""Largest forces of loads, N; of others 1 kN."""
-
-
-def own_mechanism(random: np.random.Generator) -> dict[str, Any]:
-    """Return a random eccentric press: crank, rod, and a slide beside the crank's centre."""
-    crank, aside = float(random.uniform(0.01, 0.15)), float(random.uniform(-0.3, 0.3))
-    rod = crank * float(random.uniform(3.0, 6.0))
-    aside *= crank
-    low = -float(np.sqrt(rod**2 - aside**2)) + crank
-    mass = float(10.0 ** random.uniform(-0.5, 2.0))
-    middle = [0.5 * aside, 0.5 * (low + crank)]
-    slide = mass * float(random.uniform(0.5, 5.0))
-    return {
-        "name": "own",
-        "crank": "wheel",
-        "output": {"body": "slide", "direction": [0, 1]},
-        "bodies": {
-            "wheel": {
-                "centre_of_mass": [0.0, crank * float(random.uniform(0.0, 0.5))],
-                "mass": mass,
-                "inertia": mass * crank**2,
-            },
-            "rod": {
-                "centre_of_mass": middle, "mass": 0.5 * mass, "inertia": mass * rod**2 / 24.0
-            },
-            "slide": {
-                "centre_of_mass": [aside, low], "mass": slide, "inertia": 0.1 * slide * crank**2
-            },
-        },
-        "joints": {
-            "main": {"at": [0.0, 0.0], "journal": "wheel", "bearing": "frame"},
-            "big_end": {"at": [0.0, crank], "journal": "wheel", "bearing": "rod"},
-            "small_end": {"at": [aside, low], "journal": "slide", "bearing": "rod"},
-        },
-        "guides": {"slide": {"direction": [0, 1]}},
-    }  # fmt: skip
-
-
-def one_of(random: np.random.Generator, choices: Sequence[Any]) -> Any:
-    """Return one of some choices."""
-    return choices[int(random.integers(len(choices)))]
-
-
-def random_scene(random: np.random.Generator, longest: float, flexible: float) -> Scene:
-    """Return a random scene of 0.1 to `longest` revolutions; some presses are flexible."""
-    while True:
-        try:
-            return Scene.from_dict(_drawn(random, longest, flexible))
-        except InputError:  # a drawn clearance is none of this mechanism, or the like
-            continue
-
-
-def _drawn(random: np.random.Generator, longest: float, flexible: float) -> dict[str, Any]:
-    """Return what may be a scene."""
-    name = one_of(random, (*MECHANISMS, "own", "own"))
-    given: dict[str, Any] = {
-        "mechanism": own_mechanism(random) if name == "own" else name,
-        "speed_rpm": float(random.uniform(60.0, 400.0)),
-        "revolutions": float(random.uniform(0.1, longest)),
-        "start_angle_deg": float(random.uniform(0.0, 360.0)),
-        "joints": {},
-        "solver": {},
-    }
-    kinds = ("dry", "lubricated", "mixed", "ideal")
-    kind = kinds[int(random.choice(4, p=[0.45, 0.25, 0.15, 0.15]))]
-    mechanism = mechanism_of(Scene.from_dict({"mechanism": given["mechanism"]}))
-    joints = [joint.name for joint in mechanism.joints if not joint.spherical]
-    sizes = {} if name in ("press", "slider_crank", "eccentric_press") else {"radius": 0.02}
-    if kind != "ideal":
-        clearance = float(10.0 ** random.uniform(-4.7, -3.7))
-        given["joints"][one_of(random, joints)] = {
-            "kind": "dry" if kind == "dry" else "lubricated", "clearance": clearance, **sizes
-        }  # fmt: skip
-    if kind in ("lubricated", "mixed"):
-        at_contact = "mixed" if kind == "mixed" else "stop"
-        given["film"] = {"at_contact": at_contact, "viscosity": float(10 ** random.uniform(-2, -1))}
-        if sizes:
-            given["film"]["length"] = 0.03
-    if kind in ("dry", "mixed"):
-        law = one_of(random, LAWS)
-        given["friction"] = {"law": law}
-        if law != "none":
-            given["friction"]["mu_kinetic"] = float(random.uniform(0.05, 0.2))
-        if law not in ("none", "coulomb"):
-            given["friction"]["mu_static"] = 0.25
-        given["contact"] = {}
-        if name != "press":  # its contact is damped by steps
-            given["contact"]["restitution"] = float(random.uniform(0.5, 0.95))
-        if sizes:
-            given["contact"]["length"] = 0.03
-    if mechanism.guides and random.random() < 0.25:
-        law = one_of(random, LAWS)
-        given["guide"] = {"clearance": float(10.0 ** random.uniform(-5.0, -4.0)), "friction": law}
-    if random.random() < 0.2:
-        given["drive"] = {"inertia": float(10.0 ** random.uniform(1.0, 2.5))}
-    if random.random() < 0.3:
-        force = FORCES.get(name, 1e3) * float(random.uniform(0.1, 1.0))
-        end = float(given["start_angle_deg"] + 360.0 * given["revolutions"] * random.random())
-        given["load"] = {"blow": {"kind": "blanking", "force": force, "end_angle_deg": end % 360.0}}
-    if random.random() < 0.15:
-        given["solver"] = {"step": float(10.0 ** random.uniform(-5.5, -4.0))}
-    else:
-        given["solver"] = {"tolerance": float(10.0 ** random.uniform(-4.5, -2.0))}
-    if name == "press" and random.random() < flexible:
-        given["bodies"] = flexible_press()
-    return given
-
-
-def groups_of(scene: Scene) -> list[str]:
-    """Return the groups of the table that a scene counts in."""
-    solver, friction, guide = scene.solver, scene.friction, scene.guide
-    assert solver is not None
-    own = not isinstance(scene.mechanism, str)
-    kinds = {kind.kind for kind in scene.joints.values()}
-    found = ["mechanism: own" if own else f"mechanism: {scene.mechanism}"]
-    for kind in ("dry", "lubricated"):
-        if kind in kinds:
-            mixed = kind == "lubricated" and scene.film and scene.film.at_contact == "mixed"
-            found.append(f"joints: {'mixed' if mixed else kind}")
-    if not scene.joints.with_clearance:
-        found.append("joints: ideal")
-    if friction is not None and (kinds & {"dry"} or "joints: mixed" in found):
-        found.append(f"friction: {friction.law}")
-    if guide and guide.clearance:
-        found += ["guide with clearance", f"friction of ways: {guide.friction}"]
-    if scene.drive is not None:
-        found.append("motor")
-    if scene.load:
-        found.append("load")
-    if scene.bodies:
-        found.append("flexible")
-    if solver.step is not None:
-        found.append("steps: fixed")
-    elif solver.tolerance is not None:
-        fine = solver.tolerance < 1e-3
-        found.append(f"tolerance: {'below' if fine else 'from'} 1e-3{'' if fine else ' on'}")
-    return found
 
 
 def references(run: Result, cost: float) -> tuple[str, list[Result]]:
@@ -235,10 +94,8 @@ def judged(number: int, scene: Scene) -> dict[str, Any]:
         "horizon": None,
         "figures": [],
     }
-    said = io.StringIO()
     try:
-        with contextlib.redirect_stderr(said):
-            run = simulate(scene, beside=False, quiet=False, errors=True)
+        run = simulate(scene, beside=False, quiet=False, errors=True)
         row |= {"status": run.info["status"], "horizon": run.info["horizon"]}
         row["seconds_to_errors"] = time.monotonic() - clock
         if run.completed:
@@ -248,7 +105,6 @@ def judged(number: int, scene: Scene) -> dict[str, Any]:
         row["reason"] = str(error)
     except Exception:  # the campaign is to find them
         row |= {"status": "traceback", "reason": traceback.format_exc()}
-    row["said"] = " ".join(said.getvalue().split("\n")[:1])
     row["seconds"] = time.monotonic() - clock
     return row
 
@@ -319,20 +175,29 @@ def in_a_process(number: int, scene: Scene) -> dict[str, Any]:
     """Return a scene's row from a process of its own, which may die or take too long."""
     context = multiprocessing.get_context("fork")
     here, there = context.Pipe(duplex=False)
-    process = context.Process(target=lambda: there.send(judged(number, scene)))
-    begun = time.monotonic()
-    process.start()
-    there.close()
-    row: dict[str, Any] = {"status": f"longer than {LIMIT:.0f} s", "said": "not known"}
-    try:
-        if here.poll(LIMIT):
-            row = here.recv()
-    except EOFError:
-        row = {"status": "process died", "said": ""}
-    process.kill()
-    process.join()
+    row: dict[str, Any] = {"status": f"longer than {LIMIT:.0f} s"}
+    with tempfile.TemporaryFile("w+", encoding="utf-8") as terminal:
+
+        def work() -> None:
+            os.dup2(terminal.fileno(), 2)
+            there.send(judged(number, scene))
+
+        process = context.Process(target=work)
+        begun = time.monotonic()
+        process.start()
+        there.close()
+        try:
+            if here.poll(LIMIT):
+                row = here.recv()
+        except EOFError:
+            row = {"status": "process died"}
+        process.kill()
+        process.join()
+        terminal.seek(0)
+        said = [line for line in terminal.read().splitlines() if " left" in line]
     empty = {"number": number, "groups": groups_of(scene), "figures": [], "reference": "-"}
-    return {**empty, "seconds": time.monotonic() - begun, **row, "scene": scene.to_dict()}
+    took = {"seconds": time.monotonic() - begun, "said": said[0] if said else ""}
+    return {**empty, **took, **row, "scene": scene.to_dict()}
 
 
 def main(arguments: list[str]) -> None:
@@ -342,7 +207,6 @@ def main(arguments: list[str]) -> None:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--minutes", type=float, default=25.0, help="no scene is begun later")
     parser.add_argument("--longest", type=float, default=0.35, help="revolutions")
-    parser.add_argument("--flexible", type=float, default=0.1, help="share of the presses")
     parser.add_argument("--out", default="out/calibration", help="where finished scenes are kept")
     options = parser.parse_args(arguments)
     file = Path(options.out) / f"seed_{options.seed}.jsonl"
@@ -351,7 +215,7 @@ def main(arguments: list[str]) -> None:
     end = time.monotonic() + 60.0 * options.minutes
     while len(rows) < options.scenes and time.monotonic() < end:
         random = np.random.default_rng([options.seed, len(rows)])
-        scene = random_scene(random, options.longest, options.flexible)
+        scene = random_scene(random, options.longest)
         rows.append(in_a_process(len(rows), scene))
         with file.open("a", encoding="utf-8") as stream:
             stream.write(json.dumps(rows[-1]) + "\n")

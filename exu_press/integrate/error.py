@@ -563,7 +563,7 @@ class StepError:
                 of_bodies = tuning.vibrating * self._tolerance
                 penetration = tuning.vibrating_penetration
             per_step = ErrorPerStep(of_bodies)
-            per_time = task.tolerance / (tuning.kept_steps * task.largest)
+            per_time = task.tolerance / (tuning.kept_steps * task.usual)
             self._joints = [
                 JointError(j, whole * j.clearance, per_time * j.clearance, noise, penetration)
                 for j in problem.joints.joints

@@ -310,10 +310,13 @@ class ErrorScales:
         speed: of the bodies, m/s; found: the largest so far.
         force: Newton's method balances forces to a part of it, N; found: what accelerates all
             bodies together, at most so far.
+        step: usual size of the longest steps, s; errors that films keep may add up to the tolerance
+            within some of them. Found: the largest step.
     """
 
     speed: float | None = None
     force: float | None = None
+    step: float | None = None
 
 
 class FoundScales:

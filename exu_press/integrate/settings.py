@@ -96,8 +96,8 @@ class SolverTuning:
         vibrating_penetration: instead of `penetration` there.
         modal_mass: what the modes' mass is changed by, over what keeps their frequencies
             (`exu_press.integrate.scheme`).
-        kept_steps: within so many of the longest steps, 45 degrees of the crank, errors that a film
-            keeps may add up to the tolerance.
+        kept_steps: within so many of the usual longest steps, 45 degrees of the crank, errors that
+            a film keeps may add up to the tolerance.
         refit: a step shorter than this, over the one that constrained velocities fit, makes them
             fit anew.
         largest_jump: of an inertia force within one step, over the run's largest one, from where
@@ -139,6 +139,7 @@ class Task:
         start: of the run, s.
         end: of the run, s.
         largest: step, s.
+        usual: size of the longest steps of such a motion, s.
         smallest: step, s.
         first: step, s.
         every_jacobian: whether each step gets a fresh one: impacts change it all the time, and in
@@ -163,6 +164,7 @@ class Task:
         self.start, self.end = integration.startTime, integration.endTime
         self.spectral_radius = _spectral_radius(settings)
         self.largest = largest = (self.end - self.start) / integration.numberOfSteps
+        self.usual = scales.step or largest
         self.smallest = integration.minimumStepSize
         room = 10.0 * self.smallest  # to repeat a film's first step in, before rounding shows
         if self.fixed:

@@ -21,6 +21,10 @@ through it, however slowly the crank turns. Asked for less (below 30 rpm), Newto
 on what rounding leaves: at 0.01 rpm a hundred times for each step of 1e-4 s."""
 
 
+USUAL_STEP = math.radians(1.5)
+"""Of the crank: the largest step, unless a scene asks for another one."""
+
+
 def solve(model: Assembled, *, tuning: SolverTuning = DEFAULTS, quiet: bool = True) -> Outcome:
     """Run a model to its end time or to an early stop; what was computed stays in its sensors.
 
@@ -68,8 +72,7 @@ def settings_for(scene: Scene, *, twice: bool = False) -> exu.SimulationSettings
     assert solver is not None
     settings = exu.SimulationSettings()
     integration = settings.timeIntegration
-    steps = math.ceil(scene.duration / largest_step(scene) * (1.0 - 1e-12))
-    integration.numberOfSteps = max(1, steps)
+    integration.numberOfSteps = _steps(scene.duration, largest_step(scene))
     integration.endTime = scene.duration
     integration.minimumStepSize = solver.min_step
     integration.verboseMode = 0
@@ -91,10 +94,16 @@ def largest_step(scene: Scene) -> float:
     return solver.step or math.radians(solver.max_step_deg) / scene.angular_speed
 
 
+def _steps(duration: float, largest: float) -> int:
+    """Return how many steps of one size, at most `largest`, a duration (s) is divided into."""
+    return max(1, math.ceil(duration / largest * (1.0 - 1e-12)))
+
+
 def scales(scene: Scene) -> ErrorScales:
     """Return the crank pin's speed, and what its acceleration takes of all bodies.
 
-    With a slow crank, the speed at which a journal has fallen through its clearance.
+    With a slow crank, the speed at which a journal has fallen through its clearance. What films may
+    keep does not depend on the largest step that the scene asks for.
     """
     mechanism = mechanism_of(scene)
     in_guides = 0.0 if scene.guide is None else scene.guide.clearance or 0.0
@@ -104,4 +113,5 @@ def scales(scene: Scene) -> ErrorScales:
         speed=max(scene.pin_speed, math.sqrt(4.0 * scene.gravity * widest)),
         force=sum(body.mass for body in mechanism.bodies)
         * max(usual, FALL * scene.gravity if widest else 0.0),
+        step=scene.duration / _steps(scene.duration, USUAL_STEP / scene.angular_speed),
     )

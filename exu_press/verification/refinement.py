@@ -79,15 +79,11 @@ def plan(scene: Scene) -> dict[float, Scene]:
     kind = "smooth" if not loose else "flexible" if scene.bodies else "rigid"
     room = next(least for least in PLANS[kind] if least * tolerance <= LOOSEST)
     found = {}
-    ratios = PLANS[kind][room]
-    for ratio in ratios:
-        change = {"solver.tolerance": ratio * tolerance}
-        # impacts and films keep most steps far below the largest one: their error is seen best
-        # where that is the same, and the last refinement tells where it sets the steps
-        if not loose or ratio == ratios[-1]:
-            longest = math.sqrt(ratio) * solver.max_step_deg
-            change["solver.max_step_deg"] = min(longest, LARGEST_STEP)
-        found[ratio] = scene.replace(change)
+    for ratio in PLANS[kind][room]:
+        longest = min(math.sqrt(ratio) * solver.max_step_deg, LARGEST_STEP)
+        found[ratio] = scene.replace(
+            {"solver.tolerance": ratio * tolerance, "solver.max_step_deg": longest}
+        )
     return found
 
 

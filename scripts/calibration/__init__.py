@@ -1,0 +1,1 @@
+"""Random scenes, each against much finer runs: do the stated errors cover the true ones?"""

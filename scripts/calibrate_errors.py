@@ -6,9 +6,9 @@ All shipped mechanisms and random own ones; ideal, dry, lubricated and mixed joi
 pairs; all friction laws; guides with clearance, elasticity and friction; motors; pulses, tables of
 forces, sheets and springs; flexible bodies; fixed steps, and tolerances of 3e-5 to 1e-2; 0.1 to
 0.35 revolutions: `calibration.scenes` draws them. Each scene's figures are held against those of
-the same scene at the finest of REFERENCES that is affordable, with small largest steps. Beyond the horizon no tolerance gives a
-true value: there MEMBERS further runs at a tenth of the tolerance, which have nothing in common
-with each other, stand for it.
+the same scene at the finest of REFERENCES that is affordable, with small largest steps. Beyond the
+horizon no tolerance gives a true value: there MEMBERS further runs at a tenth of the tolerance,
+which have nothing in common with each other, stand for it.
 
 Prints, group by group, the share of figures whose stated error covers the true one, and, of figures
 whose true error the reference can tell, how many times as large it is in the median. Called again,

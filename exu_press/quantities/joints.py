@@ -58,7 +58,7 @@ def _start(run: Reading, _: str) -> float | None:
 def _peak_force(run: Reading, joint: str) -> float | None:
     if joint not in run.result.joints:  # of several ideal joints only some are recorded
         return None
-    return float(np.linalg.norm(_record(run, joint).force, axis=1).max())
+    return float(np.linalg.norm(run.load(f"{joint}_force"), axis=1).max())
 
 
 START = Quantity(

@@ -48,8 +48,8 @@ def _guide_peak(quantity: str) -> Callable[[Reading, str], float | None]:
     """Return a reader of the largest magnitude of a guide's channel."""
 
     def read(run: Reading, body: str) -> float | None:
-        values = _of_guide(run, body, quantity)
-        return None if values is None else peak(values)
+        name = f"{guide_channel(run.mechanism, body)}_{quantity}"
+        return None if run.channel(name) is None else peak(run.load(name))
 
     return read
 
@@ -98,7 +98,7 @@ DRIVE = (
         "N m",
         "largest torque of the drive; a motor's turns flywheel and crank",
         LOAD,
-        lambda run, _: peak(run["drive_torque"]),
+        lambda run, _: peak(run.load("drive_torque")),
         title="drive torque, max",
         shown="kN m",
         extreme=Extreme.LARGEST,
@@ -117,7 +117,7 @@ DRIVE = (
         "N m",
         "largest torque that turns the crank, behind a motor's flywheel",
         LOAD,
-        lambda run, _: peak(run["crank_torque"]),
+        lambda run, _: peak(run.load("crank_torque")),
         has=_motor,
         title="crank torque, max",
         shown="kN m",
@@ -146,7 +146,7 @@ DRIVE = (
         "W",
         "largest power of the drive",
         LOAD,
-        lambda run, _: peak(run["drive_power"]),
+        lambda run, _: peak(run.load("drive_power")),
         extreme=Extreme.LARGEST,
         curve="drive_power",
     ),
@@ -222,8 +222,9 @@ def _resultants() -> Iterator[Quantity]:
                     column: int = column,
                     mean: str = ending,
                 ) -> float | None:
-                    force = run[channel][:, column]
-                    return mean_peak_of(run.time, force) if mean else peak(force)
+                    if mean:
+                        return mean_peak_of(run.time, run[channel][:, column])
+                    return peak(run.load(channel)[:, column])
 
                 yield Quantity(
                     name,

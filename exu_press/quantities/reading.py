@@ -9,6 +9,7 @@ import numpy as np
 from exu_press.arrays import Array
 from exu_press.mechanism import Mechanism
 from exu_press.numerics.piecewise import integral
+from exu_press.quantities.alternating import steady
 from exu_press.quantities.dead_centre import DeadCentre, bottom_dead_centres
 from exu_press.result import Result
 from exu_press.result.windows import settled
@@ -41,6 +42,13 @@ class Reading:
         """Return the values of a channel, None where the run does not have it."""
         found = self.result.channels.get(name)
         return None if found is None else found.values
+
+    def load(self, name: str) -> Array:
+        """Return a channel that follows from accelerations, as peaks are read from it."""
+        if name not in self._found:
+            self._found[name] = steady(self.time, self[name])
+        found: Array = self._found[name]
+        return found
 
     def once(self, read: Callable[[Result], Read]) -> Read:
         """Return what a function makes of the run; it is asked once, however many quantities do."""

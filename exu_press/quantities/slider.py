@@ -74,7 +74,7 @@ SLIDER = (
         "m/s^2",
         "largest acceleration of the slider, as the integrator resolves it",
         LOAD,
-        lambda run, _: peak(run["slider_acceleration"]),
+        lambda run, _: peak(run.load("slider_acceleration")),
         title="peak acceleration",
         extreme=Extreme.LARGEST,
         headline=True,

@@ -14,6 +14,9 @@ __all__ = ["Compared", "compared"]
 NOTHING = 1e-6
 """Over a figure: smaller errors are no matter of tolerances."""
 
+UNSURE = 2.0
+"""Times what reading leaves open of a reference: it cannot tell less."""
+
 
 @dataclass(frozen=True)
 class Compared:
@@ -41,13 +44,14 @@ class Compared:
     @property
     def covered(self) -> bool:
         """Whether what is stated covers the true error."""
-        low, high = self.told["low"] - self.reading, self.told["high"] + self.reading
+        low = self.told["low"] - UNSURE * self.reading
+        high = self.told["high"] + UNSURE * self.reading
         return low <= self.true <= high or self.off <= NOTHING * abs(self.value)
 
     @property
     def ratio(self) -> float | None:
         """The stated over the true error; None where the reference cannot tell it."""
-        least = max(NOTHING * abs(self.value), 2.0 * self.reading)
+        least = max(NOTHING * abs(self.value), UNSURE * self.reading)
         return self.told["error"] / self.off if self.off > least else None
 
 

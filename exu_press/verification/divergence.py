@@ -1,5 +1,6 @@
 """How a run and one beside it diverge: in joints and guides with clearance."""
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -32,8 +33,8 @@ class Divergence:
 def divergence(result: Result, other: Result, ratio: float) -> Divergence:
     """Return how fast two runs of a scene part, in clearances, and from when on they have diverged.
 
-    As long as errors go with the tolerance, the run is nearer to the truth than to the other one,
-    by the ratio less one.
+    The run is nearer to the truth than to the other one, by the root of the ratio less one: errors
+    that impacts amplify were measured to fall with the tolerance by no more.
 
     Args:
         result: whose instants count.
@@ -48,7 +49,9 @@ def divergence(result: Result, other: Result, ratio: float) -> Divergence:
         ]
         distance = np.maximum(distance, np.sqrt(np.sum(squares, axis=0)) / clearance)
     beside = growth(result.time, distance, APART).horizon
-    return Divergence(beside, growth(result.time, distance, APART * max(1.0, ratio - 1.0)))
+    return Divergence(
+        beside, growth(result.time, distance, APART * max(1.0, math.sqrt(ratio) - 1.0))
+    )
 
 
 def _plays(run: Result) -> Iterator[tuple[float, Array]]:

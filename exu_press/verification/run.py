@@ -23,7 +23,7 @@ from exu_press.verification.estimate import (
     converging,
     scattered,
 )
-from exu_press.verification.reading import overshot, smoothed, unbalanced
+from exu_press.verification.reading import overshot, smoothed, turned, unbalanced
 from exu_press.verification.refinement import RefinementRuns, plan
 
 __all__ = ["errors_of", "simulate_with_errors", "with_errors"]
@@ -137,7 +137,12 @@ def errors_of(
             )
             by_end = {at: {1.0: read(until(result, at))} for at in (end, beside, horizon)}
             after = {1.0: read(window(result, horizon, end))} if horizon < end else {}
-            ways = (OF_READING, smoothed), (OF_READING, overshot), (1.0, unbalanced)
+            ways = (
+                (OF_READING, smoothed),
+                (OF_READING, overshot),
+                (1.0, turned),
+                (1.0, unbalanced),
+            )
             reads = [(part, read(changed(result))) for part, changed in ways]
         for instant, found in by_end.items():
             found[ratio] = read(until(run, instant))

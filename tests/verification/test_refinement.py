@@ -141,11 +141,10 @@ def test_impacts_on_flexible_bodies_have_a_finer_refinement():
     assert min(plan(Scene(bodies=bodies, joints={}))) > 1.0
 
 
-def test_the_largest_step_of_one_refinement_is_another_one():
+@pytest.mark.parametrize("joints", [{}, {"crank_pin": "lubricated"}])
+def test_the_largest_step_goes_with_the_tolerance(joints):
     """Where it sets the steps of all runs, their agreement says nothing of its error."""
-    scene = Scene(mechanism="slider_crank", joints={"crank_pin": "lubricated"})
+    scene = Scene(mechanism="slider_crank", joints=joints)
     assert scene.solver is not None
-    own = scene.solver.max_step_deg
-    *others, (ratio, last) = plan(scene).items()
-    assert [each.solver.max_step_deg for _, each in others] == [own] * len(others)
-    assert last.solver.max_step_deg == pytest.approx(ratio**0.5 * own)
+    for ratio, other in plan(scene).items():
+        assert other.solver.max_step_deg == pytest.approx(ratio**0.5 * scene.solver.max_step_deg)

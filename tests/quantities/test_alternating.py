@@ -1,0 +1,53 @@
+"""Loads that alternate from step to step are read without that."""
+
+import numpy as np
+import pytest
+
+from exu_press import Scene, simulate
+from exu_press.quantities import quantity_of
+from exu_press.quantities.alternating import steady
+from exu_press.quantities.value import numbers_of
+
+
+@pytest.fixture(scope="module")
+def run():
+    return simulate(Scene(mechanism="slider_crank", revolutions=0.1))
+
+
+def smooth(run):
+    turns = 2.0 * np.pi * (run.time / run.time[-1])
+    return 1000.0 * np.stack([np.sin(turns), 2.0 + np.cos(turns)], axis=1)
+
+
+def signs(run):
+    return np.where(np.arange(len(run.time)) % 2, 1.0, -1.0)[:, None]
+
+
+def test_a_smooth_curve_is_left_as_it_is(run):
+    assert np.array_equal(steady(run.time, smooth(run)), smooth(run))
+
+
+@pytest.mark.parametrize("size", [3.0, 900.0])
+def test_what_alternates_is_taken_away(run, size):
+    found = steady(run.time, smooth(run) + size * signs(run))
+    assert found[2:] == pytest.approx(smooth(run)[2:], abs=0.02 * size + 0.5)
+
+
+def test_a_peak_of_one_sample_stays(run):
+    force = np.zeros((len(run.time), 2))
+    force[40] = 500.0
+    assert np.array_equal(steady(run.time, force), force)
+
+
+@pytest.mark.long
+def test_the_peak_of_a_finer_run_is_not_worse():
+    """In steps of some microseconds the rounding of positions alternates by 0.7 N in its forces."""
+    scene = Scene(
+        mechanism="slider_crank", speed_rpm=60.0, guide={"clearance": 1e-4}, revolutions=0.5
+    )
+    peak = {"peak": quantity_of(scene, "joints.wrist_pin.peak_force")}
+    runs = [simulate(scene.replace("solver.tolerance", 10.0**-n)) for n in (4, 5, 6)]
+    found = [numbers_of(run, peak)["peak"] for run in runs]
+    assert found == pytest.approx([found[-1]] * 3, rel=3e-6)
+    raw = [np.linalg.norm(run["wrist_pin_force"], axis=1).max() for run in runs]
+    assert np.ptp(raw) > 2.0 * np.ptp(found)

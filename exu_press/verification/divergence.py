@@ -1,8 +1,6 @@
 """How a run and one beside it diverge: in joints and guides with clearance."""
 
-import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -11,35 +9,20 @@ from exu_press.result import Result
 from exu_press.scene import mechanism_of
 from exu_press.verification.growth import Growth, growth
 
-__all__ = ["Divergence", "divergence"]
+__all__ = ["divergence"]
 
 APART = 0.3
 """Of a clearance: journals that differ by this have nothing in common any more."""
 
 
-@dataclass(frozen=True)
-class Divergence:
-    """How a run parts from the truth, as far as one beside it tells.
-
-    Attributes:
-        beside: instant from which on the two have nothing in common, s, or None.
-        growth: of their distance, until the run itself has nothing in common with the truth.
-    """
-
-    beside: float | None
-    growth: Growth
-
-
-def divergence(result: Result, other: Result, ratio: float) -> Divergence:
+def divergence(result: Result, other: Result) -> Growth:
     """Return how fast two runs of a scene part, in clearances, and from when on they have diverged.
-
-    The run is nearer to the truth than to the other one, by the root of the ratio less one: errors
-    that impacts amplify were measured to fall with the tolerance by no more.
 
     Args:
         result: whose instants count.
-        other: at another tolerance or step.
-        ratio: of the other one's tolerance or step to the run's.
+        other: at another tolerance or step. A finer one is as good as the truth. A coarser one is
+            not much further from it than the run: errors that impacts amplify were measured to fall
+            with the root of the tolerance.
     """
     distance = np.zeros_like(result.time)
     for (clearance, here), (_, there) in zip(_plays(result), _plays(other), strict=True):
@@ -48,10 +31,7 @@ def divergence(result: Result, other: Result, ratio: float) -> Divergence:
             for i in range(here.shape[1])
         ]
         distance = np.maximum(distance, np.sqrt(np.sum(squares, axis=0)) / clearance)
-    beside = growth(result.time, distance, APART).horizon
-    return Divergence(
-        beside, growth(result.time, distance, APART * max(1.0, math.sqrt(ratio) - 1.0))
-    )
+    return growth(result.time, distance, APART)
 
 
 def _plays(run: Result) -> Iterator[tuple[float, Array]]:

@@ -8,7 +8,6 @@ import numpy as np
 from exu_press.result.info import Error
 
 __all__ = [
-    "AMPLIFIED",
     "ROUNDING",
     "SAFETY",
     "SAFETY_OF_STEPS",
@@ -23,10 +22,6 @@ figures are covered, with 2 97 %, at 4.2 and 4.7 times the true error in the med
 SAFETY_OF_STEPS = 3.0
 """Of errors that go with a fixed step: impacts and films that it leaps over are not sampled better
 by half of it."""
-
-AMPLIFIED = 1.7
-"""Factor on either where the refinements have diverged and the run itself, which is nearer to the
-truth, has not yet."""
 
 NINETEEN_IN_TWENTY = {1: 11.0, 2: 3.85, 3: 2.9, 4: 2.55}
 """Over the root mean square of a normal sample's differences to so many others: within this of it

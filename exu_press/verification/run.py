@@ -15,14 +15,14 @@ from exu_press.result.info import Error, Errors
 from exu_press.result.run import run_once
 from exu_press.result.windows import until, window
 from exu_press.scene import Scene
-from exu_press.verification.divergence import Divergence, divergence
+from exu_press.verification.divergence import divergence
 from exu_press.verification.estimate import (
-    AMPLIFIED,
     SAFETY,
     SAFETY_OF_STEPS,
     converging,
     scattered,
 )
+from exu_press.verification.growth import Growth
 from exu_press.verification.reading import overshot, smoothed, turned, unbalanced
 from exu_press.verification.refinement import RefinementRuns, plan
 
@@ -122,7 +122,7 @@ def errors_of(
         return numbers_of(run, told)
 
     end = float(result.time[-1])
-    diverged: Divergence | None = None
+    diverged: Growth | None = None
     by_end: dict[float, dict[float, Mapping[str, float]]] = {}
     after: dict[float, Mapping[str, float]] = {}
     for ratio, refinement in refinements:
@@ -130,12 +130,9 @@ def errors_of(
             continue
         run = until(refinement, end)
         if diverged is None:
-            diverged = divergence(result, run, ratio)
-            beside, horizon = (
-                end if instant is None else instant
-                for instant in (diverged.beside, diverged.growth.horizon)
-            )
-            by_end = {at: {1.0: read(until(result, at))} for at in (end, beside, horizon)}
+            diverged = divergence(result, run)
+            horizon = end if diverged.horizon is None else diverged.horizon
+            by_end = {at: {1.0: read(until(result, at))} for at in (end, horizon)}
             after = {1.0: read(window(result, horizon, end))} if horizon < end else {}
             ways = (
                 (OF_READING, smoothed),
@@ -152,7 +149,7 @@ def errors_of(
         return {"errors": {}, "horizon": None, "lyapunov_exponent": None}
     solver = result.scene.solver
     safety = SAFETY if solver is not None and solver.step is None else SAFETY_OF_STEPS
-    until_then = {safety: by_end[beside], AMPLIFIED * safety: by_end[horizon]}
+    before = by_end[horizon]
     errors: dict[str, Error] = {}
     sizes = _Sizes.of(by_end[end][1.0], told)
     for name, value in by_end[end][1.0].items():
@@ -162,13 +159,14 @@ def errors_of(
             quantity, [found[name] for found in by_end[end].values() if name in found], sizes
         )
         least += left_open
-        errors[name] = error = _error(name, quantity.extreme, by_end[end], until_then, after, least)
+        told_values = by_end[end], before, after
+        errors[name] = error = _error(name, quantity.extreme, *told_values, least, safety)
         if value >= 0.0 and not quantity.signed:
             error["low"] = max(error["low"], 0.0)
     return {
         "errors": errors,
-        "horizon": diverged.growth.horizon,
-        "lyapunov_exponent": diverged.growth.rate,
+        "horizon": diverged.horizon,
+        "lyapunov_exponent": diverged.rate,
     }
 
 
@@ -176,9 +174,10 @@ def _error(
     name: str,
     extreme: Extreme,
     now: Numbers,
-    until_then: Mapping[float, Numbers],
+    before: Numbers,
     after: Numbers,
     least: float,
+    safety: float,
 ) -> Error:
     """Return the error of a quantity.
 
@@ -189,18 +188,17 @@ def _error(
         name: of the quantity.
         extreme: of what it is an extreme.
         now: of the whole motion.
-        until_then: safety of errors that go with the tolerance or the step -> the quantities until
-            the instant up to which it is enough; the last one is the horizon.
-        after: of the motion from the horizon on, where there is one.
+        before: of the motion until the horizon, where there is one.
+        after: of the motion from then on.
         least: least error.
+        safety: factor on errors that go with the tolerance or the step.
     """
     values = {ratio: found[name] for ratio, found in now.items() if name in found}
     if len(values) < 2:
         return scattered([values[1.0], 0.0])
-    for safety, before in until_then.items():
-        begun = {r: before[r].get(name, np.nan) for r in values}
-        if all(abs(begun[r] - value) <= SAME * abs(value) for r, value in values.items()):
-            return converging(list(values.values()), list(values), least, safety)
+    begun = {r: before[r].get(name, np.nan) for r in values}
+    if all(abs(begun[r] - value) <= SAME * abs(value) for r, value in values.items()):
+        return converging(list(values.values()), list(values), least, safety)
     later = {r: found.get(name, np.nan) for r, found in after.items() if r in values}
     further = _further(extreme, values, begun, later) if later else None
     if further is None:

@@ -12,7 +12,6 @@ from exu_press.quantities.kind import MOTION
 from exu_press.quantities.value import numbers_of
 from exu_press.scene import flexible_press
 from exu_press.verification import with_errors
-from exu_press.verification.estimate import AMPLIFIED
 from exu_press.verification.refinement import RefinementRuns, plan
 from exu_press.verification.run import errors_of
 
@@ -85,24 +84,21 @@ def test_motions_that_part_leave_bounds():
     assert not told["errors"]["joints.crank_pin.peak_force"]["determined"]
 
 
-def test_a_run_that_has_not_parted_itself_tells_a_larger_error():
-    """Its refinement has, of which it is twice as near to the truth."""
+def test_errors_go_with_the_tolerance_until_journals_are_apart():
+    """The same forces count otherwise once their journals have nothing in common."""
     scene = Scene(**DRY, revolutions=0.1)
     result = simulate(scene)
     clearance = scene.joints["crank_pin"].clearance
     late = (result.time > 0.5 * result.time[-1])[:, None]
     force = result["crank_pin_force"] * np.where(late, 1e3, 1.0)
-    found = {}
-    for part in (0.2, 0.45, 1.2):
+    found = []
+    for part in (0.2, 0.4):
         away = result["crank_pin_eccentricity"] + np.where(late, part * clearance, 0.0) * [1.0, 0.0]
         beside = {"crank_pin_force": force, "crank_pin_eccentricity": away}
-        found[part] = errors_of(result, [(9.0, result.with_values(beside))])
-    least, more, most = (
-        one["errors"]["joints.crank_pin.peak_force"]["error"] for one in found.values()
-    )
-    assert [one["horizon"] is None for one in found.values()] == [True, True, False]
-    assert more == pytest.approx(AMPLIFIED * least, rel=1e-3)
-    assert most > 3.0 * more
+        found.append(errors_of(result, [(9.0, result.with_values(beside))]))
+    near, apart = (one["errors"]["joints.crank_pin.peak_force"]["error"] for one in found)
+    assert [one["horizon"] is None for one in found] == [True, False]
+    assert apart > 3.0 * near
 
 
 def test_what_refinements_did_before_the_horizon_widens_no_bounds():
@@ -130,31 +126,21 @@ def test_magnitudes_are_not_below_zero_and_energies_may_be():
     scene = Scene(**DRY, revolutions=0.1)
     other = simulate(scene.replace("joints.crank_pin.clearance", 4e-4))
     errors = errors_of(simulate(scene), [(4.0, other)])["errors"]
-    assert errors["joints.crank_pin.peak_force"]["low"] == 0.0
+    assert errors["peak_acceleration.mean_1ms"]["low"] == 0.0
     assert errors["energy.stored"]["low"] < 0.0
 
 
 @pytest.mark.parametrize(
     ("solver", "ratios"),
     [
-        ({"tolerance": 1e-3}, [4.0, 8.0, 16.0]),
-        ({"tolerance": 0.01}, [2.0, 4.0, 8.0]),
+        ({"tolerance": 1e-3}, [0.5, 8.0]),
         ({"tolerance": 0.04}, [0.5, 2.0]),
         ({"tolerance": 0.1}, [0.25, 0.5]),
         ({"step": 1e-5}, [2.0, 3.0, 4.0]),
     ],
 )
-def test_refinements_are_coarser_where_that_is_allowed(solver, ratios):
+def test_one_refinement_is_finer_and_one_coarser_where_that_is_allowed(solver, ratios):
     assert list(plan(Scene(solver=solver))) == ratios
-
-
-def test_smooth_motion_has_fewer_refinements_with_longer_steps():
-    smooth = Scene(joints={})
-    for scene in (smooth, smooth.replace("guide", {"lateral_stiffness": 1e9})):
-        assert list(plan(scene)) == [4.0, 8.0]
-        assert plan(scene)[4.0].solver.max_step_deg == 2.0 * scene.solver.max_step_deg
-    loose = smooth.replace("guide", {"clearance": 1e-5})
-    assert list(plan(loose)) == [4.0, 8.0, 16.0]
 
 
 def test_work_that_cancels_is_as_unsure_as_the_balance():

@@ -6,6 +6,7 @@ from exu_press.joints.add import (
     add_guideway_contact,
     add_joint_sensor,
     add_lubricated_revolute,
+    add_revolute,
 )
 from exu_press.joints.compiled import COMPILED
 from exu_press.joints.ends import FlexiblePoint
@@ -22,6 +23,7 @@ __all__ = [
     "add_guideway_contact",
     "add_joint_sensor",
     "add_lubricated_revolute",
+    "add_revolute",
     "history",
     "user_force_of",
 ]

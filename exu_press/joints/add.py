@@ -26,6 +26,7 @@ __all__ = [
     "add_guideway_contact",
     "add_joint_sensor",
     "add_lubricated_revolute",
+    "add_revolute",
 ]
 
 
@@ -62,8 +63,8 @@ def add_dry_revolute(
             assembled already.
     """
     _check(mbs, contact=contact, friction=friction, radius=radius, clearance=clearance)
-    return _revolute(
-        mbs, journal, bearing, axis, [DryInterface(contact, friction, radius, clearance)]
+    return add_revolute(
+        mbs, journal, bearing, [DryInterface(contact, friction, radius, clearance)], axis=axis
     )
 
 
@@ -99,7 +100,7 @@ def add_dry_spherical(
     _check(mbs, contact=contact, friction=friction, radius=radius, clearance=clearance)
     if in_plane(mbs, ball) and in_plane(mbs, socket):
         interfaces: list[InterfaceLaw] = [DryInterface(contact, friction, radius, clearance)]
-        return _revolute(mbs, ball, socket, (0, 0, 1), interfaces)
+        return add_revolute(mbs, ball, socket, interfaces)
     joint = SpatialSpherical(
         spatial_end(mbs, ball), spatial_end(mbs, socket), contact, friction, radius, clearance
     )
@@ -153,7 +154,7 @@ def add_lubricated_revolute(
     if contact is not None:
         friction = no_friction() if friction is None else friction
         interfaces.append(DryInterface(contact, friction, radius, clearance - asperity_onset))
-    return _revolute(mbs, journal, bearing, axis, interfaces)
+    return add_revolute(mbs, journal, bearing, interfaces, axis=axis)
 
 
 def add_guideway_contact(
@@ -253,14 +254,32 @@ def _check_laws(mbs: exu.MainSystem, **laws: Any) -> None:
             )
 
 
-def _revolute(
+def add_revolute(
     mbs: exu.MainSystem,
     journal: BodyPoint,
     bearing: BodyPoint,
-    axis: Sequence[float],
     interfaces: Sequence[InterfaceLaw],
+    *,
+    axis: Sequence[float] = (0, 0, 1),
 ) -> ClearanceJoint:
-    """Join two bodies by interfaces; planar bodies have a joint of their own, ten times faster."""
+    """Put a revolute joint of interface laws between two bodies: your own, or several in parallel.
+
+    Planar bodies have a joint of their own, ten times faster.
+
+    Args:
+        mbs: system, not yet assembled.
+        journal: body that carries the journal, and its centre in that body.
+        bearing: the same of the bearing.
+        interfaces: acting in parallel; the first one has the joint's clearance.
+        axis: of the bearing, in its body's frame.
+
+    Returns:
+        The joint; `add_joint_sensor` records it.
+
+    Raises:
+        InputError: as `add_dry_revolute`.
+    """
+    _check_laws(mbs)
     joint: ClearanceJoint
     if in_plane(mbs, journal) and in_plane(mbs, bearing):
         if tuple(axis) != (0, 0, 1):

@@ -8,7 +8,7 @@ conserved exactly. S, which a film alone has, is the couple of its shear.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from exu_press.joints.joint import SHALLOW, JointState
@@ -21,6 +21,7 @@ __all__ = [
     "Arms",
     "DryInterface",
     "FilmInterface",
+    "FunctionInterface",
     "InterfaceJoint",
     "InterfaceLaw",
     "Load",
@@ -321,14 +322,61 @@ class FilmInterface(InterfaceLaw):
         return -0.5 * e, -0.5 * e, -0.5, -0.5
 
 
+class FunctionInterface(InterfaceLaw):
+    """An interface law of your own, a function; its force acts half-way between the two centres."""
+
+    def __init__(
+        self,
+        law: Callable[[float, float, float, float, float], Response],
+        clearance: float,
+        energy: Callable[[float], tuple[float, float]] | None = None,
+    ) -> None:
+        """Let a function be the law.
+
+        Args:
+            law: (|e|, d|e|/dt, v_t, omega_J, omega_B) -> f_n and f_t, N, the five derivatives of
+                f_n by these, then those of f_t.
+            clearance: eccentricity that others are compared with, m.
+            energy: |e| -> elastic energy, J, and its derivative, N; None where nothing is stored.
+        """
+        super().__init__(clearance, stateful=False, needs_secant=False)
+        self.law = law
+        self.energy = energy
+
+    def load(
+        self, e: float, e_dot: float, v_t: float, omega_j: float, omega_b: float
+    ) -> Load | None:
+        """Return force and moments."""
+        response = self.law(e, e_dot, v_t, omega_j, omega_b)
+        moment = -0.5 * e * response[1]
+        return response[0], response[1], moment, moment, response
+
+    def partials(self, response: Response, e: float, omega_j: float, omega_b: float) -> Partials:
+        """Return the derivatives that the law gives."""
+        _, _, n_1, n_2, n_3, n_4, n_5, t_1, t_2, t_3, t_4, t_5 = response
+        return (n_1, n_2, n_3, n_4, n_5), (t_1, t_2, t_3, t_4, t_5)
+
+    def arms(self, e: float) -> Arms:
+        """Return the moment arms of the point half-way between the centres."""
+        return -0.5 * e, -0.5 * e, -0.5, -0.5
+
+    def stored_energy(self, e: float) -> float:
+        """Return the elastic energy, J."""
+        return 0.0 if self.energy is None else self.energy(e)[0]
+
+    def stored_power(self, e: float, e_dot: float) -> float:
+        """Return the rate of the elastic energy, W."""
+        return 0.0 if self.energy is None else self.energy(e)[1] * e_dot
+
+
 class InterfaceJoint:
     """What revolute joints in the plane and in space have in common: interfaces acting in parallel.
 
     Attributes:
         interfaces: the first one has the joint's clearance.
         clearance: radial clearance, m.
-        reach: eccentricity at which surfaces touch in one of them, m, or infinity.
-        deepest: eccentricity up to which their contact laws hold, m, or infinity.
+        contact_onset: eccentricity at which surfaces touch in one of them, m, or infinity.
+        largest_eccentricity: eccentricity up to which their contact laws hold, m, or infinity.
         lubricated: whether one of them is a film.
         path: of the journal.
     """

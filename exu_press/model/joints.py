@@ -15,9 +15,8 @@ from exudyn.rigidBodyUtilities import RotationMatrixZ
 from exu_press.errors import InputError
 from exu_press.joints import (
     ClearanceJoint,
-    add_dry_revolute,
     add_dry_spherical,
-    add_lubricated_revolute,
+    add_revolute,
 )
 from exu_press.joints.interface import DryInterface, FilmInterface, InterfaceLaw
 from exu_press.laws.film import film_scale
@@ -26,7 +25,9 @@ from exu_press.mechanism import GROUND, Joint, Point
 from exu_press.mechanism.holding import SingleAxis
 from exu_press.model.system import System
 from exu_press.scene import DryJoint, LubricatedJoint
+from exu_press.scene.joint import LooseJoint
 from exu_press.scene.laws import contact_law, film_law, friction_law
+from exu_press.scene.own_joint import OwnJoint
 
 __all__ = ["add_clearance_joint", "add_ideal_joint", "interfaces_of"]
 
@@ -41,44 +42,26 @@ def add_ideal_joint(system: System, joint: Joint) -> int:
     return int(system.mbs.AddObject(revolute))
 
 
-def add_clearance_joint(
-    system: System, joint: Joint, kind: DryJoint | LubricatedJoint
-) -> ClearanceJoint:
+def add_clearance_joint(system: System, joint: Joint, kind: LooseJoint) -> ClearanceJoint:
     """Add a joint with clearance."""
     journal, bearing = (_end(system, joint, *end) for end in system.mechanism.ends(joint))
-    contact = None
-    if kind.contact is not None:
-        contact = contact_law(kind, revolute=not joint.spherical)
-    friction = no_friction() if kind.friction is None else friction_law(kind.friction)
-    if isinstance(kind, DryJoint):
-        assert contact is not None
-        add = add_dry_spherical if joint.spherical else add_dry_revolute
-        return add(
-            system.mbs,
-            journal,
-            bearing,
-            radius=kind.radius,
-            clearance=kind.clearance,
-            contact=contact,
-            friction=friction,
-        )
-    return add_lubricated_revolute(
+    if not (joint.spherical and isinstance(kind, DryJoint)):
+        return add_revolute(system.mbs, journal, bearing, interfaces_of(joint, kind))
+    return add_dry_spherical(
         system.mbs,
         journal,
         bearing,
         radius=kind.radius,
         clearance=kind.clearance,
-        length=kind.film.length,
-        viscosity=kind.film.viscosity,
-        law=film_law(kind.film, kind.radius, kind.clearance),
-        contact=contact,
-        friction=friction,
-        asperity_onset=kind.onset or 0.0,
+        contact=contact_law(kind, revolute=False),
+        friction=friction_law(kind.friction),
     )
 
 
-def interfaces_of(joint: Joint, kind: DryJoint | LubricatedJoint) -> list[InterfaceLaw]:
+def interfaces_of(joint: Joint, kind: LooseJoint) -> list[InterfaceLaw]:
     """Return the surfaces of a joint with clearance, in its plane."""
+    if isinstance(kind, OwnJoint):
+        return list(kind.interfaces())
     interfaces: list[InterfaceLaw] = []
     if isinstance(kind, LubricatedJoint):
         radius, clearance, oil = kind.radius, kind.clearance, kind.film

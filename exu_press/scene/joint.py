@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any, ClassVar, Literal, cast
 
 from exu_press.errors import InputError
+from exu_press.scene.own_joint import OwnJoint, own_kind
 from exu_press.scene.tables import Contact, Film, Friction, asperity_onset
 from exu_press.schema.checks import Table, demand_keys, key
 
@@ -16,6 +17,7 @@ __all__ = [
     "DryJoint",
     "IdealJoint",
     "Joint",
+    "LooseJoint",
     "LubricatedJoint",
     "joint_dict",
     "keys_used",
@@ -85,7 +87,8 @@ class LubricatedJoint(Table):
         return asperity_onset(self.film)
 
 
-Joint = IdealJoint | DryJoint | LubricatedJoint
+LooseJoint = DryJoint | LubricatedJoint | OwnJoint
+Joint = IdealJoint | LooseJoint
 JOINT_KINDS: dict[str, type[Joint]] = {
     kind.kind: kind for kind in (IdealJoint, DryJoint, LubricatedJoint)
 }
@@ -101,14 +104,18 @@ def keys_used(kind: Any, at_contact: Any) -> tuple[str, ...]:
         return SIZES + touching
     if kind == "lubricated":
         return (*SIZES, "film", *(touching if at_contact == "mixed" else ()))
-    return ()
+    own = own_kind(kind)
+    return () if own is None else tuple(field.name for field in dataclasses.fields(own))
 
 
 def refuse_missing(place: str, joint: Joint, *, revolute: bool) -> None:
     """Raise InputError for the first key without a default that decides what a joint does."""
     if isinstance(joint, IdealJoint):
         return
-    needed: dict[str, tuple[Table, tuple[str, ...]]] = {"": (joint, SIZES)}
+    sizes: tuple[str, ...] = SIZES
+    if isinstance(joint, OwnJoint):
+        sizes = tuple(field.name for field in dataclasses.fields(joint))
+    needed: dict[str, tuple[Table, tuple[str, ...]]] = {"": (joint, sizes)}
     if joint.contact is not None:
         dry = isinstance(joint, DryJoint)
         length = ("length",) if dry and revolute and joint.contact.shape == "cylindrical" else ()

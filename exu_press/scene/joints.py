@@ -8,15 +8,16 @@ from exu_press.errors import InputError, UnusedKeyError
 from exu_press.scene.joint import (
     JOINT_KINDS,
     LAW_TABLES,
-    DryJoint,
     IdealJoint,
     Joint,
+    LooseJoint,
     LubricatedJoint,
     joint_dict,
     keys_used,
     refuse_missing,
 )
 from exu_press.scene.laws import contact_law, film_law, friction_law
+from exu_press.scene.own_joint import OwnJoint, own_kind
 from exu_press.scene.tables import Contact, Film
 from exu_press.schema.checks import Table, given_in, nearest, table_with
 
@@ -80,15 +81,15 @@ class Joints(Mapping[str, Joint]):
         return frozenset(n for n, joint in self._joints.items() if isinstance(joint, IdealJoint))
 
     @property
-    def with_clearance(self) -> dict[str, DryJoint | LubricatedJoint]:
+    def with_clearance(self) -> dict[str, LooseJoint]:
         """The joints with clearance."""
         return {n: j for n, j in self._joints.items() if not isinstance(j, IdealJoint)}
 
     @property
-    def grouped(self) -> dict[str, DryJoint | LubricatedJoint]:
+    def grouped(self) -> dict[str, LooseJoint]:
         """The joints with clearance, those of a group that are all the same under its name."""
         loose = self.with_clearance
-        shown: dict[str, DryJoint | LubricatedJoint] = {}
+        shown: dict[str, LooseJoint] = {}
         for name, joint in loose.items():
             group = next(
                 (
@@ -186,7 +187,7 @@ def joints_of(
 
 def keys_given(name: str, given: Any) -> dict[str, Any]:
     """Return what is given of a joint or group as a mapping with its kind."""
-    if isinstance(given, (IdealJoint, DryJoint, LubricatedJoint)):
+    if isinstance(given, Joint):
         fields = {field.name: getattr(given, field.name) for field in dataclasses.fields(given)}
         return {"kind": given.kind, **{k: v for k, v in fields.items() if v is not None}}
     if isinstance(given, str):
@@ -211,11 +212,17 @@ def _joint(
     place = f"joints.{name}"
     kinds = [kind for kind in JOINT_KINDS if not (spherical and kind == "lubricated")]
     kind = given.get("kind")
-    if kind not in kinds:
+    try:
+        own_class = own_kind(kind)
+    except InputError as error:
+        raise InputError(f"{place}.{error}") from None
+    if kind not in kinds and own_class is None:
         what = f"{place}.kind = {kind!r}" if "kind" in given else f"{place} has no kind"
         ball = ", as it is a ball" if spherical else ""
         raise InputError(f"{what}: allowed is one of {', '.join(map(repr, kinds))}{ball}")
     known = ("kind", "clearance", "radius", *LAW_TABLES)
+    if own_class is not None:
+        known = ("kind", *keys_used(kind, None))
     for unknown in [key for key in given if key not in known]:
         raise InputError(
             f"{place}.{unknown} = {given[unknown]!r}: unknown key{nearest(unknown, known)}; "
@@ -232,7 +239,7 @@ def _joint(
     for law, table in own.items():
         own[law] = table.without(unused_in(table, spherical=spherical))
     values: dict[str, Any] = {**sizes, **given, **own}
-    chosen: type[Any] = JOINT_KINDS[kind]
+    chosen: type[Any] = own_class or JOINT_KINDS[str(kind)]
     try:
         joint: Joint = chosen(**{key: values[key] for key in used if key in values})
     except InputError as error:
@@ -262,6 +269,8 @@ def _check_laws(place: str, joint: Joint, spherical: bool) -> None:
     if isinstance(joint, IdealJoint):
         return
     try:
+        if isinstance(joint, OwnJoint):
+            joint.interfaces()
         if joint.contact is not None:
             contact_law(joint, revolute=not spherical)
         if joint.friction is not None:

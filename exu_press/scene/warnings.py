@@ -8,6 +8,7 @@ import numpy as np
 from exu_press.laws.film import FILM_LAWS
 from exu_press.scene.applied import applied_loads
 from exu_press.scene.joint import LubricatedJoint
+from exu_press.scene.own_joint import OwnJoint
 from exu_press.scene.scene import Scene, mechanism_of
 
 __all__ = ["doubtful_sizes", "scene_warnings"]
@@ -69,7 +70,7 @@ def _drawing(scene: Scene) -> Iterator[str]:
             "drawing in mm? Then divide its lengths by 1000."
         )
     for name, joint in scene.joints.grouped.items():
-        if joint.radius > size:
+        if not isinstance(joint, OwnJoint) and joint.radius > size:
             yield (
                 f"joints.{name}.radius = {joint.radius:g} m is larger than the mechanism of "
                 f"{size:.3g} m.{_slip(joint.radius, 1e-3 * size, size, 'm')}"
@@ -109,6 +110,8 @@ def _guides(scene: Scene) -> Iterator[str]:
 def _clearances(scene: Scene) -> Iterator[str]:
     """Yield the clearances that are wide for their radius."""
     for name, joint in scene.joints.grouped.items():
+        if isinstance(joint, OwnJoint):
+            continue
         clearance, radius = joint.clearance, joint.radius
         film = isinstance(joint, LubricatedJoint)
         changes = "A film's force falls with its square." if film else "Impacts grow with it."

@@ -11,7 +11,7 @@ from math import cos, exp, hypot, nan, pi, sin, sqrt, tanh
 from typing import Any, NamedTuple
 
 from exu_press.errors import InputError
-from exu_press.scene import DryJoint, IdealJoint, LubricatedJoint, Scene
+from exu_press.scene import DryJoint, LubricatedJoint, Scene
 
 __all__ = ["Jit", "Numbers", "ScalarFunction", "is_reducible", "numbers_of", "rate_of", "start_of"]
 
@@ -60,7 +60,7 @@ def numbers_of(scene: Scene) -> Numbers:
             "dry pin (point contact, step damping, lugre_steady) or with the film law 'pinkus'"
         )
     size, pin = scene.slider_crank, scene.joints["crank_pin"]
-    assert size is not None and not isinstance(pin, IdealJoint)
+    assert size is not None and isinstance(pin, DryJoint | LubricatedJoint)
     contact, friction, c = pin.contact, pin.friction, pin.clearance
     film = pin.film if isinstance(pin, LubricatedJoint) else None
     return Numbers(

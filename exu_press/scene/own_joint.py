@@ -1,0 +1,58 @@
+"""A joint kind of the user's own: its keys, and the interface laws that act in it."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from importlib import import_module
+from typing import TYPE_CHECKING, ClassVar
+
+from exu_press.errors import InputError
+from exu_press.schema.checks import Table, key
+
+if TYPE_CHECKING:
+    from exu_press.joints.interface import InterfaceLaw
+
+__all__ = ["OwnJoint", "own_kind"]
+
+
+@dataclass(frozen=True)
+class OwnJoint(Table):
+    """What a joint kind of your own derives from; `kind = "my_module:MyClass"` names it in a scene.
+
+    The derived dataclass declares its keys by `exu_press.schema.checks.key`. A key whose default is
+    None has to be given.
+    """
+
+    contact: ClassVar[None] = None
+    friction: ClassVar[None] = None
+    onset: ClassVar[None] = None
+    clearance: float = key(None, "eccentricity that others are compared with", "m", above=0)
+
+    @property
+    def kind(self) -> str:
+        """Name of the class, as a scene has it."""
+        return f"{type(self).__module__}:{type(self).__qualname__}"
+
+    def interfaces(self) -> Sequence["InterfaceLaw"]:
+        """Return the interface laws that act in parallel; the first has the joint's clearance."""
+        raise NotImplementedError
+
+
+def own_kind(name: object) -> type[OwnJoint] | None:
+    """Return the class that "module:class" names; None for a text that is no such name.
+
+    Raises:
+        InputError: there is no such module or class, or it is no joint kind.
+    """
+    if not isinstance(name, str) or ":" not in name:
+        return None
+    module, _, inside = name.partition(":")
+    try:
+        found = getattr(import_module(module), inside)
+    except (ImportError, AttributeError, ValueError) as error:
+        raise InputError(
+            f"kind = {name!r}: {error}; allowed is a module that Python finds (PYTHONPATH names "
+            "further folders) and one of its classes"
+        ) from None
+    if not (isinstance(found, type) and issubclass(found, OwnJoint)):
+        raise InputError(f"kind = {name!r}: allowed is a dataclass derived from OwnJoint")
+    return found

@@ -1,0 +1,83 @@
+"""A joint kind of the user's own, in one file that a scene names."""
+
+import sys
+
+import pytest
+
+from exu_press import InputError, Scene, simulate
+
+BUSHING = """
+from dataclasses import dataclass
+from exu_press.joints.interface import FunctionInterface
+from exu_press.scene import OwnJoint, key
+
+@dataclass(frozen=True)
+class Bushing(OwnJoint):
+    stiffness: float = key(None, "radial", "N/m", above=0)
+    damping: float = key(0.0, "radial and transverse", "N s/m", at_least=0)
+
+    def interfaces(self):
+        k, d = self.stiffness, self.damping
+
+        def law(e, e_dot, v_t, omega_j, omega_b):
+            turning = 0.5 * (omega_j + omega_b)
+            of_t = d * turning, 0.0, -d, 0.5 * d * e, 0.5 * d * e
+            return -k * e - d * e_dot, -d * (v_t - e * turning), -k, -d, 0.0, 0.0, 0.0, *of_t
+
+        return [FunctionInterface(law, self.clearance, lambda e: (0.5 * k * e * e, k * e))]
+
+class NoJoint:
+    pass
+"""
+KEYS = {"kind": "a_bushing:Bushing", "clearance": 1e-4, "stiffness": 2e8, "damping": 5e3}
+
+
+@pytest.fixture(autouse=True)
+def module(tmp_path, monkeypatch):
+    (tmp_path / "a_bushing.py").write_text(BUSHING)
+    monkeypatch.syspath_prepend(tmp_path)
+    yield
+    sys.modules.pop("a_bushing", None)
+
+
+def crank(**changes):
+    return Scene(mechanism="slider_crank", joints={"crank_pin": {**KEYS, **changes}})
+
+
+def test_it_balances_energy_and_comes_near_the_ideal_joint_as_it_gets_stiff():
+    ideal = simulate(Scene(mechanism="slider_crank", joints={})).quantity(
+        "joints.crank_pin.peak_force"
+    )
+    peaks = []
+    for stiffness in (2e8, 2e9):
+        result = simulate(crank(stiffness=stiffness))
+        assert result.completed
+        assert abs(result.quantity("energy.residual").value) < 1e-4
+        peaks.append(result.quantity("joints.crank_pin.peak_force").value / ideal.value - 1.0)
+    assert abs(peaks[1]) < 1e-3
+    assert abs(peaks[1]) < abs(peaks[0])
+
+
+def test_a_scene_file_names_it_and_reads_back_equal(tmp_path):
+    crank().save(tmp_path / "scene.toml")
+    assert Scene.load(tmp_path / "scene.toml") == crank()
+    changed = crank().replace("joints.crank_pin.stiffness", 1e9)
+    assert changed.joints["crank_pin"].stiffness == 1e9
+
+
+@pytest.mark.parametrize(
+    ("changes", "told"),
+    [
+        ({"kind": "no_such_module:Bushing"}, "No module named 'no_such_module'"),
+        ({"kind": "a_bushing:Ring"}, "has no attribute 'Ring'"),
+        ({"kind": "a_bushing:NoJoint"}, "derived from OwnJoint"),
+        ({"stifness": 1.0}, "did you mean 'stiffness'"),
+        ({"stiffness": -1.0}, "stiffness = -1.0"),
+        ({"stiffness": None}, "stiffness"),
+        ({"film": {}}, "film"),
+    ],
+)
+def test_what_is_no_such_joint_is_refused(changes, told):
+    keys = {key: value for key, value in {**KEYS, **changes}.items() if value is not None}
+    with pytest.raises(InputError, match=told):
+        Scene(mechanism="slider_crank", joints={"crank_pin": keys})

@@ -222,11 +222,12 @@ def demand_keys(place: str, table: Table, keys: Collection[str], law: str, where
     """
     for field in dataclasses.fields(table):
         if field.name in keys and getattr(table, field.name) is None:
+            example = field.metadata.get("example")
+            shown = "" if example is None else f", as in {field.name} = {example:g}"
             meta, name = field.metadata, f"{law}.{field.name}".lstrip(".")
             raise InputError(
                 f"{place} needs {name} ({meta['meaning']}, {meta['unit']}), which decides its "
-                f"result and has no default; give it in {where}, as in "
-                f"{field.name} = {meta['example']:g}"
+                f"result and has no default; give it in {where}{shown}"
             )
 
 

@@ -35,7 +35,7 @@ def steady(time: Array, values: Array) -> Array:
     whole = np.ones_like(turns[:1])
     same = np.concatenate([whole, turns & alike, whole])
     part = (2.0 * beside[1:-1] - beside[:-2] - beside[2:]) / 8.0
-    little = np.abs(part) <= LITTLE * np.abs(values).max()
+    little = np.abs(part) <= LITTLE * np.abs(values).max(axis=0)
     counts &= little | (same[:-3] & same[1:-2] & same[2:-1] & same[3:])
     found = np.zeros_like(values)
     found[2:-2] = np.where(counts, part, 0.0)

@@ -5,6 +5,7 @@ from itertools import combinations
 
 import numpy as np
 
+from exu_press.quantities import Extreme
 from exu_press.result.info import Error
 
 __all__ = [
@@ -12,6 +13,7 @@ __all__ = [
     "SAFETY",
     "SAFETY_OF_STEPS",
     "converging",
+    "of_both",
     "scattered",
 ]
 
@@ -69,6 +71,25 @@ def scattered(values: Sequence[float], least: float = 0.0) -> Error:
     factor = NINETEEN_IN_TWENTY.get(len(apart), 2.4)
     error = factor * float(np.sqrt(np.mean(apart**2))) + ROUNDING * abs(values[0]) + least
     return _about(values[0], error, determined=error <= LITTLE * abs(values[0]))
+
+
+def of_both(value: float, one: Error, other: Error, extreme: Extreme) -> Error:
+    """Return the error of an extreme over two parts of a motion, each with its own.
+
+    A part whose extreme is far from that of the whole does not count; one that scatters beyond it
+    does, although none of the runs has been there.
+
+    Args:
+        value: of the whole.
+        one: error of the extreme of one part.
+        other: of the other part.
+        extreme: whether it is the largest or the least.
+    """
+    outer = max if extreme is Extreme.LARGEST else min
+    low, high = outer(one["low"], other["low"]), outer(one["high"], other["high"])
+    error = max(high - value, value - low)
+    determined = error <= LITTLE * abs(value)
+    return {"error": error, "determined": determined, "low": low, "high": high}
 
 
 def _about(value: float, error: float, *, determined: bool) -> Error:

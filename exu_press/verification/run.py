@@ -20,6 +20,7 @@ from exu_press.verification.estimate import (
     SAFETY,
     SAFETY_OF_STEPS,
     converging,
+    of_both,
     scattered,
 )
 from exu_press.verification.growth import Growth
@@ -181,8 +182,8 @@ def _error(
 ) -> Error:
     """Return the error of a quantity.
 
-    Beyond the horizon, an extreme is that of the run continued as each refinement goes on: what
-    refinements did before, where the run is right, does not widen its bounds.
+    Until the horizon an extreme is known, however large the refinements' ones are then; beyond it
+    anything is possible that scatters as they do.
 
     Args:
         name: of the quantity.
@@ -200,34 +201,23 @@ def _error(
     if all(abs(begun[r] - value) <= SAME * abs(value) for r, value in values.items()):
         return converging(list(values.values()), list(values), least, safety)
     later = {r: found.get(name, np.nan) for r, found in after.items() if r in values}
-    further = _further(extreme, values, begun, later) if later else None
-    if further is None:
+    if not later or not _is_of_both(extreme, values, begun, later):
         return scattered(list(values.values()), least)
     known = converging(list(begun.values()), list(values), least, safety)
-    continued = [further(begun[1.0], value) for value in later.values()]
-    of_before = abs(begun[1.0] - values[1.0]) <= SAME * abs(values[1.0])
-    told = scattered(continued, known["error"] if of_before else least)
-    if extreme is Extreme.LARGEST:
-        told["low"] = max(told["low"], known["low"])
-    else:
-        told["high"] = min(told["high"], known["high"])
-    return told
+    return of_both(values[1.0], known, scattered(list(later.values()), least), extreme)
 
 
-def _further(
+def _is_of_both(
     extreme: Extreme,
     values: Mapping[float, float],
     begun: Mapping[float, float],
     later: Mapping[float, float],
-) -> Callable[[float, float], float] | None:
-    """Return max or min, if the quantity is that of its values in two parts of every run."""
+) -> bool:
+    """Return whether a quantity is the extreme of its values in two parts of every run."""
     found: Callable[[float, float], float] = max if extreme is Extreme.LARGEST else min
-    if extreme is Extreme.NONE or any(
-        not abs(found(begun[r], later[r]) - value) <= SAME * abs(value)
-        for r, value in values.items()
-    ):
-        return None
-    return found
+    return extreme is not Extreme.NONE and all(
+        abs(found(begun[r], later[r]) - value) <= SAME * abs(value) for r, value in values.items()
+    )
 
 
 @dataclass(frozen=True)

@@ -24,7 +24,7 @@ import tempfile
 import time
 import traceback
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -39,6 +39,9 @@ REFERENCES = (1e-7, 1e-6, 1e-5)
 """
 LONGEST = 2.0  # s
 
+FINER = 30.0
+"""Times, at least, by which references are finer than the run, however long they take."""
+
 LIKE_FIXED = 1e-4
 """Tolerance whose runs take about as long as those with fixed steps."""
 
@@ -52,6 +55,8 @@ LIMIT = 90.0
 """s, after which a scene's process is ended."""
 
 A_MINUTE = 60.0  # s
+
+RAN = "completed", "under-resolved"
 
 MEMBERS = 4
 APART = 0.01
@@ -70,10 +75,10 @@ def references(run: Result, cost: float) -> tuple[str, list[Result]]:
     tolerance = solver.tolerance or LIKE_FIXED
     as_tolerance = run.scene.replace({"solver.step": None, "solver.tolerance": tolerance})
     if run.info["horizon"] is None:
-        for finest in REFERENCES:
+        for finest in (*REFERENCES, tolerance / FINER):
             if 0.5 * cost * (tolerance / finest) ** GROWTH < LONGEST:
                 break
-        finest = min(finest, 0.1 * tolerance)
+        finest = min(finest, tolerance / FINER)
         fine = {"solver.tolerance": finest, "solver.max_step_deg": FINE_STEP}
         return f"{finest:.0e}", [simulate(as_tolerance.replace(fine))]
     members = [
@@ -83,8 +88,11 @@ def references(run: Result, cost: float) -> tuple[str, list[Result]]:
     return f"{MEMBERS} runs", members
 
 
-def judged(number: int, scene: Scene) -> dict[str, Any]:
-    """Return a scene's row; of each figure name, share covered, ratio and whether determined."""
+def judged(number: int, scene: Scene, tell: Callable[[dict[str, Any]], None]) -> None:
+    """Tell a scene's row as soon as it has run, and again with its figures.
+
+    Of each figure the row has name, share covered, ratio and whether it is determined.
+    """
     begun, clock = time.process_time(), time.monotonic()
     row: dict[str, Any] = {
         "number": number,
@@ -98,6 +106,7 @@ def judged(number: int, scene: Scene) -> dict[str, Any]:
         run = simulate(scene, beside=False, quiet=False, errors=True)
         row |= {"status": run.info["status"], "horizon": run.info["horizon"]}
         row["seconds_to_errors"] = time.monotonic() - clock
+        tell(row)
         if run.completed:
             row["reference"], others = references(run, time.process_time() - begun)
             row["figures"] = held_against(run, others)
@@ -105,8 +114,7 @@ def judged(number: int, scene: Scene) -> dict[str, Any]:
         row["reason"] = str(error)
     except Exception:  # the campaign is to find them
         row |= {"status": "traceback", "reason": traceback.format_exc()}
-    row["seconds"] = time.monotonic() - clock
-    return row
+    tell(row)
 
 
 def held_against(run: Result, others: Sequence[Result]) -> list[list[Any]]:
@@ -155,6 +163,9 @@ def report_lines(rows: Sequence[dict[str, Any]]) -> Iterator[str]:
     yield f"not covered most often: {most or 'none'}"
     ends = Counter(row["status"] for row in rows)
     yield "how they ended: " + ", ".join(f"{end} ({count})" for end, count in ends.most_common())
+    unjudged = sum(not row["figures"] and row["status"] in RAN for row in rows)
+    if unjudged:
+        yield f"without a reference within {LIMIT:.0f} s: {unjudged}"
     long = [row for row in rows if row.get("seconds_to_errors", row["seconds"]) > A_MINUTE]
     silent = sum(not row["said"] for row in long)
     yield f"longer than a minute: {len(long)}, of which {silent} had not said so"
@@ -176,21 +187,24 @@ def in_a_process(number: int, scene: Scene) -> dict[str, Any]:
     context = multiprocessing.get_context("fork")
     here, there = context.Pipe(duplex=False)
     row: dict[str, Any] = {"status": f"longer than {LIMIT:.0f} s"}
+    end = time.monotonic() + LIMIT
     with tempfile.TemporaryFile("w+", encoding="utf-8") as terminal:
 
         def work() -> None:
             os.dup2(terminal.fileno(), 2)
-            there.send(judged(number, scene))
+            judged(number, scene, there.send)
 
         process = context.Process(target=work)
         begun = time.monotonic()
         process.start()
         there.close()
         try:
-            if here.poll(LIMIT):
+            while here.poll(max(0.0, end - time.monotonic())):
                 row = here.recv()
         except EOFError:
-            row = {"status": "process died"}
+            process.join()
+            if process.exitcode:
+                row = {"status": "process died"}
         process.kill()
         process.join()
         terminal.seek(0)

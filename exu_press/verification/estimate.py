@@ -18,9 +18,9 @@ __all__ = [
 ]
 
 SAFETY = 1.5
-"""Of errors that go with the tolerance. Of 107 random scenes of scripts/calibrate_errors.py 98.5 % of
-figures are covered with 1.2, 98.9 % with 1.5, 99.1 % with 1.8, at 3.4, 3.9 and 4.4 times the true
-error in the median; of long dry ones 96.0, 96.5 and 96.8 %."""
+"""Of errors that go with the tolerance. Of 107 random scenes of scripts/calibrate_errors.py 98.5 %
+of the figures are covered with 1.2, 98.9 % with 1.5, 99.1 % with 1.8, at 3.4, 3.9 and 4.4 times the
+true error in the median; of long dry ones 96.0, 96.5 and 96.8 %."""
 
 SAFETY_OF_STEPS = 3.0
 """Of errors that go with a fixed step: impacts and films that it leaps over are not sampled better

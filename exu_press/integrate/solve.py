@@ -140,7 +140,9 @@ class Advice:
 
     def convergence(self) -> str:
         """Return what helps where Newton's method did not converge."""
-        return f"a smaller {self.setting}"
+        if self.by_tolerance:
+            return f"a smaller {self.setting}"
+        return f"another {self.setting}, or a tolerance instead"
 
     def redundancy(self, redundant: int) -> str:
         """Return what helps where so many constraints say the same as others."""

@@ -67,6 +67,12 @@ class SceneAdvice(Advice):
         """Return what helps where too many steps were needed."""
         return f"fewer revolutions, a larger {self.setting} or solver.max_steps"
 
+    def redundancy(self, redundant: int) -> str:
+        """Return what helps where so many constraints say the same as others."""
+        say = "constraints say" if redundant > 1 else "constraint says"
+        here = f"{redundant} {say} the same as others where the mechanism is"
+        return f"{here}; try {self.convergence()}"
+
     def stiff(self, joint: ClearanceJoint) -> str:
         """Return the keys of a guide or of a joint that make it need small steps."""
         scene = self._scene

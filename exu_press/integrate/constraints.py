@@ -41,7 +41,7 @@ REDUNDANT = 1e-8
 START_ITERATIONS = 4
 """Of Newton's method to positions that fit the constraints."""
 
-FITS = 1e-9, 1e-6, 1e-6
+FITS = 1e-12, 1e-6, 1e-6
 """What positions, velocities and accelerations may be off their constraints, relative, before they
 are moved: differences are rounded."""
 
@@ -159,6 +159,7 @@ class _Start:
     def __init__(self, task: Task, constraints: Constraints) -> None:
         self._data, self._current = task.problem.data, task.problem.current
         self._constraints = constraints
+        self._solver, self._mbs = task.solver, task.problem.mbs
         self._start, self._ahead = task.start, LOOK_AHEAD * task.largest
         self.q = np.array(self._current.positions)
         self.v = np.array(self._current.velocities)
@@ -190,14 +191,25 @@ class _Start:
 
     def projected(self, vector: Array, violated: Array, fits: float) -> Array:
         """Return the nearest vector, in the kinetic norm, without violations; itself if it fits."""
-        right = np.concatenate([np.zeros(len(vector)), violated])
-        try:
-            change = np.linalg.solve(self._matrix, right)[: len(vector)]
-        except np.linalg.LinAlgError:  # coordinates without mass, as of a beam's cross-sections
-            change = np.linalg.lstsq(self._matrix, right, rcond=None)[0][: len(vector)]
+        change = self._solved(np.zeros(len(vector)), violated)
         return (
             vector if self._norm(change) <= fits * self._norm(vector - change) else vector - change
         )
+
+    def pushed(self) -> Array:
+        """Return the accelerations of the forces in the state, if constraints stood still."""
+        self.put()
+        self._solver.ComputeODE2RHS(self._mbs)
+        forces = np.array(self._solver.GetSystemResidual())[: len(self.q)]
+        return self._solved(forces, np.zeros(len(self.held)))
+
+    def _solved(self, forces: Array, violated: Array) -> Array:
+        """Return the change that forces and violations ask for."""
+        right = np.concatenate([forces, violated])
+        try:
+            return np.asarray(np.linalg.solve(self._matrix, right)[: len(forces)])
+        except np.linalg.LinAlgError:  # coordinates without mass, as of a beam's cross-sections
+            return np.asarray(np.linalg.lstsq(self._matrix, right, rcond=None)[0][: len(forces)])
 
     def _norm(self, vector: Array) -> float:
         return float(np.sqrt(abs(vector @ self._mass @ vector)))
@@ -224,15 +236,16 @@ def fit_start(task: Task, constraints: Constraints) -> tuple[Array, Array] | Non
     if not constraints.count or not task.problem.nodes:
         return None
     start = _Start(task, constraints)
-    held, length = start.held, task.problem.length or 1.0
+    held, length, moved = start.held, task.problem.length or 1.0, False
     for _ in range(START_ITERATIONS):
         violated = np.where(held, start.violated(), 0.0)
         if np.abs(violated).max() <= FITS[0] * length:
             break
-        start.q = start.projected(start.q, violated, 0.0)
+        start.q, moved = start.projected(start.q, violated, 0.0), True
     accelerations, start.a = start.a, np.zeros_like(start.a)
     start.v = start.projected(start.v, np.where(held, start.rates()[0], start.violated()), FITS[1])
-    start.a = accelerations
+    # springs and contacts push otherwise in another place
+    start.a = start.pushed() if moved else accelerations
     first, second, _ = start.rates()
     start.a = start.projected(start.a, np.where(held, second, first), FITS[2])
     _, second, third = start.rates()

@@ -4,6 +4,8 @@ Journals that start in the middle of their bearings at full speed fall on them, 
 are those of this fall. Here each joint has the force of the ideal motion, from inertia, weight and
 loads, and lies where its contact or its film bears this force. The bodies follow from the joints.
 A journal in a film begins at rest in its bearing: how it moves on follows from what came before.
+One in contact moves along the surface, as the force turns. Its penetration begins at rest: a strong
+damper would turn its rate into a force many times the one that it bears.
 """
 
 import math
@@ -92,6 +94,8 @@ def loaded_start(system: System) -> dict[str, Motion]:
     pressed &= np.isfinite(wanted).all(axis=(0, 2))
     wanted[:, ~pressed] = 0.0
     wanted[:, problem.films] = wanted[middle, problem.films]  # a film resists any change
+    depths = np.linalg.norm(wanted, axis=2, keepdims=True)  # a contact may, of its penetration
+    wanted *= np.divide(depths[middle], depths, out=np.ones_like(depths), where=depths > 0.0)
     poses = np.array(
         [instant.moved(e.ravel()) for instant, e in zip(instants, wanted, strict=True)]
     )
@@ -192,9 +196,16 @@ class _Problem:
         velocity = self.mechanism.along(slider.velocity)
         found = np.zeros(3 * len(self.names))
         for k, body in enumerate(self.mechanism.bodies):
-            a = self.ideal[body.name].acceleration[i]
-            inertia = body.mass * a[0], body.mass * (a[1] + scene.gravity), body.inertia * a[2]
-            found[3 * k : 3 * k + 3] = inertia
+            moving, mass, inertia = self.ideal[body.name], body.mass, body.inertia
+            arm = np.zeros(2)
+            if body.name in self.system.parts:  # of the solid, not of its drawing
+                part = self.system.parts[body.name]
+                mass, inertia, centre = part.reduced.mass, part.inertia, part.centre_of_mass
+                moving = moving.at(centre)
+                arm = moving.position[i, :2] - self.ideal[body.name].position[i, :2]
+            a = moving.acceleration[i]
+            fx, fy = mass * a[0], mass * (a[1] + scene.gravity)
+            found[3 * k : 3 * k + 3] = fx, fy, inertia * a[2] + arm[0] * fy - arm[1] * fx
         for load in self.system.loads.values():
             k = 3 * self.names.index(load.body)
             size = load.force(ANGLES / speed, crank, (height, velocity))

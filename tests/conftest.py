@@ -8,3 +8,27 @@ from browser import launched
 def browser():
     """A real browser; a test that asks for it is skipped where there is none."""
     yield from launched()
+
+
+SHARES = 20
+"""A turn has every so many of the tests that are chosen."""
+
+
+def pytest_addoption(parser):
+    """Let long tests take turns: all of them run within as many runs as there are shares."""
+    parser.addoption(
+        "--turn", type=int, help=f"run every {SHARES}th of the chosen tests, from this one on"
+    )
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_collection_modifyitems(config, items):
+    """Keep the tests whose turn it is."""
+    turn = config.getoption("--turn")
+    if turn is None:
+        return
+    chosen = [i % SHARES == turn % SHARES for i in range(len(items))]
+    config.hook.pytest_deselected(
+        items=[x for x, now in zip(items, chosen, strict=True) if not now]
+    )
+    items[:] = [item for item, now in zip(items, chosen, strict=True) if now]

@@ -216,6 +216,7 @@ class BodyError:
         tuning: SolverTuning,
         noise: float,
         tolerance: float = 1.0,
+        absolute: float = 0.0,
     ) -> None:
         """Take the bodies and the scales.
 
@@ -226,8 +227,10 @@ class BodyError:
             tuning: numbers.
             noise: what rounded positions make of accelerations, times the step's square, m.
             tolerance: of the run.
+            absolute: errors of velocities below it do not count, m/s.
         """
         self._scales, self._per_step, self._tolerance = scales, per_step, tolerance
+        self._absolute = absolute
         self._noise = noise
         self._constant = tuning.velocity_constant
         self._before = self._now = accelerations
@@ -325,7 +328,8 @@ class BodyError:
     def curvature(self, step: float, tolerance: float) -> float:
         """Return what accelerations are off a line between a step's ends, over what they may.
 
-        That is a tolerance of the largest. What alternates from step to step is none of the
+        That is a tolerance of the largest, or what changes no velocity within the step by more than
+        the absolute tolerance. What alternates from step to step is none of the
         motion's, and a jump does not shrink with the step: what two steps of one size have in
         common counts, and in a step of another size what the last two had.
         """
@@ -337,7 +341,8 @@ class BodyError:
             smaller = min(self._size, self._size_before)
             self._common = min(self._scales.norm(mean), 3.0 * smaller)
         off = 0.125 * step * step * self._common
-        return off / max(tolerance * self._most, self._noise / (step * step))
+        allowed = max(tolerance * self._most, self._absolute / step)
+        return off / max(allowed, self._noise / (step * step))
 
     def accept(self) -> None:
         """Remember the accepted step's end as the next one's beginning."""
@@ -570,7 +575,9 @@ class StepError:
             ]
             self.limiting = [0] * len(self._joints)
         start = self.start or problem.start.accelerations.tolist()
-        return BodyError(start, per_step, self._scales, tuning, noise, self._tolerance)
+        return BodyError(
+            start, per_step, self._scales, tuning, noise, self._tolerance, task.absolute
+        )
 
     def _left_in_constraints(self) -> float:
         """Return how far the last digits of constraints move a body, m.

@@ -53,7 +53,7 @@ class Monitor:
         interrupted: whether Ctrl-C was pressed.
         over_budget: whether all of `max_steps` were used up.
         control: of the steps.
-        resolution: of the impacts.
+        resolution: of the impacts, in clearance joints or fixed steps.
         constraints: of the system.
         go_on: False once a function of the user's own asked to stop.
         stalled: why the motion that was watched came to its end, or nothing.
@@ -114,7 +114,9 @@ class Monitor:
             if task.fixed
             else StepControl(task, self._estimate, next_stop if samples else next_corner)
         )
-        self.resolution = Resolution(task)
+        # without clearance joints the estimated error judges every step, jumps included
+        judged = task.problem.joints is None and not task.fixed
+        self.resolution = None if judged else Resolution(task)
         self._iteration: Any = task.solver.it  # holds the step
         self._accelerations = task.problem.current.accelerations
         self._begun = time.monotonic()
@@ -166,7 +168,8 @@ class Monitor:
         task.scales.begin(task.solver.GetSystemMassMatrix())
         now = self._accelerations.tolist()
         self._newton.begin()
-        self.resolution.begin(now)
+        if self.resolution is not None:
+            self.resolution.begin(now)
         self._event.begin(task.start)
         self._output.begin()
 
@@ -235,7 +238,7 @@ class Monitor:
             self._begin()
         else:
             self.steps += 1
-            step, now = end - self._time, self._accelerations.tolist()
+            step = end - self._time
             self._output.stepped(self._time, end)
             self._time = end
             self._gaps.close()
@@ -244,7 +247,8 @@ class Monitor:
             if self._event.passed:
                 self.control.restart()
             self._newton.stepped(step)
-            self.resolution.stepped(end, step, now)
+            if self.resolution is not None:
+                self.resolution.stepped(end, step, self._accelerations.tolist())
         self.stalled = self._watch(end)
         step = self.control.next_step(end)
         if step != self._iteration.currentStepSize:  # to set it takes longer than to ask for it

@@ -71,7 +71,8 @@ class OutputGrid:
         periods = [output.file.writePeriod] if output.file.write else []
         if mbs.systemData.NumberOfSensors():
             periods.append(output.sensors.writePeriod)
-        self._periods = [period for period in periods if period > 0.0 and self._active]
+        least = max(self._task.smallest, AT_ONCE)  # below it, as with 0.0, every step is a row
+        self._periods = [period for period in periods if period > least and self._active]
         if self._periods:
             self._start = _copy(self._current)
 

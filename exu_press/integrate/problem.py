@@ -345,6 +345,7 @@ class FoundScales:
         longest: float,
         first: float = math.inf,
         stir: float = 0.0,
+        floor: float = 0.0,
     ) -> None:
         """Take what is given; the rest is found from `begin` on.
 
@@ -355,6 +356,7 @@ class FoundScales:
             first: step, s.
             stir: what rounded positions make of accelerations, times the step's square, over the
                 length.
+            floor: the least scale of speeds, m/s.
         """
         self._given, self._problem, self._longest = given, problem, longest
         self._first, self._stir = first, stir
@@ -365,7 +367,7 @@ class FoundScales:
         self.inertias: list[float] = []
         self._own: list[bool] = []
         self._energies: list[float] = []  # twice the largest kinetic energy of each node so far
-        self.speed = given.speed or 0.0
+        self.speed = max(given.speed or 0.0, floor)
         self.force = given.force or 0.0
         self.fixed = False
 

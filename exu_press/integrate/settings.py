@@ -135,6 +135,7 @@ class Task:
         scales: of the motion.
         tuning: numbers.
         tolerance: of the run; with fixed steps, of Newton's method.
+        absolute: errors of velocities below it do not count, m/s.
         fixed: whether steps are of one size.
         start: of the run, s.
         end: of the run, s.
@@ -154,6 +155,7 @@ class Task:
         tolerance: float | None,
         scales: ErrorScales,
         tuning: SolverTuning,
+        absolute: float = 0.0,
     ) -> None:
         """Take a problem and what is asked of it."""
         integration = settings.timeIntegration
@@ -178,7 +180,9 @@ class Task:
         impacts = problem.joints is not None or problem.switching
         self.every_jacobian = self.fixed or impacts or len(problem.reference) < LARGE
         stir = tuning.rounding / (1.0 - min(self.spectral_radius, 0.95)) ** 2
-        self.scales = FoundScales(scales, problem, largest, self.first, stir)
+        self.absolute = absolute
+        floor = absolute / self.tolerance
+        self.scales = FoundScales(scales, problem, largest, self.first, stir, floor)
 
 
 def inertia_factor(solver: Any) -> float:

@@ -6,6 +6,7 @@ keys.
 
 import math
 import time as clock
+import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -163,6 +164,12 @@ class Advice:
         """Return what resolves a run that leapt over its impacts."""
         return f"a {self.setting} ten times smaller"
 
+    def announce(self, outcome: Outcome) -> None:
+        """Warn of an outcome that a script may go on without looking at."""
+        if outcome.status not in (SolverStatus.COMPLETED, SolverStatus.INTERRUPTED):
+            text = f"solve_dynamic: {outcome.status.value}: {outcome.reason}"
+            warnings.warn(text, stacklevel=3)
+
 
 def _never(time: float) -> float:
     """Return when a load without corners has its next one, s."""
@@ -179,6 +186,7 @@ def solve_dynamic(
     settings: exu.SimulationSettings,
     *,
     tolerance: float | None = 1e-3,
+    absolute: float = 0.0,
     scales: ErrorScales = NO_SCALES,
     tuning: SolverTuning = DEFAULTS,
     next_corner: Callable[[float], float] = _never,
@@ -207,6 +215,8 @@ def solve_dynamic(
         settings: Exudyn's.
         tolerance: of the run, relative: velocities to the largest speed, eccentricities to their
             clearances; from 1e-8 to 0.1. None takes fixed steps of the settings' size.
+        absolute: velocity, m/s: errors below it do not count, however small the largest speed. A
+            vibration of a twentieth of it costs no steps.
         scales: what errors are relative to, where they are not to be found from the motion.
         tuning: the numbers of step control, to vary them.
         next_corner: time (s) -> the next instant at which a load has a corner, s, or infinity;
@@ -228,8 +238,8 @@ def solve_dynamic(
         quiet: False shows the progress on standard error.
 
     Returns:
-        How the run ended, why, what to change, and what it took. After an early stop too; the
-        sensors hold what was computed.
+        How the run ended, why, what to change, and what it took. After an early stop too, of which
+        a warning tells as well; the sensors hold what was computed.
 
     Raises:
         InputError: the system is not assembled, there is nothing to solve, the settings ask for
@@ -238,13 +248,17 @@ def solve_dynamic(
         exudyn.ExudynError: a user function failed.
     """
     refuse_unusable(settings, tolerance, sample)
+    if not 0.0 <= absolute < math.inf or (absolute and tolerance is None):
+        raise InputError(
+            f"absolute = {absolute!r}: allowed is a velocity in m/s, or 0.0; with fixed steps 0.0"
+        )
     if event is not None and tolerance is None:
         raise InputError("event: allowed with a tolerance, as fixed steps end on their grid")
     problem = Problem.of(mbs, bodies)
     words = advice(problem, tolerance is not None)
     if problem.joints is not None:
         problem.joints.refuse_start(words.joint)
-    task = Task(problem, settings, tolerance, scales, tuning)
+    task = Task(problem, settings, tolerance, scales, tuning, absolute)
     solver, failure = task.solver, ""
     with Progress("run", task.end - task.start, quiet=quiet) as progress:
         monitor = Monitor(task, next_corner, watch, progress, max_steps, sample, event, words.long)
@@ -274,7 +288,7 @@ def solve_dynamic(
     if update_initial_values:
         _start_from_here(mbs)
     status, reason = _how_it_ended(task, monitor, words, time=reached, failure=failure)
-    return Outcome(
+    outcome = Outcome(
         status=status,
         reason=reason,
         end_time=reached,
@@ -284,6 +298,8 @@ def solve_dynamic(
         newton_iterations=solver.it.newtonStepsCount,
         law_evaluations=problem.joints.evaluations if problem.joints else 0,
     )
+    words.announce(outcome)
+    return outcome
 
 
 def _start_from_here(mbs: exu.MainSystem) -> None:
@@ -321,7 +337,7 @@ def _how_it_ended(
     gone = (time - task.start) / (task.end - task.start)
     exudyn_ended = not failure and 0.0 < task.end - time <= EXUDYN_ENDS and monitor.go_on
     if gone >= 1.0 - 1e-9 or exudyn_ended:
-        worst = monitor.resolution.worst()
+        worst = monitor.resolution.worst() if monitor.resolution is not None else None
         if worst is None:
             return SolverStatus.COMPLETED, ""
         return SolverStatus.UNDER_RESOLVED, (

@@ -2,7 +2,7 @@
 
 import math
 
-from exu_press.integrate import Advice
+from exu_press.integrate import Advice, Outcome
 from exu_press.integrate.problem import Problem
 from exu_press.integrate.stepping import Unresolved
 from exu_press.joints.joint import ClearanceJoint
@@ -32,6 +32,9 @@ class SceneAdvice(Advice):
         """Speak of a scene's model."""
         super().__init__(problem, by_tolerance)
         self._model, self._scene = model, model.scene
+
+    def announce(self, outcome: Outcome) -> None:
+        """Leave it to the result, which tells how its run ended."""
 
     @property
     def setting(self) -> str:

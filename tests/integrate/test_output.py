@@ -71,6 +71,15 @@ def test_the_grid_does_not_change_the_run():
     assert runs[0] == runs[1]
 
 
+def test_a_period_below_the_smallest_step_writes_every_step():
+    """As with Exudyn's own steps, which take it for that; a billion rows would never end."""
+    mbs, sensors = spring()
+    chosen = settings()
+    chosen.solution.sensors.writePeriod = 1e-10
+    outcome = solve_dynamic(mbs, chosen, tolerance=1e-3)
+    assert len(mbs.GetSensorStoredData(sensors[0])) == outcome.steps + 1
+
+
 def test_within_a_step_a_polynomial_of_fourth_degree_is_met():
     """x = t^4, whose acceleration's line is the only thing that misses."""
 

@@ -730,3 +730,35 @@ def test_a_run_ends_where_what_watches_it_says_why():
     outcome = solve_dynamic(mbs, settings(1.0), watch=late)
     assert (outcome.status, outcome.reason) == (SolverStatus.STALLED, "late")
     assert 0.3 <= outcome.end_time < 0.35
+
+
+def test_a_script_that_looks_at_no_outcome_is_warned():
+    with pytest.warns(UserWarning, match="too many steps: 20 steps were used up"):
+        solve_dynamic(pendulum()[0], settings(1.0), max_steps=20)
+
+
+def test_vibrations_below_an_absolute_tolerance_are_not_followed():
+    """Beside a falling mass, at 1 m/s, another one vibrates at 5 mm/s and 300 Hz."""
+
+    def run(absolute):
+        mbs = exu.SystemContainer().AddSystem()
+        falling = mbs.AddNode(items.NodePoint(initialVelocities=[0.0, -1.0, 0.0]))
+        mbs.AddObject(items.ObjectMassPoint(nodeNumber=falling, mass=1.0))
+        node = mbs.AddNode(items.Node1D(referenceCoordinates=[0.0], initialVelocities=[5e-3]))
+        mbs.AddObject(items.ObjectMass1D(mass=1.0, nodeNumber=node))
+        ends = [
+            mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=number, coordinate=0))
+            for number in (mbs.AddNode(items.NodePointGround()), node)
+        ]
+        stiffness = (2.0 * np.pi * 300.0) ** 2
+        mbs.AddObject(
+            items.ObjectConnectorCoordinateSpringDamper(markerNumbers=ends, stiffness=stiffness)
+        )
+        mbs.Assemble()
+        outcome = solve_dynamic(mbs, settings(1.0), tolerance=1e-3, absolute=absolute).check()
+        return outcome.steps, mbs.GetNodeOutput(falling, exu.OutputVariableType.Velocity)[1]
+
+    followed, exact = run(0.0)
+    steps, speed = run(0.1)
+    assert steps < 0.05 * followed
+    assert speed == pytest.approx(exact, rel=1e-3)

@@ -16,9 +16,11 @@ it goes on where it was stopped, or where its minutes were over.
 """
 
 import argparse
+import contextlib
 import json
 import multiprocessing
 import os
+import resource
 import sys
 import tempfile
 import time
@@ -26,6 +28,7 @@ import traceback
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
+from signal import SIGKILL, SIGXCPU
 from typing import Any
 
 import numpy as np
@@ -51,10 +54,13 @@ FINE_STEP = 0.25
 GROWTH = 0.3
 """Power of one over the tolerance with which a run's time goes, measured: 0.2 to 0.3."""
 
-LIMIT = 90.0
-"""s, after which a scene's process is ended."""
+LIMIT = 90
+"""s of processor time, after which a scene's process is ended."""
 
 A_MINUTE = 60.0  # s
+
+ENDED = SIGXCPU, SIGKILL
+"""By what a process ends that has used up its processor time."""
 
 RAN = "completed", "under-resolved"
 
@@ -93,7 +99,7 @@ def judged(number: int, scene: Scene, tell: Callable[[dict[str, Any]], None]) ->
 
     Of each figure the row has name, share covered, ratio and whether it is determined.
     """
-    begun, clock = time.process_time(), time.monotonic()
+    begun = time.process_time()
     row: dict[str, Any] = {
         "number": number,
         "groups": groups_of(scene),
@@ -105,7 +111,7 @@ def judged(number: int, scene: Scene, tell: Callable[[dict[str, Any]], None]) ->
     try:
         run = simulate(scene, beside=False, quiet=False, errors=True)
         row |= {"status": run.info["status"], "horizon": run.info["horizon"]}
-        row["seconds_to_errors"] = time.monotonic() - clock
+        row["seconds_to_errors"] = time.process_time() - begun
         tell(row)
         if run.completed:
             row["reference"], others = references(run, time.process_time() - begun)
@@ -165,7 +171,7 @@ def report_lines(rows: Sequence[dict[str, Any]]) -> Iterator[str]:
     yield "how they ended: " + ", ".join(f"{end} ({count})" for end, count in ends.most_common())
     unjudged = sum(not row["figures"] and row["status"] in RAN for row in rows)
     if unjudged:
-        yield f"without a reference within {LIMIT:.0f} s: {unjudged}"
+        yield f"without a reference within {LIMIT} s: {unjudged}"
     long = [row for row in rows if row.get("seconds_to_errors", row["seconds"]) > A_MINUTE]
     silent = sum(not row["said"] for row in long)
     yield f"longer than a minute: {len(long)}, of which {silent} had not said so"
@@ -186,27 +192,24 @@ def in_a_process(number: int, scene: Scene) -> dict[str, Any]:
     """Return a scene's row from a process of its own, which may die or take too long."""
     context = multiprocessing.get_context("fork")
     here, there = context.Pipe(duplex=False)
-    row: dict[str, Any] = {"status": f"longer than {LIMIT:.0f} s"}
-    end = time.monotonic() + LIMIT
+    row: dict[str, Any] = {"status": f"longer than {LIMIT} s"}
     with tempfile.TemporaryFile("w+", encoding="utf-8") as terminal:
 
         def work() -> None:
             os.dup2(terminal.fileno(), 2)
+            resource.setrlimit(resource.RLIMIT_CPU, (LIMIT, LIMIT))
             judged(number, scene, there.send)
 
         process = context.Process(target=work)
         begun = time.monotonic()
         process.start()
         there.close()
-        try:
-            while here.poll(max(0.0, end - time.monotonic())):
+        with contextlib.suppress(EOFError):
+            while True:
                 row = here.recv()
-        except EOFError:
-            process.join()
-            if process.exitcode:
-                row = {"status": "process died"}
-        process.kill()
         process.join()
+        if process.exitcode not in (0, *(-signal for signal in ENDED)):
+            row = {"status": "process died"}
         terminal.seek(0)
         said = [line for line in terminal.read().splitlines() if " left" in line]
     empty = {"number": number, "groups": groups_of(scene), "figures": [], "reference": "-"}

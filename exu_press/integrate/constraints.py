@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from exu_press.arrays import Array
 from exu_press.integrate.settings import SAME, Task, inertia_factor
+from exu_press.numerics.linear import Equations
 
 __all__ = [
     "Constraints",
@@ -207,7 +208,7 @@ class _Start:
         """Return the change that forces and violations ask for."""
         right = np.concatenate([forces, violated])
         try:
-            return np.asarray(np.linalg.solve(self._matrix, right)[: len(forces)])
+            return np.asarray(Equations(self._matrix).solve(right)[: len(forces)])
         except np.linalg.LinAlgError:  # coordinates without mass, as of a beam's cross-sections
             return np.asarray(np.linalg.lstsq(self._matrix, right, rcond=None)[0][: len(forces)])
 
@@ -496,6 +497,7 @@ class StepChange:
         now = self._data.GetTime()
         self._data.SetTime(self._start)
         found, violated = np.zeros((size, 2)), np.zeros((len(matrix), 2))
+        equations: Equations | None = None
         for _ in range(CHANGE_ITERATIONS):
             position[:] = self._state[0] - found[:, 0]
             velocity[:] = self._state[1] - found[:, 1]
@@ -505,7 +507,8 @@ class StepChange:
             same = violated[:, 0] == violated[:, 1]
             violated[same] = 0.0  # prescribed speeds are no places, and are met as they are
             try:
-                found += np.linalg.solve(matrix, violated)[:size]
+                equations = equations or Equations(matrix)
+                found += equations.solve(violated)[:size]
             except np.linalg.LinAlgError:
                 found[:] = math.nan
             if not np.isfinite(found).all():  # a film's forces beyond all numbers: it says so

@@ -13,6 +13,7 @@ import numpy as np
 from exu_press.integrate.problem import FoundScales, Problem
 from exu_press.integrate.settings import SAME, SolverTuning, Task, inertia_factor
 from exu_press.joints.joint import ClearanceJoint
+from exu_press.numerics.linear import Equations
 
 __all__ = ["BodyError", "ErrorPerStep", "FirstOrderError", "JointError", "StepError", "Turning"]
 
@@ -588,7 +589,7 @@ class StepError:
         size, count = len(self._accelerations), self._solver.GetAEsize()
         of_constraints = np.eye(len(jacobian), count, count - len(jacobian))
         try:
-            moved = np.abs(np.linalg.solve(jacobian, of_constraints)[:size]).sum(axis=1)
+            moved = np.abs(Equations(jacobian).solve(of_constraints)[:size]).sum(axis=1)
         except np.linalg.LinAlgError:  # constraints that say the same
             return 0.0
         return EPSILON * self._scales.length * self._scales.norm(moved.tolist())
@@ -601,7 +602,7 @@ class StepError:
         right = np.zeros((len(jacobian), len(changes)))
         right[:size] = np.dot(mass, before) * inertia_factor(solver)
         try:
-            filtered = np.linalg.solve(jacobian, right)[:size]
+            filtered = Equations(jacobian).solve(right)[:size]
             if not self._joints and _larger(filtered, before, mass):
                 # masses and springs make nothing larger, but constraints that nearly say the same
                 filtered = np.linalg.lstsq(jacobian, right, rcond=None)[0][:size]

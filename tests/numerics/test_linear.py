@@ -1,0 +1,34 @@
+"""Sparse and dense ways give the same unknowns, and name the same failure."""
+
+import numpy as np
+import pytest
+
+from exu_press.numerics import linear
+from exu_press.numerics.linear import SPARSE_FROM, Equations
+
+
+def saddle(size):
+    """A chain of springs whose first and last point are held by a constraint each."""
+    matrix = np.diag(np.full(size, 2.0)) - np.eye(size, k=1) - np.eye(size, k=-1)
+    matrix[-2:], matrix[:, -2:] = 0.0, 0.0
+    matrix[-2, 0] = matrix[0, -2] = matrix[-1, size - 3] = matrix[size - 3, -1] = 1.0
+    return matrix
+
+
+@pytest.mark.parametrize("columns", [(), (3,)], ids=str)
+@pytest.mark.parametrize("size", [8, SPARSE_FROM + 50])
+def test_what_is_solved_fits(size, columns):
+    matrix, wanted = saddle(size), np.random.default_rng(1).normal(size=(size, *columns))
+    assert Equations(matrix).solve(matrix @ wanted) == pytest.approx(wanted, abs=1e-9)
+
+
+def test_many_unknowns_take_the_sparse_way(monkeypatch):
+    monkeypatch.setattr(np.linalg, "solve", None)
+    assert Equations(saddle(SPARSE_FROM)).solve(np.zeros(SPARSE_FROM)).max() == 0.0
+
+
+@pytest.mark.parametrize("size", [8, SPARSE_FROM])
+@pytest.mark.parametrize("value", [0.0, 1.0])
+def test_what_cannot_be_solved_is_told(size, value):
+    with pytest.raises(np.linalg.LinAlgError):
+        linear.Equations(np.full((size, size), value)).solve(np.zeros(size))

@@ -536,6 +536,10 @@ class StepError:
         """
         return 0.0 if self._bodies is None else self._relative(0.5 * step * self._bodies.of_jump())
 
+    def change_of_speed(self) -> float:
+        """Return what a jump of accelerations in the step last tried changes a speed by, m/s."""
+        return 0.0 if self._bodies is None else self._step * self._bodies.of_jump()
+
     def accept(self) -> None:
         """Remember the accepted step's end as the next one's beginning."""
         assert self._bodies is not None

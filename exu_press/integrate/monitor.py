@@ -173,6 +173,10 @@ class Monitor:
         self._event.begin(task.start)
         self._output.begin()
 
+    def first_jump(self) -> float:
+        """Return by how much speeds jump in a first step that no size makes good, m/s, or 0.0."""
+        return 0.0 if self.steps else self._estimate.change_of_speed()
+
     def _before_step(self, mbs: exu.MainSystem, end: float) -> bool:
         """Return whether to go on."""
         self.tries += 1

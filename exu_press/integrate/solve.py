@@ -365,8 +365,8 @@ def _how_it_ended(
     busiest = _busiest_joint(problem, advice)
     if not monitor.control.error <= 1.0:
         return SolverStatus.STEP_TOO_SMALL, (
-            f"the tolerance needs a step below {smallest:.2g} s {where}{busiest}; try "
-            f"{advice.smallest()}{advice.cause()}"
+            f"the tolerance needs a step below {smallest:.2g} s {where}{busiest}"
+            f"{_unfit_start(monitor)}; try {advice.smallest()}{advice.cause()}"
         )
     found = _what_is_wrong(task, monitor, advice, time)
     if found:
@@ -392,7 +392,23 @@ def _what_is_wrong(task: Task, monitor: Monitor, advice: Advice, time: float) ->
             n.name for n, m in zip(problem.nodes, task.scales.masses, strict=True) if m == math.inf
         )
         return f"nothing holds the coordinates without mass ({', '.join(names)})"
+    if problem.switching and task.solver.it.discontinuousIteration > 1:
+        return (
+            "contacts or friction of Exudyn's switch to and fro in steps of any size; try less "
+            "stiffness, more damping, or friction that is regularised over a wider zone of speeds"
+        )
     return ""
+
+
+def _unfit_start(monitor: Monitor) -> str:
+    """Return what a first step tells that no size makes good, or nothing."""
+    jump = monitor.first_jump()
+    if not 0.0 < jump < math.inf:
+        return ""
+    return (
+        f", as its first step changes a speed by {jump:.2g} m/s: the start does not fit what "
+        "constraints and functions ask for right after it"
+    )
 
 
 def _without_forces(task: Task, time: float) -> Iterator[Node]:

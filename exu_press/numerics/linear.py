@@ -42,9 +42,7 @@ class Equations:
         Raises:
             numpy.linalg.LinAlgError: the matrix is singular.
         """
-        found: Array
         if self._factors is None:
-            found = np.linalg.solve(self._matrix, right)
-        else:
-            found = self._factors.solve(np.ascontiguousarray(right))
+            return np.asarray(np.linalg.solve(self._matrix, right), dtype=float)
+        found: Array = self._factors.solve(np.ascontiguousarray(right))
         return found

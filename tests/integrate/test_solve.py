@@ -293,6 +293,26 @@ def test_a_prescribed_motion_that_jumps_is_thought_of():
     assert outcome.end_time == pytest.approx(0.01) and "without jumps" in outcome.reason
 
 
+def test_a_start_that_does_not_fit_is_named_with_its_jump():
+    """A pre-step function turns a rod by 0.1 rad at once."""
+    mbs, node = pendulum()
+    ends = [
+        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=number, coordinate=2))
+        for number in (mbs.AddNode(items.NodePointGround()), node)
+    ]
+    drive = mbs.AddObject(items.ObjectConnectorCoordinate(markerNumbers=ends))
+
+    def turn(mbs, time):
+        mbs.SetObjectParameter(drive, "offset", 0.1)
+        return True
+
+    mbs.SetPreStepUserFunction(turn)
+    mbs.Assemble()
+    with pytest.warns(UserWarning, match="its first step changes a speed by"):
+        outcome = solve_dynamic(mbs, settings(1.0), sample=0.0)
+    assert outcome.status is SolverStatus.STEP_TOO_SMALL and outcome.steps == 0
+
+
 def test_a_load_that_jumps_at_a_tight_tolerance():
     """Steps of 20 ns ended in what rounded positions make alternate."""
     mbs = exu.SystemContainer().AddSystem()

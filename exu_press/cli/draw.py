@@ -1,6 +1,7 @@
 """Draw a mechanism before anything runs: names, mobility, stroke, dead centres, transmission."""
 
 import argparse
+import copy
 import math
 import sys
 import textwrap
@@ -10,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.cli.options import SHIPPED, shipped_names
+from exu_press.cli.options import SHIPPED, add_set_argument, shipped_names
 from exu_press.errors import InputError
 from exu_press.mechanism import SHIPPED as MECHANISMS
 from exu_press.mechanism import (
@@ -19,12 +20,14 @@ from exu_press.mechanism import (
     SliderCrank,
     load_mechanism,
     mechanism_from,
+    mechanism_to_dict,
     press,
     shipped_mechanism,
     slider_crank,
 )
 from exu_press.mechanism.examine import Examination, examine
 from exu_press.mechanism.transmission import alike
+from exu_press.scene.file import parse_assignment
 from exu_press.schema.checks import nearest, table_from
 from exu_press.schema.toml import read_toml
 from exu_press.terminal.columns import columns
@@ -40,6 +43,9 @@ BY_DIMENSIONS: dict[str, tuple[type, Any]] = {
 
 SEPARATOR = "  \N{MIDDLE DOT}  "
 
+DRAWN = ("mechanism", "speed_rpm")
+"""Keys of a scene that a drawing shows, beside the dimensions of its mechanism."""
+
 STEP = 30
 """deg, between the rows of the table."""
 
@@ -51,6 +57,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "path",
         metavar="MECHANISM|SCENE",
         help=f"a mechanism file, a scene file, or a shipped name: {', '.join(names)}",
+    )
+    add_set_argument(
+        parser, "the drawing, as in press.crank_radius=0.1 or joints.crank_pin.at=[0.0, 0.1]"
     )
     parser.add_argument(
         "--save",
@@ -67,7 +76,7 @@ def execute(options: argparse.Namespace) -> int:
         from exu_press.plots.file import check_picture
 
         check_picture(target)
-    mechanism, speed = _asked(options.path)
+    mechanism, speed = _asked(options.path, dict(map(parse_assignment, options.set)))
     examined = examine(mechanism)
     summary = _summary(examined)
     if not options.quiet:
@@ -88,15 +97,19 @@ def execute(options: argparse.Namespace) -> int:
     return 2 if examined.complaints else 0
 
 
-def _asked(given: str) -> tuple[Mechanism, float | None]:
+def _asked(given: str, changes: Mapping[str, Any]) -> tuple[Mechanism, float | None]:
     """Return the mechanism, and the crank's speed (rad/s) where a scene says it.
 
     A scene is read as far as its mechanism goes: `Scene` refuses what is to be seen here.
     """
     path = Path(given)
     if not path.exists() and not path.suffix:
-        if given in BY_DIMENSIONS or given in MECHANISMS:
-            return _named(given, {}), None
+        if given in MECHANISMS:
+            data = mechanism_to_dict(shipped_mechanism(given))
+            return mechanism_from(_changed(data, changes)), None
+        if given in BY_DIMENSIONS:
+            data = _changed({"mechanism": given}, changes)
+            return _of_scene(data, Path()), _speed(data)
         if given not in shipped_names():
             names = sorted({*BY_DIMENSIONS, *MECHANISMS, *shipped_names()})
             raise InputError(
@@ -105,12 +118,42 @@ def _asked(given: str) -> tuple[Mechanism, float | None]:
             )
         path = SHIPPED / f"{given}.toml"
     data = read_toml(path)
-    if "bodies" in data and "joints" in data and "crank" in data:
-        return load_mechanism(path), None
+    scene = not ("bodies" in data and "joints" in data and "crank" in data)
+    if changes:
+        data = _changed(data, changes)
     try:
-        return _of_scene(data, path.parent), _speed(data)
+        if scene:
+            return _of_scene(data, path.parent), _speed(data)
+        return mechanism_from(data), None
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
+
+
+def _changed(data: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a mechanism or a scene with other values, by dotted names.
+
+    Raises:
+        InputError: a key of a scene is not drawn, or a part has another name.
+    """
+    found: dict[str, Any] = copy.deepcopy(dict(data))
+    scene = "crank" not in found
+    for name, value in changes.items():
+        *tables, key = name.split(".")
+        if scene and (tables or [key])[0] not in (*DRAWN, str(found.get("mechanism", "press"))):
+            allowed = ", ".join([*DRAWN, f"{found.get('mechanism', 'press')}.KEY"])
+            raise InputError(f"{name} = {value!r}: is not drawn; allowed are {allowed}")
+        inner = found
+        for place, table in enumerate(tables):
+            if place == 0 and scene:
+                inner.setdefault(table, {})
+            if not isinstance(inner.get(table), dict):
+                why = nearest(table, inner)
+                raise InputError(
+                    f"{name} = {value!r}: no table {'.'.join(tables[: place + 1])}{why}"
+                )
+            inner = inner[table]
+        inner[key] = value
+    return found
 
 
 def _of_scene(data: Mapping[str, Any], directory: Path) -> Mechanism:

@@ -14,6 +14,7 @@ __all__ = [
     "add_error_argument",
     "add_run_arguments",
     "add_scene_arguments",
+    "add_set_argument",
     "add_study_arguments",
     "directory_of",
     "resumable",
@@ -41,16 +42,21 @@ def add_scene_arguments(parser: argparse.ArgumentParser) -> None:
 
 def add_run_arguments(parser: argparse.ArgumentParser) -> None:
     """Add how scenes are changed and where results go."""
+    add_set_argument(parser, "the scene, as in film.viscosity=0.1")
+    parser.add_argument("--out", metavar="DIR", help="where to write (default: out/SCENE)")
+    parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
+    parser.add_argument("--no-pictures", action="store_true", help="draw nothing")
+
+
+def add_set_argument(parser: argparse.ArgumentParser, of_what: str) -> None:
+    """Add how single keys are changed."""
     parser.add_argument(
         "--set",
         action="append",
         default=[],
         metavar="KEY=VALUE",
-        help="change a key of the scene, as in film.viscosity=0.1; may be repeated",
+        help=f"change a key of {of_what}; may be repeated",
     )
-    parser.add_argument("--out", metavar="DIR", help="where to write (default: out/SCENE)")
-    parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
-    parser.add_argument("--no-pictures", action="store_true", help="draw nothing")
 
 
 def add_error_argument(parser: argparse.ArgumentParser) -> None:

@@ -42,6 +42,40 @@ def test_a_scene_has_its_speed_and_its_dimensions(tmp_path, capsys):
     assert "m/s" in out
 
 
+def test_single_keys_are_changed(drawn, tmp_path, capsys):
+    scene = tmp_path / "scene.toml"
+    scene.write_text('mechanism = "slider_crank"\n')
+    for words, part in (
+        (["slider_crank", "--set", "slider_crank.crank_radius=0.05"], "100.000 mm"),
+        ([str(scene), "--set", "slider_crank.crank_radius=0.05"], "100.000 mm"),
+        ([str(scene), "--set", "speed_rpm=60"], "m/s"),
+        (["press", "--set", "mechanism=slider_crank"], "wrist_pin"),
+        ([str(drawn), "--set", "joints.crank_pin.at=[0.0, 0.05]"], "100.000 mm"),
+        (["four_bar", "--set", "name=mine"], "mine"),
+    ):
+        assert main(["draw", *words]) == 0
+        assert part in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("name", "change", "parts"),
+    [
+        ("press", "film.viscosity=0.1", ("film.viscosity", "not drawn", "speed_rpm")),
+        ("press", "press.crank_radus=0.1", ("crank_radus", "crank_radius")),
+        ("press", "press.crank_radius=-1", ("crank_radius", "> 0")),
+        ("four_bar", "joints.crank_pn.at=[0, 1]", ("joints.crank_pn", "crank_pin")),
+        ("four_bar", "joints.crank_pin.att=[0, 1]", ("att",)),
+        ("press", "speed_rpm", ("key=value",)),
+    ],
+)
+def test_keys_that_change_no_drawing_are_told(name, change, parts, capsys):
+    assert main(["draw", name, "--set", change]) == 2
+    err = capsys.readouterr().err
+    assert err.count("\n") == 1
+    for part in parts:
+        assert part in err
+
+
 def test_a_drawing_that_is_refused_is_drawn_and_told(drawn, capsys):
     text = drawn.read_text().replace("[guides.slider]\ndirection = [0.0, 1.0]\n", "")
     drawn.write_text(text)

@@ -109,20 +109,28 @@ class ClearanceJoint(Protocol):
         """Take over what another joint of its kind remembers, in the state of the last forces."""
 
 
-def history(joint: ClearanceJoint, time: Array, q: Array, q_t: Array) -> list[JointState]:
+def history(
+    joint: ClearanceJoint, time: Array, q: Array, q_t: Array, begun: list[Any] | None = None
+) -> list[JointState]:
     """Return what a joint did over recorded steps.
 
     Args:
-        joint: forgets what it remembers, and goes through the steps again.
+        joint: goes through the steps again; afterwards it remembers what it did before.
         time: (n,), s.
         q: (n, m) coordinates of the user force element's item.
         q_t: (n, m) their rates.
+        begun: what the joint remembered at the first one; None: nothing.
     """
+    ended = joint.memory()
     joint.reset()
+    if begun is not None:
+        joint.state([*q[0].tolist(), *GROUND], [*q_t[0].tolist(), *GROUND])
+        joint.recall(begun)
     states = []
     before = time[0]
     for now, row, row_t in zip(time.tolist(), q.tolist(), q_t.tolist(), strict=True):
         joint.begin_step(now - before, accepted=True)
         states.append(joint.state([*row, *GROUND], [*row_t, *GROUND]))
         before = now
+    joint.recall(ended)
     return states

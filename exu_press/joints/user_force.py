@@ -64,6 +64,7 @@ class UserForceElement:
         self._matrix = exu.MatrixContainer()
         self._within: list[tuple[NDArray[np.intp], NDArray[np.intp], int]] = []
         self._silent = False
+        self._carried: list[Any] = []
         self._started = False
         self._blocks: list[Block] = []
         self._by_q_t = 1.0
@@ -153,8 +154,13 @@ class UserForceElement:
             joint.state([*q, *GROUND], [*q_t, *GROUND])
         self._last = q, q_t
         self._step = None if memory["step"] is None else tuple(memory["step"])
-        for joint, each in zip(self.joints, memory["joints"], strict=True):
+        self._carried = list(memory["joints"])
+        for joint, each in zip(self.joints, self._carried, strict=True):
             joint.recall(each)
+
+    def begun(self, joint: ClearanceJoint) -> list[Any] | None:
+        """Return what a joint remembered of another run where it went on from that; else None."""
+        return self._carried[self.joints.index(joint)] if self._carried else None
 
     def _check_start(self, q: list[float], called: Callable[[ClearanceJoint], str]) -> None:
         """Raise InputError for a joint that is further out in a state than its laws hold."""

@@ -27,11 +27,15 @@ def states_of(
     if not joints:
         return {}
     names = {number: name for name, number in model.nodes.items()}
+    user_force = user_force_of(model.mbs)
     q, q_t = (
-        np.hstack([sensor(model, names[node], level) for node in user_force_of(model.mbs).nodes])
+        np.hstack([sensor(model, names[node], level) for node in user_force.nodes])
         for level in ("position", "velocity")
     )
-    return {name: history(joint, time, q, q_t) for name, joint in joints.items()}
+    return {
+        name: history(joint, time, q, q_t, user_force.begun(joint))
+        for name, joint in joints.items()
+    }
 
 
 def stored_and_lost(states: Sequence[JointState], time: Array) -> tuple[Array, Array]:

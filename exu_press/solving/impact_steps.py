@@ -47,7 +47,7 @@ def impact_steps(model: Assembled) -> Iterator[float]:
         joint, kind = model.clearance_joints.get(description.name), scene.joints[description.name]
         if joint is None or isinstance(kind, IdealJoint) or kind.contact is None:
             continue
-        states = history(joint, time, q, q_t)
+        states = history(joint, time, q, q_t, user_force.begun(joint))
         apart = np.array([state.eccentricity for state in states])
         moving = np.array([state.velocity for state in states])
         distance = np.linalg.norm(apart, axis=1)

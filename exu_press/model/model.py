@@ -80,7 +80,7 @@ class Model(Assembled):
         """Return the next instant at which a load has a corner or a sample lies, s, or infinity."""
         soonest = next_corner(self.loads, self.scene, time)
         output, speed = self.scene.output, self.scene.angular_speed
-        if output is None or self.scene.drive is not None:
+        if output is None or not output.samples or self.scene.drive is not None:
             return soonest
         section = output.section(self.scene.start_angle)
         return min(soonest, section.after(speed * time, CLOSE) / speed)
@@ -89,7 +89,7 @@ class Model(Assembled):
     def event(self) -> Callable[[exu.MainSystem, float], float] | None:
         """What changes its sign at the samples of a motor's crank, or None."""
         output = self.scene.output
-        if output is None or self.scene.drive is None:
+        if output is None or not output.samples or self.scene.drive is None:
             return None
         section = output.section(self.scene.start_angle)
         return lambda mbs, time: section.side(self.crank_angle()[0])

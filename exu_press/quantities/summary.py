@@ -21,6 +21,7 @@ def summary(result: Result) -> dict[str, Any]:
     Plain numbers, texts, lists and dictionaries.
     """
     run = Reading(result)
+    before = result.info.get("figures")
     info, values = result.info, values_of(result, run)
     declared = quantities_of(result.scene)
     costs = {name for name, placed in declared.items() if placed.quantity.kind is COST}
@@ -28,13 +29,15 @@ def summary(result: Result) -> dict[str, Any]:
         "status": info["status"],
         "reason": info["reason"],
         "end_time": info["end_time"],
-        "warnings": run_warnings(result),
+        "warnings": before["warnings"] if before else run_warnings(result),
         "assumed": assumed(result.scene),
-        "read_from": dict(zip(("from", "to"), run.span, strict=True)),
+        "read_from": before["read_from"]
+        if before
+        else dict(zip(("from", "to"), run.span, strict=True)),
         "quantities": {n: value.to_dict() for n, value in values.items() if n not in costs},
         "horizon": info.get("horizon"),
         "lyapunov_exponent": info.get("lyapunov_exponent"),
-        "strokes": _strokes(result, run),
+        "strokes": before["strokes"] if before else _strokes(result, run),
         "stress": info.get("stress", {}),
         "solids": info.get("solids", {}),
         "cost": {

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from exu_press.quantities.catalogue import Placed, quantities_of, quantity_of
+from exu_press.quantities.kind import COUNT
 from exu_press.quantities.reading import Reading
 from exu_press.quantities.uncertain import uncertain
 from exu_press.result import Result
@@ -75,10 +76,19 @@ def numbers_of(result: Result, declared: Mapping[str, Placed]) -> dict[str, floa
         declared: quantities of its scene, by name.
     """
     run = Reading(result)
-    found = {name: placed.read(run) for name, placed in declared.items()}
+    found = {name: _read(result, placed, run) for name, placed in declared.items()}
     return {name: float(value) for name, value in found.items() if value is not None}
 
 
 def _value(result: Result, placed: Placed, run: Reading) -> Value:
     told: Any = result.info.get("errors", {}).get(placed.name, {})
-    return Value(placed.name, placed.read(run), placed.quantity.unit, **told)
+    return Value(placed.name, _read(result, placed, run), placed.quantity.unit, **told)
+
+
+def _read(result: Result, placed: Placed, run: Reading) -> float | int | None:
+    """Return a quantity's value; what was read before channels were left out counts."""
+    stored = result.info.get("figures", {"quantities": {}})["quantities"]
+    if placed.name not in stored:
+        return placed.read(run)
+    value = stored[placed.name]
+    return int(value) if value is not None and placed.quantity.kind is COUNT else value

@@ -13,6 +13,7 @@ from exu_press.result.info import Info
 from exu_press.result.surface import Surface
 from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.applied import applied_loads
+from exu_press.scene.output import ALWAYS
 from exu_press.schema.stored import shown
 
 __all__ = ["Contents"]
@@ -46,6 +47,7 @@ class Contents:
     info: Info
     bodies: tuple[str, ...] = field(default=())
     surfaces: Mapping[str, Surface] = field(default_factory=dict)
+    sampled: Mapping[str, Channel] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         """Check what whoever reads a result relies on."""
@@ -70,7 +72,9 @@ def _check(result: Contents) -> None:
         always = always | {"shaking_force_without_counterweight": "plane"}
     loads = applied_loads(scene)
     always = always | {f"load_{name}_{what}": "" for name in loads for what in ("force", "work")}
-    _check_channels(result.channels, mechanism, loose, always)
+    whole = "figures" not in result.info
+    for channels in (result.channels, result.sampled) if result.sampled else (result.channels,):
+        _check_channels(channels, mechanism, loose, always, whole=whole)
     _check_surfaces(result)
 
 
@@ -79,6 +83,8 @@ def _check_channels(
     mechanism: Mechanism,
     loose: Collection[str],
     always: Mapping[str, str],
+    *,
+    whole: bool,
 ) -> None:
     """Check which channels there are, and what their columns are."""
     columns, required = {**EVERY_RUN, **BALANCE, **always}, list(always)
@@ -89,7 +95,7 @@ def _check_channels(
             found = {f"{joint.name}_{quantity}": axis for quantity, axis in of_clearance.items()}
             columns |= found
             required += found
-    for name in required:
+    for name in required if whole else ALWAYS:
         if name not in channels:
             raise InputError(f"channel {name}: missing; this scene's results have it")
     count = len(channels["time"].values)
@@ -104,7 +110,8 @@ def _check_channels(
             )
         if len(channel.values) != count:
             raise InputError(f"channel {name}: {len(channel.values)} values; time has {count}")
-    if channels["body_position"].values.shape[1] != len(mechanism.bodies):
+    poses = channels.get("body_position")
+    if poses is not None and poses.values.shape[1] != len(mechanism.bodies):
         raise InputError(f"channel body_position: allowed are {len(mechanism.bodies)} bodies")
     if count == 0 or not (np.diff(channels["time"].values) > 0.0).all():
         raise InputError("channel time: allowed are increasing instants, at least one")

@@ -4,7 +4,7 @@ from typing import NotRequired, TypedDict
 
 from exu_press.model.state import State
 
-__all__ = ["Error", "Errors", "Info", "Solid", "Stress"]
+__all__ = ["Error", "Errors", "Figures", "Info", "Solid", "Stress"]
 
 
 class Stress(TypedDict):
@@ -56,6 +56,22 @@ class Error(TypedDict):
     high: float
 
 
+class Figures(TypedDict):
+    """What was read of all channels before the file left some of them out.
+
+    Attributes:
+        quantities: full name -> value in SI, None where the run was too short to have it.
+        strokes: bottom dead centre of every stroke.
+        read_from: from which to which revolution.
+        warnings: of the summary.
+    """
+
+    quantities: dict[str, float | None]
+    strokes: list[dict[str, float]]
+    read_from: dict[str, float]
+    warnings: list[str]
+
+
 class Errors(TypedDict):
     """What a run says of the errors of its figures.
 
@@ -93,6 +109,7 @@ class Info(TypedDict):
         own_items: number of objects and loads that the user added to the model.
         versions: of Python and packages, by name.
         state: at the end, from which another run can go on.
+        figures: in files that do not keep all channels at all steps.
         errors: as in `Errors`, in runs that were asked for them.
         horizon: the same.
         lyapunov_exponent: the same.
@@ -115,6 +132,7 @@ class Info(TypedDict):
     own_items: int
     versions: dict[str, str]
     state: NotRequired[State]
+    figures: NotRequired[Figures]
     errors: NotRequired[dict[str, Error]]
     horizon: NotRequired[float | None]
     lyapunov_exponent: NotRequired[float | None]

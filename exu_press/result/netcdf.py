@@ -28,6 +28,9 @@ Number = TypeVar("Number", bound=np.generic)
 
 FORMAT = "exu_press result 1"
 
+SAMPLE, AT_SAMPLES = "sample", "_at_samples"
+"""Dimension of the samples, and what ends the names of channels over it."""
+
 
 def write(result: Contents, path: Path) -> None:
     """Write to a temporary name beside `path`, then rename: no half file is ever left there."""
@@ -45,16 +48,25 @@ def write(result: Contents, path: Path) -> None:
         if result.bodies:
             file.createDimension("body", len(result.bodies))
         for name, channel in result.channels.items():
-            inner = ("body",) if channel.values.ndim == 3 else ()
-            outer = (channel.axis,) if channel.axis else ()
-            if channel.axis and channel.axis not in AXES:
-                file.createDimension(channel.axis, channel.values.shape[-1])
-            variable = file.createVariable(name, "d", ("time", *inner, *outer))
-            variable[:] = channel.values
-            variable.units = channel.unit
-            variable.long_name = channel.long_name
+            _write_channel(file, name, "time", channel)
+        if result.sampled:
+            file.createDimension(SAMPLE, len(result.sampled["time"].values))
+        for name, channel in result.sampled.items():
+            _write_channel(file, name + AT_SAMPLES, SAMPLE, channel)
         for body, surface in result.surfaces.items():
             _write_surface(file, body, surface)
+
+
+def _write_channel(file: "netcdf_file", name: str, along: str, channel: Channel) -> None:
+    """Write a channel over time, or over the samples."""
+    inner = ("body",) if channel.values.ndim == 3 else ()
+    outer = (channel.axis,) if channel.axis else ()
+    if channel.axis and channel.axis not in file.dimensions:
+        file.createDimension(channel.axis, channel.values.shape[-1])
+    variable = file.createVariable(name, "d", (along, *inner, *outer))
+    variable[:] = channel.values
+    variable.units = channel.unit
+    variable.long_name = channel.long_name
 
 
 def read(path: Path, kind: type[Kind]) -> Kind:
@@ -66,14 +78,11 @@ def read(path: Path, kind: type[Kind]) -> Kind:
         scene = from_json(dict[str, Any], _text(file.attributes, "scene"), "scene")
         return kind(
             scene=Scene.from_dict(scene),
-            channels={
-                name: _channel(name, variable)
-                for name, variable in file.variables.items()
-                if next(iter(variable.dimensions), "") == "time"
-            },
+            channels=_channels(file, "time"),
             info=from_json(Info, _text(file.attributes, "info"), "info"),
             bodies=from_json(tuple[str, ...], _text(file.attributes, "bodies"), "bodies"),
             surfaces=_surfaces(file),
+            sampled=_channels(file, SAMPLE),
         )
     except OSError as error:
         raise InputError(f"{path}: cannot be read ({error.strerror or error})") from None
@@ -89,6 +98,16 @@ def _text(attributes: Mapping[str, bytes], name: str) -> str:
         return attributes[name].decode()
     except UnicodeDecodeError:
         raise InputError(f"{name} = {shown(attributes[name])}: allowed is UTF-8") from None
+
+
+def _channels(file: Classic, along: str) -> dict[str, Channel]:
+    """Return the channels over time, or over the samples."""
+    suffix = AT_SAMPLES if along == SAMPLE else ""
+    return {
+        name.removesuffix(suffix): _channel(name, variable)
+        for name, variable in file.variables.items()
+        if next(iter(variable.dimensions), "") == along
+    }
 
 
 def _channel(name: str, variable: Variable) -> Channel:

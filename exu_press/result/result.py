@@ -20,6 +20,9 @@ from exu_press.schema.checks import nearest
 
 __all__ = ["Result"]
 
+LOOSE = "eccentricity", "moment", "power"
+"""What a joint with clearance has beside its force."""
+
 
 class _Joints(dict[str, JointRecord]):
     """Joints by name; one that there is not is refused with those that there are."""
@@ -40,6 +43,7 @@ class Result(Contents):
         info: status, reason and statistics, as they stand in the summary.
         bodies: names of the bodies in `body_position`.
         surfaces: of the flexible bodies, by name, for pictures.
+        sampled: channels at the samples, where the file does not keep all channels at all steps.
 
     Raises:
         InputError: they do not belong together.
@@ -48,7 +52,11 @@ class Result(Contents):
     def __getitem__(self, name: str) -> Array:
         """Return the values of a channel."""
         if name not in self.channels:
-            raise InputError(f"channel {name!r}: this run has {', '.join(sorted(self.channels))}")
+            cure = ""
+            if "figures" in self.info:
+                cure = "was not kept; keep it by [output] channels, and run again: "
+            known = ", ".join(sorted(self.channels))
+            raise InputError(f"channel {name!r}: {cure}this run has {known}")
         return self.channels[name].values
 
     def __iter__(self) -> Iterator[str]:
@@ -78,7 +86,10 @@ class Result(Contents):
     def joints(self) -> Mapping[str, JointRecord]:
         """Every joint of the mechanism whose force was recorded, by its name."""
         recorded = {
-            name: joint for name, joint in self.scene.joints.items() if f"{name}_force" in self
+            name: joint
+            for name, joint in self.scene.joints.items()
+            if f"{name}_force" in self
+            and (isinstance(joint, IdealJoint) or all(f"{name}_{end}" in self for end in LOOSE))
         }
         return _Joints({name: self._joint(name, joint) for name, joint in recorded.items()})
 
@@ -94,7 +105,8 @@ class Result(Contents):
         Raises:
             InputError: the scene asks for none.
         """
-        return samples_of(self.scene, {name: self[name] for name in self})
+        channels = self.sampled or self.channels
+        return samples_of(self.scene, {name: channels[name].values for name in channels})
 
     def with_values(self, values: Mapping[str, Array]) -> "Result":
         """Return the run with other values of some of its channels, by their names."""
@@ -123,10 +135,14 @@ class Result(Contents):
         return str(WORKERS["cell"](self))
 
     def save(self, path: str | Path) -> None:
-        """Write everything to a NetCDF file; an existing one is replaced only when complete."""
+        """Write what [output] keeps, all unless it says, to a NetCDF file.
+
+        An existing one is replaced only when complete.
+        """
+        from exu_press.result.kept import kept
         from exu_press.result.netcdf import write
 
-        write(self, Path(path))
+        write(kept(self), Path(path))
 
     def to_xarray(self) -> Any:
         """Return the channels as an `xarray.Dataset` over time, with units and names of columns.

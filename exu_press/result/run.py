@@ -11,10 +11,20 @@ from exu_press.scene import Scene
 
 __all__ = ["run_once"]
 
+SHORT = 1e-5
+"""Revolutions of a run that tells which channels there are."""
+
 
 def run_once(scene: Scene, *, start: State | None = None, quiet: bool = True) -> Result:
-    """Do what `exu_press.simulate` does without errors."""
+    """Do what `exu_press.simulate` does without errors.
+
+    Channels that [output] names are looked for in a shorter run first: the record alone knows what
+    a scene has.
+    """
     begun = time.perf_counter()
+    if scene.output is not None and not isinstance(scene.output.channels, str):
+        short = run_once(scene.replace({"output": None, "revolutions": SHORT}))
+        scene.output.kept(short.channels)
     model = build(scene, quiet=quiet)
     if start is not None:
         model = go_on_from(model, start)

@@ -58,7 +58,7 @@ def samples_of(scene: Scene, channels: Mapping[str, Array]) -> Samples:
     Raises:
         InputError: its scene asks for none.
     """
-    if scene.output is None:
+    if scene.output is None or not scene.output.samples:
         raise InputError("samples: this run has none; allowed is [output] samples = [crank angles]")
     turned = channels["crank_angle"] - scene.start_angle
     if scene.drive is None:

@@ -1,33 +1,54 @@
-"""The table [output]: at which crank angles a run is sampled."""
+"""The table [output]: what the file of a run keeps, and where the run is sampled."""
 
+import fnmatch
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import ClassVar
 
 from exu_press.errors import InputError
 from exu_press.mechanism.section import Section
-from exu_press.schema.checks import Table, key
+from exu_press.schema.checks import Table, key, nearest
 
 __all__ = ["Output"]
+
+ALWAYS = "time", "crank_angle"
+"""Channels by which the others are read; every file keeps them."""
 
 
 @dataclass(frozen=True)
 class Output(Table):
-    """What a run keeps beside its channels: samples at crank angles, where steps end exactly.
+    """What a run's file keeps: channels, how densely, and samples where steps end exactly.
+
+    Quantities are read from all channels at all steps, before any of them are left out.
 
     Raises:
-        InputError: the angles are not between 0 and 360 deg, or not increasing.
+        InputError: the angles are not between 0 and 360 deg, or not increasing; or channels are no
+            list of names.
     """
 
     table: ClassVar[str] = "output"
     samples: tuple[float, ...] = key(
         None, "crank angles of every revolution, on each of which a step ends", "deg", numbers=0
     )
+    channels: str | tuple[str, ...] = key(
+        "all",
+        'a list of the channels that the file keeps, by name or pattern, as "*_force"',
+        choices=("all",),
+        also=tuple,
+    )
+    every: int = key(1, "of so many steps the file keeps one", at_least=1)
 
     def __post_init__(self) -> None:
-        """Check the angles."""
+        """Check angles and channels."""
+        if isinstance(self.channels, list):
+            object.__setattr__(self, "channels", tuple(self.channels))
         super().__post_init__()
+        if not all(isinstance(name, str) for name in self.channels):
+            raise InputError(
+                f"output.channels = {self.channels!r:.200}: allowed is a list of texts"
+            )
         angles = self.samples or ()
         for angle in angles:
             if not 0.0 <= angle < 360.0:
@@ -37,8 +58,33 @@ class Output(Table):
                 raise InputError(
                     f"output.samples = {after!r} after {before!r}: allowed is increasing"
                 )
-        if not angles:
+        if self.samples == ():
             raise InputError("output.samples: allowed is at least one crank angle, in deg")
+
+    @property
+    def whole(self) -> bool:
+        """Whether the file keeps every channel at every step."""
+        return self.channels == "all" and self.every == 1
+
+    def kept(self, names: Iterable[str]) -> list[str]:
+        """Return those of some channels that the file keeps, with time and crank angle.
+
+        Raises:
+            InputError: a name or a pattern is none of them.
+        """
+        known = list(names)
+        if isinstance(self.channels, str):
+            return known
+        found = {*ALWAYS}
+        for pattern in self.channels:
+            matching = fnmatch.filter(known, pattern)
+            if not matching:
+                raise InputError(
+                    f"output.channels: {pattern!r} is no channel of this scene"
+                    f"{nearest(pattern, known)}; allowed are patterns, and {', '.join(known)}"
+                )
+            found.update(matching)
+        return [name for name in known if name in found]
 
     def section(self, start: float) -> Section:
         """Return the samples of a run that starts at a crank angle, rad."""

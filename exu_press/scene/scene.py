@@ -141,7 +141,8 @@ class Scene(Table):
             for inner, value in checked.given.items():
                 self._refuse(idle, inner, value, name)
             object.__setattr__(self, name, checked.without(idle))
-        if self.output is not None and self.solver is not None and self.solver.step is not None:
+        sampled = self.output is not None and self.output.samples
+        if sampled and self.solver is not None and self.solver.step is not None:
             raise InputError(
                 "output.samples: allowed with solver.tolerance, as fixed steps end on a grid"
             )

@@ -52,7 +52,6 @@ def test_samples_at_constant_speed_are_the_closed_forms():
 @pytest.mark.parametrize(
     ("output", "message"),
     [
-        ({}, "output.samples: allowed is at least one crank angle"),
         ({"samples": []}, "output.samples: allowed is at least one crank angle"),
         ({"samples": [360.0]}, r"output\.samples = 360\.0: allowed are numbers from 0 to < 360"),
         ({"samples": [90.0, 90.0]}, r"output\.samples = 90\.0 after 90\.0: allowed is increasing"),

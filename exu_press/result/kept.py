@@ -1,37 +1,44 @@
 """What the file of a run keeps of it, with the quantities read of all."""
 
 import dataclasses
+from collections.abc import Mapping
 from dataclasses import replace
+from typing import Any, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from exu_press.result.channel import Channel
+from exu_press.result.contents import Contents
 from exu_press.result.info import Figures, Info
-from exu_press.result.result import Result
 
 __all__ = ["kept"]
 
+Kind = TypeVar("Kind", bound=Contents)
 
-def kept(run: Result) -> Result:
+
+def kept(run: Kind, samples: NDArray[np.intp], summary: Mapping[str, Any]) -> Kind:
     """Return a run with the channels and steps that its scene's [output] keeps.
 
     The last step is one of them. Quantities, strokes and warnings of the summary are in
     `info["figures"]`; every channel at the samples, where there are any, in `sampled`.
 
+    Args:
+        run: whole.
+        samples: rows of the channels, (m,).
+        summary: of the run.
+
     Raises:
         InputError: [output] names a channel that the run does not have.
     """
     output = run.scene.output
-    if output is None or output.whole or "figures" in run.info:
-        return run
+    assert output is not None
     names = output.kept(run.channels)
-    count = len(run.time)
+    count = len(run.channels["time"].values)
     rows = np.union1d(np.arange(0, count, output.every), [count - 1])
     sampled: dict[str, Channel] = {}
-    if output.samples and len(run.samples):
-        at = run.samples.rows
-        sampled = {n: replace(one, values=one.values[at]) for n, one in run.channels.items()}
-    summary = run.summary()
+    if len(samples):
+        sampled = {n: replace(one, values=one.values[samples]) for n, one in run.channels.items()}
     quantities = {name: told["value"] for name, told in summary["quantities"].items()}
     figures: Figures = {
         "quantities": quantities,

@@ -142,7 +142,11 @@ class Result(Contents):
         from exu_press.result.kept import kept
         from exu_press.result.netcdf import write
 
-        write(kept(self), Path(path))
+        output, run = self.scene.output, self
+        if output is not None and not output.whole and "figures" not in self.info:
+            none = np.array([], np.intp)
+            run = kept(self, self.samples.rows if output.samples else none, self.summary())
+        write(run, Path(path))
 
     def to_xarray(self) -> Any:
         """Return the channels as an `xarray.Dataset` over time, with units and names of columns.

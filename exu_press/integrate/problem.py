@@ -405,6 +405,11 @@ class FoundScales:
         """Whether the system moves by less than a billionth of its length in the longest step."""
         return self.speed * self._longest <= 1e-9 * self.length
 
+    @property
+    def unseen(self) -> bool:
+        """Whether something has moved, but by no more than what rounding is taken to move."""
+        return 0.0 < self.speed <= self.rest
+
     def still(self, velocities: list[float]) -> bool:
         """Return whether nothing has moved yet, in a state either, but what rounding moves."""
         return self.speed <= self.rest and self.norm(velocities) <= self.rest

@@ -299,6 +299,13 @@ def solve_dynamic(
         law_evaluations=problem.joints.evaluations if problem.joints else 0,
     )
     words.announce(outcome)
+    if task.scales.unseen:
+        warnings.warn(
+            "solve_dynamic: the system is taken to be at rest: nothing moved by more than "
+            f"{task.scales.rest:.2g} m/s, as rounded positions may, and errors were not judged; "
+            "fixed steps (tolerance=None) follow such a motion",
+            stacklevel=2,
+        )
     return outcome
 
 

@@ -782,3 +782,30 @@ def test_vibrations_below_an_absolute_tolerance_are_not_followed():
     steps, speed = run(0.1)
     assert steps < 0.05 * followed
     assert speed == pytest.approx(exact, rel=1e-3)
+
+
+def test_a_motion_below_rounding_is_told():
+    """A mass a metre away vibrates at 1e-12 m/s and 5 Hz: taken for a rest."""
+
+    def run(tolerance, steps):
+        mbs = exu.SystemContainer().AddSystem()
+        far = mbs.AddNode(items.NodePoint(referenceCoordinates=[1.0, 0.0, 0.0]))
+        mbs.AddObject(items.ObjectMassPoint(nodeNumber=far, mass=1.0))
+        node = mbs.AddNode(items.Node1D(referenceCoordinates=[0.0], initialVelocities=[1e-12]))
+        mbs.AddObject(items.ObjectMass1D(mass=1.0, nodeNumber=node))
+        ends = [
+            mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=number, coordinate=0))
+            for number in (mbs.AddNode(items.NodePointGround()), node)
+        ]
+        stiffness = (2.0 * np.pi * 5.0) ** 2
+        mbs.AddObject(
+            items.ObjectConnectorCoordinateSpringDamper(markerNumbers=ends, stiffness=stiffness)
+        )
+        mbs.Assemble()
+        solve_dynamic(mbs, settings(2.0, steps=steps), tolerance=tolerance)
+        return mbs.GetNodeOutput(node, exu.OutputVariableType.Coordinates_t) / 1e-12
+
+    with pytest.warns(UserWarning, match="taken to be at rest"):
+        unseen = run(1e-3, 20)
+    assert abs(unseen - 1.0) > 0.05
+    assert run(None, 4000) == pytest.approx(1.0, abs=0.02)

@@ -55,7 +55,7 @@ class Period:
         return f"{self.revolutions} revolution{'s' if self.revolutions > 1 else ''}"
 
 
-def period_of(points: Array, error: float, most: int = MOST) -> Period:
+def period_of(points: Array, error: float, most: int = MOST, *, diverging: bool = False) -> Period:
     """Return the period of a motion from its points in a section.
 
     >>> turn = np.array([[0.0], [1.0]] * 12)
@@ -66,6 +66,8 @@ def period_of(points: Array, error: float, most: int = MOST) -> Period:
         points: (n, k), one a revolution, after the transient; n at least 3 `most`.
         error: largest error of a point, in the same measure.
         most: revolutions.
+        diverging: whether neighbouring motions are known to part: then nothing comes back, and
+            points that seem to do so are hidden by their error.
 
     Raises:
         InputError: there are too few points.
@@ -77,6 +79,10 @@ def period_of(points: Array, error: float, most: int = MOST) -> Period:
         )
     distances = np.array([_distance(points, n) for n in range(1, most + 1)])
     same = np.flatnonzero(distances <= SAME * error)
+    if len(same) and diverging:
+        finer = float(distances.min() / (APART * error))
+        why = f"neighbours part, but points lie within their error of {error:.2g}"
+        return Period(None, False, why, most, distances, error, finer)
     if len(same):
         return Period(int(same[0]) + 1, True, "", most, distances, error)
     nearest = int(np.argmin(distances))

@@ -186,7 +186,7 @@ def attractor(
         skip=skip,
         points=section,
         error=kept,
-        period=period_of(section, kept, most),
+        period=period_of(section, kept, most, diverging=exponent.low > 0.0),
         exponent=exponent,
         figures={name: np.array([each.get(name, math.nan) for each in values]) for name in wanted},
         last=last,

@@ -51,3 +51,11 @@ def test_a_motion_that_still_settles_is_not_told():
 def test_too_few_revolutions_are_refused():
     with pytest.raises(InputError, match="47 revolutions in the section: allowed are at least 48"):
         period_of(repeated([1.0], 47), ERROR, 16)
+
+
+def test_what_diverges_has_no_period_within_a_large_error():
+    points = np.random.default_rng(1).normal(size=(40, 2))
+    assert str(period_of(points, error=2.0, most=4)) == "1 revolution"
+    told = period_of(points, error=2.0, most=4, diverging=True)
+    assert not told.told and told.revolutions is None
+    assert "neighbours part" in str(told) and told.finer < 1.0

@@ -149,3 +149,22 @@ def test_the_press_of_the_paper_starts_loaded_at_any_angle(kind, angle, flexible
     begun = result["crank_pin_force"][:, :2]
     assert np.linalg.norm(begun[0] - wanted) < 0.03 * np.linalg.norm(wanted)
     assert np.linalg.norm(begun, axis=1).max() < 1.2 * np.linalg.norm(wanted)
+
+
+@pytest.mark.parametrize("angle", [0.0, 180.0])
+@pytest.mark.parametrize("flexible", [False, True], ids=["rigid", "flexible"])
+def test_a_strong_film_starts_with_its_force_and_rings_in_no_constraint(angle, flexible):
+    """Its damper is of 1e10 N s/m, and steps begin with 0.1 us."""
+    scene = Scene(
+        bodies=flexible_press(modes=8) if flexible else {},
+        start="loaded",
+        start_angle_deg=angle,
+        revolutions=5e-4,
+        film={"law": "finite", "viscosity": 0.14, "length": 0.065},
+    ).replace({"joints.crank_pin.clearance": 5e-6})
+    result = simulate(scene)
+    assert result.info["status"] == "completed", result.info["reason"]
+    film, guide = result["crank_pin_force"][:, :2], result["slide_guide_force"]
+    size = np.linalg.norm(film[0])
+    assert np.linalg.norm(film[:20] - film[0], axis=1).max() < 0.1 * size
+    assert np.abs(guide[:20]).max() < 0.2 * size

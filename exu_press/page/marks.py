@@ -7,6 +7,7 @@ import numpy as np
 
 from exu_press.arrays import Array
 from exu_press.page.curves import Curve
+from exu_press.quantities.alternating import LOADS, steady
 from exu_press.quantities.contact_time import TOUCH
 from exu_press.quantities.dead_centre import bottom_dead_centres
 from exu_press.quantities.value import values_of
@@ -63,9 +64,11 @@ def dead_centres(result: Result) -> list[dict[str, Any]]:
     return sorted(marks, key=lambda mark: float(mark["at"]))
 
 
-def values_on(result: Result, curve: Curve) -> Array:
-    """Return a curve's values, (n,), SI."""
+def values_on(result: Result, curve: Curve, *, as_read: bool = False) -> Array:
+    """Return a curve's values, (n,), SI; as peaks are read from them, if asked for."""
     values = result[curve.channel]
+    if as_read and result.channels[curve.channel].unit in LOADS:
+        values = steady(result.time, values)
     if curve.body is not None:
         values = values[:, curve.body]
     if values.ndim == 2:
@@ -83,7 +86,7 @@ def peaks(result: Result, curves: Iterable[Curve]) -> dict[str, dict[str, Any]]:
         value = known.get(curve.peak)
         if value is None or value.value is None:
             continue
-        values = values_on(result, curve)
+        values = values_on(result, curve, as_read=True)
         at = int(np.argmin(values) if curve.least else np.argmax(np.abs(values)))
         sign = -1.0 if values[at] < 0.0 <= value.value else 1.0
         found[curve.name] = {

@@ -4,7 +4,10 @@ import numpy as np
 
 from exu_press.arrays import Array
 
-__all__ = ["beside_line", "steady"]
+__all__ = ["LOADS", "beside_line", "steady"]
+
+LOADS = frozenset({"m/s^2", "N", "N m", "W"})
+"""Units of the channels that follow from accelerations."""
 
 LITTLE = 0.05
 """Of a channel's largest value."""

@@ -50,9 +50,9 @@ MOTION = Kind("motion")
 LOAD = Kind("load", relative=1e-5, from_accelerations=True)
 """Follows from accelerations, as forces, torques and powers do."""
 
-RESULTANT = Kind("resultant", relative=1e-5, of_forces=2e-8, from_accelerations=True)
-"""Is a sum in which large forces cancel. The rounding of positions leaves of_forces of them in
-steps of a microsecond (1e-8 was measured at 1 rpm)."""
+RESULTANT = Kind("resultant", relative=1e-5, of_forces=1e-6, from_accelerations=True)
+"""Is a sum in which large forces cancel. Newton's method and the rounding of positions leave
+of_forces of them (5e-7 was measured at 1 rpm)."""
 
 MOMENT = Kind("moment", relative=0.0, of_forces=1e-7)
 """Is a moment of forces that balance each other; their arms are rounded, by of_forces in m."""

@@ -5,15 +5,12 @@ from collections.abc import Callable
 import numpy as np
 
 from exu_press.arrays import Array
-from exu_press.quantities.alternating import beside_line
+from exu_press.quantities.alternating import LOADS, beside_line
 from exu_press.quantities.energy import has_balance
 from exu_press.result import Result
 from exu_press.result.windows import settled
 
 __all__ = ["OF_FIRST_STEP", "overshot", "smoothed", "turned", "unbalanced"]
-
-LOADS = frozenset({"m/s^2", "N", "N m", "W"})
-"""Units of the channels that follow from accelerations."""
 
 SPEEDS = frozenset({"m/s", "rad/s"})
 """Units of the channels whose peaks lie between steps, too; positions are read as cubics there."""

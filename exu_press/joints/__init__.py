@@ -10,13 +10,15 @@ from exu_press.joints.add import (
 )
 from exu_press.joints.compiled import COMPILED
 from exu_press.joints.ends import FlexiblePoint
-from exu_press.joints.joint import ClearanceJoint, JointState, history
+from exu_press.joints.history import JointHistory, histories
+from exu_press.joints.joint import ClearanceJoint, JointState
 from exu_press.joints.user_force import user_force_of
 
 __all__ = [
     "COMPILED",
     "ClearanceJoint",
     "FlexiblePoint",
+    "JointHistory",
     "JointState",
     "add_dry_revolute",
     "add_dry_spherical",
@@ -24,6 +26,6 @@ __all__ = [
     "add_joint_sensor",
     "add_lubricated_revolute",
     "add_revolute",
-    "history",
+    "histories",
     "user_force_of",
 ]

@@ -7,7 +7,6 @@ radius is a journal's.
 """
 
 import math
-from dataclasses import replace
 from math import cos, sin
 
 import numpy as np
@@ -113,7 +112,7 @@ class GuidewayContact(InterfaceJoint):
     def state(self, q: list[float], q_t: list[float]) -> JointState:
         """Return what the ways do in a state; the velocity is the point's, along them too."""
         state = super().state(q, q_t)
-        return replace(state, moments=(state.moments[0], 0.0))  # the frame takes any
+        return state._replace(moments=(state.moments[0], 0.0))  # the frame takes any
 
 
 class SpatialGuidewayContact(SpatialRevolute):

@@ -1,12 +1,11 @@
 """What the user force element needs of a joint, and what a joint says of itself."""
 
-from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 from exu_press.arrays import Array
 from exu_press.joints.path import Path
 
-__all__ = ["GROUND", "SHALLOW", "ClearanceJoint", "JointState", "history"]
+__all__ = ["GROUND", "SHALLOW", "ClearanceJoint", "JointState"]
 
 Vector = tuple[float, ...]
 
@@ -18,8 +17,7 @@ SHALLOW = 0.01
 beside the radius, and its half-width sqrt(R delta) is then a tenth of it (Johnson 1985, 4.2)."""
 
 
-@dataclass(frozen=True)
-class JointState:
+class JointState(NamedTuple):
     """What a joint does at one instant, in the global frame: x, y in the plane, x, y, z in space.
 
     Attributes:
@@ -107,30 +105,3 @@ class ClearanceJoint(Protocol):
 
     def recall(self, memory: list[Any]) -> None:
         """Take over what another joint of its kind remembers, in the state of the last forces."""
-
-
-def history(
-    joint: ClearanceJoint, time: Array, q: Array, q_t: Array, begun: list[Any] | None = None
-) -> list[JointState]:
-    """Return what a joint did over recorded steps.
-
-    Args:
-        joint: goes through the steps again; afterwards it remembers what it did before.
-        time: (n,), s.
-        q: (n, m) coordinates of the user force element's item.
-        q_t: (n, m) their rates.
-        begun: what the joint remembered at the first one; None: nothing.
-    """
-    ended = joint.memory()
-    joint.reset()
-    if begun is not None:
-        joint.state([*q[0].tolist(), *GROUND], [*q_t[0].tolist(), *GROUND])
-        joint.recall(begun)
-    states = []
-    before = time[0]
-    for now, row, row_t in zip(time.tolist(), q.tolist(), q_t.tolist(), strict=True):
-        joint.begin_step(now - before, accepted=True)
-        states.append(joint.state([*row, *GROUND], [*row_t, *GROUND]))
-        before = now
-    joint.recall(ended)
-    return states

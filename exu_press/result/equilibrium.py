@@ -4,17 +4,16 @@ Such a body has one coordinate (`exu_press.model.rigid_body`), so that no constr
 force.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 import numpy as np
 
 from exu_press.arrays import Array
-from exu_press.joints import JointState
+from exu_press.joints import JointHistory
 from exu_press.mechanism import Motion
 from exu_press.model import Model
 from exu_press.result.channel import Channel
 from exu_press.result.forces import guide_channels, vectors
-from exu_press.result.joints import moments_in_plane
 
 __all__ = ["equilibrium"]
 
@@ -23,7 +22,7 @@ def equilibrium(
     model: Model,
     motions: Mapping[str, Motion],
     channels: Mapping[str, Channel],
-    states: Mapping[str, Sequence[JointState]],
+    states: Mapping[str, JointHistory],
 ) -> dict[str, Channel]:
     """Return force and moment of the guides, and the pivots' forces on the journals.
 
@@ -61,7 +60,7 @@ def _applied(
     name: str,
     motion: Motion,
     channels: Mapping[str, Channel],
-    states: Mapping[str, Sequence[JointState]],
+    states: Mapping[str, JointHistory],
 ) -> tuple[Array, Array]:
     """Return force, (n, 2), and moment about its centre, (n,), of joints and loads on a body."""
     angle = motion.position[:, 2]
@@ -75,7 +74,8 @@ def _applied(
                 arm_y = x * np.sin(angle) + y * np.cos(angle)
                 force += on_body
                 moment += arm_x * on_body[:, 1] - arm_y * on_body[:, 0]
-                moment += [moments_in_plane(s)[end] for s in states.get(joint.name, ())] or 0.0
+                if joint.name in states:
+                    moment += states[joint.name].moments_in_plane[:, end]
     for key, (load, _) in model.loads.items():
         if load.body == name:
             pressed = channels[f"load_{key}_force"].values

@@ -121,13 +121,13 @@ def record_guideways(
         force, moment, lost = np.zeros((len(time), 2)), np.zeros_like(time), np.zeros_like(time)
         for n, side in enumerate((-1.0, 1.0)):
             end = states[f"{guide.body} {n}"]
-            pressed = np.array([state.force[:2] for state in end])
+            pressed = end.force[:, :2]
             reach = 0.5 * side * guide.guideway.length
             arm_x = reach * (np.cos(angle) * x - np.sin(angle) * y)
             arm_y = reach * (np.sin(angle) * x + np.cos(angle) * y)
             force += pressed
             moment += arm_x * pressed[:, 1] - arm_y * pressed[:, 0]
-            moment += [state.moments[0] for state in end]
+            moment += end.moments[:, 0]
             elastic, lost_here = stored_and_lost(end, time)
             lost += lost_here
             all_stored += elastic

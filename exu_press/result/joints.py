@@ -1,28 +1,28 @@
 """What clearance joints do: eccentricity, force, moments, losses."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 import numpy as np
 
 from exu_press.arrays import Array
-from exu_press.joints import ClearanceJoint, JointState, history, user_force_of
+from exu_press.joints import ClearanceJoint, JointHistory, histories, user_force_of
 from exu_press.model import Model
 from exu_press.numerics.piecewise import integral
 from exu_press.result.channel import Channel
 from exu_press.result.forces import vectors
 from exu_press.result.motion import sensor
 
-__all__ = ["joint_states", "moments_in_plane", "record_joints", "states_of", "stored_and_lost"]
+__all__ = ["joint_states", "record_joints", "states_of", "stored_and_lost"]
 
 
-def joint_states(model: Model, time: Array) -> dict[str, list[JointState]]:
+def joint_states(model: Model, time: Array) -> dict[str, JointHistory]:
     """Return what every clearance joint did at the recorded instants."""
     return states_of(model, time, model.clearance_joints)
 
 
 def states_of(
     model: Model, time: Array, joints: Mapping[str, ClearanceJoint]
-) -> dict[str, list[JointState]]:
+) -> dict[str, JointHistory]:
     """Return what some of the user force element's joints did at the recorded instants."""
     if not joints:
         return {}
@@ -32,30 +32,20 @@ def states_of(
         np.hstack([sensor(model, names[node], level) for node in user_force.nodes])
         for level in ("position", "velocity")
     )
-    return {
-        name: history(joint, time, q, q_t, user_force.begun(joint))
-        for name, joint in joints.items()
-    }
+    return histories(joints, time, q, q_t, user_force.begun)
 
 
-def stored_and_lost(states: Sequence[JointState], time: Array) -> tuple[Array, Array]:
+def stored_and_lost(states: JointHistory, time: Array) -> tuple[Array, Array]:
     """Return what a joint stores and what it has dissipated since the start, (n,), J.
 
     What is dissipated is the integral of a power that is nowhere negative. As the difference of
     two larger energies, work and what is stored, it would fall where an impact gives back.
     """
-    stored = np.array([state.stored_energy for state in states])
-    return stored, integral(time, np.array([state.dissipated_power for state in states]))
-
-
-def moments_in_plane(state: JointState) -> tuple[float, float]:
-    """Return the moments on journal and bearing about the z axis, N m; a ball's may have three."""
-    each = len(state.moments) // 2
-    return state.moments[each - 1], state.moments[-1]
+    return states.stored_energy, integral(time, states.dissipated_power)
 
 
 def record_joints(
-    model: Model, histories: Mapping[str, Sequence[JointState]], time: Array
+    model: Model, histories: Mapping[str, JointHistory], time: Array
 ) -> tuple[dict[str, Channel], Array, Array]:
     """Return the channels of the clearance joints, their stored and their dissipated energy, J."""
     channels: dict[str, Channel] = {}
@@ -69,25 +59,25 @@ def record_joints(
         in_words = name.replace("_", " ")
         channels |= {
             f"{name}_eccentricity": vectors(
-                np.array([state.eccentricity for state in states]),
+                states.eccentricity,
                 "m",
                 f"{in_words}: journal centre minus bearing centre",
                 spherical,
             ),
             f"{name}_force": vectors(
-                np.array([state.force for state in states]),
+                states.force,
                 "N",
                 f"{in_words}: force on journal",
                 spherical,
             ),
             f"{name}_moment": Channel(
-                np.array([moments_in_plane(state) for state in states]),
+                states.moments_in_plane,
                 "N m",
                 f"{in_words}: moment on journal and on bearing",
                 "ends",
             ),
             f"{name}_power": Channel(
-                np.array([state.dissipated_power for state in states]),
+                states.dissipated_power,
                 "W",
                 f"{in_words}: dissipated power",
             ),

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from exu_press.arrays import Array
-from exu_press.joints import history, user_force_of
+from exu_press.joints import histories, user_force_of
 from exu_press.laws.contact import NormalContact
 from exu_press.mechanism import GROUND
 from exu_press.scene import IdealJoint
@@ -43,13 +43,13 @@ def impact_steps(model: Assembled) -> Iterator[float]:
         )
         for level in ("position", "velocity")
     )
+    states_of = histories(model.clearance_joints, time, q, q_t, user_force.begun)
     for description in model.mechanism.joints:
         joint, kind = model.clearance_joints.get(description.name), scene.joints[description.name]
         if joint is None or isinstance(kind, IdealJoint) or kind.contact is None:
             continue
-        states = history(joint, time, q, q_t, user_force.begun(joint))
-        apart = np.array([state.eccentricity for state in states])
-        moving = np.array([state.velocity for state in states])
+        states = states_of[description.name]
+        apart, moving = states.eccentricity, states.velocity
         distance = np.linalg.norm(apart, axis=1)
         closing = (apart * moving).sum(axis=1) / np.maximum(distance, 1e-300)
         free = distance <= joint.clearance

@@ -14,7 +14,7 @@ from exudyn.itemInterface import (
 from solving import planar_body, recorded, solve
 
 from exu_press import InputError, add_dry_revolute, add_dry_spherical, add_lubricated_revolute
-from exu_press.joints import history, user_force_of
+from exu_press.joints import histories, user_force_of
 from exu_press.laws.contact import hertz, step_damping
 from exu_press.laws.film import pi_film
 from exu_press.laws.friction import LuGre, lugre_steady
@@ -82,7 +82,7 @@ class Bodies:
         )
         order = [self.nodes.index(node) for node in user_force_of(self.mbs).nodes]
         columns = [3 * i + c for i in order for c in range(3)]
-        return history(joint, self.time, q[:, columns], q_t[:, columns])
+        return histories({"one": joint}, self.time, q[:, columns], q_t[:, columns])["one"]
 
 
 def free_pair(relative=(0.05, 0.03), spin=(4.0, -6.0)):
@@ -158,8 +158,7 @@ def test_bodies_are_accelerated_by_what_history_says(kind):
 
 def assert_newton(bodies, joint, journal, bearing):
     states = bodies.history(joint)
-    force = np.array([state.force for state in states])
-    moments = np.array([state.moments for state in states])
+    force, moments = states.force, states.moments
     acceleration, place = bodies.recorded("acceleration"), bodies.recorded("position")
     scale = np.abs(force).max()
     assert scale > 10.0
@@ -259,10 +258,10 @@ def test_a_joint_to_the_ground_carries_a_body(journal_on_ground):
     ends = [(body, (0.0, 0.0)), (bodies.ground, (0.3, 0.2))]
     joint = add_joint("dry", bodies.mbs, *(ends[::-1] if journal_on_ground else ends))
     bodies.run(0.2, 1e-5)
-    last = bodies.history(joint)[-1]
+    last = bodies.history(joint)
     sign = -1.0 if journal_on_ground else 1.0
-    assert last.force[1] * sign == pytest.approx(98.1, rel=1e-3)
-    assert last.eccentricity[1] * sign < -1e-4
+    assert last.force[-1, 1] * sign == pytest.approx(98.1, rel=1e-3)
+    assert last.eccentricity[-1, 1] * sign < -1e-4
 
 
 def test_other_bodies_are_refused():

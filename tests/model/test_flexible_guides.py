@@ -144,8 +144,7 @@ def test_in_its_play_a_soft_slider_touches_with_what_its_guide_holds(slider):
     held = guided_motion(model, "slider").position
     ends = {str(number): end for number, end in enumerate(model.guideways["slider"])}
     low, high = (
-        np.array([state.eccentricity[0] for state in states])
-        for states in states_of(model, result.time, ends).values()
+        states.eccentricity[:, 0] for states in states_of(model, result.time, ends).values()
     )
     assert np.abs(0.5 * (low + high) - held[:, 0]).max() < 1e-9
     assert np.abs((low - high) / PLAY["length"] - np.sin(held[:, 2])).max() < 1e-8

@@ -1,0 +1,117 @@
+"""What a joint did over the steps of a run."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from exu_press.arrays import Array
+from exu_press.joints.joint import GROUND, ClearanceJoint, JointState
+
+__all__ = ["JointHistory", "histories"]
+
+AT_ONCE = 4096
+"""Instants whose states are put into arrays together: a state in Python takes ten times the
+memory."""
+
+
+@dataclass(frozen=True)
+class JointHistory:
+    """What a joint did at n instants: what `JointState` says, instant by instant.
+
+    Attributes:
+        eccentricity: journal centre - bearing centre, (n, 2 or 3), m.
+        force: on the journal at its centre, (n, 2 or 3), N; the bearing has its opposite.
+        velocity: rate of the eccentricity, (n, 2 or 3), m/s.
+        moments: on the journal, then on the bearing, (n, 2 or 6), N m.
+        angular_velocities: that the moments act on, (n, 2 or 6), rad/s.
+        gap: (n,), m.
+        stored_energy: (n,), J.
+        stored_power: (n,), W.
+    """
+
+    eccentricity: Array
+    force: Array
+    velocity: Array
+    moments: Array
+    angular_velocities: Array
+    gap: Array
+    stored_energy: Array
+    stored_power: Array
+
+    @property
+    def dissipated_power(self) -> Array:
+        """What contact, friction and film turn into heat, (n,), W."""
+        return -self.power - self.stored_power
+
+    @property
+    def power(self) -> Array:
+        """What forces and moments bring into the two bodies, (n,), W."""
+        found = np.zeros_like(self.gap)
+        for loads, rates in (
+            (self.force, self.velocity),
+            (self.moments, self.angular_velocities),
+        ):
+            for load, rate in zip(loads.T, rates.T, strict=True):
+                found += load * rate
+        return found
+
+    @property
+    def moments_in_plane(self) -> Array:
+        """Moments on journal and bearing about the z axis, (n, 2), N m; a ball's have three."""
+        each = self.moments.shape[1] // 2
+        return self.moments[:, [each - 1, -1]]
+
+
+def nothing(joint: ClearanceJoint) -> None:
+    """Return what a joint remembers at the start of a run."""
+
+
+def histories(
+    joints: Mapping[str, ClearanceJoint],
+    time: Array,
+    q: Array,
+    q_t: Array,
+    begun: Callable[[ClearanceJoint], list[Any] | None] = nothing,
+) -> dict[str, JointHistory]:
+    """Return what joints did over recorded steps.
+
+    Args:
+        joints: go through the steps again; afterwards they remember what they did before.
+        time: (n,), s.
+        q: (n, m) coordinates of the user force element's item.
+        q_t: (n, m) their rates.
+        begun: tells what a joint remembered at the first one, or None.
+    """
+    ended = {name: joint.memory() for name, joint in joints.items()}
+    for joint in joints.values():
+        joint.reset()
+        memory = begun(joint)
+        if memory is not None:
+            joint.state([*q[0].tolist(), *GROUND], [*q_t[0].tolist(), *GROUND])
+            joint.recall(memory)
+    parts: dict[str, list[list[Array]]] = {name: [] for name in joints}
+    steps = np.diff(time, prepend=time[0])
+    for first in range(0, len(time), AT_ONCE):
+        part = slice(first, first + AT_ONCE)
+        states: dict[str, list[JointState]] = {name: [] for name in joints}
+        each = [
+            (joint.begin_step, joint.state, states[name].append) for name, joint in joints.items()
+        ]
+        for step, row, row_t in zip(
+            steps[part].tolist(), q[part].tolist(), q_t[part].tolist(), strict=True
+        ):
+            row += GROUND
+            row_t += GROUND
+            for begin_step, state, keep in each:
+                begin_step(step, True)
+                keep(state(row, row_t))
+        for name, found in states.items():
+            parts[name].append([np.array(values) for values in zip(*found, strict=True)])
+    for name, joint in joints.items():
+        joint.recall(ended[name])
+    return {
+        name: JointHistory(*(np.concatenate(values) for values in zip(*found, strict=True)))
+        for name, found in parts.items()
+    }

@@ -4,12 +4,18 @@ An impact lasts about 75 us, so that the peak that is read depends on who looks:
 program that prints one value a millisecond, or an instrument that differentiates a displacement.
 """
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from exu_press.arrays import Array
 from exu_press.numerics.piecewise import evaluate, hermite, integral
 
 __all__ = ["differentiated_peak", "mean_peak", "mean_peak_of", "peak"]
+
+AT_ONCE = 200_000
+"""Instants whose windows are looked at together: what is worked out takes ten times their memory.
+"""
 
 MOST_SAMPLES = 10_000_000
 """Of a displacement; they take 80 MB a copy."""
@@ -31,8 +37,12 @@ def mean_peak(time: Array, velocity: Array, window: float = 1e-3) -> float | Non
     Returns:
         None where the record is shorter than the window.
     """
-    late, change = _windows(time, velocity, window)  # between them the mean is linear in time
-    return peak(change / window) if len(late) else None
+
+    def largest(part: slice) -> float:
+        _, change = _windows(time[part], velocity[part], window)
+        return peak(change / window)  # between them the mean is linear in time
+
+    return max(map(largest, _parts(time, window)), default=None)
 
 
 def mean_peak_of(time: Array, values: Array, window: float = 1e-3) -> float | None:
@@ -48,15 +58,28 @@ def mean_peak_of(time: Array, values: Array, window: float = 1e-3) -> float | No
     Returns:
         None where the record is shorter than the window.
     """
+    parts = _parts(time, window)
+    return max((_mean_peak_of(time[part], values[part], window) for part in parts), default=None)
+
+
+def _mean_peak_of(time: Array, values: Array, window: float) -> float:
+    """Return the same of a record that is not shorter than the window."""
     late, change = _windows(time, values, window)
-    if not len(late):
-        return None
     turns = np.flatnonzero(change[:-1] * change[1:] < 0.0)  # there the mean is largest or least
     part = change[turns] / (change[turns] - change[turns + 1])
     late = np.concatenate([late, late[turns] + part * np.diff(late)[turns]])
     parabolas = hermite(time, integral(time, values), values)
     sums = evaluate(time, parabolas, late) - evaluate(time, parabolas, late - window)
     return peak(sums / window)
+
+
+def _parts(time: Array, window: float) -> Iterator[slice]:
+    """Yield parts of a record in which every window lies in one; none if it is shorter than it."""
+    for first in range(0, len(time), AT_ONCE):
+        begin = int(np.searchsorted(time, time[max(first - 1, 0)] - window, side="right")) - 1
+        part = slice(max(begin, 0), first + AT_ONCE)
+        if time[part][-1] - time[part][0] >= window:
+            yield part
 
 
 def _windows(time: Array, values: Array, window: float) -> tuple[Array, Array]:

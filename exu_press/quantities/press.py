@@ -59,8 +59,8 @@ def _sliding_power(run: Reading, body: str) -> float | None:
     force = _of_guide(run, body, "force")
     if force is None or len(run.time) < 2:
         return None
-    position = run["body_position"][:, run.result.bodies.index(body), :2]
-    speed = np.gradient(position @ np.array(_guide(run, body).direction), run.time)
+    along = run.result.path(body) @ np.array(_guide(run, body).direction)
+    speed = np.gradient(along, run.time)
     return run.mean(np.abs(force * speed))
 
 

@@ -33,6 +33,7 @@ class Reading:
         self.run = run
         self.result = settled(run)
         self._found: dict[Any, Any] = {}
+        self._load = "", np.zeros(0)
 
     def __getitem__(self, channel: str) -> Array:
         """Return the values of a channel."""
@@ -45,10 +46,9 @@ class Reading:
 
     def load(self, name: str) -> Array:
         """Return a channel that follows from accelerations, as peaks are read from it."""
-        if name not in self._found:
-            self._found[name] = steady(self.time, self[name])
-        found: Array = self._found[name]
-        return found
+        if self._load[0] != name:  # of a long run they would fill the memory
+            self._load = name, steady(self.time, self[name])
+        return self._load[1]
 
     def once(self, read: Callable[[Result], Read]) -> Read:
         """Return what a function makes of the run; it is asked once, however many quantities do."""

@@ -1,10 +1,12 @@
 """What one joint did during a run."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from exu_press.arrays import Array
+from exu_press.result.channel import Channel
 
 __all__ = ["JointRecord"]
 
@@ -14,27 +16,55 @@ class JointRecord:
     """One joint over time; an ideal one has its force, and zeros for what only clearance allows.
 
     Attributes:
+        name: of the joint.
         kind: "ideal", "dry" or "lubricated".
-        spherical: whether it is a ball in a socket.
         clearance: radial clearance, m.
-        force: on the journal or ball, (n, 2) in the plane, (n, 3) of a spherical joint, N.
-        eccentricity: journal centre minus bearing centre, same shape, m.
-        gap: clearance less eccentricity, (n,), m: the film's least thickness, or minus the
-            penetration.
-        moment: on journal and bearing about their centres, (n, 2), N m.
-        dissipated_power: what contact, friction and film turn into heat, (n,), W.
+        channels: of the run.
     """
 
+    name: str
     kind: str
-    spherical: bool
     clearance: float
-    force: Array
-    eccentricity: Array
-    gap: Array
-    moment: Array
-    dissipated_power: Array
+    channels: Mapping[str, Channel]
+
+    @property
+    def spherical(self) -> bool:
+        """Whether it is a ball in a socket."""
+        return self.channels[f"{self.name}_force"].axis == "space"
+
+    @property
+    def force(self) -> Array:
+        """On the journal or ball, (n, 2) in the plane, (n, 3) of a spherical joint, N."""
+        return self.channels[f"{self.name}_force"].values
+
+    @property
+    def eccentricity(self) -> Array:
+        """Journal centre minus bearing centre, (n, 2) or (n, 3), m."""
+        force = self.force
+        return np.zeros_like(force) if self.kind == "ideal" else self._of_clearance("eccentricity")
+
+    @property
+    def gap(self) -> Array:
+        """Clearance less eccentricity, (n,), m: the film's least thickness, or -penetration."""
+        return self.clearance - self.distance
+
+    @property
+    def moment(self) -> Array:
+        """On journal and bearing about their centres, (n, 2), N m."""
+        if self.kind == "ideal":
+            return np.zeros((len(self.force), 2))
+        return self._of_clearance("moment")
+
+    @property
+    def dissipated_power(self) -> Array:
+        """What contact, friction and film turn into heat, (n,), W."""
+        return np.zeros(len(self.force)) if self.kind == "ideal" else self._of_clearance("power")
 
     @property
     def distance(self) -> Array:
         """Magnitude of the eccentricity, (n,), m."""
         return np.asarray(np.linalg.norm(self.eccentricity, axis=1))
+
+    def _of_clearance(self, what: str) -> Array:
+        """Return a channel that joints with clearance have."""
+        return self.channels[f"{self.name}_{what}"].values

@@ -4,6 +4,7 @@ import numpy as np
 
 from exu_press.arrays import Array
 from exu_press.mechanism import Motion
+from exu_press.mechanism.parts import DRIVE
 from exu_press.model import Model
 
 __all__ = [
@@ -44,7 +45,7 @@ def frame_motion(model: Model, name: str) -> Motion:
     euler = position[:, 3:]
     angle = np.unwrap(2.0 * np.arctan2(euler[:, 3], euler[:, 0]))
     about_z = 2.0 * np.column_stack([-euler[:, 3], -euler[:, 2], euler[:, 1], euler[:, 0]])
-    ideal = model.mechanism.motion(np.array([model.scene.start_angle]), 1.0)[name]
+    ideal = model.mechanism.motion(np.array([_crank_at_start(model)]), 1.0)[name]
     start = ideal.position[0, 2] - model.parts[name].angle
     angle += 2.0 * np.pi * np.round((start - angle[0]) / (2.0 * np.pi))
     return Motion(
@@ -52,6 +53,17 @@ def frame_motion(model: Model, name: str) -> Motion:
         np.column_stack([velocity[:, :2], (about_z * velocity[:, 3:]).sum(axis=1)]),
         np.column_stack([acceleration[:, :2], (about_z * acceleration[:, 3:]).sum(axis=1)]),
     )
+
+
+def _crank_at_start(model: Model) -> float:
+    """Return the crank's angle, rad, with the turns it has made before the run, if it goes on."""
+    mechanism = model.mechanism
+    turned = DRIVE if DRIVE in model.nodes else mechanism.crank
+    if turned in model.rigid:
+        at = sensor(model, turned, "position")[:1]
+        pose = model.rigid[turned].motion(at, np.zeros_like(at), np.zeros_like(at)).position
+        return float(pose[0, 2] - mechanism.body(mechanism.crank).angle)
+    return model.scene.start_angle + model.scene.angular_speed * model.begin
 
 
 def point_acceleration(model: Model, name: str, point: Array) -> Array:

@@ -1,6 +1,7 @@
 """What came out of one run: channels over time, how it ended, and the scene it came from."""
 
-from collections.abc import Iterator, Mapping
+import copy
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -11,11 +12,11 @@ import numpy as np
 from exu_press.above import WORKERS
 from exu_press.arrays import Array
 from exu_press.errors import InputError
+from exu_press.result.channels import Changed, described, on_disk, part_of
 from exu_press.result.contents import Contents
 from exu_press.result.joint import JointRecord
 from exu_press.result.samples import Samples, samples_of
 from exu_press.scene import IdealJoint
-from exu_press.scene.joint import Joint
 from exu_press.schema.checks import nearest
 
 __all__ = ["Result"]
@@ -59,6 +60,11 @@ class Result(Contents):
             raise InputError(f"channel {name!r}: {cure}this run has {known}")
         return self.channels[name].values
 
+    def path(self, body: str) -> Array:
+        """Return the path of a body's centre of mass, (n, 2), m."""
+        index = self.bodies.index(body)
+        return part_of(self.channels, "body_position", lambda values: values[:, index, :2])
+
     def __iter__(self) -> Iterator[str]:
         """Iterate over the channels' names."""
         return iter(self.channels)
@@ -75,7 +81,7 @@ class Result(Contents):
     @property
     def units(self) -> Mapping[str, str]:
         """Units of the channels, by name."""
-        return {name: channel.unit for name, channel in self.channels.items()}
+        return {name: channel.unit for name, channel in described(self.channels).items()}
 
     @property
     def completed(self) -> bool:
@@ -91,7 +97,12 @@ class Result(Contents):
             if f"{name}_force" in self
             and (isinstance(joint, IdealJoint) or all(f"{name}_{end}" in self for end in LOOSE))
         }
-        return _Joints({name: self._joint(name, joint) for name, joint in recorded.items()})
+        return _Joints(
+            {
+                name: JointRecord(name, joint.kind, joint.clearance, self.channels)
+                for name, joint in recorded.items()
+            }
+        )
 
     @property
     def clearance_joints(self) -> tuple[str, ...]:
@@ -110,8 +121,22 @@ class Result(Contents):
 
     def with_values(self, values: Mapping[str, Array]) -> "Result":
         """Return the run with other values of some of its channels, by their names."""
+        if on_disk(self.channels):
+            return self.changed(lambda name, old: values.get(name, old))
         changed = {name: replace(self.channels[name], values=new) for name, new in values.items()}
         return replace(self, channels={**self.channels, **changed})
+
+    def changed(self, change: Callable[[str, Array], Array]) -> "Result":
+        """Return the run with other values of its channels, worked out when they are asked for.
+
+        Args:
+            change: name and values of a channel -> its other values.
+        """
+        run = copy.copy(self)
+        object.__setattr__(run, "channels", Changed(self.channels, change))
+        for worked_out in ("joints", "samples"):
+            run.__dict__.pop(worked_out, None)
+        return run
 
     def summary(self) -> dict[str, Any]:
         """Return the dictionary of summary.json."""
@@ -157,25 +182,6 @@ class Result(Contents):
         from exu_press.result.dataset import dataset
 
         return dataset(self)
-
-    def _joint(self, name: str, joint: Joint) -> JointRecord:
-        """Return what one joint did."""
-        force = self[f"{name}_force"]
-        nothing = np.zeros((len(self.time), 2))
-        apart, moment, power = np.zeros_like(force), nothing, nothing[:, 0]
-        if not isinstance(joint, IdealJoint):
-            apart, moment = self[f"{name}_eccentricity"], self[f"{name}_moment"]
-            power = self[f"{name}_power"]
-        return JointRecord(
-            kind=joint.kind,
-            spherical=self.channels[f"{name}_force"].axis == "space",
-            clearance=joint.clearance,
-            force=force,
-            eccentricity=apart,
-            gap=joint.clearance - np.linalg.norm(apart, axis=1),
-            moment=moment,
-            dissipated_power=power,
-        )
 
     @staticmethod
     def load(path: str | Path) -> "Result":

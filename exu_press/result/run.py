@@ -1,18 +1,33 @@
 """One run of a scene, front to back, without errors."""
 
 import time
+from collections.abc import Sequence
 from dataclasses import replace
+from operator import itemgetter
 
-from exu_press.model import build
-from exu_press.model.state import State, go_on_from
+from exu_press.integrate import SolverStatus
+from exu_press.model import Model, build
+from exu_press.model.state import State, go_on_from, state_of
+from exu_press.result.channel import Channel
+from exu_press.result.channels import OnDisk
+from exu_press.result.info import Info
 from exu_press.result.record import record
 from exu_press.result.result import Result
 from exu_press.scene import Scene
+from exu_press.terminal.progress import Progress
 
 __all__ = ["run_once"]
 
 SHORT = 1e-5
 """Revolutions of a run that tells which channels there are."""
+
+BLOCK = 10.0
+"""Revolutions that are in memory at once. A longer run goes on from block to block, and its
+channels go to the disk."""
+
+COMPLETED = SolverStatus.COMPLETED.value
+ON = COMPLETED, SolverStatus.UNDER_RESOLVED.value
+"""How blocks end from which the next one goes on."""
 
 
 def run_once(scene: Scene, *, start: State | None = None, quiet: bool = True) -> Result:
@@ -29,9 +44,71 @@ def run_once(scene: Scene, *, start: State | None = None, quiet: bool = True) ->
     if start is not None:
         model = go_on_from(model, start)
     try:
-        outcome = model.solve(quiet=quiet)
-        result = record(model, outcome)
+        if scene.revolutions > BLOCK:
+            result = _block_by_block(model, quiet=quiet)
+        else:
+            result = record(model, model.solve(quiet=quiet))
     finally:
         model.SC.Reset()  # its systems and their solvers hold each other: never freed otherwise
     total = time.perf_counter() - begun
     return replace(result, info={**result.info, "total_time": total})
+
+
+def _block_by_block(model: Model, *, quiet: bool) -> Result:
+    """Return the result of a long run, of which memory holds one block at a time."""
+    scene, solver, channels = model.scene, model.scene.solver, OnDisk()
+    assert solver is not None
+    infos: list[Info] = []
+    left, steps = scene.revolutions, solver.max_steps
+    with Progress("run", scene.duration, quiet=quiet) as progress:
+        while True:
+            length = min(left, BLOCK)
+            one = scene.replace({"revolutions": length, "settle": 0.0})
+            model = replace(model, scene=one.replace("solver.max_steps", steps))
+            block = record(model, model.solve(quiet=True))
+            channels.append(_going_on(block, channels))
+            infos.append(block.info)
+            left -= length
+            steps -= block.info["steps"] + block.info["rejected_steps"]
+            progress.update(scene.duration * (1.0 - left / scene.revolutions))
+            if left < 1e-9 * scene.revolutions or block.info["status"] not in ON or steps < 1:
+                break
+            model = go_on_from(model, state_of(model))
+    return replace(block, scene=scene, channels=channels, info=_of_all(infos))
+
+
+def _going_on(block: Result, channels: OnDisk) -> dict[str, Channel]:
+    """Return a block's channels behind those of the blocks before; energies count from the start.
+
+    Its first instant is the last one of the block before.
+    """
+    if not channels:
+        return dict(block.channels)
+    added: dict[str, Channel] = {}
+    for name, channel in block.channels.items():
+        values = channel.values[1:]
+        if channel.unit == "J":
+            values = values + channels.last(name)
+        added[name] = replace(channel, values=values)
+    return added
+
+
+def _of_all(infos: Sequence[Info]) -> Info:
+    """Return what the last block says, with what all of them took, and the worst of them."""
+    whole = infos[-1]
+    worst = next((one for one in infos if one["status"] != COMPLETED), whole)
+    found: Info = {
+        **whole,
+        "status": worst["status"] if whole["status"] in ON else whole["status"],
+        "reason": worst["reason"] if whole["status"] in ON else whole["reason"],
+        "wall_time": sum(one["wall_time"] for one in infos),
+        "steps": sum(one["steps"] for one in infos),
+        "rejected_steps": sum(one["rejected_steps"] for one in infos),
+        "newton_iterations": sum(one["newton_iterations"] for one in infos),
+    }
+    if "stress" in whole:
+        found["stress"] = {
+            name: max((one["stress"][name] for one in infos), key=itemgetter("von_mises"))
+            for name in whole["stress"]
+        }
+    return found

@@ -12,7 +12,7 @@ def window(run: Result, begin: float, end: float) -> Result:
     """Return a run's record between two instants, s, both of them included."""
     first = int(np.searchsorted(run.time, begin * (1.0 - 1e-12)))
     last = int(np.searchsorted(run.time, end * (1.0 + 1e-12), side="right"))
-    return run.with_values({name: run[name][first:last] for name in run})
+    return run.changed(lambda _, values: values[first:last])
 
 
 def settled(run: Result) -> Result:
@@ -34,8 +34,8 @@ def settled(run: Result) -> Result:
     last = turns + whole if whole else done
     begin, end = np.interp(start + 2.0 * np.pi * np.array([turns, last]), angle, run.time)
     part = _between(run, float(begin), float(end))
-    energies = [name for name, channel in part.channels.items() if channel.unit == "J"]
-    return part.with_values({name: part[name] - part[name][0] for name in energies})
+    energies = [name for name, unit in run.units.items() if unit == "J"]
+    return part.changed(lambda name, values: values - values[0] if name in energies else values)
 
 
 def _between(run: Result, begin: float, end: float) -> Result:
@@ -51,7 +51,7 @@ def _between(run: Result, begin: float, end: float) -> Result:
             ends.append(values[i - 1] + share * (values[i] - values[i - 1]))
         return np.concatenate([ends[0][None], values[first:last], ends[1][None]])
 
-    return run.with_values({name: part(run[name]) for name in run})
+    return run.changed(lambda _, values: part(values))
 
 
 def until(run: Result, end: float) -> Result:

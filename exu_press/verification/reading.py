@@ -45,9 +45,15 @@ def overshot(run: Result) -> Result:
     """
     if len(run.time) < 2:
         return run
-    begun = {name: np.concatenate([run[name][:1], run[name]]) for name in run}
-    begun["time"][1] += AT_ONCE * (run.time[1] - run.time[0])
-    return _with(run.with_values(begun), LOADS, _overshot)
+    soon = AT_ONCE * (run.time[1] - run.time[0])
+
+    def begun(name: str, values: Array) -> Array:
+        more = np.concatenate([values[:1], values])
+        if name == "time":
+            more[1] += soon
+        return more
+
+    return _with(run.changed(begun), LOADS, _overshot)
 
 
 def turned(run: Result) -> Result:
@@ -80,8 +86,8 @@ def unbalanced(run: Result) -> Result:
 
 def _with(run: Result, units: frozenset[str], change: Callable[[Array, Array], Array]) -> Result:
     """Return a run with other channels of these units: change(time (n,), values (n, ...))."""
-    changed = [name for name, channel in run.channels.items() if channel.unit in units]
-    return run.with_values({name: change(run.time, run[name]) for name in changed})
+    time, of = run.time, run.units
+    return run.changed(lambda name, old: change(time, old) if of[name] in units else old)
 
 
 def _averaged(time: Array, values: Array) -> Array:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from exu_press.quantities import differentiated_peak, mean_peak, mean_peak_of, peak
+from exu_press.quantities import acceleration, differentiated_peak, mean_peak, mean_peak_of, peak
 
 TIME = np.linspace(0.0, 0.1, 10001)
 
@@ -102,3 +102,15 @@ def test_shortest_records_that_have_one():
     assert mean_peak(exact, 5.0 * exact) == pytest.approx(5.0)
     exact = TIME[:201]  # three samples
     assert differentiated_peak(exact, 2.5 * exact**2, 5.0 * exact) == pytest.approx(5.0)
+
+
+def test_a_record_read_in_parts_has_the_same_means(monkeypatch):
+    random = np.random.default_rng(1)
+    time = np.cumsum(random.uniform(1e-6, 3e-5, 5000))
+    values = np.cumsum(random.normal(size=5000))
+    whole = mean_peak(time, values), mean_peak_of(time, values)
+    for at_once in (7, 501):
+        monkeypatch.setattr(acceleration, "AT_ONCE", at_once)
+        assert (mean_peak(time, values), mean_peak_of(time, values)) == pytest.approx(
+            whole, rel=1e-12
+        )

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
-from exu_press.quantities import quantity_of
+from exu_press.quantities import alternating, quantity_of
 from exu_press.quantities.alternating import steady
 from exu_press.quantities.value import numbers_of
 
@@ -51,3 +51,11 @@ def test_the_peak_of_a_finer_run_is_not_worse():
     assert found == pytest.approx([found[-1]] * 3, rel=3e-6)
     raw = [np.linalg.norm(run["wrist_pin_force"], axis=1).max() for run in runs]
     assert np.ptp(raw) > 2.0 * np.ptp(found)
+
+
+def test_a_record_read_in_parts_is_the_same(run, monkeypatch):
+    values = smooth(run) + 900.0 * signs(run) * (run.time > 0.5 * run.time[-1])[:, None]
+    whole = steady(run.time, values)
+    assert not np.array_equal(whole, values)
+    monkeypatch.setattr(alternating, "AT_ONCE", 50)
+    assert np.array_equal(steady(run.time, values), whole)

@@ -1,0 +1,134 @@
+"""The channels of a run where memory does not hold them all: on disk, or worked out when asked."""
+
+import copy
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import numpy as np
+
+from exu_press.arrays import Array
+from exu_press.result.channel import Channel
+
+__all__ = ["Changed", "OnDisk", "described", "on_disk", "part_of"]
+
+
+class OnDisk(Mapping[str, Channel]):
+    """Channels on disk, in files that are deleted with it; of what is asked for, pages are read.
+
+    Attributes:
+        count: number of instants.
+        begun: channels without a value.
+    """
+
+    def __init__(self) -> None:
+        """Start without a channel."""
+        self.count = 0
+        self._folder = TemporaryDirectory(prefix="exu_press-")
+        self.begun: dict[str, Channel] = {}
+
+    def append(self, channels: Mapping[str, Channel]) -> None:
+        """Take the next instants of every channel."""
+        for number, (name, channel) in enumerate(channels.items()):
+            self.begun.setdefault(name, replace(channel, values=channel.values[:0]))
+            with self._file(number).open("ab") as file:
+                file.write(np.ascontiguousarray(channel.values, np.float64).data)
+        self.count += len(channels["time"].values)
+
+    def __getitem__(self, name: str) -> Channel:
+        """Return a channel, read from its file."""
+        begun = self.begun[name]
+        file = self._file(list(self.begun).index(name))
+        shape = self.count, *begun.values.shape[1:]
+        values = np.memmap(file, np.float64, "r", shape=shape)  # what is not looked at is not read
+        found = copy.copy(begun)
+        object.__setattr__(found, "values", values)  # it was checked block by block
+        return found
+
+    def last(self, name: str) -> Array:
+        """Return the last value of a channel."""
+        return np.array(self[name].values[-1])
+
+    def __iter__(self) -> Iterator[str]:
+        """Iterate over the channels' names."""
+        return iter(self.begun)
+
+    def __len__(self) -> int:
+        """Return the number of channels."""
+        return len(self.begun)
+
+    def __reduce__(self) -> Any:
+        """Go to another process as they are in memory."""
+        return dict, (dict(self),)
+
+    def _file(self, number: int) -> Path:
+        return Path(self._folder.name) / f"{number}"
+
+
+class Changed(Mapping[str, Channel]):
+    """Other channels with changed values, each worked out when it is asked for.
+
+    What is worked out of channels in memory stays there; of those on disk it is done each time.
+
+    Attributes:
+        channels: that are changed.
+        change: name and values of a channel -> its other values.
+    """
+
+    def __init__(
+        self, channels: Mapping[str, Channel], change: Callable[[str, Array], Array]
+    ) -> None:
+        """Change channels by a function of their name and their values."""
+        self.channels, self.change = channels, change
+        self._found: dict[str, Channel] | None = None if on_disk(channels) else {}
+
+    def __getitem__(self, name: str) -> Channel:
+        """Return a channel with its changed values."""
+        if self._found is not None and name in self._found:
+            return self._found[name]
+        channel = self.channels[name]
+        channel = replace(channel, values=self.change(name, channel.values))
+        if self._found is not None:
+            self._found[name] = channel
+        return channel
+
+    def __iter__(self) -> Iterator[str]:
+        """Iterate over the channels' names."""
+        return iter(self.channels)
+
+    def __len__(self) -> int:
+        """Return the number of channels."""
+        return len(self.channels)
+
+    def __reduce__(self) -> Any:
+        """Go to another process with all of them worked out."""
+        return dict, (dict(self),)
+
+    @property
+    def on_disk(self) -> bool:
+        """Whether the channels that are changed are on disk."""
+        return self._found is None
+
+
+def described(channels: Mapping[str, Channel]) -> Mapping[str, Channel]:
+    """Return channels with their units and words, whatever values they have: none is read."""
+    if isinstance(channels, OnDisk):
+        return channels.begun
+    return described(channels.channels) if isinstance(channels, Changed) else channels
+
+
+def part_of(channels: Mapping[str, Channel], name: str, pick: Callable[[Array], Array]) -> Array:
+    """Return some columns of a channel, as pick(values (n, ...)) of those on disk or in memory.
+
+    What changes channels along the time does so to a part alone.
+    """
+    if isinstance(channels, Changed) and channels.on_disk:
+        return channels.change(name, part_of(channels.channels, name, pick))
+    return pick(channels[name].values)
+
+
+def on_disk(channels: Mapping[str, Channel]) -> bool:
+    """Return whether channels, or those of which they are worked out, are on disk."""
+    return isinstance(channels, OnDisk) or (isinstance(channels, Changed) and channels.on_disk)

@@ -1,0 +1,89 @@
+"""Runs of many revolutions: memory holds one block, the disk the channels."""
+
+import pickle
+
+import numpy as np
+import pytest
+
+from exu_press import Result, Scene, simulate
+from exu_press.result import run
+from exu_press.result.channels import Changed, OnDisk, described, on_disk
+from exu_press.result.windows import settled
+
+FILM = {"crank_pin": {"kind": "lubricated", "clearance": 5e-5, "radius": 0.07}}
+SCENE = Scene.from_dict(
+    {
+        "mechanism": "slider_crank",
+        "joints": FILM,
+        "film": {"viscosity": 0.1, "length": 0.1},
+        "revolutions": 2.5,
+    }
+)
+
+
+@pytest.fixture(scope="module")
+def whole():
+    return simulate(SCENE)
+
+
+@pytest.fixture
+def short_blocks(monkeypatch):
+    monkeypatch.setattr(run, "BLOCK", 0.7)
+
+
+def test_blocks_are_one_run(whole, short_blocks):
+    """They differ by the steps that end where a block does, within the tolerance."""
+    blocks = simulate(SCENE)
+    assert isinstance(blocks.channels, OnDisk)
+    assert not isinstance(whole.channels, OnDisk)
+    assert blocks.completed
+    assert list(blocks) == list(whole)
+    assert blocks.time[-1] == pytest.approx(SCENE.duration, rel=1e-12)
+    assert (np.diff(blocks.time) > 0.0).all()
+    assert len(blocks.time) == blocks.info["steps"] + 1
+    for name in ("crank_angle", "energy_input", "energy_dissipated", "crank_pin_loss"):
+        there = np.interp(whole.time, blocks.time, blocks[name])
+        assert there == pytest.approx(whole[name], abs=2e-4 * np.ptp(whole[name])), name
+    for name, told in whole.summary()["quantities"].items():
+        if name in ("stroke", "peak_velocity", "joints.crank_pin.peak_force", "energy.dissipated"):
+            again = blocks.quantity(name).value
+            assert again == pytest.approx(told["value"], rel=1e-3), name
+
+
+def test_a_long_run_is_saved_and_sent_whole(short_blocks, tmp_path):
+    blocks = simulate(SCENE.replace("revolutions", 1.5))
+    blocks.save(tmp_path / "run.nc")
+    for again in (Result.load(tmp_path / "run.nc"), pickle.loads(pickle.dumps(blocks))):
+        assert again.scene == blocks.scene
+        assert all(np.array_equal(again[name], blocks[name]) for name in blocks)
+    assert settled(blocks.changed(lambda _, values: values)).time[0] == blocks.time[0]
+
+
+def test_what_is_changed_of_the_disk_stays_there(short_blocks):
+    blocks = simulate(SCENE.replace("revolutions", 1.5))
+    twice = blocks.with_values({"drive_torque": 2.0 * blocks["drive_torque"]})
+    assert isinstance(twice.channels, Changed)
+    assert on_disk(twice.channels)
+    assert np.array_equal(twice["drive_torque"], 2.0 * blocks["drive_torque"])
+    assert twice["crank_speed"] == pytest.approx(blocks["crank_speed"])
+    assert all(not len(channel.values) for channel in described(twice.channels).values())
+    assert twice.units == blocks.units
+
+
+def test_steps_are_counted_over_blocks(short_blocks):
+    """A run that stops in a later block keeps the ones before."""
+    first = simulate(SCENE.replace("revolutions", 0.7))
+    most = first.info["steps"] + first.info["rejected_steps"] + 50
+    stopped = simulate(SCENE.replace("solver.max_steps", most))
+    assert stopped.info["status"] == "too many steps"
+    assert first.info["steps"] < stopped.info["steps"] <= most
+    assert first.time[-1] < stopped.time[-1] < SCENE.duration
+    assert len(stopped.time) == stopped.info["steps"] + 1
+
+
+def test_files_go_with_the_run(short_blocks):
+    blocks = simulate(SCENE.replace("revolutions", 1.5))
+    folder = blocks.channels._file(0).parent
+    assert folder.exists()
+    del blocks
+    assert not folder.exists()

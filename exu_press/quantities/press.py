@@ -59,9 +59,9 @@ def _sliding_power(run: Reading, body: str) -> float | None:
     force = _of_guide(run, body, "force")
     if force is None or len(run.time) < 2:
         return None
-    along = run.result.path(body) @ np.array(_guide(run, body).direction)
-    speed = np.gradient(along, run.time)
-    return run.mean(np.abs(force * speed))
+    power = np.gradient(run.result.path(body) @ np.array(_guide(run, body).direction), run.time)
+    power *= force
+    return run.mean(np.abs(power, out=power))
 
 
 def _if_guides_rubbed(run: Reading, _: str) -> float | None:

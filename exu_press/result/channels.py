@@ -15,6 +15,10 @@ from exu_press.result.channel import Channel
 __all__ = ["Changed", "OnDisk", "described", "on_disk", "part_of"]
 
 
+AT_ONCE = 100_000
+"""Instants."""
+
+
 class OnDisk(Mapping[str, Channel]):
     """Channels on disk, in files that are deleted with it; of what is asked for, pages are read.
 
@@ -126,6 +130,10 @@ def part_of(channels: Mapping[str, Channel], name: str, pick: Callable[[Array], 
     """
     if isinstance(channels, Changed) and channels.on_disk:
         return channels.change(name, part_of(channels.channels, name, pick))
+    if isinstance(channels, OnDisk):  # what was read of a map stays in memory as long as it does
+        firsts = range(0, channels.count, AT_ONCE)
+        maps = (channels[name].values[first : first + AT_ONCE] for first in firsts)
+        return np.concatenate([np.array(pick(values)) for values in maps])
     return pick(channels[name].values)
 
 

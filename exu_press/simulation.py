@@ -1,5 +1,7 @@
 """What users call: a scene in, a result out."""
 
+from pathlib import Path
+
 from exu_press.model.state import State
 from exu_press.result import Result
 from exu_press.result.run import run_once
@@ -13,6 +15,7 @@ def simulate(
     *,
     errors: bool = False,
     start: State | None = None,
+    unfinished: str | Path | None = None,
     quiet: bool = True,
     beside: bool = True,
 ) -> Result:
@@ -26,6 +29,9 @@ def simulate(
             scene says. Time and crank angle go on, too. Steps begin as the others ended, but what
             step control remembers is lost: a run in two pieces is within its tolerance of one in
             one piece, not equal to the last digit.
+        unfinished: directory in which a run of more than ten revolutions leaves what it has while
+            it goes on, for `Result.load`, should its process be killed. The result's channels stand
+            there, too: remove it when the result has been saved. None: a temporary one.
         quiet: False shows the progress on standard error.
         beside: refinement runs go in a further process meanwhile; else in this one afterwards, as
             is right where all cores have their runs already.
@@ -38,8 +44,11 @@ def simulate(
     Raises:
         InputError: `start` is the state of a run with other bodies, joints or loads.
     """
+    directory = None if unfinished is None else Path(unfinished)
     if not errors:
-        return run_once(scene, start=start, quiet=quiet)
+        return run_once(scene, start=start, unfinished=directory, quiet=quiet)
     from exu_press.verification import simulate_with_errors  # a run without them loads less
 
-    return simulate_with_errors(scene, start=start, quiet=quiet, beside=beside)
+    return simulate_with_errors(
+        scene, start=start, unfinished=directory, quiet=quiet, beside=beside
+    )

@@ -4,6 +4,7 @@ import argparse
 import os
 import signal
 import sys
+import warnings
 from collections.abc import Sequence
 from importlib import import_module
 from pathlib import Path
@@ -105,4 +106,13 @@ def _execute(arguments: Sequence[str] | None) -> int:
             module.add_arguments(command)
             command.set_defaults(execute=module.execute)
     options = parser.parse_args(given)
-    return int(options.execute(options))
+    usual, warnings.formatwarning = warnings.formatwarning, _as_users_read_it
+    try:
+        return int(options.execute(options))
+    finally:
+        warnings.formatwarning = usual
+
+
+def _as_users_read_it(message: Warning | str, *_: object, **__: object) -> str:
+    """Return a warning without the line of code that gave it."""
+    return f"exu-press: warning: {message}\n"

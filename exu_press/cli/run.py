@@ -16,6 +16,7 @@ from exu_press.files.output_directory import output_directory, remove_pictures, 
 from exu_press.model.state import State
 from exu_press.quantities.table import run_lines
 from exu_press.result import Result
+from exu_press.result.unfinished import remove, unfinished_of
 from exu_press.scene.assumptions import assumed_line
 from exu_press.simulation import simulate
 from exu_press.verification import deliver
@@ -23,6 +24,8 @@ from exu_press.verification.refine import refined
 from exu_press.verification.told import delivered_lines
 
 __all__ = ["EXAMPLE", "add_arguments", "execute"]
+
+RESULT = "run.nc"
 
 EXAMPLE = "exu-press run press --set joints.crank_pin=dry --set gravity=0 --out out/dry"
 
@@ -82,7 +85,7 @@ def execute(options: argparse.Namespace) -> int:
     scene = scene_of(options)
     directory = output_directory(directory_of(options))
     found: list[str] = []
-    start = _start_of(options)
+    start, unfinished = _start_of(options), unfinished_of(directory / RESULT)
     if options.within is not None:
         delivered = deliver(scene, options.within, options.figure, quiet=options.quiet)
         result, found = delivered.result, delivered_lines(delivered, options.within)
@@ -90,14 +93,18 @@ def execute(options: argparse.Namespace) -> int:
         raise InputError(f"--figure {options.figure}: only together with --within")
     elif options.no_error or options.once:
         errors = not options.no_error
-        result = simulate(scene, errors=errors, start=start, quiet=options.quiet)
+        result = simulate(
+            scene, errors=errors, start=start, unfinished=unfinished, quiet=options.quiet
+        )
     else:
-        result = refined(scene, start=start, quiet=options.quiet, told=found.append)
+        result = refined(
+            scene, start=start, unfinished=unfinished, quiet=options.quiet, told=found.append
+        )
     summary = result.summary()
     remove_pictures(directory, "run")
-    result.save(directory / "run.nc")
+    result.save(directory / RESULT)
     write_json(directory / "summary.json", summary)
-    written = [directory / "run.nc", directory / "summary.json"]
+    written = [directory / RESULT, directory / "summary.json"]
     if not options.quiet:  # before the pictures, which take longer than a short run
         assumed = textwrap.wrap(assumed_line(scene), 100, subsequent_indent="  ")
         said = [x for text in found for x in textwrap.wrap(text, 100, subsequent_indent="    ")]
@@ -109,6 +116,7 @@ def execute(options: argparse.Namespace) -> int:
         written += save_pictures(result, directory)
     if not options.quiet:
         print("written:", ", ".join(path.name for path in written), f"in {directory}")
+    remove(unfinished)
     if summary["reason"]:
         how = "" if result.completed else "stopped early: "
         print(f"exu-press: {how}{summary['reason']}", file=sys.stderr)

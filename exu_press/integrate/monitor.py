@@ -194,10 +194,10 @@ class Monitor:
 
     def _say_if_long(self, why: Callable[[float, ClearanceJoint | None], str]) -> None:
         """Say once, early, how long the run will be, if that is long, and why."""
-        gone, whole = self._time - self._start, self._task.end - self._start
+        gone = self._time - self._start
         if gone <= 0.0:
             return
-        left = (time.monotonic() - self._begun) * (whole / gone - 1.0)
+        left = self._progress.left(gone)
         if left > LONG:
             self._why_long = None
             steps = gone / max(self.steps, 1)

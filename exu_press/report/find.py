@@ -6,6 +6,7 @@ from pathlib import Path
 from exu_press.errors import InputError
 from exu_press.report.span import ALL, Span
 from exu_press.result import Result
+from exu_press.result.unfinished import unfinished_of
 
 __all__ = ["Kind", "find_output", "report_of"]
 
@@ -30,6 +31,8 @@ def find_output(path: Path) -> tuple[Kind, Path]:
     named = ", ".join(kind.value for kind in Kind)
     if path.is_dir():
         found = [kind for kind in Kind if (path / kind.value).is_file()]
+        if not found and unfinished_of(path / Kind.RUN.value).is_dir():
+            found = [Kind.RUN]
         if not found:
             raise InputError(f"{path}: has none of {named}, so there is nothing to report")
         if len(found) > 1:

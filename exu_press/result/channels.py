@@ -20,33 +20,44 @@ AT_ONCE = 100_000
 
 
 class OnDisk(Mapping[str, Channel]):
-    """Channels on disk, in files that are deleted with it; of what is asked for, pages are read.
+    """Channels on disk; of what is asked for, pages are read.
 
     Attributes:
         count: number of instants.
         begun: channels without a value.
     """
 
-    def __init__(self) -> None:
-        """Start without a channel."""
+    def __init__(self, directory: Path | None = None) -> None:
+        """Start without a channel, in an empty directory, or in one that goes with this object."""
         self.count = 0
-        self._folder = TemporaryDirectory(prefix="exu_press-")
+        self._temporary = TemporaryDirectory(prefix="exu_press-") if directory is None else None
+        self._directory = directory or Path(self._temporary.name if self._temporary else "")
         self.begun: dict[str, Channel] = {}
+
+    @classmethod
+    def found(cls, directory: Path, begun: Mapping[str, Channel], end: float) -> "OnDisk":
+        """Return the channels that are in a directory, without a value in `begun`, until an end."""
+        channels = cls(directory)
+        channels.begun = dict(begun)
+        channels.count = channels._file("time").stat().st_size // 8
+        channels.count = int(np.searchsorted(channels["time"].values, end, side="right"))
+        return channels
 
     def append(self, channels: Mapping[str, Channel]) -> None:
         """Take the next instants of every channel."""
-        for number, (name, channel) in enumerate(channels.items()):
+        for name, channel in channels.items():
             self.begun.setdefault(name, replace(channel, values=channel.values[:0]))
-            with self._file(number).open("ab") as file:
+            with self._file(name).open("ab") as file:
                 file.write(np.ascontiguousarray(channel.values, np.float64).data)
         self.count += len(channels["time"].values)
 
     def __getitem__(self, name: str) -> Channel:
         """Return a channel, read from its file."""
         begun = self.begun[name]
-        file = self._file(list(self.begun).index(name))
         shape = self.count, *begun.values.shape[1:]
-        values = np.memmap(file, np.float64, "r", shape=shape)  # what is not looked at is not read
+        values = np.memmap(
+            self._file(name), np.float64, "r", shape=shape
+        )  # what is not looked at is not read
         found = copy.copy(begun)
         object.__setattr__(found, "values", values)  # it was checked block by block
         return found
@@ -67,8 +78,8 @@ class OnDisk(Mapping[str, Channel]):
         """Go to another process as they are in memory."""
         return dict, (dict(self),)
 
-    def _file(self, number: int) -> Path:
-        return Path(self._folder.name) / f"{number}"
+    def _file(self, name: str) -> Path:
+        return self._directory / name
 
 
 class Changed(Mapping[str, Channel]):

@@ -185,11 +185,11 @@ class Result(Contents):
 
     @staticmethod
     def load(path: str | Path) -> "Result":
-        """Read what `save` wrote.
+        """Read what `save` wrote, or, with a warning, what a run left whose process was killed.
 
         Raises:
             InputError: the file cannot be read or is not a result.
         """
-        from exu_press.result.netcdf import read
+        from exu_press.result.unfinished import read
 
-        return read(Path(path), Result)
+        return read(Path(path))

@@ -4,6 +4,7 @@ import time
 from collections.abc import Sequence
 from dataclasses import replace
 from operator import itemgetter
+from pathlib import Path
 
 from exu_press.integrate import SolverStatus
 from exu_press.model import Model, build
@@ -13,6 +14,7 @@ from exu_press.result.channels import OnDisk
 from exu_press.result.info import Info
 from exu_press.result.record import record
 from exu_press.result.result import Result
+from exu_press.result.unfinished import begin, keep
 from exu_press.scene import Scene
 from exu_press.terminal.progress import Progress
 
@@ -30,7 +32,13 @@ ON = COMPLETED, SolverStatus.UNDER_RESOLVED.value
 """How blocks end from which the next one goes on."""
 
 
-def run_once(scene: Scene, *, start: State | None = None, quiet: bool = True) -> Result:
+def run_once(
+    scene: Scene,
+    *,
+    start: State | None = None,
+    unfinished: Path | None = None,
+    quiet: bool = True,
+) -> Result:
     """Do what `exu_press.simulate` does without errors.
 
     Channels that [output] names are looked for in a shorter run first: the record alone knows what
@@ -45,7 +53,7 @@ def run_once(scene: Scene, *, start: State | None = None, quiet: bool = True) ->
         model = go_on_from(model, start)
     try:
         if scene.revolutions > BLOCK:
-            result = _block_by_block(model, quiet=quiet)
+            result = _block_by_block(model, unfinished, quiet=quiet)
         else:
             result = record(model, model.solve(quiet=quiet))
     finally:
@@ -54,23 +62,25 @@ def run_once(scene: Scene, *, start: State | None = None, quiet: bool = True) ->
     return replace(result, info={**result.info, "total_time": total})
 
 
-def _block_by_block(model: Model, *, quiet: bool) -> Result:
+def _block_by_block(model: Model, unfinished: Path | None, *, quiet: bool) -> Result:
     """Return the result of a long run, of which memory holds one block at a time."""
-    scene, solver, channels = model.scene, model.scene.solver, OnDisk()
+    scene, solver, channels = model.scene, model.scene.solver, begin(unfinished)
     assert solver is not None
     infos: list[Info] = []
     left, steps = scene.revolutions, solver.max_steps
-    with Progress("run", scene.duration, quiet=quiet) as progress:
+    with Progress("run", scene.duration, quiet=quiet, whole=True):
         while True:
             length = min(left, BLOCK)
             one = scene.replace({"revolutions": length, "settle": 0.0})
             model = replace(model, scene=one.replace("solver.max_steps", steps))
-            block = record(model, model.solve(quiet=True))
+            block = record(model, model.solve(quiet=quiet))
             channels.append(_going_on(block, channels))
             infos.append(block.info)
             left -= length
             steps -= block.info["steps"] + block.info["rejected_steps"]
-            progress.update(scene.duration * (1.0 - left / scene.revolutions))
+            if unfinished is not None and block.info["status"] in ON:
+                so_far = replace(block, scene=scene, info=_of_all(infos))
+                keep(unfinished, so_far, scene.revolutions - left)
             if left < 1e-9 * scene.revolutions or block.info["status"] not in ON or steps < 1:
                 break
             model = go_on_from(model, state_of(model))

@@ -387,7 +387,7 @@ class Solver(Table):
     spectral_radius: float = key(
         0.8, "spectral radius at infinity of generalized-alpha", at_least=0.5, at_most=0.95
     )
-    max_steps: int = key(  # a million of the press: two to four minutes, 2 GB of record
+    max_steps: int = key(  # a million of the press: two to four minutes
         1_000_000, "a run that would need more steps, repeated ones too, stops", at_least=1
     )
 

@@ -3,7 +3,7 @@
 import sys
 import time
 from contextlib import AbstractContextManager
-from typing import TYPE_CHECKING, NoReturn, TextIO
+from typing import TYPE_CHECKING, ClassVar, NoReturn, TextIO
 
 if TYPE_CHECKING:
     from tqdm import tqdm
@@ -16,8 +16,11 @@ SECONDS_BETWEEN_LINES = 5.0
 class Progress(AbstractContextManager["Progress", None]):
     """Progress towards a total, with the time left.
 
-    Used as a context manager; `update` may be called as often as one likes.
+    Used as a context manager; `update` may be called as often as one likes. One that is begun while
+    a `whole` one is open shows a part of that: it goes on from where the whole one is.
     """
+
+    _whole: "ClassVar[Progress | None]" = None
 
     def __init__(
         self,
@@ -26,14 +29,19 @@ class Progress(AbstractContextManager["Progress", None]):
         unit: str = "s",
         *,
         quiet: bool = False,
+        whole: bool = False,
         stream: TextIO | None = None,
     ) -> None:
         """Start at zero; `total` in `unit`."""
+        self._part_of, self._done = None if quiet else Progress._whole, 0.0
+        self._begun = 0.0 if self._part_of is None else self._part_of._done
+        if whole:
+            Progress._whole = self
         self._label, self._total, self._unit = label, total, unit
         self._stream = sys.stderr if stream is None else stream
         self._quiet = quiet
         self._start = self._last_line = time.monotonic()
-        on_terminal = not quiet and self._stream.isatty()
+        on_terminal = not quiet and self._part_of is None and self._stream.isatty()
         self._bar = self._begin_bar() if on_terminal else None
 
     def _begin_bar(self) -> "tqdm[NoReturn]":
@@ -52,22 +60,33 @@ class Progress(AbstractContextManager["Progress", None]):
 
     def update(self, done: float) -> None:
         """Say how much is done."""
-        if self._bar is not None:
+        self._done = done
+        if self._part_of is not None:
+            self._part_of.update(self._begun + done)
+        elif self._bar is not None:
             self._bar.update(min(done, self._total) - self._bar.n)
         elif not self._quiet:
             now = time.monotonic()
             if now - self._last_line >= SECONDS_BETWEEN_LINES and done > 0:
                 self._last_line = now
-                left = (now - self._start) * (self._total / done - 1.0)
                 print(
                     f"{self._label}: {100 * done / self._total:.0f} % of "
-                    f"{self._total:.3g} {self._unit}, {left:.0f} s left",
+                    f"{self._total:.3g} {self._unit}, {self.left(done):.0f} s left",
                     file=self._stream,
                     flush=True,
                 )
 
+    def left(self, done: float) -> float:
+        """Return how long it takes from here, s, where so much is done."""
+        if self._part_of is not None:
+            return self._part_of.left(self._begun + done)
+        return (time.monotonic() - self._start) * (self._total / done - 1.0)
+
     def say(self, text: str) -> None:
         """Write a line, above the bar if there is one."""
+        if self._part_of is not None:
+            self._part_of.say(text)
+            return
         line = f"{self._label}: {text}"
         if self._bar is not None:
             self._bar.write(line, file=self._stream)
@@ -76,5 +95,7 @@ class Progress(AbstractContextManager["Progress", None]):
 
     def __exit__(self, *_: object) -> None:
         """Close the bar where it stands."""
+        if Progress._whole is self:
+            Progress._whole = None
         if self._bar is not None:
             self._bar.close()

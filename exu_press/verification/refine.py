@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable
+from pathlib import Path
 
 from exu_press.model.state import State
 from exu_press.quantities import quantities_of, values_of
@@ -42,6 +43,7 @@ def refined(
     scene: Scene,
     *,
     start: State | None = None,
+    unfinished: Path | None = None,
     quiet: bool = True,
     told: Callable[[str], None] = lambda text: None,
 ) -> Result:
@@ -50,11 +52,16 @@ def refined(
     Args:
         scene: what to simulate.
         start: state of another run, from which it goes on.
+        unfinished: directory in which the run is while it goes on, see `simulate`.
         quiet: False shows the progress.
         told: is called with what is done next and why, or with what the user may do.
     """
+
+    def run(scene: Scene) -> Result:
+        return simulate_with_errors(scene, start=start, unfinished=unfinished, quiet=quiet)
+
     begin = time.perf_counter()
-    result = simulate_with_errors(scene, start=start, quiet=quiet)
+    result = run(scene)
     took = first = time.perf_counter() - begin
     spent = 0.0
     while result.completed and (names := doubtful(result)):
@@ -74,9 +81,7 @@ def refined(
             break
         told(f"{which}: not known within {ENOUGH:.0%}; goes on at a tolerance of {finer:.2g}")
         before = time.perf_counter()
-        result = simulate_with_errors(
-            scene.replace("solver.tolerance", finer), start=start, quiet=quiet
-        )
+        result = run(scene.replace("solver.tolerance", finer))
         took = time.perf_counter() - before
         spent += took
     return result

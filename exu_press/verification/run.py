@@ -3,6 +3,7 @@
 import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 
@@ -45,13 +46,19 @@ SAME = 1e-9
 
 
 def simulate_with_errors(
-    scene: Scene, *, start: State | None = None, quiet: bool = True, beside: bool = True
+    scene: Scene,
+    *,
+    start: State | None = None,
+    unfinished: Path | None = None,
+    quiet: bool = True,
+    beside: bool = True,
 ) -> Result:
     """Do what `simulate` does, with refinement runs.
 
     Args:
         scene: what to simulate.
         start: state of another run, from which this one and its refinements go on.
+        unfinished: directory in which the run is while it goes on, see `simulate`.
         quiet: False shows the progress.
         beside: the refinements run in a further process meanwhile; else in this one afterwards, as
             where all cores have their runs already.
@@ -61,9 +68,11 @@ def simulate_with_errors(
         `lyapunov_exponent` too. Of a run that stopped early, or was stopped, nothing is known.
     """
     if not beside:
-        return with_errors(run_once(scene, start=start, quiet=quiet), start=start, beside=False)
+        run = run_once(scene, start=start, unfinished=unfinished, quiet=quiet)
+        return with_errors(run, start=start, beside=False)
     with RefinementRuns(scene, start) as refinements:
-        return _beside(run_once(scene, start=start, quiet=quiet), refinements)
+        run = run_once(scene, start=start, unfinished=unfinished, quiet=quiet)
+        return _beside(run, refinements)
 
 
 def with_errors(result: Result, *, start: State | None = None, beside: bool = True) -> Result:

@@ -1,13 +1,18 @@
 """Runs of many revolutions: memory holds one block, the disk the channels."""
 
 import pickle
+import shutil
+import subprocess
+import sys
 
 import numpy as np
 import pytest
 
-from exu_press import Result, Scene, simulate
+from exu_press import InputError, Result, Scene, simulate
+from exu_press.report import Kind, find_output, report_of
 from exu_press.result import run
 from exu_press.result.channels import Changed, OnDisk, described, on_disk
+from exu_press.result.unfinished import remove, unfinished_of
 from exu_press.result.windows import settled
 
 FILM = {"crank_pin": {"kind": "lubricated", "clearance": 5e-5, "radius": 0.07}}
@@ -83,7 +88,80 @@ def test_steps_are_counted_over_blocks(short_blocks):
 
 def test_files_go_with_the_run(short_blocks):
     blocks = simulate(SCENE.replace("revolutions", 1.5))
-    folder = blocks.channels._file(0).parent
+    folder = blocks.channels._file("time").parent
     assert folder.exists()
     del blocks
     assert not folder.exists()
+
+
+KILLED = """
+import os, sys
+from exu_press import Scene, simulate
+from exu_press.result import run
+run.BLOCK = 0.7
+kept, count = run.keep, []
+def keep(*arguments):
+    kept(*arguments)
+    count.append(1)
+    if len(count) == 2:
+        os.kill(os.getpid(), 9)
+run.keep = keep
+simulate(Scene.load(sys.argv[1]), unfinished=sys.argv[2])
+"""
+
+
+@pytest.fixture(scope="module")
+def killed(tmp_path_factory):
+    """The place of a run whose process was killed within its third block."""
+    place = tmp_path_factory.mktemp("killed")
+    SCENE.save(place / "scene.toml")
+    left = unfinished_of(place / "run.nc")
+    done = subprocess.run(
+        [sys.executable, "-c", KILLED, place / "scene.toml", left], check=False, timeout=300
+    )
+    assert done.returncode == -9
+    return place
+
+
+def test_a_killed_run_leaves_what_it_had(whole, killed, tmp_path):
+    with pytest.warns(UserWarning, match=r"was killed; it has 1\.4 revolutions"):
+        left = Result.load(killed / "run.nc")
+    assert left.completed
+    assert left.scene == SCENE.replace("revolutions", 1.4)
+    assert left.time[-1] == pytest.approx(0.56 * SCENE.duration, rel=1e-12)
+    before = whole.time <= left.time[-1]
+    there = np.interp(whole.time[before], left.time, left["crank_angle"])
+    assert there == pytest.approx(whole["crank_angle"][before], abs=1e-6)
+    left.save(tmp_path / "run.nc")
+    again = Result.load(tmp_path / "run.nc")
+    assert all(np.array_equal(again[name], left[name]) for name in left)
+
+
+def test_a_killed_run_is_gone_on_with(whole, killed):
+    with pytest.warns(UserWarning, match="was killed"):
+        left = Result.load(killed / "run.nc")
+    rest = simulate(SCENE.replace("revolutions", 1.1), start=left.info["state"])
+    assert rest.time[-1] == pytest.approx(SCENE.duration, rel=1e-9)
+    assert rest["slider_position"][-1] == pytest.approx(whole["slider_position"][-1], abs=1e-7)
+
+
+def test_commands_read_what_a_killed_run_left(killed, capsys):
+    assert find_output(killed) == (Kind.RUN, killed / "run.nc")
+    with pytest.warns(UserWarning, match="was killed"):
+        assert "revolution" in report_of(*find_output(killed))
+
+
+def test_a_killed_run_is_not_taken_for_the_one_before(whole, killed, tmp_path):
+    shutil.copytree(unfinished_of(killed / "run.nc"), unfinished_of(tmp_path / "run.nc"))
+    whole.save(tmp_path / "run.nc")
+    with pytest.warns(UserWarning, match="an earlier run's"):
+        assert Result.load(tmp_path / "run.nc").scene == SCENE
+    remove(unfinished_of(tmp_path / "run.nc"))
+    assert [file.name for file in tmp_path.iterdir()] == ["run.nc"]
+
+
+def test_another_directory_is_not_removed(tmp_path):
+    (tmp_path / "notes.txt").write_text("mine")
+    with pytest.raises(InputError, match="cannot be made"):
+        simulate(SCENE.replace("revolutions", 11.0), unfinished=tmp_path)
+    assert (tmp_path / "notes.txt").read_text() == "mine"

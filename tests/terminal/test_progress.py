@@ -3,6 +3,8 @@
 import io
 import threading
 
+import pytest
+
 from exu_press.terminal.progress import Progress
 
 
@@ -26,3 +28,18 @@ def test_nothing_is_shown_when_quiet():
     with Progress("run", 2.0, quiet=True, stream=stream) as progress:
         progress.update(2.0)
     assert stream.getvalue() == ""
+
+
+def test_a_part_goes_on_from_where_the_whole_is():
+    """A run of many blocks shows one bar, and says how long all of them take."""
+    stream = Terminal()
+    with Progress("run", 4.0, whole=True, stream=stream) as whole:
+        whole.update(1.0)
+        with Progress("run", 2.0, stream=stream) as part:
+            part.update(1.0)
+            assert part.left(1.0) == pytest.approx(whole.left(2.0), rel=0.5)
+            part.update(2.0)
+    assert " 75 %" in stream.getvalue().rpartition("\r")[2]
+    with Progress("run", 1.0, stream=stream) as other:
+        other.update(1.0)
+    assert "100 %" in stream.getvalue().rpartition("\r")[2]

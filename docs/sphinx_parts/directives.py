@@ -12,6 +12,8 @@ from docutils.parsers.rst import Directive
 
 from exu_press import Scene
 from exu_press.quantities import CATALOGUE
+from exu_press.result.channel import AXES
+from exu_press.result.declared import DECLARED, PLACES, VECTOR, Declared
 from exu_press.scene import DryJoint, Flexible
 from exu_press.scene.joint import LAW_TABLES
 from exu_press.scene.load import LOAD_KINDS
@@ -23,6 +25,7 @@ def setup(app: Any) -> dict[str, Any]:
     app.add_directive("scene-keys", SceneKeys)
     app.add_directive("commands", Commands)
     app.add_directive("quantities", Quantities)
+    app.add_directive("channels", Channels)
     return {"parallel_read_safe": True}
 
 
@@ -68,6 +71,26 @@ class Quantities(Directive):
         rows = [("name", "unit", "meaning", "kind")]
         rows += [(q.at("NAME"), q.unit, q.meaning, q.kind.name) for q in CATALOGUE]
         return [table_of(rows)]
+
+
+class Channels(Directive):
+    """Every channel with its unit, meaning, columns and runs."""
+
+    def run(self) -> list[nodes.Node]:
+        """Return one table."""
+        rows = [("name", "unit", "meaning", "columns", "of")]
+        rows += [_of_channel(one) for one in DECLARED.values()]
+        return [table_of(rows)]
+
+
+def _of_channel(one: Declared) -> tuple[str, ...]:
+    """Return the row of a channel."""
+    columns = ", ".join(AXES.get(one.axis, (one.axis and "a column each",)))
+    if one.axis == VECTOR:
+        columns = "x, y; and z of spherical joints"
+    words = one.meaning.format(**{one.of or "whole": "NAME", "way": "along its guide or across it"})
+    runs = PLACES[one.of] + (f"; not {one.unless}" if one.unless else "")
+    return one.at("NAME"), one.unit, words, columns, runs
 
 
 class Commands(Directive):

@@ -1,6 +1,6 @@
 """What a result has to hold, so that whatever reads one can rely on it."""
 
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -9,30 +9,14 @@ from exu_press.errors import InputError
 from exu_press.integrate import SolverStatus
 from exu_press.mechanism import Mechanism
 from exu_press.result.channel import Channel
+from exu_press.result.declared import expected
 from exu_press.result.info import Info
 from exu_press.result.surface import Surface
 from exu_press.scene import Scene, mechanism_of
-from exu_press.scene.applied import applied_loads
 from exu_press.scene.output import ALWAYS
 from exu_press.schema.stored import shown
 
 __all__ = ["Contents"]
-
-EVERY_RUN = {
-    **dict.fromkeys(("time", "crank_angle", "crank_speed"), ""),
-    **dict.fromkeys(("drive_torque", "drive_power", "crank_torque"), ""),
-    **dict.fromkeys(("slider_position", "slider_velocity", "slider_acceleration"), ""),
-    **dict.fromkeys(("slider_lateral", "slider_tilt"), ""),
-    **dict.fromkeys(("frame_force", "shaking_force"), "plane"),
-    "body_position": "pose",
-}
-"""The channels of every run -> what their columns are."""
-
-BALANCE = {"energy_input": "", "energy_stored": "", "energy_dissipated": ""}
-"""The channels of every run of a scene's own items alone."""
-
-ENDINGS = {"guide_force": "", "guide_moment": "", "guide_friction": "", "_loss": ""}
-"""Of channels whose names begin with what they belong to."""
 
 LARGEST_SINGLE = 1e16
 """Largest displacement or stress of a surface: its square is a number in single precision."""
@@ -66,44 +50,30 @@ def _check(result: Contents) -> None:
         raise InputError(
             f"bodies = {shown(result.bodies)}: allowed are the scene's, {', '.join(bodies)}"
         )
-    loose = {joint.name for joint in mechanism.joints if scene.joints[joint.name].kind != "ideal"}
-    always = EVERY_RUN if result.info["own_items"] else EVERY_RUN | BALANCE
-    if mechanism.counterweight:
-        always = always | {"shaking_force_without_counterweight": "plane"}
-    loads = applied_loads(scene)
-    always = always | {f"load_{name}_{what}": "" for name in loads for what in ("force", "work")}
     whole = "figures" not in result.info
+    known = expected(scene, own_items=bool(result.info["own_items"]))
     for channels in (result.channels, result.sampled) if result.sampled else (result.channels,):
-        _check_channels(channels, mechanism, loose, always, whole=whole)
+        _check_channels(channels, mechanism, known, whole=whole)
     _check_surfaces(result)
 
 
 def _check_channels(
     channels: Mapping[str, Channel],
     mechanism: Mechanism,
-    loose: Collection[str],
-    always: Mapping[str, str],
+    known: Mapping[str, tuple[str, bool]],
     *,
     whole: bool,
 ) -> None:
     """Check which channels there are, and what their columns are."""
-    columns, required = {**EVERY_RUN, **BALANCE, **always}, list(always)
-    for joint in mechanism.joints:
-        columns[f"{joint.name}_force"] = vector = "space" if joint.spherical else "plane"
-        if joint.name in loose:
-            of_clearance = {"force": vector, "eccentricity": vector, "moment": "ends", "power": ""}
-            found = {f"{joint.name}_{quantity}": axis for quantity, axis in of_clearance.items()}
-            columns |= found
-            required += found
+    required = [name for name, (_, always) in known.items() if always]
     for name in required if whole else ALWAYS:
         if name not in channels:
             raise InputError(f"channel {name}: missing; this scene's results have it")
     count = len(channels["time"].values)
     for name, channel in channels.items():
-        if name.endswith("_eccentricity") and name not in required:
+        if name.endswith("_eccentricity") and name not in known:
             raise InputError(f"channel {name}: the scene has no such joint with clearance")
-        ending = next((axis for end, axis in ENDINGS.items() if name.endswith(end)), channel.axis)
-        allowed = columns.get(name, ending)
+        allowed, _ = known.get(name, (channel.axis, False))  # one face of several is not known
         if channel.axis != allowed:
             raise InputError(
                 f"channel {name}: columns are {shown(channel.axis)}; allowed is {allowed!r}"

@@ -13,6 +13,7 @@ from exu_press.joints import JointHistory
 from exu_press.mechanism import Motion
 from exu_press.model import Model
 from exu_press.result.channel import Channel
+from exu_press.result.declared import channel
 from exu_press.result.forces import guide_channels, vectors
 
 __all__ = ["equilibrium"]
@@ -50,8 +51,7 @@ def equilibrium(
     for name, joint in model.holding.pivoted.items():
         if name in model.rigid:
             force = held(name)[0] * (1.0 if joint.journal == name else -1.0)
-            words = f"{joint.name.replace('_', ' ')}: force on journal"
-            found[f"{joint.name}_force"] = vectors(force, "N", words, joint.spherical)
+            found |= channel("{joint}_force", vectors(force, joint.spherical), joint.name)
     return found
 
 

@@ -8,6 +8,7 @@ from exu_press.arrays import Array
 from exu_press.mechanism import Motion, Point
 from exu_press.model import Model
 from exu_press.result.channel import Channel
+from exu_press.result.declared import channel
 from exu_press.result.energy import work
 from exu_press.result.motion import frame_motion, moving_point, point_motion, sensor
 
@@ -39,20 +40,18 @@ def record_parts(model: Model, time: Array) -> tuple[dict[str, Channel], Array, 
         damping = np.diag(part.damping_matrix(placed.damping_ratio))
         lost = work(time, q_t * damping, q_t)
         dissipated += lost
-        channels[f"{name}_strain_energy"] = Channel(strain, "J", f"{name}: elastic energy")
+        channels |= channel("{body}_strain_energy", strain, name)
         if part.mode_count:
-            words = f"{name}: energy dissipated by the damping of modes since the start"
-            channels[f"{name}_modes_loss"] = Channel(lost, "J", words)
-            words = f"{name}: modal coordinates"
-            channels[f"{name}_modes"] = Channel(q, "kg^0.5 m", words, f"{name}_mode")
+            channels |= channel("{body}_modes_loss", lost, name)
+            channels |= channel("{body}_modes", q, name)
         pivot = next((j.name for j in model.mechanism.joints_of(name) if j.on_frame), None)
         if pivot is not None:
             for joint in placed.faces:
                 if placed.faces[joint][0] not in placed.faces[pivot]:
                     moved = q @ deflection(placed, joint, pivot).T
-                    words = f"{joint}: displacement from a rigid {name} on the same {pivot}"
                     turned = _turned(moved, position[:, 2])
-                    channels[f"{joint}_deflection"] = Channel(turned, "m", words, "plane")
+                    words = f"{joint} on the {name}".replace("_", " ")
+                    channels |= channel("{faced}_deflection", turned, joint, words=words)
         elif len(placed.faces) == 2:
             channels |= _between(placed, name, q)
     return channels, stored, dissipated
@@ -65,10 +64,8 @@ def _between(placed: "PlacedPart", name: str, q: Array) -> dict[str, Channel]:
     along = along / np.linalg.norm(along)
     longer = along @ (second.translation - first.translation)[:2]
     bent = (second.rotation - first.rotation)[2]
-    return {
-        f"{name}_elongation": Channel(q @ longer, "m", f"{name}: joints further apart"),
-        f"{name}_bending": Channel(q @ bent, "rad", f"{name}: joints turned apart"),
-    }
+    longer_by = channel("{body}_elongation", q @ longer, name)
+    return longer_by | channel("{body}_bending", q @ bent, name)
 
 
 def deflection(placed: "PlacedPart", joint: str, pivot: str) -> Array:

@@ -8,6 +8,7 @@ from exu_press.arrays import Array
 from exu_press.mechanism import GROUND
 from exu_press.model import Model
 from exu_press.result.channel import Channel, guide_channel, positive
+from exu_press.result.declared import channel
 from exu_press.result.motion import body_motion, sensor
 
 __all__ = ["frame_force", "guide_channels", "held_forces", "vectors"]
@@ -21,19 +22,15 @@ def held_forces(model: Model) -> dict[str, Channel]:
         if quantity not in ("force", "moment"):
             continue
         values = sensor(model, name, quantity)
-        in_words = name.replace("_", " ")
         if name == "drive":
-            words = "torque of the drive; a motor's turns flywheel and crank"
-            channels["drive_torque"] = Channel(-values[:, 0], "N m", words)
+            channels |= channel("drive_torque", -values[:, 0])
         elif name.endswith("_guide"):
             body = name.removesuffix("_guide")
             channels |= guide_channels(model, body, {quantity: -values[:, 0]})
         else:
             if name in model.holding.single_axis and not _flexible(model, name):
                 values = _single_axis(model, name, values[:, 0])
-            channels[f"{name}_force"] = vectors(
-                values[:, :2], "N", f"{in_words}: force on journal", name in spherical
-            )
+            channels |= channel("{joint}_force", vectors(values[:, :2], name in spherical), name)
     return channels | _of_several_faces(channels, model)
 
 
@@ -42,19 +39,18 @@ def _of_several_faces(channels: Mapping[str, Channel], model: Model) -> dict[str
 
     Face by face they are in the channels, too, numbered.
     """
-    found = {}
+    found: dict[str, Channel] = {}
     spherical = {joint.name for joint in model.mechanism.joints if joint.spherical}
     for part in model.parts.values():
         for joint, faces in part.faces.items():
             each = [f"{joint}_{number}_force" for number in range(1, len(faces) + 1)]
             if len(each) > 1 and each[0] in channels:
                 force = np.sum([channels[name].values for name in each], axis=0)
-                words = f"{joint.replace('_', ' ')}: force on journal"
-                found[f"{joint}_force"] = vectors(force, "N", words, joint in spherical)
+                found |= channel("{joint}_force", vectors(force, joint in spherical), joint)
     return found
 
 
-def frame_force(model: Model, channels: Mapping[str, Channel]) -> Channel:
+def frame_force(model: Model, channels: Mapping[str, Channel]) -> dict[str, Channel]:
     """Return what shaft, pivots and guides together press the frame with, (n, 2), N."""
     on_bodies = np.zeros((len(channels["time"].values), 2))
     signs = {joint.name: 1.0 for joint in model.mechanism.joints if joint.bearing == GROUND}
@@ -67,7 +63,7 @@ def frame_force(model: Model, channels: Mapping[str, Channel]) -> Channel:
             force = channels.get(f"{guide_channel(model.mechanism, guide.body)}_{quantity}")
             if force is not None:
                 on_bodies += np.outer(force.values, direction)
-    return Channel(-on_bodies, "N", "force of shaft, pivots and guides on the frame", "plane")
+    return channel("frame_force", -on_bodies)
 
 
 def _flexible(model: Model, joint: str) -> bool:
@@ -94,24 +90,18 @@ def guide_channels(model: Model, body: str, loads: Mapping[str, Array]) -> dict[
         loads: "force" (N), "moment" (N m), "friction" (N) and "loss" (J), as far as there are.
     """
     guide = next(guide for guide in model.mechanism.guides if guide.body == body)
-    words = {
-        "force": ("N", f"force on the body, {positive(guide.across)}"),
-        "moment": ("N m", "moment on the body, counter-clockwise"),
-        "friction": ("N", f"friction on the body, {positive(guide.direction)}"),
-        "loss": ("J", "energy dissipated since the start"),
-    }
-    shown, in_words = guide_channel(model.mechanism, body), f"{body.replace('_', ' ')} guide"
-    found = {}
+    shown, words = guide_channel(model.mechanism, body), f"{body.replace('_', ' ')} guide"
+    found: dict[str, Channel] = {}
     for quantity, values in loads.items():
-        unit, what = words[quantity]
-        found[f"{shown}_{quantity}"] = Channel(values, unit, f"{in_words}: {what}")
+        way = positive(guide.direction if quantity == "friction" else guide.across)
+        found |= channel(f"{{guide}}_{quantity}", values, shown, words=words, way=way)
     return found
 
 
-def vectors(values: Array, unit: str, words: str, spherical: bool) -> Channel:
-    """Return a channel of vectors (n, 2 or 3), in space for spherical joints, else in the plane."""
+def vectors(values: Array, spherical: bool) -> Array:
+    """Return vectors (n, 2 or 3) in space for spherical joints, (n, 3), else in the plane."""
     if not spherical:
-        return Channel(values[:, :2], unit, words, "plane")
+        return values[:, :2]
     in_space = np.zeros((len(values), 3))
     in_space[:, : values.shape[1]] = values
-    return Channel(in_space, unit, words, "space")
+    return in_space

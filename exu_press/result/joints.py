@@ -9,6 +9,7 @@ from exu_press.joints import ClearanceJoint, JointHistory, histories, user_force
 from exu_press.model import Model
 from exu_press.numerics.piecewise import integral
 from exu_press.result.channel import Channel
+from exu_press.result.declared import channel
 from exu_press.result.forces import vectors
 from exu_press.result.motion import sensor
 
@@ -52,35 +53,15 @@ def record_joints(
     stored, dissipated = np.zeros_like(time), np.zeros_like(time)
     balls = {joint.name for joint in model.mechanism.joints if joint.spherical}
     for name, states in histories.items():
-        spherical = name in balls
         elastic, lost = stored_and_lost(states, time)
         stored += elastic
         dissipated += lost
-        in_words = name.replace("_", " ")
-        channels |= {
-            f"{name}_eccentricity": vectors(
-                states.eccentricity,
-                "m",
-                f"{in_words}: journal centre minus bearing centre",
-                spherical,
-            ),
-            f"{name}_force": vectors(
-                states.force,
-                "N",
-                f"{in_words}: force on journal",
-                spherical,
-            ),
-            f"{name}_moment": Channel(
-                states.moments_in_plane,
-                "N m",
-                f"{in_words}: moment on journal and on bearing",
-                "ends",
-            ),
-            f"{name}_power": Channel(
-                states.dissipated_power,
-                "W",
-                f"{in_words}: dissipated power",
-            ),
-            f"{name}_loss": Channel(lost, "J", f"{in_words}: energy dissipated since the start"),
-        }
+        for quantity, values in (
+            ("{loose}_eccentricity", vectors(states.eccentricity, name in balls)),
+            ("{loose}_force", vectors(states.force, name in balls)),
+            ("{loose}_moment", states.moments_in_plane),
+            ("{loose}_power", states.dissipated_power),
+            ("{loose}_loss", lost),
+        ):
+            channels |= channel(quantity, values, name)
     return channels, stored, dissipated

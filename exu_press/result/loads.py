@@ -8,6 +8,7 @@ from exu_press.arrays import Array
 from exu_press.mechanism import Motion
 from exu_press.model import Model
 from exu_press.result.channel import Channel
+from exu_press.result.declared import channel
 from exu_press.result.energy import work
 from exu_press.result.flexible import carried_motion
 
@@ -48,11 +49,10 @@ def record_loads(
         along = velocity[:, :2] @ np.array(load.direction)
         done = work(time, force, along)
         all_work += done
-        words = f"load {name} on the {load.body.replace('_', ' ')}"
-        channels[f"load_{name}_force"] = Channel(force, "N", f"{words}: force")
-        channels[f"load_{name}_work"] = Channel(done, "J", f"{words}: work since the start")
+        words = f"{name} on the {load.body.replace('_', ' ')}"
+        channels |= channel("load_{load}_force", force, name, words=words)
+        channels |= channel("load_{load}_work", done, name, words=words)
         if load.point != (0.0, 0.0):
             moment = load.moment(force, motions[load.body].position[:, 2])
-            text = f"{words}: moment about its centre of mass, counter-clockwise"
-            channels[f"load_{name}_moment"] = Channel(moment, "N m", text)
+            channels |= channel("load_{load}_moment", moment, name, words=words)
     return channels, all_work

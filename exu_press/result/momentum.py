@@ -7,6 +7,7 @@ import numpy as np
 from exu_press.arrays import Array
 from exu_press.model import Model
 from exu_press.result.channel import Channel
+from exu_press.result.declared import channel
 from exu_press.result.motion import point_acceleration
 
 __all__ = ["shaking_forces"]
@@ -33,17 +34,10 @@ def shaking_forces(model: Model, acceleration: Array) -> dict[str, Channel]:
             part = model.parts[body.name].reduced
             mass, centre = part.mass, point_acceleration(model, body.name, part.centre_of_mass)
         forces[body.name] = -mass * centre[:, :2]
-    channels = {
-        "shaking_force": Channel(
-            _sum(forces, forces), "N", "shaking force: minus the rate of momentum", "plane"
-        )
-    }
+    channels = channel("shaking_force", _sum(forces, forces))
     if counterweight := model.mechanism.counterweight:
         others = [name for name in forces if name not in counterweight]
-        words = "shaking force without the counterweight"
-        channels["shaking_force_without_counterweight"] = Channel(
-            _sum(forces, others), "N", words, "plane"
-        )
+        channels |= channel("shaking_force_without_counterweight", _sum(forces, others))
     return channels
 
 

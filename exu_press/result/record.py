@@ -12,6 +12,7 @@ from exu_press.mechanism.parts import DRIVE
 from exu_press.model import Model
 from exu_press.model.state import state_of
 from exu_press.result.channel import Channel, positive
+from exu_press.result.declared import channel
 from exu_press.result.energy import mechanical_energy, work
 from exu_press.result.equilibrium import equilibrium
 from exu_press.result.flexible import record_parts
@@ -43,30 +44,18 @@ def record(model: Model, outcome: Outcome) -> Result:
     turned = body_motion(model, DRIVE if DRIVE in model.nodes else mechanism.crank)
     drawn = mechanism.bodies[crank].angle
     up, beside = positive(mechanism.output.direction), positive(mechanism.output.across)
-    channels = {
-        "time": Channel(time, "s", "time"),
-        "crank_angle": Channel(
-            position[:, crank, 2] - drawn, "rad", "crank angle from the mechanism's zero"
-        ),
-        "crank_speed": Channel(turned.velocity[:, 2], "rad/s", "angular velocity of the drive"),
-        "slider_position": Channel(
-            mechanism.travel(position[:, slider]), "m", f"slider position, {up}"
-        ),
-        "slider_velocity": Channel(
-            mechanism.along(velocity[:, slider]), "m/s", f"slider velocity, {up}"
-        ),
-        "slider_acceleration": Channel(
-            mechanism.along(acceleration[:, slider]), "m/s^2", f"slider acceleration, {up}"
-        ),
-        "slider_lateral": Channel(
-            mechanism.beside(position[:, slider]), "m", f"slider beside its guide, {beside}"
-        ),
-        "slider_tilt": Channel(
-            position[:, slider, 2] - mechanism.bodies[slider].angle,
-            "rad",
-            "slider tilt, counter-clockwise",
-        ),
-    }
+    channels: dict[str, Channel] = {}
+    for quantity, values, way in (
+        ("time", time, ""),
+        ("crank_angle", position[:, crank, 2] - drawn, ""),
+        ("crank_speed", turned.velocity[:, 2], ""),
+        ("slider_position", mechanism.travel(position[:, slider]), up),
+        ("slider_velocity", mechanism.along(velocity[:, slider]), up),
+        ("slider_acceleration", mechanism.along(acceleration[:, slider]), up),
+        ("slider_lateral", mechanism.beside(position[:, slider]), beside),
+        ("slider_tilt", position[:, slider, 2] - mechanism.bodies[slider].angle, ""),
+    ):
+        channels |= channel(quantity, values, way=way)
     states = joint_states(model, time)
     in_joints, stored_in_joints, lost_in_joints = record_joints(model, states, time)
     channels |= held_forces(model)
@@ -85,7 +74,7 @@ def record(model: Model, outcome: Outcome) -> Result:
     channels |= in_guides
     rubbed, lost_by_friction = record_friction(model, time, velocity, channels)
     channels |= rubbed
-    channels["frame_force"] = frame_force(model, channels | in_joints)
+    channels |= frame_force(model, channels | in_joints)
     channels |= shaking_forces(model, acceleration)
     rigid = [index for index, name in enumerate(names) if name not in model.parts]
     stored = mechanical_energy(
@@ -112,21 +101,13 @@ def record(model: Model, outcome: Outcome) -> Result:
     channels |= stressed
     torque = channels["drive_torque"].values
     driven = work(time, torque, turned.velocity[:, 2]) + work_of_loads
-    channels |= {
-        "drive_power": Channel(torque * turned.velocity[:, 2], "W", "power of the drive"),
-        "crank_torque": Channel(
-            torque - flywheel * turned.acceleration[:, 2],
-            "N m",
-            "torque that turns the crank, behind the flywheel",
-        ),
-        "body_position": Channel(position, "m, rad", "centres of mass and angles", "pose"),
-    }
+    channels |= channel("drive_power", torque * turned.velocity[:, 2])
+    channels |= channel("crank_torque", torque - flywheel * turned.acceleration[:, 2])
+    channels |= channel("body_position", position)
     if not model.own_items:  # what those put in, store and dissipate is not known
-        channels |= {
-            "energy_input": Channel(driven, "J", "work of drive and loads since the start"),
-            "energy_stored": Channel(stored - stored[0], "J", "change of stored energy"),
-            "energy_dissipated": Channel(dissipated, "J", "energy dissipated since the start"),
-        }
+        channels |= channel("energy_input", driven)
+        channels |= channel("energy_stored", stored - stored[0])
+        channels |= channel("energy_dissipated", dissipated)
     return Result(
         scene=scene,
         channels=channels,

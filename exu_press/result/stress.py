@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from exu_press.arrays import Array
 from exu_press.model import Model
 from exu_press.result.channel import Channel
+from exu_press.result.declared import channel
 from exu_press.result.flexible import modal
 from exu_press.result.info import Stress
 
@@ -45,8 +46,7 @@ def record_stress(model: Model, time: Array) -> tuple[dict[str, Channel], dict[s
         components = q @ by_node[node].T
         size = np.linalg.norm(components @ DEVIATOR.T, axis=1)
         signed = np.copysign(size, components[:, :3].sum(axis=1))
-        words = f"{name}: von Mises stress where it is largest, with the sign of the mean stress"
-        channels[f"{name}_stress"] = Channel(signed, "Pa", words)
+        channels |= channel("{body}_stress", signed, name)
         worst[name] = {
             "von_mises": float(size[instant]),
             "time": float(time[instant]),

@@ -104,7 +104,7 @@ def test_texts_of_the_file(changed, texts, message):
     [
         ("time", {"name": None}, "channel time: missing"),
         ("crank_pin_force", {"name": None}, "channel crank_pin_force: missing"),
-        ("crank_pin_loss", {"name": "x_eccentricity"}, "x_eccentricity: the scene has no such"),
+        ("guide_moment", {"name": "x_eccentricity"}, "x_eccentricity: the scene has no such"),
         ("guide_force", {"dimensions": ("time", "plane")}, "columns are 'plane'; allowed is ''"),
         ("slider_tilt", {"units": None}, "channel 'slider_tilt': has no units"),
         ("slider_tilt", {"long_name": b"\xff"}, "channel 'slider_tilt': long_name = .*: allowed"),

@@ -3,16 +3,18 @@
 import copy
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from exu_press.arrays import Array
 from exu_press.result.channel import Channel
 
-__all__ = ["Changed", "OnDisk", "described", "on_disk", "part_of"]
+__all__ = ["Changed", "OnDisk", "at_rows", "described", "on_disk", "part_of"]
 
 
 AT_ONCE = 100_000
@@ -61,6 +63,14 @@ class OnDisk(Mapping[str, Channel]):
         found = copy.copy(begun)
         object.__setattr__(found, "values", values)  # it was checked block by block
         return found
+
+    def parts(self, name: str) -> Iterator[Array]:
+        """Yield the values of a channel AT_ONCE by AT_ONCE.
+
+        What was read of a map stays in memory as long as the map does.
+        """
+        for first in range(0, self.count, AT_ONCE):
+            yield self[name].values[first : first + AT_ONCE]
 
     def last(self, name: str) -> Array:
         """Return the last value of a channel."""
@@ -141,11 +151,23 @@ def part_of(channels: Mapping[str, Channel], name: str, pick: Callable[[Array], 
     """
     if isinstance(channels, Changed) and channels.on_disk:
         return channels.change(name, part_of(channels.channels, name, pick))
-    if isinstance(channels, OnDisk):  # what was read of a map stays in memory as long as it does
-        firsts = range(0, channels.count, AT_ONCE)
-        maps = (channels[name].values[first : first + AT_ONCE] for first in firsts)
-        return np.concatenate([np.array(pick(values)) for values in maps])
+    if isinstance(channels, OnDisk):
+        return np.concatenate([np.array(pick(values)) for values in channels.parts(name)])
     return pick(channels[name].values)
+
+
+def at_rows(channels: Mapping[str, Channel], name: str, rows: NDArray[np.intp]) -> Array:
+    """Return the values of a channel at some instants, (m, ...), in their order."""
+    if not isinstance(channels, OnDisk):
+        return np.array(channels[name].values[rows])
+    bounds = np.searchsorted(rows, range(0, channels.count + AT_ONCE, AT_ONCE))
+    found = [
+        np.array(values[rows[begin:end] - number * AT_ONCE])
+        for number, (values, (begin, end)) in enumerate(
+            zip(channels.parts(name), pairwise(bounds), strict=True)
+        )
+    ]
+    return np.concatenate(found)
 
 
 def on_disk(channels: Mapping[str, Channel]) -> bool:

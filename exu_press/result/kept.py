@@ -1,7 +1,7 @@
 """What the file of a run keeps of it, with the quantities read of all."""
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any, TypeVar
 
@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.result.channel import Channel
+from exu_press.result.channels import at_rows, described
 from exu_press.result.contents import Contents
 from exu_press.result.info import Figures, Info
 
@@ -36,9 +37,11 @@ def kept(run: Kind, samples: NDArray[np.intp], summary: Mapping[str, Any]) -> Ki
     names = output.kept(run.channels)
     count = len(run.channels["time"].values)
     rows = np.union1d(np.arange(0, count, output.every), [count - 1])
-    sampled: dict[str, Channel] = {}
-    if len(samples):
-        sampled = {n: replace(one, values=one.values[samples]) for n, one in run.channels.items()}
+
+    def at(rows: NDArray[np.intp], names: Iterable[str]) -> dict[str, Channel]:
+        found = described(run.channels)
+        return {n: replace(found[n], values=at_rows(run.channels, n, rows)) for n in names}
+
     quantities = {name: told["value"] for name, told in summary["quantities"].items()}
     figures: Figures = {
         "quantities": quantities,
@@ -49,8 +52,8 @@ def kept(run: Kind, samples: NDArray[np.intp], summary: Mapping[str, Any]) -> Ki
     info: Info = {**run.info, "figures": figures}
     return dataclasses.replace(
         run,
-        channels={n: replace(run.channels[n], values=run.channels[n].values[rows]) for n in names},
+        channels=at(rows, names),
         surfaces={body: one for body, one in run.surfaces.items() if f"{body}_modes" in names},
-        sampled=sampled,
+        sampled=at(samples, run.channels if len(samples) else ()),
         info=info,
     )

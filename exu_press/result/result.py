@@ -116,8 +116,7 @@ class Result(Contents):
         Raises:
             InputError: the scene asks for none.
         """
-        channels = self.sampled or self.channels
-        return samples_of(self.scene, {name: channels[name].values for name in channels})
+        return samples_of(self.scene, self.sampled or self.channels)
 
     def with_values(self, values: Mapping[str, Array]) -> "Result":
         """Return the run with other values of some of its channels, by their names."""

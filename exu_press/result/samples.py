@@ -8,6 +8,8 @@ from numpy.typing import NDArray
 
 from exu_press.arrays import Array
 from exu_press.errors import InputError
+from exu_press.result.channel import Channel
+from exu_press.result.channels import at_rows
 from exu_press.scene import Scene
 
 __all__ = ["Samples", "samples_of"]
@@ -29,11 +31,11 @@ class Samples:
     revolution: Array
     angle_deg: Array
     rows: NDArray[np.intp]
-    _channels: Mapping[str, Array]
+    _channels: Mapping[str, Channel]
 
     def __getitem__(self, name: str) -> Array:
         """Return the values of a channel, (m, ...)."""
-        return np.asarray(self._channels[name][self.rows])
+        return at_rows(self._channels, name, self.rows)
 
     def __len__(self) -> int:
         """Return the number of samples."""
@@ -52,7 +54,7 @@ class Samples:
         return Samples(self.revolution[here], self.angle_deg[here], self.rows[here], self._channels)
 
 
-def samples_of(scene: Scene, channels: Mapping[str, Array]) -> Samples:
+def samples_of(scene: Scene, channels: Mapping[str, Channel]) -> Samples:
     """Return the samples of a run, as far as it got.
 
     Raises:
@@ -60,9 +62,9 @@ def samples_of(scene: Scene, channels: Mapping[str, Array]) -> Samples:
     """
     if scene.output is None or not scene.output.samples:
         raise InputError("samples: this run has none; allowed is [output] samples = [crank angles]")
-    turned = channels["crank_angle"] - scene.start_angle
+    turned = channels["crank_angle"].values - scene.start_angle
     if scene.drive is None:
-        turned = scene.angular_speed * channels["time"]
+        turned = scene.angular_speed * channels["time"].values
     wanted, number = scene.output.section(scene.start_angle).up_to(float(turned.max()) + NEAR)
     rows = np.searchsorted(turned, wanted)
     before, after = np.maximum(rows - 1, 0), np.minimum(rows, len(turned) - 1)

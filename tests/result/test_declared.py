@@ -13,7 +13,10 @@ FACE = re.compile(r"_\d+_force$")
 
 SCENES = {
     "ideal": {"joints": {}},
-    "mixed joints": {"joints": {"crank_pin": "lubricated", "balls": "dry"}, "load": {"die": {"kind": "blanking", "force": 1e3}}},
+    "mixed joints": {
+        "joints": {"crank_pin": "lubricated", "balls": "dry"},
+        "load": {"die": {"kind": "blanking", "force": 1e3}},
+    },
     "motor and guideway": {
         "mechanism": "slider_crank",
         "drive": {"rated_torque": 50.0, "slip": 0.05, "inertia": 1.0},

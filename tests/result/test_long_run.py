@@ -10,8 +10,9 @@ import pytest
 
 from exu_press import InputError, Result, Scene, simulate
 from exu_press.report import Kind, find_output, report_of
-from exu_press.result import run
-from exu_press.result.channels import Changed, OnDisk, described, on_disk
+from exu_press.result import channels, run
+from exu_press.result.channel import Channel
+from exu_press.result.channels import Changed, OnDisk, at_rows, described, on_disk, part_of
 from exu_press.result.unfinished import remove, unfinished_of
 from exu_press.result.windows import settled
 
@@ -97,7 +98,8 @@ def test_files_go_with_the_run(short_blocks):
 KILLED = """
 import os, sys
 from exu_press import Scene, simulate
-from exu_press.result import run
+from exu_press.result import channels, run
+from exu_press.result.channel import Channel
 run.BLOCK = 0.7
 kept, count = run.keep, []
 def keep(*arguments):
@@ -165,3 +167,15 @@ def test_another_directory_is_not_removed(tmp_path):
     with pytest.raises(InputError, match="cannot be made"):
         simulate(SCENE.replace("revolutions", 11.0), unfinished=tmp_path)
     assert (tmp_path / "notes.txt").read_text() == "mine"
+
+
+def test_instants_are_picked_across_parts(monkeypatch):
+    monkeypatch.setattr(channels, "AT_ONCE", 4)
+    found, values = OnDisk(), np.arange(22.0).reshape(11, 2)
+    found.append(
+        {"time": Channel(np.arange(11.0), "s", "time"), "x": Channel(values, "m", "x", "plane")}
+    )
+    rows = np.array([0, 3, 4, 4, 10])
+    assert np.array_equal(at_rows(found, "x", rows), values[rows])
+    assert np.array_equal(at_rows(found, "x", rows[:0]), values[:0])
+    assert np.array_equal(part_of(found, "x", lambda part: part[:, 1]), values[:, 1])

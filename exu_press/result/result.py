@@ -191,4 +191,4 @@ class Result(Contents):
         """
         from exu_press.result.unfinished import read
 
-        return read(Path(path))
+        return read(Path(path), Result)

@@ -4,13 +4,16 @@ import shutil
 import warnings
 from dataclasses import replace
 from pathlib import Path
+from typing import TypeVar
 
 from exu_press.errors import InputError
 from exu_press.result import netcdf
 from exu_press.result.channels import OnDisk
-from exu_press.result.result import Result
+from exu_press.result.contents import Contents
 
 __all__ = ["begin", "keep", "read", "remove", "unfinished_of"]
+
+Kind = TypeVar("Kind", bound=Contents)
 
 HEAD = "head.nc"
 """The last instant, with scene, state and whatever else is no channel."""
@@ -32,7 +35,7 @@ def begin(directory: Path | None) -> OnDisk:
     return OnDisk(directory)
 
 
-def keep(directory: Path, run: Result, revolutions: float) -> None:
+def keep(directory: Path, run: Contents, revolutions: float) -> None:
     """Write what makes a run of the channels that are in a directory.
 
     Args:
@@ -48,36 +51,38 @@ def keep(directory: Path, run: Result, revolutions: float) -> None:
     netcdf.write(replace(run, scene=scene, channels=ends), directory / HEAD)
 
 
-def read(path: Path) -> Result:
+def read(path: Path, kind: type[Kind]) -> Kind:
     """Return the run of a file or, with a warning, of the directory that a killed one has left.
 
     Raises:
         InputError: it cannot be read.
     """
     if (path / HEAD).is_file():
-        return _left(path)
+        return _left(path, kind)
     beside = unfinished_of(path)
     if not (beside / HEAD).is_file():
-        return netcdf.read(path, Result)
+        return netcdf.read(path, kind)
     if not path.is_file():
-        return _left(beside)
+        return _left(beside, kind)
     warnings.warn(
         f"{path}: an earlier run's; what the last one left, whose process was killed, is {beside}",
         stacklevel=3,
     )
-    return netcdf.read(path, Result)
+    return netcdf.read(path, kind)
 
 
-def _left(directory: Path) -> Result:
+def _left(directory: Path, kind: type[Kind]) -> Kind:
     """Return the run in a directory, as one of the revolutions that it has made."""
-    run = netcdf.read(directory / HEAD, Result)
+    run = netcdf.read(directory / HEAD, kind)
     warnings.warn(
         f"{directory}: the process of this run was killed; it has {run.scene.revolutions:g} "
         "revolutions, from whose end --from goes on",
         stacklevel=4,
     )
     begun = {name: replace(one, values=one.values[:0]) for name, one in run.channels.items()}
-    return replace(run, channels=OnDisk.found(directory, begun, float(run.time[-1])))
+    return replace(
+        run, channels=OnDisk.found(directory, begun, float(run.channels["time"].values[-1]))
+    )
 
 
 def remove(directory: Path) -> None:

@@ -18,6 +18,10 @@ SAME = 3.0
 APART = 10.0
 """Times the error: two points that are further apart are different."""
 
+LARGEST = 0.1
+"""Error of a point, over the clearance, up to which points that lie within it are the same one. A
+larger error hides most of what a journal can do in its clearance."""
+
 SETTLED = 0.5
 """A distance that falls below this part of itself from one half of the points to the next is that
 of a motion that still settles."""
@@ -83,6 +87,9 @@ def period_of(points: Array, error: float, most: int = MOST, *, diverging: bool 
         finer = float(distances.min() / (APART * error))
         why = f"neighbours part, but points lie within their error of {error:.2g}"
         return Period(None, False, why, most, distances, error, finer)
+    if len(same) and error > LARGEST:
+        why = f"points lie within an error of {error:.2g} clearances"
+        return Period(None, False, why, most, distances, error, LARGEST / error)
     if len(same):
         return Period(int(same[0]) + 1, True, "", most, distances, error)
     nearest = int(np.argmin(distances))

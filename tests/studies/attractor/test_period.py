@@ -54,8 +54,17 @@ def test_too_few_revolutions_are_refused():
 
 
 def test_what_diverges_has_no_period_within_a_large_error():
-    points = np.random.default_rng(1).normal(size=(40, 2))
-    assert str(period_of(points, error=2.0, most=4)) == "1 revolution"
-    told = period_of(points, error=2.0, most=4, diverging=True)
+    points = 0.01 * np.random.default_rng(1).normal(size=(40, 2))
+    assert str(period_of(points, error=0.05, most=4)) == "1 revolution"
+    told = period_of(points, error=0.05, most=4, diverging=True)
     assert not told.told and told.revolutions is None
     assert "neighbours part" in str(told) and told.finer < 1.0
+
+
+def test_an_error_as_large_as_the_clearance_tells_no_period():
+    """Points all over the clearance lie within three times such an error, too."""
+    points = np.random.default_rng(1).uniform(-0.5, 0.5, size=(40, 2))
+    told = period_of(points, error=2.0, most=4)
+    assert not told.told and told.revolutions is None
+    assert told.finer == pytest.approx(0.05)
+    assert "points lie within an error of 2 clearances" in str(told)

@@ -3,9 +3,10 @@
 from exu_press.integrate.problem import ErrorScales
 from exu_press.integrate.scheme import follow_modes
 from exu_press.integrate.settings import SolverTuning
-from exu_press.integrate.solve import Advice, Outcome, SolverStatus, solve_dynamic
+from exu_press.integrate.solve import ARRIVED, Advice, Outcome, SolverStatus, solve_dynamic
 
 __all__ = [
+    "ARRIVED",
     "Advice",
     "ErrorScales",
     "Outcome",

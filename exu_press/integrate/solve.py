@@ -25,7 +25,7 @@ from exu_press.joints.joint import ClearanceJoint
 from exu_press.numerics.threads import one_thread
 from exu_press.terminal.progress import Progress
 
-__all__ = ["Advice", "Outcome", "SolverStatus", "solve_dynamic"]
+__all__ = ["ARRIVED", "Advice", "Outcome", "SolverStatus", "solve_dynamic"]
 
 NO_SCALES = ErrorScales()
 DEFAULTS = SolverTuning()
@@ -36,6 +36,10 @@ SPENT = 1e-3
 
 EXUDYN_ENDS = 1e-10
 """Before its end, at most how early Exudyn ends a run, s."""
+
+
+ARRIVED = "arrived"
+"""What a watch says of a run that got where it was to go: it is completed."""
 
 
 class SolverStatus(Enum):
@@ -222,7 +226,7 @@ def solve_dynamic(
         next_corner: time (s) -> the next instant at which a load has a corner, s, or infinity;
             steps end on them.
         watch: time (s) -> why the motion has come to its end there, or nothing; is asked after
-            every step.
+            every step. ARRIVED ends a run that got where it was to go.
         sample: period of the system's pre-step function, s. Steps end on its multiples, and the
             function is called once for each of them, with its end, as in fixed steps of that size:
             what a controller sets is held. None: the largest step. 0.0: before every step, as are
@@ -343,7 +347,7 @@ def _how_it_ended(
     problem, smallest = task.problem, task.smallest
     gone = (time - task.start) / (task.end - task.start)
     exudyn_ended = not failure and 0.0 < task.end - time <= EXUDYN_ENDS and monitor.go_on
-    if gone >= 1.0 - 1e-9 or exudyn_ended:
+    if gone >= 1.0 - 1e-9 or exudyn_ended or monitor.stalled == ARRIVED:
         worst = monitor.resolution.worst() if monitor.resolution is not None else None
         if worst is None:
             return SolverStatus.COMPLETED, ""

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 
 import exudyn as exu
 
-from exu_press.integrate import Outcome, SolverTuning
+from exu_press.integrate import ARRIVED, Outcome, SolverTuning
 from exu_press.joints.guide_friction import GuideFriction
 from exu_press.laws.load_curve import Clock
+from exu_press.mechanism.section import Section
 from exu_press.model.drive import CrankAngle
 from exu_press.model.loads import Place, force_at, next_corner, torque_wanted
 from exu_press.model.rigid_body import RigidBody
@@ -45,6 +46,8 @@ class Model(Assembled):
         guide_friction: name of a body in a guide without clearance -> its friction there.
         parts: name -> flexible body's part; empty for rigid bodies.
         made: number of objects and loads that the scene was made of.
+        until: crank angle at which a run with a motor has arrived, rad; None: it goes on to its
+            end time.
     """
 
     SC: exu.SystemContainer
@@ -58,6 +61,7 @@ class Model(Assembled):
     parts: Mapping[str, "PlacedPart"]
     made: int
     remembered: tuple[tuple[float, float | None], ...] = field(default=(), kw_only=True)
+    until: float | None = field(default=None, kw_only=True)
 
     @property
     def own_items(self) -> int:
@@ -87,11 +91,16 @@ class Model(Assembled):
 
     @property
     def event(self) -> Callable[[exu.MainSystem, float], float] | None:
-        """What changes its sign at the samples of a motor's crank, or None."""
-        output = self.scene.output
-        if output is None or not output.samples or self.scene.drive is None:
+        """What changes its sign where a motor's crank is sampled or arrives, or None."""
+        if self.scene.drive is None:
             return None
-        section = output.section(self.scene.start_angle)
+        output = self.scene.output
+        angles = [] if output is None else [math.radians(each) for each in output.samples or ()]
+        if self.until is not None and not any(_same(self.until, angle) for angle in angles):
+            angles.append(self.until)
+        if not angles:
+            return None
+        section = Section(angles, self.scene.start_angle)
         return lambda mbs, time: section.side(self.crank_angle()[0])
 
     def watch(self, time: float) -> str:
@@ -102,6 +111,8 @@ class Model(Assembled):
         if motor is None:
             return ""
         angle, speed = self.crank_angle()
+        if self.until is not None and angle >= self.until:
+            return ARRIVED
         if speed > STALLED * min(self.scene.angular_speed, motor.fastest(self.scene.speed_rpm)):
             return ""
         forces = {name: force_at(load, place, time) for name, (load, place) in self.loads.items()}
@@ -113,6 +124,11 @@ class Model(Assembled):
             f"and the motor has {there:.4g} N m; try a larger drive.inertia, or a "
             "motor of a larger torque"
         )
+
+
+def _same(angle: float, other: float) -> bool:
+    """Return whether two crank angles, rad, are the same place of a revolution."""
+    return abs(math.remainder(angle - other, 2.0 * math.pi)) < CLOSE
 
 
 def count_items(mbs: exu.MainSystem) -> int:

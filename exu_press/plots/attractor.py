@@ -7,7 +7,6 @@ from matplotlib.figure import Figure
 from exu_press.plots.headed import headed_figure
 from exu_press.plots.style import COLOURS, GREY, RUN, styled
 from exu_press.plots.words import describe
-from exu_press.quantities import quantity_of
 from exu_press.studies.attractor import Attractor
 from exu_press.studies.spectrum import spectra
 
@@ -31,7 +30,7 @@ def attractor_figure(found: Attractor) -> Figure:
     _transient(panels[0, 2], found)
     _orders(panels[1, 0], found)
     name, values = max(found.figures.items(), key=lambda one: _scatter(one[1]))
-    unit = quantity_of(found.scene, name).quantity.unit
+    unit = found.units[name]
     _histogram(panels[1, 1], name, unit, values)
     _by_revolution(panels[1, 2], name, unit, values, found.skip)
     return figure

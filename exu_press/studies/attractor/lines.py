@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 
-from exu_press.quantities import quantity_of
 from exu_press.studies.attractor.study import Attractor
 from exu_press.terminal.columns import columns
 from exu_press.verification.distribution import percentiles
@@ -24,9 +23,12 @@ def attractor_lines(found: Attractor) -> list[str]:
         f"{found.error:.2g} (clearances)",
     ]
     if not period.told and period.finer < 1.0:
-        assert found.scene.solver is not None and found.scene.solver.tolerance is not None
-        tolerance = period.finer * found.scene.solver.tolerance
-        lines.append(f"  try --set solver.tolerance={tolerance:.1g}")
+        solver = found.scene.solver
+        assert solver is not None
+        name = "step" if solver.tolerance is None else "tolerance"
+        now = solver.step if solver.tolerance is None else solver.tolerance
+        assert now is not None
+        lines.append(f"  try --set solver.{name}={period.finer * now:.1g}")
     if math.isfinite(low):
         told = f"{value:.3g} 1/s, 95 % in [{low:.3g}, {high:.3g}]"
         told += f"; per revolution {exponent.value:.3g} [{exponent.low:.3g}, {exponent.high:.3g}]"
@@ -42,7 +44,7 @@ def _figures(found: Attractor) -> list[list[str]]:
     rows = [["quantity", "mean", "scatter", "5 %", "50 %", "95 %"]]
     for name, each in found.figures.items():
         values = each[np.isfinite(each)]
-        unit = quantity_of(found.scene, name).quantity.unit
+        unit = found.units[name]
         head = f"{name}, {unit}" if unit else name
         if not len(values):
             rows.append([head, *["-"] * 5])

@@ -1,8 +1,12 @@
 """A motion that goes on revolution by revolution, from section to section."""
 
 import copy
+import math
 from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
 
+import exudyn as exu
 import numpy as np
 
 from exu_press.arrays import Array
@@ -10,13 +14,16 @@ from exu_press.errors import InputError
 from exu_press.integrate import SolverStatus
 from exu_press.joints.joint import ClearanceJoint
 from exu_press.mechanism.parts import DRIVE
-from exu_press.model import build
+from exu_press.model import Model, build
 from exu_press.model.state import State, go_on_from, state_of
 from exu_press.result import Result, record
 from exu_press.scene import Scene, mechanism_of
 from exu_press.solving.solve import scales
 
 __all__ = ["Orbit"]
+
+AT_MOST = 10.0
+"""Revolutions at the scene's speed in which a motor turns the crank once, or not at all."""
 
 ENDED = (SolverStatus.COMPLETED, SolverStatus.UNDER_RESOLVED)
 
@@ -25,7 +32,8 @@ class Orbit:
     """A press whose crank is at the section; each advance is one revolution.
 
     The section is where the scene starts. At constant speed the state of journals and balls in
-    their clearances, and of bodies in their guideways, is all that is free there.
+    their clearances, and of bodies in their guideways, is all that is free there; with a motor the
+    crank's speed is, too.
 
     Attributes:
         scene: of one revolution.
@@ -36,15 +44,17 @@ class Orbit:
         """Start as the scene does, or in a state on the section.
 
         Raises:
-            InputError: the scene has a motor, fixed steps, or nothing that is free.
+            InputError: nothing is free, or the scene has a motor and fixed steps.
         """
-        if scene.drive is not None:
+        motor = scene.drive is not None
+        if motor and scene.solver is not None and scene.solver.tolerance is None:
             raise InputError(
-                "[drive]: sections are for a crank at constant speed; allowed is a scene without it"
+                "solver.step: a motor gets to its section at any instant; allowed is "
+                "solver.tolerance, whose steps end there"
             )
-        self.scene = scene.replace({"revolutions": 1.0, "settle": 0.0})
+        length = {"revolutions": AT_MOST if motor else 1.0, "settle": 0.0}
+        self.scene = scene.replace(length)
         model = build(self.scene)
-        self._model = model if state is None else go_on_from(model, state)
         ways = [end for ends in model.guideways.values() for end in ends]
         self._joints: list[ClearanceJoint] = [*model.clearance_joints.values(), *ways]
         found = scales(scene).speed
@@ -52,8 +62,9 @@ class Orbit:
         self._speed: float = found
         self._state = state
         self.revolutions = 0
+        self._model = self._towards_section(model if state is None else go_on_from(model, state))
         self._free = self._all_but_the_crank()
-        if not self._joints:
+        if not self._joints and not motor:
             raise InputError(
                 "joints: none has clearance, so that the crank alone determines the motion: its "
                 "period is one revolution; allowed is a scene with clearance in joints or guides"
@@ -77,28 +88,36 @@ class Orbit:
         outcome = model.solve()
         if outcome.status not in ENDED:
             raise InputError(f"no motion in the long run: {outcome.reason}")
+        if model.until is not None and model.crank_angle()[0] < model.until:
+            raise InputError(
+                f"[drive]: the crank does not get to its section at {self.scene.start_angle_deg:g} "
+                f"deg within {outcome.end_time - model.begin:.3g} s; allowed is a motor that turns "
+                "the press on, as with more torque or inertia"
+            )
         result = record(model, outcome) if recorded else None
         self.revolutions += 1
-        self._state = state_of(model)
-        self._model = go_on_from(model, self._state)
+        self.put(state_of(model))
         return result
 
     def put(self, state: State) -> None:
         """Go on from another state on the section, at its time."""
         self._state = state
-        self._model = go_on_from(self._model, state)
+        self._model = self._towards_section(go_on_from(self._model, state))
 
     def point(self) -> Array:
         """Return the point in the section, (k,), without dimension.
 
         Of each clearance joint and each end in guideways: the eccentricity over the clearance and
-        its rate over the scene's largest speed.
+        its rate over the scene's largest speed. Then, with a motor, the crank's speed over the
+        scene's.
         """
         parts: list[Sequence[float]] = []
         speed = self._speed
         for joint in self._joints:
             parts.append([part / joint.clearance for part in joint.eccentricity])
             parts.append([part / speed for part in joint.relative_velocity])
+        if self.scene.drive is not None:
+            parts.append([self._model.crank_angle()[1] / self.scene.angular_speed])
         return np.concatenate([np.asarray(part, dtype=float) for part in parts])
 
     def close(self) -> None:
@@ -109,14 +128,27 @@ class Orbit:
         """Return the state on the line to another: at 0 the orbit's own, at 1 the other.
 
         The crank stays where it is: what rounding leaves between two cranks would grow to a shift
-        in time. What joints remember is the orbit's own, without the path of the last step.
+        in time. With a motor its speed goes along. What joints remember is the orbit's own, without
+        the path of the last step.
         """
         own = self.state["coordinates"][:2]
+        free = self._free, self._free if self.scene.drive is None else 1.0
         q, q_t = (
-            np.array(one) + part * self._free * (np.array(two) - np.array(one))
-            for one, two in zip(own, other["coordinates"][:2], strict=True)
+            np.array(one) + part * which * (np.array(two) - np.array(one))
+            for which, one, two in zip(free, own, other["coordinates"][:2], strict=True)
         )
         return _with(self.state, q, q_t)
+
+    def _towards_section(self, model: Model) -> Model:
+        """Return a model on the section that goes on to the next one."""
+        if self.scene.drive is None:
+            return model
+        data: Any = model.mbs.systemData
+        begin = data.GetSystemState(configuration=exu.ConfigurationType.Initial)
+        data.SetSystemState(systemStateList=begin, configuration=exu.ConfigurationType.Current)
+        turn, start = 2.0 * math.pi, self.scene.start_angle
+        done = round((model.crank_angle()[0] - start) / turn)
+        return replace(model, until=start + turn * (done + 1))
 
     def _all_but_the_crank(self) -> Array:
         """Return 1.0 for each coordinate that is free, 0.0 for the crank's and its drive's."""

@@ -13,10 +13,13 @@ from exu_press.model.state import State
 from exu_press.quantities import quantities_of
 from exu_press.quantities.value import numbers_of
 from exu_press.result import Result
+from exu_press.result.run import SHORT, run_once
 from exu_press.scene import Scene
+from exu_press.schema.checks import nearest
 from exu_press.studies.attractor.lyapunov import BATCHES, Exponent, combined
 from exu_press.studies.attractor.orbit import Orbit
 from exu_press.studies.attractor.period import MOST, Period, period_of
+from exu_press.studies.spectrum import column_of
 from exu_press.terminal.progress import Progress
 
 __all__ = ["DISTANCES", "Attractor", "attractor"]
@@ -26,6 +29,9 @@ DISTANCES = (1e-2, 1e-3)
 
 FINER = 0.1
 """Of the tolerance: what a revolution's error is measured against."""
+
+FINER_STEP = 0.25
+"""Of a fixed step, likewise."""
 
 MEASURED = 5
 """Revolutions whose error is measured."""
@@ -48,7 +54,10 @@ class Attractor:
         error: largest error of a point that a revolution makes.
         period: after which the motion comes back.
         exponent: largest Lyapunov exponent.
-        figures: quantity -> its value in each revolution, (n,).
+        figures: quantity -> its value in each revolution, (n,); channel -> its value on the
+            section.
+        units: of these.
+        turns: revolutions in a second; a motor's in the mean.
         last: records of the last revolutions.
         transient: (skip,) distance of each point before from the last one.
         state: on the section, at the end.
@@ -61,6 +70,8 @@ class Attractor:
     period: Period
     exponent: Exponent
     figures: Mapping[str, Array]
+    units: Mapping[str, str]
+    turns: float
     last: Sequence[Result]
     transient: Array
     state: State
@@ -68,9 +79,8 @@ class Attractor:
     @property
     def per_second(self) -> tuple[float, float, float]:
         """The exponent and the ends of its interval, 1/s."""
-        turns = self.scene.speed_rpm / 60.0
         return tuple(
-            turns * x for x in (self.exponent.value, self.exponent.low, self.exponent.high)
+            self.turns * x for x in (self.exponent.value, self.exponent.low, self.exponent.high)
         )  # type: ignore[return-value]
 
     def to_dict(self) -> dict[str, Any]:
@@ -118,19 +128,19 @@ def attractor(
     """Run a press for long, and return what it does.
 
     Args:
-        scene: with clearance somewhere and a crank at constant speed; its own length does not
-            count. The section is its crank angle at the start.
+        scene: with clearance somewhere, or a motor; its own length does not count. The section is
+            its crank angle at the start.
         revolutions: after the transient.
         skip: revolutions of the transient.
-        names: of quantities whose values in each revolution are kept; those of the headline unless
-            told.
+        names: of quantities whose values in each revolution are kept, and of channels (NAME.x is a
+            column), kept on the section; the quantities of the headline unless told.
         most: revolutions up to which a period is looked for.
         start: state on the section to begin with; the scene's own start unless told.
         quiet: False shows the progress.
 
     Raises:
-        InputError: there is no such quantity, there are too few revolutions, the scene has no
-            section, or a run does not get to it.
+        InputError: there is no such quantity or channel, there are too few revolutions, the scene
+            has no section, or a run does not get to it.
     """
     if revolutions < max(3 * most, 2 * BATCHES):
         raise InputError(
@@ -139,15 +149,11 @@ def attractor(
         )
     if skip < 1:
         raise InputError(f"--skip {skip}: allowed is a whole number >= 1")
-    if scene.solver is None or scene.solver.tolerance is None:
-        raise InputError("solver.step: sections need solver.tolerance, whose error is measured")
     declared = quantities_of(scene)
-    for name in names:
-        if name not in declared:
-            raise InputError(f"--quantity {name}: allowed are {', '.join(declared)}")
     if not names:
         names = [name for name, placed in declared.items() if placed.quantity.headline]
-    wanted = {name: declared[name] for name in names}
+    wanted = {name: declared[name] for name in names if name in declared}
+    channels = {name: _unit(scene, name) for name in names if name not in declared}
     total = skip + revolutions
     orbit = Orbit(scene, start)
     neighbours = [Orbit(scene) for _ in DISTANCES]
@@ -164,16 +170,19 @@ def attractor(
             result = orbit.advance(recorded=done >= skip)
             point = orbit.point()
             if done == skip - 1:  # a state that fits all constraints, as the orbit's own does
+                begun = orbit.state["time"]
                 other.advance()
                 for neighbour, distance in zip(neighbours, DISTANCES, strict=True):
                     _bring_back(orbit, neighbour, other, distance)
             (points if done >= skip else before).append(point)
             if result is not None:
-                values.append(numbers_of(result, wanted))
+                there = {name: float(column_of(result, name)[0][-1]) for name in channels}
+                values.append(numbers_of(result, wanted) | there)
                 last = [*last[-SHOWN + 1 :], result]
                 for i, neighbour in enumerate(neighbours):
                     growths[i].append(_grown(orbit, neighbour, DISTANCES[i]))
             progress.update(done + 1)
+    turns = revolutions / (orbit.state["time"] - begun)
     error, state = max(_error(orbit, other), NOISE), orbit.state
     for each in (orbit, other, *neighbours):
         each.close()
@@ -188,7 +197,9 @@ def attractor(
         error=kept,
         period=period_of(section, kept, most, diverging=exponent.low > 0.0),
         exponent=exponent,
-        figures={name: np.array([each.get(name, math.nan) for each in values]) for name in wanted},
+        figures={name: np.array([each.get(name, math.nan) for each in values]) for name in names},
+        units=channels | {name: placed.quantity.unit for name, placed in wanted.items()},
+        turns=turns,
         last=last,
         transient=np.linalg.norm(np.array(before) - section[-1], axis=1),
         state=state,
@@ -208,10 +219,29 @@ def _bring_back(orbit: Orbit, neighbour: Orbit, other: Orbit, distance: float) -
     return apart
 
 
+def _unit(scene: Scene, name: str) -> str:
+    """Return the unit of a channel.
+
+    Raises:
+        InputError: the scene has no quantity and no channel of this name.
+    """
+    known = run_once(scene.replace({"revolutions": SHORT, "settle": 0.0, "output": None}))
+    try:
+        return column_of(known, name)[1]
+    except InputError as error:
+        raise InputError(
+            f"--quantity {name}: no quantity{nearest(name, list(quantities_of(scene)))}; {error}"
+        ) from None
+
+
 def _finer(scene: Scene) -> Orbit:
-    """Return an orbit at a finer tolerance."""
-    assert scene.solver is not None and scene.solver.tolerance is not None
-    return Orbit(scene.replace("solver.tolerance", max(FINER * scene.solver.tolerance, 1e-8)))
+    """Return an orbit at a finer tolerance, or with finer fixed steps."""
+    solver = scene.solver
+    assert solver is not None
+    if solver.tolerance is None:
+        assert solver.step is not None
+        return Orbit(scene.replace("solver.step", FINER_STEP * solver.step))
+    return Orbit(scene.replace("solver.tolerance", max(FINER * solver.tolerance, 1e-8)))
 
 
 def _error(orbit: Orbit, finer: Orbit) -> float:

@@ -1,0 +1,119 @@
+"""Sections of a crank that a motor turns, and of fixed steps; and motions that get to none."""
+
+import numpy as np
+import pytest
+
+from exu_press import InputError, Scene, simulate
+from exu_press.studies.attractor import attractor
+from exu_press.studies.attractor.lines import attractor_lines
+from exu_press.studies.attractor.orbit import Orbit
+
+FILM = Scene(
+    mechanism="slider_crank",
+    joints={"crank_pin": {"kind": "lubricated", "clearance": 1e-4, "radius": 0.03}},
+    film={"length": 0.05, "viscosity": 0.1},
+)
+MOTOR = FILM.replace({"drive": {"rated_torque": 200.0, "inertia": 2.0}})
+NAMES = ["stroke", "crank_speed", "crank_pin_force.x"]
+SHORT = {"revolutions": 20, "most": 4, "names": NAMES}
+
+
+def test_a_motors_sections_lie_where_a_run_is_sampled():
+    orbit = Orbit(MOTOR)
+    speeds = []
+    for _ in range(3):
+        orbit.advance()
+        speeds.append(orbit.point()[-1] * MOTOR.angular_speed)
+    time = orbit.state["time"]
+    orbit.close()
+    run = simulate(MOTOR.replace({"revolutions": 3.2, "output": {"samples": [0.0]}}))
+    samples = run.samples.at(0.0)
+    assert speeds == pytest.approx(samples["crank_speed"][1:4], rel=1e-5)
+    assert time == pytest.approx(samples["time"][3], rel=1e-6)
+
+
+def test_fixed_steps_end_on_the_section():
+    orbit = Orbit(FILM.replace("solver.step", 4.1e-4))
+    orbit.advance()
+    result = orbit.advance(recorded=True)
+    assert result.time[-1] == pytest.approx(0.5, rel=1e-12)
+    assert result["crank_angle"][-1] == pytest.approx(4.0 * np.pi, rel=1e-9)
+    assert np.diff(result.time).max() <= 4.1e-4
+    orbit.close()
+
+
+@pytest.fixture(scope="module")
+def turned():
+    return attractor(MOTOR, skip=6, **SHORT)
+
+
+@pytest.mark.long
+def test_a_motor_turns_a_lubricated_press_regularly(turned):
+    assert turned.period.revolutions == 1
+    assert turned.exponent.sign == "regular"
+    assert turned.points.shape == (20, 5)
+    mean = turned.figures["crank_speed"].mean()
+    assert turned.points[:, -1].mean() * MOTOR.angular_speed == pytest.approx(mean, rel=1e-6)
+
+
+@pytest.mark.long
+def test_its_revolutions_take_as_long_as_they_take(turned):
+    """A motor with slip turns more slowly than its speed without load."""
+    assert 0.95 * 4.0 < turned.turns < 4.0
+    assert turned.per_second[0] == pytest.approx(turned.turns * turned.exponent.value)
+
+
+@pytest.mark.long
+def test_channels_are_kept_on_the_section_with_their_units(turned):
+    assert list(turned.figures) == NAMES
+    assert turned.units == {"stroke": "m", "crank_speed": "rad/s", "crank_pin_force.x": "N"}
+    assert "crank_pin_force.x, N" in "\n".join(attractor_lines(turned))
+
+
+@pytest.fixture(scope="module")
+def fixed():
+    return attractor(FILM.replace("solver.step", 4e-4), skip=3, **SHORT)
+
+
+@pytest.mark.long
+def test_fixed_steps_end_on_the_section_and_have_an_error(fixed):
+    assert fixed.period.revolutions == 1
+    assert fixed.exponent.sign == "regular"
+    assert fixed.turns == pytest.approx(4.0, rel=1e-9)
+    exact = attractor(FILM, skip=3, **SHORT)
+    apart = np.linalg.norm(fixed.points[-1] - exact.points[-1])
+    assert 1e-7 < fixed.error < 1e-2
+    assert apart < 3.0 * (fixed.error + exact.error)
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        (
+            {"drive": {"rated_torque": 0.2, "inertia": 0.01}},
+            "no motion in the long run: the press stalled at",
+        ),
+        (
+            {"drive": {"rated_torque": 5000.0, "inertia": 0.01, "no_load_speed_rpm": 8.0}},
+            r"\[drive\]: the crank does not get to its section at 0 deg within 2.5 s; allowed is",
+        ),
+        (
+            {"drive": {"rated_torque": 200.0, "inertia": 2.0}, "solver.step": 1e-4},
+            "solver.step: a motor gets to its section at any instant; allowed is solver.tolerance",
+        ),
+    ],
+    ids=["stalls", "never there", "fixed steps with a motor"],
+)
+def test_no_section(changes, words):
+    scene = FILM
+    for name, value in changes.items():
+        scene = scene.replace(name, value)
+    with pytest.raises(InputError, match=words) as raised:
+        attractor(scene, skip=1, **SHORT)
+    assert "\n" not in str(raised.value)
+
+
+def test_no_such_channel():
+    with pytest.raises(InputError, match="--quantity crank_sped: no quantity") as raised:
+        attractor(FILM, revolutions=20, skip=1, most=4, names=["crank_sped"])
+    assert "did you mean 'crank_speed'?" in str(raised.value)

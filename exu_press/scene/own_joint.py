@@ -1,5 +1,6 @@
 """A joint kind of the user's own: its keys, and the interface laws that act in it."""
 
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib import import_module
@@ -15,7 +16,7 @@ __all__ = ["OwnJoint", "own_kind"]
 
 
 @dataclass(frozen=True)
-class OwnJoint(Table):
+class OwnJoint(Table, ABC):
     """What a joint kind of your own derives from; `kind = "my_module:MyClass"` names it in a scene.
 
     The derived dataclass declares its keys by `exu_press.schema.checks.key`. A key whose default is
@@ -32,9 +33,9 @@ class OwnJoint(Table):
         """Name of the class, as a scene has it."""
         return f"{type(self).__module__}:{type(self).__qualname__}"
 
+    @abstractmethod
     def interfaces(self) -> Sequence["InterfaceLaw"]:
         """Return the interface laws that act in parallel; the first has the joint's clearance."""
-        raise NotImplementedError
 
 
 def own_kind(name: object) -> type[OwnJoint] | None:
@@ -55,4 +56,6 @@ def own_kind(name: object) -> type[OwnJoint] | None:
         ) from None
     if not (isinstance(found, type) and issubclass(found, OwnJoint)):
         raise InputError(f"kind = {name!r}: allowed is a dataclass derived from OwnJoint")
+    if missing := ", ".join(sorted(found.__abstractmethods__)):
+        raise InputError(f"kind = {name!r}: the class has no {missing}, which OwnJoint asks for")
     return found

@@ -1,5 +1,6 @@
 """What solving needs of a scene's model."""
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
@@ -14,7 +15,7 @@ __all__ = ["Assembled"]
 
 
 @dataclass(frozen=True)
-class Assembled:
+class Assembled(ABC):
     """What solving needs of a scene's model; `exu_press.model.Model` is one, and has more.
 
     Attributes:
@@ -41,15 +42,15 @@ class Assembled:
     begin: float = field(default=0.0, kw_only=True)
     first_step: float = field(default=0.0, kw_only=True)
 
+    @abstractmethod
     def next_corner(self, time: float) -> float:
         """Return the next instant at which a load has a corner or a sample lies, s, or infinity."""
-        raise NotImplementedError
 
     @property
+    @abstractmethod
     def event(self) -> Callable[[exu.MainSystem, float], float] | None:
         """What changes its sign at the samples of a motor's crank, or None."""
-        raise NotImplementedError
 
+    @abstractmethod
     def watch(self, time: float) -> str:
         """Return why the press goes no further, after a step that ends at a time, s, or nothing."""
-        raise NotImplementedError

@@ -26,6 +26,9 @@ class Bushing(OwnJoint):
 
         return [FunctionInterface(law, self.clearance, lambda e: (0.5 * k * e * e, k * e))]
 
+class Unfinished(OwnJoint):
+    pass
+
 class NoJoint:
     pass
 """
@@ -71,6 +74,7 @@ def test_a_scene_file_names_it_and_reads_back_equal(tmp_path):
         ({"kind": "no_such_module:Bushing"}, "No module named 'no_such_module'"),
         ({"kind": "a_bushing:Ring"}, "has no attribute 'Ring'"),
         ({"kind": "a_bushing:NoJoint"}, "derived from OwnJoint"),
+        ({"kind": "a_bushing:Unfinished"}, "the class has no interfaces, which OwnJoint asks for"),
         ({"stifness": 1.0}, "did you mean 'stiffness'"),
         ({"stiffness": -1.0}, "stiffness = -1.0"),
         ({"stiffness": None}, "stiffness"),

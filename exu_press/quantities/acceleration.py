@@ -87,8 +87,9 @@ def _windows(time: Array, values: Array, window: float) -> tuple[Array, Array]:
 
     There are none in a record that is shorter than the window.
     """
-    ends = np.concatenate([time, time + window])
-    late = np.unique(ends[(ends >= time[0] + window) & (ends <= time[-1])])
+    ends = np.sort(np.concatenate([time, time + window]), kind="stable")  # merges the two
+    ends = ends[(ends >= time[0] + window) & (ends <= time[-1])]
+    late = ends[np.diff(ends, prepend=-np.inf) > 0.0]
     return late, np.interp(late, time, values) - np.interp(late - window, time, values)
 
 

@@ -61,7 +61,7 @@ class OnDisk(Mapping[str, Channel]):
             self._file(name), np.float64, "r", shape=shape
         )  # what is not looked at is not read
         found = copy.copy(begun)
-        object.__setattr__(found, "values", values)  # it was checked block by block
+        object.__setattr__(found, "values", values.view(np.ndarray))  # checked block by block
         return found
 
     def parts(self, name: str) -> Iterator[Array]:

@@ -36,7 +36,7 @@ def kept(run: Kind, samples: NDArray[np.intp], summary: Mapping[str, Any]) -> Ki
     assert output is not None
     names = output.kept(run.channels)
     count = len(run.channels["time"].values)
-    rows = np.union1d(np.arange(0, count, output.every), [count - 1])
+    rows = np.append(np.arange(0, count - 1, output.every), count - 1)
 
     def at(rows: NDArray[np.intp], names: Iterable[str]) -> dict[str, Channel]:
         found = described(run.channels)

@@ -61,6 +61,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         for stream in (sys.stdout, sys.stderr):  # Python flushes them once more at its end
             os.dup2(nowhere, stream.fileno())
         return CLOSED_PIPE
+    except OSError as error:  # of a path that no system takes, a disk that is full, and the like
+        said = InputError(f"{error.filename or 'the system'}: {error.strerror or error}")
+        print(f"exu-press: {said}", file=sys.stderr)
+        return 2
     return status
 
 
@@ -88,6 +92,9 @@ def _summary(name: str) -> str:
 def _execute(arguments: Sequence[str] | None) -> int:
     """Parse the arguments and run the command that they name."""
     given = sys.argv[1:] if arguments is None else list(arguments)
+    for text in given:
+        if "\0" in text:
+            raise InputError(f"{text}: allowed are texts without a zero character")
     parser = argparse.ArgumentParser(
         prog="exu-press",
         description="Dynamics of press mechanisms with clearance and lubrication in their joints.",

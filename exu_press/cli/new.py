@@ -35,7 +35,7 @@ def execute(options: argparse.Namespace) -> int:
         raise InputError(f"{path}: allowed is a name that ends in .toml")
     if path.exists():
         raise InputError(f"{path}: exists; allowed is another name")
-    text = template(options.mechanism, os.path.relpath(options.mechanism, path.parent))
+    text = template(options.mechanism, os.path.relpath(options.mechanism or ".", path.parent))
     with replacing(path) as partial:
         partial.write_text(text, encoding="utf-8")
     print(f"written: {path}; run it with: exu-press run {path}")

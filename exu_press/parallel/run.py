@@ -21,6 +21,8 @@ __all__ = ["FILE", "Batch", "run_batch"]
 
 FILE = "runs.jsonl"
 
+MOST_WORKERS = 1024
+
 
 class Pool(Protocol):
     """What performs tasks.
@@ -80,8 +82,10 @@ class Batch(ExitStack):
             ValueError: the function cannot be imported.
         """
         super().__init__()
-        if workers is not None and workers < 1:
-            raise InputError(f"workers = {workers}: allowed is a whole number >= 1")
+        if workers is not None and not 1 <= workers <= MOST_WORKERS:
+            raise InputError(
+                f"workers = {workers}: allowed is a whole number within 1 and {MOST_WORKERS}"
+            )
         if time_limit is not None and not time_limit > 0.0:
             raise InputError(f"time_limit = {time_limit:g}: allowed is a number > 0 (s)")
         self._name = name_of(function)

@@ -27,6 +27,9 @@ __all__ = [
 
 T = TypeVar("T")
 
+SMALLEST, LARGEST = 1e-30, 1e30
+"""Magnitudes of a number other than 0: sums and squares of what is within are numbers, too."""
+
 Uses = Mapping[str, Mapping[Any, tuple[str, ...]]]
 
 RENAMED = {
@@ -177,14 +180,16 @@ def _checked(field: dataclasses.Field[Any], name: str, value: Any) -> Any:
     meta = field.metadata
     right = (
         type(value) is kind
-        and (kind is not float or math.isfinite(typing.cast(float, value)))
+        and (kind is not float or _within(typing.cast(float, value)))
         and (meta["above"] is None or value > meta["above"])
         and (meta["at_least"] is None or value >= meta["at_least"])
         and (meta["at_most"] is None or value <= meta["at_most"])
         and (not meta["choices"] or value in meta["choices"])
     )
     if not right:
-        raise InputError(f"{name} = {value!r:.200}: allowed is {_allowed(field)}")
+        raise InputError(
+            f"{name} = {value!r:.200}: allowed is {_allowed(field)}{_magnitudes(value)}"
+        )
     return value
 
 
@@ -198,9 +203,21 @@ def _numbers(field: dataclasses.Field[Any], name: str, value: Any) -> tuple[floa
             else math.nan
             for each in value
         ]
-        if all(map(math.isfinite, found)):
+        if all(map(_within, found)):
             return tuple(found)
-    raise InputError(f"{name} = {value!r:.80}: allowed is {_allowed(field)}")
+    raise InputError(f"{name} = {value!r:.80}: allowed is {_allowed(field)}{_magnitudes(value)}")
+
+
+def _within(value: float) -> bool:
+    return value == 0.0 or SMALLEST <= abs(value) <= LARGEST
+
+
+def _magnitudes(value: Any) -> str:
+    """Return which magnitudes are allowed, where a number, or one of a list, has none of them."""
+    each = value if isinstance(value, list | tuple) else [value]
+    if all(_within(one) for one in each if type(one) is float and math.isfinite(one)):
+        return ""
+    return f"; a number is 0, or its magnitude is within {SMALLEST:g} and {LARGEST:g}"
 
 
 def _float(value: Any) -> float:

@@ -12,6 +12,9 @@ from exu_press.files.input_file import read_text
 
 __all__ = ["parse_toml", "read_toml", "toml_text"]
 
+MOST_LEVELS = 100
+"""Of tables and lists within each other."""
+
 DECIMAL_COMMA = re.compile(r"^\s*[\w.]+\s*=\s*[-+]?\d+,\d+", re.MULTILINE)
 
 
@@ -30,16 +33,31 @@ def parse_toml(text: str, where: str) -> dict[str, Any]:
     Raises:
         InputError: the text is no TOML, nests too deep, or has a number of too many digits.
     """
+    too_deep = InputError(f"{where}: nests too deep; allowed are {MOST_LEVELS} levels")
     try:
-        return tomllib.loads(text)
+        found = tomllib.loads(text)
     except RecursionError:
-        raise InputError(f"{where}: nests too deep; allowed are some 100 levels") from None
+        raise too_deep from None
     except tomllib.TOMLDecodeError as error:
         comma = DECIMAL_COMMA.search(text)
-        found = f"; {comma[0]!r} has a decimal comma, TOML a point" if comma else ""
-        raise InputError(f"{where}: not a TOML file ({error}{found})") from None
+        cure = f"; {comma[0]!r} has a decimal comma, TOML a point" if comma else ""
+        raise InputError(f"{where}: not a TOML file ({error}{cure})") from None
     except ValueError:  # Python's own limit on whole numbers
         raise InputError(f"{where}: a number has too many digits; allowed are 4300") from None
+    if _deeper(found, MOST_LEVELS):
+        raise too_deep
+    return found
+
+
+def _deeper(value: Any, levels: int) -> bool:
+    """Return whether tables and lists lie within each other on more levels."""
+    layer = [value]
+    for _ in range(levels):
+        tables = (one.values() if isinstance(one, Mapping) else one for one in layer)
+        layer = [inner for one in tables for inner in one if isinstance(inner, Mapping | list)]
+        if not layer:
+            return False
+    return True
 
 
 def toml_text(value: Any) -> str:

@@ -76,3 +76,27 @@ def test_ctrl_c_in_a_command(monkeypatch, capsys):
     assert main(["doctor"]) == 130
     assert capsys.readouterr().err == "exu-press: interrupted\n"
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+LONG = "x" * 5000
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["run", LONG], "File name too long"),
+        (["draw", LONG], "File name too long"),
+        (["compare", LONG], "File name too long"),
+        (["view", LONG], "File name too long"),
+        (["report", LONG], "File name too long"),
+        (["spectrum", "a\0b"], "without a zero character"),
+        (["run", "press", "--out", "a\0b"], "without a zero character"),
+        (["new", "a.toml", "--mechanism", ""], "mechanism = '': allowed"),
+    ],
+)
+def test_paths_that_no_system_takes(arguments, said, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert main(arguments) == 2
+    told = capsys.readouterr().err
+    assert told.startswith("exu-press: ") and told.count("\n") == 1 and said in told
+    assert len(told) < 1000 and not list(tmp_path.iterdir())

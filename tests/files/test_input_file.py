@@ -45,7 +45,11 @@ def test_a_mark_of_byte_order_is_no_part_of_the_text(tmp_path):
         ("revolutions = 0,5", "decimal comma"),
         ('mechanism = "a\\u0000b.toml"', "cannot be read"),
         ("revolutions = 1e308", "allowed is a number"),
-        ("speed_rpm = 1e-320", "is a run of inf s"),
+        ("speed_rpm = 1e-320", r"its magnitude is within 1e-30 and 1e\+30"),
+        ("joints.crank_pin = {kind = 'dry', clearance = 1e-320}", "its magnitude is within"),
+        ("guide.lateral_stiffness = 1e308", "its magnitude is within"),
+        ("output.samples = [0.0, 1e300]", "its magnitude is within"),
+        ("[" + "a." * 2000 + "a]", "nests too deep"),
         ('[load.a]\nkind = "table"\nfile = "/dev/zero"', "no regular file"),
         ('mechanism = "' + 1_000_000 * "x" + '"', "unknown|allowed"),
     ],
@@ -55,7 +59,7 @@ def test_hostile_scenes_are_one_short_line(tmp_path, capsys, text, message):
     path.write_text(text)
     assert main(["run", str(path), "--out", str(tmp_path / "out")]) == 2
     told = capsys.readouterr().err
-    assert told.count("\n") == 1 and len(told) < 10_000
+    assert told.count("\n") == 1 and len(told) < 2_000
     assert re.search(message, told), told
 
 

@@ -133,6 +133,7 @@ def test_a_worker_has_one_thread(tmp_path):
     ("options", "named"),
     [
         ({"workers": 0}, "workers = 0"),
+        ({"workers": 10**30}, "workers = 1000"),
         ({"time_limit": 0.0}, "time_limit = 0"),
         ({"time_limit": float("nan")}, "time_limit = nan"),
     ],

@@ -66,6 +66,11 @@ class Curve(Table):
                 raise InputError(
                     f"curve.{name} = {list(cut)}: allowed is [frequency] or [low, high], > 0 (Hz)"
                 )
+        if self.low_cut and self.high_cut and self.low_cut[0] >= self.high_cut[-1]:
+            raise InputError(
+                f"curve.low_cut = {list(self.low_cut)}, high_cut = {list(self.high_cut)}: nothing "
+                "is left of the curve; allowed is a low_cut below the high_cut"
+            )
         if (self.low_cut or self.high_cut) and self.read.over != "time":
             raise InputError(
                 f"curve.low_cut and high_cut: {self.file} has {self.read.over}; allowed is time"

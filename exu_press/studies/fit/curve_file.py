@@ -59,7 +59,7 @@ def read_curve(path: Path) -> CurveFile:
     lines = [(number, line) for number, line in lines if not line.startswith("#")]
     if not lines:
         raise InputError(f"{path}: empty; allowed is a head and two numbers a line")
-    heads = next(csv.reader([lines[0][1]]))
+    heads = lines[0][1].split(",")
     if len(heads) != 2:
         raise InputError(
             f"{path}: {len(heads)} columns; allowed are two, as time (s),slider_velocity (m/s)"
@@ -71,7 +71,7 @@ def read_curve(path: Path) -> CurveFile:
     rows = np.array([_numbers(f"{path}, line {number}", line) for number, line in lines[1:]])
     if len(rows) < FEWEST:
         raise InputError(f"{path}: {len(rows)} samples; allowed are at least {FEWEST}")
-    if stated and int(stated[0]) != len(rows):
+    if stated and stated[0].lstrip("0") != str(len(rows)):
         raise InputError(
             f"{path}: states {stated[0]} samples and has {len(rows)}; allowed is the same number"
         )

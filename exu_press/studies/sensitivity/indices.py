@@ -56,6 +56,10 @@ class Indices:
     total_bounds: Array
 
 
+ALONE = Indices(np.ones(1), np.ones((1, 2)), np.ones(1), np.ones((1, 2)))
+"""Of one key alone, which explains everything."""
+
+
 def sample(evaluate: Callable[[Array], Array], keys: int, n: int, seed: int) -> Sample | None:
     """Return the values at n base samples; None where too few of twice as many give numbers.
 
@@ -108,16 +112,20 @@ def indices(found: Sample, level: float = 0.95) -> list[Indices | None]:
         if np.ptp(both) <= 1e-12 * np.abs(both).max():
             every.append(None)
             continue
-        parts = {"f_A": a[None], "f_B": b[None], "f_AB": found.ab[:, place][:, None]}
+        ab = found.ab[:, place]
+        if len(ab) == 1:
+            every.append(ALONE)
+            continue
+        parts = {"f_A": a[None], "f_B": b[None], "f_AB": ab[:, None]}
         result = sobol_indices(func=parts, n=len(a))
         told = result.bootstrap(confidence_level=level, n_resamples=RESAMPLES)
         first, total = (part.confidence_interval for part in (told.first_order, told.total_order))
         every.append(
             Indices(
-                np.atleast_1d(result.first_order),
-                np.column_stack([np.atleast_1d(first.low), np.atleast_1d(first.high)]),
-                np.atleast_1d(result.total_order),
-                np.column_stack([np.atleast_1d(total.low), np.atleast_1d(total.high)]),
+                result.first_order,
+                np.column_stack([first.low, first.high]),
+                result.total_order,
+                np.column_stack([total.low, total.high]),
             )
         )
     return every

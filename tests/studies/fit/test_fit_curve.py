@@ -5,7 +5,7 @@ import pytest
 
 from exu_press import InputError
 from exu_press.studies.fit.curve import Curve, matched
-from exu_press.studies.fit.curve_file import CurveFile
+from exu_press.studies.fit.curve_file import CurveFile, read_curve
 
 AT = np.linspace(0.0, 2.0, 4001)
 PLACES = np.linspace(1.0, 1.9, 120)
@@ -57,6 +57,7 @@ def test_samples_that_are_not_independent_count_less():
     [
         ({"shift": [0.1, -0.1]}, r"allowed is \[low, high\]"),
         ({"high_cut": [5.0, 1.0]}, r"allowed is \[frequency\]"),
+        ({"low_cut": [500.0], "high_cut": [100.0]}, "nothing is left of the curve"),
         ({"low_cut": [-5.0]}, r"allowed is \[frequency\]"),
         ({"over": "crank_angle", "low_cut": [5.0]}, "has crank_angle; allowed is time"),
     ],
@@ -64,3 +65,20 @@ def test_samples_that_are_not_independent_count_less():
 def test_bad_input(keys, said):
     with pytest.raises(InputError, match=said):
         curve(**keys)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("t" * 140_000 + ",slider_velocity (m/s)\n0,1\n", "allowed is NAME"),
+        (
+            "# samples = " + "9" * 5000 + "\ntime (s),slider_velocity (m/s)\n" + 20 * "{},0\n",
+            "states 9",
+        ),
+    ],
+)
+def test_files_that_no_sensor_writes(text, said, tmp_path):
+    file = tmp_path / "c.csv"
+    file.write_text(text.format(*range(20)))
+    with pytest.raises(InputError, match=said):
+        read_curve(file)

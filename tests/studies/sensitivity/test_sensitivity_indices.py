@@ -51,3 +51,13 @@ def test_a_sample_with_a_failed_run_is_drawn_anew():
 
 def test_too_many_failures_give_no_sample():
     assert sample(lambda shares: np.full((len(shares), 1), np.nan), 2, 8, 0) is None
+
+
+def test_one_key_alone_explains_everything():
+    def straight(shares):
+        return np.column_stack([shares[:, 0], np.zeros(len(shares))])
+
+    found, constant = indices(sample(straight, 1, 8, 0))
+    assert found.first == found.total == [1.0]
+    assert found.first_bounds.tolist() == found.total_bounds.tolist() == [[1.0, 1.0]]
+    assert constant is None

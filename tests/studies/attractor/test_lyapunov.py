@@ -51,6 +51,21 @@ def test_the_henon_map_has_its_exponent():
     assert found.low < 0.4192 < found.high, "Sprott 2003, 5.2"
 
 
+@pytest.mark.parametrize(("step", "start"), [(logistic, [0.3]), (henon, [0.1, 0.1])])
+def test_nolds_finds_it_in_the_sampled_series(step, start):
+    """From one coordinate of 2000 points, by Rosenstein's method, whose own error is 5 %."""
+    nolds = pytest.importorskip("nolds")
+    found = combined([grown(step, np.array(start), 1e-6, 4000)], (1e-6,), 1e-15)
+    x, series = np.array(start), []
+    for _ in range(2000):
+        x = step(x)
+        series.append(float(x[0]))
+    told = nolds.lyap_r(
+        np.array(series), emb_dim=2, lag=1, min_tsep=5, trajectory_len=6, fit="poly"
+    )
+    assert 0.95 * found.low < told < 1.05 * found.high
+
+
 def test_a_contraction_is_known_down_to_the_error():
     growths = [np.full(40, math.log(0.5)) + 1e-3 * np.arange(40) for _ in range(2)]
     found = combined(growths, (1e-2, 1e-3), 1e-6)

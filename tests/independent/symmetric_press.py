@@ -73,10 +73,24 @@ def solve(u, v, along_u, along_v):
 
 @dataclass(frozen=True)
 class SymmetricPress(Reduced):
-    """`crank_pin` is a kind of `Clearance`; the balls are dry."""
+    """`crank_pin` is a kind of `Clearance`; the balls are dry, with a clearance of their own or its."""
 
     crank_pin: str
     numbers: Numbers
+    ball_clearance: float | None = None
+
+    @property
+    def in_balls(self):
+        """Clearance of the balls, m."""
+        return self.numbers.clearance if self.ball_clearance is None else self.ball_clearance
+
+    def eccentricities(self, t, q):
+        """Return that of the crank pin (complex) and of a ball, m: journal less bearing."""
+        n = self.numbers
+        y, phi, slider = q
+        angle = n.speed * t
+        pin = n.crank_radius * complex(-sin(angle), cos(angle))
+        return pin - (1j * y - n.rod_length * exp(1j * phi)), chain(y)[0] - slider
 
     def start(self):
         """Return the ideal mechanism at top dead centre."""
@@ -104,7 +118,7 @@ class SymmetricPress(Reduced):
         apart, closing = ball - slider, slope * y_t - slider_t
         sense = 1.0 if apart > 0.0 else -1.0
         law = ReducedSliderCrank("none", n)
-        on_ball = -sense * law.normal_force(abs(apart) - n.clearance, sense * closing)
+        on_ball = -sense * law.normal_force(abs(apart) - self.in_balls, sense * closing)
         c, s = cos(phi), sin(phi)
         on_phi = (-rod.conjugate() * -force).imag + on_rod  # -F at its end, from the slide
         a, b = n.rod_inertia + n.rod_mass * half**2, -n.rod_mass * half * c

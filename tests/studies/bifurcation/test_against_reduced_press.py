@@ -1,0 +1,45 @@
+"""Three points of the dry press's diagram against an independent model of the press."""
+
+import numpy as np
+import pytest
+from independent.reduced_slider_crank import Numbers
+from independent.symmetric_press import SymmetricPress
+
+from exu_press import Scene
+from exu_press.studies.attractor import period_of
+from exu_press.studies.attractor.orbit import Orbit
+
+BALLS = 1e-4
+REVOLUTIONS = 14
+PRESS = Scene(joints={"crank_pin": "dry", "balls": {"kind": "dry", "clearance": BALLS}})
+
+
+def by_the_press(clearance):
+    """Eccentricities of crank pin and ball in the section, (REVOLUTIONS, 3), over clearances."""
+    orbit = Orbit(PRESS.replace("joints.crank_pin.clearance", clearance))
+    points = []
+    for _ in range(REVOLUTIONS):
+        orbit.advance()
+        points.append(orbit.point())
+    orbit.close()
+    pin_x, pin_y, _, _, _, ball = np.array(points)[:, :6].T
+    return np.stack([pin_x, pin_y, ball], axis=1)
+
+
+def by_the_reduced_press(clearance):
+    """Those of the model that knows neither Exudyn nor this package."""
+    model = SymmetricPress("lugre_steady", Numbers(clearance=clearance), BALLS)
+    times = 0.25 * np.arange(1, REVOLUTIONS + 1)
+    states = model.run(times, 1e-8)
+    found = [model.eccentricities(t, q.tolist()) for t, q in zip(times, states[:3].T, strict=True)]
+    return np.array([[e.real / clearance, e.imag / clearance, ball / BALLS] for e, ball in found])
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("clearance", "error"), [(2e-4, 6.7e-4), (2.5e-4, 2.0e-4), (3e-4, 1.0e-4)])
+def test_both_have_the_same_period_and_points(clearance, error):
+    """Within the error that the diagram states, or what is left of the transient."""
+    points, expected = by_the_press(clearance), by_the_reduced_press(clearance)
+    assert np.abs(points[-1] - expected[-1]).max() < error
+    for each in (points, expected):
+        assert period_of(each[-6:], error, 2).revolutions == 1

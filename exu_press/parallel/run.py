@@ -2,7 +2,7 @@
 
 import os
 import sys
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from contextlib import AbstractContextManager, ExitStack
 from itertools import islice
@@ -17,11 +17,15 @@ from exu_press.parallel.rows import RowFile
 from exu_press.parallel.task import TIME_LIMIT, Function, Row, Task, name_of, task_of
 from exu_press.terminal.progress import Progress
 
-__all__ = ["FILE", "Batch", "run_batch"]
+__all__ = ["FILE", "Batch", "Chain", "run_batch"]
 
 FILE = "runs.jsonl"
 
 MOST_WORKERS = 1024
+
+
+Chain = Generator[Mapping[str, Any], Row, None]
+"""Runs that depend on each other: yields the arguments of one, and is sent its row."""
 
 
 class Pool(Protocol):
@@ -132,14 +136,63 @@ class Batch(ExitStack):
             there = f"{len(rows) - len(todo)} of {len(rows)}"
             print(f"{self._label}: {there} are there", file=sys.stderr)
         if todo:
-            pool = self._pool or self.enter_context(_pool(self._workers, self._dask, self._limit))
-            self._pool = pool
+            pool = self._workers_at_hand()
             with Progress(self._label, len(todo), "runs", quiet=self._quiet) as progress:
                 for done, (task, row) in enumerate(_performed(pool, todo), start=1):
                     self._file.append(task.key, self._limit, row)
                     rows[task.key] = row
                     progress.update(done)
         return [dict(rows[task.key] or {}) for task in tasks]
+
+    def follow(self, chains: Sequence[Chain], total: int) -> None:
+        """Do the runs of chains: each one in its order, all beside each other, none waiting.
+
+        Args:
+            chains: of arguments; a run that two of them ask for at once is done once.
+            total: number of runs, for the progress.
+
+        Raises:
+            As `rows` does.
+        """
+        under_way: dict[str, tuple[Future[Row], Task, list[Chain]]] = {}
+        done = 0
+
+        def begin(chain: Chain, row: Row | None) -> None:
+            """Hand over the next run of a chain that is not finished yet."""
+            nonlocal done
+            try:
+                while True:
+                    arguments = next(chain) if row is None else chain.send(dict(row))
+                    task = task_of(self._name, arguments)
+                    row = self._file.finished(task.key, self._limit)
+                    if row is None:
+                        break
+                    done += 1
+            except StopIteration:
+                return
+            if task.key not in under_way:
+                under_way[task.key] = self._workers_at_hand().submit(task), task, []
+            under_way[task.key][2].append(chain)
+
+        with Progress(self._label, total, "runs", quiet=self._quiet) as progress:
+            for chain in chains:
+                begin(chain, None)
+            while under_way:
+                wait([future for future, _, _ in under_way.values()], return_when=FIRST_COMPLETED)
+                ended = [key for key, (future, _, _) in under_way.items() if future.done()]
+                for future, task, waiting in [under_way.pop(key) for key in ended]:
+                    row = self._workers_at_hand().row(future)
+                    self._file.append(task.key, self._limit, row)
+                    done += len(waiting)
+                    progress.update(done)
+                    for chain in waiting:
+                        begin(chain, row)
+
+    def _workers_at_hand(self) -> Pool:
+        """Return where tasks are performed; nothing is started before the first of them."""
+        if self._pool is None:
+            self._pool = self.enter_context(_pool(self._workers, self._dask, self._limit))
+        return self._pool
 
 
 def run_batch(

@@ -73,7 +73,7 @@ def solve(u, v, along_u, along_v):
 
 @dataclass(frozen=True)
 class SymmetricPress(Reduced):
-    """`crank_pin` is a kind of `Clearance`; the balls are dry, with a clearance of their own or its."""
+    """`crank_pin` is a kind of `Clearance`; the balls are dry, of its clearance or of their own."""
 
     crank_pin: str
     numbers: Numbers

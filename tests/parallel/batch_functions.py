@@ -89,3 +89,19 @@ def threads(arguments):
 def memory(arguments):
     """Peak memory of the worker, MB."""
     return {"megabytes": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024, "x": arguments}
+
+
+def waits(arguments):
+    """Leave a mark; then wait until another file has so many lines, if told to."""
+    with Path(arguments["marks"]).open("a") as file:
+        file.write(f"{arguments['x']} {os.getpid()}\n")
+    end = time.monotonic() + 20.0
+    while "file" in arguments and time.monotonic() < end:
+        path = Path(arguments["file"])
+        if path.exists() and len(path.read_text().splitlines()) >= arguments["lines"]:
+            break
+        time.sleep(0.01)
+    else:
+        if "file" in arguments:
+            raise TimeoutError("waited in vain")
+    return {"x": arguments["x"], "sum": arguments["x"] + arguments.get("before", 0)}

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any, Self
 
 from exu_press.files.output_directory import output_directory
-from exu_press.parallel import Batch, Row, locked
+from exu_press.parallel import Batch, Chain, Row, locked
 from exu_press.parallel.task import Function
 from exu_press.quantities import values_of
 from exu_press.result import Result
@@ -102,6 +102,10 @@ class Runs(ExitStack):
     def rows(self, arguments: Sequence[Mapping[str, Any]]) -> list[Row]:
         """Return the row of the study's own function for each of the arguments."""
         return self._batch.rows(arguments)
+
+    def follow(self, chains: Sequence[Chain], total: int) -> None:
+        """Do runs of the study's own function that depend on each other: `Batch.follow`."""
+        self._batch.follow(chains, total)
 
 
 def run_scene(arguments: dict[str, Any]) -> dict[str, Any]:

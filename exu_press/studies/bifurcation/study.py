@@ -8,6 +8,7 @@ from typing import Any
 
 from exu_press.errors import InputError
 from exu_press.files.output_directory import write_json
+from exu_press.parallel import Chain
 from exu_press.scene import Scene
 from exu_press.schema.checks import Table, key, table_from
 from exu_press.studies.attractor.lyapunov import BATCHES
@@ -181,20 +182,21 @@ def bifurcation(
             ways = {"up": values, "down": values[::-1]}
             names = [name for name in ways if name in study.own.way]
             found: dict[str, list[Row]] = {name: [] for name in names}
-            for place in range(len(values)):
-                before = [(ways[n][place - 1], found[n][-1]) if place else None for n in names]
-                rows = runs.rows(
-                    [
-                        _arguments(study, ways[name][place], last)
-                        for name, last in zip(names, before, strict=True)
-                    ]
-                )
-                for name, row in zip(names, rows, strict=True):
-                    found[name].append(row)
+            chains = [_way(study, ways[name], found[name]) for name in names]
+            runs.follow(chains, len(names) * len(values))
             branches = [Branch(name, ways[name], found[name]) for name in names]
     report = Report(study, branches)
     write_json(Path(directory) / FILE, report.to_dict())
     return report
+
+
+def _way(study: Bifurcation, values: Sequence[float], rows: list[Row]) -> Chain:
+    """Yield the arguments of runs one after another, and add their rows to `rows`."""
+    last = None
+    for value in values:
+        row = yield _arguments(study, value, last)
+        rows.append(row)
+        last = value, row
 
 
 def _arguments(study: Bifurcation, value: float, last: tuple[float, Row] | None) -> dict[str, Any]:

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import exudyn as exu
@@ -83,11 +84,18 @@ class Model(Assembled):
     def next_corner(self, time: float) -> float:
         """Return the next instant at which a load has a corner or a sample lies, s, or infinity."""
         soonest = next_corner(self.loads, self.scene, time)
-        output, speed = self.scene.output, self.scene.angular_speed
-        if output is None or not output.samples or self.scene.drive is not None:
+        if self._sampled is None:
             return soonest
-        section = output.section(self.scene.start_angle)
-        return min(soonest, section.after(speed * time, CLOSE) / speed)
+        speed = self.scene.angular_speed
+        return min(soonest, self._sampled.after(speed * time, CLOSE) / speed)
+
+    @cached_property
+    def _sampled(self) -> Section | None:
+        """Where a crank of constant speed is sampled."""
+        output = self.scene.output
+        if output is None or not output.samples or self.scene.drive is not None:
+            return None
+        return output.section(self.scene.start_angle)
 
     @property
     def event(self) -> Callable[[exu.MainSystem, float], float] | None:

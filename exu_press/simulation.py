@@ -1,4 +1,4 @@
-"""What users call: a scene in, a result out."""
+"""The entry from Python: a scene in, a result out."""
 
 from pathlib import Path
 

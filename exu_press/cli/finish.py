@@ -1,4 +1,4 @@
-"""What a study's command does with what came out."""
+"""The end of a study's command: files, pictures, lines."""
 
 import argparse
 from collections.abc import Callable, Iterable
@@ -11,7 +11,7 @@ __all__ = ["finish"]
 
 
 class Report(Protocol):
-    """What a study found, as it is written and as a person reads it."""
+    """The result of a study, as it is written and as a person reads it."""
 
     def to_dict(self) -> dict[str, Any]:
         """Return what stands in the file."""

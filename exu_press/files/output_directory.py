@@ -27,7 +27,7 @@ PICTURES = {
     "sensitivity": ("sensitivity",),
     "optimise": ("front",),
 }
-"""What a command may draw into its directory, less the .png."""
+"""Names of the pictures of a command, without .png."""
 
 
 def output_directory(path: str | Path) -> Path:

@@ -1,4 +1,4 @@
-"""What the constraints of a system forbid: how far they are violated, and the least that mends it.
+"""Constraint violation of a system, and the smallest change that removes it.
 
 Exudyn tells violations of positions, and of velocities where a constraint has a rate of its own.
 But where a user function prescribes an offset and none its rate, Exudyn takes that for zero, and at
@@ -33,8 +33,8 @@ GIVE = 1e-8
 of it made 5e-11 m of the last digits of positions, which contacts took for a motion."""
 
 LOOK_AHEAD = 0.01
-"""How far ahead of the start constraints are asked, over the largest step; motions are smooth in
-it."""
+"""Time ahead of the start at which constraints are evaluated, over the largest step; motions are
+smooth in it."""
 
 REDUNDANT = 1e-8
 """Singular value of constraints' directions of length 1, below which one repeats others."""
@@ -43,7 +43,7 @@ START_ITERATIONS = 4
 """Of Newton's method to positions that fit the constraints."""
 
 FITS = 1e-14, 1e-6, 1e-6
-"""What positions, velocities and accelerations may be off their constraints, relative, before they
+"""Relative violation up to which positions, velocities and accelerations may be off before they
 are moved: differences are rounded. Forces of constraints go as violations over the square of a
 step: on a ton, 1e-13 m are 20 kN in a step of 0.1 us."""
 
@@ -73,7 +73,7 @@ class Constraints:
 
     @property
     def count(self) -> int:
-        """How many they are."""
+        """Their number."""
         return len(self._current.multipliers)
 
     def of_velocities(self) -> Flags:
@@ -270,7 +270,7 @@ def start_rates(task: Task) -> None:
 
 
 class _WithoutMass:
-    """What has no mass goes as springs and dampers push it: its velocity balances their forces.
+    """Coordinates without mass: their velocity balances springs and dampers.
 
     Attributes:
         free: directions without mass that constraints leave free, (k, n).

@@ -1,4 +1,4 @@
-"""Exudyn's own contacts: what their data variables, such as gaps, start from and end a step on."""
+"""Exudyn's own contacts: their data variables, such as gaps, at both ends of a step."""
 
 import exudyn as exu
 import numpy as np

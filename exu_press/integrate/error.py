@@ -1,4 +1,4 @@
-"""What one step misses, over what it may; compiled like the joints.
+"""The error of one step over the allowed one; compiled like the joints.
 
 Bodies' velocities, clearance joints' eccentricities and first-order coordinates; 1 is what a step
 may miss, and `ErrorPerStep` says how much that is of the run's tolerance.
@@ -35,7 +35,7 @@ LEAST_PENETRATION = 1e-3
 
 @dataclass(frozen=True)
 class ErrorPerStep:
-    """What a step may be off by, relative, so that the run is off by its tolerance.
+    """The relative error of a step with which the run's error is its tolerance.
 
     Generalized-alpha is of second order: its local error goes with h^3, and a run needs about
     tolerance^(-1/2) steps. So that the error of the whole run follows the tolerance, one step may
@@ -88,7 +88,7 @@ class ErrorPerStep:
 
 
 class Turning:
-    """How far the velocity of a body turns to one side, as that of a crank, until the run ends.
+    """The angle by which a body's velocity turns to one side, as a crank's, until the run ends.
 
     What a speed is off by makes the place be off by more and more, unless the motion comes back, as
     a vibration does. After a turn by an angle, in radians, the velocity there is off by so many
@@ -153,7 +153,7 @@ class Turning:
 
 
 class Quiet:
-    """How fast a vibration is, that each step misses the same of: its velocity's amplitude, m/s.
+    """Velocity amplitude of a vibration of which each step misses the same, m/s.
 
     All errors that steps make of a vibration add up to no more than the vibration itself. One whose
     amplitude is below the tolerance need not be followed, however long it lasts; if what a step may
@@ -407,7 +407,7 @@ class JointError:
 
 
 class FirstOrderError:
-    """What the trapezoidal rule misses: h^3 |y'''| / 12, over each coordinate's largest value."""
+    """The error of the trapezoidal rule: h^3 |y'''| / 12, over each coordinate's largest value."""
 
     def __init__(self, problem: Problem, per_step: ErrorPerStep) -> None:
         """Take what is solved, and what one step may miss, relative."""

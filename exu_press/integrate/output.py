@@ -12,7 +12,7 @@ from exu_press.integrate.settings import Task
 __all__ = ["OutputGrid", "between"]
 
 AT_ONCE = 1e-10
-"""How near two instants are one for Exudyn's output, s."""
+"""Distance below which two instants are one for Exudyn's output, s."""
 
 
 def between(part: float, step: float, start: list[Array], end: list[Array]) -> list[Array]:

@@ -124,7 +124,7 @@ class State:
 
 @dataclass(frozen=True)
 class Problem:
-    """What is integrated.
+    """The problem that is integrated.
 
     Attributes:
         mbs: the system.
@@ -304,7 +304,7 @@ def _length(data: Any, reference: Array, nodes: tuple[Node, ...]) -> float:
 
 @dataclass(frozen=True)
 class ErrorScales:
-    """What errors are relative to; None is found from the motion as it goes.
+    """Scales of errors; None is found from the motion as it goes.
 
     Attributes:
         speed: of the bodies, m/s; found: the largest so far.

@@ -1,4 +1,4 @@
-"""What of generalized-alpha is ours: a step's first guess, Newton's matrix, the mass of modes.
+"""Our parts of generalized-alpha: a step's first guess, Newton's matrix, the mass of modes.
 
 `Newton` tells where Newton's method starts and where it ends, `FlexibleJacobian` its matrix where
 bodies are flexible, `ModalMass` the mass with which their modes keep their frequencies.
@@ -297,7 +297,7 @@ def follow_modes(mbs: exu.MainSystem) -> None:
 
 
 class ModalMass:
-    """What the modes' mass is changed by in steps of a size.
+    """Return the change of the modes' mass in steps of a size.
 
     So flexible bodies vibrate at their own frequencies, in ten steps a period as in a hundred.
 

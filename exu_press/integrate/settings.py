@@ -1,4 +1,4 @@
-"""What a run is asked for: its numbers, and what it needs in Exudyn's settings, with reasons.
+"""The task of a run: its numbers, and the settings of Exudyn that it needs, with reasons.
 
 `solve_dynamic(..., tuning=SolverTuning(safety=0.8))` varies a number; `scripts/ablation.py` prints
 what each of them buys in error and run time. Exudyn's settings are put back after the run.
@@ -33,7 +33,7 @@ FIXED_STEPS = 5e-5
 """The tolerance whose Newton's method fixed steps have."""
 
 MOST_HALVED = 2.0**10
-"""How often over a fixed step is halved where Newton's method fails."""
+"""Number of halvings of a fixed step where Newton's method fails."""
 
 RELATIVE_RESIDUAL = 1e-10
 """Of the first residual: where Newton's method ends if it cannot get further."""

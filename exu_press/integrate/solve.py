@@ -39,11 +39,11 @@ EXUDYN_ENDS = 1e-10
 
 
 ARRIVED = "arrived"
-"""What a watch says of a run that got where it was to go: it is completed."""
+"""A watch's word for a run that has reached its aim: it is completed."""
 
 
 class SolverStatus(Enum):
-    """How a run ended; everything but COMPLETED makes exit status 3.
+    """The end of a run; all but COMPLETED have exit status 3.
 
     UNDER_RESOLVED reached its end too, but its steps did not resolve its impacts: its peaks are not
     to be trusted. The others are early stops.
@@ -103,7 +103,7 @@ class Advice:
 
     @property
     def setting(self) -> str:
-        """What makes steps larger or smaller."""
+        """The key that makes steps larger or smaller."""
         return "tolerance" if self.by_tolerance else "step"
 
     def place(self, time: float) -> str:

@@ -1,4 +1,4 @@
-"""Where a joint holds on to a body: position, velocity and how forces reach its coordinates.
+"""The point where a joint holds a body: position, velocity, and forces on its coordinates.
 
 In floats rather than arrays: less for three components, and this is called at every iteration.
 """

@@ -1,4 +1,4 @@
-"""What a joint did over the steps of a run."""
+"""The record of a joint over the steps of a run."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ memory."""
 
 @dataclass(frozen=True)
 class JointHistory:
-    """What a joint did at n instants: what `JointState` says, instant by instant.
+    """A joint at n instants: the contents of `JointState`, instant by instant.
 
     Attributes:
         eccentricity: journal centre - bearing centre, (n, 2 or 3), m.
@@ -42,12 +42,12 @@ class JointHistory:
 
     @property
     def dissipated_power(self) -> Array:
-        """What contact, friction and film turn into heat, (n,), W."""
+        """Heat of contact, friction and film, (n,), W."""
         return -self.power - self.stored_power
 
     @property
     def power(self) -> Array:
-        """What forces and moments bring into the two bodies, (n,), W."""
+        """Power of forces and moments on the two bodies, (n,), W."""
         found = np.zeros_like(self.gap)
         for loads, rates in (
             (self.force, self.velocity),

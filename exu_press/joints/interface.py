@@ -1,4 +1,4 @@
-"""Journal and bearing in polar form: what a joint's surfaces do to each other in its plane.
+"""Journal and bearing in polar form: the interaction of a joint's surfaces in its plane.
 
 With e = journal centre - bearing centre, n = e/|e| and t a quarter turn counter-clockwise from n,
 an interface law turns (|e|, d|e|/dt, v_t, omega_J, omega_B) into the force on the journal
@@ -51,7 +51,7 @@ Load = tuple[float, float, float, float, Response]
 
 
 class InterfaceLaw:
-    """What a joint needs of its two surfaces; `None` stands for no force at all.
+    """Base of interface laws: the action of two surfaces; `None` stands for no force at all.
 
     Attributes:
         clearance: distance of the centres at which the surfaces touch, m.
@@ -370,7 +370,7 @@ class FunctionInterface(InterfaceLaw):
 
 
 class InterfaceJoint:
-    """What revolute joints in the plane and in space have in common: interfaces acting in parallel.
+    """Base of revolute joints in the plane and in space: interfaces acting in parallel.
 
     Attributes:
         interfaces: the first one has the joint's clearance.

@@ -1,4 +1,4 @@
-"""What the user force element needs of a joint, and what a joint says of itself."""
+"""The joint as the user force element needs it, and its record."""
 
 from typing import Any, NamedTuple, Protocol
 
@@ -18,7 +18,7 @@ beside the radius, and its half-width sqrt(R delta) is then a tenth of it (Johns
 
 
 class JointState(NamedTuple):
-    """What a joint does at one instant, in the global frame: x, y in the plane, x, y, z in space.
+    """A joint at one instant, in the global frame: x, y in the plane, x, y, z in space.
 
     Attributes:
         eccentricity: journal centre - bearing centre, m.
@@ -43,12 +43,12 @@ class JointState(NamedTuple):
 
     @property
     def dissipated_power(self) -> float:
-        """What contact, friction and film turn into heat, W."""
+        """Heat of contact, friction and film, W."""
         return -self.power - self.stored_power
 
     @property
     def power(self) -> float:
-        """What forces and moments bring into the two bodies, W."""
+        """Power of forces and moments on the two bodies, W."""
         pairs = zip(self.force + self.moments, self.velocity + self.angular_velocities, strict=True)
         return sum(load * rate for load, rate in pairs)
 
@@ -68,7 +68,7 @@ class ClearanceJoint(Protocol):
     path: Path
     """Of the journal."""
     indices: list[int]
-    """Where the joint's coordinates lie among those of the item."""
+    """Positions of the joint's coordinates among those of the item."""
 
     @property
     def outside(self) -> float | None:

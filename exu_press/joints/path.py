@@ -1,4 +1,4 @@
-"""The path of a journal: what a step's change of eccentricity misses of its rate's integral.
+"""The path of a journal: the part of its rate's integral that a step's change misses.
 
 A journal's position is the integral of its bodies' velocities, and nothing in a contact's damping,
 a film or free flight mends what an integration misses of it. The corrected trapezoidal rule gives

@@ -1,4 +1,4 @@
-"""What a contact law delivers: the restitution of one bounce, exactly or by integration."""
+"""Restitution of a contact law over one bounce, exactly or by integration."""
 
 from math import expm1, log1p
 

@@ -91,7 +91,7 @@ class LoadCurve:
 
 
 class Clock(Protocol):
-    """What a load remembers from step to step."""
+    """The memory of a load from step to step."""
 
     def memory(self) -> tuple[float, float | None]:
         """Return what it remembers."""

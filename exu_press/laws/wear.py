@@ -1,4 +1,4 @@
-"""What sliding wears off two surfaces, and where."""
+"""Sliding wear of two surfaces: its volume and its place."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""What a mechanism's data must be, before anything is computed of it."""
+"""Checks of a mechanism's data, before anything is computed of it."""
 
 import math
 from collections.abc import Collection, Iterable, Mapping, Sequence
@@ -18,7 +18,7 @@ DEFAULTS = {
     **dict.fromkeys(("clearance", "radius"), (int, float)),
     **dict.fromkeys(("joints", "contact", "friction", "film"), (Mapping,)),
 }
-"""What a mechanism may give its scenes; their values are checked as a scene's own."""
+"""Tables that a mechanism may give its scenes; their values are checked as a scene's own."""
 
 SHAPES = ("revolute", "spherical")
 

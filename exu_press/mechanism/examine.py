@@ -60,7 +60,7 @@ class Examination:
 
     @property
     def complaints(self) -> tuple[str, ...]:
-        """What is wrong, a sentence each; none where the crank turns through a revolution."""
+        """Faults, a sentence each; none where the crank turns through a revolution."""
         if self.refusal is None:
             return ()
         return str(self.refusal), *self.misfits

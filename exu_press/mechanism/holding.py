@@ -34,10 +34,10 @@ ALL_ROUND = tuple(SOMEWHERE[0] + 2.0 * math.pi * n / 24 for n in range(24))
 """The same all around, at distances shorter than that of two dead centres."""
 
 INDEPENDENT = 1e-7
-"""What of a constraint's unit row others must leave."""
+"""Part of a constraint's unit row that others must leave."""
 
 KEPT = 1e-6
-"""What a direction may turn in the frame of a body that keeps it, rad."""
+"""Angle by which a direction may turn in the frame of a body that keeps it, rad."""
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,7 @@ class SingleAxis:
 
 @dataclass(frozen=True)
 class Holding:
-    """What is held by what.
+    """The bodies and the constraints that hold them.
 
     Attributes:
         pivoted: bodies on an ideal pivot of the frame -> that joint.

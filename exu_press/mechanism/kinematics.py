@@ -27,7 +27,7 @@ LONGEST_STEP = math.radians(30.0)
 SHORTEST_STEP = math.radians(1e-4)
 
 STRAY = 0.1
-"""What a step may end beside its prediction, rad or relative to the mechanism's size."""
+"""Distance of a step's end from its prediction, rad or relative to the mechanism's size."""
 
 CLOSED = 1e-13
 """Change of the coordinates, rad or relative to the size, that ends Newton's method."""

@@ -27,7 +27,7 @@ INDEPENDENT = 1e-9
 
 @dataclass(frozen=True)
 class Mobility:
-    """How a drawing can move, at one position.
+    """Mobility of a drawing at one position.
 
     Attributes:
         bodies: number of moving bodies, three degrees of freedom each.

@@ -1,4 +1,4 @@
-"""What a mechanism is made of, in the coordinates of one assembled drawing."""
+"""Parts of a mechanism, in the coordinates of one assembled drawing."""
 
 import math
 from dataclasses import dataclass
@@ -95,7 +95,7 @@ class Spring:
 
 @dataclass(frozen=True)
 class Guideway:
-    """What a body slides between with clearance: it touches them with its two ends.
+    """Guideways between which a body slides with clearance: it touches them with its two ends.
 
     Attributes:
         clearance: on each side, m.

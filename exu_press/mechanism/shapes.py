@@ -1,4 +1,4 @@
-"""What the bodies look like from the front: links around their joints, blocks on guides.
+"""Shapes of the bodies from the front: links around their joints, blocks on guides.
 
 Drawn, not measured: links have one width, blocks grow with the cube root of their mass. Only the
 joints' positions are the mechanism's.
@@ -21,7 +21,7 @@ ROD = 0.011
 """Half the width of a link, relative to the mechanism's height."""
 
 BLOCK = 0.07
-"""What the heaviest block has around its joints, relative to the mechanism's height."""
+"""Margin of the heaviest block around its joints, relative to the mechanism's height."""
 
 CORNERS = 48
 """Of a link's outline, most of them at its round ends."""
@@ -41,7 +41,7 @@ class Shape:
 
     @property
     def colour(self) -> str:
-        """What it is filled with."""
+        """Its fill."""
         return COLOURS[self.role]
 
     def moved(self, pose: Array) -> Array:

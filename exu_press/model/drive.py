@@ -1,4 +1,4 @@
-"""What turns the crank, and holds flexible bodies in space."""
+"""The drive of the crank, and the support of flexible bodies in space."""
 
 from collections.abc import Callable, Mapping
 from typing import Any

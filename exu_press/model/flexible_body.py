@@ -58,7 +58,7 @@ OUT_OF_PLANE = (2, 4, 5)
 
 @dataclass(frozen=True)
 class FrameStart:
-    """Where a flexible body starts: its frame, and the modal coordinates if it is deformed.
+    """The start of a flexible body: its frame, and the modal coordinates if it is deformed.
 
     Attributes:
         position: of the frame's origin, (3,), m.

@@ -1,4 +1,4 @@
-"""What Exudyn's own viewer shows of a model: solids for the rigid bodies, guides and pivots.
+"""A model in Exudyn's own viewer: solids for the rigid bodies, guides and pivots.
 
 Made when a user asks for the model, not for a run, which has no use for it. Flexible bodies bring
 their surfaces with them.

@@ -1,4 +1,4 @@
-"""Where a mechanism with clearance starts: its journals where the loads of its motion press them.
+"""The start of a mechanism with clearance: journals lie where the loads of the motion press them.
 
 Journals that start in the middle of their bearings at full speed fall on them, and the first peaks
 are those of this fall. Here each joint has the force of the ideal motion, from inertia, weight and

@@ -107,7 +107,7 @@ def _add_load(system: System, name: str, load: AppliedLoad, place: Place) -> Non
 
 
 class Cutting:
-    """What tells the penetration into a sheet, m, and its rate, m/s, of the current state."""
+    """The penetration into a sheet, m, and its rate, m/s, in the current state."""
 
     def __init__(self, cut: Cut, top: float, height: Place) -> None:
         """Cut a sheet whose upper face is at a height, m."""

@@ -91,7 +91,7 @@ class Model(Assembled):
 
     @cached_property
     def _sampled(self) -> Section | None:
-        """Where a crank of constant speed is sampled."""
+        """Samples of a crank of constant speed."""
         output = self.scene.output
         if output is None or not output.samples or self.scene.drive is not None:
             return None
@@ -99,7 +99,7 @@ class Model(Assembled):
 
     @property
     def event(self) -> Callable[[exu.MainSystem, float], float] | None:
-        """What changes its sign where a motor's crank is sampled or arrives, or None."""
+        """A function that changes its sign where a motor's crank is sampled or arrives, or None."""
         if self.scene.drive is None:
             return None
         output = self.scene.output

@@ -41,7 +41,7 @@ NEAR = 1e-4
 """m: how far a face's axis may lie from its joint; drawings are rounded to tenths of a mm."""
 
 IN_THE_PLANE = ("x", "y", "rz")
-"""What a planar mechanism loads faces in."""
+"""Directions in which a planar mechanism loads faces."""
 
 MILLIMETRES = 1e-3
 """Netgen reads every STEP file in millimetres, whatever its own unit."""

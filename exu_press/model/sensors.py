@@ -1,4 +1,4 @@
-"""What a system records in memory, every step."""
+"""Sensors: the record of every step, in memory."""
 
 from collections.abc import Mapping
 

@@ -1,4 +1,4 @@
-"""Where flexible bodies start: on the motion of ideal joints when vibrations are over."""
+"""The start of flexible bodies: on the motion of ideal joints when vibrations are over."""
 
 from collections.abc import Iterator
 from typing import TYPE_CHECKING

@@ -31,7 +31,7 @@ __all__ = ["System"]
 
 
 class System:
-    """What every room that adds something to a system uses.
+    """A system that is being assembled, with all that its parts need.
 
     Attributes:
         scene: what is asked.

@@ -1,4 +1,4 @@
-"""What makes a part of a page live: the library, our script, data as text that no browser runs."""
+"""The live part of a page: the library, our script, data as text that no browser runs."""
 
 import base64
 import hashlib

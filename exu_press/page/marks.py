@@ -1,4 +1,4 @@
-"""What is marked on the curves: impacts, dead centres, peaks with their errors."""
+"""Marks on the curves: impacts, dead centres, peaks with their errors."""
 
 from collections.abc import Iterable
 from typing import Any

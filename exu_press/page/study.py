@@ -18,7 +18,7 @@ MOST_PARALLEL = 4
 
 @dataclass(frozen=True)
 class Column:
-    """What the runs of a study have of one key or quantity.
+    """The values of one key or quantity in the runs of a study.
 
     Attributes:
         name: of the key or quantity.

@@ -1,4 +1,4 @@
-"""Run a batch: what is finished already is read, the rest is run, each row kept as it comes."""
+"""Run a batch: finished rows are read, the rest is run, each row kept as it comes."""
 
 import os
 import sys
@@ -29,7 +29,7 @@ Chain = Generator[Mapping[str, Any], Row, None]
 
 
 class Pool(Protocol):
-    """What performs tasks.
+    """A performer of tasks.
 
     Attributes:
         window: how many tasks are handed over at a time.

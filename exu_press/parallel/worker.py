@@ -1,4 +1,4 @@
-"""What runs in a worker process: tasks from standard input, rows to what was standard output.
+"""A worker process: tasks from standard input, rows to its first standard output.
 
 Started by `exu_press.parallel.child`; both ways a line is one JSON text. The process ends itself
 when its standard input closes: that is how it learns that its parent is gone, even by kill -9.

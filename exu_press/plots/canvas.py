@@ -1,4 +1,4 @@
-"""What every picture does the same way: title, curves over crank angle, legends beside the data."""
+"""The common parts of all pictures: title, curves over crank angle, legends beside the data."""
 
 from collections.abc import Iterable, Mapping
 from typing import Any

@@ -53,7 +53,7 @@ class Path:
 
     @property
     def record(self) -> JointRecord:
-        """What the joint did."""
+        """The joint's record."""
         return self.result.joints[self.joint]
 
     @property

@@ -1,4 +1,4 @@
-"""Where the energy goes, over crank angle."""
+"""The energy balance over crank angle."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""What the joints and the drive carry, over crank angle."""
+"""Forces of joints and torque of the drive over crank angle."""
 
 from collections.abc import Mapping, Sequence
 

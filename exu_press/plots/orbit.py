@@ -1,4 +1,4 @@
-"""How journals and balls move in their clearance: path in the circle, eccentricity over angle."""
+"""Motion of journals and balls in their clearance: path in the circle, eccentricity over angle."""
 
 import numpy as np
 from matplotlib.axes import Axes

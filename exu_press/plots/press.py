@@ -1,4 +1,4 @@
-"""What press builders look at: shaking force, drive, guides, bottom dead centres, tilt."""
+"""The press builder's picture: shaking force, drive, guides, bottom dead centres, tilt."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -39,7 +39,7 @@ from exu_press.scene.applied import applied_loads
 __all__ = ["press_figure"]
 
 ABOUT = (12.0, 10.0, 8.0, 6.0, 5.0, 4.0, 3.0, 2.0, 1.0, 0.5)
-"""How far about bottom dead centre the strokes may be shown, deg."""
+"""Largest crank angle about bottom dead centre over which strokes are shown, deg."""
 
 RISE = 50e-6
 """m; the ideal slider rises no more where they are shown, so that micrometres are seen."""

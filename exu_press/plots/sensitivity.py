@@ -1,4 +1,4 @@
-"""A sensitivity study in one picture: what each quantity spreads over, and which key does it."""
+"""A sensitivity study in one picture: the spread of each quantity, and its share by key."""
 
 from pathlib import Path
 

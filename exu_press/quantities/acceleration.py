@@ -1,4 +1,4 @@
-"""What a peak acceleration means: three observation models of the same curve.
+"""Peak accelerations by three observation models of the same curve.
 
 An impact lasts about 75 us, so that the peak that is read depends on who looks: the integrator, a
 program that prints one value a millisecond, or an instrument that differentiates a displacement.

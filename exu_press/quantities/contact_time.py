@@ -1,4 +1,4 @@
-"""How often and how long surfaces touch."""
+"""Number and duration of contacts."""
 
 import numpy as np
 

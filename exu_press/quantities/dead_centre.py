@@ -1,4 +1,4 @@
-"""Where the slider turns: the bottom dead centre of every stroke."""
+"""The bottom dead centre of every stroke."""
 
 from dataclasses import dataclass
 from functools import lru_cache

@@ -1,4 +1,4 @@
-"""How long flexible bodies last: rainflow cycles of their stress, an S-N curve, Miner's sum."""
+"""Fatigue life of flexible bodies: rainflow cycles of their stress, an S-N curve, Miner's sum."""
 
 import math
 from collections.abc import Callable, Sequence

@@ -23,7 +23,7 @@ ROUNDING = 1e-9
 
 @dataclass(frozen=True)
 class Kind:
-    """What the least error of a quantity is, however well runs agree.
+    """The least error of a quantity, however well runs agree.
 
     Attributes:
         name: in one word.

@@ -1,4 +1,4 @@
-"""Quantities of drive, frame and guides: what press builders look at."""
+"""Quantities of drive, frame and guides, for press builders."""
 
 from collections.abc import Callable, Iterator
 

@@ -13,7 +13,7 @@ __all__ = ["Extreme", "Place", "Quantity", "always"]
 
 
 class Place(Enum):
-    """What a quantity belongs to; the value begins its full name."""
+    """The owner of a quantity; the value begins its full name."""
 
     RUN = ""
     JOINT = "joints"

@@ -1,4 +1,4 @@
-"""Quantities of a sheet that is cut: what the press does when the resistance is gone."""
+"""Quantities of a sheet that is cut, and of the press's release."""
 
 from collections.abc import Callable
 from functools import partial

@@ -1,4 +1,4 @@
-"""Runs as a table: what a person reads in a terminal or a report."""
+"""Runs as a table, for a terminal or a report."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any

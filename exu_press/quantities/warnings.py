@@ -1,4 +1,4 @@
-"""What a reader of a run should know before believing its figures."""
+"""Warnings that a reader of a run's figures needs."""
 
 import math
 from collections.abc import Iterator, Mapping

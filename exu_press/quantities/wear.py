@@ -24,7 +24,7 @@ SECTORS = 72
 
 @dataclass(frozen=True)
 class Sliding:
-    """What a dry revolute joint does in each step.
+    """Sliding of a dry revolute joint in each step.
 
     Attributes:
         force: normal, (n,), N; none out of contact.

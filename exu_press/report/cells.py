@@ -1,4 +1,4 @@
-"""What a notebook shows of a scene, a mechanism, a result or a comparison."""
+"""Notebook cells of a scene, a mechanism, a result or a comparison."""
 
 import tempfile
 from collections.abc import Mapping

@@ -12,7 +12,7 @@ __all__ = ["Kind", "find_output", "report_of"]
 
 
 class Kind(Enum):
-    """What there are reports of, by the file that tells."""
+    """Kinds of output that have reports, by the file that identifies them."""
 
     RUN = "run.nc"
     COMPARISON = "comparison.json"

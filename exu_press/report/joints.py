@@ -1,4 +1,4 @@
-"""Every joint of a run in one table: what the few in the summary's lines leave out."""
+"""Every joint of a run in one table."""
 
 from exu_press.plots.words import joint_in_words
 from exu_press.quantities.catalogue import CATALOGUE

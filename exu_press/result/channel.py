@@ -16,7 +16,7 @@ AXES = {
     "pose": ("x", "y", "angle"),
     "ends": ("journal", "bearing"),
 }
-"""What a channel's columns are."""
+"""The columns of a channel."""
 
 
 @dataclass(frozen=True)

@@ -50,7 +50,7 @@ class Variable:
 
 @dataclass(frozen=True)
 class Classic:
-    """What a file holds; attributes as of a `Variable`."""
+    """Contents of a file; attributes as of a `Variable`."""
 
     attributes: Mapping[str, bytes]
     variables: Mapping[str, Variable]

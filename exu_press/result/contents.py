@@ -1,4 +1,4 @@
-"""What a result has to hold, so that whatever reads one can rely on it."""
+"""Contents of a result, on which all of its readers rely."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -24,7 +24,7 @@ LARGEST_SINGLE = 1e16
 
 @dataclass(frozen=True)
 class Contents:
-    """What a `Result` is made of and its file holds, checked once; the attributes are there."""
+    """The contents of a `Result` and of its file, checked once; the attributes are there."""
 
     scene: Scene
     channels: Mapping[str, Channel]

@@ -21,7 +21,7 @@ PLACES = {
     "body": "flexible bodies",
     "faced": "joints of flexible bodies that turn on the frame",
 }
-"""What a channel belongs to -> which runs have it."""
+"""Owner of a channel -> the runs that have it."""
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ class Declared:
 
     @property
     def of(self) -> str:
-        """What it belongs to."""
+        """Its owner."""
         return self.name.partition("{")[2].partition("}")[0]
 
     def at(self, place: str) -> str:

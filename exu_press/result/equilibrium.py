@@ -1,4 +1,4 @@
-"""What ideal guides and pivots hold their bodies with: the equilibrium of all that acts on these.
+"""Forces of ideal guides and pivots, by the equilibrium of their bodies.
 
 Such a body has one coordinate (`exu_press.model.rigid_body`), so that no constraint tells the
 force.

@@ -1,4 +1,4 @@
-"""What flexible bodies do: deformation and energy."""
+"""Channels of flexible bodies: deformation and energy."""
 
 from typing import TYPE_CHECKING
 

@@ -1,4 +1,4 @@
-"""What holds and drives the mechanism: forces of drive, guides and ideal joints."""
+"""Forces that hold and drive the mechanism: those of drive, guides and ideal joints."""
 
 from collections.abc import Mapping
 

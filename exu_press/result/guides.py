@@ -1,4 +1,4 @@
-"""What guides hold, store and turn into heat: elastic ones, ones with clearance, and friction."""
+"""Forces, energy and heat of guides: elastic ones, ones with clearance, and friction."""
 
 from collections.abc import Mapping
 

@@ -1,4 +1,4 @@
-"""How a run ended, what it took and with what: a result's metadata, in memory and in its file."""
+"""Metadata of a result, its end, cost and versions, in memory and in its file."""
 
 from typing import NotRequired, TypedDict
 
@@ -22,7 +22,7 @@ class Stress(TypedDict):
 
 
 class Solid(TypedDict):
-    """What a flexible body's solid weighs, which is taken instead of what the mechanism says.
+    """Mass properties of a flexible body's solid, which replace the mechanism's.
 
     Attributes:
         mass: kg.
@@ -40,7 +40,7 @@ class Solid(TypedDict):
 
 
 class Error(TypedDict):
-    """What is known of the error of a figure.
+    """The error of a figure.
 
     Attributes:
         error: absolute, in the figure's unit.
@@ -57,7 +57,7 @@ class Error(TypedDict):
 
 
 class Figures(TypedDict):
-    """What was read of all channels before the file left some of them out.
+    """Values that were read before the file left channels out.
 
     Attributes:
         quantities: full name -> value in SI, None where the run was too short to have it.
@@ -73,7 +73,7 @@ class Figures(TypedDict):
 
 
 class Errors(TypedDict):
-    """What a run says of the errors of its figures.
+    """The errors of a run's figures.
 
     Attributes:
         errors: by the figure's dotted name.

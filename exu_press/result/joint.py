@@ -1,4 +1,4 @@
-"""What one joint did during a run."""
+"""One joint during a run."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -57,7 +57,7 @@ class JointRecord:
 
     @property
     def dissipated_power(self) -> Array:
-        """What contact, friction and film turn into heat, (n,), W."""
+        """Heat of contact, friction and film, (n,), W."""
         return np.zeros(len(self.force)) if self.kind == "ideal" else self._of_clearance("power")
 
     @property

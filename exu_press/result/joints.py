@@ -1,4 +1,4 @@
-"""What clearance joints do: eccentricity, force, moments, losses."""
+"""Channels of clearance joints: eccentricity, force, moments, losses."""
 
 from collections.abc import Mapping
 

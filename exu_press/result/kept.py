@@ -1,4 +1,4 @@
-"""What the file of a run keeps of it, with the quantities read of all."""
+"""The channels that a run's file keeps, with the quantities read of all."""
 
 import dataclasses
 from collections.abc import Iterable, Mapping

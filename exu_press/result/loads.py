@@ -1,4 +1,4 @@
-"""What the loads did: their forces, and the work that they put in."""
+"""Channels of loads: forces, and the work that they put in."""
 
 from collections.abc import Mapping
 

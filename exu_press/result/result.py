@@ -1,4 +1,4 @@
-"""What came out of one run: channels over time, how it ended, and the scene it came from."""
+"""The result of one run: channels over time, its end, and its scene."""
 
 import copy
 from collections.abc import Callable, Iterator, Mapping
@@ -22,7 +22,7 @@ from exu_press.schema.checks import nearest
 __all__ = ["Result"]
 
 LOOSE = "eccentricity", "moment", "power"
-"""What a joint with clearance has beside its force."""
+"""Channels of a joint with clearance, beside its force."""
 
 
 class _Joints(dict[str, JointRecord]):

@@ -29,7 +29,7 @@ channels go to the disk."""
 
 COMPLETED = SolverStatus.COMPLETED.value
 ON = COMPLETED, SolverStatus.UNDER_RESOLVED.value
-"""How blocks end from which the next one goes on."""
+"""Ends of blocks from which the next one goes on."""
 
 
 def run_once(

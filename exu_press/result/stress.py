@@ -1,4 +1,4 @@
-"""Where a flexible body is stressed most, and the stress there over time."""
+"""The most stressed point of a flexible body, and the stress there over time."""
 
 from typing import TYPE_CHECKING
 

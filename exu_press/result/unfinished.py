@@ -1,4 +1,4 @@
-"""What a long run leaves on disk while it goes on: all of it, where its process is killed."""
+"""The blocks of a long run on disk, which stay there if its process is killed."""
 
 import shutil
 import warnings

@@ -1,4 +1,4 @@
-"""Scene: what is asked, validated once."""
+"""Scene: the task, validated once."""
 
 from exu_press.mechanism import Press, SliderCrank
 from exu_press.scene.bodies import Face, Flexible, flexible_press

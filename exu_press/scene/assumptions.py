@@ -1,4 +1,4 @@
-"""What a scene leaves to its defaults, and which of these decide its results.
+"""Assumptions of a scene: its defaults, and those of them that decide its results.
 
 The assumptions A-1 to A-14, which stand for what the paper does not say, are listed here once;
 meanings, defaults and their sources are in tables.py.

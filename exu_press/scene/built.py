@@ -1,4 +1,4 @@
-"""What a scene is built into, as its users see it."""
+"""The built model of a scene, as its users see it."""
 
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Protocol

@@ -1,4 +1,4 @@
-"""What one joint is: ideal, dry or lubricated, and with which laws."""
+"""The kind of one joint, ideal, dry or lubricated, with its laws."""
 
 import dataclasses
 from collections.abc import Mapping
@@ -26,7 +26,7 @@ __all__ = [
 ]
 
 SIZES = ("clearance", "radius")
-"""What a joint with clearance needs; a mechanism may have one for all of them."""
+"""Keys that a joint with clearance needs; a mechanism may have them for all joints."""
 
 
 @dataclass(frozen=True)
@@ -94,7 +94,7 @@ JOINT_KINDS: dict[str, type[Joint]] = {
 }
 
 LAW_TABLES: dict[str, type[Table]] = {"contact": Contact, "friction": Friction, "film": Film}
-"""What joints have of the scene unless they say otherwise."""
+"""Tables of the scene that hold for a joint unless it has its own."""
 
 
 def keys_used(kind: Any, at_contact: Any) -> tuple[str, ...]:

@@ -1,4 +1,4 @@
-"""Joints as nested mappings, before they are checked: what is changed, used and dropped."""
+"""Joints as nested mappings, before they are checked: changes, uses and drops."""
 
 from collections.abc import Iterable, Mapping
 from typing import Any

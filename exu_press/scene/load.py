@@ -1,4 +1,4 @@
-"""What one load is: a blanking pulse, a table of forces, a sheet or a spring."""
+"""One load: a blanking pulse, a table of forces, a sheet or a spring."""
 
 import dataclasses
 import math
@@ -15,7 +15,7 @@ from exu_press.schema.checks import Table, key
 __all__ = ["COLUMNS", "LOAD_KINDS", "BlankingLoad", "Load", "SheetLoad", "SpringLoad", "TableLoad"]
 
 COLUMNS = ("time", "crank_angle_deg", "height")
-"""What a table's forces are given over."""
+"""Variables that a table's forces may be given over."""
 
 LOWEST = 180.0
 """deg, where a pulse ends unless another place is given."""
@@ -23,7 +23,7 @@ LOWEST = 180.0
 
 @dataclass(frozen=True)
 class _Placed(Table):
-    """Where a load acts; its direction stays in the frame however the body turns.
+    """The place of a load; its direction stays in the frame however the body turns.
 
     A flexible body needs to know which of its faces carry the load: those of a joint, or others. A
     point beside the middle of these moves with their mean motion.
@@ -83,7 +83,7 @@ class BlankingLoad(_Placed):
 
     @property
     def over(self) -> str:
-        """What the curve is given over."""
+        """The variable of the curve."""
         return "crank_angle_deg"
 
     @property
@@ -166,7 +166,7 @@ class TableLoad(_Placed):
 
     @property
     def over(self) -> str:
-        """What the curve is given over."""
+        """The variable of the curve."""
         return next(name for name in COLUMNS if getattr(self, name) is not None)
 
     @property
@@ -239,7 +239,7 @@ class SheetLoad(_Placed):
 
     @property
     def over(self) -> str:
-        """What the curve is given over."""
+        """The variable of the curve."""
         return "penetration"
 
     @property
@@ -306,7 +306,7 @@ class SpringLoad(_Placed):
 
     @property
     def over(self) -> str:
-        """What the curve is given over."""
+        """The variable of the curve."""
         return "height"
 
     @property

@@ -11,7 +11,7 @@ from exu_press.scene.load import COLUMNS
 __all__ = ["MOVED", "read_load_table"]
 
 MOVED = "is height now, which counts from bottom dead centre, and acts = 'both' for a spring"
-"""What replaces the position of the slider."""
+"""The key that replaces the position of the slider."""
 
 HEADERS = " or ".join(f"'{name},force'" for name in COLUMNS)
 

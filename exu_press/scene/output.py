@@ -1,4 +1,4 @@
-"""The table [output]: what the file of a run keeps, and where the run is sampled."""
+"""The table [output]: contents of a run's file, and samples of the run."""
 
 import fnmatch
 import math
@@ -19,7 +19,7 @@ ALWAYS = "time", "crank_angle"
 
 @dataclass(frozen=True)
 class Output(Table):
-    """What a run's file keeps: channels, how densely, and samples where steps end exactly.
+    """Contents of a run's file: channels, their density, and samples where steps end exactly.
 
     Quantities are read from all channels at all steps, before any of them are left out.
 

@@ -17,7 +17,7 @@ __all__ = ["OwnJoint", "own_kind"]
 
 @dataclass(frozen=True)
 class OwnJoint(Table, ABC):
-    """What a joint kind of your own derives from; `kind = "my_module:MyClass"` names it in a scene.
+    """Base of a joint kind of your own; `kind = "my_module:MyClass"` names it in a scene.
 
     The derived dataclass declares its keys by `exu_press.schema.checks.key`. A key whose default is
     None has to be given.

@@ -1,4 +1,4 @@
-"""What is asked: one frozen Scene, validated once."""
+"""The task: one frozen Scene, validated once."""
 
 import dataclasses
 import math

@@ -64,7 +64,7 @@ EXAMPLES: dict[str, dict[str, Any]] = {
     "output": {"samples": (0.0, 180.0)},
     "wear": {"coefficient": 1e-5, "hardness": 2e9, "length": 0.1},
 }
-"""What tables that are not in use are shown with, since they need something."""
+"""Values with which tables that are not in use are shown, since they need some."""
 
 OF_MECHANISMS = ("press", "slider_crank")
 """Tables of other mechanisms than the scene's, which it could not use."""

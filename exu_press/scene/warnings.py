@@ -1,4 +1,4 @@
-"""What a scene allows although it is hardly meant, and which figures of a run it changes."""
+"""Warnings of a scene: values that are allowed but hardly meant, and figures they change."""
 
 import math
 from collections.abc import Iterator

@@ -1,4 +1,4 @@
-"""What wears: the [wear] table of a scene."""
+"""The [wear] table of a scene."""
 
 from dataclasses import dataclass
 from typing import ClassVar

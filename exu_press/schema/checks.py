@@ -1,4 +1,4 @@
-"""How a key of the scene states what it allows, and its validation."""
+"""Keys of a scene: their allowed values, and the validation."""
 
 import copy
 import dataclasses

@@ -1,4 +1,4 @@
-"""What is stored as JSON, checked against the type that it was written as."""
+"""Stored JSON, checked against the type that it was written as."""
 
 import json
 import reprlib

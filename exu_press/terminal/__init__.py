@@ -1,1 +1,1 @@
-"""What a terminal shows: texts in columns, and how far a long job is."""
+"""Terminal output: texts in columns, and the progress of a long job."""

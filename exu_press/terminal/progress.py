@@ -1,4 +1,4 @@
-"""How far a long job is: a bar on a terminal, plain lines elsewhere, nothing when quiet."""
+"""Progress of a long job: a bar on a terminal, plain lines elsewhere, nothing when quiet."""
 
 import sys
 import time

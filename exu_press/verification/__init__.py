@@ -1,4 +1,4 @@
-"""How far a run's figures can be believed: the errors of its steps, and where motion is chaotic."""
+"""Solution verification: the errors of a run's figures, and chaotic motion."""
 
 from exu_press.verification.growth import Growth, growth
 from exu_press.verification.run import simulate_with_errors, with_errors

@@ -1,4 +1,4 @@
-"""What is determined of figures where motion is chaotic: their distribution over revolutions."""
+"""Distribution of figures over revolutions, where motion is chaotic."""
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass

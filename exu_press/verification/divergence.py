@@ -1,4 +1,4 @@
-"""How a run and one beside it diverge: in joints and guides with clearance."""
+"""Divergence of a run and one beside it, in joints and guides with clearance."""
 
 from collections.abc import Iterator
 

@@ -1,4 +1,4 @@
-"""How fast neighbouring motions part, and from when on they have nothing in common."""
+"""Growth of errors: the rate at which neighbouring motions diverge, and the horizon."""
 
 import math
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ rounding and by their tolerances, which says nothing of how errors grow."""
 
 @dataclass(frozen=True)
 class Growth:
-    """How the distance of two neighbouring motions grows.
+    """Growth of the distance of two neighbouring motions.
 
     Attributes:
         rate: of its logarithm, 1/s: Lyapunov's largest exponent where motion is chaotic; None where

@@ -1,4 +1,4 @@
-"""What is left open by reading loads at steps, which is in all runs alike."""
+"""The error of reading loads at steps, which all runs share."""
 
 from collections.abc import Callable
 

@@ -47,7 +47,7 @@ POLL = 2e-3
 Process = BaseProcess | subprocess.Popen[bytes]
 
 SAID = "said_{}.txt"
-"""What the process of the refinement of this number wrote to its terminal."""
+"""File with the terminal output of the process of the refinement run of this number."""
 
 
 def plan(scene: Scene) -> dict[float, Scene]:

@@ -1,4 +1,4 @@
-"""What came of a wanted error, in words."""
+"""The outcome of a wanted error, in words."""
 
 import math
 

@@ -34,7 +34,7 @@ AIM = 0.8
 
 @dataclass(frozen=True)
 class Delivered:
-    """What came of it.
+    """The outcome.
 
     Attributes:
         result: the run at the tolerance that was found, with its errors.

@@ -1,4 +1,4 @@
-"""What every film law is: a function of three floats that returns force, drag and derivatives."""
+"""The form of every film law: a function of three floats with force, drag and derivatives."""
 
 import math
 from collections.abc import Callable

@@ -1,4 +1,4 @@
-"""Reynolds' equation of a finite bearing, solved numerically: what `finite` is tabulated from."""
+"""Reynolds' equation of a finite bearing, solved numerically; the source of `finite`'s tables."""
 
 import math
 from typing import Any, NamedTuple

@@ -1,4 +1,4 @@
-"""What a press does in the long run: period, largest Lyapunov exponent, figures by revolution."""
+"""Long-run dynamics of a press: period, largest Lyapunov exponent, figures by revolution."""
 
 from exu_press.studies.attractor.lyapunov import Exponent
 from exu_press.studies.attractor.period import Period, period_of

@@ -1,4 +1,4 @@
-"""What a terminal says of the motion in the long run."""
+"""Long-run dynamics in a terminal."""
 
 import math
 

@@ -48,7 +48,7 @@ class Exponent:
 
     @property
     def sign(self) -> str:
-        """What it says of the motion, in a word or two."""
+        """Its meaning for the motion, in a word or two."""
         if self.low > 0.0:
             return "chaotic"
         return "regular" if self.high < 0.0 else "undecided"

@@ -45,7 +45,7 @@ SHOWN = 4
 
 @dataclass(frozen=True)
 class Attractor:
-    """What a press does in the long run.
+    """Long-run dynamics of a press.
 
     Attributes:
         scene: complete.

@@ -1,4 +1,4 @@
-"""What all studies have in common: a file, keys that vary, runs side by side, their rows."""
+"""The base of all studies: a file, keys that vary, runs side by side, their rows."""
 
 from exu_press.studies.base.keys import Key, Normal, Range, Values
 from exu_press.studies.base.runs import Row, Runs, row_of, run_scene

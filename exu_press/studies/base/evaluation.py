@@ -22,7 +22,7 @@ NO_SCENE = "not a scene"
 
 
 class Evaluation:
-    """What a solver or a sample asks: points in, quantities out.
+    """Evaluation of points for a solver or a sample: points in, quantities out.
 
     Attributes:
         quantities: full names.
@@ -56,7 +56,7 @@ class Evaluation:
 
     @property
     def asked(self) -> int:
-        """How many different points were asked for."""
+        """Number of different points that were evaluated."""
         return len(self.rows)
 
     def __call__(self, points: Sequence[Point]) -> Array:

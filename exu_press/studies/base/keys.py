@@ -1,4 +1,4 @@
-"""How a key of a scene varies: values, a range, or a normal distribution; each from TOML."""
+"""Variation of a key of a scene: values, a range, or a normal distribution; each from TOML."""
 
 import dataclasses
 import math
@@ -31,7 +31,7 @@ class Values:
 
     @property
     def ends(self) -> tuple[Any, ...]:
-        """What a scene is checked with."""
+        """The values with which a scene is checked."""
         return self.values
 
     def plain(self) -> list[Any]:
@@ -60,7 +60,7 @@ class Range(Table):
 
     @property
     def ends(self) -> tuple[float, float]:
-        """What a scene is checked with."""
+        """The values with which a scene is checked."""
         return self.low, self.high
 
     def at(self, share: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -109,7 +109,7 @@ class Normal(Table):
 
     @property
     def ends(self) -> tuple[float, float]:
-        """What a scene is checked with: the bounds, or what all but 1e-4 of the values keep."""
+        """The values with which a scene is checked: the bounds, or those that hold all but 1e-4."""
         low, high = self.at(np.array([5e-5, 1.0 - 5e-5]))
         return (
             float(low) if self.low is None else self.low,

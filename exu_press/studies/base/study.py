@@ -18,7 +18,7 @@ S = TypeVar("S", bound="Study")
 
 @dataclasses.dataclass(frozen=True)
 class Study(Table):
-    """What every study says; a study of its own kind adds its tables.
+    """The common part of study files; a kind of study adds its tables.
 
     Attributes:
         scene: what is common to all runs; a Scene or its mapping.

@@ -1,4 +1,4 @@
-"""What becomes of the long run as a key of the scene varies: sections, periods, exponents."""
+"""Bifurcation study, the long run over a key of the scene: sections, periods, exponents."""
 
 from exu_press.studies.bifurcation.study import Bifurcation, Report, bifurcation
 

@@ -112,7 +112,7 @@ class Branch:
 
 @dataclasses.dataclass(frozen=True)
 class Report:
-    """What was found.
+    """The result.
 
     Attributes:
         study: what was asked.

@@ -1,4 +1,4 @@
-"""A measured curve beside a computed one: what the sensor adds is fitted with it."""
+"""A measured curve beside a computed one; the sensor's own parameters are fitted with it."""
 
 import dataclasses
 from collections.abc import Mapping
@@ -79,7 +79,7 @@ class Curve(Table):
 
     @property
     def read(self) -> CurveFile:
-        """What the file has; its path counts from where the study is."""
+        """Contents of the file; its path counts from the study's directory."""
         if self.measured is None:
             object.__setattr__(self, "measured", read_curve(Path(self.file)))
         assert self.measured is not None
@@ -87,7 +87,7 @@ class Curve(Table):
 
     @property
     def nuisances(self) -> int:
-        """How many parameters of the sensor are fitted."""
+        """Number of the sensor's parameters that are fitted."""
         unknown = [self.shift, self.low_cut, self.high_cut]
         return int(self.offset) + sum(len(each) == 2 and each[0] < each[1] for each in unknown)
 

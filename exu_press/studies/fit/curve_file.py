@@ -23,7 +23,7 @@ FEWEST = 4
 
 @dataclass(frozen=True)
 class CurveFile:
-    """What a file has.
+    """The contents of a file.
 
     Attributes:
         over: "time" (s) or "crank_angle" (deg, from top dead centre, going on over revolutions).

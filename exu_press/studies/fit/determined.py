@@ -1,4 +1,4 @@
-"""What a measurement determines: covariance, and keys or combinations that it does not tell."""
+"""Identifiability: covariance, and keys or combinations that a measurement does not determine."""
 
 from dataclasses import dataclass
 
@@ -36,7 +36,7 @@ class Direction:
 
 @dataclass(frozen=True)
 class Determined:
-    """What the scaled Jacobian at the best point tells.
+    """Identifiability by the scaled Jacobian at the best point.
 
     Attributes:
         singular: its singular values, (keys,).
@@ -53,7 +53,7 @@ class Determined:
 
     @property
     def rank(self) -> int:
-        """How many combinations of keys the measurement determines."""
+        """Number of combinations of keys that the measurement determines."""
         return len(self.singular) - len(self.open)
 
 

@@ -24,7 +24,7 @@ SHIFT = 1e-3
 
 @dataclass(frozen=True)
 class Minimum:
-    """Where a search ended.
+    """The end of a search.
 
     Attributes:
         x: scaled keys, (keys,).

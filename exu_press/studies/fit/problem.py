@@ -44,7 +44,7 @@ class Problem:
 
     @property
     def count(self) -> float:
-        """How many independent numbers there are, less the sensors' unknown parameters."""
+        """Number of independent measured numbers, less the sensors' unknown parameters."""
         curves = sum(one.count - one.nuisances for one in self.study.curve)
         return len(self.study.measured) + curves
 

@@ -29,7 +29,7 @@ REACH = 0.25
 
 @dataclass(frozen=True)
 class Interval:
-    """What is known of one scaled key.
+    """The profile of one scaled key.
 
     Attributes:
         low, high: ends.

@@ -31,7 +31,7 @@ SEARCHES_AGAIN = 2
 
 @dataclass(frozen=True)
 class Report:
-    """What came out; keys in the study's order.
+    """The result of a fit; keys in the study's order.
 
     Attributes:
         study: what was asked.

@@ -1,4 +1,4 @@
-"""What a fit asks."""
+"""The study file of a fit."""
 
 import dataclasses
 import os

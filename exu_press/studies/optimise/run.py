@@ -84,7 +84,7 @@ class Trials:
 
 @dataclass(frozen=True)
 class Report:
-    """What came out.
+    """The result of an optimisation.
 
     Attributes:
         study: what was asked.

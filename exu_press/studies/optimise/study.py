@@ -1,4 +1,4 @@
-"""What an optimum asks."""
+"""The study file of an optimisation."""
 
 import dataclasses
 from typing import Any

@@ -1,4 +1,4 @@
-"""Error against run time: what a setting costs and what it gives, against independent truths."""
+"""Work-precision study: error against run time of settings, by independent references."""
 
 from exu_press.studies.precision.cases import Case, case_of
 from exu_press.studies.precision.report import Goal, Report

@@ -1,4 +1,4 @@
-"""What is run: a scene with the settings that are worth their time."""
+"""Cases: a scene with the settings that are worth their time."""
 
 from dataclasses import dataclass, replace
 from typing import Self
@@ -24,7 +24,7 @@ FINEST = 1e-6
 
 @dataclass(frozen=True)
 class Amount:
-    """How much of the cases is run.
+    """The part of the cases that is run.
 
     Attributes:
         repeats: of every run; the median is reported.

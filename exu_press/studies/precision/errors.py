@@ -1,4 +1,4 @@
-"""How far a trajectory is from the reference: pointwise up to a horizon, by figures beyond it.
+"""Distance of a trajectory from the reference: pointwise up to a horizon, by figures beyond it.
 
 Dry impacts drive neighbouring motions apart, so that after a while no two integrators agree point
 by point. What happens then is compared as a whole: when surfaces touch, how large the forces are,
@@ -45,7 +45,7 @@ class Errors:
 
 @dataclass(frozen=True)
 class Late:
-    """What is compared of a whole dry run.
+    """Figures by which whole dry runs are compared.
 
     Attributes:
         impacts: touches in the joint.

@@ -1,4 +1,4 @@
-"""Where the times were taken."""
+"""The machine on which the times were taken."""
 
 import os
 import platform

@@ -19,7 +19,7 @@ LONG_RUN = 5.0
 
 @dataclass(frozen=True)
 class Measured:
-    """What one run gave and took.
+    """Trajectory and cost of one run.
 
     Attributes:
         trajectory: None if it failed.

@@ -1,4 +1,4 @@
-"""References: what runs are compared with, and how far it is true itself.
+"""References of runs, and their own error.
 
 From two integrators that share as little as possible. Their mutual difference says how true it is:
 an error below ten times that difference says nothing but "at most this", and stands in the report
@@ -37,7 +37,7 @@ LOOSER = 10.0
 
 @dataclass(frozen=True)
 class Reference:
-    """What runs are compared with.
+    """The reference of runs.
 
     Attributes:
         method: where it comes from, in words.

@@ -14,7 +14,7 @@ __all__ = ["Stated", "stated_errors"]
 
 @dataclass(frozen=True)
 class Stated:
-    """What one run states.
+    """The stated errors of one run.
 
     Attributes:
         case: name.

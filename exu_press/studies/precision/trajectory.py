@@ -1,4 +1,4 @@
-"""What every solver hands over, whatever it solves inside: the slider's motion and one joint."""
+"""The result of every solver: the slider's motion and one joint."""
 
 from dataclasses import dataclass
 

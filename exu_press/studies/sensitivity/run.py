@@ -23,7 +23,7 @@ WRITTEN = ("sensitivity.json",)
 
 @dataclass(frozen=True)
 class Report:
-    """What came out; quantities in the study's order, and keys too.
+    """The result of a sensitivity study; quantities and keys in the study's order.
 
     Attributes:
         study: what was asked.

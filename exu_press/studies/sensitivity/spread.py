@@ -1,4 +1,4 @@
-"""What tolerances make of a quantity: percentiles, and how far most presses lie apart."""
+"""Spread of a quantity due to tolerances: percentiles, and the range of most presses."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

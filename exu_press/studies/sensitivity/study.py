@@ -1,4 +1,4 @@
-"""What a sensitivity study asks."""
+"""The study file of a sensitivity study."""
 
 import dataclasses
 from typing import Any, cast

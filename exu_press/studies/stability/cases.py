@@ -19,7 +19,7 @@ NOT_PUSHED = (
     *("mechanism", "revolutions", "start_angle_deg", "gravity", "press", "slider_crank"),
     *("solver.min_step", "solver.max_step_deg"),
 )
-"""What makes another mechanism or another task, and what the step control is bounded by."""
+"""Keys that make another mechanism or task, and bounds of the step control."""
 
 AS_IT_IS = "as it is"
 

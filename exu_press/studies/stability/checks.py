@@ -1,4 +1,4 @@
-"""What makes a run right: checks on one run, and its agreement with a more accurate one."""
+"""Checks of a run, and its agreement with a more accurate one."""
 
 import math
 from collections.abc import Iterator

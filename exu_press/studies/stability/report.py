@@ -1,4 +1,4 @@
-"""What came out of the study, as it is written and as a user reads it."""
+"""The result of the study, as it is written and as a user reads it."""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -18,7 +18,7 @@ TOO_COARSE = 0.1
 
 @dataclass(frozen=True)
 class Row:
-    """What became of one case.
+    """The result of one case.
 
     Attributes:
         name: unique.

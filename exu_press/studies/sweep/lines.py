@@ -1,4 +1,4 @@
-"""What of a sweep's table is shown, and how a person reads it in a terminal."""
+"""A sweep's table in a terminal: its columns and their form."""
 
 from collections import Counter
 from collections.abc import Sequence

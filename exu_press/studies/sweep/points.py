@@ -1,4 +1,4 @@
-"""Where a sweep's runs lie: grids, lists and Latin hypercubes of scene keys."""
+"""Points of a sweep: grids, lists and Latin hypercubes of scene keys."""
 
 import itertools
 import math

@@ -68,7 +68,7 @@ class Sweep(Study):
 
     @cached_property
     def points(self) -> Points:
-        """What varies, key -> value, one a run, in the study's order."""
+        """Varied keys and their values, one mapping a run, in the study's order."""
         if self.way == SAMPLE:
             assert self.sweep.n is not None
             assert self.sweep.seed is not None

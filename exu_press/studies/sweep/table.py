@@ -32,7 +32,7 @@ RUN_TIMES = tuple(quantity.name for quantity in COSTS if quantity.unit == "s")
 
 @dataclass(frozen=True)
 class Table:
-    """What a sweep gave.
+    """The result of a sweep.
 
     Attributes:
         study: what was asked.

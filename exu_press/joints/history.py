@@ -60,8 +60,16 @@ class JointHistory:
     @property
     def moments_in_plane(self) -> Array:
         """Moments on journal and bearing about the z axis, (n, 2), N m; a ball's have three."""
-        each = self.moments.shape[1] // 2
-        return self.moments[:, [each - 1, -1]]
+        return self.moments[:, self._about_z]
+
+    @property
+    def turning(self) -> Array:
+        """Angular velocities of journal and bearing about the z axis, (n, 2), rad/s."""
+        return self.angular_velocities[:, self._about_z]
+
+    @property
+    def _about_z(self) -> list[int]:
+        return [self.moments.shape[1] // 2 - 1, -1]
 
 
 def nothing(joint: ClearanceJoint) -> None:

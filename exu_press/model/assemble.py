@@ -15,6 +15,7 @@ from exu_press.model.model import Model, count_items
 from exu_press.model.sensors import add_sensors
 from exu_press.model.start import deformed_start
 from exu_press.model.system import System
+from exu_press.model.warm_film import warm_films
 from exu_press.scene import IdealJoint, Scene
 
 if TYPE_CHECKING:
@@ -126,5 +127,6 @@ def _assembled(
         guide_friction=friction,
         sensors=system.sensors,
         parts=system.parts,
+        warm=warm_films(clearance, joints),
         made=count_items(system.mbs),
     )

@@ -65,7 +65,7 @@ def interfaces_of(joint: Joint, kind: LooseJoint) -> list[InterfaceLaw]:
     interfaces: list[InterfaceLaw] = []
     if isinstance(kind, LubricatedJoint):
         radius, clearance, oil = kind.radius, kind.clearance, kind.film
-        scale = film_scale(oil.viscosity, oil.length, radius, clearance)
+        scale = film_scale(oil.cold_viscosity, oil.length, radius, clearance)
         interfaces.append(FilmInterface(film_law(oil, radius, clearance), scale, clearance))
     if kind.contact is not None:
         contact = contact_law(kind, revolute=not joint.spherical)

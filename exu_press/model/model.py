@@ -15,6 +15,7 @@ from exu_press.mechanism.section import Section
 from exu_press.model.drive import CrankAngle
 from exu_press.model.loads import Place, force_at, next_corner, torque_wanted
 from exu_press.model.rigid_body import RigidBody
+from exu_press.model.warm_film import WarmFilm
 from exu_press.scene.applied import AppliedLoad
 from exu_press.solving import DEFAULTS, Assembled, solve
 
@@ -47,6 +48,7 @@ class Model(Assembled):
         guide_friction: name of a body in a guide without clearance -> its friction there.
         parts: name -> flexible body's part; empty for rigid bodies.
         made: number of objects and loads that the scene was made of.
+        warm: name of a joint -> its film, whose oil warms.
         until: crank angle at which a run with a motor has arrived, rad; None: it goes on to its
             end time.
     """
@@ -61,6 +63,7 @@ class Model(Assembled):
     guide_friction: Mapping[str, GuideFriction]
     parts: Mapping[str, "PlacedPart"]
     made: int
+    warm: Mapping[str, WarmFilm] = field(default_factory=dict, kw_only=True)
     remembered: tuple[tuple[float, float | None], ...] = field(default=(), kw_only=True)
     until: float | None = field(default=None, kw_only=True)
 
@@ -71,6 +74,8 @@ class Model(Assembled):
 
     def solve(self, *, tuning: SolverTuning = DEFAULTS, quiet: bool = True) -> Outcome:
         """Run to the end time or to an early stop; what was computed stays in the sensors.
+
+        Films whose oil warms keep their temperature meanwhile; `simulate` renews it.
 
         Items that were added to `mbs` since, and assembled, take part.
         `exu_press.result.record(model, outcome)` makes a result of it.

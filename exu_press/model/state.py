@@ -1,7 +1,7 @@
 """The state in which a run ends, and how another run goes on from it."""
 
 from dataclasses import replace
-from typing import Any, TypedDict
+from typing import Any, NotRequired, TypedDict
 
 import exudyn as exu
 import numpy as np
@@ -25,6 +25,7 @@ class State(TypedDict):
         accelerations: of the second-order coordinates.
         joints: what clearance joints and guideways remember: bristles, approach speeds, paths.
         clocks: what pulses and sheets of loads remember.
+        films: temperature, deg C, and pressure, Pa, of films whose oil warms.
     """
 
     time: float
@@ -33,13 +34,14 @@ class State(TypedDict):
     accelerations: list[float]
     joints: dict[str, Any] | None
     clocks: list[tuple[float, float | None]]
+    films: NotRequired[dict[str, tuple[float, float]]]
 
 
 def state_of(model: Model) -> State:
     """Return the state in which a model is after it was solved."""
     data: Any = model.mbs.systemData
     user_force = Problem.of(model.mbs).joints
-    return {
+    state: State = {
         "time": float(data.GetTime()),
         "step": float(model.mbs.sys["dynamicSolver"].it.currentStepSize),
         "coordinates": [np.asarray(part).tolist() for part in data.GetSystemState()],
@@ -47,6 +49,9 @@ def state_of(model: Model) -> State:
         "joints": None if user_force is None else user_force.memory(),
         "clocks": [clock.memory() for clock, _ in model.clocks],
     }
+    if model.warm:
+        state["films"] = {n: (one.temperature, one.pressure) for n, one in model.warm.items()}
+    return state
 
 
 def go_on_from(model: Model, state: State) -> Model:
@@ -75,5 +80,8 @@ def go_on_from(model: Model, state: State) -> Model:
         user_force.recall(state["joints"])
     for (clock, _), memory in zip(model.clocks, state["clocks"], strict=True):
         clock.recall(memory)
+    for name, (temperature, pressure) in state.get("films", {}).items():
+        if name in model.warm:
+            model.warm[name].put(temperature, pressure)
     remembered = tuple(state["clocks"])
     return replace(model, begin=state["time"], first_step=state["step"], remembered=remembered)

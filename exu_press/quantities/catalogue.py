@@ -7,6 +7,7 @@ from exu_press.quantities.cost import COSTS
 from exu_press.quantities.energy import BALANCE
 from exu_press.quantities.fatigue import BODIES
 from exu_press.quantities.joints import JOINTS
+from exu_press.quantities.oil import OIL
 from exu_press.quantities.press import DRIVE, GUIDES, LOADS, SHAKING
 from exu_press.quantities.quantity import Place, Quantity
 from exu_press.quantities.reading import Reading
@@ -22,6 +23,7 @@ __all__ = ["CATALOGUE", "Placed", "add", "declared", "quantities_of", "quantity_
 CATALOGUE: list[Quantity] = [
     *SLIDER,
     *JOINTS,
+    *OIL,
     *WEAR,
     *STROKES,
     *DRIVE,

@@ -6,6 +6,7 @@ from typing import Any
 
 from exu_press.mechanism.holding import holding_of
 from exu_press.quantities.energy import energy_residual
+from exu_press.quantities.oil_warnings import oil_warnings
 from exu_press.result import Result
 from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.warnings import scene_warnings
@@ -41,7 +42,13 @@ def run_warnings(result: Result) -> list[str]:
                     f"{name.replace('_', ' ')}: eccentricity ratio up to {ratio:.3f}; film laws "
                     "for smooth surfaces are hardly valid there"
                 )
-    return [*found, *_held_twice(scene), *_solids(result), *scene_warnings(scene)]
+    return [
+        *found,
+        *oil_warnings(result),
+        *_held_twice(scene),
+        *_solids(result),
+        *scene_warnings(scene),
+    ]
 
 
 def _held_twice(scene: Scene) -> Iterator[str]:

@@ -72,6 +72,10 @@ class OnDisk(Mapping[str, Channel]):
         for first in range(0, self.count, AT_ONCE):
             yield self[name].values[first : first + AT_ONCE]
 
+    def in_memory(self) -> dict[str, Channel]:
+        """Return all channels with their values in memory."""
+        return {name: replace(one, values=np.array(one.values)) for name, one in self.items()}
+
     def last(self, name: str) -> Array:
         """Return the last value of a channel."""
         return np.array(self[name].values[-1])

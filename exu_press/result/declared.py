@@ -6,6 +6,7 @@ from exu_press.arrays import Array
 from exu_press.result.channel import Channel, guide_channel
 from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.applied import applied_loads
+from exu_press.scene.joint import oil_of
 
 __all__ = ["DECLARED", "PLACES", "Declared", "channel", "expected"]
 
@@ -16,6 +17,7 @@ PLACES = {
     "": "every run",
     "joint": "ideal joints whose force is known",
     "loose": "joints with clearance",
+    "warm": "lubricated joints whose oil warms",
     "guide": "guides; that of the slider is `guide`",
     "load": "loads",
     "body": "flexible bodies",
@@ -96,6 +98,10 @@ DECLARED = {
         Declared("{loose}_moment", "N m", "{loose}: moment on journal and on bearing", "ends"),
         Declared("{loose}_power", "W", "{loose}: dissipated power"),
         Declared("{loose}_loss", "J", "{loose}: energy dissipated since the start"),
+        Declared("{warm}_temperature", "deg C", "{warm}: temperature of the film"),
+        Declared("{warm}_viscosity", "Pa s", "{warm}: viscosity of the film"),
+        Declared("{warm}_side_flow", "m^3/s", "{warm}: oil that leaves the bearing's ends"),
+        Declared("{warm}_carried_off", "J", "{warm}: heat given to oil and frame since the start"),
         Declared("{guide}_force", "N", "{guide}: force on the body, {way}", always=False),
         Declared(
             "{guide}_moment", "N m", "{guide}: moment on the body, counter-clockwise", always=False
@@ -167,6 +173,7 @@ def expected(scene: Scene, *, own_items: bool) -> dict[str, tuple[str, bool]]:
         "": [""],
         "joint": joints,
         "loose": [name for name in joints if scene.joints[name].kind != "ideal"],
+        "warm": [name for name in joints if oil_of(scene.joints[name]) is not None],
         "guide": [guide_channel(mechanism, guide.body) for guide in mechanism.guides],
         "load": list(applied_loads(scene)),
         "body": [body.name for body in mechanism.bodies],

@@ -7,6 +7,7 @@ import numpy as np
 from exu_press.arrays import Array
 from exu_press.joints import ClearanceJoint, JointHistory, histories, user_force_of
 from exu_press.model import Model
+from exu_press.model.warm_film import WarmFilm
 from exu_press.numerics.piecewise import integral
 from exu_press.result.channel import Channel
 from exu_press.result.declared import channel
@@ -45,6 +46,22 @@ def stored_and_lost(states: JointHistory, time: Array) -> tuple[Array, Array]:
     return states.stored_energy, integral(time, states.dissipated_power)
 
 
+def _record_heat(
+    film: WarmFilm, states: JointHistory, time: Array, name: str
+) -> dict[str, Channel]:
+    """Return the channels of a film whose oil warms."""
+    flow = film.side_flow(states)
+    channels: dict[str, Channel] = {}
+    for quantity, values in (
+        ("{warm}_temperature", np.full_like(time, film.temperature)),
+        ("{warm}_viscosity", np.full_like(time, film.viscosity)),
+        ("{warm}_side_flow", flow),
+        ("{warm}_carried_off", integral(time, film.cooling(flow))),
+    ):
+        channels |= channel(quantity, values, name)
+    return channels
+
+
 def record_joints(
     model: Model, histories: Mapping[str, JointHistory], time: Array
 ) -> tuple[dict[str, Channel], Array, Array]:
@@ -64,4 +81,6 @@ def record_joints(
             ("{loose}_loss", lost),
         ):
             channels |= channel(quantity, values, name)
+        if name in model.warm:
+            channels |= _record_heat(model.warm[name], states, time, name)
     return channels, stored, dissipated

@@ -15,7 +15,9 @@ from exu_press.result.info import Info
 from exu_press.result.record import record
 from exu_press.result.result import Result
 from exu_press.result.unfinished import begin, keep
+from exu_press.result.warming import to_next_revolution, warmed
 from exu_press.scene import Scene
+from exu_press.scene.scene import SHORTEST_RUN
 from exu_press.terminal.progress import Progress
 
 __all__ = ["run_once"]
@@ -52,7 +54,7 @@ def run_once(
     if start is not None:
         model = go_on_from(model, start)
     try:
-        if scene.revolutions > BLOCK:
+        if scene.revolutions > BLOCK or model.warm:
             result = _block_by_block(model, unfinished, quiet=quiet)
         else:
             result = record(model, model.solve(quiet=quiet))
@@ -63,28 +65,45 @@ def run_once(
 
 
 def _block_by_block(model: Model, unfinished: Path | None, *, quiet: bool) -> Result:
-    """Return the result of a long run, of which memory holds one block at a time."""
-    scene, solver, channels = model.scene, model.scene.solver, begin(unfinished)
+    """Return the result of a run in blocks: of a long one memory holds one block at a time.
+
+    Where oil warms, a block is a revolution, after which films have other temperatures.
+    """
+    scene, solver = model.scene, model.scene.solver
     assert solver is not None
+    unfinished = unfinished if scene.revolutions > BLOCK else None
+    channels = begin(unfinished)
     infos: list[Info] = []
     left, steps = scene.revolutions, solver.max_steps
     with Progress("run", scene.duration, quiet=quiet, whole=True):
         while True:
             length = min(left, BLOCK)
+            if model.warm:
+                model, length = to_next_revolution(model, left)
             one = scene.replace({"revolutions": length, "settle": 0.0})
             model = replace(model, scene=one.replace("solver.max_steps", steps))
             block = record(model, model.solve(quiet=quiet))
+            if model.warm and block.info["status"] in ON:
+                block = warmed(model, block)
             channels.append(_going_on(block, channels))
             infos.append(block.info)
+            if model.until is not None:  # a motor has turned the crank by then, or not
+                length = float(block.time[-1] - block.time[0]) * scene.speed_rpm / 60.0
             left -= length
             steps -= block.info["steps"] + block.info["rejected_steps"]
             if unfinished is not None and block.info["status"] in ON:
                 so_far = replace(block, scene=scene, info=_of_all(infos))
                 keep(unfinished, so_far, scene.revolutions - left)
-            if left < 1e-9 * scene.revolutions or block.info["status"] not in ON or steps < 1:
+            if left < _least(scene) or block.info["status"] not in ON or steps < 1:
                 break
             model = go_on_from(model, state_of(model))
-    return replace(block, scene=scene, channels=channels, info=_of_all(infos))
+    kept = channels if scene.revolutions > BLOCK else channels.in_memory()
+    return replace(block, scene=scene, channels=kept, info=_of_all(infos))
+
+
+def _least(scene: Scene) -> float:
+    """Return the revolutions below which nothing is left of a run."""
+    return max(1e-9 * scene.revolutions, SHORTEST_RUN * scene.speed_rpm / 60.0)
 
 
 def _going_on(block: Result, channels: OnDisk) -> dict[str, Channel]:

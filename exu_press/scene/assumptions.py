@@ -12,6 +12,7 @@ from typing import Any
 
 from exu_press.mechanism import Mechanism
 from exu_press.scene.joint import LAW_TABLES, SIZES, Joint
+from exu_press.scene.oil import Oil
 from exu_press.scene.scene import STARTS, Scene, mechanism_of
 from exu_press.scene.tables import USUAL_STIFFNESS
 from exu_press.scene.usage import TABLES
@@ -206,11 +207,12 @@ def _own_laws(scene: Scene) -> set[str]:
 def _law_defaults(scene: Scene) -> dict[str, Any]:
     """Return what the keys of laws are where a scene does not give them."""
     own = mechanism_of(scene).defaults
-    return {
+    found: dict[str, Any] = {
         f"{law}.{field.name}": own.get(law, {}).get(field.name, field.default)
         for law, table in LAW_TABLES.items()
         for field in dataclasses.fields(table)
     }
+    return found | {f"film.oil.{field.name}": field.default for field in dataclasses.fields(Oil)}
 
 
 def _at_defaults(scene: Scene) -> Scene:
@@ -253,10 +255,13 @@ def _joint_keys(scene: Scene) -> dict[str, Key]:
 
 def _keys_in(place: str, table: Table, defaults: Mapping[str, Any]) -> dict[str, Key]:
     """Return the keys of one table that are given, with other defaults than the declared ones."""
-    found = {}
+    found: dict[str, Key] = {}
     for field in dataclasses.fields(table):
         value, meta = getattr(table, field.name), field.metadata
-        if meta and value is not None:
+        if "inner" in meta and value is not None:
+            usual = defaults.get(field.name) or {}
+            found |= _keys_in(f"{place}.{field.name}", value, usual)
+        elif meta and value is not None:
             default = defaults.get(field.name, field.default)
             name = f"{place}.{field.name}"
             found[name] = Key(name, value, default, meta["unit"], meta["meaning"])
@@ -272,10 +277,17 @@ def _flat(scene: Scene) -> Iterator[tuple[str, tuple[Any, dataclasses.Field[Any]
                 yield field.name, (getattr(scene, field.name), field)
             continue
         table = getattr(scene, field.name)
-        for inner in dataclasses.fields(table) if table is not None else ():
-            name = f"{field.name}.{inner.name}"
-            if inner.name in used[field.name]:
-                yield name, (getattr(table, inner.name), inner)
+        yield from _inside(field.name, table) if table is not None else ()
+
+
+def _inside(place: str, table: Table) -> Iterator[tuple[str, tuple[Any, dataclasses.Field[Any]]]]:
+    """Yield the same of one table, and of the tables within it."""
+    for field in dataclasses.fields(table):
+        name, value = f"{place}.{field.name}", getattr(table, field.name)
+        if isinstance(value, Table):
+            yield from _inside(name, value)
+        elif value is not None:
+            yield name, (value, field)
 
 
 def _text(value: Any) -> str:

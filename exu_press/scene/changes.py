@@ -8,7 +8,7 @@ from exu_press.scene.bodies import changed_bodies
 from exu_press.scene.joint_changes import changed_joints
 from exu_press.scene.loads import changed_loads
 from exu_press.scene.usage import TABLES
-from exu_press.schema.checks import RENAMED, given_in
+from exu_press.schema.checks import RENAMED, changed_table, given_in
 
 __all__ = ["changed_keys", "drop", "named"]
 
@@ -40,7 +40,7 @@ def changed_keys(
             why = f"is {why} now" if why else f"{table} is no table of a scene"
             key, value = next(iter(keys.items()))
             raise InputError(f"{table}.{key} = {value!r}: {why}")
-        data[table] = {**before, **keys}
+        data[table] = changed_table(TABLES[table], before, keys)
     if bodies and isinstance(data.get("bodies", {}), Mapping):
         data["bodies"] = changed_bodies(data.get("bodies", {}), bodies)
     if loads:
@@ -49,9 +49,6 @@ def changed_keys(
         data["joints"] = changed_joints(data["joints"], groups, joints)
     elif joints:
         raise InputError("joints and a key of joints: allowed is one of the two in one change")
-    for kept, dropped in (("step", "tolerance"), ("tolerance", "step")):
-        if f"solver.{kept}" in changes and f"solver.{dropped}" not in changes:
-            data["solver"].pop(dropped, None)
     return data
 
 

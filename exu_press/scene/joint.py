@@ -6,9 +6,10 @@ from dataclasses import dataclass
 from typing import Any, ClassVar, Literal, cast
 
 from exu_press.errors import InputError
+from exu_press.scene.oil import Oil
 from exu_press.scene.own_joint import OwnJoint, own_kind
 from exu_press.scene.tables import Contact, Film, Friction, asperity_onset
-from exu_press.schema.checks import Table, demand_keys, key
+from exu_press.schema.checks import Table, demand_keys, key, plain
 
 __all__ = [
     "JOINT_KINDS",
@@ -21,6 +22,7 @@ __all__ = [
     "LubricatedJoint",
     "joint_dict",
     "keys_used",
+    "oil_of",
     "refuse_missing",
     "refuse_missing_damping",
 ]
@@ -97,6 +99,11 @@ LAW_TABLES: dict[str, type[Table]] = {"contact": Contact, "friction": Friction, 
 """Tables of the scene that hold for a joint unless it has its own."""
 
 
+def oil_of(joint: Joint) -> Oil | None:
+    """Return the oil of a joint whose film warms, or None."""
+    return joint.film.oil if isinstance(joint, LubricatedJoint) else None
+
+
 def keys_used(kind: Any, at_contact: Any) -> tuple[str, ...]:
     """Return the keys of a joint of this kind beside the kind itself."""
     touching = ("contact", "friction")
@@ -121,7 +128,10 @@ def refuse_missing(place: str, joint: Joint, *, revolute: bool) -> None:
         length = ("length",) if dry and revolute and joint.contact.shape == "cylindrical" else ()
         needed["contact"] = (joint.contact, length + _of_damping(joint.contact))
     if isinstance(joint, LubricatedJoint):
-        needed["film"] = (joint.film, ("viscosity", "length"))
+        oil = joint.film.oil
+        needed["film"] = (joint.film, ("length",) if oil else ("viscosity", "length"))
+        if oil is not None:
+            needed["film.oil"] = (oil, oil.needed)
     for law, (table, keys) in needed.items():
         where = f"[{law}] or [{place}.{law}]" if law else f"[{place}]"
         demand_keys(place, table, keys, law, where)
@@ -147,11 +157,10 @@ def joint_dict(joint: Joint, laws: Mapping[str, Table | None]) -> dict[str, Any]
             continue
         usual = laws[field.name]
         own = {
-            inner.name: getattr(value, inner.name)
-            for inner in dataclasses.fields(value)
-            if usual is None or getattr(value, inner.name) != getattr(usual, inner.name)
+            key: each
+            for key, each in plain(value).items()
+            if usual is None or getattr(value, key) != getattr(usual, key)
         }
-        own = {key: each for key, each in own.items() if each is not None}
         found |= {field.name: own} if own else {}
     return found
 

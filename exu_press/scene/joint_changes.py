@@ -4,9 +4,10 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from exu_press.errors import InputError
-from exu_press.scene.joint import keys_used
+from exu_press.scene.joint import LAW_TABLES, keys_used
 from exu_press.scene.joints import keys_given
 from exu_press.scene.tables import Film
+from exu_press.schema.checks import changed_table
 
 __all__ = ["by_group", "changed_joints", "kinds_of", "peek", "unused_laws"]
 
@@ -59,8 +60,8 @@ def changed_joints(
                 changed[member] = keys_given(name, value)
             elif not last:
                 keys[key or "kind"] = value
-            elif isinstance(keys.setdefault(key, {}), dict):
-                keys[key] = {**keys[key], last: value}
+            elif key in LAW_TABLES and isinstance(keys.setdefault(key, {}), dict):
+                keys[key] = changed_table(LAW_TABLES[key], keys[key], {last: value})
             else:
                 raise InputError(f"joints.{path} = {value!r}: {key} is no table of a joint")
     return changed

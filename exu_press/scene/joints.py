@@ -5,6 +5,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from exu_press.errors import InputError, UnusedKeyError
+from exu_press.laws.film import FILM_LAWS
 from exu_press.scene.joint import (
     JOINT_KINDS,
     LAW_TABLES,
@@ -277,8 +278,18 @@ def _check_laws(place: str, joint: Joint, spherical: bool) -> None:
             friction_law(joint.friction)
         if isinstance(joint, LubricatedJoint):
             film_law(joint.film, joint.radius, joint.clearance)
+            _check_cooling(joint.film)
     except InputError as error:
         raise InputError(f"{error} ({place})") from None
+
+
+def _check_cooling(film: Film) -> None:
+    """Raise InputError for a film of which nothing carries the heat off."""
+    if film.oil is not None and not film.oil.conductance and not FILM_LAWS[film.law].flows_out:
+        raise InputError(
+            f"film.oil.conductance = 0 with film.law = {film.law!r}: allowed is a number > 0, as a "
+            "long bearing has no side flow that carries heat off, or film.law = 'finite'"
+        )
 
 
 def _unknown(

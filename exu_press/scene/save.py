@@ -20,7 +20,14 @@ from exu_press.schema.toml import toml_text
 Laws = Mapping[str, Table | None]
 """The scene's own "contact", "friction" and "film"."""
 
-__all__ = ["body_lines", "joint_lines", "load_lines", "save_scene", "table_lines"]
+__all__ = [
+    "body_lines",
+    "joint_lines",
+    "load_lines",
+    "save_scene",
+    "section_lines",
+    "table_lines",
+]
 
 
 def save_scene(
@@ -59,11 +66,27 @@ def save_scene(
                     body = dataclasses.replace(body, flexible=beside)
                 lines += ["", f"[bodies.{name}]", *body_lines(body, comments)]
         elif isinstance(table, Table):
-            lines += ["", f"[{field.name}]", *table_lines(table, comments)]
+            lines += section_lines(field.name, table, comments)
         elif isinstance(table, Mechanism):
             drawn = ["", *mechanism_lines(table, "mechanism.")]
     with replacing(path) as partial:
         partial.write_text("\n".join([*lines, *drawn, ""]), encoding="utf-8")
+
+
+def section_lines(name: str, table: Table, comments: bool, *, absent: bool = False) -> list[str]:
+    """Return one table with its header, and the tables within it behind it.
+
+    Args:
+        name: dotted.
+        table: of a scene.
+        comments: write meaning and unit behind every key.
+        absent: name the keys that are not used or given, too, as comments.
+    """
+    lines = ["", f"[{name}]", *table_lines(table, comments, absent=absent)]
+    for field in dataclasses.fields(table):
+        if isinstance(inside := getattr(table, field.name), Table):
+            lines += section_lines(f"{name}.{field.name}", inside, comments, absent=absent)
+    return lines
 
 
 def table_lines(table: Table, comments: bool, *, absent: bool = False) -> list[str]:

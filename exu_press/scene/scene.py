@@ -26,7 +26,13 @@ from exu_press.scene.built import Built
 from exu_press.scene.changes import changed_keys, drop, named
 from exu_press.scene.elastic import with_elastic_guides
 from exu_press.scene.file import parse_assignment, scene_tables
-from exu_press.scene.joint import LAW_TABLES, SIZES, joint_dict, refuse_missing_damping
+from exu_press.scene.joint import (
+    LAW_TABLES,
+    SIZES,
+    joint_dict,
+    oil_of,
+    refuse_missing_damping,
+)
 from exu_press.scene.joint_changes import by_group, kinds_of, unused_laws
 from exu_press.scene.joints import Joints, joints_of
 from exu_press.scene.load import Load
@@ -36,7 +42,7 @@ from exu_press.scene.save import save_scene
 from exu_press.scene.tables import RPM, Contact, ElasticGuide, Film, Friction, Motor, Solver
 from exu_press.scene.usage import TABLES, unused_tables
 from exu_press.scene.wear import Wear
-from exu_press.schema.checks import Table, given_in, key, table_from, table_with
+from exu_press.schema.checks import Table, given_in, key, plain, table_from, table_with
 
 __all__ = ["STARTS", "Scene", "mechanism_of"]
 
@@ -45,6 +51,9 @@ SHORTEST_RUN = 1e-7
 
 LONGEST_RUN = 1e9
 """s, thirty years."""
+
+WARM = 3.0
+"""Revolutions in which films find their temperature."""
 
 STARTS = ("loaded", "centred")
 """The first one is that of a mechanism without a default of its own."""
@@ -88,8 +97,8 @@ class Scene(Table):
     revolutions: float = key(2.0, "length of the run, at speed_rpm", above=0, at_most=1e7)
     settle: float | None = key(
         None,
-        "revolutions before quantities are read; one in a run of two or more (with a motor three) "
-        "unless given",
+        "revolutions before quantities are read; one in a run of two or more (with a motor three), "
+        "three where oil warms in a run of four or more, unless given",
         at_least=0,
     )
     start_angle_deg: float = key(0.0, "crank angle at the start", "deg")
@@ -229,8 +238,7 @@ class Scene(Table):
                 tables = {name: to_dict(table) for name, table in value.items()}
                 complete |= {field.name: tables} if tables else {}
             elif isinstance(value, Table):
-                inner = dataclasses.asdict(value)
-                complete[field.name] = {k: v for k, v in inner.items() if v is not None}
+                complete[field.name] = plain(value)
             elif isinstance(value, Mechanism):
                 complete[field.name] = mechanism_to_dict(value)
             elif value is not None:
@@ -327,6 +335,9 @@ class Scene(Table):
         if self.settle is not None:
             return self.settle
         usual = mechanism_of(self).defaults.get("settle", 1.0)
+        warms = any(oil_of(joint) is not None for joint in self.joints.values())
+        if warms and self.revolutions >= WARM + 1.0:
+            usual = max(usual, WARM)
         least = 2.0 if self.drive is None else 3.0  # a motor may lag behind its revolutions
         return float(usual) if self.revolutions >= least else 0.0
 

@@ -7,6 +7,7 @@ Every key says its meaning, unit and range once, here; messages and documentatio
 """
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import ClassVar
@@ -15,7 +16,8 @@ from exu_press.errors import InputError
 from exu_press.laws.contact import DAMPING_LAWS
 from exu_press.laws.film import FILM_LAWS
 from exu_press.laws.motor import MotorLaw, kloss, torque_table
-from exu_press.schema.checks import Table, Uses, demand_keys, key
+from exu_press.scene.oil import Oil
+from exu_press.schema.checks import Table, Uses, demand_keys, inner, key
 
 __all__ = [
     "OF_FRICTION",
@@ -169,6 +171,7 @@ class Film(Table):
 
     table: ClassVar[str] = "film"
     uses: ClassVar[Uses] = {"at_contact": {"stop": (), "mixed": ("roughness", "asperity_onset")}}
+    instead: ClassVar[Mapping[str, str]] = {"oil": "viscosity", "viscosity": "oil"}
 
     law: str = key("finite", "film law", choices=tuple(FILM_LAWS))
     viscosity: float = key(None, "dynamic viscosity (A-11)", "Pa s", above=0, example=0.09)
@@ -180,6 +183,21 @@ class Film(Table):
     asperity_onset: float = key(
         3.0, "gap at which asperities touch, in roughnesses", above=0, at_most=10
     )
+    oil: Oil | None = inner(Oil)
+
+    def __post_init__(self) -> None:
+        """Check the keys; the viscosity is given or an oil's."""
+        super().__post_init__()
+        if self.viscosity is not None and self.oil is not None:
+            raise InputError(
+                f"film.viscosity = {self.viscosity!r} and film.oil: allowed is one of the two, a "
+                "constant viscosity or an oil that warms"
+            )
+
+    @property
+    def cold_viscosity(self) -> float:
+        """Viscosity with which a run begins, Pa s: of oil as it is supplied."""
+        return self.viscosity if self.oil is None else self.oil.viscosity(self.oil.supply_celsius)
 
 
 @dataclass(frozen=True)
@@ -376,6 +394,7 @@ class Solver(Table):
     """Exudyn's generalized-alpha, with steps that follow a tolerance or with fixed ones."""
 
     table: ClassVar[str] = "solver"
+    instead: ClassVar[Mapping[str, str]] = {"step": "tolerance", "tolerance": "step"}
     tolerance: float | None = key(
         None, "local error, relative to the mechanism's scales", at_least=1e-8, at_most=0.1
     )

@@ -8,7 +8,14 @@ from typing import Any
 from exu_press.scene.bodies import Flexible
 from exu_press.scene.joints import Joints
 from exu_press.scene.load import BlankingLoad, Load, TableLoad
-from exu_press.scene.save import body_lines, joint_lines, load_lines, table_lines
+from exu_press.scene.oil import Oil
+from exu_press.scene.save import (
+    body_lines,
+    joint_lines,
+    load_lines,
+    section_lines,
+    table_lines,
+)
 from exu_press.scene.scene import Scene, mechanism_of
 from exu_press.scene.usage import TABLES
 from exu_press.schema.checks import Table
@@ -51,11 +58,13 @@ def _lines(scene: Scene) -> Iterator[str]:
         elif field.name == "bodies":
             yield from ("", *_not_in_use(_a_flexible_body(scene)))
         elif isinstance(value, Table):
-            yield from ("", f"[{field.name}]", *table_lines(value, True, absent=True))
+            yield from section_lines(field.name, value, True, absent=True)
         elif (kind := TABLES.get(field.name)) is not None and field.name not in OF_MECHANISMS:
             told = (kind.__doc__ or "").splitlines()[0]
             lines = f"[{field.name}]  # {told}", *table_lines(_usual(kind), True, absent=True)
             yield from ("", *_not_in_use(lines))
+        if field.name == "film" and (scene.film is None or scene.film.oil is None):
+            yield from ("", *_not_in_use(_an_oil()))
 
 
 EXAMPLES: dict[str, dict[str, Any]] = {
@@ -81,6 +90,14 @@ def _usual(kind: type[Table]) -> Table:
     """Return a table at its defaults, without the keys that these do not use, or an example."""
     table = kind(**EXAMPLES.get(kind.table, {}))
     return table.without(table.unused())
+
+
+def _an_oil() -> Iterator[str]:
+    """Yield the table of an oil, as an example."""
+    fields = {field.name: field for field in dataclasses.fields(Oil)}
+    example = Oil(**{name: fields[name].metadata["example"] for name in Oil.needed})
+    yield f"[film.oil]  # {(Oil.__doc__ or '').splitlines()[0]}"
+    yield from table_lines(example, True, absent=True)
 
 
 def _loads() -> Iterator[str]:

@@ -132,12 +132,14 @@ def _films(scene: Scene) -> Iterator[tuple[str, LubricatedJoint]]:
 
 def _viscosity(scene: Scene) -> Iterator[str]:
     """Yield viscosities that no bearing oil has."""
-    for table, given in {table: joint.film.viscosity for table, joint in _films(scene)}.items():
+    for table, film in {table: joint.film for table, joint in _films(scene)}.items():
+        given = film.cold_viscosity
         if THINNEST <= given <= THICKEST:
             continue
         side = f"below water's {THINNEST:g}" if given < THINNEST else f"above {THICKEST:g}"
         yield (
-            f"{table}.viscosity = {given:g} Pa s is {side} Pa s. Bearing oils in use have 0.005 to "
+            f"{table}.{'viscosity' if film.oil is None else 'oil has as supplied'} = {given:g} "
+            f"Pa s is {side} Pa s. Bearing oils in use have 0.005 to "
             "1, honey has 10 and air 2e-5. Force and drag of the film are in proportion to it."
             + _slip(given, THINNEST, THICKEST, "Pa s")
         )

@@ -11,16 +11,19 @@ import typing
 from collections.abc import Collection, Iterable, Mapping
 from typing import Any, ClassVar, Self, TypeVar
 
-from exu_press.errors import InputError
+from exu_press.errors import InputError, UnusedKeyError
 
 __all__ = [
     "RENAMED",
     "Table",
     "Uses",
+    "changed_table",
     "demand_keys",
     "given_in",
+    "inner",
     "key",
     "nearest",
+    "plain",
     "table_from",
     "table_with",
 ]
@@ -62,7 +65,7 @@ def key(
     also: type | None = None,
     numbers: int | None = None,
     source: str = "",
-    example: float | None = None,
+    example: object = None,
 ) -> Any:
     """Declare one key of a scene table: its default, meaning, unit and allowed range.
 
@@ -114,6 +117,9 @@ class Table:
     uses: ClassVar[Uses] = {}
     """Key that is a choice -> what is chosen -> the keys that only some choices use."""
 
+    instead: ClassVar[Mapping[str, str]] = {}
+    """Key -> the key that it stands instead of."""
+
     def __new__(cls, *values: Any, **keys: Any) -> Self:
         """Remember which keys are given, so that a default gives way to a mechanism's own."""
         made = super().__new__(cls)
@@ -154,10 +160,28 @@ class Table:
     def __post_init__(self) -> None:
         """Check every key; raise InputError for the first one that is not allowed."""
         for field in dataclasses.fields(self):
+            if "inner" in field.metadata and (given := getattr(self, field.name)) is not None:
+                name = f"{self.table}.{field.name}"
+                object.__setattr__(self, field.name, _inner(field.metadata["inner"], name, given))
             if "meaning" in field.metadata:
                 name = f"{self.table}.{field.name}" if self.table else field.name
                 value = _checked(field, name, getattr(self, field.name))
                 object.__setattr__(self, field.name, value)
+
+
+def _inner(kind: type[Any], name: str, given: Any) -> Any:
+    """Return a table within a table, without the keys that it does not use."""
+    table: Table = table_from(kind, name, given)
+    idle = table.unused()
+    for key, value in table.given.items():
+        if key in idle:
+            raise UnusedKeyError(f"{name}.{key}", f"{name}.{key} = {value!r}", idle[key])
+    return table
+
+
+def inner(kind: type["Table"]) -> Any:
+    """Declare a table within a table; None where it is not given."""
+    return dataclasses.field(default=None, metadata={"inner": kind})
 
 
 def _checked(field: dataclasses.Field[Any], name: str, value: Any) -> Any:
@@ -240,7 +264,9 @@ def demand_keys(place: str, table: Table, keys: Collection[str], law: str, where
     for field in dataclasses.fields(table):
         if field.name in keys and getattr(table, field.name) is None:
             example = field.metadata.get("example")
-            shown = "" if example is None else f", as in {field.name} = {example:g}"
+            if isinstance(example, float):
+                example = f"{example:g}"
+            shown = "" if example is None else f", as in {field.name} = {example}"
             meta, name = field.metadata, f"{law}.{field.name}".lstrip(".")
             raise InputError(
                 f"{place} needs {name} ({meta['meaning']}, {meta['unit']}), which decides its "
@@ -273,7 +299,47 @@ def table_with(table: type[T], name: str, data: Any, usual: Mapping[str, Any]) -
     """Return the table `name` of a scene; what `data` does not give is as in `usual`."""
     if isinstance(data, table):
         data = typing.cast(Table, data).given
-    return table_from(table, name, {**usual, **data} if isinstance(data, Mapping) else data)
+    if isinstance(data, Mapping):
+        data = changed_table(typing.cast(type[Table], table), usual, data)
+    return table_from(table, name, data)
+
+
+def changed_table(
+    kind: type[Table], before: Mapping[str, Any], changes: Mapping[str, Any]
+) -> dict[str, Any]:
+    """Return a table's keys with others; a key whose place another one takes is dropped.
+
+    Args:
+        kind: of the table.
+        before: its keys.
+        changes: key -> value; "TABLE.key" of a table within it, too.
+    """
+    found = dict(before)
+    inners = {
+        f.name: f.metadata["inner"] for f in dataclasses.fields(kind) if "inner" in f.metadata
+    }
+    for path, value in changes.items():
+        name, dot, rest = path.partition(".")
+        change = {rest: value} if dot else value
+        if name in inners and isinstance(change, Mapping | Table):
+            found[name] = changed_table(inners[name], given_in(found.get(name)), given_in(change))
+        else:
+            found[path] = value
+    given = {path.partition(".")[0] for path, value in changes.items() if value is not None}
+    for kept, dropped in kind.instead.items():
+        if kept in given and dropped not in given:
+            found.pop(dropped, None)
+    return found
+
+
+def plain(table: Table) -> dict[str, Any]:
+    """Return the keys of a table that are not None as a nested mapping."""
+    values = {field.name: getattr(table, field.name) for field in dataclasses.fields(table)}
+    return {
+        name: plain(value) if isinstance(value, Table) else value
+        for name, value in values.items()
+        if value is not None
+    }
 
 
 def given_in(table: Any) -> dict[str, Any]:

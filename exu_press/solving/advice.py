@@ -84,7 +84,7 @@ class SceneAdvice(Advice):
             return f" (guide.friction = {scene.guide.friction!r}, guide.clearance)"
         if scene.friction is not None and not joint.lubricated:
             return f" (friction.law = {scene.friction.law!r}, contact)"
-        return " (film.viscosity, clearance)" if joint.lubricated else " (contact)"
+        return " (viscosity of the film, clearance)" if joint.lubricated else " (contact)"
 
     def cause(self) -> str:
         """Return that the pin seizes, a film is too thin or a size hardly meant, or nothing."""

@@ -18,7 +18,7 @@ def test_every_key_that_names_an_assumption_is_listed_under_it():
     listed = {a.number: a.keys for a in ASSUMPTIONS}
     for name, table in TABLES.items():
         for field in dataclasses.fields(table):
-            for number in re.findall(r"\(A-(\d+)\)", field.metadata["meaning"]):
+            for number in re.findall(r"\(A-(\d+)\)", field.metadata.get("meaning", "")):
                 assert f"{name}.{field.name}" in listed[int(number)]
 
 

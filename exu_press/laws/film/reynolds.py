@@ -12,13 +12,17 @@ __all__ = ["Pressure", "solve_reynolds", "supply_line"]
 
 
 class Pressure(NamedTuple):
-    """Force of a film [1/s] and its pressure over 12 mu R^2 / c^2 [1/s] at theta and zeta."""
+    """Force of a film [1/s] and its pressure over 12 mu R^2 / c^2 [1/s] at theta and zeta.
+
+    `side_flow` leaves the bearing at both ends, over L R c [1/s].
+    """
 
     f_r: float
     f_t: float
     theta: Array
     zeta: Array
     p: Array
+    side_flow: float
 
 
 def supply_line(eps_dot: float, eps_w: float) -> float:
@@ -110,6 +114,7 @@ def solve_reynolds(
         inner,
         zeta[:-1],
         p,
+        float(along[:, -1] @ p[:, -1]),
     )
 
 

@@ -18,6 +18,7 @@ from exu_press.model import Model, build
 from exu_press.model.state import State, go_on_from, state_of
 from exu_press.result import Result, record
 from exu_press.scene import Scene, mechanism_of
+from exu_press.scene.joint import oil_of
 from exu_press.solving.solve import scales
 
 __all__ = ["Orbit"]
@@ -44,9 +45,15 @@ class Orbit:
         """Start as the scene does, or in a state on the section.
 
         Raises:
-            InputError: nothing is free, or the scene has a motor and fixed steps.
+            InputError: nothing is free, oil warms, or the scene has a motor and fixed steps.
         """
         motor = scene.drive is not None
+        if any(oil_of(joint) is not None for joint in scene.joints.values()):
+            raise InputError(
+                "film.oil: warms from revolution to revolution, while an orbit is one of the same "
+                "press in each; allowed is film.viscosity, as joints.NAME.film.viscosity of a run "
+                "has it"
+            )
         if motor and scene.solver is not None and scene.solver.tolerance is None:
             raise InputError(
                 "solver.step: a motor gets to its section at any instant; allowed is "

@@ -206,7 +206,7 @@ def _rounding(scene: Scene, name: str) -> float:
     if not isinstance(joint, LubricatedJoint):
         return 0.0
     film, c = joint.film, joint.clearance
-    damping = 12.0 * math.pi * film_scale(film.viscosity, film.length, joint.radius, c) / c
+    damping = 12.0 * math.pi * film_scale(film.cold_viscosity, film.length, joint.radius, c) / c
     return SolverTuning().rounding * scene.pin_speed * damping
 
 

@@ -7,6 +7,7 @@ from typing import Any
 from exu_press.quantities.catalogue import declared
 from exu_press.scene import DryJoint, Flexible, Scene
 from exu_press.scene.load import LOAD_KINDS
+from exu_press.scene.oil import Oil
 from exu_press.scene.usage import TABLES
 from exu_press.schema.checks import Table
 
@@ -41,7 +42,9 @@ def _metadata(name: str) -> Mapping[str, Any] | None:
     """Return what a key of a scene states of itself."""
     table, _, inner = name.removeprefix("scene.").rpartition(".")
     kind: type[Table] = TABLES.get(table, Scene)
-    if table.startswith("joints."):  # joints.NAME.key or joints.NAME.law.key
+    if table == "film.oil" or table.endswith(".film.oil"):
+        kind = Oil
+    elif table.startswith("joints."):  # joints.NAME.key or joints.NAME.law.key
         kind = TABLES.get(table.rpartition(".")[2], DryJoint)
     elif table.startswith("load."):
         kind = next((k for k in LOAD_KINDS.values() if inner in k.__dataclass_fields__), Scene)

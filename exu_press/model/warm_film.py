@@ -1,0 +1,143 @@
+"""A film whose oil warms: its temperature, from the heat of the revolutions before."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from exu_press.arrays import Array
+from exu_press.joints import ClearanceJoint, JointHistory
+from exu_press.joints.interface import FilmInterface, InterfaceJoint
+from exu_press.laws.film import FILM_LAWS, film_scale
+from exu_press.laws.film.oil import film_temperature
+from exu_press.laws.film.side_flow import SideFlow
+from exu_press.scene import LubricatedJoint
+from exu_press.scene.joint import Joint
+
+__all__ = ["Heat", "WarmFilm", "warm_films"]
+
+AVERAGED = 4
+"""A temperature follows from the last quarter of the revolutions so far: from the last one in a
+short run, and from their mean where no two revolutions are alike."""
+
+
+@dataclass(frozen=True)
+class Heat:
+    """What a film did in a revolution.
+
+    Attributes:
+        power: dissipated, mean, W.
+        flow: out at both ends, mean, m^3/s.
+        pressure: force over length times diameter, mean, Pa.
+        viscosity: that it had, Pa s.
+    """
+
+    power: float
+    flow: float
+    pressure: float
+    viscosity: float
+
+
+@dataclass
+class WarmFilm:
+    """A film of a run, with the temperature that it has at present.
+
+    Attributes:
+        joint: with its oil.
+        interface: of the film, which has the viscosity.
+        temperature: deg C.
+        pressure: that thickens the oil, Pa.
+        before: what it did in the revolutions so far.
+    """
+
+    joint: LubricatedJoint
+    interface: FilmInterface
+    temperature: float
+    pressure: float = 0.0
+    before: list[Heat] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        """Find what flows out."""
+        film, joint = self.joint.film, self.joint
+        assert film.oil is not None
+        self.oil = film.oil
+        self._flow: SideFlow = FILM_LAWS[film.law].side_flow(film.length / (2.0 * joint.radius))
+
+    @property
+    def viscosity(self) -> float:
+        """Of the oil in the film, Pa s."""
+        return self.oil.viscosity(self.temperature, self.pressure)
+
+    def put(self, temperature: float, pressure: float) -> None:
+        """Go on with another temperature, deg C, and another pressure, Pa."""
+        self.temperature, self.pressure = temperature, pressure
+        joint = self.joint
+        size = joint.film.length, joint.radius, joint.clearance
+        self.interface.scale = film_scale(self.viscosity, *size)
+
+    def side_flow(self, states: JointHistory) -> Array:
+        """Return what flows out at both ends, (n,), m^3/s."""
+        joint = self.joint
+        e = np.linalg.norm(states.eccentricity, axis=1)
+        x, y = (states.eccentricity[:, :2] / np.maximum(e, 1e-300)[:, None]).T
+        u, v = states.velocity[:, :2].T
+        turning = states.turning.sum(axis=1)
+        e_dot, v_t = u * x + v * y, v * x - u * y
+        rates = e / joint.clearance, e_dot / joint.clearance
+        eps_w = (e * turning - 2.0 * v_t) / joint.clearance
+        return joint.film.length * joint.radius * joint.clearance * self._flow(*rates, eps_w)
+
+    def cooling(self, flow: Array) -> Array:
+        """Return what side flow and frame take off, (n,), W."""
+        oil, film = self.oil, self.temperature
+        by_flow = oil.heat_capacity * flow * (film - oil.supply_celsius)
+        return np.asarray(by_flow + oil.conductance * (film - oil.frame))
+
+    def mean_pressure(self, force: Array) -> Array:
+        """Return the mean pressure on the projected area, (n,), Pa, of a force (n, 2)."""
+        area = 2.0 * self.joint.radius * self.joint.film.length
+        return np.asarray(np.linalg.norm(force, axis=1) / area)
+
+    def balanced(self, last: Heat) -> tuple[float, float]:
+        """Return temperature, deg C, and pressure, Pa, at which the film gets rid of its heat.
+
+        Args:
+            last: what it did in the last revolution.
+        """
+        self.before.append(last)
+        recent = self.before[-max(1, len(self.before) // AVERAGED) :]
+        per_viscosity = _mean([one.power / one.viscosity for one in recent])
+        pressure = _mean([one.pressure for one in recent])
+        oil = self.oil
+        found = film_temperature(
+            per_viscosity,
+            oil.heat_capacity * _mean([one.flow for one in recent]),
+            oil.conductance,
+            oil.supply_celsius,
+            oil.frame,
+            lambda temperature: oil.viscosity(temperature, pressure),
+        )
+        return found, pressure
+
+
+def warm_films(
+    joints: Mapping[str, ClearanceJoint], described: Mapping[str, Joint]
+) -> dict[str, WarmFilm]:
+    """Return the films whose oil warms, each as its oil is supplied.
+
+    Args:
+        joints: name -> joint with clearance.
+        described: the same as the scene has them.
+    """
+    found = {}
+    for name, joint in joints.items():
+        kind = described[name]
+        if isinstance(kind, LubricatedJoint) and kind.film.oil is not None:
+            assert isinstance(joint, InterfaceJoint)
+            (film,) = (one for one in joint.interfaces if isinstance(one, FilmInterface))
+            found[name] = WarmFilm(kind, film, kind.film.oil.supply_celsius)
+    return found
+
+
+def _mean(values: Sequence[float]) -> float:
+    return sum(values) / len(values)

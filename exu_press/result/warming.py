@@ -1,0 +1,81 @@
+"""Oil that warms: after each revolution films have the temperature that their heat asks for."""
+
+import math
+import warnings
+from dataclasses import replace
+
+from exu_press.integrate import SolverStatus
+from exu_press.laws.film.oil import HOTTEST
+from exu_press.model import Model
+from exu_press.model.warm_film import Heat
+from exu_press.numerics.piecewise import integral
+from exu_press.result.result import Result
+
+__all__ = ["to_next_revolution", "warmed"]
+
+TURN = 2.0 * math.pi
+
+WHOLE = 1e-6
+"""Of a revolution: what may be missing of a whole one."""
+
+
+def to_next_revolution(model: Model, left: float) -> tuple[Model, float]:
+    """Return a model that goes on for one revolution, and its revolutions at the scene's speed.
+
+    Args:
+        model: at the start of a revolution.
+        left: revolutions of the run that are left, at the scene's speed.
+    """
+    solver = model.scene.solver
+    assert solver is not None
+    if model.scene.drive is None or solver.tolerance is None:
+        return model, min(left, 1.0)
+    begun = model.scene.start_angle if model.until is None else model.until
+    return replace(model, until=begun + TURN), left  # a motor gets there when it does
+
+
+def warmed(model: Model, block: Result) -> Result:
+    """Let the films of a model have the temperature that a revolution's heat asks for.
+
+    Args:
+        model: at the end of the revolution.
+        block: of the revolution; after a part of one films stay as they are.
+
+    Returns:
+        The revolution, with the temperatures with which the next one begins in its state. Where a
+        film does not get rid of its heat, it is the last one of the run and says why.
+    """
+    turned = float(block["crank_angle"][-1] - block["crank_angle"][0])
+    if model.scene.drive is None or model.until is None:
+        turned = float(block.time[-1] - block.time[0]) * model.scene.angular_speed
+    if turned < TURN * (1.0 - WHOLE):
+        return block
+    info, time = block.info, block.time
+    for name, film in model.warm.items():
+        lasts = float(time[-1] - time[0])
+        flow, pressure = (
+            float(integral(time, values)[-1]) / lasts
+            for values in (block[f"{name}_side_flow"], film.mean_pressure(block[f"{name}_force"]))
+        )
+        heat = Heat(float(block[f"{name}_loss"][-1]) / lasts, flow, pressure, film.viscosity)
+        temperature, pressure = film.balanced(heat)
+        if not math.isfinite(temperature):
+            reason = _too_hot(name, heat, film.oil.conductance, float(time[-1]))
+            warnings.warn(f"film broke down: {reason}", stacklevel=5)
+            info = {**info, "status": SolverStatus.FILM_BROKE_DOWN.value, "reason": reason}
+            continue
+        film.put(temperature, pressure)
+    films = {name: (film.temperature, film.pressure) for name, film in model.warm.items()}
+    if "state" in info:
+        info = {**info, "state": {**info["state"], "films": films}}
+    return replace(block, info=info)
+
+
+def _too_hot(name: str, heat: Heat, conductance: float, time: float) -> str:
+    """Return why a run goes no further."""
+    return (
+        f"film too hot at t = {time:.6g} s: below {HOTTEST:g} deg C side flow "
+        f"({heat.flow:.3g} m^3/s) and conductance ({conductance:g} W/K) do not carry off what "
+        f"joints.{name} dissipates ({heat.power:.4g} W as it was); try the conductance that its "
+        "frame has (film.oil.conductance), a larger clearance or a thinner oil"
+    )

@@ -17,6 +17,7 @@ from exu_press.result.declared import DECLARED, PLACES, VECTOR, Declared
 from exu_press.scene import DryJoint, Flexible
 from exu_press.scene.joint import LAW_TABLES
 from exu_press.scene.load import LOAD_KINDS
+from exu_press.scene.oil import Oil
 from exu_press.scene.usage import TABLES
 
 
@@ -39,7 +40,7 @@ class SceneKeys(Directive):
         found: list[nodes.Node] = []
         named = {"joints.NAME": DryJoint, "bodies.NAME": Flexible}
         named |= {f"load.NAME, {kind}": load for kind, load in LOAD_KINDS.items()}
-        for name, kind in {"at the top": Scene, **named, **TABLES}.items():
+        for name, kind in {"at the top": Scene, **named, **TABLES, "film.oil": Oil}.items():
             shown = name if kind is Scene else f"[{name}]"
             section = nodes.section(ids=[f"keys-{name.replace(' ', '-')}"], names=[shown])
             section += nodes.title(shown, shown)

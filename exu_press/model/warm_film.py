@@ -1,5 +1,6 @@
 """A film whose oil warms: its temperature, from the heat of the revolutions before."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
@@ -9,7 +10,7 @@ from exu_press.arrays import Array
 from exu_press.joints import ClearanceJoint, JointHistory
 from exu_press.joints.interface import FilmInterface, InterfaceJoint
 from exu_press.laws.film import FILM_LAWS, film_scale
-from exu_press.laws.film.oil import film_temperature
+from exu_press.laws.film.oil import HOTTEST, film_temperature
 from exu_press.laws.film.side_flow import SideFlow
 from exu_press.scene import LubricatedJoint
 from exu_press.scene.joint import Joint
@@ -19,6 +20,11 @@ __all__ = ["Heat", "WarmFilm", "warm_films"]
 AVERAGED = 4
 """A temperature follows from the last quarter of the revolutions so far: from the last one in a
 short run, and from their mean where no two revolutions are alike."""
+
+
+LEAST_SLOPE, LARGEST_SLOPE = -0.5, 0.75
+"""Of the temperature that the heat asks for, over the one that the film had: what is taken of it.
+It is not 0 as the journal sinks when the oil thins, and as friction in contacts does not fall."""
 
 
 @dataclass(frozen=True)
@@ -48,6 +54,7 @@ class WarmFilm:
         temperature: deg C.
         pressure: that thickens the oil, Pa.
         before: what it did in the revolutions so far.
+        asked: temperature in the last revolution, and the one that its heat asked for, deg C.
     """
 
     joint: LubricatedJoint
@@ -55,6 +62,7 @@ class WarmFilm:
     temperature: float
     pressure: float = 0.0
     before: list[Heat] = field(default_factory=list)
+    asked: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
         """Find what flows out."""
@@ -101,6 +109,9 @@ class WarmFilm:
     def balanced(self, last: Heat) -> tuple[float, float]:
         """Return temperature, deg C, and pressure, Pa, at which the film gets rid of its heat.
 
+        The motion of the last revolution is held. In the first revolutions a secant through the
+        last two of them foretells how it will change with the temperature.
+
         Args:
             last: what it did in the last revolution.
         """
@@ -117,7 +128,14 @@ class WarmFilm:
             oil.frame,
             lambda temperature: oil.viscosity(temperature, pressure),
         )
-        return found, pressure
+        before, self.asked = self.asked, (self.temperature, found)
+        if before is None or len(self.before) >= 2 * AVERAGED or found == math.inf:
+            return found, pressure
+        moved = self.temperature - before[0]
+        slope = (found - before[1]) / moved if moved else 0.0
+        slope = min(max(slope, LEAST_SLOPE), LARGEST_SLOPE)
+        foretold = self.temperature + (found - self.temperature) / (1.0 - slope)
+        return min(max(foretold, min(oil.supply_celsius, oil.frame)), HOTTEST), pressure
 
 
 def warm_films(

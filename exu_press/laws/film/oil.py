@@ -169,22 +169,20 @@ def film_temperature(
     -----
     A side flow at the film's temperature is Raimondi and Boyd's, whose oil leaves the ends with the
     mean of inlet and outlet. DIN 31652 lets it leave with the outlet's: its rise is half of this
-    one, where nothing is conducted. Measured rises in engines lie between, at 0.8 of this one
-    (Martin 1983).
+    one, where nothing is conducted.
 
     Examples
     --------
     100 W at 40 deg C, 10 W/K, and an oil that loses half of its viscosity in 20 K:
 
     >>> round(film_temperature(100.0, 6.0, 4.0, 40.0, 40.0, lambda t: 0.5 ** ((t - 40) / 20)), 2)
-    47.75
+    47.67
 
     References
     ----------
     .. [1] Raimondi, A. A., and J. Boyd. "A Solution for the Finite Journal Bearing and Its
        Application to Analysis and Design." ASLE Trans. 1 (1958): 159-209.
     .. [2] DIN 31652-1:2017. Hydrodynamic plain journal bearings under steady-state conditions.
-    .. [3] Martin, F. A. "Developments in engine bearing design." Tribol. Int. 16 (1983): 147-164.
     """
 
     def missing(temperature: float) -> float:

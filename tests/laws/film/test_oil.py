@@ -1,8 +1,10 @@
 """Viscosity laws against their points, their limits and their derivatives."""
 
+import math
+
 import pytest
 
-from exu_press.laws.film.oil import barus, roelands, walther
+from exu_press.laws.film.oil import barus, film_temperature, roelands, walther
 
 POINTS = (40.0, 30.0), (100.0, 5.23)
 VG100 = (40.0, 100.0), (100.0, 11.1)
@@ -42,3 +44,26 @@ def test_pressure_thickens(law):
 def test_roelands_is_barus_at_small_pressure_and_less_above():
     assert roelands(0.1, 2e-8, 1e6)[0] == pytest.approx(barus(0.1, 2e-8, 1e6)[0], rel=1e-4)
     assert roelands(0.1, 2e-8, 1e9)[0] < barus(0.1, 2e-8, 1e9)[0]
+
+
+def test_temperature_of_a_film_whose_viscosity_does_not_change():
+    """100 W over 4 W/K of oil and 6 W/K of a frame that is 10 K warmer."""
+    found = film_temperature(100.0, 4.0, 6.0, 40.0, 50.0, lambda _: 1.0)
+    assert 4.0 * (found - 40.0) + 6.0 * (found - 50.0) == pytest.approx(100.0, rel=1e-9)
+
+
+def test_temperature_of_a_film_closes_its_balance():
+    def thinning(temperature):
+        return walther(temperature, *POINTS)[0] / 30.0
+
+    found = film_temperature(500.0, 3.0, 2.0, 40.0, 30.0, thinning)
+    off = 3.0 * (found - 40.0) + 2.0 * (found - 30.0)
+    assert 500.0 * thinning(found) == pytest.approx(off, rel=1e-9)
+    assert film_temperature(600.0, 3.0, 2.0, 40.0, 30.0, thinning) > found
+
+
+def test_film_that_dissipates_nothing_or_keeps_its_heat():
+    assert film_temperature(0.0, 1.0, 0.0, 40.0, 20.0, lambda _: 1.0) == 40.0
+    assert film_temperature(0.0, 0.0, 1.0, 40.0, 20.0, lambda _: 1.0) == pytest.approx(20.0)
+    assert film_temperature(0.0, 0.0, 0.0, 40.0, 20.0, lambda _: 1.0) == 40.0
+    assert film_temperature(1.0, 0.0, 0.0, 40.0, 40.0, lambda _: 1.0) == math.inf

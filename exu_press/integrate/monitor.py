@@ -11,19 +11,15 @@ from typing import Any
 import exudyn as exu
 import numpy as np
 
-from exu_press.integrate.constraints import (
-    Constraints,
-    StepChange,
-    fit_start,
-    start_rates,
-    start_without_mass,
-)
+from exu_press.integrate.constraints import Constraints
 from exu_press.integrate.contact import Gaps, fit_data
 from exu_press.integrate.error import StepError
 from exu_press.integrate.output import OutputGrid
 from exu_press.integrate.sampling import Event, Sampling
 from exu_press.integrate.scheme import ModalMass, Newton
 from exu_press.integrate.settings import Task
+from exu_press.integrate.start import fit_start, start_rates, start_without_mass
+from exu_press.integrate.step_change import StepChange
 from exu_press.integrate.stepping import FixedSteps, Resolution, StepControl
 from exu_press.joints import ClearanceJoint
 from exu_press.terminal.progress import Progress

@@ -10,7 +10,7 @@ from patched import PATCHED
 from scipy.integrate import solve_ivp
 
 from exu_press import Scene, SolverStatus, simulate, solve_dynamic
-from exu_press.integrate.constraints import StepChange
+from exu_press.integrate.step_change import StepChange
 from exu_press.integrate.stepping import FixedSteps, StepControl
 from exudyn_examples import EXAMPLES
 

@@ -10,7 +10,12 @@ import pytest
 from stand_in import problem_at
 
 from exu_press import Scene, SolverStatus, simulate, solve_dynamic
-from exu_press.integrate.error import BodyError, ErrorPerStep, JointError, Quiet, Turning
+from exu_press.integrate.criteria.bodies import BodyError
+from exu_press.integrate.criteria.curvature import Curvature
+from exu_press.integrate.criteria.eccentricity import JointError
+from exu_press.integrate.criteria.share import ErrorPerStep
+from exu_press.integrate.criteria.turning import Turning
+from exu_press.integrate.criteria.vibration import Quiet
 from exu_press.integrate.problem import ErrorScales, FoundScales, Node
 from exu_press.integrate.settings import SolverTuning
 from exu_press.joints.path import Path
@@ -20,17 +25,21 @@ TUNING = SolverTuning()
 NOISE = 1e-13
 
 
-def errors(velocity_limit=1e-3, masses=(2.0,)):
-    """Errors of bodies that rest at first; each of one mass and a moment of inertia of 0.5."""
-    rest = np.zeros(3 * len(masses))
+def scales_of(masses):
+    """Scales of bodies that rest, each of one mass and a moment of inertia of 0.5."""
     nodes = (Node(i, "", 3 * i, 3, mass) for i, mass in enumerate(masses))
-    problem = problem_at(nodes, rest)
+    problem = problem_at(nodes, np.zeros(3 * len(masses)))
     scales = FoundScales(ErrorScales(speed=1.0, force=1.0), problem, longest=1.0)
     scales.begin(np.diag([value for mass in masses for value in (mass, mass, 0.5)]))
+    return scales
+
+
+def errors(velocity_limit=1e-3, masses=(2.0,)):
+    """Errors of bodies that rest at first."""
     return BodyError(
-        rest.tolist(),
+        [0.0] * (3 * len(masses)),
         per_step=ErrorPerStep(velocity_limit),
-        scales=scales,
+        scales=scales_of(masses),
         tuning=TUNING,
         noise=NOISE,
     )
@@ -88,11 +97,13 @@ def test_what_rounding_makes_alternate_is_no_offset():
 
 
 def curvature_after(accelerations, h=0.1, tolerance=1e-2):
-    error = errors()
+    bodies, scales = errors(), scales_of([2.0])
+    curvature = Curvature(bodies, scales, NOISE, tolerance)
     for value in accelerations:
-        error.accept()
-        error.tried([value, 0.0, 0.0], h)
-        found = error.curvature(h, tolerance)
+        curvature.accept()
+        bodies.accept()
+        bodies.tried([value, 0.0, 0.0], h)
+        found = curvature.error(h)
     return found
 
 

@@ -1,0 +1,1 @@
+"""What one step misses: one criterion a class, with its equation."""

@@ -1,0 +1,146 @@
+"""Velocities of bodies, told from the accelerations at three instants."""
+
+import math
+
+from exu_press.integrate.criteria.share import ErrorPerStep
+from exu_press.integrate.criteria.vibration import Quiet
+from exu_press.integrate.problem import FoundScales
+from exu_press.integrate.settings import SolverTuning
+
+__all__ = ["BodyError"]
+
+
+class BodyError:
+    """Tells from the accelerations at three instants what a step missed; 1 is what it may.
+
+    h^3 |second derivative of the acceleration| / 6 against what velocities may be off by; the
+    largest of all bodies, in the kinetic norm sqrt(|dx|^2 + (J/m) dphi^2).
+
+    Attributes:
+        change: of the accelerations' rate, by the step last tried, in SI over seconds.
+        rate: of the accelerations' change, in the step last tried.
+        turning: angle by which velocities are to turn yet, rad: `Turning`.
+        velocities: of all coordinates, where they are to turn by more than a radian.
+    """
+
+    def __init__(
+        self,
+        accelerations: list[float],
+        per_step: ErrorPerStep,
+        scales: FoundScales,
+        tuning: SolverTuning,
+        noise: float,
+        tolerance: float = 1.0,
+    ) -> None:
+        """Take the bodies and the scales.
+
+        Args:
+            accelerations: of all coordinates, at the beginning of the first step.
+            per_step: what a velocity may be off by in one step, over the scale of speeds.
+            scales: of the motion, which knows the bodies.
+            tuning: numbers.
+            noise: what rounded positions make of accelerations, times the step's square, m.
+            tolerance: of the run.
+        """
+        self._scales, self._per_step, self._tolerance = scales, per_step, tolerance
+        self._noise = noise
+        self._constant = tuning.velocity_constant
+        self._before = self._now = accelerations
+        self._rate_before: list[float] = []  # none before the first step
+        self.rate: list[float] = []
+        self.change: list[float] = []
+        self.turning = 0.0
+        self.velocities: list[float] = []
+        self._quiet = Quiet(scales)
+        self._share = math.inf  # of what errors can add up to, over what the run may have
+
+    def tried(self, now: list[float], step: float) -> float:
+        """Return the error of a step (s) that ends with these accelerations."""
+        self._now = now
+        before, last = self._before, self._rate_before
+        self.rate = rate = [(now[i] - before[i]) / step for i in range(len(now))]
+        if last:
+            self.change = [rate[i] - last[i] for i in range(len(rate))]
+        else:
+            part = step * self._part_changed(rate)
+            self.change = [part * value for value in rate]
+        if last and step < self._per_step.shortest:
+            allowed = self._tolerance * self._scales.speed
+            if allowed > 0.0:
+                self._share = self._quiet.amplitude(self.change, step) / allowed
+        return self.error(self.change, step)
+
+    def _part_changed(self, rate: list[float]) -> float:
+        """Return the rate of the accelerations, in the first step, over them: at most one a step.
+
+        What it changes by within the step is not known yet: as much as the accelerations do.
+        """
+        change, largest = self._scales.norm(rate), self.largest()
+        return change / largest if change > 0.0 else 0.0
+
+    def error(self, change: list[float], step: float, left: float = 0.0) -> float:
+        """Return the error that goes with a change of the accelerations' rate.
+
+        Args:
+            change: in SI over seconds.
+            step: s.
+            left: what its constraints leave open of positions, m.
+        """
+        noise = max(self._noise, left)
+        missed = self._constant * step * step
+        error = missed * self._scales.norm(change) / self._limit(step, noise, 1.0)
+        if self.turning > 1.0:
+            along = self._scales.along(change, self.velocities)
+            error = max(error, missed * along / self._limit(step, noise, self.turning))
+        return error
+
+    def of_positions(self, rate: list[float], step: float) -> float:
+        """Return the error that goes with positions, where constraints take that of velocities.
+
+        On a circle the third derivative of the velocity points to the centre, and the constraint
+        takes it away; but positions miss h^3 |da/dt| / 6 along the circle, and the velocity there
+        changes by its acceleration over its speed.
+
+        Args:
+            rate: of the accelerations' change, in SI over seconds.
+            step: s.
+        """
+        missed = self._constant * step * step * step * self._scales.norm(rate)
+        per_length = self.largest() / self._scales.speed
+        return missed * per_length / self._limit(step, self._noise, 1.0)
+
+    def _limit(self, step: float, noise: float, grows: float) -> float:
+        """Return what a velocity may be off by in a step (s), m/s, if that grows by a factor."""
+        whole = self._per_step.at(step, self._share) * self._scales.speed
+        return max(whole / grows, self._constant * noise / step)
+
+    def of_jump(self) -> float:
+        """Return the largest change of an acceleration in the step last tried, m/s^2."""
+        return self._scales.norm([a - b for a, b in zip(self._now, self._before, strict=True)])
+
+    def largest(self) -> float:
+        """Return the largest acceleration at the two ends of the step last tried, m/s^2."""
+        return max(self._scales.norm(self._now), self._scales.norm(self._before))
+
+    def offset(self, step: float) -> float:
+        """Return what velocities that constraints prescribe are off by at each instant, m/s.
+
+        They follow from two positions: h^2 |rate of the acceleration| / 12, if that is more than
+        what alternates because positions are rounded.
+        """
+        off = step * step * self._scales.norm(self.rate) / 12.0
+        return off if off > self._noise / (6.0 * step) else 0.0
+
+    @property
+    def begun(self) -> bool:
+        """Whether a step was accepted before the one last tried."""
+        return bool(self._rate_before)
+
+    def size(self) -> float:
+        """Return the largest acceleration at the end of the step last tried, m/s^2."""
+        return self._scales.norm(self._now)
+
+    def accept(self) -> None:
+        """Remember the accepted step's end as the next one's beginning."""
+        self._before, self._rate_before = self._now, self.rate
+        self._quiet.accept()

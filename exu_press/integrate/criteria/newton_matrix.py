@@ -1,0 +1,68 @@
+"""What Newton's matrix says of errors: what it lets through, and what rounding makes of it."""
+
+from typing import Any
+
+import numpy as np
+
+from exu_press.integrate.settings import Task, inertia_factor
+from exu_press.numerics.linear import Equations
+
+__all__ = ["NewtonMatrix"]
+
+EPSILON = 1.1e-16
+"""Last digit of a number, over it."""
+
+LARGER = 4.0
+"""Over the kinetic energy of a change, from where that of the filtered one is of last digits."""
+
+
+class NewtonMatrix:
+    """The last Jacobian of a task's solver: M (1 - alpha_m)/(1 - alpha_f) + ..., with constraints.
+
+    Constraints, films and contacts undo within the step what it does not let through (L. F.
+    Shampine's filter for stiff systems, see Hairer and Wanner, Solving Ordinary Differential
+    Equations II, IV.8).
+    """
+
+    def __init__(self, task: Task) -> None:
+        """Take a task."""
+        self._solver, self._scales = task.solver, task.scales
+        self._joints = task.problem.joints
+        self._size = len(task.problem.current.accelerations)
+
+    def left_in_constraints(self) -> float:
+        """Return how far the last digits of constraints move a body, m.
+
+        By far where a mechanism passes a position in which two of them nearly say the same.
+        """
+        jacobian = np.asarray(self._solver.GetSystemJacobian())
+        size, count = self._size, self._solver.GetAEsize()
+        of_constraints = np.eye(len(jacobian), count, count - len(jacobian))
+        try:
+            moved = np.abs(Equations(jacobian).solve(of_constraints)[:size]).sum(axis=1)
+        except np.linalg.LinAlgError:  # constraints that say the same
+            return 0.0
+        return EPSILON * self._scales.length * self._scales.norm(moved.tolist())
+
+    def filtered(self, *changes: list[float]) -> list[list[float]]:
+        """Return what Newton's matrix, M (1 - alpha_m)/(1 - alpha_f) + ..., leaves of changes."""
+        solver = self._solver
+        before, mass = np.array(changes).T, solver.GetSystemMassMatrix()
+        jacobian, size = np.asarray(solver.GetSystemJacobian()), len(before)
+        right = np.zeros((len(jacobian), len(changes)))
+        right[:size] = np.dot(mass, before) * inertia_factor(solver)
+        try:
+            filtered = Equations(jacobian).solve(right)[:size]
+            if not self._joints and _larger(filtered, before, mass):
+                # masses and springs make nothing larger, but constraints that nearly say the same
+                filtered = np.linalg.lstsq(jacobian, right, rcond=None)[0][:size]
+        except np.linalg.LinAlgError:  # constraints that say the same
+            return list(changes)
+        found: list[list[float]] = filtered.T.tolist()
+        return found
+
+
+def _larger(after: Any, before: Any, mass: Any) -> bool:
+    """Return whether changes, (n, k), have far more kinetic energy than before, if any."""
+    energies = [float(np.sum(changes * np.dot(mass, changes))) for changes in (after, before)]
+    return not energies[0] <= LARGER * energies[1]

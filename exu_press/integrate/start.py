@@ -1,0 +1,205 @@
+"""The state from which a run starts, moved to fit its constraints before the first step."""
+
+import numpy as np
+
+from exu_press.arrays import Array
+from exu_press.integrate.constraints import Constraints
+from exu_press.integrate.settings import Task
+from exu_press.numerics.linear import Equations
+
+__all__ = ["fit_start", "start_rates", "start_without_mass"]
+
+LOOK_AHEAD = 0.01
+"""Time ahead of the start at which constraints are evaluated, over the largest step; motions are
+smooth in it."""
+
+START_ITERATIONS = 4
+"""Of Newton's method to positions that fit the constraints."""
+
+FITS = 1e-14, 1e-6, 1e-6
+"""Relative violation up to which positions, velocities and accelerations may be off before they
+are moved: differences are rounded. Forces of constraints go as violations over the square of a
+step: on a ton, 1e-13 m are 20 kN in a step of 0.1 us."""
+
+MASSLESS = 1e-12
+"""Over the largest mass, up to which a coordinate has none."""
+
+
+class _Start:
+    """The state at the start, and what its constraints say of it and ahead of it."""
+
+    def __init__(self, task: Task, constraints: Constraints) -> None:
+        self._data, self._current = task.problem.data, task.problem.current
+        self._constraints = constraints
+        self._solver, self._mbs = task.solver, task.problem.mbs
+        self._start, self._ahead = task.start, LOOK_AHEAD * task.largest
+        self.q = np.array(self._current.positions)
+        self.v = np.array(self._current.velocities)
+        self.a = np.array(self._current.accelerations)
+        self._mass = np.array(task.solver.GetSystemMassMatrix())
+        self._matrix = constraints.matrix(self._mass, constraints.directions())
+        self.held = ~constraints.of_velocities()
+
+    def put(self, time: float = 0.0) -> None:
+        """Set the state after a time (s), with the accelerations of the start."""
+        current = self._current
+        current.positions[:] = self.q + time * self.v + 0.5 * time * time * self.a
+        current.velocities[:] = self.v + time * self.a
+        current.accelerations[:] = self.a
+        self._data.SetTime(self._start + time)
+
+    def violated(self, time: float = 0.0) -> Array:
+        """Return by how much each constraint is violated after a time (s)."""
+        self.put(time)
+        return self._constraints.violated()
+
+    def rates(self) -> tuple[Array, Array, Array]:
+        """Return the first, second and third rate of change of the violations."""
+        h = self._ahead
+        now, one, two, three = (self.violated(i * h) for i in range(4))
+        first = (-11.0 * now + 18.0 * one - 9.0 * two + 2.0 * three) / (6.0 * h)
+        second = (2.0 * now - 5.0 * one + 4.0 * two - three) / (h * h)
+        return first, second, (three - 3.0 * two + 3.0 * one - now) / (h * h * h)
+
+    def projected(self, vector: Array, violated: Array, fits: float) -> Array:
+        """Return the nearest vector, in the kinetic norm, without violations; itself if it fits."""
+        change = self._solved(np.zeros(len(vector)), violated)
+        return (
+            vector if self._norm(change) <= fits * self._norm(vector - change) else vector - change
+        )
+
+    def pushed(self) -> Array:
+        """Return the accelerations of the forces in the state, if constraints stood still."""
+        self.put()
+        self._solver.ComputeODE2RHS(self._mbs)
+        forces = np.array(self._solver.GetSystemResidual())[: len(self.q)]
+        return self._solved(forces, np.zeros(len(self.held)))
+
+    def _solved(self, forces: Array, violated: Array) -> Array:
+        """Return the change that forces and violations ask for."""
+        right = np.concatenate([forces, violated])
+        try:
+            return np.asarray(Equations(self._matrix).solve(right)[: len(forces)])
+        except np.linalg.LinAlgError:  # coordinates without mass, as of a beam's cross-sections
+            return np.asarray(np.linalg.lstsq(self._matrix, right, rcond=None)[0][: len(forces)])
+
+    def _norm(self, vector: Array) -> float:
+        return float(np.sqrt(abs(vector @ self._mass @ vector)))
+
+
+def fit_start(task: Task, constraints: Constraints) -> tuple[Array, Array] | None:
+    """Let the start fit the constraints, as near to what it was as can be.
+
+    Exudyn computes accelerations at the start, but for constraints that stand still: where an
+    offset's user function prescribes a motion, what it asks of velocities and accelerations is not
+    in them. And a drawing with five digits is off its joints by micrometres, of which a first step
+    of microseconds would make metres a second. What is missing is found along the motion that the
+    start has: the constraints are asked at a few instants ahead, whose differences are what they
+    change by.
+
+    Source: E. Hairer and G. Wanner, Solving Ordinary Differential Equations II, VII.1 (consistent
+    values of systems of index 3).
+
+    The solver has computed the mass matrix of the state.
+
+    Returns:
+        The accelerations, and what of their rate the constraints prescribe; None without any.
+    """
+    if not constraints.count or not task.problem.nodes:
+        return None
+    start = _Start(task, constraints)
+    held, length, moved = start.held, task.problem.length or 1.0, False
+    for _ in range(START_ITERATIONS):
+        violated = np.where(held, start.violated(), 0.0)
+        if np.abs(violated).max() <= FITS[0] * length:
+            break
+        start.q, moved = start.projected(start.q, violated, 0.0), True
+    accelerations, start.a = start.a, np.zeros_like(start.a)
+    start.v = start.projected(start.v, np.where(held, start.rates()[0], start.violated()), FITS[1])
+    # springs and contacts push otherwise in another place
+    start.a = start.pushed() if moved else accelerations
+    first, second, _ = start.rates()
+    start.a = start.projected(start.a, np.where(held, second, first), FITS[2])
+    _, second, third = start.rates()
+    rate = start.projected(np.zeros_like(start.a), np.where(held, third, second), 0.0)
+    start.put()
+    return start.a, rate
+
+
+def start_rates(task: Task) -> None:
+    """Set the rates of first-order coordinates at the start.
+
+    Exudyn takes them for zero there, which leaves half of the first step's change in the result.
+    """
+    problem = task.problem
+    before, size = len(problem.current.positions), len(problem.current.rates)
+    if size:
+        task.solver.ComputeODE1RHS(problem.mbs)
+        rates = np.array(task.solver.GetSystemResidual())[before : before + size]
+        problem.current.rates[:] = problem.start.rates[:] = rates
+
+
+class _WithoutMass:
+    """Coordinates without mass: their velocity balances springs and dampers.
+
+    Attributes:
+        free: directions without mass that constraints leave free, (k, n).
+    """
+
+    def __init__(self, task: Task, constraints: Constraints) -> None:
+        """Look for what has no mass; the solver has computed the mass matrix of the state."""
+        self._solver, self._mbs, self._current = task.solver, task.problem.mbs, task.problem.current
+        self._mass = mass = np.array(task.solver.GetSystemMassMatrix())
+        held = [constraints.directions()] if constraints.count else []
+        scaled = mass / (np.abs(mass).max(initial=0.0) or 1.0)
+        _, found, directions = np.linalg.svd(np.vstack([scaled, *held]))
+        self.free = directions[np.count_nonzero(found > MASSLESS * found.max(initial=0.0)) :]
+
+    def balance(self) -> Array:
+        """Change the velocities of the current state so; return the others' accelerations."""
+        velocities, free, forces = self._current.velocities, self.free, self._forces()
+        size, slopes = np.abs(velocities).max() or 1.0, []
+        for direction in free:
+            velocities += size * direction
+            slopes.append(free @ (self._forces() - forces) / size)
+            velocities -= size * direction
+        velocities -= np.linalg.lstsq(np.array(slopes).T, free @ forces, rcond=MASSLESS)[0] @ free
+        found: Array = np.linalg.lstsq(self._mass, self._forces(), rcond=MASSLESS)[0]
+        return found
+
+    def _forces(self) -> Array:
+        """Return what acts on the coordinates, but constraints."""
+        self._solver.ComputeODE2RHS(self._mbs)
+        return np.array(self._solver.GetSystemResidual())[: len(self._mass)]
+
+
+def start_without_mass(task: Task, constraints: Constraints) -> tuple[Array, Array] | None:
+    """Set accelerations at the start, and velocities of what has no mass, if there is any.
+
+    Exudyn starts with accelerations of zero then. Those of what has no mass are known from its
+    velocities a little ahead.
+
+    The solver has computed the mass matrix of the state.
+
+    Returns:
+        The accelerations, and that nothing prescribes their rate; None where all has mass.
+    """
+    if not task.problem.nodes:
+        return None
+    massless, data = _WithoutMass(task, constraints), task.problem.data
+    if not len(massless.free):
+        return None
+    current, ahead = task.problem.current, LOOK_AHEAD * task.first
+    accelerations = massless.balance()
+    positions, velocities = np.array(current.positions), np.array(current.velocities)
+    current.positions += ahead * velocities
+    current.velocities += ahead * accelerations
+    data.SetTime(task.start + ahead)
+    expected = np.array(current.velocities)
+    massless.balance()
+    accelerations += (current.velocities - expected) / ahead
+    data.SetTime(task.start)
+    for state in (current, task.problem.start):
+        state.positions[:], state.velocities[:] = positions, velocities
+        state.accelerations[:] = accelerations
+    return accelerations, np.zeros_like(accelerations)

@@ -1,0 +1,205 @@
+"""What generalized-alpha carries over from step to step, where the step changes."""
+
+import math
+
+import numpy as np
+
+from exu_press.arrays import Array
+from exu_press.integrate.constraints import Constraints
+from exu_press.integrate.settings import SAME, Task, inertia_factor
+from exu_press.numerics.linear import Equations
+
+__all__ = ["StepChange"]
+
+AHEAD = 1.0 / 64.0
+"""Of a step: near enough to tell velocities from positions, far enough for rounded ones."""
+
+MORE = 0.999
+"""Of what masses resist a change with: to which part forces resist it too, but for rounding."""
+
+CHANGE_ITERATIONS = 3
+"""To velocities and positions that fit the constraints; each leaves some hundredths."""
+
+
+class StepChange:
+    """Carries generalized-alpha over a change of step without ringing.
+
+    With steps of one size h generalized-alpha settles on offsets that belong to h: its algorithmic
+    acceleration a is the true one at another instant, a - a_true = h (alpha_m - alpha_f)
+    da_true/dt, and where positions are constrained the velocities miss the constraints by an amount
+    of order h^2. A much shorter step takes both for errors and answers with accelerations that
+    alternate for a dozen steps, larger than the motion's own changes. Scaled to the new step, by
+    its ratio to the old one and by that ratio's square, both fit at once; the latter costs as much
+    as a step. Likewise what Newton's method left of the positions' constraints, 1e-10 m, is nothing
+    beside a long step but a jolt beside a short one: it is taken away.
+
+    Without films and contacts motion is smooth, steps change seldom, and each change is worth this.
+    With them steps change all the time: velocities are fitted once steps have shrunk to a third,
+    and a longer step, which has little to make of either, is left alone: scaling up would blow up
+    whatever an impact or a film's start left ringing.
+
+    Exudyn's algorithmic acceleration can be read but not written, and when a step is repeated it
+    keeps the value of the failed try. But positions, velocities and accelerations at the step's
+    beginning can be shifted so that the step comes out as if it had been changed.
+
+    At rest a film carries nothing, and within a microsecond or less it takes up its load: the
+    accelerations with which Exudyn starts are then wrong at once, and ring. What the first step
+    changes the velocities by is right, as a film answers to velocities; so the step is repeated
+    from that.
+
+    Source: M. Arnold and O. Bruels, Convergence of the generalized-alpha scheme for constrained
+    mechanical systems, Multibody System Dynamics 18 (2007), Eqs. 2 and 3, and its remarks on the
+    hidden constraints.
+    """
+
+    def __init__(self, task: Task, constraints: Constraints) -> None:
+        """Watch the steps of a system that has these constraints."""
+        problem = task.problem
+        self._smooth = problem.joints is None
+        self._film_waits = problem.lubricated
+        self._refit = task.tuning.refit
+        self._solver, self._constraints = task.solver, constraints
+        self._data, self._current, self._at_start = problem.data, problem.current, problem.start
+        self._start: float | None = None  # of the step under way, s
+        self._last: float | None = None  # size of the last accepted step, s
+        self._fits = self._leaves = 0.0  # the step that constrained velocities fit, now and next
+        self._state: list[Array] = []  # at the step's beginning, before any shift
+        self._offsets: tuple[Array, Array] | None = None
+        self._mean: Array | None = None  # acceleration of the first step
+        # accelerations at the start, and what of their rate constraints prescribe
+        self._given: tuple[Array, Array] | None = None
+
+    def start_over(self, step: float) -> bool:
+        """Return whether a step (s) is to be repeated from its own mean acceleration.
+
+        The first one is, once, where a film takes up its load. To be asked after it was tried.
+        """
+        if not self._film_waits:
+            return False
+        self._film_waits = False
+        self._mean = (self._current.velocities - self._at_start.velocities) / step
+        return True
+
+    def start_from(self, accelerations: Array, rate: Array) -> None:
+        """Let the first step start with the offsets on which further ones would settle.
+
+        Args:
+            accelerations: at the start.
+            rate: what constraints prescribe of their rate of change.
+        """
+        self._given = accelerations, rate
+
+    def before_try(self, start: float, step: float) -> None:
+        """Shift the state from which Exudyn is about to try a step (s) from a start (s)."""
+        repeated = start == self._start
+        if not repeated:
+            self._last = None if self._start is None else start - self._start
+            self._fits = max(self._leaves, self._last or 0.0)
+            self._start, self._state, self._offsets = start, [], None
+        self._leaves = self._fits
+        ratio = 1.0 if self._last is None else step / self._last
+        if not self._smooth:
+            ratio = min(1.0, ratio)
+        given = self._last is None and self._given is not None
+        if repeated or given or abs(ratio - 1.0) > SAME:
+            self._shift(step, ratio)
+
+    def _shift(self, step: float, ratio: float) -> None:
+        """Shift positions, velocities and accelerations for a step `ratio` times the last one.
+
+        Newton's method may start anew, from what Exudyn keeps of the step's beginning; so that is
+        shifted as well, by what is missing there.
+        """
+        solver, start = self._solver, self._at_start
+        if not self._state:
+            self._state = [
+                np.array(view) for view in (start.positions, start.velocities, start.accelerations)
+            ]
+        q, v, a = self._state
+        if abs(ratio - 1.0) > SAME:
+            part = step / self._fits
+            if part < self._refit or self._smooth:
+                if self._offsets is None:
+                    self._offsets = self._violations()
+                q = q - self._offsets[0]
+                v = v - (1.0 - part * part) * self._offsets[1]
+                self._leaves = step
+        at_start = solver.GetStartOfStepStateAAlgorithmic()
+        wanted = a + ratio * (at_start - a)
+        if self._last is None and self._mean is not None:
+            a = wanted = self._mean
+        elif self._last is None and self._given is not None:
+            a, rate = self._given
+            settled = solver.alphaM - solver.alphaF
+            wanted = a + settled * step * rate
+            v = v + (1.0 / 6.0 - solver.newmarkBeta - 0.5 * settled) * step * step * rate
+        # q1 = q + h v + h^2 (1/2 - beta) a + h^2 beta a1 and v1 = v + h (1 - gamma) a + h gamma a1
+        # with (1 - alpha_m) a1 + alpha_m a = (1 - alpha_f) a_true1 + alpha_f a_true
+        beta, gamma = solver.newmarkBeta, solver.newmarkGamma
+        current = self._current
+        for state, there in ((current, solver.GetAAlgorithmic()), (start, at_start)):
+            missing = wanted - there
+            state.positions[:] = q + step * step * (gamma - 0.5 - beta) * missing
+            state.velocities[:] = v + step * (1.0 - gamma) * missing
+            state.accelerations[:] = a - (solver.alphaM / solver.alphaF) * missing
+
+    def _violations(self) -> tuple[Array, Array]:
+        """Return what of positions and velocities the constraints forbid, in Newton's norm.
+
+        Of all changes that mend it the one that the last Jacobian resists least, as in an iteration
+        of Newton's method: that counts what masses weigh, and what films and contacts would answer
+        with. In the norm of masses alone a journal was moved in its film by 1e-5 m/s, which it
+        answered with 2.4 kN. But a contact that lets go may give way to a change instead, so that
+        a large one costs nothing: where masses alone resist more, they count.
+        """
+        size, count = len(self._current.positions), self._constraints.count
+        if count == 0:
+            return np.zeros(size), np.zeros(size)
+        solver = self._solver
+        jacobian = np.asarray(solver.GetSystemJacobian())
+        directions, forces = jacobian[-count:, :size], jacobian[:size, :size]
+        inertia = inertia_factor(solver) * solver.GetSystemMassMatrix()
+        found = self._projection(0.5 * (forces + forces.T), directions)
+        for change in found:
+            if change @ forces @ change < MORE * (change @ inertia @ change):
+                return self._projection(inertia, directions)
+        return found
+
+    def _projection(self, norm: Array, directions: Array) -> tuple[Array, Array]:
+        """Return the least changes of positions and velocities that the constraints ask for.
+
+        The directions in which constraints act are those of the last Jacobian, perhaps a degree of
+        the crank away; how far they are violated is of this very state, so a few turns lead to it.
+
+        Args:
+            norm: (n, n), in which they are the least.
+            directions: of the constraints, (count, n).
+        """
+        size = len(norm)
+        # Newton's matrix has those of velocities over the step
+        lengths = np.sqrt(np.square(directions).sum(axis=1))
+        lengths[lengths == 0.0] = 1.0
+        matrix = self._constraints.matrix(norm, directions / lengths[:, None])
+        position, velocity = self._current.positions, self._current.velocities
+        now = self._data.GetTime()
+        self._data.SetTime(self._start)
+        found, violated = np.zeros((size, 2)), np.zeros((len(matrix), 2))
+        equations: Equations | None = None
+        for _ in range(CHANGE_ITERATIONS):
+            position[:] = self._state[0] - found[:, 0]
+            velocity[:] = self._state[1] - found[:, 1]
+            violated[size:, 0] = self._constraints.violated()
+            violated[size:, 1] = self._constraints.violated_rates(AHEAD * self._fits)
+            violated[size:] /= lengths[:, None]
+            same = violated[:, 0] == violated[:, 1]
+            violated[same] = 0.0  # prescribed speeds are no places, and are met as they are
+            try:
+                equations = equations or Equations(matrix)
+                found += equations.solve(violated)[:size]
+            except np.linalg.LinAlgError:
+                found[:] = math.nan
+            if not np.isfinite(found).all():  # a film's forces beyond all numbers: it says so
+                found[:] = 0.0
+                break
+        self._data.SetTime(now)
+        return found[:, 0], found[:, 1]

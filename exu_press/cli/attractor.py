@@ -3,7 +3,14 @@
 import argparse
 import sys
 
-from exu_press.cli.options import add_scene_arguments, directory_of, scene_of, show_warnings
+from exu_press.cli.options import (
+    add_format_argument,
+    add_scene_arguments,
+    check_format,
+    directory_of,
+    scene_of,
+    show_warnings,
+)
 from exu_press.files.output_directory import output_directory, write_json
 from exu_press.scene.warnings import scene_warnings
 
@@ -31,6 +38,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="NAME",
         help="keep this quantity of each revolution; may be repeated (the headline ones)",
     )
+    add_format_argument(parser)
 
 
 def execute(options: argparse.Namespace) -> int:
@@ -38,6 +46,7 @@ def execute(options: argparse.Namespace) -> int:
     from exu_press.studies.attractor import attractor
     from exu_press.studies.attractor.lines import attractor_lines
 
+    check_format(options)
     scene = scene_of(options)
     directory = output_directory(directory_of(options))
     found = attractor(
@@ -57,7 +66,8 @@ def execute(options: argparse.Namespace) -> int:
         from exu_press.plots.attractor import attractor_figure
         from exu_press.plots.file import save_figure
 
-        written.append(save_figure(attractor_figure(found), directory / "attractor.png").name)
+        file = directory / f"attractor{options.format}"
+        written.append(save_figure(attractor_figure(found), file).name)
     if not options.quiet:
         print("written:", ", ".join(written), f"in {directory}")
     if not found.period.told:

@@ -12,10 +12,12 @@ from exu_press.schema.checks import nearest
 
 __all__ = [
     "add_error_argument",
+    "add_format_argument",
     "add_run_arguments",
     "add_scene_arguments",
     "add_set_argument",
     "add_study_arguments",
+    "check_format",
     "directory_of",
     "resumable",
     "scene_of",
@@ -79,6 +81,23 @@ def add_study_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--out", metavar="DIR", help="where to write (default: out/STUDY)")
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
     parser.add_argument("--no-pictures", action="store_true", help="draw nothing")
+
+
+def add_format_argument(parser: argparse.ArgumentParser) -> None:
+    """Add which files pictures become."""
+    parser.add_argument(
+        "--format", default=".png", metavar="ENDING", help="of pictures: .png, .svg or .pdf"
+    )
+
+
+def check_format(options: argparse.Namespace) -> None:
+    """Raise InputError unless pictures can be written in the format that is asked for."""
+    if options.no_pictures:
+        return
+    from exu_press.plots.file import FORMATS
+
+    if options.format not in FORMATS:
+        raise InputError(f"--format {options.format}: allowed are {', '.join(FORMATS)}")
 
 
 def study_directory(options: argparse.Namespace) -> Path:

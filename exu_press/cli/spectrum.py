@@ -3,6 +3,7 @@
 import argparse
 from pathlib import Path
 
+from exu_press.cli.options import add_format_argument, check_format
 from exu_press.errors import InputError
 from exu_press.report.find import Kind, find_output
 from exu_press.result import Result
@@ -28,9 +29,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="flattop (amplitudes within 0.1%%), hann (narrower) or boxcar (none)",
     )
     parser.add_argument("--out", metavar="DIR", help="where to write (default: beside the run)")
-    parser.add_argument(
-        "--format", default=".png", metavar="ENDING", help="of pictures: .png, .svg or .pdf"
-    )
+    add_format_argument(parser)
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
     parser.add_argument("--no-pictures", action="store_true", help="draw nothing")
 
@@ -40,6 +39,7 @@ def execute(options: argparse.Namespace) -> int:
     from exu_press.files.output_directory import output_directory
     from exu_press.studies.spectrum import DEFAULT, marks_of, spectra
 
+    check_format(options)
     kind, file = find_output(Path(options.path))
     if kind is not Kind.RUN:
         raise InputError(f"{options.path}: allowed is a run.nc, or the directory that run wrote to")
@@ -49,11 +49,8 @@ def execute(options: argparse.Namespace) -> int:
     written: list[Path] = []
     directory = output_directory(options.out or file.parent)
     if not options.no_pictures:
-        from exu_press.plots.file import FORMATS
         from exu_press.plots.spectrum import save_spectra
 
-        if options.format not in FORMATS:
-            raise InputError(f"--format {options.format}: allowed are {', '.join(FORMATS)}")
         written = save_spectra(found, run.scene, marks, directory, options.format)
     if not options.quiet:
         lines = [line for one in found for line in one.lines()]

@@ -6,7 +6,7 @@ from matplotlib.lines import Line2D
 
 from exu_press.plots.headed import headed_figure
 from exu_press.plots.style import COLOURS, GREY, colour_of, styled
-from exu_press.plots.sweep_words import words
+from exu_press.plots.sweep_words import in_unit, words
 from exu_press.plots.typesetting import plain
 from exu_press.plots.words import describe
 from exu_press.studies.bifurcation import Report
@@ -18,7 +18,7 @@ MARKERS = {"up": "^", "down": "v", "from the start": "o"}
 
 @styled
 def bifurcation_figure(report: Report) -> Figure:
-    """Return the diagram: eccentricity on the section, period and exponent over the key."""
+    """Return the diagram of one key: eccentricity on the section, period, exponent over it."""
     study, values = report.study, report.study.values
     own = study.own
     text = f"{describe([study.scene_at({study.name: v}) for v in values], 110)}\n"
@@ -26,10 +26,13 @@ def bifurcation_figure(report: Report) -> Figure:
     figure = headed_figure("Bifurcation diagram", text, (9.5, 9.0))
     points, period, exponent = figure.subplots(3, 1, sharex=True, height_ratios=[3.0, 1.2, 1.5])
     handles = []
+    shown, unit = in_unit(study.name, np.array(values))
+    places = dict(zip(values, shown.tolist(), strict=True))
     for number, branch in enumerate(report.branches):
         colour, marker = colour_of(number), MARKERS[branch.name]
         handles.append(Line2D([], [], linestyle="", marker=marker, color=colour, label=branch.name))
-        for value, row in zip(branch.values, branch.rows, strict=True):
+        for key, row in branch:
+            value = places[key]
             if row["status"] != "completed":
                 points.axvline(value, color=GREY, linestyle=":")
                 continue
@@ -54,7 +57,8 @@ def bifurcation_figure(report: Report) -> Figure:
     points.set_ylabel("eccentricity x / clearance, first joint")
     points.legend(handles=handles, loc="best")
     points.margins(x=0.03, y=0.1)
-    exponent.set_xlabel(plain(words(study.name)))
+    label = words(study.name)
+    exponent.set_xlabel(plain(f"{label}, {unit}" if unit else label))
     if len(values) > 2 and values[0] > 0.0 and values[-1] > 10.0 * values[0]:
         exponent.set_xscale("log")
     return figure

@@ -16,19 +16,19 @@ def bifurcation_report(file: Path) -> str:
     """Return the page of a bifurcation diagram, from bifurcation.json."""
     try:
         told = from_json(dict[str, Any], file.read_bytes(), file.name)
-        key = str(told["key"])
+        names = [str(told["key"]), *([told["second_key"]] if "second_key" in told else [])]
         rows = [(way, row) for way, branch in told["branches"].items() for row in branch]
         done = [(way, row) for way, row in rows if row["status"] == "completed"]
-        live = _live(key, done) if has_library() and done else None
+        live = _live(names, done) if has_library() and done else None
         cells = [_cells(way, row) for way, row in rows]
     except OSError as error:
         raise InputError(f"{error.filename}: cannot be read ({error.strerror})") from None
     except (ValueError, KeyError, IndexError, TypeError, AttributeError) as error:
         raise InputError(f"{file}: not a bifurcation of exu_press ({error!s:.200})") from None
     pictures = [picture(path, "The diagram.") for path in sorted(file.parent.glob("*.png"))]
-    head = (_head(key), "way", "period", "exponent per revolution", "motion")
+    head = (*map(_head, names), "way", "period", "exponent per revolution", "motion")
     return page(
-        f"Bifurcation over {key}",
+        f"Bifurcation over {' and '.join(names)}",
         f"{len(rows)} runs, {len(rows) - len(done)} without a result; "
         f"{file.parent.name}/{file.name}",
         [
@@ -46,20 +46,23 @@ def _head(key: str) -> str:
 
 def _cells(way: str, row: dict[str, Any]) -> list[str]:
     """Return a run as a line of the table."""
-    value = f"{row['value']:g}"
+    at = [f"{row[place]:g}" for place in ("value", "second") if place in row]
     if row["status"] != "completed":
-        return [value, way, str(row["status"]), str(row["reason"]), ""]
+        return [*at, way, str(row["status"]), str(row["reason"]), ""]
     _, low, high = row["exponent"]
     exponent = f"below {high:.3g}" if low is None else f"{low:.3g} to {high:.3g}"
-    return [value, way, str(row["in_words"]), exponent, str(row["motion"])]
+    return [*at, way, str(row["in_words"]), exponent, str(row["motion"])]
 
 
-def _live(key: str, done: list[tuple[str, dict[str, Any]]]) -> Live:
+def _live(names: list[str], done: list[tuple[str, dict[str, Any]]]) -> Live:
     """Return every point of every section over the key."""
     from exu_press.page.study import Column, study_viewer
 
     each = [(way, row, point) for way, row in done for point in row["points"]]
-    values = Column(key, unit_of(key), [row["value"] for _, row, _ in each])
+    values = [
+        Column(name, unit_of(name), [row[place] for _, row, _ in each])
+        for name, place in zip(names, ("value", "second"), strict=False)
+    ]
     ways = Column("way", "", [way for way, _, _ in each])
     periods = Column("period", "", [str(row["in_words"]) for _, row, _ in each])
     count = min(len(point) for _, _, point in each)
@@ -69,5 +72,5 @@ def _live(key: str, done: list[tuple[str, dict[str, Any]]]) -> Live:
     ]
     exponents = Column("exponent per revolution", "", [row["exponent"][0] for _, row, _ in each])
     told = [f"{row['in_words']}, {row['motion']}, on the way {way}" for way, row, _ in each]
-    first = (key, sections[0].name)
-    return study_viewer([values, ways, periods], [*sections, exponents], told, first, "way")
+    first = (names[0], sections[0].name)
+    return study_viewer([*values, ways, periods], [*sections, exponents], told, first, "way")

@@ -1,0 +1,96 @@
+"""Run the study: the first key goes up and down, from state to state, or every run starts anew."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from exu_press.files.output_directory import write_json
+from exu_press.parallel import Chain
+from exu_press.scene import Scene
+from exu_press.studies.base import Row, Runs
+from exu_press.studies.bifurcation.point import run_point
+from exu_press.studies.bifurcation.report import Branch, Report
+from exu_press.studies.bifurcation.study import FROM_THE_START, Bifurcation
+
+__all__ = ["bifurcation"]
+
+FILE = "bifurcation.json"
+
+
+def bifurcation(
+    study: Bifurcation,
+    directory: str | Path,
+    *,
+    workers: int | None = None,
+    dask: str | None = None,
+    quiet: bool = True,
+) -> Report:
+    """Run the study, going on where its directory was left, and write bifurcation.json.
+
+    On the ways up and down each run starts in the state in which the run at the last value ended,
+    so that hysteresis is seen; both ways run beside each other, and so do the values of a second
+    key. After a value whose run failed, the next one starts as the scene does.
+
+    Args:
+        study: what is asked.
+        directory: of this study alone.
+        workers: number of processes; all cores unless told.
+        dask: address of a Dask scheduler instead.
+        quiet: False shows the progress.
+    """
+    values = study.values
+    with Runs(
+        study, directory, written=[FILE], label="bifurcation", function=run_point,
+        workers=workers, dask=dask, quiet=quiet,
+    ) as runs:  # fmt: skip
+        if study.own.way == FROM_THE_START:
+            points = [(value, second) for second in study.seconds for value in values]
+            rows = iter(runs.rows([_arguments(study, *point, None) for point in points]))
+            branches = [
+                Branch(FROM_THE_START, values, [next(rows) for _ in values], second)
+                for second in study.seconds
+            ]
+        else:
+            ways = {"up": values, "down": values[::-1]}
+            names = [name for name in ways if name in study.own.way]
+            found: list[list[Row]] = []
+            branches, chains = [], []
+            for second in study.seconds:
+                for name in names:
+                    found.append([])
+                    branches.append(Branch(name, ways[name], found[-1], second))
+                    chains.append(_way(study, ways[name], second, found[-1]))
+            runs.follow(chains, len(chains) * len(values))
+    report = Report(study, branches)
+    write_json(Path(directory) / FILE, report.to_dict())
+    return report
+
+
+def _way(
+    study: Bifurcation, values: Sequence[float], second: float | None, rows: list[Row]
+) -> Chain:
+    """Yield the arguments of runs one after another, and add their rows to `rows`."""
+    last = None
+    for value in values:
+        row = yield _arguments(study, value, second, last)
+        rows.append(row)
+        last = value, row
+
+
+def _arguments(
+    study: Bifurcation, value: float, second: float | None, last: tuple[float, Row] | None
+) -> dict[str, Any]:
+    """Return the arguments of `run_point`, from the row at the value before."""
+    scene: Scene = study.scene_at(study.at(value, second))
+    own = study.own
+    found: dict[str, Any] = {
+        "scene": scene.to_dict(),
+        "skip": own.skip,
+        "revolutions": own.revolutions,
+        "longest": own.longest,
+        "start": None,
+    }
+    if last is not None and "state" in last[1]:
+        found["start"] = last[1]["state"]
+        found["speed"] = study.scene_at(study.at(last[0], second)).speed_rpm
+    return found

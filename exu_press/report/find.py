@@ -20,6 +20,7 @@ class Kind(Enum):
     OPTIMUM = "optimise.json"
     FIT = "fit.json"
     BIFURCATION = "bifurcation.json"
+    ATTRACTOR = "attractor.json"
 
 
 def find_output(path: Path) -> tuple[Kind, Path]:
@@ -39,7 +40,7 @@ def find_output(path: Path) -> tuple[Kind, Path]:
             several = " and ".join(kind.value for kind in found)
             raise InputError(f"{path}: has {several}; name the file that is meant")
         return found[0], path / found[0].value
-    for kind in (Kind.COMPARISON, Kind.SWEEP, Kind.OPTIMUM, Kind.FIT, Kind.BIFURCATION):
+    for kind in Kind:
         if path.name == kind.value:
             return kind, path
     if path.suffix in (".json", ".csv"):
@@ -80,6 +81,10 @@ def report_of(kind: Kind, file: Path, span: Span = ALL) -> str:
         from exu_press.report.bifurcation import bifurcation_report
 
         return bifurcation_report(file)
+    if kind is Kind.ATTRACTOR:
+        from exu_press.report.attractor import attractor_report
+
+        return attractor_report(file)
     from exu_press.report.run import run_report
 
     return run_report(Result.load(file), f"{file.resolve().parent.name}/{file.name}", span)

@@ -1,10 +1,13 @@
-"""Distribution of figures over revolutions, where motion is chaotic."""
+"""Figures over revolutions: mean, scatter and percentiles, and how well each of them is known."""
 
-from collections.abc import Collection, Sequence
+import math
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
+from typing import Any, Self
 
 import numpy as np
 
+from exu_press.arrays import Array
 from exu_press.errors import InputError
 from exu_press.quantities import quantities_of
 from exu_press.quantities.value import numbers_of
@@ -13,11 +16,14 @@ from exu_press.result.windows import revolutions_of
 from exu_press.scene import Scene
 from exu_press.terminal.progress import Progress
 
-__all__ = ["LEAST_REVOLUTIONS", "Distribution", "distributions", "percentiles"]
+__all__ = ["BATCHES", "LEAST_REVOLUTIONS", "Distribution", "distributions", "percentiles"]
 
 PERCENTILES = (5.0, 50.0, 95.0)
 
 CONFIDENCE = 0.9
+
+BATCHES = 10
+"""Parts of the revolutions that are left out in turn, to see by how much mean and scatter move."""
 
 AT_A_TIME = 8
 """Revolutions of a run, of which the first is left out: it still knows how the run began."""
@@ -35,16 +41,61 @@ GOLDEN = 180.0 * (5.0**0.5 - 1.0)
 
 @dataclass(frozen=True)
 class Distribution:
-    """A figure's values over revolutions.
+    """A figure's values over revolutions, in its unit.
 
     Attributes:
         revolutions: how many.
+        mean: with its standard error.
+        scatter: standard deviation, with its standard error.
         percentiles: percentile -> the value, and between which values it lies with a confidence of
-            90 %, in the figure's unit.
+            90 %.
     """
 
     revolutions: int
+    mean: tuple[float, float]
+    scatter: tuple[float, float]
     percentiles: dict[float, tuple[float, float, float]]
+
+    @classmethod
+    def of(cls, values: Sequence[float]) -> Self:
+        """Return the distribution of values, one a revolution, two at least, in their order."""
+        each = np.asarray(values, dtype=float)
+        return cls(
+            len(each),
+            (float(each.mean()), _jackknife(each, np.mean)),
+            (float(each.std(ddof=1)), _jackknife(each, _deviation)),
+            percentiles([float(value) for value in each]),
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return what files have of it."""
+        return {
+            "revolutions": self.revolutions,
+            "mean": dict(zip(("value", "error"), self.mean, strict=True)),
+            "scatter": dict(zip(("value", "error"), self.scatter, strict=True)),
+            "percentiles": {
+                f"{percent:g}": dict(zip(("value", "low", "high"), told, strict=True))
+                for percent, told in self.percentiles.items()
+            },
+        }
+
+
+def _deviation(values: Array) -> np.floating[Any]:
+    return values.std(ddof=1)
+
+
+def _jackknife(values: Array, statistic: Callable[[Array], np.floating[Any]]) -> float:
+    """Return the standard error of a statistic, by leaving out one batch after the other.
+
+    Revolutions that follow each other depend on each other, batches of them hardly do (B. Efron,
+    The Jackknife, the Bootstrap and Other Resampling Plans, SIAM 1982, 3). NaN of fewer values
+    than three.
+    """
+    if len(values) < 3:
+        return math.nan
+    parts = np.array_split(np.arange(len(values)), min(BATCHES, len(values)))
+    found = np.array([statistic(np.delete(values, part)) for part in parts])
+    return math.sqrt((len(parts) - 1) * float(((found - found.mean()) ** 2).mean()))
 
 
 def percentiles(values: Sequence[float]) -> dict[float, tuple[float, float, float]]:
@@ -109,15 +160,15 @@ def distributions(
             run = run_once(scene.replace({"revolutions": AT_A_TIME, "start_angle_deg": angle}))
             if not run.completed:
                 raise InputError(f"no distribution, as a run {run.info['reason']}")
-            each = [numbers_of(one, declared) for one in revolutions_of(run)[1:]]
+            new = [numbers_of(one, declared) for one in revolutions_of(run)[1:]]
             values = {
-                name: [*so_far, *(one[name] for one in each)]
+                name: [*so_far, *(one[name] for one in new)]
                 for name, so_far in values.items()
-                if all(name in one for one in each)
+                if all(name in one for one in new)
             }
-            count, start = count + len(each), start + 1
+            count, start = count + len(new), start + 1
             progress.update(count)
-            found = {name: Distribution(count, percentiles(all_)) for name, all_ in values.items()}
+            found = {name: Distribution.of(each) for name, each in values.items()}
             if count >= least and all(_known(one, within) for one in found.values()):
                 break
     return found

@@ -7,6 +7,7 @@ from browser import opened
 
 from exu_press import Scene
 from exu_press.cli import main
+from exu_press.verification.distribution import Distribution
 
 SCENE = Scene(mechanism="slider_crank", joints={"crank_pin": "ideal"}, revolutions=0.1)
 TRIALS = """speed_rpm,drive.peak_torque,peak_velocity,front
@@ -101,7 +102,9 @@ def test_every_point_of_a_section_is_in_the_diagram(tmp_path, browser):
         for value, found in ((100.0, [0.5]), (200.0, [0.4, 0.6]))
     ]  # fmt: skip
     rows.append({"value": 300.0, "status": "failed", "reason": "<b>why"})
-    told = {"key": "speed_rpm", "branches": {"up": rows}}
+    for one in rows:
+        one["second"] = 0.1
+    told = {"key": "speed_rpm", "second_key": "film.viscosity", "branches": {"up": rows}}
     (tmp_path / "bifurcation.json").write_text(json.dumps(told))
     with opened(browser, report_in(tmp_path)) as page:
         found = page.evaluate(
@@ -110,3 +113,42 @@ def test_every_point_of_a_section_is_in_the_diagram(tmp_path, browser):
         )
         assert found == [[100.0, 200.0, 200.0], [0.5, 0.4, 0.6]]
         assert "<b>why" in page.inner_text("body")
+
+
+def motion():
+    """What attractor.json has of four revolutions; one does not have the first figure."""
+    scene = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"})
+    figures = {"stroke": [0.06, None, 0.07, 0.06], "peak_velocity": [1.0, 2.0, 3.0, 4.0]}
+    known = {name: [v for v in each if v is not None] for name, each in figures.items()}
+    exponent = {"per_revolution": -1.0, "low": None, "high": -0.5, "motion": "regular"}
+    return {
+        "scene": scene.to_dict(), "skip": 5, "revolutions": 4, "section_deg": 0.0,
+        "period": {"in_words": "<i>1 revolution", "distances": [1e-3], "error": 1e-2},
+        "lyapunov_exponent": {
+            **exponent, "per_second": -4.0, "low_per_second": None, "high_per_second": -2.0,
+        },
+        "figures": figures, "units": {"stroke": "m", "peak_velocity": "m/s"},
+        "distributions": {n: Distribution.of(each).to_dict() for n, each in known.items()},
+        "points": [[0.1 * k, -0.1 * k] for k in range(4)],
+    }  # fmt: skip
+
+
+def test_every_revolution_of_a_long_run_is_in_its_page(tmp_path, browser):
+    pytest.importorskip("bokeh")
+    (tmp_path / "attractor.json").write_text(json.dumps(motion()))
+    with opened(browser, report_in(tmp_path)) as page:
+        found = page.evaluate(
+            """() => { const d = Bokeh.documents[0].get_model_by_name('points-runs').data;
+            return [[...d.x], [...d.y]]; }"""
+        )
+        assert found == [[0.0, 0.1, 0.2, 0.1 * 3], [0.0, -0.1, -0.2, -0.1 * 3]]
+        text = page.inner_text("body")
+        assert "<i>1 revolution" in text
+        assert "below -2" in text
+        assert "peak_velocity" in text
+
+
+def test_a_long_run_without_its_points_is_refused(tmp_path, capsys):
+    (tmp_path / "attractor.json").write_text(json.dumps({**motion(), "points": [], "figures": 3}))
+    assert main(["report", str(tmp_path)]) == 2
+    assert "not a motion of exu-press attractor" in capsys.readouterr().err

@@ -4,7 +4,12 @@ import numpy as np
 import pytest
 
 from exu_press import InputError, Scene
-from exu_press.verification.distribution import LEAST_REVOLUTIONS, distributions, percentiles
+from exu_press.verification.distribution import (
+    LEAST_REVOLUTIONS,
+    Distribution,
+    distributions,
+    percentiles,
+)
 
 NAME = "peak_acceleration.resolved"
 
@@ -51,3 +56,23 @@ def test_percentiles_of_thousands_of_revolutions():
     middle, low, high = percentiles(values.tolist())[95.0]
     assert low < 5.0 + 1.6449 * 2.0 < high
     assert middle == pytest.approx(5.0 + 1.6449 * 2.0, rel=0.03)
+
+
+def test_errors_of_mean_and_scatter_are_those_of_many_samples():
+    """Of independent values the textbook's; of values that come in runs of ten, three times it."""
+    random = np.random.default_rng(3)
+    found = [Distribution.of(random.normal(5.0, 2.0, 200).tolist()) for _ in range(200)]
+    for name, expected in (("mean", 2.0 / 200**0.5), ("scatter", 2.0 / 398**0.5)):
+        told = np.array([getattr(one, name) for one in found])
+        assert told[:, 0].std() == pytest.approx(expected, rel=0.15)
+        assert np.sqrt((told[:, 1] ** 2).mean()) == pytest.approx(expected, rel=0.15)
+    runs = [Distribution.of(np.repeat(random.normal(size=20), 10).tolist()) for _ in range(200)]
+    errors = np.array([one.mean[1] for one in runs])
+    assert np.sqrt((errors**2).mean()) == pytest.approx(20**-0.5, rel=0.15)
+
+
+def test_what_does_not_scatter_has_no_error():
+    told = Distribution.of([2.0] * 30).to_dict()
+    assert told["mean"] == {"value": 2.0, "error": 0.0}
+    assert told["scatter"] == {"value": 0.0, "error": 0.0}
+    assert told["percentiles"]["95"] == {"value": 2.0, "low": 2.0, "high": 2.0}

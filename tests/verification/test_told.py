@@ -29,7 +29,7 @@ def test_a_tolerance_that_delivers_is_named(calm):
 
 
 def test_what_no_tolerance_delivers_is_told_with_its_distribution(calm):
-    missed = {NAME: Distribution(63, SPREAD), "energy.dissipated": None}
+    missed = {NAME: Distribution(63, (220.0, 5.0), (120.0, 9.0), SPREAD), "energy.dissipated": None}
     assert delivered_lines(Delivered(calm, 1e-6, missed), 0.001) == [
         f"{NAME}: not within 0.1 %, down to a tolerance of 1e-06",
         "  over 63 revolutions: 5 % below 90 (80 to 95); 50 % below 200 (190 to 210); "

@@ -2,11 +2,8 @@
 
 import math
 
-import numpy as np
-
 from exu_press.studies.attractor.study import Attractor
 from exu_press.terminal.columns import columns
-from exu_press.verification.distribution import percentiles
 
 __all__ = ["attractor_lines"]
 
@@ -42,17 +39,14 @@ def attractor_lines(found: Attractor) -> list[str]:
 def _figures(found: Attractor) -> list[list[str]]:
     """Return a table of the figures over revolutions."""
     rows = [["quantity", "mean", "scatter", "5 %", "50 %", "95 %"]]
-    for name, each in found.figures.items():
-        values = each[np.isfinite(each)]
-        unit = found.units[name]
+    for name, unit in found.units.items():
         head = f"{name}, {unit}" if unit else name
-        if not len(values):
+        one = found.distributions.get(name)
+        if one is None:
             rows.append([head, *["-"] * 5])
             continue
-        numbers = [float(values.mean()), float(values.std(ddof=1))]
-        bounds = [
-            f"{at:.5g} [{low:.5g}, {high:.5g}]"
-            for at, low, high in percentiles([float(value) for value in values]).values()
-        ]
-        rows.append([head, f"{numbers[0]:.6g}", f"{numbers[1]:.2g}", *bounds])
+        bounds = [f"{at:.5g} [{low:.5g}, {high:.5g}]" for at, low, high in one.percentiles.values()]
+        (mean, off), (scatter, off_scatter) = one.mean, one.scatter
+        told = f"{mean:.6g} +- {off:.2g}", f"{scatter:.2g} +- {off_scatter:.1g}"
+        rows.append([head, *told, *bounds])
     return rows

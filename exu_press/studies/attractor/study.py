@@ -21,6 +21,7 @@ from exu_press.studies.attractor.orbit import Orbit
 from exu_press.studies.attractor.period import MOST, Period, period_of
 from exu_press.studies.spectrum import column_of
 from exu_press.terminal.progress import Progress
+from exu_press.verification.distribution import Distribution
 
 __all__ = ["DISTANCES", "Attractor", "attractor"]
 
@@ -83,6 +84,12 @@ class Attractor:
             self.turns * x for x in (self.exponent.value, self.exponent.low, self.exponent.high)
         )  # type: ignore[return-value]
 
+    @property
+    def distributions(self) -> dict[str, Distribution]:
+        """Mean, scatter and percentiles of the figures that three revolutions at least have."""
+        known = {name: each[np.isfinite(each)] for name, each in self.figures.items()}
+        return {name: Distribution.of(each) for name, each in known.items() if len(each) > 2}
+
     def to_dict(self) -> dict[str, Any]:
         """Return the entries of attractor.json."""
         value, low, high = self.per_second
@@ -110,7 +117,12 @@ class Attractor:
                 "revolutions": self.exponent.revolutions,
                 "motion": self.exponent.sign,
             },
-            "figures": {name: each.tolist() for name, each in self.figures.items()},
+            "figures": {
+                name: [_finite(value) for value in each.tolist()]
+                for name, each in self.figures.items()
+            },
+            "units": dict(self.units),
+            "distributions": {name: one.to_dict() for name, one in self.distributions.items()},
             "points": self.points.tolist(),
         }
 

@@ -1,0 +1,104 @@
+"""The report of a motion in the long run: its revolutions as points, and their figures."""
+
+from pathlib import Path
+from typing import Any
+
+from exu_press.errors import InputError
+from exu_press.page import Live, has_library
+from exu_press.plots.words import describe
+from exu_press.report.html import page, paragraph, picture, stills, table
+from exu_press.report.run import scene_parts
+from exu_press.scene import Scene
+from exu_press.schema.stored import from_json
+
+__all__ = ["attractor_report"]
+
+HEAD = ("quantity", "unit", "mean", "+-", "scatter", "+-", "5 %", "50 %", "95 %")
+
+
+def attractor_report(file: Path) -> str:
+    """Return the page of a motion in the long run, from attractor.json."""
+    try:
+        told = from_json(dict[str, Any], file.read_bytes(), file.name)
+        scene = Scene.from_dict(told["scene"])
+        found = [["period", str(told["period"]["in_words"])], *_exponent(told)]
+        figures = [
+            _figure(name, told["units"][name], one) for name, one in told["distributions"].items()
+        ]
+        live = _live(told) if has_library() else None
+        length = f"{told['revolutions']} revolutions after {told['skip']}"
+        section = f"section at crank angle {told['section_deg']:g} deg"
+    except OSError as error:
+        raise InputError(f"{error.filename}: cannot be read ({error.strerror})") from None
+    except (ValueError, KeyError, IndexError, TypeError, AttributeError) as error:
+        raise InputError(f"{file}: not a motion of exu-press attractor ({error!s:.200})") from None
+    pictures = [
+        picture(path, "Section, phase portrait, transient, orders, values by revolution.")
+        for path in sorted(file.parent.glob("attractor.png"))
+    ]
+    return page(
+        f"In the long run: {describe([scene], 200)}",
+        f"{section}, {length}; {file.parent.name}/{file.name}",
+        [
+            ("Motion", table(("", "value"), found)),
+            *([] if live is None else [("Revolutions", live.body)]),
+            ("Figures over revolutions", table(HEAD, figures)),
+            ("Pictures", stills("\n".join(pictures) or paragraph("None was drawn."), live)),
+            *scene_parts(scene),
+        ],
+        live,
+    )
+
+
+def _exponent(told: dict[str, Any]) -> list[list[str]]:
+    """Return the lines of the largest Lyapunov exponent, and how far points lie apart."""
+    one = told["lyapunov_exponent"]
+    rows = []
+    for name, parts in (
+        ("per revolution", ("per_revolution", "low", "high")),
+        ("1/s", ("per_second", "low_per_second", "high_per_second")),
+    ):
+        value, low, high = (one[part] for part in parts)
+        words = f"below {high:.4g}" if low is None else f"{value:.4g}, in {low:.4g} to {high:.4g}"
+        rows.append([f"largest Lyapunov exponent, {name}", words])
+    apart = f"{told['period']['distances'][0]:.3g}, known within {told['period']['error']:.3g}"
+    return [
+        *rows,
+        ["motion", str(one["motion"])],
+        ["points 1 revolution apart differ by up to (clearances)", apart],
+    ]
+
+
+def _figure(name: str, unit: str, one: dict[str, Any]) -> list[str]:
+    """Return a figure as a line of the table."""
+    both = [
+        f"{one[part][entry]:.{digits}g}"
+        for part in ("mean", "scatter")
+        for entry, digits in (("value", 6), ("error", 2))
+    ]
+    shares = [
+        f"{at['value']:.5g} [{at['low']:.5g}, {at['high']:.5g}]"
+        for at in one["percentiles"].values()
+    ]
+    return [name, unit, *both, *shares]
+
+
+def _live(told: dict[str, Any]) -> Live:
+    """Return every revolution: its point in the section and its figures."""
+    from exu_press.page.study import Column, study_viewer
+
+    points = told["points"]
+    numbers = [told["skip"] + 1 + k for k in range(len(points))]
+    section = [
+        Column(f"section, coordinate {k + 1}", "", [float(point[k]) for point in points])
+        for k in range(len(points[0]))
+    ]
+    figures = [Column(name, told["units"][name], each) for name, each in told["figures"].items()]
+    first = (section[0].name, section[1 % len(section)].name)
+    return study_viewer(
+        [Column("revolution", "", numbers)],
+        [*section, *figures],
+        [f"revolution {number}" for number in numbers],
+        first,
+        "revolution",
+    )

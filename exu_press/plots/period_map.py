@@ -20,9 +20,6 @@ __all__ = ["period_map_figure"]
 
 MOST_TICKS = 9
 
-LEAST = 0.1
-"""Of a largest exponent, so that its colours have a width."""
-
 
 @styled
 def period_map_figure(report: Report) -> Figure:
@@ -34,13 +31,16 @@ def period_map_figure(report: Report) -> Figure:
     text += f"{study.own.revolutions} revolutions after {study.own.skip} at each of {len(points)}"
     text += " points; the exponent is the upper end of its interval"
     figure = headed_figure("Map of periods", text, (11.5, 1.8 + 4.2 * len(report.ways)))
+    ends = [row["exponent"][2] for branch in report.branches for row in branch.rows
+            if row["status"] == "completed"]  # fmt: skip
+    most = max(map(abs, ends), default=0.0) or 1.0
     panels = figure.subplots(len(report.ways), 2, squeeze=False)
     for row, way in enumerate(report.ways):
         rows = [branch for branch in report.branches if branch.name == way]
         ordered = [[one for _, one in sorted(branch, key=lambda at: at[0])] for branch in rows]
         periods, exponents = panels[row]
         _periods(periods, ordered, study.own.longest)
-        exponents_shown = _exponents(exponents, ordered)
+        exponents_shown = _exponents(exponents, ordered, most)
         figure.colorbar(exponents_shown, ax=exponents, label="exponent per revolution")
         for panel, title in ((periods, "period"), (exponents, "largest exponent")):
             panel.set_title(f"{title}, {way}")
@@ -86,13 +86,12 @@ def _place(row: Row, longest: int) -> int:
     return int(row["period"] or longest + 1) - 1
 
 
-def _exponents(panel: Axes, rows: list[list[Row]]) -> AxesImage:
+def _exponents(panel: Axes, rows: list[list[Row]], most: float) -> AxesImage:
     """Draw the upper end of each exponent: red is chaos."""
     found: Array = np.array(
         [[row["exponent"][2] if row["status"] == "completed" else np.nan for row in line]
          for line in rows]
     )  # fmt: skip
-    most = max(float(np.nanmax(np.abs(found), initial=0.0)), LEAST)
     panel.set_facecolor(SHADE)
     return panel.imshow(
         found, origin="lower", aspect="auto", cmap="RdBu_r", norm=TwoSlopeNorm(0.0, -most, most)

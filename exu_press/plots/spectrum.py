@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from exu_press.plots.file import save_figure
 from exu_press.plots.headed import headed_figure
 from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, styled
-from exu_press.plots.typesetting import plain
+from exu_press.plots.typesetting import plain, typeset
 from exu_press.plots.words import describe
 from exu_press.scene import Scene
 from exu_press.signals.spectrum import Spectrum
@@ -34,7 +34,7 @@ def draw_spectrum(axes: Axes, spectrum: Spectrum, unit: str) -> None:
     axes.set_yscale("log")
     largest = float(spectrum.amplitude.max()) or 1.0
     axes.set_ylim(DECADES * largest, 2.0 * largest)
-    axes.set_ylabel(plain(f"amplitude, {unit}"))
+    axes.set_ylabel(plain(typeset(f"amplitude, {unit}")))
 
 
 @styled
@@ -78,7 +78,7 @@ def spectrum_figure(one: Spectra, scene: Scene, marks: Sequence[Mark] = ()) -> F
     last.set_ylim(changing.frequency[0], changing.frequency[-1])
     last.set_xlabel(f"crank angle, deg (windows of {1e3 * changing.width:.3g} ms)")
     last.set_ylabel("frequency, Hz")
-    figure.colorbar(image, ax=last, label=plain(f"amplitude, {one.unit}"))
+    figure.colorbar(image, ax=last, label=plain(typeset(f"amplitude, {one.unit}")))
     return figure
 
 

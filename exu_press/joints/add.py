@@ -9,6 +9,7 @@ from exudyn.itemInterface import SensorUserFunction
 
 from exu_press.errors import InputError
 from exu_press.joints.guideway import GuidewayContact, SpatialGuidewayContact
+from exu_press.joints.guideway_film import GuidewayFilm
 from exu_press.joints.interface import DryInterface, FilmInterface, InterfaceLaw
 from exu_press.joints.joint import ClearanceJoint
 from exu_press.joints.on_bodies import BodyPoint, in_plane, planar_end, spatial_end
@@ -17,13 +18,15 @@ from exu_press.joints.spatial import SpatialRevolute
 from exu_press.joints.spherical import SpatialSpherical
 from exu_press.joints.user_force import user_force_of
 from exu_press.laws.contact import NormalContact
-from exu_press.laws.film import FilmLaw, film_scale
+from exu_press.laws.contact_parameters import positive
+from exu_press.laws.film import FilmLaw, film_scale, pad_with_asperities, plane_pad
 from exu_press.laws.friction import Friction, LuGre, no_friction
 
 __all__ = [
     "add_dry_revolute",
     "add_dry_spherical",
     "add_guideway_contact",
+    "add_guideway_film",
     "add_joint_sensor",
     "add_lubricated_revolute",
     "add_revolute",
@@ -190,15 +193,8 @@ def add_guideway_contact(
             none, a law is given by its name, or the system is assembled already.
     """
     _check_laws(mbs, contact=contact, friction=friction)
-    length = math.hypot(direction[0], direction[1])
-    if not 0.0 < length < math.inf:
-        raise InputError(f"direction = {tuple(direction)}: allowed is a direction, such as (0, 1)")
-    if not 0.0 < clearance < math.inf or not 0.0 <= half_width < math.inf:
-        raise InputError(
-            f"clearance = {clearance:g}, half_width = {half_width:g}: allowed are numbers > 0 and "
-            ">= 0 (m)"
-        )
-    across = direction[1] / length, -direction[0] / length
+    x, y = _along_ways(direction, clearance, half_width)
+    across = y, -x
     interface = DryInterface(contact, friction, half_width, clearance)
     place = float(middle[0]), float(middle[1])
     joint: ClearanceJoint
@@ -208,6 +204,86 @@ def add_guideway_contact(
         joint = SpatialGuidewayContact(spatial_end(mbs, body), place, across, interface)
     user_force_of(mbs).add(joint)
     return joint
+
+
+def add_guideway_film(
+    mbs: exu.MainSystem,
+    rear: BodyPoint,
+    front: BodyPoint,
+    *,
+    middle: Sequence[float],
+    direction: Sequence[float],
+    clearance: float,
+    length: float,
+    face_width: float,
+    viscosity: float,
+    asperity_onset: float,
+    half_width: float = 0.0,
+) -> ClearanceJoint:
+    """Fill the gaps between a body and two straight ways of the frame with oil.
+
+    Contacts of both ends act in parallel: `add_guideway_contact` with the clearance less the
+    asperities' onset.
+
+    Args:
+        mbs: system, not yet assembled.
+        rear: body that lies between the ways, and the point of its end that lies behind, in its
+            frame (m).
+        front: the same body and its other end.
+        middle: a point in the middle of the ways, m.
+        direction: of the ways, from rear to front.
+        clearance: on each side of both points, m.
+        length: of the pads, from rear to front, m.
+        face_width: of the pads, normal to the plane, m.
+        viscosity: dynamic viscosity, Pa s.
+        asperity_onset: gap at which the surfaces begin to touch, m, below the clearance.
+        half_width: of the body: shear acts so far beside its middle, m.
+
+    Returns:
+        The film, a joint as others; `add_joint_sensor` records it.
+
+    Raises:
+        InputError: the body is of a kind that joints cannot hold on to, a size or the viscosity is
+            not positive, the pads' ratio is outside their law's range, the onset is not below the
+            clearance, or the system is assembled already.
+    """
+    _check_laws(mbs)
+    along = _along_ways(direction, clearance, half_width)
+    positive(viscosity=viscosity)
+    if not 0.0 < asperity_onset < clearance:
+        raise InputError(
+            f"asperity_onset = {asperity_onset:g}: allowed is a number > 0 and below the "
+            f"clearance, {clearance:g} m"
+        )
+    film = GuidewayFilm(
+        spatial_end(mbs, rear),
+        spatial_end(mbs, front),
+        (float(middle[0]), float(middle[1])),
+        along,
+        law=pad_with_asperities(plane_pad(length, face_width), asperity_onset),
+        viscosity=viscosity,
+        clearance=clearance,
+        contact_onset=clearance - asperity_onset,
+        length=length,
+        half_width=half_width,
+    )
+    user_force_of(mbs).add(film)
+    return film
+
+
+def _along_ways(
+    direction: Sequence[float], clearance: float, half_width: float
+) -> tuple[float, float]:
+    """Return the direction of ways, a unit vector; raise InputError for sizes of none."""
+    length = math.hypot(direction[0], direction[1])
+    if not 0.0 < length < math.inf:
+        raise InputError(f"direction = {tuple(direction)}: allowed is a direction, such as (0, 1)")
+    if not 0.0 < clearance < math.inf or not 0.0 <= half_width < math.inf:
+        raise InputError(
+            f"clearance = {clearance:g}, half_width = {half_width:g}: allowed are numbers > 0 and "
+            ">= 0 (m)"
+        )
+    return direction[0] / length, direction[1] / length
 
 
 def add_joint_sensor(mbs: exu.MainSystem, joint: ClearanceJoint) -> int:

@@ -14,7 +14,7 @@ from exudyn.itemInterface import (
 )
 
 from exu_press.arrays import Array
-from exu_press.joints import ClearanceJoint, add_guideway_contact
+from exu_press.joints import ClearanceJoint, add_guideway_contact, add_guideway_film
 from exu_press.joints.guide_friction import GuideFriction, HeldSide, SideForce, SpringSide
 from exu_press.mechanism import Guide, Guideway, Point, Spring
 from exu_press.model.system import System
@@ -23,30 +23,47 @@ from exu_press.scene.laws import guide_contact_law, guide_friction_law
 __all__ = ["add_guide", "add_guide_friction", "add_guideways", "guides_rub"]
 
 
-def add_guideways(
-    system: System, guide: Guide, ways: Guideway
-) -> tuple[ClearanceJoint, ClearanceJoint]:
-    """Let both ends of a body touch its guideways with clearance."""
+def add_guideways(system: System, guide: Guide, ways: Guideway) -> tuple[ClearanceJoint, ...]:
+    """Let both ends of a body touch its guideways with clearance, and oil be between them."""
     table, damped = system.scene.guide, system.scene.contact
     assert table is not None
     assert damped is not None
     body = system.mechanism.body(guide.body)
     along = np.array(guide.direction)
-
-    def end(side: float) -> ClearanceJoint:
-        drawn = np.array(body.centre_of_mass) + 0.5 * side * ways.length * along
-        return add_guideway_contact(
+    drawn = [
+        np.array(body.centre_of_mass) + 0.5 * side * ways.length * along for side in (-1.0, 1.0)
+    ]
+    ends = [_end(system, guide.body, body.local((float(at[0]), float(at[1])))) for at in drawn]
+    onset = 0.0 if table.contact_gap is None else table.contact_gap
+    contacts = [
+        add_guideway_contact(
             system.mbs,
-            _end(system, guide.body, body.local((float(drawn[0]), float(drawn[1])))),
+            end,
             middle=body.centre_of_mass,
             direction=guide.direction,
-            clearance=ways.clearance,
+            clearance=ways.clearance - onset,
             contact=guide_contact_law(damped, ways.stiffness),
             friction=guide_friction_law(table, system.scene.friction),
             half_width=ways.half_width,
         )
-
-    return end(-1.0), end(1.0)
+        for end in ends
+    ]
+    if table.viscosity is None:
+        return tuple(contacts)
+    assert table.face_width is not None
+    film = add_guideway_film(
+        system.mbs,
+        *ends,
+        middle=body.centre_of_mass,
+        direction=guide.direction,
+        clearance=ways.clearance,
+        length=ways.length,
+        face_width=table.face_width,
+        viscosity=table.viscosity,
+        asperity_onset=onset,
+        half_width=ways.half_width,
+    )
+    return (*contacts, film)
 
 
 def guides_rub(system: System) -> bool:

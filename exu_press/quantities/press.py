@@ -74,6 +74,15 @@ def _guide_loss(run: Reading, body: str) -> Array:
     return np.zeros_like(run.time) if lost is None else lost
 
 
+def _oiled(scene: Scene, _: str) -> bool:
+    return scene.guide is not None and scene.guide.viscosity is not None
+
+
+def _thinnest(run: Reading, body: str) -> float | None:
+    gap = _of_guide(run, body, "gap")
+    return None if gap is None else float(max(0.0, gap.min()))
+
+
 def _fluctuation(run: Reading, _: str) -> float | None:
     """Return the largest less the smallest crank speed, over the mean one."""
     mean = _mean_speed(run, _)
@@ -299,6 +308,19 @@ GUIDES = (
         Place.GUIDE,
         extreme=Extreme.LARGEST,
         curve="friction",
+    ),
+    Quantity(
+        "min_film",
+        "m",
+        "least film thickness of the guide, 0 where surfaces lie in each other",
+        MOTION,
+        _thinnest,
+        Place.GUIDE,
+        _oiled,
+        title="guide film thickness, min",
+        shown="um",
+        extreme=Extreme.LEAST,
+        curve="gap",
     ),
     Quantity(
         "peak_moment",

@@ -108,6 +108,12 @@ DECLARED = {
         ),
         Declared("{guide}_friction", "N", "{guide}: friction on the body, {way}", always=False),
         Declared("{guide}_loss", "J", "{guide}: energy dissipated since the start", always=False),
+        Declared(
+            "{guide}_gap",
+            "m",
+            "{guide}: least thickness of its film, or minus the penetration",
+            always=False,
+        ),
         Declared("load_{load}_force", "N", "load {load}: force"),
         Declared("load_{load}_work", "J", "load {load}: work since the start"),
         Declared(

@@ -102,13 +102,15 @@ def record_guideways(
         position: (n, bodies, 3) of every body.
 
     Returns:
-        Force across and moment about the centre of mass of each guide, friction along it, and its
-        losses; the sums of both ends.
+        Force across and moment about the centre of mass of each guide, friction along it, its
+        losses, and the least thickness of its film; the sums of both ends and of the film.
     """
     channels: dict[str, Channel] = {}
     all_stored, all_lost = np.zeros_like(time), np.zeros_like(time)
     ends = {
-        f"{body} {n}": end for body, both in model.guideways.items() for n, end in enumerate(both)
+        f"{body} {n}": each
+        for body, all_of in model.guideways.items()
+        for n, each in enumerate(all_of)
     }
     states = states_of(model, time, ends)
     names = [body.name for body in model.mechanism.bodies]
@@ -131,6 +133,12 @@ def record_guideways(
             elastic, lost_here = stored_and_lost(end, time)
             lost += lost_here
             all_stored += elastic
+        film = states.get(f"{guide.body} 2")
+        if film is not None:
+            force += film.force
+            moment += film.moments.sum(axis=1)
+            lost += stored_and_lost(film, time)[1]
+            channels |= guide_channels(model, guide.body, {"gap": film.gap})
         all_lost += lost
         across, along = force @ np.array(guide.across), force @ np.array(guide.direction)
         held = {"force": across, "moment": moment, "friction": along, "loss": lost}

@@ -15,6 +15,7 @@ from typing import ClassVar
 from exu_press.errors import InputError
 from exu_press.laws.contact import DAMPING_LAWS
 from exu_press.laws.film import FILM_LAWS
+from exu_press.laws.film.plane_pad import WIDTHS
 from exu_press.laws.motor import MotorLaw, kloss, torque_table
 from exu_press.scene.oil import Oil
 from exu_press.schema.checks import Table, Uses, demand_keys, inner, key
@@ -49,6 +50,9 @@ OF_SPRINGS = (*OF_TILTING, "damping_ratio", "lateral_damping")
 """Keys of elastic guides."""
 
 USUAL_STIFFNESS = 1e9  # N/m
+
+OF_PADS = ("face_width", "contact_gap")
+"""Keys of guides with clearance and oil."""
 
 OF_KLOSS = ("rated_torque", "slip", "breakdown_torque", "no_load_speed_rpm")
 """Keys of a motor without a table of its torque."""
@@ -295,7 +299,9 @@ class ElasticGuide(Table):
     sqrt(k m), unless they are given.
 
     With a clearance a body's two ends, `length` apart, touch the guideways instead, each with half
-    the lateral stiffness and the damping of [contact].
+    the lateral stiffness and the damping of [contact]. With a viscosity as well, oil fills the gaps
+    between its faces and the guideways: its film bears and drags, and the ends touch in parallel
+    where the gap is below `contact_gap`.
 
     With neither the guide is ideal, and rubs with its side force times the coefficient.
     """
@@ -319,6 +325,19 @@ class ElasticGuide(Table):
         above=0,
     )
     width: float = key(0.0, "clearance: of every guided body", "m", at_least=0)
+    viscosity: float | None = key(
+        None, "clearance: dynamic, of the oil in it; dry without it", "Pa s", above=0, example=0.1
+    )
+    face_width: float | None = key(
+        None, "viscosity: of a body's faces, normal to the plane", "m", above=0, example=0.1
+    )
+    contact_gap: float | None = key(
+        None,
+        "viscosity: gap at which surfaces begin to touch, three times their rms roughness",
+        "m",
+        above=0,
+        example=2e-6,
+    )
     friction: str = key(
         "none", "law of friction, whose further keys are those of [friction]", choices=FRICTION_LAWS
     )
@@ -351,6 +370,24 @@ class ElasticGuide(Table):
             )
         if "mu_static" not in self.unused():
             _demand_static_friction(self.table, self.mu_static, self.mu_kinetic)
+        if self.clearance is not None and self.viscosity is not None:
+            self._check_pads(self.clearance)
+
+    def _check_pads(self, clearance: float) -> None:
+        """Demand what a film needs, and that its pads lie in their law's range."""
+        demand_keys("guide.viscosity", self, OF_PADS, "guide", "[guide]")
+        assert self.face_width is not None and self.contact_gap is not None
+        if not self.contact_gap < clearance:
+            raise InputError(
+                f"guide.contact_gap = {self.contact_gap!r}: allowed is a number < "
+                f"guide.clearance = {clearance!r}"
+            )
+        narrowest, widest = WIDTHS
+        if not narrowest * self.length <= self.face_width <= widest * self.length:
+            raise InputError(
+                f"guide.face_width = {self.face_width!r}: allowed are {narrowest:g} to {widest:g} "
+                f"times guide.length = {self.length!r}, the range of the pads' law"
+            )
 
     @property
     def soft(self) -> bool:
@@ -365,8 +402,10 @@ class ElasticGuide(Table):
     def unused(self, **instead: str) -> dict[str, str]:
         """Return the keys that are not used: those of other guides, and of other laws."""
         found = {}
+        if self.viscosity is None:
+            found |= dict.fromkeys(OF_PADS, "guide.viscosity is not given: the guides are dry")
         if self.clearance is None:
-            found = {"width": "guide.clearance is not given"}
+            found |= dict.fromkeys(("width", "viscosity", *OF_PADS), "guide.clearance is not given")
         else:
             why = "guide.clearance is given: the two ends of the body carry its tilting moment"
             found |= dict.fromkeys(OF_TILTING, why)

@@ -81,6 +81,8 @@ class SceneAdvice(Advice):
         scene = self._scene
         if any(joint in ends for ends in self._model.guideways.values()):
             assert scene.guide is not None
+            if joint.lubricated:
+                return " (guide.viscosity, guide.clearance)"
             return f" (guide.friction = {scene.guide.friction!r}, guide.clearance)"
         if scene.friction is not None and not joint.lubricated:
             return f" (friction.law = {scene.friction.law!r}, contact)"

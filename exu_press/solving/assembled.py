@@ -25,7 +25,8 @@ class Assembled(ABC):
         mbs: Exudyn's main system, assembled.
         nodes: name -> node number.
         clearance_joints: name -> joint.
-        ways: name of a body with clearance in its guide -> the contacts of its two ends.
+        guideways: name of a body with clearance in its guide -> the contacts of its two ends, and
+            the film where there is one.
         sensors: (name, quantity) -> sensor number.
         begin: time of the start, s.
         first_step: s; 0.0 where the integration finds it.
@@ -37,7 +38,7 @@ class Assembled(ABC):
     mbs: exu.MainSystem
     nodes: dict[str, int]
     clearance_joints: dict[str, ClearanceJoint]
-    guideways: Mapping[str, tuple[ClearanceJoint, ClearanceJoint]]
+    guideways: Mapping[str, tuple[ClearanceJoint, ...]]
     sensors: dict[tuple[str, str], int]
     begin: float = field(default=0.0, kw_only=True)
     first_step: float = field(default=0.0, kw_only=True)

@@ -2,10 +2,11 @@
 
 import math
 
-from exu_press.laws.contact_parameters import demand
+from exu_press.laws.contact_parameters import demand, positive
 from exu_press.laws.film.contract import FilmForce, FilmLaw
+from exu_press.laws.film.plane_pad import PadFilm, PadLaw
 
-__all__ = ["with_asperities"]
+__all__ = ["pad_with_asperities", "with_asperities"]
 
 _STEEPNESS = 2.0
 
@@ -102,3 +103,60 @@ def with_asperities(law: FilmLaw, onset_ratio: float) -> FilmLaw:
         )
 
     return mixed
+
+
+def pad_with_asperities(law: PadLaw, onset: float) -> PadLaw:
+    r"""Film of a plane pad for every gap, negative ones too, through a gap that stays open.
+
+    Each end's gap below the onset is that of `with_asperities`, and the film acts through its slope
+    on the end: virtual power is kept. Contact acts in parallel, from the same onset.
+
+    Parameters
+    ----------
+    law : of `plane_pad`
+    onset : gap at which asperities touch [m], positive
+
+    Examples
+    --------
+    >>> from exu_press.laws.film.plane_pad import plane_pad
+    >>> smooth = plane_pad(0.3, 0.1)
+    >>> rough = pad_with_asperities(smooth, 2e-6)
+    >>> smooth(2e-6, 1e-5, -1e-3, 0.0, 1.0) == rough(2e-6, 1e-5, -1e-3, 0.0, 1.0)
+    True
+    >>> rough(-1e-6, 1e-5, -1e-3, 0.0, 1.0)[0] > 0.0
+    True
+    """
+    positive(onset=onset)
+
+    def mixed(h_1: float, h_2: float, rate_1: float, rate_2: float, sliding: float) -> PadFilm:
+        if h_1 >= onset and h_2 >= onset:
+            return law(h_1, h_2, rate_1, rate_2, sliding)
+        open_1, slope_1, bend_1 = _open_gap(h_1, onset)
+        open_2, slope_2, bend_2 = _open_gap(h_2, onset)
+        f = law(open_1, open_2, slope_1 * rate_1, slope_2 * rate_2, sliding)
+        more_1, more_2 = bend_1 * rate_1, bend_2 * rate_2
+        found = [slope_1 * f[0], slope_2 * f[1], f[2]]
+        for row, factor in ((3, slope_1), (8, slope_2), (13, 1.0)):
+            by_1, by_2, by_rate_1, by_rate_2, by_sliding = f[row : row + 5]
+            found += [
+                factor * (by_1 * slope_1 + by_rate_1 * more_1),
+                factor * (by_2 * slope_2 + by_rate_2 * more_2),
+                factor * by_rate_1 * slope_1,
+                factor * by_rate_2 * slope_2,
+                factor * by_sliding,
+            ]
+        found[3] += bend_1 * f[0]
+        found[9] += bend_2 * f[1]
+        return tuple(found)
+
+    return mixed
+
+
+def _open_gap(gap: float, onset: float) -> tuple[float, float, float]:
+    """Return the gap that stays open, and its first and second derivative by the true one."""
+    if gap >= onset:
+        return gap, 1.0, 0.0
+    t = _STEEPNESS * (onset - gap) / onset
+    slope = 1.0 / (1.0 + t * t)
+    opened = onset * (1.0 - math.atan(t) / _STEEPNESS)
+    return opened, slope, 2.0 * _STEEPNESS * t * slope * slope / onset

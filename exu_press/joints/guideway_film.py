@@ -1,0 +1,192 @@
+"""The oil films between a guided body and its guideways: a pad on either side.
+
+The gaps at the body's two ends follow from how far these lie beside the middle of the ways, and the
+films' forces act at the ends, across the ways and along them. The sliding velocity is that of the
+body's face, half a width beside its middle.
+"""
+
+import math
+from typing import Any
+
+import numpy as np
+
+from exu_press.arrays import Array
+from exu_press.joints.ends import BodyEnd, Vector
+from exu_press.joints.joint import JointState
+from exu_press.joints.path import Path
+from exu_press.laws.film import PadFilm, PadLaw
+
+__all__ = ["GuidewayFilm"]
+
+
+class GuidewayFilm:
+    """Two films between a body and its ways, a `ClearanceJoint`; contacts are joints beside it.
+
+    Attributes:
+        clearance: thickness of each film where the body is in the middle, m.
+        contact_onset: displacement of an end at which its surfaces touch, m.
+    """
+
+    lubricated = True
+    largest_eccentricity = math.inf
+    outside: float | None = None
+
+    def __init__(
+        self,
+        rear: BodyEnd,
+        front: BodyEnd,
+        middle: tuple[float, float],
+        along: tuple[float, float],
+        *,
+        law: PadLaw,
+        viscosity: float,
+        clearance: float,
+        contact_onset: float,
+        length: float,
+        half_width: float,
+    ) -> None:
+        """Fill the gaps.
+
+        Args:
+            rear: end of the body that lies behind in the direction of the ways.
+            front: the other end, of the same body.
+            middle: a point in the middle of the ways, m.
+            along: unit vector along them.
+            law: of a pad, that goes on where the surfaces touch.
+            viscosity: dynamic, Pa s.
+            clearance: on each side, m.
+            contact_onset: displacement at which surfaces touch, m.
+            length: distance of the ends, m.
+            half_width: of the body across the ways, m.
+        """
+        assert rear.indices == front.indices
+        self.clearance, self.contact_onset = clearance, contact_onset
+        self.indices = list(rear.indices)
+        self.path = Path()
+        self._ends = rear, front
+        self._middle = middle
+        self._along: Vector = (along[0], along[1], 0.0)
+        self._across: Vector = (along[1], -along[0], 0.0)
+        self._law, self._viscosity = law, viscosity
+        self._length, self._half_width = length, half_width
+        self._step = 0.0
+        self._places = self._rates = 0.0, 0.0
+        self._sliding = self._turning = 0.0
+        self._loads = 0.0, 0.0, 0.0, 0.0
+        self._films: list[tuple[float, PadFilm]] = []
+
+    def add_force(self, q: list[float], q_t: list[float], out: list[float]) -> None:
+        """Add the generalised forces to `out`."""
+        rear, front = self._ends
+        rear.move(q, q_t)
+        front.move(q, q_t)
+        self._places = beside_1, beside_2 = self._beside(rear), self._beside(front)
+        self._rates = rate_1, rate_2 = (
+            _in(rear.velocity, self._across),
+            _in(front.velocity, self._across),
+        )
+        moving = _in(rear.velocity, self._along), _in(front.velocity, self._along)
+        self._sliding = sliding = 0.5 * (moving[0] + moving[1])
+        self._turning = turning = rear.angular_velocity[2]
+        across_1 = across_2 = along = moment = 0.0
+        self._films = []
+        for side in (1.0, -1.0):
+            film = self._law(
+                self.clearance - side * beside_1,
+                self.clearance - side * beside_2,
+                -side * rate_1,
+                -side * rate_2,
+                sliding + side * self._half_width * turning,
+            )
+            self._films.append((side, film))
+            across_1 -= side * film[0]
+            across_2 -= side * film[1]
+            along += film[2]
+            moment += side * self._half_width * film[2]
+        mu = self._viscosity
+        self._loads = mu * across_1, mu * across_2, mu * along, mu * moment
+        for end, across, turn in zip(self._ends, self._loads[:2], (mu * moment, 0.0), strict=True):
+            x, y = self._in_plane(across, 0.5 * mu * along)
+            end.add_forces((x, y, 0.0), (0.0, 0.0, turn), out)
+
+    def jacobian(self, by_q: float, by_q_t: float) -> Array:
+        """Return -(by_q dQ/dq + by_q_t dQ/dq_t), but for what only turns arms, by rows."""
+        # both ends' forces across, the force along and the moment, by the gaps, rates and U
+        partials = np.zeros((4, 4))
+        for side, film in self._films:
+            lever = side * self._half_width
+            by = np.reshape(film[3:], (3, 5))
+            loads = np.stack([-side * by[0], -side * by[1], by[2], lever * by[2]])
+            partials[:, :2] -= side * (by_q * loads[:, :2] + by_q_t * loads[:, 2:4])
+            partials[:, 2] += by_q_t * loads[:, 4]
+            partials[:, 3] += by_q_t * lever * loads[:, 4]
+        nowhere, axis = (0.0, 0.0, 0.0), (0.0, 0.0, 1.0)
+        rear, front = (
+            end.rates_along(self._across, self._along, axis, nowhere) for end in self._ends
+        )
+        rates = np.stack([rear[0], front[0], 0.5 * (rear[1] + front[1]), rear[2]])
+        return np.asarray(rates.T @ (-self._viscosity * partials @ rates)).ravel()
+
+    def state(self, q: list[float], q_t: list[float]) -> JointState:
+        """Return what the films do; the moments are the couple of the ends' forces and the drag's.
+
+        The force acts in the middle between the ends.
+        """
+        self.add_force(q, q_t, [0.0] * len(q))
+        across_1, across_2, along, moment = self._loads
+        rate_1, rate_2 = self._rates
+        couple, tilting = 0.5 * self._length * (across_1 - across_2), (rate_1 - rate_2)
+        return JointState(
+            eccentricity=self.eccentricity,
+            force=self._in_plane(across_1 + across_2, along),
+            velocity=self._in_plane(0.5 * (rate_1 + rate_2), self._sliding),
+            moments=(couple, moment),
+            angular_velocities=(tilting / self._length, self._turning),
+            gap=self.clearance - max(abs(place) for place in self._places),
+            stored_energy=0.0,
+            stored_power=0.0,
+        )
+
+    @property
+    def eccentricity(self) -> tuple[float, ...]:
+        """How far the body's middle lies beside that of the ways at the last `add_force`, m."""
+        return self._in_plane(0.5 * (self._places[0] + self._places[1]), 0.0)
+
+    @property
+    def relative_velocity(self) -> tuple[float, ...]:
+        """Rate of the eccentricity at the last `add_force`, m/s."""
+        return self._in_plane(0.5 * (self._rates[0] + self._rates[1]), 0.0)
+
+    def begin_step(self, step: float, accepted: bool) -> None:
+        """Start a step of size `step` (s), after the last one was accepted or is repeated."""
+        if accepted:
+            self.path.go_on(self.eccentricity, self.relative_velocity, self._step, 0.0)
+        self._step = step
+
+    def reset(self) -> None:
+        """Forget everything."""
+        self.path, self._step = Path(), 0.0
+
+    def memory(self) -> list[Any]:
+        """Return what it remembers of the steps before."""
+        return [self._step, self.path.memory()]
+
+    def recall(self, memory: list[Any]) -> None:
+        """Take over what another one remembers."""
+        self._step = memory[0]
+        self.path.recall(memory[1])
+
+    def _in_plane(self, across: float, along: float) -> tuple[float, float]:
+        """Return a vector across and along the ways in the global frame."""
+        n, t = self._across, self._along
+        return across * n[0] + along * t[0], across * n[1] + along * t[1]
+
+    def _beside(self, end: BodyEnd) -> float:
+        """Return how far an end lies beside the middle of the ways, m."""
+        x, y, _ = end.position
+        return (x - self._middle[0]) * self._across[0] + (y - self._middle[1]) * self._across[1]
+
+
+def _in(v: Vector, direction: Vector) -> float:
+    """Return the part of a vector in a direction of the plane."""
+    return v[0] * direction[0] + v[1] * direction[1]

@@ -87,6 +87,8 @@ def _of_guides(guide: ElasticGuide) -> str:
     words = []
     if guide.clearance is not None:
         words.append(f"clearance {guide.clearance * 1e3:g} mm")
+    if guide.viscosity is not None:
+        words.append(f"oil of {guide.viscosity:g} Pa s")
     if guide.rubs:
         words.append(f"{guide.friction} friction")
     kinds = ["elastic"] if guide.soft and guide.clearance is None else []

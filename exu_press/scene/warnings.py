@@ -132,8 +132,10 @@ def _films(scene: Scene) -> Iterator[tuple[str, LubricatedJoint]]:
 
 def _viscosity(scene: Scene) -> Iterator[str]:
     """Yield viscosities that no bearing oil has."""
-    for table, film in {table: joint.film for table, joint in _films(scene)}.items():
-        given = film.cold_viscosity
+    films = {table: joint.film.cold_viscosity for table, joint in _films(scene)}
+    if scene.guide is not None and scene.guide.viscosity is not None:
+        films["guide"] = scene.guide.viscosity
+    for table, given in films.items():
         if THINNEST <= given <= THICKEST:
             continue
         side = f"below water's {THINNEST:g}" if given < THINNEST else f"above {THICKEST:g}"

@@ -401,7 +401,7 @@ class ElasticGuide(Table):
 
     def unused(self, **instead: str) -> dict[str, str]:
         """Return the keys that are not used: those of other guides, and of other laws."""
-        found = {}
+        found: dict[str, str] = {}
         if self.viscosity is None:
             found |= dict.fromkeys(OF_PADS, "guide.viscosity is not given: the guides are dry")
         if self.clearance is None:

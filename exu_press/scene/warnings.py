@@ -132,16 +132,20 @@ def _films(scene: Scene) -> Iterator[tuple[str, LubricatedJoint]]:
 
 def _viscosity(scene: Scene) -> Iterator[str]:
     """Yield viscosities that no bearing oil has."""
-    films = {table: joint.film.cold_viscosity for table, joint in _films(scene)}
+    films = {
+        f"{table}.{'viscosity' if joint.film.oil is None else 'oil has as supplied'}": (
+            joint.film.cold_viscosity
+        )
+        for table, joint in _films(scene)
+    }
     if scene.guide is not None and scene.guide.viscosity is not None:
-        films["guide"] = scene.guide.viscosity
-    for table, given in films.items():
+        films["guide.viscosity"] = scene.guide.viscosity
+    for key, given in films.items():
         if THINNEST <= given <= THICKEST:
             continue
         side = f"below water's {THINNEST:g}" if given < THINNEST else f"above {THICKEST:g}"
         yield (
-            f"{table}.{'viscosity' if film.oil is None else 'oil has as supplied'} = {given:g} "
-            f"Pa s is {side} Pa s. Bearing oils in use have 0.005 to "
+            f"{key} = {given:g} Pa s is {side} Pa s. Bearing oils in use have 0.005 to "
             "1, honey has 10 and air 2e-5. Force and drag of the film are in proportion to it."
             + _slip(given, THINNEST, THICKEST, "Pa s")
         )

@@ -24,6 +24,7 @@ from setuptools.command.build_ext import build_ext
 MODULES = [
     "integrate/constraints",
     "integrate/contact",
+    "integrate/controller",
     "integrate/criteria/bodies",
     "integrate/criteria/curvature",
     "integrate/criteria/eccentricity",

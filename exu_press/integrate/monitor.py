@@ -13,6 +13,7 @@ import numpy as np
 
 from exu_press.integrate.constraints import Constraints
 from exu_press.integrate.contact import Gaps, fit_data
+from exu_press.integrate.controller import Controller
 from exu_press.integrate.error import StepError
 from exu_press.integrate.output import OutputGrid
 from exu_press.integrate.sampling import Event, Sampling
@@ -67,6 +68,7 @@ class Monitor:
         sample: float | None = None,
         event: Callable[[Any, float], float] | None = None,
         why_long: Callable[[float, ClearanceJoint | None], str] | None = None,
+        controller: Controller | None = None,
     ) -> None:
         """Watch a run.
 
@@ -80,6 +82,7 @@ class Monitor:
             event: function of the system and the time, s; steps end where its sign changes.
             why_long: says why a run is long, of its mean step, s, and the clearance joint that
                 limits most steps, if one does.
+            controller: of the steps by tolerance; `LimitedGrowth` unless given.
         """
         self.tries = self.steps = 0
         self.interrupted = self.over_budget = False
@@ -108,7 +111,9 @@ class Monitor:
         self.control: StepControl | FixedSteps = (
             FixedSteps(task)
             if task.fixed
-            else StepControl(task, self._estimate, next_stop if samples else next_corner)
+            else StepControl(
+                task, self._estimate, next_stop if samples else next_corner, controller
+            )
         )
         # without clearance joints the estimated error judges every step, jumps included
         judged = task.problem.joints is None and not task.fixed

@@ -66,6 +66,7 @@ class Newton:
         size = len(current.positions)
         self._expected, self._change = np.zeros(size), np.zeros(size)
         self._floats: Any = self._expected.data  # to get or set one takes a third of the time
+        self._by = np.zeros(())  # arrays are multiplied by it in a third of a float's time
         # where they begin among the coordinates, their reference values, their displacements
         self._quaternions: list[tuple[int, list[float], Any]] = []
         for node in problem.nodes:
@@ -90,8 +91,9 @@ class Newton:
 
     def stepped(self, step: float) -> None:
         """Be told that the current state is the end of an accepted step (s)."""
-        np.subtract(self._accelerations, self._now, out=self._rate)
-        self._rate /= step
+        np.subtract(self._accelerations, self._now, self._rate)
+        self._by.fill(step)
+        np.divide(self._rate, self._by, self._rate)
         self._last, self._now[:] = step, self._accelerations
 
     def before_residual(self, step: float, iteration: int) -> None:
@@ -137,14 +139,17 @@ class Newton:
 
         As Newton's method adds an increment of them.
         """
-        expected, change = self._expected, self._change
-        np.multiply(self._rate, min(step, REACH * self._last), out=expected)
+        expected, change, by = self._expected, self._change, self._by
+        by.fill(min(step, REACH * self._last))
+        np.multiply(self._rate, by, expected)
         expected += self._now
         by_q = step * step * self._ratio * self._beta
         self._put_on_the_sphere(by_q)
-        np.multiply(expected, by_q, out=change)
+        by.fill(by_q)
+        np.multiply(expected, by, change)
         self._positions += change
-        np.multiply(expected, step * self._ratio * self._gamma, out=change)
+        by.fill(step * self._ratio * self._gamma)
+        np.multiply(expected, by, change)
         self._velocities += change
         self._accelerations[:] = expected
         self._multipliers[:] = self._multipliers_before

@@ -17,6 +17,7 @@ import exudyn as exu
 import numpy as np
 
 from exu_press.errors import InputError
+from exu_press.integrate.controller import Controller
 from exu_press.integrate.monitor import Monitor
 from exu_press.integrate.problem import ErrorScales, Node, Problem
 from exu_press.integrate.settings import SolverTuning, Task, prepared, refuse_unusable
@@ -193,6 +194,7 @@ def solve_dynamic(
     absolute: float = 0.0,
     scales: ErrorScales = NO_SCALES,
     tuning: SolverTuning = DEFAULTS,
+    controller: Controller | None = None,
     next_corner: Callable[[float], float] = _never,
     watch: Callable[[float], str] = _nothing,
     sample: float | None = None,
@@ -223,6 +225,8 @@ def solve_dynamic(
             vibration of a twentieth of it costs no steps.
         scales: what errors are relative to, where they are not to be found from the motion.
         tuning: the numbers of step control, to vary them.
+        controller: changes steps for their errors instead of `LimitedGrowth`, which has `safety`,
+            `factor_max` and `factor_min` of the tuning.
         next_corner: time (s) -> the next instant at which a load has a corner, s, or infinity;
             steps end on them.
         watch: time (s) -> why the motion has come to its end there, or nothing; is asked after
@@ -265,7 +269,9 @@ def solve_dynamic(
     task = Task(problem, settings, tolerance, scales, tuning, absolute)
     solver, failure = task.solver, ""
     with Progress("run", task.end - task.start, quiet=quiet) as progress:
-        monitor = Monitor(task, next_corner, watch, progress, max_steps, sample, event, words.long)
+        monitor = Monitor(
+            task, next_corner, watch, progress, max_steps, sample, event, words.long, controller
+        )
         mbs.sys["dynamicSolver"], mbs.sys["simulationSettings"] = solver, settings
         begun = clock.perf_counter()
         # matrices of a hundred rows: further threads only wait for each other

@@ -4,13 +4,11 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from exu_press.integrate.controller import Controller, LimitedGrowth
 from exu_press.integrate.error import StepError
 from exu_press.integrate.settings import SAME, Task
 
 __all__ = ["FixedSteps", "Resolution", "StepControl", "Unresolved"]
-
-ORDER = 3
-"""Power of the step with which its error goes."""
 
 
 class StepControl:
@@ -21,7 +19,11 @@ class StepControl:
     """
 
     def __init__(
-        self, task: Task, estimate: StepError, next_corner: Callable[[float], float]
+        self,
+        task: Task,
+        estimate: StepError,
+        next_corner: Callable[[float], float],
+        controller: Controller | None = None,
     ) -> None:
         """Control the steps of a task.
 
@@ -29,16 +31,15 @@ class StepControl:
             task: what is solved.
             estimate: of the error of a step.
             next_corner: time -> the next instant at which a load has a corner, s, or infinity.
+            controller: changes steps for their errors; `LimitedGrowth` unless given.
         """
         self.error = 0.0
+        self._controller = controller or LimitedGrowth(task.tuning)
         self._estimate, self._next_corner = estimate, next_corner
         self._end, self._smallest, self._largest = task.end, task.smallest, task.largest
         # a step is told as a difference of two times, whose last digits are rounded
         latest = max(abs(task.start), abs(task.end))
         self._no_shorter = task.smallest * (1.0 + SAME) + 2.0 * math.ulp(latest)
-        tuning = task.tuning
-        self._safety = tuning.safety
-        self._factor_max, self._factor_min = tuning.factor_max, tuning.factor_min
         self._step = self._first = task.first
 
     def restart(self) -> None:
@@ -53,7 +54,7 @@ class StepControl:
         self.error = error
         if error <= 1.0:
             return 0.0
-        self._step = step * max(self._factor_min, self._factor(error))
+        self._step = step * self._controller.repeated(error)
         return self._step
 
     def accept(self, step: float) -> None:
@@ -61,8 +62,7 @@ class StepControl:
         self._estimate.accept()
         if step >= 0.5 * self._step:  # else it was cut short, by what it ends on
             self._step = step
-        if self._factor(self.error) > self._factor_max:
-            self._step *= self._factor_max
+        self._step *= self._controller.continued(self.error)
 
     def next_step(self, time: float) -> float:
         """Return the step from a time on, s; it ends exactly on corners and the end."""
@@ -76,12 +76,6 @@ class StepControl:
             elif step > 0.5 * left:
                 step = 0.5 * left
         return step
-
-    def _factor(self, error: float) -> float:
-        """Return by how much a step may be changed for its error; to nothing where that is nan."""
-        if error != error:
-            return 0.0
-        return math.pow(self._safety / error, 1.0 / ORDER) if error > 0.0 else math.inf
 
 
 class FixedSteps:

@@ -1,7 +1,5 @@
 """What Newton's matrix says of errors: what it lets through, and what rounding makes of it."""
 
-from typing import Any
-
 import numpy as np
 
 from exu_press.integrate.settings import Task, inertia_factor
@@ -50,19 +48,17 @@ class NewtonMatrix:
         before, mass = np.array(changes).T, solver.GetSystemMassMatrix()
         jacobian, size = np.asarray(solver.GetSystemJacobian()), len(before)
         right = np.zeros((len(jacobian), len(changes)))
-        right[:size] = np.dot(mass, before) * inertia_factor(solver)
+        inertia = np.dot(mass, before)
+        right[:size] = inertia * inertia_factor(solver)
         try:
             filtered = Equations(jacobian).solve(right)[:size]
-            if not self._joints and _larger(filtered, before, mass):
+            if self._joints is None:
+                energy = np.vdot(filtered, np.dot(mass, filtered))
+                allowed = LARGER * np.vdot(before, inertia)
                 # masses and springs make nothing larger, but constraints that nearly say the same
-                filtered = np.linalg.lstsq(jacobian, right, rcond=None)[0][:size]
+                if not energy <= allowed:
+                    filtered = np.linalg.lstsq(jacobian, right, rcond=None)[0][:size]
         except np.linalg.LinAlgError:  # constraints that say the same
             return list(changes)
         found: list[list[float]] = filtered.T.tolist()
         return found
-
-
-def _larger(after: Any, before: Any, mass: Any) -> bool:
-    """Return whether changes, (n, k), have far more kinetic energy than before, if any."""
-    energies = [float(np.sum(changes * np.dot(mass, changes))) for changes in (after, before)]
-    return not energies[0] <= LARGER * energies[1]

@@ -1,0 +1,48 @@
+"""Controllers: by how much a step is changed for its error. A run takes any one of their kind."""
+
+import math
+from typing import Protocol
+
+from exu_press.integrate.settings import SolverTuning
+
+__all__ = ["ORDER", "Controller", "LimitedGrowth"]
+
+ORDER = 3
+"""Power of the step with which its error goes."""
+
+
+class Controller(Protocol):
+    """Changes steps for their errors; 1 is the largest allowed one."""
+
+    def repeated(self, error: float) -> float:
+        """Return the factor with which to repeat a step whose error is above 1, or no number."""
+
+    def continued(self, error: float) -> float:
+        """Return the factor for the steps after one whose error is at most 1."""
+
+
+class LimitedGrowth:
+    """The elementary controller h_new = h (safety / error)^(1/3), with a dead zone.
+
+    Steps stay as long as they are until they may grow by `factor_max`, and grow by that alone: what
+    an impact leaves decides about the next one, and steps that grew by half passed over it.
+    """
+
+    def __init__(self, tuning: SolverTuning) -> None:
+        """Take its numbers `safety`, `factor_max` and `factor_min`."""
+        self._safety = tuning.safety
+        self._factor_max, self._factor_min = tuning.factor_max, tuning.factor_min
+
+    def repeated(self, error: float) -> float:
+        """Return the factor with which to repeat a step whose error is above 1, or no number."""
+        return max(self._factor_min, self._factor(error))
+
+    def continued(self, error: float) -> float:
+        """Return the factor for the steps after one whose error is at most 1."""
+        return self._factor_max if self._factor(error) > self._factor_max else 1.0
+
+    def _factor(self, error: float) -> float:
+        """Return by how much a step may be changed for its error; to nothing where that is nan."""
+        if error != error:
+            return 0.0
+        return math.pow(self._safety / error, 1.0 / ORDER) if error > 0.0 else math.inf

@@ -5,7 +5,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import Any, TypeVar
 
 from exu_press.errors import InputError
-from exu_press.mechanism.parts import DRIVE, GROUND, Body, Guide, Joint, Output
+from exu_press.mechanism.parts import DRIVE, FLYWHEEL, GROUND, Body, Guide, Joint, Output
 from exu_press.schema.checks import nearest
 
 __all__ = ["all_of", "check", "check_defaults"]
@@ -22,7 +22,11 @@ DEFAULTS = {
 
 SHAPES = ("revolute", "spherical")
 
-TAKEN = {GROUND: "the frame", DRIVE: "the disc that turns a flexible crank"}
+TAKEN = {
+    GROUND: "the frame",
+    DRIVE: "the disc that turns a flexible crank",
+    FLYWHEEL: "that of a clutch",
+}
 """Names of further bodies of a system."""
 
 RECORDED = ("drive", "frame", "guide", "shaking")

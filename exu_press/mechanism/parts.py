@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 __all__ = [
     "DRIVE",
+    "FLYWHEEL",
     "GROUND",
     "ROD",
     "Body",
@@ -18,6 +19,7 @@ __all__ = [
 ]
 
 DRIVE = "drive"
+FLYWHEEL = "flywheel"
 """Name of the disc that turns a flexible crank."""
 
 GROUND = "frame"

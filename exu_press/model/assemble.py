@@ -6,14 +6,16 @@ from typing import TYPE_CHECKING, Any
 from exu_press.integrate.scheme import follow_modes
 from exu_press.mechanism import Motion
 from exu_press.model.bodies import add_bodies
-from exu_press.model.drive import add_drive, crank_angle_of, hold_flexible_bodies
+from exu_press.model.drive import add_drive, crank_angle_of, hold_flexible_bodies, turned_body
 from exu_press.model.guides import add_guide, add_guide_friction, add_guideways, guides_rub
 from exu_press.model.joints import add_clearance_joint, add_ideal_joint
 from exu_press.model.loaded_start import moved_start
-from exu_press.model.loads import add_loads
+from exu_press.model.loads import add_loads, torque_wanted
 from exu_press.model.model import Model, count_items
 from exu_press.model.sensors import add_sensors
+from exu_press.model.stall import Stall
 from exu_press.model.start import deformed_start
+from exu_press.model.start_stop import StartStop, add_flywheel, add_start_stop
 from exu_press.model.system import System
 from exu_press.model.warm_film import warm_films
 from exu_press.scene import IdealJoint, Scene
@@ -45,7 +47,8 @@ def build(scene: Scene, *, quiet: bool = True) -> Model:
         constant: dict[str, Any] = {f"joints.{n}": "ideal" for n in scene.joints.with_clearance}
         ideal = scene.replace(constant | {"drive": None, "load": {}} | _settled(scene))
         settled = System(ideal, parts)
-        start, frames = deformed_start(settled, _assembled(settled, {}, {}).drive)
+        drive = _assembled(settled, {}, {}).drive
+        start, frames = deformed_start(settled, drive, scene.start_speed)
     system = System(scene, parts)
     if scene.start == "loaded":
         start, frames = moved_start(system, start, frames)
@@ -103,12 +106,20 @@ def _assembled(
         for guide in mechanism.guides
         if guides_rub(system) and (guide.lateral or "force" in guides[guide.body])
     }
+    start_stop: StartStop | None = None
+    motor = system.scene.drive
+    if motor is not None and motor.clutch_torque is not None:
+        add_flywheel(system)
+        start_stop = add_start_stop(system, turned_body(system), crank_angle_of(system))
     drive = add_drive(system)
     loads = add_loads(system)
     if system.flexible:
         follow_modes(system.mbs)
     add_sensors(system, ideal | {"drive": drive}, guides)
     system.mbs.Assemble()
+    if start_stop is not None:
+        forces = dict.fromkeys(system.loads, 0.0)
+        start_stop.begin(torque_wanted(mechanism, system.scene, forces, system.scene.start_angle))
     return Model(
         scene=system.scene,
         mechanism=mechanism,
@@ -121,6 +132,8 @@ def _assembled(
         clearance_joints=clearance,
         drive=drive,
         crank_angle=crank_angle_of(system),
+        start_stop=start_stop,
+        stall=_stall(system.scene),
         loads=loads,
         clocks=system.clocks,
         guideways=guideways,
@@ -130,3 +143,10 @@ def _assembled(
         warm=warm_films(clearance, joints),
         made=count_items(system.mbs),
     )
+
+
+def _stall(scene: Scene) -> Stall:
+    """Return what tells whether the press stalls."""
+    motor, speed = scene.drive, scene.angular_speed
+    slower = speed if motor is None else min(speed, motor.fastest(scene.speed_rpm))
+    return Stall(slower, 60.0 / scene.speed_rpm)

@@ -7,7 +7,7 @@ import exudyn as exu
 from exudyn.itemInterface import ObjectConnectorCoordinateSpringDamper
 
 from exu_press.mechanism import Body, Motion
-from exu_press.mechanism.parts import DRIVE
+from exu_press.mechanism.parts import DRIVE, FLYWHEEL
 from exu_press.model.rigid_body import RigidBody
 from exu_press.model.system import System
 
@@ -38,7 +38,10 @@ def add_drive(system: System) -> int:
 
     function: Any = against
     motor = ObjectConnectorCoordinateSpringDamper(
-        markerNumbers=[system.still, system.coordinate(turned, "angle")],
+        markerNumbers=[
+            system.still,
+            system.coordinate(FLYWHEEL if FLYWHEEL in system.rigid else turned, "angle"),
+        ],
         springForceUserFunction=function,
     )
     return int(system.mbs.AddObject(motor))
@@ -99,7 +102,7 @@ def _add_disc(system: System, start: Motion | None) -> None:
     crank = system.mechanism.body(system.mechanism.crank)
     relaxed = system.ideal[crank.name].at(crank.local(system.mechanism.shaft.at))
     motor = system.scene.drive
-    inertia = 1.0 if motor is None else motor.inertia
+    inertia = 1.0 if motor is None else motor.on_crank
     disc = Body(DRIVE, DISC_MASS, inertia)
     system.take_in(
         DRIVE, RigidBody(system.mbs, disc, start or relaxed, reference=relaxed.position[0])

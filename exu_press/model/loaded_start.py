@@ -100,8 +100,11 @@ def loaded_start(system: System) -> dict[str, Motion]:
     poses = np.array(
         [instant.moved(e.ravel()) for instant, e in zip(instants, wanted, strict=True)]
     )
-    step = (ANGLES[-1] - ANGLES[0]) / system.scene.angular_speed
-    velocity = problem.on_constraints(poses[middle], (poses[-1] - poses[0]) / step)
+    speed = system.scene.start_speed
+    rates = np.zeros_like(poses[middle])
+    if speed > 0.0:
+        rates = (poses[-1] - poses[0]) / ((ANGLES[-1] - ANGLES[0]) / speed)
+    velocity = problem.on_constraints(poses[middle], rates)
     return {
         name: Motion(
             poses[middle, None, 3 * i : 3 * i + 3],
@@ -135,7 +138,7 @@ class _Problem:
         )
         self._tight = [joint for joint in self.mechanism.joints if joint.name in ideal]
         self.angles = scene.start_angle + ANGLES
-        self.ideal = self.mechanism.motion(self.angles, scene.angular_speed)
+        self.ideal = self.mechanism.motion(self.angles, scene.start_speed)
         self.crank = 3 * self.names.index(self.mechanism.crank) + 2
         self._scale = np.tile([1.0, 1.0, 1.0 / self.mechanism.size], len(self.names))
 
@@ -185,12 +188,12 @@ class _Problem:
         """Return velocities that the constraints allow, next to the given ones."""
         rows = self.held(q, q)[1]
         wanted = np.zeros(len(rows))
-        wanted[-1] = self.system.scene.angular_speed
+        wanted[-1] = self.system.scene.start_speed
         return np.asarray(q_t + self.correction(rows, rows @ q_t - wanted))
 
     def pressing(self, i: int) -> Array:
         """Return the forces (n,) that the joints have to exert on the bodies at one angle."""
-        scene, speed = self.system.scene, self.system.scene.angular_speed
+        scene, speed = self.system.scene, self.system.scene.start_speed
         crank = self.angles, np.full(len(ANGLES), speed)
         slider = self.ideal[self.mechanism.slider]
         height = self.mechanism.travel(slider.position) - self.mechanism.bottom
@@ -209,7 +212,7 @@ class _Problem:
             found[3 * k : 3 * k + 3] = fx, fy, inertia * a[2] + arm[0] * fy - arm[1] * fx
         for load in self.system.loads.values():
             k = 3 * self.names.index(load.body)
-            size = load.force(ANGLES / speed, crank, (height, velocity))
+            size = load.force(ANGLES / (speed or math.inf), crank, (height, velocity))
             angle = self.ideal[load.body].position[:, 2]
             found[k : k + 2] -= size[i] * np.array(load.direction)
             found[k + 2] -= load.moment(size, angle)[i]

@@ -15,6 +15,8 @@ from exu_press.mechanism.section import Section
 from exu_press.model.drive import CrankAngle
 from exu_press.model.loads import Place, force_at, next_corner, torque_wanted
 from exu_press.model.rigid_body import RigidBody
+from exu_press.model.stall import Stall, stalled
+from exu_press.model.start_stop import StartStop
 from exu_press.model.warm_film import WarmFilm
 from exu_press.scene.applied import AppliedLoad
 from exu_press.solving import DEFAULTS, Assembled, solve
@@ -27,10 +29,6 @@ __all__ = ["Model", "count_items"]
 CLOSE = 1e-9
 """rad: a sample that is no further away is reached."""
 
-STALLED = 0.01
-"""Of the speed at the start, or without load: a crank that is slower has stalled. Pressed by a
-forming force, which fades with the ram's speed, it goes on creeping."""
-
 
 @dataclass(frozen=True)
 class Model(Assembled):
@@ -42,6 +40,8 @@ class Model(Assembled):
         rigid: name -> rigid body.
         drive: object number of what turns the crank.
         crank_angle: tells the crank's angle and angular velocity.
+        start_stop: clutch, brake and their schedule, if there is a clutch.
+        stall: tells whether the press has stalled.
         loads: name -> load that acts, and what tells its place on its curve.
         clocks: of pulses and sheets of loads, and what reads their state.
         remembered: by those, where the run goes on from another one.
@@ -58,6 +58,8 @@ class Model(Assembled):
     rigid: Mapping[str, RigidBody]
     drive: int
     crank_angle: CrankAngle
+    start_stop: StartStop | None
+    stall: Stall
     loads: Mapping[str, tuple[AppliedLoad, Place]]
     clocks: list[tuple[Clock, Place]]
     guide_friction: Mapping[str, GuideFriction]
@@ -89,6 +91,8 @@ class Model(Assembled):
     def next_corner(self, time: float) -> float:
         """Return the next instant at which a load has a corner or a sample lies, s, or infinity."""
         soonest = next_corner(self.loads, self.scene, time)
+        if self.start_stop is not None:
+            soonest = min(soonest, self.start_stop.next_corner(time))
         if self._sampled is None:
             return soonest
         speed = self.scene.angular_speed
@@ -104,39 +108,57 @@ class Model(Assembled):
 
     @property
     def event(self) -> Callable[[exu.MainSystem, float], float] | None:
-        """A function that changes its sign where a motor's crank is sampled or arrives, or None."""
-        if self.scene.drive is None:
+        """A function that changes its sign where a motor's crank is sampled or arrives, or None.
+
+        And where a clutch or brake sticks or slips. Fixed steps end on their grid.
+        """
+        solver = self.scene.solver
+        if self.scene.drive is None or (solver is not None and solver.tolerance is None):
             return None
-        output = self.scene.output
+        output, start_stop = self.scene.output, self.start_stop
         angles = [] if output is None else [math.radians(each) for each in output.samples or ()]
         if self.until is not None and not any(_same(self.until, angle) for angle in angles):
             angles.append(self.until)
-        if not angles:
-            return None
-        section = Section(angles, self.scene.start_angle)
-        return lambda mbs, time: section.side(self.crank_angle()[0])
+        section = Section(angles, self.scene.start_angle) if angles else None
+        if start_stop is None:
+            if section is None:
+                return None
+            return lambda mbs, time: section.side(self.crank_angle()[0])
+        if section is None:
+            return lambda mbs, time: start_stop.change(time)
+        return lambda mbs, time: section.side(self.crank_angle()[0]) * start_stop.change(time)
+
+    def has_stood(self, time: float) -> bool:
+        """Return whether the press has stood at a time, s, for as long as its scene asks for."""
+        motor = self.scene.drive
+        if self.start_stop is None or motor is None or motor.ends_after is None:
+            return False
+        return self.start_stop.stood(time) >= motor.ends_after * (1.0 - 1e-9)
 
     def watch(self, time: float) -> str:
         """Return why the press goes no further, after a step that ends at a time, s, or nothing."""
         for clock, state in self.clocks:
             clock.accept(time, *state(time))
-        motor = self.scene.drive
+        motor, start_stop = self.scene.drive, self.start_stop
         if motor is None:
             return ""
+        if start_stop is not None:
+            start_stop.accept(time)
+            if self.has_stood(time):
+                return ARRIVED
         angle, speed = self.crank_angle()
         if self.until is not None and angle >= self.until:
             return ARRIVED
-        if speed > STALLED * min(self.scene.angular_speed, motor.fastest(self.scene.speed_rpm)):
+        driven = start_stop is None or start_stop.schedule.engaged(time, angle)
+        if not self.stall(time, speed, driven=driven):
             return ""
         forces = {name: force_at(load, place, time) for name, (load, place) in self.loads.items()}
         wanted = torque_wanted(self.mechanism, self.scene, forces, angle)
+        slips = start_stop is not None and start_stop.slips
         there = motor.law(self.scene.speed_rpm)(speed)[0]
-        return (
-            f"the press stalled at t = {time:.6g} s, crank angle {math.degrees(angle) % 360.0:.2f} "
-            f"deg: loads and weights, without friction, want {wanted:.4g} N m there, "
-            f"and the motor has {there:.4g} N m; try a larger drive.inertia, or a "
-            "motor of a larger torque"
-        )
+        if start_stop is not None and motor.clutch_torque is not None:
+            there = motor.clutch_torque if slips else there
+        return stalled(time, angle, wanted, there, slips=slips)
 
 
 def _same(angle: float, other: float) -> bool:

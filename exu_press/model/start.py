@@ -23,12 +23,15 @@ SMALL = 0.1
 """Of a body's size: deformations are linear in the modes, as those are that are small beside it."""
 
 
-def deformed_start(ideal: System, drive: int) -> tuple[dict[str, Motion], dict[str, "FrameStart"]]:
+def deformed_start(
+    ideal: System, drive: int, speed: float
+) -> tuple[dict[str, Motion], dict[str, "FrameStart"]]:
     """Return the motion of the rigid bodies and the frames of the flexible ones at the start.
 
     Args:
         ideal: assembled, on the start of undeformed bodies; all joints are ideal.
         drive: object number of the constraint that turns the crank.
+        speed: of the crank, rad/s.
 
     Raises:
         InputError: a body is so soft that it does not stay in shape.
@@ -39,7 +42,7 @@ def deformed_start(ideal: System, drive: int) -> tuple[dict[str, Motion], dict[s
     turned = turned_body(ideal)
     coordinate = mbs.GetNodeODE2Index(ideal.nodes[turned])
     coordinate += ideal.rigid[turned].coordinates.index("angle")
-    state = quasi_static_motion(mbs, drive, coordinate, ideal.scene.angular_speed)
+    state = quasi_static_motion(mbs, drive, coordinate, speed)
 
     def parts_of(node: int) -> Iterator[Array]:
         indices = mbs.systemData.GetNodeLTGODE2(node)

@@ -26,6 +26,7 @@ class State(TypedDict):
         joints: what clearance joints and guideways remember: bristles, approach speeds, paths.
         clocks: what pulses and sheets of loads remember.
         films: temperature, deg C, and pressure, Pa, of films whose oil warms.
+        start_stop: what clutch, brake and their schedule remember; of a drive with a clutch.
     """
 
     time: float
@@ -35,6 +36,7 @@ class State(TypedDict):
     joints: dict[str, Any] | None
     clocks: list[tuple[float, float | None]]
     films: NotRequired[dict[str, tuple[float, float]]]
+    start_stop: NotRequired[list[float]]
 
 
 def state_of(model: Model) -> State:
@@ -51,6 +53,8 @@ def state_of(model: Model) -> State:
     }
     if model.warm:
         state["films"] = {n: (one.temperature, one.pressure) for n, one in model.warm.items()}
+    if model.start_stop is not None:
+        state["start_stop"] = model.start_stop.memory()
     return state
 
 
@@ -83,5 +87,7 @@ def go_on_from(model: Model, state: State) -> Model:
     for name, (temperature, pressure) in state.get("films", {}).items():
         if name in model.warm:
             model.warm[name].put(temperature, pressure)
+    if model.start_stop is not None and "start_stop" in state:
+        model.start_stop.recall(state["start_stop"])
     remembered = tuple(state["clocks"])
     return replace(model, begin=state["time"], first_step=state["step"], remembered=remembered)

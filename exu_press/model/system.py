@@ -67,7 +67,7 @@ class System:
             holding_of(self.mechanism, scene.joints.ideal),
             _beside_flexible(scene, self.mechanism) | guided,
         )
-        self.ideal = self.mechanism.motion(np.array([scene.start_angle]), scene.angular_speed)
+        self.ideal = self.mechanism.motion(np.array([scene.start_angle]), scene.start_speed)
         self.loads = {
             name: replace(load, point=parts[load.body].middles.get(name, load.point))
             if load.body in parts

@@ -13,6 +13,7 @@ from exu_press.quantities.quantity import Place, Quantity
 from exu_press.quantities.reading import Reading
 from exu_press.quantities.sheet import SHEETS
 from exu_press.quantities.slider import SLIDER, STROKES
+from exu_press.quantities.start_stop import START_STOP
 from exu_press.quantities.wear import WEAR
 from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.applied import applied_loads
@@ -27,6 +28,7 @@ CATALOGUE: list[Quantity] = [
     *WEAR,
     *STROKES,
     *DRIVE,
+    *START_STOP,
     *SHAKING,
     *LOADS,
     *SHEETS,

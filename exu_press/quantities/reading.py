@@ -68,6 +68,11 @@ class Reading:
         return mechanism_of(self.result.scene)
 
     @property
+    def _starts_or_stops(self) -> bool:
+        motor = self.result.scene.drive
+        return motor is not None and motor.scheduled
+
+    @property
     def span(self) -> tuple[float, float]:
         """From which to which revolution it is read."""
         first, *_, last = self["crank_angle"] if len(self.time) > 1 else [0.0, 0.0]
@@ -81,7 +86,12 @@ class Reading:
 
     @cached_property
     def whole(self) -> float | None:
-        """Instant from which to the end the crank turns whole revolutions, s, or None."""
+        """Instant from which to the end the crank turns whole revolutions, s, or None.
+
+        None of a press that starts or stops: the mean of that is none of its operation.
+        """
+        if self._starts_or_stops:
+            return None
         angle = self["crank_angle"]
         turns = np.floor((angle[-1] - angle[0]) / (2 * np.pi) + 1e-6)
         if turns < 1.0:
@@ -96,6 +106,8 @@ class Reading:
         Of the last whole revolutions; where a motor lags in a run of one, of the nominal one.
         """
         period = 60.0 / self.result.scene.speed_rpm
+        if self._starts_or_stops:
+            return None
         if self.whole is None and self.time[-1] - self.time[0] >= period * (1.0 - 1e-9):
             return float(self.time[-1] - period)
         return self.whole

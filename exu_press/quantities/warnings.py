@@ -7,6 +7,8 @@ from typing import Any
 from exu_press.mechanism.holding import holding_of
 from exu_press.quantities.energy import energy_residual
 from exu_press.quantities.oil_warnings import oil_warnings
+from exu_press.quantities.reading import Reading
+from exu_press.quantities.start_stop import still_turns
 from exu_press.result import Result
 from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.warnings import scene_warnings
@@ -42,6 +44,12 @@ def run_warnings(result: Result) -> list[str]:
                     f"{name.replace('_', ' ')}: eccentricity ratio up to {ratio:.3f}; film laws "
                     "for smooth surfaces are hardly valid there"
                 )
+    if scene.drive is not None and scene.drive.stops and still_turns(Reading(result)):
+        speed = float(result["crank_speed"][-1]) * 30.0 / math.pi
+        found.append(
+            f"the press does not stand behind its last stop: the crank turns at {speed:.3g} rpm at "
+            "the end; try a larger drive.brake_torque, or more revolutions"
+        )
     return [
         *found,
         *oil_warnings(result),
@@ -70,7 +78,7 @@ def _solids(result: Result) -> Iterator[str]:
     solids: Mapping[str, Mapping[str, Any]] = result.info.get("solids", {})
     for name, solid in solids.items():
         body, away = mechanism.body(name), math.hypot(*solid["centre_of_mass"])
-        flywheel = 0.0 if scene.drive is None or name != mechanism.crank else scene.drive.inertia
+        flywheel = 0.0 if scene.drive is None or name != mechanism.crank else scene.drive.on_crank
         said = [
             f"{what} {solid[what]:.4g} {unit} for {meant:.4g}"
             for what, unit, meant in (

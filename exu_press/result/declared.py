@@ -64,6 +64,7 @@ class Declared:
 
 OWN = "with items of a user's own in the model"
 UNBALANCED = "of a mechanism without counterweight"
+NO_CLUTCH, NO_BRAKE = "of a drive without clutch", "of a drive without brake"
 
 DECLARED = {
     one.name: one
@@ -79,6 +80,11 @@ DECLARED = {
         Declared("body_position", "m, rad", "centres of mass and angles", "pose"),
         Declared("drive_torque", "N m", "torque of the drive; a motor's turns flywheel and crank"),
         Declared("drive_power", "W", "power of the drive"),
+        Declared("flywheel_speed", "rad/s", "angular velocity of the flywheel", unless=NO_CLUTCH),
+        Declared("clutch_torque", "N m", "torque of the clutch on the crank", unless=NO_CLUTCH),
+        Declared("clutch_loss", "J", "clutch: energy dissipated since the start", unless=NO_CLUTCH),
+        Declared("brake_torque", "N m", "torque of the brake, against the crank", unless=NO_BRAKE),
+        Declared("brake_loss", "J", "brake: energy dissipated since the start", unless=NO_BRAKE),
         Declared("crank_torque", "N m", "torque that turns the crank, behind the flywheel"),
         Declared("frame_force", "N", "force of shaft, pivots and guides on the frame", "plane"),
         Declared("shaking_force", "N", "shaking force: minus the rate of momentum", "plane"),
@@ -185,7 +191,13 @@ def expected(scene: Scene, *, own_items: bool) -> dict[str, tuple[str, bool]]:
         "body": [body.name for body in mechanism.bodies],
         "faced": joints,
     }
-    missing = {OWN: own_items, UNBALANCED: not mechanism.counterweight}
+    motor = scene.drive
+    missing = {
+        OWN: own_items,
+        UNBALANCED: not mechanism.counterweight,
+        NO_CLUTCH: motor is None or motor.clutch_torque is None,
+        NO_BRAKE: motor is None or motor.brake_torque is None,
+    }
     return {
         one.at(place): (one.axis_at(place, spherical=place in spherical), one.always)
         for one in DECLARED.values()

@@ -24,6 +24,7 @@ from exu_press.result.loads import record_loads
 from exu_press.result.momentum import shaking_forces
 from exu_press.result.motion import body_motion, sensor
 from exu_press.result.result import Result
+from exu_press.result.start_stop import record_start_stop
 from exu_press.result.stress import record_stress
 from exu_press.result.surface import surfaces_of
 
@@ -83,7 +84,7 @@ def record(model: Model, outcome: Outcome) -> Result:
         velocity[:, rigid],
         scene.gravity,
     )
-    flywheel = 0.0 if scene.drive is None else scene.drive.inertia
+    flywheel = 0.0 if scene.drive is None else scene.drive.on_crank
     if DRIVE in model.nodes:  # its flywheel is on no body
         stored += 0.5 * flywheel * turned.velocity[:, 2] ** 2
     dissipated = np.zeros_like(time)
@@ -99,10 +100,18 @@ def record(model: Model, outcome: Outcome) -> Result:
     dissipated += lost_by_friction
     stressed, worst = record_stress(model, time)
     channels |= stressed
-    torque = channels["drive_torque"].values
-    driven = work(time, torque, turned.velocity[:, 2]) + work_of_loads
-    channels |= channel("drive_power", torque * turned.velocity[:, 2])
-    channels |= channel("crank_torque", torque - flywheel * turned.acceleration[:, 2])
+    torque, speed = channels["drive_torque"].values, turned.velocity[:, 2]
+    on_crank = torque - flywheel * turned.acceleration[:, 2]
+    if model.start_stop is not None:
+        more, kept, lost = record_start_stop(model, time, speed)
+        channels |= more
+        stored += kept
+        dissipated += lost
+        on_crank = more["clutch_torque"].values
+        speed = more["flywheel_speed"].values
+    driven = work(time, torque, speed) + work_of_loads
+    channels |= channel("drive_power", torque * speed)
+    channels |= channel("crank_torque", on_crank)
     channels |= channel("body_position", position)
     if not model.own_items:  # what those put in, store and dissipate is not known
         channels |= channel("energy_input", driven)

@@ -94,7 +94,8 @@ def _block_by_block(model: Model, unfinished: Path | None, *, quiet: bool) -> Re
             if unfinished is not None and block.info["status"] in ON:
                 so_far = replace(block, scene=scene, info=_of_all(infos))
                 keep(unfinished, so_far, scene.revolutions - left)
-            if left < _least(scene) or block.info["status"] not in ON or steps < 1:
+            ended = left < _least(scene) or model.has_stood(block.info["end_time"])
+            if ended or block.info["status"] not in ON or steps < 1:
                 break
             model = go_on_from(model, state_of(model))
     kept = channels if scene.revolutions > BLOCK else channels.in_memory()

@@ -6,9 +6,10 @@ from exu_press.scene.file import parse_assignment
 from exu_press.scene.joint import DryJoint, IdealJoint, LubricatedJoint
 from exu_press.scene.joints import Joints
 from exu_press.scene.load import BlankingLoad, SheetLoad, SpringLoad, TableLoad
+from exu_press.scene.motor import Motor
 from exu_press.scene.own_joint import OwnJoint
 from exu_press.scene.scene import Scene, mechanism_of
-from exu_press.scene.tables import Contact, ElasticGuide, Film, Friction, Motor, Solver
+from exu_press.scene.tables import Contact, ElasticGuide, Film, Friction, Solver
 from exu_press.schema.checks import key
 
 __all__ = [

@@ -37,9 +37,10 @@ from exu_press.scene.joint_changes import by_group, kinds_of, unused_laws
 from exu_press.scene.joints import Joints, joints_of
 from exu_press.scene.load import Load
 from exu_press.scene.loads import load_dict, loads_of
+from exu_press.scene.motor import Motor
 from exu_press.scene.output import Output
 from exu_press.scene.save import save_scene
-from exu_press.scene.tables import RPM, Contact, ElasticGuide, Film, Friction, Motor, Solver
+from exu_press.scene.tables import RPM, Contact, ElasticGuide, Film, Friction, Solver
 from exu_press.scene.usage import TABLES, unused_tables
 from exu_press.scene.wear import Wear
 from exu_press.schema.checks import Table, given_in, key, plain, table_from, table_with
@@ -93,7 +94,12 @@ class Scene(Table):
         choices=("press", "slider_crank", *SHIPPED),
         also=Mechanism,
     )
-    speed_rpm: float = key(240.0, "crank speed; with [drive] at the start", "rpm", above=0)
+    speed_rpm: float = key(
+        240.0,
+        "crank speed; with [drive] at the start, of the flywheel, or nominal where that is at rest",
+        "rpm",
+        above=0,
+    )
     revolutions: float = key(2.0, "length of the run, at speed_rpm", above=0, at_most=1e7)
     settle: float | None = key(
         None,
@@ -155,11 +161,29 @@ class Scene(Table):
             raise InputError(
                 "output.samples: allowed with solver.tolerance, as fixed steps end on a grid"
             )
+        self._check_start_stop()
         self._settle_joints()
         if self.wear is not None and not self._rubbing():
             self._refuse({"wear": "no revolute joint is dry"}, "wear", self.wear)
         self._settle_bodies()
         self._settle_loads()
+
+    def _check_start_stop(self) -> None:
+        """Refuse what does not go with a press that starts or stops."""
+        motor = self.drive
+        if motor is None or not motor.scheduled:
+            return
+        if self.settle:
+            raise InputError(
+                f"settle = {self.settle:g}: allowed is 0 with a [drive] that starts or stops, "
+                "which is read from its start"
+            )
+        stop = motor.stop_angle_deg
+        if stop is not None and stop <= self.start_angle_deg:
+            raise InputError(
+                f"drive.stop_angle_deg = {stop:g}: allowed is a number > start_angle_deg = "
+                f"{self.start_angle_deg:g}, as it goes on over revolutions"
+            )
 
     def _settle_joints(self) -> None:
         """Say what every joint of the mechanism is; a law that no joint has is refused."""
@@ -214,6 +238,12 @@ class Scene(Table):
         for guide in mechanism.guides:
             joints[guide.body].append(GUIDE_FACE)
         bodies = bodies_of(self.bodies, mechanism.name, joints)
+        motor = self.drive
+        if mechanism.crank in bodies and motor is not None and motor.on_crank == 0.0:
+            raise InputError(
+                f"drive.driven_inertia = 0.0: allowed is a number > 0 with a flexible "
+                f"{mechanism.crank}, which a disc of this inertia turns"
+            )
         object.__setattr__(self, "bodies", bodies)
 
     def _settle_loads(self) -> None:
@@ -325,6 +355,11 @@ class Scene(Table):
         return self.speed_rpm * RPM
 
     @property
+    def start_speed(self) -> float:
+        """Crank speed at the start, rad/s."""
+        return 0.0 if self.drive is not None and self.drive.stands else self.angular_speed
+
+    @property
     def pin_speed(self) -> float:
         """Speed of the crank pin, m/s."""
         return self.angular_speed * mechanism_of(self).crank_radius
@@ -334,6 +369,8 @@ class Scene(Table):
         """Revolutions before quantities are read."""
         if self.settle is not None:
             return self.settle
+        if self.drive is not None and self.drive.scheduled:
+            return 0.0
         usual = mechanism_of(self).defaults.get("settle", 1.0)
         warms = any(oil_of(joint) is not None for joint in self.joints.values())
         if warms and self.revolutions >= WARM + 1.0:
@@ -393,7 +430,7 @@ def mechanism_of(scene: Scene) -> Mechanism:
     else:
         drawn = shipped_mechanism(scene.mechanism)
     if scene.drive is not None:
-        drawn = _with_flywheel(drawn, scene.drive.inertia)
+        drawn = _with_flywheel(drawn, scene.drive.on_crank)
     return with_elastic_guides(drawn, scene.guide)
 
 

@@ -9,14 +9,12 @@ Every key says its meaning, unit and range once, here; messages and documentatio
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import ClassVar
 
 from exu_press.errors import InputError
 from exu_press.laws.contact import DAMPING_LAWS
 from exu_press.laws.film import FILM_LAWS
 from exu_press.laws.film.plane_pad import WIDTHS
-from exu_press.laws.motor import MotorLaw, kloss, torque_table
 from exu_press.scene.oil import Oil
 from exu_press.schema.checks import Table, Uses, demand_keys, inner, key
 
@@ -28,7 +26,6 @@ __all__ = [
     "ElasticGuide",
     "Film",
     "Friction",
-    "Motor",
     "Solver",
     "asperity_onset",
 ]
@@ -36,7 +33,6 @@ __all__ = [
 CURVE = ("mu_static", "mu_kinetic", "stribeck_velocity", "stribeck_exponent")
 FRICTION_LAWS = ("none", "coulomb", "stribeck", "lugre_steady", "lugre")
 DEFAULT_TOLERANCE = 1e-3
-USUAL_BREAKDOWN = 2.5  # of the rated torque
 RPM = math.pi / 30.0  # rad/s
 AT_CONTACT = ("stop", "mixed")
 
@@ -53,9 +49,6 @@ USUAL_STIFFNESS = 1e9  # N/m
 
 OF_PADS = ("face_width", "contact_gap")
 """Keys of guides with clearance and oil."""
-
-OF_KLOSS = ("rated_torque", "slip", "breakdown_torque", "no_load_speed_rpm")
-"""Keys of a motor without a table of its torque."""
 
 OILED = "steel on steel with oil, Kirk-Othmer, Encyclopedia of Chemical Technology"
 
@@ -202,91 +195,6 @@ class Film(Table):
     def cold_viscosity(self) -> float:
         """Viscosity with which a run begins, Pa s: of oil as it is supplied."""
         return self.viscosity if self.oil is None else self.oil.viscosity(self.oil.supply_celsius)
-
-
-@dataclass(frozen=True)
-class Motor(Table):
-    """A motor with its flywheel instead of a crank at constant speed; all reduced to the crank.
-
-    An induction motor by Kloss' formula, through the rated point up to the breakdown torque; or any
-    motor by a table of its torque. The run starts at `speed_rpm`.
-    """
-
-    table: ClassVar[str] = "drive"
-    rated_torque: float | None = key(None, "at rated speed", "N m", above=0, example=400.0)
-    slip: float = key(
-        0.05,
-        "(speed without load - rated speed) / speed without load",
-        above=0,
-        at_most=1,
-        source="the least of design D, NEMA MG 10, Table 2-1",
-    )
-    breakdown_torque: float | None = key(
-        None,
-        "largest one; 2.5 rated_torque unless given (IEC 60034-1 asks for 1.6, catalogues have 2 "
-        "to 3.5)",
-        "N m",
-        above=0,
-    )
-    no_load_speed_rpm: float | None = key(
-        None, "without torque; speed_rpm unless given", "rpm", above=0
-    )
-    table_speed_rpm: tuple[float, ...] | None = key(
-        None, "of a table of torques instead, which goes on at both ends", "rpm", numbers=0
-    )
-    table_torque: tuple[float, ...] | None = key(None, "at these speeds", "N m", numbers=0)
-    inertia: float = key(None, "of flywheel, gear and motor", "kg m^2", above=0, example=50.0)
-
-    def __post_init__(self) -> None:
-        """Check the keys, the breakdown torque and the table."""
-        super().__post_init__()
-        demand_keys("[drive]", self, ("inertia",), "drive", "[drive]")
-        speeds, torques = self.table_speed_rpm or (), self.table_torque or ()
-        if self.table_speed_rpm is None and self.table_torque is None:
-            demand_keys("[drive]", self, ("rated_torque",), "drive", "[drive]")
-            given, rated = self.breakdown_torque, self.rated_torque
-            if given is not None and rated is not None and given < rated:
-                raise InputError(
-                    f"drive.breakdown_torque = {given!r}: allowed is a number >= "
-                    f"drive.rated_torque = {rated!r}"
-                )
-            return
-        if len(speeds) != len(torques) or len(speeds) < 2:
-            raise InputError(
-                f"drive.table_speed_rpm, drive.table_torque: {len(speeds)} and {len(torques)} "
-                "values; allowed are at least two, as many of both"
-            )
-        for before, after in pairwise(speeds):
-            if not after > before:
-                raise InputError(
-                    f"drive.table_speed_rpm = {after!r} after {before!r}: allowed is increasing"
-                )
-        if speeds[-1] <= 0.0:
-            raise InputError(
-                f"drive.table_speed_rpm = {speeds[-1]!r} at the end: allowed is a number > 0"
-            )
-
-    def unused(self, **instead: str) -> dict[str, str]:
-        """Return the keys that are not used: those of Kloss where a table is given."""
-        return (
-            {}
-            if self.table_torque is None
-            else dict.fromkeys(OF_KLOSS, "drive.table_torque is given")
-        )
-
-    def law(self, speed_rpm: float) -> MotorLaw:
-        """Return the torque over the speed of the crank, which starts at speed_rpm."""
-        if self.table_speed_rpm is not None and self.table_torque is not None:
-            return torque_table([speed * RPM for speed in self.table_speed_rpm], self.table_torque)
-        assert self.rated_torque is not None
-        largest = self.breakdown_torque or USUAL_BREAKDOWN * self.rated_torque
-        return kloss(self.rated_torque, self.slip, largest, self.fastest(speed_rpm))
-
-    def fastest(self, speed_rpm: float) -> float:
-        """Return the speed without torque, or the table's last one, rad/s."""
-        if self.table_speed_rpm is not None:
-            return self.table_speed_rpm[-1] * RPM
-        return (self.no_load_speed_rpm or speed_rpm) * RPM
 
 
 @dataclass(frozen=True)

@@ -3,8 +3,9 @@
 from typing import Any
 
 from exu_press.mechanism import Press, SliderCrank
+from exu_press.scene.motor import Motor
 from exu_press.scene.output import Output
-from exu_press.scene.tables import Contact, ElasticGuide, Film, Friction, Motor, Solver
+from exu_press.scene.tables import Contact, ElasticGuide, Film, Friction, Solver
 from exu_press.scene.wear import Wear
 
 __all__ = ["TABLES", "unused_tables"]

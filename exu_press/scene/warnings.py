@@ -45,7 +45,13 @@ REACHED = 0.01
 
 def scene_warnings(scene: Scene) -> list[str]:
     """Return what is allowed but hardly meant: the key, what was given, and what it changes."""
-    return [*doubtful_sizes(scene), *_film_law(scene), *_forming(scene), *_wear(scene)]
+    return [
+        *doubtful_sizes(scene),
+        *_film_law(scene),
+        *_forming(scene),
+        *_wear(scene),
+        *_brake(scene),
+    ]
 
 
 def doubtful_sizes(scene: Scene) -> list[str]:
@@ -195,6 +201,30 @@ def _wear(scene: Scene) -> Iterator[str]:
         yield (
             f"wear.coefficient = {wear.coefficient:g} is above {MOST_WEAR:g}. Steel on steel has "
             "7e-3 dry and 1e-6 to 1e-4 greased: is it a coefficient over the hardness, 1/Pa?"
+        )
+
+
+def _brake(scene: Scene) -> Iterator[str]:
+    """Yield a brake that weights, and forces over the height, turn at some crank angle."""
+    motor = scene.drive
+    if motor is None or motor.brake_torque is None:
+        return
+    mechanism, angle = mechanism_of(scene), np.linspace(0.0, 2.0 * math.pi, 361)
+    moving = mechanism.motion(angle, 1.0)
+    wanted = np.zeros_like(angle)
+    for body in mechanism.bodies:
+        wanted += body.mass * scene.gravity * moving[body.name].velocity[:, 1]
+    height = mechanism.travel(moving[mechanism.slider].position) - mechanism.bottom
+    for load in applied_loads(scene).values():
+        if load.over == "height" and load.fade is None:
+            along = moving[load.body].at(load.point).velocity[:, :2] @ np.array(load.direction)
+            wanted -= np.array([load.curve(place) for place in height.tolist()]) * along
+    worst = int(np.argmax(np.abs(wanted)))
+    if abs(wanted[worst]) > motor.brake_torque:
+        yield (
+            f"drive.brake_torque = {motor.brake_torque:g} N m does not hold the press at every "
+            f"angle: weights and springs turn it with {abs(float(wanted[worst])):.4g} N m at "
+            f"{math.degrees(angle[worst]):.0f} deg"
         )
 
 

@@ -286,7 +286,8 @@ def test_a_flexible_crank_has_its_flywheel():
 
 def test_what_a_scene_says():
     scene = Scene(drive={"rated_torque": 400.0, "inertia": 50.0})
-    assert scene.drive == Motor(rated_torque=400.0, slip=0.05, inertia=50.0)
+    motor = Motor(rated_torque=400.0, slip=0.05, inertia=50.0)
+    assert scene.drive == motor.without(motor.unused())
     assert "drive.slip = 0.05 (the least of design D, NEMA MG 10, Table 2-1)" in assumed(scene)
     assert Scene().drive is None
     assert scene.replace("drive", None) == Scene()

@@ -1,0 +1,172 @@
+"""Commands to start and to stop, and what part of clutch and brake follows from them when."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+__all__ = ["Ramp", "Schedule"]
+
+LONG_AGO = -1e300
+"""s, or rad: when what acts at the start was commanded."""
+
+
+@dataclass(frozen=True)
+class Ramp:
+    """A part that grows from 0 to 1, along a line from one place behind a command to another.
+
+    >>> [Ramp(0.02, 0.06).part(place) for place in (0.0, 0.04, 0.1)]
+    [0.0, 0.5, 1.0]
+
+    Attributes:
+        begin: s, or rad of the crank, behind the command.
+        end: likewise, behind `begin`.
+        over_angle: whether these are angles of the crank.
+    """
+
+    begin: float
+    end: float
+    over_angle: bool = False
+
+    def part(self, since: float) -> float:
+        """Return the part so long behind the command."""
+        return min(1.0, max(0.0, (since - self.begin) / (self.end - self.begin)))
+
+
+@dataclass
+class Command:
+    """The last command of a kind.
+
+    Attributes:
+        time: at which it was given, s.
+        angle: of the crank then, rad.
+    """
+
+    time: float = LONG_AGO
+    angle: float = LONG_AGO
+
+    def since(self, ramp: Ramp, time: float, angle: float) -> float:
+        """Return how far behind it a time, s, or angle, rad, is, as the ramp counts."""
+        return angle - self.angle if ramp.over_angle else time - self.time
+
+    def part(self, ramp: Ramp | None, time: float, angle: float) -> float:
+        """Return the part of a ramp behind it at a time and an angle; without a ramp all of it."""
+        return 1.0 if ramp is None else ramp.part(self.since(ramp, time, angle))
+
+
+class Schedule:
+    """What is commanded until now; a crank angle may command a stop.
+
+    A start lets the brake go and then engages the clutch; a stop does the reverse.
+
+    >>> schedule = Schedule(False, [0.1], [0.5], None, Ramp(0.0, 0.04), None, None, Ramp(0.0, 0.1))
+    >>> schedule.accept(0.1, 0.0)
+    >>> schedule.running, round(schedule.clutch(0.12, 0.0), 3), schedule.brake(0.12, 0.0)
+    (True, 0.5, 0.0)
+
+    Attributes:
+        running: whether the last command was a start.
+        starts: instants of commands to start, s.
+        stops: instants of commands to stop, s.
+    """
+
+    def __init__(
+        self,
+        running: bool,
+        starts: Sequence[float],
+        stops: Sequence[float],
+        stop_angle: float | None,
+        clutch_on: Ramp | None,
+        clutch_off: Ramp | None,
+        brake_off: Ramp | None,
+        brake_on: Ramp | None,
+    ) -> None:
+        """Begin with a press that runs or stands.
+
+        Args:
+            running: whether it runs.
+            starts: instants of commands to start, s, increasing.
+            stops: instants of commands to stop, s, increasing.
+            stop_angle: of the crank, rad, at which a stop is commanded instead.
+            clutch_on: of the clutch behind a start.
+            clutch_off: what goes of the clutch behind a stop.
+            brake_off: what goes of the brake behind a start.
+            brake_on: of the brake behind a stop.
+        """
+        self.running, self.starts, self.stops = running, tuple(starts), tuple(stops)
+        self._stop_angle = stop_angle
+        self._clutch_on, self._clutch_off = clutch_on, clutch_off
+        self._brake_off, self._brake_on = brake_off, brake_on
+        self._start, self._stop = Command(), Command()
+
+    def clutch(self, time: float, angle: float) -> float:
+        """Return the part of the clutch's capacity at a time, s, and a crank angle, rad."""
+        engaged = self._start.part(self._clutch_on, time, angle)
+        if self.running:
+            return engaged
+        return min(engaged, 1.0 - self._stop.part(self._clutch_off, time, angle))
+
+    def brake(self, time: float, angle: float) -> float:
+        """Return the part of the brake's capacity at a time, s, and a crank angle, rad."""
+        if self.running:
+            return 1.0 - self._start.part(self._brake_off, time, angle)
+        return self._stop.part(self._brake_on, time, angle)
+
+    def engaged(self, time: float, angle: float) -> bool:
+        """Return whether a start has been commanded, and all of the clutch acts."""
+        return self.running and self.clutch(time, angle) >= 1.0
+
+    def done(self, time: float) -> bool:
+        """Return whether a stop was commanded, and nothing is behind it."""
+        return not self.running and not any(start > time for start in self.starts)
+
+    def to_stop_angle(self, angle: float) -> float:
+        """Return the angle until the stop that it commands, rad; infinity where it does not."""
+        if self._stop_angle is None or not self.running or self._stop.angle > LONG_AGO:
+            return math.inf
+        return self._stop_angle - angle
+
+    def corner(self, time: float, angle: float, speed: float, close: float) -> float:
+        """Return the next instant at which a part has a corner, s, or infinity.
+
+        Args:
+            time: s.
+            angle: of the crank, rad.
+            speed: of the crank, rad/s, from which corners over the angle are foreseen.
+            close: those as near as that are passed, rad.
+        """
+        soonest = min((at for at in (*self.starts, *self.stops) if at > time), default=math.inf)
+        start = (self._clutch_on, self._brake_off)
+        stop = (self._clutch_on, self._clutch_off, self._brake_on)
+        for ramp in start if self.running else stop:
+            if ramp is None:
+                continue
+            command = self._start if ramp in start else self._stop
+            since = command.since(ramp, time, angle)
+            for place in (ramp.begin, ramp.end):
+                if not ramp.over_angle and place > since:
+                    soonest = min(soonest, command.time + place)
+                elif ramp.over_angle and speed > 0.0 and place > since + close:
+                    soonest = min(soonest, time + (place - since) / speed)
+        return soonest
+
+    def accept(self, time: float, angle: float) -> None:
+        """Take the commands that are given until the end of a step, s, at a crank angle, rad."""
+        if self.running and (self._given(self.stops, time) or self.to_stop_angle(angle) <= 0.0):
+            self.running, self._stop = False, Command(time, angle)
+        elif not self.running and self._given(self.starts, time):
+            self.running, self._start = True, Command(time, angle)
+
+    def _given(self, commands: Sequence[float], time: float) -> bool:
+        """Return whether a command has been given since the last one, until a time, s."""
+        last = max(self._start.time, self._stop.time)
+        return any(last < command <= time * (1.0 + 1e-12) for command in commands)
+
+    def memory(self) -> list[float]:
+        """Return what has been commanded, as numbers."""
+        given = self._start.time, self._start.angle, self._stop.time, self._stop.angle
+        return [float(self.running), *given]
+
+    def recall(self, memory: Sequence[float]) -> None:
+        """Take over what another one remembers."""
+        self.running = bool(memory[0])
+        self._start, self._stop = Command(*memory[1:3]), Command(*memory[3:5])

@@ -1,0 +1,225 @@
+"""Quantities of a press that starts and stops: what safety standards and clutches are chosen by."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from exu_press.arrays import Array
+from exu_press.quantities.kind import ENERGY, MOTION
+from exu_press.quantities.quantity import Extreme, Quantity
+from exu_press.quantities.reading import Reading
+from exu_press.scene import Scene
+
+__all__ = ["START_STOP", "still_turns"]
+
+SAME = 1e-9
+"""s: an instant that a step ends on."""
+
+STILL = 1e-3
+"""Of the nominal speed: a crank that turns no faster until the next start stands."""
+
+
+def _clutch(scene: Scene, _: str) -> bool:
+    return scene.drive is not None and scene.drive.clutch_torque is not None
+
+
+def _stops(scene: Scene, _: str) -> bool:
+    return _clutch(scene, "") and scene.drive is not None and scene.drive.stops
+
+
+def _starts(scene: Scene, _: str) -> bool:
+    return _clutch(scene, "") and scene.drive is not None and bool(scene.drive.start_time)
+
+
+def _brakes(scene: Scene, _: str) -> bool:
+    return _clutch(scene, "") and scene.drive is not None and scene.drive.brake_torque is not None
+
+
+def _starts_of(run: Reading) -> tuple[float, ...]:
+    assert run.result.scene.drive is not None
+    return run.result.scene.drive.start_time or ()
+
+
+def _stops_of(run: Reading) -> list[float]:
+    """Return the instants of commands to stop, s, as far as the run got."""
+    motor, time = run.result.scene.drive, run.time
+    assert motor is not None
+    found = list(motor.stop_time or ())
+    if motor.stop_angle_deg is not None:
+        reached = np.flatnonzero(run["crank_angle"] >= np.radians(motor.stop_angle_deg))
+        if reached.size and reached[0]:
+            pair = slice(reached[0] - 1, reached[0] + 1)
+            angles = run["crank_angle"][pair]
+            found = [float(np.interp(np.radians(motor.stop_angle_deg), angles, time[pair]))]
+    return [at for at in found if time[0] <= at <= time[-1]]
+
+
+def _standstills(run: Reading) -> Iterator[tuple[float, float | None]]:
+    """Yield each command to stop, s, and when the crank has come to stand behind it, or None.
+
+    That is when the crank first turns no further; from then on shafts untwist a little. It has to
+    stand until the next start, or the end of the run.
+    """
+    time, speed = run.time, run["crank_speed"]
+    slow = STILL * run.result.scene.angular_speed
+    for stop in _stops_of(run):
+        until = min((at for at in _starts_of(run) if at > stop), default=float(time[-1]))
+        rows = np.flatnonzero((time >= stop - SAME) & (time <= until + SAME))
+        if not rows.size or abs(speed[rows[-1]]) > slow:
+            yield stop, None
+        else:
+            yield stop, _falls_to_zero(time[rows], speed[rows])
+
+
+def _falls_to_zero(time: Array, values: Array) -> float | None:
+    """Return when values, (n,), first are no longer positive, s, between two steps; or None."""
+    down = np.flatnonzero(values <= 0.0)
+    if not down.size:
+        return None
+    row = int(down[0])
+    if row == 0:
+        return float(time[0])
+    part = float(values[row - 1] / (values[row - 1] - values[row]))
+    return float(time[row - 1] + part * (time[row] - time[row - 1]))
+
+
+def still_turns(run: Reading) -> bool:
+    """Return whether the press does not stand at its end, although it was told to stop."""
+    found = list(_standstills(run))
+    return bool(found) and found[-1][1] is None
+
+
+def _over_stops(run: Reading, channel: str) -> float | None:
+    """Return the largest change of a channel from a stop to its standstill, if it has one."""
+    found = list(_standstills(run))
+    if not found or any(at is None for _, at in found):
+        return None
+    values = run[channel]
+    return max(
+        abs(float(np.interp(at, run.time, values) - np.interp(stop, run.time, values)))
+        for stop, at in found
+        if at is not None
+    )
+
+
+def _stopping_time(run: Reading, _: str) -> float | None:
+    return _over_stops(run, "time")
+
+
+def _stopping_angle(run: Reading, _: str) -> float | None:
+    angle = _over_stops(run, "crank_angle")
+    return None if angle is None else float(np.degrees(angle))
+
+
+def _starting_time(run: Reading, _: str) -> float | None:
+    """Return the longest time from a start until the clutch slips no more."""
+    time, slip = run.time, run["flywheel_speed"] - run["crank_speed"]
+    found = []
+    for start in _starts_of(run):
+        until = min((at for at in _stops_of(run) if at > start), default=float(time[-1]))
+        rows = np.flatnonzero((time >= start - SAME) & (time <= until + SAME))
+        if not rows.size:
+            continue
+        level = _falls_to_zero(time[rows], slip[rows])
+        if level is None:
+            return None
+        found.append(level - start)
+    return max(found, default=None)
+
+
+def _per_start(run: Reading, _: str) -> float:
+    """Return the energy that the clutch has dissipated for each start."""
+    begun = sum(at < float(run.time[-1]) for at in _starts_of(run))
+    return float(run["clutch_loss"][-1]) / max(1, begun)
+
+
+def _per_stop(run: Reading, _: str) -> float:
+    return float(run["brake_loss"][-1]) / max(1, len(_stops_of(run)))
+
+
+def _speed_drop(run: Reading, _: str) -> float:
+    """Return the largest fall of the flywheel's speed below what it was before, over that."""
+    speed = run["flywheel_speed"]
+    before = np.maximum.accumulate(speed)
+    return float(((before - speed) / np.maximum(before, 1e-300)).max())
+
+
+START_STOP = (
+    Quantity(
+        "drive.stopping_time",
+        "s",
+        "longest time from a command to stop until the crank stands: the overall response time of "
+        "ISO 16092, from the command on",
+        MOTION,
+        _stopping_time,
+        has=_stops,
+        title="stopping time",
+        shown="ms",
+        extreme=Extreme.LARGEST,
+    ),
+    Quantity(
+        "drive.stopping_angle_deg",
+        "deg",
+        "largest angle that the crank turns from a command to stop until it stands",
+        MOTION,
+        _stopping_angle,
+        has=_stops,
+        title="stopping angle",
+        under=True,
+        extreme=Extreme.LARGEST,
+    ),
+    Quantity(
+        "drive.stopping_travel",
+        "m",
+        "largest distance between the output's places at a command to stop and at standstill",
+        MOTION,
+        lambda run, _: _over_stops(run, "slider_position"),
+        has=_stops,
+        title="stopping travel",
+        shown="mm",
+        under=True,
+        extreme=Extreme.LARGEST,
+    ),
+    Quantity(
+        "drive.starting_time",
+        "s",
+        "longest time from a command to start until the clutch slips no more",
+        MOTION,
+        _starting_time,
+        has=_starts,
+        title="starting time",
+        shown="ms",
+        extreme=Extreme.LARGEST,
+    ),
+    Quantity(
+        "drive.speed_drop",
+        "",
+        "largest fall of the flywheel's speed below what it was before, over that",
+        MOTION,
+        _speed_drop,
+        has=_clutch,
+        title="speed drop of the flywheel",
+        extreme=Extreme.LARGEST,
+    ),
+    Quantity(
+        "drive.clutch_energy",
+        "J",
+        "energy that the clutch dissipates, for each start",
+        ENERGY,
+        _per_start,
+        has=_clutch,
+        title="heat in the clutch, each start",
+        cumulative=True,
+    ),
+    Quantity(
+        "drive.brake_energy",
+        "J",
+        "energy that the brake dissipates, for each stop",
+        ENERGY,
+        _per_stop,
+        has=_brakes,
+        title="heat in the brake, each stop",
+        under=True,
+        cumulative=True,
+    ),
+)

@@ -1,0 +1,100 @@
+"""[drive] with clutch, brake and schedule: what is refused, and what a scene keeps."""
+
+import pytest
+
+from exu_press import InputError, Scene
+from exu_press.scene.warnings import scene_warnings
+
+DRIVE = {
+    "rated_torque": 400.0,
+    "inertia": 300.0,
+    "begins": "standing",
+    "clutch_torque": 3000.0,
+    "clutch_on": [0.03, 0.06],
+    "clutch_off": [0.0, 0.02],
+    "brake_torque": 1500.0,
+    "brake_on": [0.02, 0.05],
+    "brake_off": [0.0, 0.03],
+    "start_time": [0.05],
+    "stop_time": [0.6],
+}
+
+
+def scene(**changes):
+    drive = {name: value for name, value in {**DRIVE, **changes}.items() if value is not None}
+    return Scene(mechanism="eccentric_press", speed_rpm=60.0, joints={}, drive=drive)
+
+
+def test_a_scene_comes_back_as_it_was(tmp_path):
+    given = scene()
+    assert Scene.from_dict(given.to_dict()) == given
+    given.save(tmp_path / "scene.toml")
+    assert Scene.load(tmp_path / "scene.toml") == given
+    assert given.settled == 0.0 and given.start_speed == 0.0
+    without = given.replace({"drive.clutch_torque": None, "drive.begins": "turning"})
+    assert without.drive.brake_torque is None and without.drive.windup_deg is None
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"clutch_on": [0.02, 0.06]}, r"clutch_on = \[0\.02, 0\.06\] overlaps drive\.brake_off"),
+        (
+            {"brake_on": [0.01, 0.05]},
+            r"drive\.brake_on = .* overlaps drive\.clutch_off .*at once",
+        ),
+        ({"stop_time": [0.1]}, r"stop_time = 0\.1 overlaps drive\.start_time = 0\.05"),
+        ({"stop_time": [0.6, 0.7]}, r"stop_time = 0\.7 after 0\.6: allowed is a start in between"),
+        ({"start_time": [0.05, 0.62], "stop_time": [0.6]}, r"start_time = 0\.62 overlaps"),
+        ({"start_time": None, "clutch_on": None, "brake_off": None}, "needs drive.start_time"),
+        ({"clutch_on": None}, r"needs drive\.clutch_on, which decides its result"),
+        ({"brake_on": None}, r"needs drive\.brake_on, which decides"),
+        ({"clutch_on": [0.06, 0.03]}, r"drive\.clutch_on = 0\.03 after 0\.06: allowed is increas"),
+        ({"clutch_off": [-0.1, 0.02]}, r"drive\.clutch_off = -0\.1: allowed is a number >= 0"),
+        ({"stop_angle_deg": 200.0}, "stop_time and drive.stop_angle_deg: allowed is one"),
+        ({"brake_on_deg": [1.0, 3.0]}, r"brake_on and drive\.brake_on_deg: allowed is one"),
+        (
+            {"brake_on": None, "brake_on_deg": [1.0, 3.0]},
+            r"clutch_off and drive\.brake_on_deg: allowed are both over time",
+        ),
+        (
+            {"stop_time": None, "stop_angle_deg": 200.0, "start_time": [0.05, 2.0]},
+            "allowed is one start, of a press that stands",
+        ),
+        ({"clutch_torque": None}, r"drive\.begins = 'standing' needs drive\.clutch_torque"),
+        (
+            {"clutch_torque": None, "begins": "rest"},
+            r"not used by this scene \(drive\.clutch_torque is not given\)",
+        ),
+        (
+            {"brake_torque": None},
+            r"drive\.brake_off = .*not used by this scene \(drive\.brake_torque is not given\)",
+        ),
+        (
+            {"stop_time": None, "brake_on": None},
+            r"drive\.clutch_off = .*not used .*neither drive\.stop_time nor",
+        ),
+        ({"begins": "jogging"}, r"drive\.begins = 'jogging': allowed is one of"),
+    ],
+    ids=str,
+)
+def test_a_schedule_that_is_refused(changes, message):
+    with pytest.raises(InputError, match=message):
+        scene(**changes)
+
+
+def test_what_a_scene_refuses_beside_a_schedule():
+    with pytest.raises(InputError, match=r"settle = 1: allowed is 0 with a .drive. that starts"):
+        scene().replace("settle", 1.0)
+    with pytest.raises(InputError, match="stop_angle_deg = 90: allowed is a number > start_angle"):
+        Scene(
+            mechanism="eccentric_press",
+            start_angle_deg=100.0,
+            drive={**{k: v for k, v in DRIVE.items() if k != "stop_time"}, "stop_angle_deg": 90.0},
+        )
+
+
+def test_a_brake_that_weights_turn_is_told():
+    assert not any("brake_torque" in one for one in scene_warnings(scene()))
+    (said,) = [one for one in scene_warnings(scene(brake_torque=20.0)) if "brake_torque" in one]
+    assert "does not hold the press at every angle: weights and springs turn it with" in said

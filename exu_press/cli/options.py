@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from exu_press.errors import InputError
+from exu_press.mechanism import SHIPPED as MECHANISMS
 from exu_press.scene import Scene
 from exu_press.schema.checks import nearest
 
@@ -154,6 +155,11 @@ def scene_path(given: str) -> Path:
     path, names = Path(given), shipped_names()
     if path.exists() or path.suffix:
         return path
+    if given not in names and given in MECHANISMS:
+        raise InputError(
+            f"{given}: is a shipped mechanism, not a scene; allowed is a scene of it, as "
+            f"`exu-press new my_scene.toml --mechanism {given}` writes one, or `exu-press draw`"
+        )
     if given not in names:
         raise InputError(
             f"{given}: no such scene{nearest(given, names)}; allowed are a file, {', '.join(names)}"

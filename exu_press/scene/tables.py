@@ -50,7 +50,7 @@ USUAL_STIFFNESS = 1e9  # N/m
 OF_PADS = ("face_width", "contact_gap")
 """Keys of guides with clearance and oil."""
 
-OILED = "steel on steel with oil, Kirk-Othmer, Encyclopedia of Chemical Technology"
+OILED = "hard steel on hard steel with turbine oil: 0.108, Marks' Handbook, Table 3.2.1"
 
 
 @dataclass(frozen=True)

@@ -82,6 +82,8 @@ def deliver(
     assert solver is not None
     if solver.tolerance is None:
         raise InputError("--within: finds a tolerance, and solver.step asks for fixed steps")
+    if name is not None:
+        quantity_of(scene, name)  # refused before anything is run
     tolerance, best = solver.tolerance, None
     fails = math.inf
     for _ in range(ROUNDS):

@@ -26,6 +26,7 @@ starts = 1
 
 
 def run(tmp_path, text=STUDY, *more):
+    tmp_path.mkdir(exist_ok=True)
     (tmp_path / "study.toml").write_text(text)
     out = ["--out", str(tmp_path / "out"), "--workers", "1"]
     return main(["fit", str(tmp_path / "study.toml"), *out, *more])
@@ -41,6 +42,19 @@ def test_lines_and_pictures(tmp_path, capsys):
     assert last.startswith("written: fit.json, fitted.toml, fit.png, profiles.png in")
     for name in ("fit.png", "profiles.png"):
         assert (tmp_path / "out" / name).stat().st_size > 10_000
+
+
+def test_a_number_that_no_values_give_is_told(tmp_path, capsys):
+    """As many keys as numbers: chi-square has no degree of freedom, and is not small."""
+    of_rod, of_shaft = STUDY.index("slider_crank.rod_inertia"), STUDY.rindex("[[measured]]")
+    text = STUDY[:of_rod] + STUDY[STUDY.index("[[measured]]") : of_shaft]
+    reached = text + "[fit]\nstarts = 1\n"
+    assert run(tmp_path / "reached", reached) == 0
+    assert "no values of the keys" not in capsys.readouterr().out
+    assert run(tmp_path / "missed", reached.replace("value = 27000.0", "value = 90000.0")) == 0
+    said = capsys.readouterr().out
+    assert "nothing is left to judge the scene by" in said
+    assert "no values of the keys within their ranges give the measured numbers" in said
 
 
 @pytest.mark.parametrize(

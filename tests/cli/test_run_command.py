@@ -78,6 +78,7 @@ def test_early_stop_is_status_3_and_keeps_what_was_computed(tmp_path, capsys):
     [
         (["run", "no_such_file.toml"], "no_such_file.toml: cannot be read"),
         (["run", "presss"], "presss: no such scene (did you mean 'press'?); allowed are a"),
+        (["run", "six_bar"], "six_bar: is a shipped mechanism, not a scene; allowed is a scene of"),
         (["run", "press", "--set", "speed_rpm=-1"], "speed_rpm = -1"),
         (["run", "press", "--set", "colour=red"], "colour = 'red': unknown key"),
         (

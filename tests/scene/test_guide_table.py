@@ -50,7 +50,7 @@ def test_without_stiffness_guides_stay_ideal_and_rub():
     assert not scene.guide.soft
     assert scene.guide.length is None
     assert mechanism_of(scene) == mechanism_of(Scene())
-    said = "guide.mu_kinetic = 0.1 (steel on steel with oil, Kirk-Othmer"
+    said = "guide.mu_kinetic = 0.1 (hard steel on hard steel with turbine oil"
     assert any(line.startswith(said) for line in assumed(scene))
     assert Scene.from_dict(scene.to_dict()) == scene
     with pytest.raises(

@@ -8,7 +8,7 @@ from exu_press import InputError, Scene
 from exu_press.cli import main
 from exu_press.verification import deliver, within
 from exu_press.verification.distribution import distributions
-from exu_press.verification.within import COARSE, headline
+from exu_press.verification.within import COARSE
 
 NAME = "peak_acceleration.resolved"
 
@@ -51,7 +51,8 @@ def test_what_cannot_be_asked(tmp_path, capsys):
     assert "only together with --within" in capsys.readouterr().err
 
 
-def test_a_figure_that_is_not_there_is_refused():
+def test_a_figure_that_is_not_there_is_refused_before_the_runs(monkeypatch):
     scene = Scene(mechanism="slider_crank", revolutions=0.01)
+    monkeypatch.setattr(within, "simulate_with_errors", lambda *_, **__: pytest.fail("it ran"))
     with pytest.raises(InputError, match="colour"):
-        headline(deliver(scene, 0.9).result, "colour")
+        deliver(scene, 0.9, "colour")

@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+from scipy.stats import chi2
 
 from exu_press.quantities.uncertain import significant
 from exu_press.studies.base import Range
@@ -15,6 +16,13 @@ __all__ = ["report_lines"]
 
 UNLIKELY = 0.01
 """Probability of chi-square below which the scene does not explain the measurement."""
+
+UNREACHED = (
+    "no values of the keys within their ranges give the measured numbers: look at the largest "
+    "residuals"
+)
+"""Where even the true values would leave so large a chi-square less often than UNLIKELY: at them it
+is that of all numbers, and the minimum is not larger."""
 
 EXACT = 0.3
 """Of an uncertainty: evaluations are to be more exact than that."""
@@ -110,7 +118,9 @@ def _misfit(report: Report) -> list[str]:
     chance = report.probability
     text = f"chi-square {significant(report.chi_square, 3)}, degrees of freedom {report.freedom:g}"
     if chance is None:
-        return [f"{text}: nothing is left to judge the scene by"]
+        text += ": nothing is left to judge the scene by"
+        reached = chi2.sf(report.chi_square, report.count) >= UNLIKELY
+        return [text] if reached else [text, UNREACHED]
     text += f": chance alone makes it as large in {significant(100 * chance, 2)} % of measurements"
     if chance < UNLIKELY:
         return [

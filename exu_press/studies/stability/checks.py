@@ -86,7 +86,7 @@ def checks_of(result: Result) -> list[Check]:
     ]
     elastic = _elastic_energy(result)
     if elastic is not None:
-        surplus = float((elastic - _energy_there(result)).max())
+        surplus = float((elastic - elastic[0] - _energy_there(result)).max())
         checks.append(_check("contact energy out of nothing", _ratio(surplus, scale), ENERGY_LIMIT))
     films = [
         float(result.joints[name].distance.max()) / joint.clearance
@@ -180,7 +180,7 @@ def _elastic_energy(result: Result) -> Array | None:
 
 
 def _energy_there(result: Result) -> Array:
-    """Return what contacts can have stored at most, (n,), J.
+    """Return what contacts can have stored at most beyond what they held at the start, (n,), J.
 
     The kinetic energy of the start and the drive's work, less what has gone into height.
     """

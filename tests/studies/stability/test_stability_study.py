@@ -93,6 +93,14 @@ def test_each_check_can_fail(run):
     assert failed(changed(run, crank_pin_eccentricity=deep)) == ["contact energy out of nothing"]
 
 
+def test_what_a_loaded_start_holds_is_not_out_of_nothing():
+    """At 1 rpm nearly all energy is that of the pin that the weights press."""
+    slow = Scene.from_dict(SHORT).replace(
+        {**DRY, "start": "loaded", "speed_rpm": 1.0, "revolutions": 4e-4}
+    )
+    assert failed(simulate(slow)) == []
+
+
 @pytest.mark.parametrize(
     ("channel", "factor", "named"),
     [

@@ -23,6 +23,8 @@ class State(TypedDict):
         coordinates: of Exudyn's system: second-order ones and their rates, first-order ones,
             constraint forces, data variables; without the reference's values.
         accelerations: of the second-order coordinates.
+        reference: place at which the second-order coordinates are zero; it goes with the start
+            angle and, of flexible bodies, with the speed.
         joints: what clearance joints and guideways remember: bristles, approach speeds, paths.
         clocks: what pulses and sheets of loads remember.
         films: temperature, deg C, and pressure, Pa, of films whose oil warms.
@@ -33,6 +35,7 @@ class State(TypedDict):
     step: float
     coordinates: list[list[float]]
     accelerations: list[float]
+    reference: list[float]
     joints: dict[str, Any] | None
     clocks: list[tuple[float, float | None]]
     films: NotRequired[dict[str, tuple[float, float]]]
@@ -48,6 +51,7 @@ def state_of(model: Model) -> State:
         "step": float(model.mbs.sys["dynamicSolver"].it.currentStepSize),
         "coordinates": [np.asarray(part).tolist() for part in data.GetSystemState()],
         "accelerations": np.asarray(data.GetODE2Coordinates_tt()).tolist(),
+        "reference": _reference(model).tolist(),
         "joints": None if user_force is None else user_force.memory(),
         "clocks": [clock.memory() for clock, _ in model.clocks],
     }
@@ -77,6 +81,7 @@ def go_on_from(model: Model, state: State) -> Model:
             f"scene {sizes[0]} and {joints}: allowed is a run of the same bodies, joints and loads"
         )
     parts: list[Array] = [np.array(part) for part in state["coordinates"]]
+    parts[0] = parts[0] + (np.array(state["reference"]) - _reference(model))
     data.SetSystemState(systemStateList=parts, configuration=initial)
     data.SetODE2Coordinates_tt(coordinates=state["accelerations"], configuration=initial)
     data.SetTime(newTime=state["time"], configurationType=initial)
@@ -91,3 +96,9 @@ def go_on_from(model: Model, state: State) -> Model:
         model.start_stop.recall(state["start_stop"])
     remembered = tuple(state["clocks"])
     return replace(model, begin=state["time"], first_step=state["step"], remembered=remembered)
+
+
+def _reference(model: Model) -> Array:
+    """Return the place from which the second-order coordinates of a model count."""
+    data: Any = model.mbs.systemData
+    return np.array(data.GetODE2Coordinates(configuration=exu.ConfigurationType.Reference))

@@ -27,6 +27,7 @@ below = 20.0
 trials = 16
 """
 ONE = STUDY.replace('[[objective]]\nquantity = "energy.stored"\nsense = "largest"\n', "")
+WRIST = "joints.wrist_pin.peak_force"
 
 
 def run(tmp_path, text=STUDY, *more):
@@ -56,6 +57,14 @@ def test_one_objective_that_a_solver_of_scipy_finds(tmp_path, capsys):
     assert "method: nelder_mead (a run's error is" in capsys.readouterr().out
     keys = Scene.load(tmp_path / "out" / "chosen.toml").slider_crank
     assert keys.slider_mass == pytest.approx(800.0, rel=0.02)
+
+
+def test_runs_too_short_for_the_objective_end_the_search(tmp_path, capsys):
+    short = ONE.replace("trials = 16", "trials = 60").replace(WRIST, "drive.mean_power")
+    assert run(tmp_path, short) == 2
+    said = capsys.readouterr().err.splitlines()
+    assert not any("warning" in line for line in said)
+    assert said[-1].endswith("9 x too short to have drive.mean_power: nothing to choose from")
 
 
 @pytest.mark.parametrize(

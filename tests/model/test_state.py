@@ -83,6 +83,21 @@ def test_keys_may_change_and_errors_are_found():
     assert value.error < 0.05 * value.value
 
 
+def test_the_start_angle_of_a_scene_moves_no_state():
+    """Coordinates count from places that go with the start angle."""
+    state = simulate(FILM).info["state"]
+    one, other = (simulate(FILM.replace("start_angle_deg", a), start=state) for a in (0.0, 90.0))
+    assert other["crank_angle"][0] == pytest.approx(one["crank_angle"][0], abs=1e-12)
+    assert other["slider_position"][-1] == pytest.approx(one["slider_position"][-1], abs=1e-8)
+
+
+def test_a_bearing_too_small_for_its_journal_is_refused():
+    state = simulate(FILM).info["state"]
+    small = FILM.replace("joints.crank_pin.clearance", 0.01 * PIN["clearance"])
+    with pytest.raises(InputError, match=r"crank_pin starts with an eccentricity of"):
+        simulate(small, start=state)
+
+
 def test_a_state_of_another_model_is_refused():
     state = simulate(FILM).info["state"]
     with pytest.raises(InputError, match="allowed is a run of the same bodies, joints and loads"):

@@ -211,6 +211,8 @@ def _search(study: Optimise, trials: Trials, checked: Any) -> tuple[str, str]:
 
     first = spread_points(len(names), asked.trials // SCREEN, asked.seed)
     values, violations = trials.ask([point(x) for x in first])
+    if not np.isfinite(values).any():
+        return NELDER_MEAD if method == AUTO else method, "no run gave numbers"
     _demand_movement(study, trials)
     spread = float(np.nanmax(values) - np.nanmin(values))
 
@@ -246,7 +248,7 @@ def _demand_movement(study: Optimise, trials: Trials) -> None:
 
 def _none_within(trials: Trials, violations: Array, evaluation: Evaluation) -> str:
     """Say that no run keeps the limits, and which comes nearest."""
-    told = "; ".join(evaluation.told())
+    told = "; ".join(line.strip() for line in evaluation.told())
     if not np.isfinite(trials.numbers).all(axis=1).any():
         return f"{told}: nothing to choose from"
     nearest = int(np.nanargmin(violations))

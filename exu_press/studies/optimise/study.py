@@ -73,7 +73,7 @@ class Search(Table):
         "of the search; the first two for one objective",
         choices=(AUTO, NELDER_MEAD, EVOLUTION, TPE, NSGA),
     )
-    trials: int = key(100, "runs of the search, at most", at_least=8)
+    trials: int = key(100, "runs of the search, about", at_least=8)
     seed: int = key(0, "of its random numbers", at_least=0)
 
 

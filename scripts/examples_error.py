@@ -7,7 +7,6 @@ the finest. Run with: python scripts/examples_error.py [--quick] [--only NAME]
 """
 
 import argparse
-import itertools
 import sys
 import time as clock
 
@@ -16,7 +15,7 @@ import numpy as np
 
 from exu_press import SolverStatus
 from exudyn_examples import EXAMPLES
-from exudyn_examples.measure import error, run
+from exudyn_examples.measure import at_equal_error, error, run
 
 TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
 ENDED = SolverStatus.COMPLETED, SolverStatus.UNDER_RESOLVED
@@ -49,15 +48,6 @@ def fixed_steps(example, end, fine, least):
         if missed < least:
             break
     return found
-
-
-def at_equal_error(found, missed):
-    """Run time with fixed steps at an error, between those that were run; nan beyond them."""
-    for (coarse, short), (fine, long) in itertools.pairwise(found):
-        if fine <= missed <= coarse:
-            part = np.log(coarse / missed) / np.log(coarse / fine)
-            return short * (long / short) ** part
-    return found[0][1] if found and missed >= found[0][0] else np.nan
 
 
 def cell(done, missed, tolerance, faster):

@@ -6,6 +6,9 @@ of the first one: with the user's own steps, with two finer ones as references, 
 and steps of at most a hundredth of the run, and with the tolerance and the user's steps as the
 largest. Each run is a process of its own. What is in OUT is not run again.
 
+With --equal-error, processor time is also compared with that of the fixed step of the same error,
+between a 64th of the user's steps and the references.
+
 Error: of velocities in the kinetic norm over the largest speed, the worst of 20 instants; the
 references' own error is what they differ by.
 Run with: python scripts/exudyn_models.py CHECKOUT OUT [--only NAME ...] [--tolerance 1e-3]
@@ -31,6 +34,8 @@ BUSY = 5.0
 """Times the limit of processor time, after which a run is ended on a busy machine."""
 
 FINER = (16, 8, 4, 2, 1, 0.5)
+COARSER = (1 / 64, 1 / 16, 1 / 4)
+"""Of the user's number of steps: how few have the error of a tolerance."""
 
 
 def run(script, variant, file, limit):
@@ -87,6 +92,7 @@ def main():
     parser.add_argument("--tolerance", type=float, default=1e-3)
     parser.add_argument("--limit", type=float, default=20.0, help="processor time of each run, s")
     parser.add_argument("--again", action="store_true", help="run what has a tolerance again")
+    parser.add_argument("--equal-error", action="store_true", help="with coarser fixed steps too")
     parser.add_argument("--drop-in", action="store_true", help="with the user's steps as well")
     options = parser.parse_args()
     scripts = [path for folder in FOLDERS for path in (options.checkout / folder).glob("*.py")]
@@ -111,7 +117,12 @@ def main():
                 file.unlink(missing_ok=True)
             if fine:
                 runs[name] = run(script.resolve(), variant, file, options.limit)
-        models.append(Model(script.stem, user, fine, runs))
+        coarse = [
+            run(script.resolve(), {"times": part}, folder / f"fixed_{part:g}.npz", options.limit)
+            for part in COARSER
+            if fine and options.equal_error
+        ]
+        models.append(Model(script.stem, user, fine, runs, coarse))
         if fine:
             print(models[-1].line(options.tolerance), flush=True)
     print(table(models, options.tolerance))

@@ -1,5 +1,6 @@
 """How far a run is off a finer one, over the scale that `solve_dynamic` itself uses."""
 
+import itertools
 import time as clock
 from dataclasses import dataclass
 
@@ -10,7 +11,7 @@ from scipy.interpolate import CubicHermiteSpline
 from exu_press import solve_dynamic
 from exu_press.integrate.problem import Problem, weights
 
-__all__ = ["Run", "error", "run"]
+__all__ = ["Run", "at_equal_error", "error", "run"]
 
 CURRENT = exu.ConfigurationType.Current
 
@@ -122,3 +123,15 @@ def error(one, fine, positions=False):
         missed = one.states[3] - CubicHermiteSpline(fine.time, fine_y, fine_rate)(time)
         found = max(found, (np.abs(missed).max(axis=0) / np.abs(fine_y).max(axis=0)).max())
     return found
+
+
+def at_equal_error(found, missed):
+    """Run time with fixed steps at an error, between those that were run; nan beyond them.
+
+    `found` has errors and run times, from coarse to fine.
+    """
+    for (coarse, short), (fine, long) in itertools.pairwise(found):
+        if fine <= missed <= coarse:
+            part = np.log(coarse / missed) / np.log(coarse / fine) if fine < coarse else 0.0
+            return short * (long / short) ** part
+    return found[0][1] if found and missed >= found[0][0] else np.nan

@@ -1,9 +1,11 @@
 """Errors, classes and speeds of the models."""
 
 from collections import Counter
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
+
+from exudyn_examples.measure import at_equal_error
 
 __all__ = ["Model", "table"]
 
@@ -58,6 +60,7 @@ class Model:
     user: dict
     fine: list | None
     runs: dict
+    coarse: list = field(default_factory=list)
 
     @property
     def own(self):
@@ -71,6 +74,15 @@ class Model:
     def found(self, variant="tolerance"):
         """Return the error of a run."""
         return error(self.runs[variant], self.fine[0])
+
+    def at_equal_error(self, variant="tolerance"):
+        """Return the run's time over that of the fixed steps with its error; nan beyond them."""
+        done = [one for one in (*self.coarse, self.user) if one["status"] in ENDED]
+        points = [(error(one, self.fine[0]), one["seconds"]) for one in done]
+        points.append((self.own, self.fine[1]["seconds"]))
+        points = [(missed, max(seconds, 1e-3)) for missed, seconds in points if missed > 0.0]
+        found = at_equal_error(sorted(points, reverse=True), self.found(variant))
+        return self.runs[variant]["seconds"] / found
 
     def kind(self, tolerance, variant="tolerance"):
         """Return the class of a run, as an index."""
@@ -121,4 +133,12 @@ def table(models, tolerance):
         if ratios:
             low, most = np.percentile(ratios, [50, 95])
             lines.append(f"processor time over the user's run: median {low:.2g}, 95 % {most:.2g}")
+        equal = [m.at_equal_error(variant) for m in ended if m.coarse]
+        equal = [ratio for ratio in equal if np.isfinite(ratio)]
+        if equal:
+            low, most = np.percentile(equal, [50, 95])
+            lines.append(
+                "processor time over the fixed step's of the same error "
+                f"({len(equal)} models): median {low:.2g}, 95 % {most:.2g}"
+            )
     return "\n".join(lines)

@@ -17,7 +17,7 @@ POSITION, POSITION_LIMIT = "error_position", 1e-6
 
 AGAINST_FIXED = (
     ("press_lubricated", PEAK, PEAK_LIMIT, 1 / 60),
-    ("press_dry", PEAKS, PEAKS_LIMIT, 1 / 20),
+    ("press_dry", PEAKS, PEAKS_LIMIT, 1.0),
     ("press_flexible_lubricated", PEAK, 1e-2, 1 / 20),
 )
 """Case, kind of error, its limit, and the part of the best fixed step's time."""

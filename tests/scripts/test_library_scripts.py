@@ -87,3 +87,13 @@ def test_dry_press_steps(tmp_path):
     (oscillations,) = map(int, re.findall(r"s, (\d+) oscillations", printed))
     assert at_the_end == pytest.approx(after_one * math.sqrt(oscillations), rel=0.03)
     assert all(float(share) > 50.0 for share in re.findall(r" (\d+)%  ", printed))
+
+
+def test_press_work_precision(tmp_path):
+    """A tenth of a revolution: the tolerance and Radau have the true peak, the fixed step not."""
+    printed = run("press_work_precision.py", tmp_path, "--out", "picture.png")
+    errors = re.findall(r"^(tolerance|step|Radau) +\S+ +([\d.]+)%", printed, re.MULTILINE)
+    assert len(errors) == 6
+    for solver, off in errors:
+        assert (float(off) > 5.0) is (solver == "step")
+    assert (tmp_path / "picture.png").exists()

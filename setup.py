@@ -49,6 +49,7 @@ MODULES = [
     "joints/spatial",
     "joints/guideway",
     "joints/guideway_film",
+    "joints/worn",
     "laws/contact_damping",
     "laws/contact_stiffness",
     "laws/film/asperities",
@@ -58,6 +59,7 @@ MODULES = [
     "laws/film/plane_pad",
     "laws/film/short_bearing",
     "laws/friction",
+    "laws/profile",
 ]
 """What is called in every Newton iteration, and for every joint in every step."""
 

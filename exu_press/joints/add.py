@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import exudyn as exu
 from exudyn.itemInterface import SensorUserFunction
@@ -21,6 +21,9 @@ from exu_press.laws.contact import NormalContact
 from exu_press.laws.contact_parameters import positive
 from exu_press.laws.film import FilmLaw, film_scale, pad_with_asperities, plane_pad
 from exu_press.laws.friction import Friction, LuGre, no_friction
+
+if TYPE_CHECKING:
+    from exu_press.joints.worn import Worn
 
 __all__ = [
     "add_dry_revolute",
@@ -337,6 +340,7 @@ def add_revolute(
     interfaces: Sequence[InterfaceLaw],
     *,
     axis: Sequence[float] = (0, 0, 1),
+    worn: "Worn | None" = None,
 ) -> ClearanceJoint:
     """Put a revolute joint of interface laws between two bodies: your own, or several in parallel.
 
@@ -348,19 +352,29 @@ def add_revolute(
         bearing: the same of the bearing.
         interfaces: acting in parallel; the first one has the joint's clearance.
         axis: of the bearing, in its body's frame.
+        worn: what is worn off the surfaces of planar bodies beyond the mean, which is in the
+            clearance of the interfaces.
 
     Returns:
         The joint; `add_joint_sensor` records it.
 
     Raises:
-        InputError: as `add_dry_revolute`.
+        InputError: as `add_dry_revolute`, or a worn joint is not between planar bodies.
     """
     _check_laws(mbs)
     joint: ClearanceJoint
     if in_plane(mbs, journal) and in_plane(mbs, bearing):
         if tuple(axis) != (0, 0, 1):
             raise InputError(f"axis = {tuple(axis)}: allowed between planar bodies is (0, 0, 1)")
-        joint = PlanarJoint(planar_end(mbs, journal), planar_end(mbs, bearing), interfaces)
+        ends = planar_end(mbs, journal), planar_end(mbs, bearing)
+        if worn is None:
+            joint = PlanarJoint(*ends, interfaces)
+        else:
+            from exu_press.joints.worn import WornJoint
+
+            joint = WornJoint(*ends, interfaces, worn)
+    elif worn is not None:
+        raise InputError("worn: allowed is a joint between planar bodies")
     else:
         joint = SpatialRevolute(
             spatial_end(mbs, journal), spatial_end(mbs, bearing), axis, interfaces

@@ -424,6 +424,21 @@ class InterfaceJoint:
         """Rate of the eccentricity at the last `add_force`, m/s."""
         return self.in_frame(self._motion[1], self._motion[2])
 
+    @property
+    def rubbing(self) -> tuple[float, float]:
+        """Normal force of the contact, N, and sliding velocity, m/s, at the last `add_force`."""
+        return self._rubbing(self._motion)
+
+    def _rubbing(self, motion: Motion) -> tuple[float, float]:
+        """Return normal force and sliding velocity of surfaces that move so."""
+        e, _, v_t, w_j, w_b = motion
+        normal = sliding = 0.0
+        for interface, load in zip(self.interfaces, self._loads, strict=True):
+            if isinstance(interface, DryInterface) and load is not None:
+                normal -= load[0]
+                sliding = v_t + interface.radius * w_j - (interface.radius + e) * w_b
+        return normal, sliding
+
     def state(self, q: list[float], q_t: list[float]) -> JointState:
         """Return what the joint does in a state of its two bodies."""
         self.add_force(q, q_t, [0.0] * len(q))

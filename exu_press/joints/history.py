@@ -1,12 +1,13 @@
 """The record of a joint over the steps of a run."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from exu_press.arrays import Array
+from exu_press.joints.interface import InterfaceJoint
 from exu_press.joints.joint import GROUND, ClearanceJoint, JointState
 
 __all__ = ["JointHistory", "histories"]
@@ -29,6 +30,8 @@ class JointHistory:
         gap: (n,), m.
         stored_energy: (n,), J.
         stored_power: (n,), W.
+        rubbing: normal force of the contact, N, and sliding velocity, m/s, (n, 2); (0, 2) unless
+            asked for.
     """
 
     eccentricity: Array
@@ -39,6 +42,7 @@ class JointHistory:
     gap: Array
     stored_energy: Array
     stored_power: Array
+    rubbing: Array
 
     @property
     def dissipated_power(self) -> Array:
@@ -82,6 +86,7 @@ def histories(
     q: Array,
     q_t: Array,
     begun: Callable[[ClearanceJoint], list[Any] | None] = nothing,
+    rubbing: Collection[str] = (),
 ) -> dict[str, JointHistory]:
     """Return what joints did over recorded steps.
 
@@ -91,6 +96,7 @@ def histories(
         q: (n, m) coordinates of the user force element's item.
         q_t: (n, m) their rates.
         begun: tells what a joint remembered at the first one, or None.
+        rubbing: joints whose rubbing is wanted.
     """
     ended = {name: joint.memory() for name, joint in joints.items()}
     for joint in joints.values():
@@ -100,12 +106,18 @@ def histories(
             joint.state([*q[0].tolist(), *GROUND], [*q_t[0].tolist(), *GROUND])
             joint.recall(memory)
     parts: dict[str, list[list[Array]]] = {name: [] for name in joints}
+    rubbed: dict[str, list[tuple[float, float]]] = {name: [] for name in joints}
     steps = np.diff(time, prepend=time[0])
     for first in range(0, len(time), AT_ONCE):
         part = slice(first, first + AT_ONCE)
         states: dict[str, list[JointState]] = {name: [] for name in joints}
         each = [
             (joint.begin_step, joint.state, states[name].append) for name, joint in joints.items()
+        ]
+        rubs = [
+            (joint, rubbed[name].append)
+            for name, joint in joints.items()
+            if name in rubbing and isinstance(joint, InterfaceJoint)
         ]
         for step, row, row_t in zip(
             steps[part].tolist(), q[part].tolist(), q_t[part].tolist(), strict=True
@@ -115,11 +127,16 @@ def histories(
             for begin_step, state, keep in each:
                 begin_step(step, True)
                 keep(state(row, row_t))
+            for joint, keep_rubbing in rubs:
+                keep_rubbing(joint.rubbing)
         for name, found in states.items():
             parts[name].append([np.array(values) for values in zip(*found, strict=True)])
     for name, joint in joints.items():
         joint.recall(ended[name])
     return {
-        name: JointHistory(*(np.concatenate(values) for values in zip(*found, strict=True)))
+        name: JointHistory(
+            *(np.concatenate(values) for values in zip(*found, strict=True)),
+            np.array(rubbed[name]).reshape(-1, 2),
+        )
         for name, found in parts.items()
     }

@@ -74,9 +74,6 @@ class WornJoint(PlanarJoint):
         self._turned_b = bearing.reference[2] + worn.bearing_turned
         self._dry = any(isinstance(interface, DryInterface) for interface in interfaces)
         self._round = self.contact_onset
-        self._scales = [
-            i.scale * i.clearance**2 if isinstance(i, FilmInterface) else 0.0 for i in interfaces
-        ]
         self._facing = (1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
         self._touched = self._facing
         self._touch = self._motion
@@ -114,15 +111,16 @@ class WornJoint(PlanarJoint):
         self._gap = gap
         f_x = f_y = m_j = m_b = 0.0
         loads: list[Load | None] = []
-        for i, interface in enumerate(self.interfaces):
+        for interface in self.interfaces:
             if isinstance(interface, FilmInterface):
                 at, motion = self._facing, self._motion
-                interface.clearance = self.clearance + at[2]
-                interface.scale = self._scales[i] / interface.clearance**2
+                scale = self._open(interface, at[2])
+                load = interface.load(motion[0], motion[1], motion[2], w_j, w_b)
+                self._close(interface, scale)
             else:
                 at, motion = self._touched, self._touch
                 interface.drift = self.path.drift + at[2]
-            load = interface.load(motion[0], motion[1], motion[2], w_j, w_b)
+                load = interface.load(motion[0], motion[1], motion[2], w_j, w_b)
             loads.append(load)
             if load is not None:
                 f_n, f_t = load[0], load[1]
@@ -141,6 +139,16 @@ class WornJoint(PlanarJoint):
         out[x_b] -= f_x
         out[y_b] -= f_y
         out[phi_b] += m_b - b_x * f_y + b_y * f_x
+
+    def _open(self, film: FilmInterface, worn: float) -> float:
+        """Give a film the local clearance, and return its scale for `_close`."""
+        scale, local = film.scale, self.clearance + worn
+        film.clearance, film.scale = local, scale * (self.clearance / local) ** 2
+        return scale
+
+    def _close(self, film: FilmInterface, scale: float) -> None:
+        """Give a film the mean clearance again, with which others know it."""
+        film.clearance, film.scale = self.clearance, scale
 
     def _local(self, angle: float, turned_j: float, turned_b: float) -> Local:
         """Return the direction of an angle and what is worn there."""
@@ -201,7 +209,7 @@ class WornJoint(PlanarJoint):
         Q = f_n G + f_t L and a film's couple, with G = d delta / ds and L the levers of friction.
         """
         interface = self.interfaces[i]
-        film = isinstance(interface, FilmInterface)
+        film = interface if isinstance(interface, FilmInterface) else None
         at, motion = (self._facing, self._motion) if film else (self._touched, self._touch)
         n_x, n_y, _, j_1, b_1, j_2, b_2 = at
         e, _, _, w_j, w_b = motion
@@ -209,13 +217,17 @@ class WornJoint(PlanarJoint):
         rates = np.array(self._moving)
         across = np.array([-n_y, n_x, 0.0, 0.0])
         own = np.array([0.0, 0.0, j_1, b_1])
-        if film:
+        by_e = by_turn = 0.0
+        if film is not None:
             normal, turned = np.array([n_x, n_y, 0.0, 0.0]), across
             place = across / e if e > 0.0 else 0.0 * across
             bent = np.outer(across, place)
+            scale = self._open(film, at[2])
             partials = self._partials(i, load)
+            by_e, by_turn = film.shear_partials(response, w_j, w_b)
+            self._close(film, scale)
         else:
-            normal, turned = np.array([n_x, n_y, j_1, b_1]), across + [0.0, 0.0, j_2, b_2]
+            normal, turned = np.array([n_x, n_y, j_1, b_1]), np.array([-n_y, n_x, j_2, b_2])
             place = turned / (e + j_2 + b_2)  # the angle at which they touch, by s
             bent = np.outer(turned, place) - np.diag([0.0, 0.0, j_2, b_2])
             partials = interface.partials(response, e, w_j, w_b)
@@ -229,11 +241,10 @@ class WornJoint(PlanarJoint):
         rate_t = t_r * normal + t_v * across + [0.0, 0.0, t_wj, t_wb]
         couple, couple_rate = np.zeros(4), np.zeros(4)
         further = normal
-        if film:
-            c, e_dot, v_t = interface.clearance, motion[1], motion[2]
+        if film is not None:
+            c, e_dot, v_t = self.clearance + at[2], motion[1], motion[2]
             along_n = along_n - (2.0 * f_n + e * n_e + e_dot * n_r + v_t * n_v) / c * worn
             along_t = along_t - (2.0 * f_t + e * t_e + e_dot * t_r + v_t * t_v) / c * worn
-            by_e, by_turn = interface.shear_partials(response, w_j, w_b)
             shear = by_turn * (w_j - w_b)
             couple = by_e * normal - (shear + e * by_e) / c * worn
             couple_rate = by_turn * np.array([0.0, 0.0, 1.0, -1.0])
@@ -241,7 +252,7 @@ class WornJoint(PlanarJoint):
             further = normal + worn  # e by s, which friction's lever has; delta's is the normal
             along_t = along_t - t_v * w_b * worn
         lever_j, lever_b, slope_j, slope_b = interface.arms(e)
-        levers = across + [0.0, 0.0, lever_j, lever_b]
+        levers = np.array([-n_y, n_x, lever_j, lever_b])
         leaning = np.outer(np.array([-n_x, -n_y, 0.0, 0.0]), place)
         leaning[2] += slope_j * further
         leaning[3] += slope_b * further

@@ -1,7 +1,7 @@
 """The joints of a system: ideal ones as constraints, the others with clearance."""
 
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import exudyn as exu
 from exudyn.itemInterface import (
@@ -25,9 +25,12 @@ from exu_press.mechanism import GROUND, Joint, Point
 from exu_press.mechanism.holding import SingleAxis
 from exu_press.model.system import System
 from exu_press.scene import DryJoint, LubricatedJoint
-from exu_press.scene.joint import LooseJoint
+from exu_press.scene.joint import LooseJoint, unworn
 from exu_press.scene.laws import contact_law, film_law, friction_law
 from exu_press.scene.own_joint import OwnJoint
+
+if TYPE_CHECKING:
+    from exu_press.joints.worn import Worn as WornSurfaces
 
 __all__ = ["add_clearance_joint", "add_ideal_joint", "interfaces_of"]
 
@@ -46,7 +49,9 @@ def add_clearance_joint(system: System, joint: Joint, kind: LooseJoint) -> Clear
     """Add a joint with clearance."""
     journal, bearing = (_end(system, joint, *end) for end in system.mechanism.ends(joint))
     if not (joint.spherical and isinstance(kind, DryJoint)):
-        return add_revolute(system.mbs, journal, bearing, interfaces_of(joint, kind))
+        interfaces = interfaces_of(joint, kind)
+        worn = None if isinstance(kind, OwnJoint) else _worn(system, joint, kind)
+        return add_revolute(system.mbs, journal, bearing, interfaces, worn=worn)
     return add_dry_spherical(
         system.mbs,
         journal,
@@ -62,6 +67,7 @@ def interfaces_of(joint: Joint, kind: LooseJoint) -> list[InterfaceLaw]:
     """Return the surfaces of a joint with clearance, in its plane."""
     if isinstance(kind, OwnJoint):
         return list(kind.interfaces())
+    kind = unworn(kind)
     interfaces: list[InterfaceLaw] = []
     if isinstance(kind, LubricatedJoint):
         radius, clearance, oil = kind.radius, kind.clearance, kind.film
@@ -73,6 +79,20 @@ def interfaces_of(joint: Joint, kind: LooseJoint) -> list[InterfaceLaw]:
         reach = kind.clearance - (kind.onset or 0.0)
         interfaces.append(DryInterface(contact, friction, kind.radius, reach))
     return interfaces
+
+
+def _worn(system: System, joint: Joint, kind: DryJoint | LubricatedJoint) -> "WornSurfaces | None":
+    """Return what a joint's surfaces are worn beyond an even clearance; None where that is none."""
+    profiles = None if kind.worn is None else kind.worn.profiles()
+    if profiles is None:
+        return None
+    from exu_press.joints.worn import Worn
+
+    turned = [
+        0.0 if body == GROUND else system.rigid[body].turned
+        for body in (joint.journal, joint.bearing)
+    ]
+    return Worn(*profiles, *turned)
 
 
 def _end(system: System, joint: Joint, body: str, point: Point) -> Any:

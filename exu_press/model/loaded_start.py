@@ -21,7 +21,8 @@ from exu_press.joints.joint import SHALLOW
 from exu_press.mechanism import GROUND, Joint, Motion
 from exu_press.model.joints import interfaces_of
 from exu_press.model.system import System
-from exu_press.scene import IdealJoint
+from exu_press.scene import DryJoint, IdealJoint, LubricatedJoint
+from exu_press.scene.joint import unworn
 
 if TYPE_CHECKING:
     from exu_press.model.flexible_body import FrameStart
@@ -97,6 +98,10 @@ def loaded_start(system: System) -> dict[str, Motion]:
     wanted[:, problem.films] = wanted[middle, problem.films]  # a film resists any change
     depths = np.linalg.norm(wanted, axis=2, keepdims=True)  # a contact may, of its penetration
     wanted *= np.divide(depths[middle], depths, out=np.ones_like(depths), where=depths > 0.0)
+    wanted = np.array(
+        [instant.on_worn(e, pressed) for instant, e in zip(instants, wanted, strict=True)]
+    )
+    wanted[:, problem.films] = wanted[middle, problem.films]
     poses = np.array(
         [instant.moved(e.ravel()) for instant, e in zip(instants, wanted, strict=True)]
     )
@@ -255,6 +260,33 @@ class _Instant:
             interfaces = interfaces_of(joints[k], kind)
             e = _borne(interfaces, complex(self.forces[k]), *turning)
             found[k] = (math.nan, math.nan) if e is None else (e.real, e.imag)
+        return found
+
+    def on_worn(self, wanted: Array, pressed: Array) -> Array:
+        """Return eccentricities (m, 2) in round bearings where worn surfaces bear them instead.
+
+        A contact lies on the surface worn there, with the same normal; a film has as thin a gap,
+        over its clearance.
+        """
+        found, problem = np.array(wanted), self._problem
+        for k in np.flatnonzero(pressed):
+            joint, kind = problem.loose[k], problem.system.scene.joints[problem.loose[k].name]
+            if not isinstance(kind, DryJoint | LubricatedJoint) or kind.worn is None:
+                continue
+            profiles, size = kind.worn.profiles(), float(np.linalg.norm(wanted[k]))
+            if profiles is None or size == 0.0:
+                continue
+            n = wanted[k] / size
+            angle, depth, slope = math.atan2(n[1], n[0]), 0.0, 0.0
+            for body, shape in zip((joint.journal, joint.bearing), profiles, strict=True):
+                at = 0.0 if body == GROUND else self.ideal[3 * problem.names.index(body) + 2]
+                worn, change, _ = shape.at(angle - at)
+                depth, slope = depth + worn, slope + change
+            clearance = unworn(kind).clearance
+            if kind.onset is not None and size > clearance - kind.onset:
+                found[k] = (size + depth) * n + slope * np.array([-n[1], n[0]])
+            else:
+                found[k] = (1.0 + depth / clearance) * wanted[k]
         return found
 
     def moved(self, wanted: Array) -> Array:

@@ -1,4 +1,4 @@
-"""Quantities of joints that wear."""
+"""Quantities of joints and guides that wear."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -7,42 +7,64 @@ from functools import partial
 import numpy as np
 
 from exu_press.arrays import Array
+from exu_press.laws.profile import Profile
 from exu_press.laws.wear import archard, worn_by_angle
 from exu_press.mechanism import GROUND
-from exu_press.quantities.kind import FLOW, LOAD
+from exu_press.quantities.kind import COUNT, FLOW, LOAD
 from exu_press.quantities.quantity import Extreme, Place, Quantity
 from exu_press.quantities.reading import Reading
 from exu_press.result import Result
+from exu_press.result.channel import guide_channel
 from exu_press.result.windows import window
-from exu_press.scene import DryJoint, Scene, mechanism_of
+from exu_press.scene import DryJoint, LubricatedJoint, Scene, mechanism_of
+from exu_press.scene.joint import unworn
+from exu_press.scene.wearing import (
+    wear_of_guide,
+    wear_of_joint,
+    wearing_guides,
+    wearing_joints,
+)
 
-__all__ = ["WEAR", "Sliding", "sliding_of", "wear_depths"]
+__all__ = ["SECTORS", "WEAR", "Sliding", "guideway_depths", "sliding_of", "wear_depths"]
 
 SECTORS = 72
-"""Of 5 degrees, over each of which depths are means."""
+"""Of 5 degrees, over each of which depths are means; as many parts of a guideway."""
+
+AT_ONCE = 4096
+"""Steps whose overlaps are worked out together."""
 
 
 @dataclass(frozen=True)
 class Sliding:
-    """Sliding of a dry revolute joint in each step.
+    """What rubs in a joint, or at one end of a guided body, between the instants of a run.
 
     Attributes:
-        force: normal, (n,), N; none out of contact.
-        distance: that the surfaces slide on each other, (n,), m.
-        on_journal: angle of the contact in the journal's frame, (n,), rad.
-        on_bearing: the same in the bearing's.
+        work: normal force times the way on which it slides, in each step, (n,), N m.
+        power: normal force times sliding speed at the instants, (n + 1,), W.
     """
 
-    force: Array
-    distance: Array
-    on_journal: Array
-    on_bearing: Array
+    work: Array
+    power: Array
 
 
 def sliding_of(result: Result, joint: str) -> Sliding:
-    """Return what slides in a joint, in the n steps between the n + 1 instants of a run."""
-    record, described = result.joints[joint], result.scene.joints[joint]
-    assert isinstance(described, DryJoint)
+    """Return what rubs in a joint."""
+    return _slid(result, result[f"{joint}_normal_force"], result[f"{joint}_sliding"])
+
+
+def _slid(result: Result, force: Array, speed: Array) -> Sliding:
+    power = np.maximum(force, 0.0) * np.abs(speed)
+    return Sliding(0.5 * (power[1:] + power[:-1]) * np.diff(result.time), power)
+
+
+def wear_depths(result: Result, joint: str) -> tuple[Array, Array]:
+    """Return the depths worn off journal and bearing over the angle on each, 2 (72,), m.
+
+    Those of the whole run, in sectors of 5 degrees that begin at the bodies' x axes. Each step's
+    volume is spread over where the round surfaces overlap, as deep as they do there.
+    """
+    wear, described = wear_of_joint(result.scene, joint), result.scene.joints[joint]
+    assert isinstance(described, DryJoint | LubricatedJoint)
     drawn = next(j for j in mechanism_of(result.scene).joints if j.name == joint)
     angles = [
         np.zeros_like(result.time)
@@ -50,58 +72,92 @@ def sliding_of(result: Result, joint: str) -> Sliding:
         else result["body_position"][:, result.bodies.index(body), 2]
         for body in (drawn.journal, drawn.bearing)
     ]
-    eccentricity = record.eccentricity
-    normal = eccentricity / np.maximum(record.distance, 1e-300)[:, None]
-    pressing = np.where(record.gap < 0.0, -(record.force * normal).sum(axis=1), 0.0)
-    force = np.maximum(0.5 * (pressing[1:] + pressing[:-1]), 0.0)
-    middle = 0.5 * (normal[1:] + normal[:-1])
-    moved = np.diff(eccentricity, axis=0)
-    across = middle[:, 0] * moved[:, 1] - middle[:, 1] * moved[:, 0]
-    turned = [np.diff(angle) for angle in angles]
-    radius, bore = described.radius, described.radius + described.clearance
-    place = np.arctan2(middle[:, 1], middle[:, 0])
-    journal, bearing = (place - 0.5 * (angle[1:] + angle[:-1]) for angle in angles)
-    distance = np.abs(across + radius * turned[0] - bore * turned[1])
-    return Sliding(force, distance, journal, bearing)
-
-
-def wear_depths(result: Result, joint: str) -> tuple[Array, Array]:
-    """Return the depths worn off journal and bearing over the angle on each, 2 (72,), m.
-
-    Those of the whole run, in sectors of 5 degrees that begin at the bodies' x axes.
-    """
-    wear, slid = result.scene.wear, sliding_of(result, joint)
-    described = result.scene.joints[joint]
-    assert wear is not None
-    assert isinstance(described, DryJoint)
-    volume = archard(wear.coefficient, wear.hardness, 1.0, 1.0) * slid.force * slid.distance
+    volume = archard(wear.coefficient, wear.hardness, 1.0, 1.0) * sliding_of(result, joint).work
+    eccentricity = result.joints[joint].eccentricity[:, :2]
+    at, turned_j, turned_b = (0.5 * (v[1:] + v[:-1]) for v in (eccentricity, *angles))
+    mean = unworn(described)
+    reach = mean.clearance - (mean.onset or 0.0)
+    profiles = None if described.worn is None else described.worn.profiles()
+    shapes = [_sampled(shape) for shape in profiles or ()]
+    sectors = 2.0 * np.pi * (np.arange(SECTORS) + 0.5) / SECTORS
     width = 2.0 * np.pi * described.radius / SECTORS
-    return (
-        worn_by_angle(volume, slid.on_journal, SECTORS) / (width * wear.length),
-        worn_by_angle(volume, slid.on_bearing, SECTORS) / (width * wear.length),
-    )
+    found = [np.zeros(SECTORS), np.zeros(SECTORS)]
+    rubbing = np.flatnonzero(volume)
+    for first in range(0, len(rubbing), AT_ONCE):
+        part = rubbing[first : first + AT_ONCE]
+        turned = turned_j[part, None], turned_b[part, None]
+        for end, own in enumerate(turned):
+            angle = sectors + own  # of the sectors, as they lie
+            overlap = at[part, :1] * np.cos(angle) + at[part, 1:] * np.sin(angle) - reach
+            for shape, other in zip(shapes, turned, strict=False):
+                overlap -= np.interp(angle - other, *shape, period=2.0 * np.pi)
+            found[end] += worn_by_angle(volume[part], overlap)
+    return found[0] / (width * wear.length), found[1] / (width * wear.length)
+
+
+def _sampled(shape: Profile) -> tuple[Array, Array]:
+    """Return a profile in steps of half a degree."""
+    angles = [2.0 * np.pi * i / 720 for i in range(720)]
+    return np.array(angles), np.array([shape.at(angle)[0] for angle in angles])
+
+
+def guideway_depths(result: Result, body: str) -> Array:
+    """Return the depths worn off the ways of a guided body, (2, 2, 72), m.
+
+    By its back and front end, on the left and on the right, in 72 parts of the way of each end. The
+    ends' own edges lose as much, and have no depth.
+    """
+    wear = wear_of_guide(result.scene, body)
+    guide = next(g for g in mechanism_of(result.scene).guides if g.body == body)
+    place = result["body_position"][:, result.bodies.index(body), :2] @ np.array(guide.direction)
+    middle = 0.5 * (place[1:] + place[:-1])
+    low, high = float(place.min()), float(place.max())
+    width = max(high - low, 1e-30) / SECTORS
+    part = np.clip(((middle - low) / width).astype(int), 0, SECTORS - 1)
+    shown = guide_channel(mechanism_of(result.scene), body)
+    force, speed = result[f"{shown}_normal_force"], result[f"{shown}_sliding"]
+    rate = archard(wear.coefficient, wear.hardness, 1.0, 1.0) / (width * wear.length)
+    found = np.zeros((2, 2, SECTORS))
+    for end in (0, 1):
+        for side, sign in enumerate((-1.0, 1.0)):
+            work = _slid(result, sign * force[:, end], speed[:, end]).work
+            found[end, side] = rate * np.bincount(part, weights=work, minlength=SECTORS)
+    return found
 
 
 def _wears(scene: Scene, joint: str) -> bool:
-    """Return whether a joint wears: a dry one in the plane."""
-    drawn = next(j for j in mechanism_of(scene).joints if j.name == joint)
-    dry = isinstance(scene.joints[joint], DryJoint)
-    return scene.wear is not None and dry and not drawn.spherical
+    return joint in wearing_joints(scene)
 
 
-def _per_revolution(worn: Callable[[Result, str], float], run: Reading, joint: str) -> float | None:
+def _guide_wears(scene: Scene, body: str) -> bool:
+    return body in wearing_guides(scene)
+
+
+def _per_revolution(worn: Callable[[Result, str], float], run: Reading, place: str) -> float | None:
     """Return what whole revolutions wear, over their number; None where there is none."""
     if run.whole is None:
         return None
     last = window(run.result, run.whole, float(run.time[-1]))
     turns = (last["crank_angle"][-1] - last["crank_angle"][0]) / (2.0 * np.pi)
-    return worn(last, joint) / float(turns)
+    return worn(last, place) / float(turns)
 
 
 def _volume(result: Result, joint: str) -> float:
-    wear, slid = result.scene.wear, sliding_of(result, joint)
-    assert wear is not None
-    work = float((slid.force * slid.distance).sum())
+    wear = wear_of_joint(result.scene, joint)
+    work = float(sliding_of(result, joint).work.sum())
+    return archard(wear.coefficient, wear.hardness, work, 1.0)
+
+
+def _ends(result: Result, body: str) -> list[Sliding]:
+    """Return what rubs at the ends of a guided body."""
+    shown = guide_channel(mechanism_of(result.scene), body)
+    force, speed = result[f"{shown}_normal_force"], result[f"{shown}_sliding"]
+    return [_slid(result, np.abs(force[:, end]), speed[:, end]) for end in (0, 1)]
+
+
+def _guide_volume(result: Result, body: str) -> float:
+    wear = wear_of_guide(result.scene, body)
+    work = sum(float(end.work.sum()) for end in _ends(result, body))
     return archard(wear.coefficient, wear.hardness, work, 1.0)
 
 
@@ -109,34 +165,95 @@ def _depth(end: int, result: Result, joint: str) -> float:
     return float(wear_depths(result, joint)[end].max())
 
 
-def _heat(run: Reading, joint: str) -> Array:
-    """Return mean pressure times sliding speed in each step, (n,), W/m^2."""
-    wear, described = run.result.scene.wear, run.result.scene.joints[joint]
-    assert wear is not None
-    assert isinstance(described, DryJoint)
-    slid = sliding_of(run.result, joint)
-    speed = slid.distance / np.diff(run.time)
-    return np.asarray(slid.force * speed / (2.0 * described.radius * wear.length))
+def _guideway_depth(result: Result, body: str) -> float:
+    return float(guideway_depths(result, body).max())
 
 
-def _mean_heat(run: Reading, joint: str) -> float | None:
-    if run.whole is None:
-        return None
-    steps = np.diff(run.time)
-    inside = run.time[1:] > run.whole
-    return float((_heat(run, joint) * steps)[inside].sum() / steps[inside].sum())
+def _deepest(result: Result) -> dict[str, float]:
+    """Return the largest depth of every joint and guide that wears, by the name of the place."""
+    scene = result.scene
+    joints = {f"joints.{j}": max(_depth(0, result, j), _depth(1, result, j))
+              for j in wearing_joints(scene)}  # fmt: skip
+    return joints | {f"guides.{b}": _guideway_depth(result, b) for b in wearing_guides(scene)}
+
+
+def _rank(kind: str, run: Reading, place: str) -> int | None:
+    depths = run.once(_deepest)
+    return 1 + sum(depth > depths[f"{kind}.{place}"] for depth in depths.values())
+
+
+def _pressed(run: Reading, joint: str) -> Array:
+    """Return mean pressure times sliding speed, (n,), W/m^2."""
+    result, described = run.result, run.result.scene.joints[joint]
+    assert isinstance(described, DryJoint | LubricatedJoint)
+    area = 2.0 * described.radius * wear_of_joint(result.scene, joint).length
+    return sliding_of(result, joint).power / area
+
+
+def _pressed_guide(run: Reading, body: str) -> Array:
+    result = run.result
+    guide = result.scene.guide
+    assert guide is not None
+    area = guide.length * wear_of_guide(result.scene, body).length
+    return np.asarray(sum(end.power for end in _ends(result, body)) / area)
+
+
+def _mean(pressed: Callable[[Reading, str], Array], run: Reading, place: str) -> float | None:
+    return None if run.whole is None else run.mean(pressed(run, place))
+
+
+def _largest(pressed: Callable[[Reading, str], Array], run: Reading, place: str) -> float:
+    return float(pressed(run, place).max(initial=0.0))
+
+
+def _rows(place: Place) -> tuple[Quantity, ...]:
+    """Return the quantities that joints and guides have alike."""
+    joint = place is Place.JOINT
+    has, kind = (_wears, "joints") if joint else (_guide_wears, "guides")
+    pressed = _pressed if joint else _pressed_guide
+    area = "the projected area" if joint else "the guided face"
+    return (
+        Quantity(
+            "wear.volume",
+            "m^3",
+            "volume that a revolution wears off each of the two surfaces",
+            FLOW,
+            partial(_per_revolution, _volume if joint else _guide_volume),
+            place,
+            has,
+        ),
+        Quantity(
+            "wear.rank",
+            "",
+            "1 for the joint or guide that is worn deepest, and so on",
+            COUNT,
+            partial(_rank, kind),
+            place,
+            has,
+        ),
+        Quantity(
+            "wear.pressure_velocity",
+            "W/m^2",
+            f"mean of pressure on {area} times sliding speed, over whole revolutions",
+            LOAD,
+            partial(_mean, pressed),
+            place,
+            has,
+        ),
+        Quantity(
+            "wear.peak_pressure_velocity",
+            "W/m^2",
+            f"largest pressure on {area} times sliding speed",
+            LOAD,
+            partial(_largest, pressed),
+            place,
+            has,
+            extreme=Extreme.LARGEST,
+        ),
+    )
 
 
 WEAR = (
-    Quantity(
-        "wear.volume",
-        "m^3",
-        "volume that a revolution wears off each of the two surfaces",
-        FLOW,
-        partial(_per_revolution, _volume),
-        Place.JOINT,
-        _wears,
-    ),
     Quantity(
         "wear.bearing_depth",
         "m",
@@ -158,22 +275,14 @@ WEAR = (
         _wears,
     ),
     Quantity(
-        "wear.pressure_velocity",
-        "W/m^2",
-        "mean of pressure on the projected area times sliding speed, over whole revolutions",
-        LOAD,
-        _mean_heat,
-        Place.JOINT,
-        _wears,
+        "wear.guideway_depth",
+        "m",
+        "largest depth that a revolution wears off the ways, mean over 1/72 of the stroke",
+        FLOW,
+        partial(_per_revolution, _guideway_depth),
+        Place.GUIDE,
+        _guide_wears,
     ),
-    Quantity(
-        "wear.peak_pressure_velocity",
-        "W/m^2",
-        "largest pressure on the projected area times sliding speed",
-        LOAD,
-        lambda run, joint: float(_heat(run, joint).max(initial=0.0)),
-        Place.JOINT,
-        _wears,
-        extreme=Extreme.LARGEST,
-    ),
+    *_rows(Place.JOINT),
+    *_rows(Place.GUIDE),
 )

@@ -15,6 +15,7 @@ AXES = {
     "space": ("x", "y", "z"),
     "pose": ("x", "y", "angle"),
     "ends": ("journal", "bearing"),
+    "guided": ("back", "front"),
 }
 """The columns of a channel."""
 

@@ -7,6 +7,7 @@ from exu_press.result.channel import Channel, guide_channel
 from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.applied import applied_loads
 from exu_press.scene.joint import oil_of
+from exu_press.scene.wearing import wearing_joints
 
 __all__ = ["DECLARED", "PLACES", "Declared", "channel", "expected"]
 
@@ -18,6 +19,8 @@ PLACES = {
     "joint": "ideal joints whose force is known",
     "loose": "joints with clearance",
     "warm": "lubricated joints whose oil warms",
+    "worn": "joints that are worn from the start",
+    "wearing": "joints whose wear is asked for",
     "guide": "guides; that of the slider is `guide`",
     "load": "loads",
     "body": "flexible bodies",
@@ -103,6 +106,11 @@ DECLARED = {
         Declared("{loose}_eccentricity", "m", "{loose}: journal minus bearing centre", VECTOR),
         Declared("{loose}_moment", "N m", "{loose}: moment on journal and on bearing", "ends"),
         Declared("{loose}_power", "W", "{loose}: dissipated power"),
+        Declared("{worn}_gap", "m", "{worn}: least gap of the worn surfaces, or -penetration"),
+        Declared(
+            "{wearing}_normal_force", "N", "{wearing}: normal force of the contact", always=False
+        ),
+        Declared("{wearing}_sliding", "m/s", "{wearing}: sliding velocity", always=False),
         Declared("{loose}_loss", "J", "{loose}: energy dissipated since the start"),
         Declared("{warm}_temperature", "deg C", "{warm}: temperature of the film"),
         Declared("{warm}_viscosity", "Pa s", "{warm}: viscosity of the film"),
@@ -113,6 +121,16 @@ DECLARED = {
             "{guide}_moment", "N m", "{guide}: moment on the body, counter-clockwise", always=False
         ),
         Declared("{guide}_friction", "N", "{guide}: friction on the body, {way}", always=False),
+        Declared(
+            "{guide}_normal_force",
+            "N",
+            "{guide}: what presses the body's back and front end on its ways, on the right side +",
+            "guided",
+            always=False,
+        ),
+        Declared(
+            "{guide}_sliding", "m/s", "{guide}: sliding velocity of both ends", "guided", False
+        ),
         Declared("{guide}_loss", "J", "{guide}: energy dissipated since the start", always=False),
         Declared(
             "{guide}_gap",
@@ -186,6 +204,8 @@ def expected(scene: Scene, *, own_items: bool) -> dict[str, tuple[str, bool]]:
         "joint": joints,
         "loose": [name for name in joints if scene.joints[name].kind != "ideal"],
         "warm": [name for name in joints if oil_of(scene.joints[name]) is not None],
+        "worn": [name for name in joints if getattr(scene.joints[name], "worn", None) is not None],
+        "wearing": list(wearing_joints(scene)),
         "guide": [guide_channel(mechanism, guide.body) for guide in mechanism.guides],
         "load": list(applied_loads(scene)),
         "body": [body.name for body in mechanism.bodies],

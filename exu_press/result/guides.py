@@ -11,6 +11,7 @@ from exu_press.result.energy import work
 from exu_press.result.flexible import guided_motion
 from exu_press.result.forces import guide_channels
 from exu_press.result.joints import states_of, stored_and_lost
+from exu_press.scene.wearing import wearing_guides
 
 __all__ = ["record_friction", "record_guides", "record_guideways"]
 
@@ -112,7 +113,9 @@ def record_guideways(
         for body, all_of in model.guideways.items()
         for n, each in enumerate(all_of)
     }
-    states = states_of(model, time, ends)
+    wearing = wearing_guides(model.scene)
+    rubbing = [name for name in ends if name.rpartition(" ")[0] in wearing]
+    states = states_of(model, time, ends, rubbing)
     names = [body.name for body in model.mechanism.bodies]
     for guide in model.mechanism.guides:
         if guide.guideway is None:
@@ -143,4 +146,11 @@ def record_guideways(
         across, along = force @ np.array(guide.across), force @ np.array(guide.direction)
         held = {"force": across, "moment": moment, "friction": along, "loss": lost}
         channels |= guide_channels(model, guide.body, held)
+        if guide.body in wearing:
+            both = [states[f"{guide.body} {n}"] for n in (0, 1)]
+            on_right = [np.sign(end.eccentricity[:, :2] @ np.array(guide.across)) for end in both]
+            normal = [s * end.rubbing[:, 0] for s, end in zip(on_right, both, strict=True)]
+            sliding = [end.rubbing[:, 1] for end in both]
+            rubbed = {"normal_force": np.column_stack(normal), "sliding": np.column_stack(sliding)}
+            channels |= guide_channels(model, guide.body, rubbed)
     return channels, all_stored, all_lost

@@ -18,7 +18,7 @@ class JointRecord:
     Attributes:
         name: of the joint.
         kind: "ideal", "dry" or "lubricated".
-        clearance: radial clearance, m.
+        clearance: radial clearance, m; of worn surfaces its mean.
         channels: of the run.
     """
 
@@ -45,8 +45,9 @@ class JointRecord:
 
     @property
     def gap(self) -> Array:
-        """Clearance less eccentricity, (n,), m: the film's least thickness, or -penetration."""
-        return self.clearance - self.distance
+        """The film's least thickness, or -penetration, (n,), m: clearance less eccentricity."""
+        worn = self.channels.get(f"{self.name}_gap")
+        return self.clearance - self.distance if worn is None else worn.values
 
     @property
     def moment(self) -> Array:

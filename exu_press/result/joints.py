@@ -1,6 +1,6 @@
 """Channels of clearance joints: eccentricity, force, moments, losses."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
 import numpy as np
 
@@ -13,17 +13,21 @@ from exu_press.result.channel import Channel
 from exu_press.result.declared import channel
 from exu_press.result.forces import vectors
 from exu_press.result.motion import sensor
+from exu_press.scene.wearing import wearing_joints
 
 __all__ = ["joint_states", "record_joints", "states_of", "stored_and_lost"]
 
 
 def joint_states(model: Model, time: Array) -> dict[str, JointHistory]:
     """Return what every clearance joint did at the recorded instants."""
-    return states_of(model, time, model.clearance_joints)
+    return states_of(model, time, model.clearance_joints, wearing_joints(model.scene))
 
 
 def states_of(
-    model: Model, time: Array, joints: Mapping[str, ClearanceJoint]
+    model: Model,
+    time: Array,
+    joints: Mapping[str, ClearanceJoint],
+    rubbing: Collection[str] = (),
 ) -> dict[str, JointHistory]:
     """Return what some of the user force element's joints did at the recorded instants."""
     if not joints:
@@ -34,7 +38,7 @@ def states_of(
         np.hstack([sensor(model, names[node], level) for node in user_force.nodes])
         for level in ("position", "velocity")
     )
-    return histories(joints, time, q, q_t, user_force.begun)
+    return histories(joints, time, q, q_t, user_force.begun, rubbing)
 
 
 def stored_and_lost(states: JointHistory, time: Array) -> tuple[Array, Array]:
@@ -83,4 +87,9 @@ def record_joints(
             channels |= channel(quantity, values, name)
         if name in model.warm:
             channels |= _record_heat(model.warm[name], states, time, name)
+        if len(states.rubbing):
+            channels |= channel("{wearing}_normal_force", states.rubbing[:, 0], name)
+            channels |= channel("{wearing}_sliding", states.rubbing[:, 1], name)
+        if getattr(model.scene.joints[name], "worn", None) is not None:
+            channels |= channel("{worn}_gap", states.gap, name)
     return channels, stored, dissipated

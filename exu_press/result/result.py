@@ -17,6 +17,7 @@ from exu_press.result.contents import Contents
 from exu_press.result.joint import JointRecord
 from exu_press.result.samples import Samples, samples_of
 from exu_press.scene import IdealJoint
+from exu_press.scene.joint import DryJoint, Joint, LubricatedJoint, unworn
 from exu_press.schema.checks import nearest
 
 __all__ = ["Result"]
@@ -99,7 +100,7 @@ class Result(Contents):
         }
         return _Joints(
             {
-                name: JointRecord(name, joint.kind, joint.clearance, self.channels)
+                name: JointRecord(name, joint.kind, _mean_clearance(joint), self.channels)
                 for name, joint in recorded.items()
             }
         )
@@ -192,3 +193,12 @@ class Result(Contents):
         from exu_press.result.unfinished import read
 
         return read(Path(path), Result)
+
+
+def _mean_clearance(joint: Joint) -> float:
+    """Return a joint's radial clearance, all around where it is worn, m."""
+    return (
+        unworn(joint).clearance
+        if isinstance(joint, DryJoint | LubricatedJoint)
+        else joint.clearance
+    )

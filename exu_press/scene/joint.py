@@ -9,6 +9,7 @@ from exu_press.errors import InputError
 from exu_press.scene.oil import Oil
 from exu_press.scene.own_joint import OwnJoint, own_kind
 from exu_press.scene.tables import Contact, Film, Friction, asperity_onset
+from exu_press.scene.worn import Worn
 from exu_press.schema.checks import Table, demand_keys, key, plain
 
 __all__ = [
@@ -25,6 +26,7 @@ __all__ = [
     "oil_of",
     "refuse_missing",
     "refuse_missing_damping",
+    "unworn",
 ]
 
 SIZES = ("clearance", "radius")
@@ -51,6 +53,7 @@ class DryJoint(Table):
     radius: float = key(None, "of the journal or ball", "m", above=0, example=0.03)
     contact: Contact = dataclasses.field(default=cast(Any, None))
     friction: Friction = dataclasses.field(default=cast(Any, None))
+    worn: Worn | None = None
 
     def __post_init__(self) -> None:
         """Check the keys and that the journal is larger than its clearance."""
@@ -77,6 +80,7 @@ class LubricatedJoint(Table):
     film: Film = dataclasses.field(default=cast(Any, None))
     contact: Contact | None = None
     friction: Friction | None = None
+    worn: Worn | None = None
 
     def __post_init__(self) -> None:
         """Check the keys and that the journal is larger than its clearance."""
@@ -87,6 +91,14 @@ class LubricatedJoint(Table):
     def onset(self) -> float | None:
         """Gap at which the surfaces' asperities begin to touch, m; None: the film ends the run."""
         return asperity_onset(self.film)
+
+
+def unworn(joint: DryJoint | LubricatedJoint) -> DryJoint | LubricatedJoint:
+    """Return a joint of the same mean clearance whose surfaces are round."""
+    if joint.worn is None:
+        return joint
+    clearance = joint.clearance + joint.worn.even
+    return dataclasses.replace(joint, clearance=clearance, worn=None)
 
 
 LooseJoint = DryJoint | LubricatedJoint | OwnJoint
@@ -108,9 +120,9 @@ def keys_used(kind: Any, at_contact: Any) -> tuple[str, ...]:
     """Return the keys of a joint of this kind beside the kind itself."""
     touching = ("contact", "friction")
     if kind == "dry":
-        return SIZES + touching
+        return (*SIZES, *touching, "worn")
     if kind == "lubricated":
-        return (*SIZES, "film", *(touching if at_contact == "mixed" else ()))
+        return (*SIZES, "film", *(touching if at_contact == "mixed" else ()), "worn")
     own = own_kind(kind)
     return () if own is None else tuple(field.name for field in dataclasses.fields(own))
 
@@ -155,7 +167,7 @@ def joint_dict(joint: Joint, laws: Mapping[str, Table | None]) -> dict[str, Any]
         if not isinstance(value, Table):
             found |= {} if value is None else {field.name: value}
             continue
-        usual = laws[field.name]
+        usual = laws.get(field.name)
         own = {
             key: each
             for key, each in plain(value).items()
@@ -166,6 +178,8 @@ def joint_dict(joint: Joint, laws: Mapping[str, Table | None]) -> dict[str, Any]
 
 
 def _check_clearance(joint: DryJoint | LubricatedJoint) -> None:
+    if joint.worn is not None and joint.clearance is not None:
+        joint.worn.refuse_sharp(joint.clearance)
     if None not in (joint.clearance, joint.radius) and joint.clearance >= joint.radius:
         raise InputError(
             f"clearance = {joint.clearance!r}: allowed is a number < radius = {joint.radius!r}"

@@ -20,7 +20,8 @@ from exu_press.scene.joint import (
 from exu_press.scene.laws import contact_law, film_law, friction_law
 from exu_press.scene.own_joint import OwnJoint, own_kind
 from exu_press.scene.tables import Contact, Film
-from exu_press.schema.checks import Table, given_in, nearest, table_with
+from exu_press.scene.worn import Worn
+from exu_press.schema.checks import Table, given_in, nearest, table_from, table_with
 
 __all__ = ["Joints", "joints_of", "keys_given"]
 
@@ -221,7 +222,7 @@ def _joint(
         what = f"{place}.kind = {kind!r}" if "kind" in given else f"{place} has no kind"
         ball = ", as it is a ball" if spherical else ""
         raise InputError(f"{what}: allowed is one of {', '.join(map(repr, kinds))}{ball}")
-    known = ("kind", "clearance", "radius", *LAW_TABLES)
+    known = ("kind", "clearance", "radius", *LAW_TABLES, "worn")
     if own_class is not None:
         known = ("kind", *keys_used(kind, None))
     for unknown in [key for key in given if key not in known]:
@@ -240,6 +241,13 @@ def _joint(
     for law, table in own.items():
         own[law] = table.without(unused_in(table, spherical=spherical))
     values: dict[str, Any] = {**sizes, **given, **own}
+    if given.get("worn") is not None:
+        if spherical:
+            raise UnusedKeyError(f"{place}.worn", f"{place}.worn", f"{place} is a ball")
+        try:
+            values["worn"] = table_from(Worn, "worn", given["worn"])
+        except InputError as error:
+            raise InputError(f"{place}.{error}") from None
     chosen: type[Any] = own_class or JOINT_KINDS[str(kind)]
     try:
         joint: Joint = chosen(**{key: values[key] for key in used if key in values})

@@ -20,6 +20,7 @@ from exu_press.mechanism import (
     shipped_mechanism,
     slider_crank,
 )
+from exu_press.mechanism import Joint as Drawn
 from exu_press.mechanism.examine import require_turning
 from exu_press.scene.bodies import DRIVE_FACE, GUIDE_FACE, Flexible, bodies_of, body_dict
 from exu_press.scene.built import Built
@@ -29,6 +30,8 @@ from exu_press.scene.file import parse_assignment, scene_tables
 from exu_press.scene.joint import (
     LAW_TABLES,
     SIZES,
+    DryJoint,
+    LubricatedJoint,
     joint_dict,
     oil_of,
     refuse_missing_damping,
@@ -163,8 +166,7 @@ class Scene(Table):
             )
         self._check_start_stop()
         self._settle_joints()
-        if self.wear is not None and not self._rubbing():
-            self._refuse({"wear": "no revolute joint is dry"}, "wear", self.wear)
+        self._settle_wear()
         self._settle_bodies()
         self._settle_loads()
 
@@ -225,10 +227,27 @@ class Scene(Table):
         if of_guides.get("contact"):
             refuse_missing_damping("guide.clearance", contact)
 
-    def _rubbing(self) -> bool:
-        """Return whether a dry revolute joint is there."""
-        joints = mechanism_of(self).joints
-        return any(self.joints[j.name].kind == "dry" and not j.spherical for j in joints)
+    def _settle_wear(self) -> None:
+        """Say what wears how; a scene in which nothing does has no such table."""
+        if self.wear is None:
+            return
+        mechanism = mechanism_of(self)
+        joints = {joint.name: self._unrubbed(joint) for joint in mechanism.joints}
+        why = "guide.clearance is not given"
+        guides = {g.body: "" if g.guideway is not None else why for g in mechanism.guides}
+        if all((*joints.values(), *guides.values())):
+            why = "no revolute joint is dry or has a mixed film, and no guide has clearance"
+            self._refuse({"wear": why}, "wear", self.wear)
+        wear = self.wear.check_places(joints, guides, mechanism.groups)
+        object.__setattr__(self, "wear", wear)
+
+    def _unrubbed(self, drawn: Drawn) -> str:
+        """Return why a joint does not wear, or nothing."""
+        joint = self.joints[drawn.name]
+        if drawn.spherical:
+            return f"joints.{drawn.name} is a ball"
+        rubs = isinstance(joint, DryJoint | LubricatedJoint) and joint.onset is not None
+        return "" if rubs else f"surfaces of joints.{drawn.name} do not touch"
 
     def _settle_bodies(self) -> None:
         """Say which bodies are flexible."""
@@ -245,6 +264,14 @@ class Scene(Table):
                 f"{mechanism.crank}, which a disc of this inertia turns"
             )
         object.__setattr__(self, "bodies", bodies)
+        for drawn in mechanism.joints:
+            worn = getattr(self.joints[drawn.name], "worn", None)
+            for body in (drawn.journal, drawn.bearing):
+                if worn is not None and body in bodies:
+                    raise InputError(
+                        f"joints.{drawn.name}.worn: bodies.{body} is flexible; allowed is a "
+                        "worn joint between rigid bodies"
+                    )
 
     def _settle_loads(self) -> None:
         """Say what acts on which body; tables of forces are read."""

@@ -1,25 +1,112 @@
 """The [wear] table of a scene."""
 
+import dataclasses
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
 
-from exu_press.schema.checks import Table, demand_keys, key
+from exu_press.errors import InputError, UnusedKeyError
+from exu_press.schema.checks import Table, demand_keys, key, table_from
 
-__all__ = ["Wear"]
+__all__ = ["Wear", "WearAt"]
 
 
 @dataclass(frozen=True)
-class Wear(Table):
-    """Archard's law for the dry revolute joints of a scene; it changes nothing in the run."""
+class WearAt(Table):
+    """Archard's law at one joint or guide."""
 
-    table: ClassVar[str] = "wear"
     coefficient: float = key(
         None, "Archard's, of each of the two surfaces", above=0, at_most=1, example=1e-5
     )
     hardness: float = key(None, "of the surfaces", "Pa", above=0, example=2e9)
-    length: float = key(None, "of the bearings along their axis", "m", above=0, example=0.1)
+    length: float = key(
+        None,
+        "of a bearing along its axis; of a guideway as deep as that",
+        "m",
+        above=0,
+        example=0.1,
+    )
+
+
+def _own(meaning: str) -> Any:
+    metadata = {**key(None, meaning).metadata, "by_place": True}
+    return dataclasses.field(default=None, hash=False, metadata=metadata)
+
+
+@dataclass(frozen=True)
+class Wear(WearAt):
+    """Archard's law for joints whose surfaces touch and guides with clearance.
+
+    It changes nothing in the run.
+    """
+
+    table: ClassVar[str] = "wear"
+    joints: Mapping[str, Mapping[str, float]] | None = _own(
+        "joint = {coefficient, hardness, length}, what differs there"
+    )
+    guides: Mapping[str, Mapping[str, float]] | None = _own(
+        "guided body = {coefficient, hardness, length}, what differs there"
+    )
 
     def __post_init__(self) -> None:
-        """Check the keys; all are asked for, as they decide the result."""
-        super().__post_init__()
-        demand_keys("[wear]", self, ("coefficient", "hardness", "length"), "wear", "[wear]")
+        """Check the keys, and those of single joints and guides."""
+        for kind in ("joints", "guides"):
+            tables = getattr(self, kind)
+            if tables is None:
+                continue
+            if not isinstance(tables, Mapping):
+                raise InputError(f"wear.{kind} = {tables!r:.200}: allowed is a table of {kind}")
+            checked = {
+                name: table_from(WearAt, f"wear.{kind}.{name}", given).given
+                for name, given in tables.items()
+            }
+            object.__setattr__(self, kind, None)
+            super().__post_init__()
+            object.__setattr__(self, kind, checked)
+        if self.joints is self.guides is None:
+            super().__post_init__()
+
+    def check_places(
+        self, joints: Mapping[str, str], guides: Mapping[str, str], groups: Mapping[str, Any]
+    ) -> "Wear":
+        """Return the table with groups as their joints; all keys are there for what wears.
+
+        Args:
+            joints: every joint -> why it does not wear, or nothing.
+            guides: every guided body likewise.
+            groups: names for several joints at once -> these joints.
+
+        Raises:
+            InputError: there is no such place, it does not wear, or a key is missing.
+        """
+        by_joint: dict[str, Mapping[str, float]] = {}
+        for name, keys in (self.joints or {}).items():
+            for member in groups.get(name, (name,)):
+                by_joint[member] = {**by_joint.get(member, {}), **keys}
+        whole = dataclasses.replace(self, joints=by_joint or None)
+        for kind, given, known in (
+            ("joints", by_joint, joints),
+            ("guides", self.guides or {}, guides),
+        ):
+            for name in given:
+                place = f"wear.{kind}.{name}"
+                if name not in known:
+                    names = ", ".join(known) or "none"
+                    raise InputError(f"{place}: there is no such place; allowed are {names}")
+                if known[name]:
+                    raise UnusedKeyError(place, place, known[name])
+            for name, why in known.items():
+                if not why:
+                    here = whole.at(kind, name)
+                    demand_keys(
+                        f"{kind}.{name}", here, KEYS, "wear", f"[wear] or [wear.{kind}.{name}]"
+                    )
+        return whole
+
+    def at(self, kind: str, name: str) -> WearAt:
+        """Return the law at one of the "joints" or "guides"."""
+        usual = {each: getattr(self, each) for each in KEYS}
+        return WearAt(**{**usual, **(getattr(self, kind) or {}).get(name, {})})
+
+
+KEYS = tuple(field.name for field in dataclasses.fields(WearAt))

@@ -312,17 +312,24 @@ def changed_table(
     Args:
         kind: of the table.
         before: its keys.
-        changes: key -> value; "TABLE.key" of a table within it, too.
+        changes: key -> value; "TABLE.key" of a table within it, too, and "KEY.PLACE.key" where a
+            key has a table for each of several places.
     """
     found = dict(before)
     inners = {
         f.name: f.metadata["inner"] for f in dataclasses.fields(kind) if "inner" in f.metadata
     }
+    by_place = {f.name for f in dataclasses.fields(kind) if f.metadata.get("by_place")}
     for path, value in changes.items():
         name, dot, rest = path.partition(".")
-        change = {rest: value} if dot else value
+        change: Any = {rest: value} if dot else value
         if name in inners and isinstance(change, Mapping | Table):
             found[name] = changed_table(inners[name], given_in(found.get(name)), given_in(change))
+        elif dot and name in by_place:
+            at, _, key_there = rest.partition(".")
+            there = given_in(found.get(name))
+            change = {**given_in(there.get(at)), key_there: value} if key_there else value
+            found[name] = {**there, at: change}
         else:
             found[path] = value
     given = {path.partition(".")[0] for path, value in changes.items() if value is not None}

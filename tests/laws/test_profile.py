@@ -25,7 +25,7 @@ def test_derivatives_are_those_of_the_depth():
     shape = profile([0.1, 1.0, 2.5, 4.0], [1e-5, 3e-5, 0.0, 2e-5])
     for angle in (0.0, 0.1, 0.7, 3.3, 6.2, 6.4):
         high, low = shape.at(angle + 1e-6), shape.at(angle - 1e-6)
-        depth, slope, bend = shape.at(angle)
+        _, slope, bend = shape.at(angle)
         assert slope == pytest.approx((high[0] - low[0]) / 2e-6, rel=1e-6, abs=1e-12)
         assert bend == pytest.approx((high[1] - low[1]) / 2e-6, rel=1e-4, abs=1e-9)
     assert shape.at(0.1 + 2.0 * math.pi) == pytest.approx(shape.at(0.1))

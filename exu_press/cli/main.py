@@ -27,6 +27,7 @@ COMMANDS = (
     "fit",
     "sensitivity",
     "optimise",
+    "wear",
     "precision",
     "stability",
     "doctor",

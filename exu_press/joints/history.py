@@ -135,8 +135,8 @@ def histories(
         joint.recall(ended[name])
     return {
         name: JointHistory(
-            *(np.concatenate(values) for values in zip(*found, strict=True)),
-            np.array(rubbed[name]).reshape(-1, 2),
+            *[np.concatenate(values) for values in zip(*found, strict=True)]
+            + [np.array(rubbed[name]).reshape(-1, 2)]
         )
         for name, found in parts.items()
     }

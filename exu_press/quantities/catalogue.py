@@ -46,6 +46,7 @@ def _declared_as(name: str, place: Place = Place.RUN) -> Quantity:
 
 PEAK_ACCELERATION = _declared_as("peak_acceleration.resolved")
 MEAN_ACCELERATION = _declared_as("peak_acceleration.mean_1ms")
+DEAD_CENTRE = _declared_as("bottom_dead_centre")
 DEAD_CENTRE_MEAN = _declared_as("strokes.mean")
 DEAD_CENTRE_RANGE = _declared_as("strokes.range")
 PEAK_TORQUE = _declared_as("drive.peak_torque")

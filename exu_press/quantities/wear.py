@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -25,7 +26,15 @@ from exu_press.scene.wearing import (
     wearing_joints,
 )
 
-__all__ = ["SECTORS", "WEAR", "Sliding", "guideway_depths", "sliding_of", "wear_depths"]
+__all__ = [
+    "SECTORS",
+    "WEAR",
+    "Sliding",
+    "depths_of_a_revolution",
+    "guideway_depths",
+    "sliding_of",
+    "wear_depths",
+]
 
 SECTORS = 72
 """Of 5 degrees, over each of which depths are means; as many parts of a guideway."""
@@ -125,6 +134,31 @@ def guideway_depths(result: Result, body: str) -> Array:
     return found
 
 
+def depths_of_a_revolution(result: Result) -> dict[str, Any]:
+    """Return what the mean revolution of what has settled wears off joints and ways, m.
+
+    "journal" and "bearing": joint -> (72,); "ways": guided body -> deepest; for JSON.
+    """
+    run = Reading(result)
+    found: dict[str, dict[str, Any]] = {"journal": {}, "bearing": {}, "ways": {}}
+    if run.whole is None:
+        return found
+    last, turns = _whole(run, run.whole)
+    for joint in wearing_joints(result.scene):
+        journal, bearing = wear_depths(last, joint)
+        found["journal"][joint] = (journal / turns).tolist()
+        found["bearing"][joint] = (bearing / turns).tolist()
+    for body in wearing_guides(result.scene):
+        found["ways"][body] = _guideway_depth(last, body) / turns
+    return found
+
+
+def _whole(run: Reading, begin: float) -> tuple[Result, float]:
+    """Return the whole revolutions of a run, and how many they are."""
+    last = window(run.result, begin, float(run.time[-1]))
+    return last, float((last["crank_angle"][-1] - last["crank_angle"][0]) / (2.0 * np.pi))
+
+
 def _wears(scene: Scene, joint: str) -> bool:
     return joint in wearing_joints(scene)
 
@@ -137,9 +171,8 @@ def _per_revolution(worn: Callable[[Result, str], float], run: Reading, place: s
     """Return what whole revolutions wear, over their number; None where there is none."""
     if run.whole is None:
         return None
-    last = window(run.result, run.whole, float(run.time[-1]))
-    turns = (last["crank_angle"][-1] - last["crank_angle"][0]) / (2.0 * np.pi)
-    return worn(last, place) / float(turns)
+    last, turns = _whole(run, run.whole)
+    return worn(last, place) / turns
 
 
 def _volume(result: Result, joint: str) -> float:

@@ -21,6 +21,7 @@ class Kind(Enum):
     FIT = "fit.json"
     BIFURCATION = "bifurcation.json"
     ATTRACTOR = "attractor.json"
+    WEAR = "wear.json"
 
 
 def find_output(path: Path) -> tuple[Kind, Path]:
@@ -85,6 +86,10 @@ def report_of(kind: Kind, file: Path, span: Span = ALL) -> str:
         from exu_press.report.attractor import attractor_report
 
         return attractor_report(file)
+    if kind is Kind.WEAR:
+        from exu_press.report.wear import wear_report
+
+        return wear_report(file)
     from exu_press.report.run import run_report
 
     return run_report(Result.load(file), f"{file.resolve().parent.name}/{file.name}", span)

@@ -75,6 +75,11 @@ class Worn(Table):
             self._depths[1], bearing.mean
         )
 
+    def whole(self) -> tuple[Profile, Profile]:
+        """Return all that journal and bearing are worn."""
+        journal, bearing = (self._profile(depths) for depths in self._depths)
+        return journal, bearing
+
     def refuse_sharp(self, clearance: float) -> None:
         """Refuse a shape that the journal cannot follow.
 

@@ -3,7 +3,7 @@
 import dataclasses
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, ClassVar, TypeVar
 
 from exu_press.errors import InputError
 from exu_press.scene import Scene
@@ -32,6 +32,9 @@ class Study(Table):
         InputError: not allowed, or not allowed in the scene with one key at one of its values.
     """
 
+    with_keys: ClassVar[bool] = True
+    """Whether keys of the scene vary."""
+
     scene: Scene
     keys: Mapping[str, Key]
     save_runs: bool = key(False, "keep a run.nc for every run")
@@ -44,7 +47,7 @@ class Study(Table):
         for name in ("scene", "keys"):
             if not isinstance(value := getattr(self, name), (Mapping, Scene)):
                 raise InputError(f"{name} = {value!r:.200}: allowed is a table")
-        if not self.keys:
+        if not self.keys and self.with_keys:
             raise InputError("[keys]: empty; allowed is at least one key of the scene")
         if not isinstance(self.scene, Scene):
             object.__setattr__(self, "scene", Scene.from_dict(self.scene))
@@ -100,7 +103,7 @@ def load_study(path: str | Path, kind: type[S]) -> S:
     path = Path(path)
     data = read_toml(path)
     for name, example in (("scene", '"FILE.toml" or a [scene] table'), ("keys", "a [keys] table")):
-        if name not in data:
+        if name not in data and (name == "scene" or kind.with_keys):
             told = _before(data) if name == "keys" else ""
             raise InputError(f"{path}: no {name}; allowed is {name} = {example}{told}")
     if isinstance(data["scene"], str):

@@ -1,0 +1,73 @@
+"""A wear study in one picture: the shape of the gap, the clearance, and what follows from it."""
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from exu_press.plots.headed import headed_figure
+from exu_press.plots.style import colour_of, styled
+from exu_press.plots.sweep_words import words
+from exu_press.plots.typesetting import plain, typeset
+from exu_press.plots.words import describe
+from exu_press.quantities import quantity_of
+from exu_press.studies.wear.run import Report
+from exu_press.studies.wear.shape import ANGLES
+
+__all__ = ["wear_figure"]
+
+MOST_SHAPES = 6
+
+
+@styled
+def wear_figure(report: Report) -> Figure:
+    """Return what is worn off by angle, and clearances and quantities over the strokes."""
+    study, points = report.study, report.points
+    names, joints = study.names, study.joints
+    text = f"{describe([study.scene], 130)}\n{points[-1].strokes:.4g} strokes in "
+    text += f"{len(points) - 1} jumps"
+    rows = 1 + (1 + len(names) + 1) // 2
+    figure = headed_figure("Wear over strokes", text, (9.5, 1.2 + 2.6 * rows))
+    grid = figure.add_gridspec(rows, 2)
+    deepest = max(joints, key=lambda joint: report.clearances(joint)[-1])
+    _shapes(figure.add_subplot(grid[0, :]), report, deepest)
+    strokes = [point.strokes for point in points]
+    for place, name in enumerate(["", *names]):
+        axes = figure.add_subplot(grid[1 + place // 2, place % 2])
+        if name:
+            quantity = quantity_of(study.scene, name).quantity
+            unit = quantity.shown or quantity.unit
+            values = [np.nan if v is None else v * quantity.scale for v in report.values(name)]
+            axes.plot(strokes, values, "o-", markersize=3)
+            axes.set_ylabel(words(name) + (f", {typeset(unit)}" if unit else ""))
+            axes.ticklabel_format(axis="y", useOffset=False)
+        else:
+            for number, joint in enumerate(joints):
+                values = [1e6 * value for value in report.clearances(joint)]
+                label = plain(joint.replace("_", " "))
+                axes.plot(strokes, values, "o-", markersize=3, color=colour_of(number), label=label)
+            axes.set_ylabel(f"largest clearance, {typeset('um')}")
+            axes.legend(loc="best")
+        axes.set_xlabel("strokes")
+        axes.margins(x=0.03)
+    return figure
+
+
+def _shapes(axes: object, report: Report, joint: str) -> None:
+    """Draw what is worn off a bearing over the angle on it, at some of the points."""
+    from matplotlib.axes import Axes
+
+    assert isinstance(axes, Axes)
+    points = report.points[1:] or report.points
+    picked = sorted({round(i) for i in np.linspace(0, len(points) - 1, MOST_SHAPES)})
+    for number, i in enumerate(picked):
+        shape = report.shape(points[i], joint)
+        axes.plot(
+            np.degrees(ANGLES), 1e6 * shape.bearing, color=colour_of(number),
+            label=f"{points[i].strokes:.3g} strokes",
+        )  # fmt: skip
+        if shape.journal.max() > 0.05 * shape.bearing.max():
+            axes.plot(np.degrees(ANGLES), 1e6 * shape.journal, "--", color=colour_of(number))
+    axes.set_xlabel("angle from the x axis of the body, deg (solid: bearing, dashed: journal)")
+    axes.set_ylabel(f"{plain(joint.replace('_', ' '))}: worn off, {typeset('um')}")
+    axes.set_xlim(0.0, 360.0)
+    axes.set_xticks(range(0, 361, 45))
+    axes.legend(loc="best", ncols=2)

@@ -1,0 +1,70 @@
+"""The report of a wear study: every jump in a table, and the course to zoom."""
+
+from pathlib import Path
+from typing import Any
+
+from exu_press.errors import InputError
+from exu_press.page import Live, has_library
+from exu_press.quantities.catalogue import declared
+from exu_press.report.html import page, paragraph, picture, stills, table
+from exu_press.schema.stored import from_json
+
+__all__ = ["wear_report"]
+
+
+def wear_report(file: Path) -> str:
+    """Return the page of a wear study, from wear.json."""
+    try:
+        told = from_json(dict[str, Any], file.read_bytes(), file.name)
+        strokes = [float(each) for each in told["strokes"]]
+        curves = _curves(told)
+        rows = [
+            [f"{n:.6g}", f"{jump:.4g}", *(_cell(values[i]) for _, _, values in curves)]
+            for i, (n, jump) in enumerate(zip(strokes, told["jump"], strict=True))
+        ]
+        live = _live(strokes, curves) if has_library() and len(strokes) > 1 else None
+        ended = f"; {told['reason']}" if told["reason"] else ""
+    except OSError as error:
+        raise InputError(f"{error.filename}: cannot be read ({error.strerror})") from None
+    except (ValueError, KeyError, IndexError, TypeError, AttributeError) as error:
+        raise InputError(f"{file}: not a wear study of exu_press ({error!s:.200})") from None
+    pictures = [picture(path, "The course.") for path in sorted(file.parent.glob("*.png"))]
+    head = ("strokes", "jump", *(f"{name}, {unit}" if unit else name for name, unit, _ in curves))
+    return page(
+        f"Wear over {strokes[-1]:.4g} strokes",
+        f"{len(strokes) - 1} jumps{ended}; {file.parent.name}/{file.name}",
+        [
+            *([] if live is None else [("Course", live.body)]),
+            ("Jumps", table(head, rows)),
+            ("Pictures", stills("\n".join(pictures) or paragraph("None was drawn."), live)),
+        ],
+        live,
+    )
+
+
+def _curves(told: dict[str, Any]) -> list[tuple[str, str, list[float | None]]]:
+    """Return name, unit and values of all that is told over the strokes."""
+    found = [
+        (f"{name}, largest clearance", "m", joint["clearance"])
+        for name, joint in told["joints"].items()
+    ]
+    found += [(f"ways of {body}, depth", "m", depths) for body, depths in told["guides"].items()]
+    for name, values in told["quantities"].items():
+        known = declared(name)
+        found.append((name, known.quantity.unit if known else "", values))
+    return found
+
+
+def _cell(value: float | None) -> str:
+    return "" if value is None else f"{value:.6g}"
+
+
+def _live(strokes: list[float], curves: list[tuple[str, str, list[float | None]]]) -> Live:
+    """Return clearances and quantities over the strokes."""
+    from exu_press.page.study import Column, study_viewer
+
+    columns = [Column(name, unit, values) for name, unit, values in curves]
+    told = [f"after {n:.6g} strokes" for n in strokes]
+    kind = Column("study", "", ["wear"] * len(strokes))
+    first = ("strokes", columns[0].name)
+    return study_viewer([Column("strokes", "", strokes), kind], columns, told, first, "study")

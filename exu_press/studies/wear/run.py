@@ -1,0 +1,232 @@
+"""The study: jumps over strokes, each as long as its halves agree with it."""
+
+import dataclasses
+import math
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from exu_press.files.output_directory import write_json
+from exu_press.parallel import Chain
+from exu_press.parallel.task import COMPLETED
+from exu_press.scene import Scene
+from exu_press.studies.base import Row, Runs, row_of
+from exu_press.studies.wear.shape import Depths, begun, worn_scene
+from exu_press.studies.wear.study import WearStudy
+
+__all__ = ["FILE", "SCENE", "Point", "Report", "run_worn", "wear"]
+
+FILE, SCENE = "wear.json", "worn.toml"
+
+LONGEST, SHORTEST = 4.0, 0.2
+"""Times the last jump that the next one may be."""
+
+CAUTION = 0.8
+"""Of the jump that just meets the tolerance."""
+
+FIRST = 2.0
+"""Tolerances that the first jump wears at most."""
+
+TRIES = 8
+"""Shorter and shorter jumps after one whose run failed."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Point:
+    """The press after some strokes.
+
+    Attributes:
+        strokes: since the start.
+        jump: that led here, strokes.
+        error: sum of what jumps and their halves differed by so far, m; the largest of all joints.
+        depths: joint -> worn off since the joint was new.
+        ways: guided body -> worn off its ways so far, m.
+        row: of the run with these depths.
+    """
+
+    strokes: float
+    jump: float
+    error: float
+    depths: Mapping[str, Depths]
+    ways: Mapping[str, float]
+    row: Row
+
+
+@dataclasses.dataclass(frozen=True)
+class Report:
+    """What was found.
+
+    Attributes:
+        study: what was asked.
+        points: from the start on.
+        reason: why it ended before all strokes were done; empty where they are.
+    """
+
+    study: WearStudy
+    points: Sequence[Point]
+    reason: str = ""
+
+    def shape(self, point: Point, joint: str) -> Depths:
+        """Return the depths that a joint's journal can follow."""
+        return point.depths[joint].reached(self._clearance(joint))
+
+    def clearances(self, joint: str) -> list[float]:
+        """Return a joint's clearance where it is largest, point by point, m."""
+        new = self._clearance(joint)
+        return [new + self.shape(point, joint).deepest for point in self.points]
+
+    def values(self, quantity: str) -> list[float | None]:
+        """Return a quantity point by point."""
+        return [point.row.get(quantity) for point in self.points]
+
+    def scene(self) -> Scene:
+        """Return the scene with the joints as worn as at the last point."""
+        return worn_scene(self.study.scene, self.points[-1].depths)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the entries of wear.json."""
+        return {
+            "status": "stopped" if self.reason else COMPLETED,
+            "reason": self.reason,
+            "strokes": [point.strokes for point in self.points],
+            "jump": [point.jump for point in self.points],
+            "error": [point.error for point in self.points],
+            "joints": {
+                name: {
+                    "clearance": self.clearances(name),
+                    "bearing_depth": [p.depths[name].bearing.tolist() for p in self.points],
+                    "journal_depth": [p.depths[name].journal.tolist() for p in self.points],
+                }
+                for name in self.study.joints
+            },
+            "guides": {
+                body: [point.ways[body] for point in self.points] for body in self.points[0].ways
+            },
+            "quantities": {name: self.values(name) for name in self.study.names},
+        }
+
+    def _clearance(self, joint: str) -> float:
+        return float(self.study.scene.joints[joint].clearance)
+
+
+def wear(
+    study: WearStudy,
+    directory: str | Path,
+    *,
+    workers: int | None = None,
+    dask: str | None = None,
+    quiet: bool = True,
+) -> Report:
+    """Run the study, going on where its directory was left; write wear.json and worn.toml.
+
+    A jump takes the depths on by the midpoint rule: a run at the start of the jump tells what a
+    stroke wears, half the jump is taken with it, and what a stroke wears there holds for the whole
+    jump. Where the first run's wear would have held all along, the end would be another one: by so
+    much a jump and its two halves differ. The difference, over the clearance, is kept below the
+    tolerance; the next jump follows from it.
+
+    Args:
+        study: what is asked.
+        directory: of this study alone.
+        workers: number of processes; a run needs the one before, so that more than one is idle.
+        dask: address of a Dask scheduler instead.
+        quiet: False shows the progress.
+    """
+    points: list[Point] = []
+    ended: list[str] = []
+    with Runs(
+        study, directory, written=[FILE, SCENE], label="wear", function=run_worn,
+        workers=workers or (None if dask else 1), dask=dask, quiet=quiet,
+    ) as runs:  # fmt: skip
+        runs.follow([_course(study, points, ended)], 2 * study.own.most_jumps + 1)
+    report = Report(study, points, "".join(ended))
+    write_json(Path(directory) / FILE, report.to_dict())
+    report.scene().save(Path(directory) / SCENE, overwrite=True)
+    return report
+
+
+def run_worn(arguments: dict[str, Any]) -> dict[str, Any]:
+    """Run {"scene": ...}; return its row, and what a stroke wears off every joint and way, m.
+
+    Returns:
+        as `row_of`, and "journal", "bearing": joint -> (72,), "ways": guided body -> deepest.
+    """
+    from exu_press.quantities.wear import depths_of_a_revolution
+    from exu_press.simulation import simulate
+
+    result = simulate(Scene.from_dict(arguments["scene"]))
+    row = row_of(result)
+    return row | (depths_of_a_revolution(result) if row["status"] == COMPLETED else {})
+
+
+def _course(study: WearStudy, points: list[Point], ended: list[str]) -> Chain:
+    """Yield the arguments of one run after another, and add what they lead to."""
+    scene, own = study.scene, study.own
+    clearance = {name: float(scene.joints[name].clearance) for name in study.joints}
+    depths = {name: begun(scene, name) for name in study.joints}
+
+    def arguments(worn: Mapping[str, Depths]) -> dict[str, Any]:
+        return {"scene": worn_scene(scene, worn).to_dict()}
+
+    row = yield arguments(depths)
+    ways = dict.fromkeys(row.get("ways", {}), 0.0)
+    points.append(Point(0.0, 0.0, 0.0, depths, ways, row))
+    if row["status"] != COMPLETED:
+        ended.append(f"the first run {row['status']}: {row['reason']}")
+        return
+    rate = _rates(row, study)
+    fastest = max(rate[n].deepest / clearance[n] for n in study.joints)
+    jump = FIRST * own.tolerance / fastest if fastest > 0.0 else math.inf
+    done = error = 0.0
+    tries = jumps = 0
+    while done < own.strokes:
+        if jumps == own.most_jumps:
+            ended.append(f"{jumps} jumps were not enough (wear.most_jumps)")
+            return
+        jump = min(jump, own.strokes - done)
+        half = {n: depths[n].after(0.5 * jump, rate[n]) for n in depths}
+        row = yield arguments(half)
+        if row["status"] != COMPLETED:
+            tries += 1
+            if tries > TRIES:
+                ended.append(f"after {done:.4g} strokes a run {row['status']}: {row['reason']}")
+                return
+            jump *= SHORTEST
+            continue
+        middle = _rates(row, study)
+        after = {n: depths[n].after(jump, middle[n]) for n in depths}
+        apart = {
+            n: depths[n]
+            .after(jump, rate[n])
+            .reached(clearance[n])
+            .differ(half[n].after(0.5 * jump, middle[n]).reached(clearance[n]))
+            for n in depths
+        }
+        off = max(apart[n] / clearance[n] for n in apart) / own.tolerance
+        step = jump
+        jump *= min(LONGEST, max(SHORTEST, CAUTION / math.sqrt(max(off, 1e-12))))
+        if off > 1.0:
+            continue
+        ways = {body: ways[body] + step * row["ways"][body] for body in ways}
+        row = yield arguments(after)
+        if row["status"] != COMPLETED:
+            tries += 1
+            if tries > TRIES:
+                ended.append(f"after {done:.4g} strokes a run {row['status']}: {row['reason']}")
+                return
+            ways = dict(points[-1].ways)
+            jump = SHORTEST * step
+            continue
+        tries, jumps, done, depths = 0, jumps + 1, done + step, after
+        error += max(apart.values())
+        rate = _rates(row, study)
+        points.append(Point(done, step, error, depths, ways, row))
+
+
+def _rates(row: Row, study: WearStudy) -> dict[str, Depths]:
+    """Return what a stroke wears off every joint."""
+    return {
+        n: Depths(np.array(row["journal"][n]), np.array(row["bearing"][n])) for n in study.joints
+    }

@@ -1,0 +1,83 @@
+"""What is worn off a joint's surfaces, and the scene in which it is."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from exu_press.arrays import Array
+from exu_press.laws.profile import profile
+from exu_press.laws.wear import reached
+from exu_press.quantities.wear import SECTORS
+from exu_press.scene import DryJoint, LubricatedJoint, Scene
+
+__all__ = ["ANGLES", "Depths", "begun", "worn_scene"]
+
+ANGLES = 2.0 * np.pi * (np.arange(SECTORS) + 0.5) / SECTORS
+"""Middles of the sectors, rad."""
+
+
+@dataclass(frozen=True)
+class Depths:
+    """Depths worn off journal and bearing, as they are in the sectors, (72,) each, m."""
+
+    journal: Array
+    bearing: Array
+
+    @classmethod
+    def even(cls, depth: float) -> "Depths":
+        """Return equal depths of the bearing all around, m."""
+        return cls(np.zeros(SECTORS), np.full(SECTORS, depth))
+
+    def after(self, strokes: float, rate: "Depths") -> "Depths":
+        """Return the depths after strokes that each wear so much."""
+        return Depths(self.journal + strokes * rate.journal, self.bearing + strokes * rate.bearing)
+
+    def reached(self, clearance: float) -> "Depths":
+        """Return depths that the journal can follow; half the clearance bounds its own shape."""
+        journal = reached(self.journal, 0.5 * clearance)
+        sharpest = profile(ANGLES.tolist(), journal.tolist()).sharpest
+        return Depths(journal, reached(self.bearing, clearance + min(0.0, sharpest)))
+
+    @property
+    def deepest(self) -> float:
+        """The largest clearance that they add, m."""
+        return float(self.journal.max() + self.bearing.max())
+
+    def differ(self, other: "Depths") -> float:
+        """Return by how much two shapes differ at most, m."""
+        return float(
+            max(
+                np.abs(self.journal - other.journal).max(),
+                np.abs(self.bearing - other.bearing).max(),
+            )
+        )
+
+
+def begun(scene: Scene, joint: str) -> Depths:
+    """Return what a scene's joint is worn from the start."""
+    worn = _rubbing(scene, joint).worn
+    if worn is None:
+        return Depths.even(0.0)
+    return Depths(*(np.array([s.at(a)[0] for a in ANGLES.tolist()]) for s in worn.whole()))
+
+
+def worn_scene(scene: Scene, worn: Mapping[str, Depths]) -> Scene:
+    """Return a scene whose joints are worn so, as far as their journals can follow."""
+    changes = {}
+    for name, depths in worn.items():
+        if not (depths.journal.any() or depths.bearing.any()):
+            continue
+        shape = depths.reached(_rubbing(scene, name).clearance)
+        changes[f"joints.{name}.worn"] = {
+            "angle_deg": np.degrees(ANGLES).round(9).tolist(),
+            "bearing_depth": shape.bearing.tolist(),
+            "journal_depth": shape.journal.tolist(),
+        }
+    return scene.replace(changes) if changes else scene
+
+
+def _rubbing(scene: Scene, joint: str) -> DryJoint | LubricatedJoint:
+    described = scene.joints[joint]
+    assert isinstance(described, DryJoint | LubricatedJoint)
+    return described

@@ -1,0 +1,110 @@
+"""What a wear study asks."""
+
+import dataclasses
+from collections.abc import Mapping
+from typing import Any, ClassVar
+
+from exu_press.errors import InputError
+from exu_press.quantities import quantity_of
+from exu_press.quantities.catalogue import DEAD_CENTRE, JOINT_FORCE
+from exu_press.scene.wearing import wearing_joints
+from exu_press.schema.checks import Table, key, table_from
+from exu_press.studies.base import Study
+from exu_press.studies.base.keys import Key
+from exu_press.studies.wear.shape import Depths, worn_scene
+
+__all__ = ["Strokes", "WearStudy"]
+
+
+@dataclasses.dataclass(frozen=True)
+class Strokes(Table):
+    """The table [wear] of a study file.
+
+    Attributes:
+        quantities: full names of what is followed; dead centre and joint forces unless given.
+    """
+
+    table = "wear"
+
+    strokes: float = key(None, "revolutions of the crank", above=0, example=1e6)
+    tolerance: float = key(
+        0.01,
+        "depths of a jump and of its two halves may differ by that, over the clearance",
+        above=0,
+        at_most=0.5,
+    )
+    most_jumps: int = key(100, "the study ends after so many", at_least=1, at_most=100000)
+    quantities: tuple[str, ...] | None = None
+
+    def __post_init__(self) -> None:
+        """Check the keys and the names."""
+        super().__post_init__()
+        if self.strokes is None:
+            raise InputError("wear.strokes: missing; allowed is a number > 0, as in strokes = 1e6")
+        names = self.quantities
+        if names is not None:
+            if isinstance(names, str) or not all(isinstance(name, str) for name in names):
+                raise InputError(
+                    f"wear.quantities = {names!r:.200}: allowed is a list of names of quantities"
+                )
+            object.__setattr__(self, "quantities", tuple(names))
+
+
+@dataclasses.dataclass(frozen=True)
+class WearStudy(Study):
+    """A wear study's file, complete: a scene with [wear], and how many strokes.
+
+    Attributes:
+        wear: what is asked.
+
+    Raises:
+        InputError: nothing in the scene wears, its runs are shorter than a revolution, or keys are
+            given that it does not use.
+    """
+
+    with_keys: ClassVar[bool] = False
+
+    keys: Mapping[str, Key] = dataclasses.field(default_factory=dict)
+    wear: Strokes | Mapping[str, Any] = dataclasses.field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        """Check the scene and the quantities."""
+        if self.keys:
+            raise InputError("[keys]: not used by exu-press wear; remove them")
+        object.__setattr__(self, "wear", table_from(Strokes, "wear", self.wear))
+        super().__post_init__()
+        if self.errors or self.save_runs:
+            raise InputError("errors, save_runs: not used by exu-press wear; remove them")
+        scene = self.scene
+        if scene.wear is None:
+            raise InputError("scene: has no [wear]; allowed is a scene with Archard's coefficient")
+        if not self.joints:
+            raise InputError(
+                "scene: no joint wears; allowed is a revolute joint that is dry or has a mixed film"
+            )
+        if scene.revolutions - scene.settled < 1.0:
+            raise InputError(
+                f"revolutions = {scene.revolutions:g}, of which {scene.settled:g} settle: allowed "
+                "is one revolution more at least, of which wear is read"
+            )
+        for name in self.names:
+            quantity_of(scene, name)
+        worn_scene(scene, {name: Depths.even(1e-9) for name in self.joints})
+
+    @property
+    def own(self) -> Strokes:
+        """The table [wear]."""
+        assert isinstance(self.wear, Strokes)
+        return self.wear
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """The joints that wear."""
+        return wearing_joints(self.scene)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Full names of the quantities that are followed."""
+        if self.own.quantities is not None:
+            return self.own.quantities
+        return DEAD_CENTRE.name, *(JOINT_FORCE.at(name) for name in self.joints)

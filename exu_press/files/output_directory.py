@@ -25,6 +25,7 @@ PICTURES = {
     "sweep": ("sweep",),
     "fit": ("fit", "profiles"),
     "sensitivity": ("sensitivity",),
+    "wear": ("wear.png",),
     "optimise": ("front",),
 }
 """Names of the pictures of a command, without .png."""

@@ -1,0 +1,77 @@
+"""[joints.NAME.worn]: read, saved, run, and what is refused."""
+
+import numpy as np
+import pytest
+
+from exu_press import InputError, Scene, simulate
+
+ANGLES = np.arange(24) * 15.0
+DENT = (1e-5 * np.cos(np.radians(ANGLES - 40.0) / 2.0) ** 4).tolist()
+
+
+def scene(worn, **keys):
+    joint = {"kind": "dry", "worn": worn, **keys}
+    return Scene(mechanism="slider_crank", joints={"crank_pin": joint}, revolutions=0.05)
+
+
+@pytest.mark.parametrize(
+    "worn",
+    [
+        {"bearing_depth": DENT},
+        {"journal_depth": DENT},
+        {"angle_deg": ANGLES.tolist(), "bearing_depth": DENT},
+    ],
+)
+def test_a_worn_joint_is_saved_and_read(worn, tmp_path):
+    one = scene(worn)
+    one.save(tmp_path / "worn.toml")
+    assert Scene.load(tmp_path / "worn.toml") == one
+    assert one.replace("joints.crank_pin", "ideal").joints["crank_pin"].kind == "ideal"
+
+
+def test_angles_that_are_left_out_are_even():
+    tables = {"angle_deg": ANGLES.tolist(), "bearing_depth": DENT}, {"bearing_depth": DENT}
+    given, even = (scene(table).joints["crank_pin"].worn.whole()[1] for table in tables)
+    for angle in np.linspace(-4.0, 9.0, 50):
+        assert given.at(angle) == pytest.approx(even.at(angle), rel=1e-9, abs=1e-15)
+
+
+def test_the_gap_of_worn_surfaces_is_recorded_and_the_energy_closes():
+    """A loaded start lies on the surface, where the first step finds its force."""
+    run = simulate(scene({"bearing_depth": DENT, "journal_depth": DENT[::-1]}))
+    joint = run.joints["crank_pin"]
+    touching = joint.gap < 0.0
+    assert touching[0] and touching.mean() > 0.5
+    assert np.abs(joint.gap - (joint.clearance - joint.distance)).max() > 1e-7
+    assert abs(run.quantity("energy.residual").value) < 1e-4
+    force = np.linalg.norm(joint.force, axis=1)
+    assert force[0] == pytest.approx(force[1], rel=0.1)
+
+
+@pytest.mark.parametrize(
+    ("worn", "words"),
+    [
+        ({}, "bearing_depth, journal_depth or both"),
+        ({"bearing_depth": [1e-5, 0.0]}, "at least 3"),
+        ({"bearing_depth": [1e-5, -1e-6, 0.0]}, ">= 0"),
+        ({"bearing_depth": DENT, "journal_depth": DENT[:12]}, "as many"),
+        ({"bearing_depth": [0.0, 1e-5, 0.0], "angle_deg": [0.0, 90.0, 80.0]}, "increasing"),
+        ({"bearing_depth": [0.0, 1e-5, 0.0], "angle_deg": [0.0, 90.0, 400.0]}, "one turn"),
+        ({"bearing_depth": [0.0] * 20 + [5e-4] + [0.0] * 20}, "too fast|so fast"),
+        ({"bearing_depht": DENT}, "did you mean 'bearing_depth'"),
+        (3.0, "worn"),
+    ],
+)
+def test_what_is_refused(worn, words):
+    with pytest.raises(InputError, match=words):
+        scene(worn)
+
+
+def test_balls_and_flexible_bodies_are_refused():
+    with pytest.raises(InputError, match="is a ball"):
+        Scene(joints={"balls": {"kind": "dry", "worn": {"bearing_depth": DENT}}})
+    with pytest.raises(InputError, match="flexible"):
+        Scene(
+            joints={"crank_pin": {"kind": "dry", "worn": {"bearing_depth": DENT}}},
+            bodies={"linkage": "linkage"},
+        )

@@ -1,0 +1,165 @@
+"""Wear over strokes: by hand, independent of the jump, resumed, and what is refused."""
+
+import json
+
+import numpy as np
+import pytest
+
+from exu_press import InputError, Scene
+from exu_press.cli import main
+from exu_press.studies.wear import WearStudy, wear
+from exu_press.studies.wear.run import run_worn
+from exu_press.studies.wear.shape import ANGLES, Depths, worn_scene
+
+WEAR = {"coefficient": 1e-4, "hardness": 2e9, "length": 0.1}
+DRAWN = {
+    "name": "weight",
+    "crank": "wheel",
+    "output": {"body": "slide", "direction": [1.0, 0.0]},
+    "bodies": {
+        "wheel": {"mass": 500.0, "inertia": 50.0, "centre_of_mass": [0.0, 0.0]},
+        "rod": {"mass": 1e-3, "inertia": 1e-5, "centre_of_mass": [0.3, 0.0]},
+        "slide": {"mass": 1e-3, "inertia": 1e-5, "centre_of_mass": [0.5, 0.0]},
+    },
+    "joints": {
+        "shaft": {"at": [0.0, 0.0], "journal": "wheel", "bearing": "frame"},
+        "pin": {"at": [0.1, 0.0], "journal": "wheel", "bearing": "rod"},
+        "wrist": {"at": [0.5, 0.0], "journal": "rod", "bearing": "slide"},
+    },
+    "guides": {"slide": {"direction": [1.0, 0.0]}},
+}
+STROKES = 400
+
+
+def scene(**keys):
+    given = {
+        "mechanism": DRAWN,
+        "joints": {"shaft": {"kind": "dry", "clearance": 5e-5, "radius": 0.05}},
+        "contact": {"length": 0.1},
+        "friction": {"law": "coulomb", "mu_kinetic": 0.02},
+        "speed_rpm": 20.0,
+        "revolutions": 2.0,
+        "settle": 1.0,
+        "wear": WEAR,
+    }
+    return Scene(**{**given, **keys})
+
+
+def study(**keys):
+    return WearStudy(scene(), wear={"strokes": STROKES, "tolerance": 0.05, **keys})
+
+
+@pytest.fixture(scope="module")
+def coarse(tmp_path_factory):
+    directory = tmp_path_factory.mktemp("coarse")
+    return wear(study(), directory), directory
+
+
+def test_what_is_worn_off_is_archards_volume(coarse):
+    """V = k F s / H of a wheel's weight over all strokes, off journal and bearing alike."""
+    report, _ = coarse
+    by_hand = 1e-4 / 2e9 * 500.0 * 9.81 * 2.0 * np.pi * 0.05 * STROKES
+    area = 2.0 * np.pi * 0.05 * WEAR["length"]
+    last = report.points[-1]
+    assert last.strokes == STROKES
+    for depths in (last.depths["shaft"].journal, last.depths["shaft"].bearing):
+        assert depths.mean() * area == pytest.approx(by_hand, rel=2e-3)
+    shape = report.shape(last, "shaft")
+    assert shape.bearing.mean() * area == pytest.approx(by_hand, rel=0.02)  # smooth, none lost
+
+
+def test_the_pin_sinks_into_its_bearing_as_it_bores_it(coarse):
+    """The clearance grows below alone, the slower the wider the pin lies, and dead centre sinks."""
+    report, _ = coarse
+    deepest = np.degrees(ANGLES[report.shape(report.points[-1], "shaft").bearing.argmax()])
+    assert deepest == pytest.approx(270.0, abs=8.0)
+    strokes = np.array([point.strokes for point in report.points])
+    grown = np.array(report.clearances("shaft"))
+    speed = np.diff(grown) / np.diff(strokes)
+    assert grown[0] == 5e-5
+    assert (speed > 0.0).all() and speed[-1] < speed[0]
+
+
+def test_jumps_of_other_lengths_lead_to_the_same_clearance(coarse, tmp_path):
+    report, _ = coarse
+    finer = wear(study(tolerance=0.02), tmp_path)
+    assert len(finer.points) > len(report.points)
+    ends = [one.clearances("shaft")[-1] for one in (report, finer)]
+    assert ends[0] == pytest.approx(ends[1], abs=0.05 * 5e-5)
+
+
+def test_it_is_read_where_it_was_done_and_the_worn_scene_runs(coarse):
+    report, directory = coarse
+    runs = (directory / "runs.jsonl").read_bytes()
+    again = wear(study(), directory)
+    assert (directory / "runs.jsonl").read_bytes() == runs
+    assert again.to_dict() == report.to_dict()
+    told = json.loads((directory / "wear.json").read_text())
+    assert told["joints"]["shaft"]["clearance"] == report.clearances("shaft")
+    worn = Scene.load(directory / "worn.toml")
+    row = run_worn({"scene": worn.to_dict()})
+    force = "joints.shaft.peak_force"
+    assert row[force] == pytest.approx(report.points[-1].row[force], rel=1e-6)
+
+
+def test_even_wear_is_a_larger_clearance_to_the_last_digits():
+    """Of the run, and of what it wears: nothing but the clearance's mean is left."""
+    even = run_worn({"scene": worn_scene(scene(), {"shaft": Depths.even(1e-5)}).to_dict()})
+    larger = run_worn({"scene": scene().replace("joints.shaft.clearance", 6e-5).to_dict()})
+    for name in ("joints.shaft.peak_force", "bottom_dead_centre", "energy.residual"):
+        assert even[name] == pytest.approx(larger[name], rel=1e-12, abs=1e-15)
+    assert even["bearing"]["shaft"] == pytest.approx(
+        larger["bearing"]["shaft"], rel=1e-9, abs=1e-22
+    )
+
+
+def test_too_few_jumps_end_it_with_their_reason(tmp_path):
+    report = wear(study(most_jumps=1), tmp_path)
+    assert "1 jumps were not enough" in report.reason
+    assert report.to_dict()["status"] == "stopped"
+
+
+@pytest.mark.parametrize(
+    ("keys", "asked", "words"),
+    [
+        ({"wear": None}, {}, r"no \[wear\]"),
+        ({"revolutions": 1.5}, {}, "one revolution more"),
+        ({}, {"strokes": -1.0}, "strokes"),
+        ({}, {"strokes": 10.0, "quantities": ["peak"]}, "quantity 'peak'"),
+        ({}, {"strokse": 10.0}, "did you mean 'strokes'"),
+    ],
+)
+def test_what_is_refused(keys, asked, words):
+    with pytest.raises(InputError, match=words):
+        WearStudy(scene(**keys), wear=asked or {"strokes": 10.0})
+
+
+def test_a_scene_in_which_no_joint_wears_is_refused():
+    guided = Scene(
+        mechanism="slider_crank",
+        joints={},
+        contact={"damping": "hu_guo"},
+        guide={"clearance": 2e-5},
+        wear=WEAR,
+        revolutions=2.0,
+    )
+    with pytest.raises(InputError, match="no joint wears"):
+        WearStudy(guided, wear={"strokes": 10.0})
+
+
+def test_the_command_and_its_page(tmp_path, capsys):
+    scene().save(tmp_path / "scene.toml")
+    text = 'scene = "scene.toml"\n[wear]\nstrokes = 100\ntolerance = 0.1\n'
+    (tmp_path / "study.toml").write_text(text)
+    out = str(tmp_path / "out")
+    assert main(["wear", str(tmp_path / "study.toml"), "--out", out]) == 0
+    printed = capsys.readouterr().out
+    assert "shaft clearance, um" in printed
+    assert printed.splitlines()[-1].startswith("written: wear.json, worn.toml, wear.png in")
+    assert (tmp_path / "out" / "wear.png").stat().st_size > 10_000
+    assert main(["report", out, "--quiet"]) == 0
+    page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    assert "Wear over 100 strokes" in page
+    (tmp_path / "study.toml").write_text(text + "[keys]\nspeed_rpm = [1.0]\n")
+    assert main(["wear", str(tmp_path / "study.toml"), "--out", out]) == 2
+    assert "not used by exu-press wear" in capsys.readouterr().err

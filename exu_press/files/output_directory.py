@@ -25,7 +25,7 @@ PICTURES = {
     "sweep": ("sweep",),
     "fit": ("fit", "profiles"),
     "sensitivity": ("sensitivity",),
-    "wear": ("wear.png",),
+    "wear": ("wear",),
     "optimise": ("front",),
 }
 """Names of the pictures of a command, without .png."""

@@ -248,14 +248,13 @@ class Monitor:
             self._time = end
             self._gaps.close()
             self.control.accept(step)
+            self._event.accept()
             if self._event.passed:
                 self.control.restart()
             self._newton.stepped(step)
             if self.resolution is not None:
                 self.resolution.stepped(end, step, self._accelerations.tolist())
         self.stalled = self._watch(end)
-        if self.steps:
-            self._event.accept(end)
         step = self.control.next_step(end)
         if step != self._iteration.currentStepSize:  # to set it takes longer than to ask for it
             self._iteration.currentStepSize = step

@@ -92,11 +92,6 @@ class Event:
         part = self._before / (self._before - now)
         return min(part * step + 0.5 * self._narrow, 0.9 * step)
 
-    def accept(self, time: float) -> None:
-        """Remember the accepted step's end, s, as the next one's beginning.
-
-        Behind an event the function may be another one: what it looks for has happened.
-        """
-        if self.passed and self._function is not None:
-            self._now = self._function(self._mbs, time)
+    def accept(self) -> None:
+        """Remember the accepted step's end as the next one's beginning."""
         self._before = self._now or self._before

@@ -6,6 +6,9 @@ from dataclasses import dataclass
 
 __all__ = ["Ramp", "Schedule"]
 
+NEAR = 2e-5
+"""rad of the crank: corners and commands that are as near as that are reached."""
+
 LONG_AGO = -1e300
 """s, or rad: when what acts at the start was commanded."""
 
@@ -125,16 +128,18 @@ class Schedule:
             return math.inf
         return self._stop_angle - angle
 
-    def corner(self, time: float, angle: float, speed: float, close: float) -> float:
+    def corner(self, time: float, angle: float, speed: float) -> float:
         """Return the next instant at which a part has a corner, s, or infinity.
 
         Args:
             time: s.
             angle: of the crank, rad.
             speed: of the crank, rad/s, from which corners over the angle are foreseen.
-            close: those as near as that are passed, rad.
         """
         soonest = min((at for at in (*self.starts, *self.stops) if at > time), default=math.inf)
+        left = self.to_stop_angle(angle)
+        if speed > 0.0 and NEAR < left < math.inf:
+            soonest = min(soonest, time + left / speed)
         start = (self._clutch_on, self._brake_off)
         stop = (self._clutch_on, self._clutch_off, self._brake_on)
         for ramp in start if self.running else stop:
@@ -145,13 +150,13 @@ class Schedule:
             for place in (ramp.begin, ramp.end):
                 if not ramp.over_angle and place > since:
                     soonest = min(soonest, command.time + place)
-                elif ramp.over_angle and speed > 0.0 and place > since + close:
+                elif ramp.over_angle and speed > 0.0 and place > since + NEAR:
                     soonest = min(soonest, time + (place - since) / speed)
         return soonest
 
     def accept(self, time: float, angle: float) -> None:
         """Take the commands that are given until the end of a step, s, at a crank angle, rad."""
-        if self.running and (self._given(self.stops, time) or self.to_stop_angle(angle) <= 0.0):
+        if self.running and (self._given(self.stops, time) or self.to_stop_angle(angle) <= NEAR):
             self.running, self._stop = False, Command(time, angle)
         elif not self.running and self._given(self.starts, time):
             self.running, self._start = True, Command(time, angle)

@@ -108,25 +108,17 @@ class Model(Assembled):
 
     @property
     def event(self) -> Callable[[exu.MainSystem, float], float] | None:
-        """A function that changes its sign where a motor's crank is sampled or arrives, or None.
-
-        And where a clutch or brake sticks or slips. Fixed steps end on their grid.
-        """
-        solver = self.scene.solver
-        if self.scene.drive is None or (solver is not None and solver.tolerance is None):
+        """A function that changes its sign where a motor's crank is sampled or arrives, or None."""
+        if self.scene.drive is None:
             return None
-        output, start_stop = self.scene.output, self.start_stop
+        output = self.scene.output
         angles = [] if output is None else [math.radians(each) for each in output.samples or ()]
         if self.until is not None and not any(_same(self.until, angle) for angle in angles):
             angles.append(self.until)
-        section = Section(angles, self.scene.start_angle) if angles else None
-        if start_stop is None:
-            if section is None:
-                return None
-            return lambda mbs, time: section.side(self.crank_angle()[0])
-        if section is None:
-            return lambda mbs, time: start_stop.change(time)
-        return lambda mbs, time: section.side(self.crank_angle()[0]) * start_stop.change(time)
+        if not angles:
+            return None
+        section = Section(angles, self.scene.start_angle)
+        return lambda mbs, time: section.side(self.crank_angle()[0])
 
     def has_stood(self, time: float) -> bool:
         """Return whether the press has stood at a time, s, for as long as its scene asks for."""

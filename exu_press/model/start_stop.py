@@ -26,8 +26,9 @@ OPEN, STICKS, SLIPS = 0.0, 1.0, 2.0
 DAMPED = 4.0
 """Over critical damping: what the twist gives back as slip ends moves the shafts by little."""
 
-CLOSE = 3e-6
-"""rad: corners that are foreseen and as near as that are passed."""
+CLOSE = 2e-5
+"""rad at the nominal speed: an end of slip that is foreseen and as near as that is passed. The rest
+of the way would be a step so short that it rings."""
 
 STILL = 1e-3
 """Of the nominal speed: a crank that a brake holds and that turns by less stands."""
@@ -65,6 +66,7 @@ class Pressed:
         self._mbs, self.coupling, self.most = mbs, coupling, most
         self._part, self._crank = part, crank
         self.state, self._way = OPEN, 1.0  # the sign of its torque
+        self._rate = self._slope = 0.0  # rad/s and rad/s^2, of slip
 
         def torque(
             mbs: Any,
@@ -90,32 +92,34 @@ class Pressed:
 
     def begin(self, torque: float) -> None:
         """Start in the current state, with a torque, N m."""
-        self.coupling.begin(self._relative()[0], max(-self.most, min(self.most, torque)))
+        angle = self._mbs.GetObjectOutput(self.item, exu.OutputVariableType.Displacement)
+        self.coupling.begin(cast(float, angle), max(-self.most, min(self.most, torque)))
 
-    def change(self, time: float) -> float:
-        """Return what is positive until it sticks or slips instead of what it did."""
-        if self.state == OPEN:
-            return 1.0
-        angle, rate = self._relative()
-        if self.state == SLIPS:
-            return self._way * rate or -1.0
-        return -self.coupling.beyond(angle, rate, self.capacity(time)) or -1.0
+    def next_stick(self, time: float, close: float) -> float:
+        """Return when slip will end, s, or infinity; foreseen from how it has changed of late.
+
+        Args:
+            time: s.
+            close: what is as near as that is passed, s.
+        """
+        rate = self._way * self._rate
+        if self.state != SLIPS or self._slope * self._way >= 0.0:
+            return math.inf
+        left = rate / abs(self._slope)
+        return time + left if left > close else math.inf
 
     def accept(self, step: float, time: float) -> None:
         """Keep the state at the end of a step, s."""
-        angle, rate = self._relative()
+        kinds = exu.OutputVariableType.Displacement, exu.OutputVariableType.Velocity
+        angle, rate = (cast(float, self._mbs.GetObjectOutput(self.item, kind)) for kind in kinds)
         capacity = self.capacity(time)
         turned_back = self.state == SLIPS and self._way * rate <= 0.0
         slips = not turned_back and self.coupling.beyond(angle, rate, capacity) > 0.0
         self._way = math.copysign(1.0, self.coupling.torque(angle, rate, capacity))
+        self._slope = (rate - self._rate) / step if step > 0.0 else 0.0
+        self._rate = rate
         self.coupling.accept(step, angle, rate, capacity)
         self.state = (SLIPS if slips else STICKS) if capacity > 0.0 else OPEN
-
-    def _relative(self) -> tuple[float, float]:
-        """Return the angle between its sides, rad, and its rate, rad/s."""
-        kinds = exu.OutputVariableType.Displacement, exu.OutputVariableType.Velocity
-        angle, rate = (self._mbs.GetObjectOutput(self.item, kind) for kind in kinds)
-        return cast(float, angle), cast(float, rate)
 
     @property
     def sticks(self) -> bool:
@@ -160,16 +164,10 @@ class StartStop:
 
     def next_corner(self, time: float) -> float:
         """Return the next instant at which a torque has a corner, s, or infinity."""
-        soonest = self.schedule.corner(time, *self._crank(), CLOSE)
-        return soonest if self._stood is None else min(soonest, self._stood + self._ends_after)
-
-    def change(self, time: float) -> float:
-        """Return what changes its sign where something sticks, slips or is commanded."""
-        angle, _ = self._crank()
-        found = min(self.schedule.to_stop_angle(angle), 1.0)
+        soonest = self.schedule.corner(time, *self._crank())
         for one in self.pressed:
-            found *= one.change(time)
-        return found
+            soonest = min(soonest, one.next_stick(time, CLOSE / self._speed))
+        return soonest if self._stood is None else min(soonest, self._stood + self._ends_after)
 
     def accept(self, time: float) -> None:
         """Keep the state at the end of a step, s."""

@@ -51,7 +51,13 @@ SAID = "said_{}.txt"
 
 
 def plan(scene: Scene) -> dict[float, Scene]:
-    """Return the refinements of a scene, by the ratio of their tolerance (or step) to its own."""
+    """Return the refinements of a scene, by the ratio of their tolerance (or step) to its own.
+
+    One that ends when its press stands goes on to the end of its revolutions in all of them: each
+    stands at another instant.
+    """
+    if scene.drive is not None and scene.drive.ends_after is not None:
+        scene = scene.replace("drive.ends_after", None)
     solver = scene.solver
     assert solver is not None
     if solver.step is not None:

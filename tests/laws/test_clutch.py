@@ -57,12 +57,12 @@ def test_a_schedule_keeps_to_its_commands():
     brake_on = Ramp(0.1, 0.3, over_angle=True)
     schedule = Schedule(False, [0.5], [], 2.0, on, off, off, brake_on)
     assert (schedule.clutch(0.0, 0.0), schedule.brake(0.0, 0.0)) == (0.0, 1.0)
-    assert schedule.corner(0.0, 0.0, 0.0, 0.0) == 0.5
+    assert schedule.corner(0.0, 0.0, 0.0) == 0.5
     schedule.accept(0.5, 0.0)
     assert schedule.running and not schedule.engaged(0.55, 0.0) and schedule.engaged(0.56, 0.0)
     corners, time = [], 0.5
     while time < 1.0:
-        time = schedule.corner(time, 0.0, 0.0, 0.0)
+        time = schedule.corner(time, 0.0, 0.0)
         corners.append(time)
     assert corners == pytest.approx([0.51, 0.52, 0.56, float("inf")])
     assert schedule.to_stop_angle(1.5) == 0.5
@@ -71,6 +71,6 @@ def test_a_schedule_keeps_to_its_commands():
     assert not schedule.running and schedule.done(1.0)
     assert schedule.clutch(1.005, 2.0) == pytest.approx(0.5)
     assert [schedule.brake(9.9, angle) for angle in (2.05, 2.2, 3.0)] == pytest.approx([0, 0.5, 1])
-    assert schedule.corner(1.02, 2.05, 1.0, 0.0) == pytest.approx(1.07)
+    assert schedule.corner(1.02, 2.05, 1.0) == pytest.approx(1.07)
     schedule.recall(remembered)
     assert schedule.running and schedule.to_stop_angle(1.5) == 0.5

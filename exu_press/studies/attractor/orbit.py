@@ -45,7 +45,8 @@ class Orbit:
         """Start as the scene does, or in a state on the section.
 
         Raises:
-            InputError: nothing is free, oil warms, or the scene has a motor and fixed steps.
+            InputError: nothing is free, oil warms, the press starts or stops, or the scene has a motor and
+                fixed steps.
         """
         motor = scene.drive is not None
         if any(oil_of(joint) is not None for joint in scene.joints.values()):
@@ -53,6 +54,11 @@ class Orbit:
                 "film.oil: warms from revolution to revolution, while an orbit is one of the same "
                 "press in each; allowed is film.viscosity, as joints.NAME.film.viscosity of a run "
                 "has it"
+            )
+        if scene.drive is not None and scene.drive.scheduled:
+            raise InputError(
+                "[drive] starts or stops: an orbit is one of a press that runs; allowed is a drive "
+                "that begins 'turning', without start_time, stop_time and stop_angle_deg"
             )
         if motor and scene.solver is not None and scene.solver.tolerance is None:
             raise InputError(

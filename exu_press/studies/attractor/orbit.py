@@ -45,8 +45,8 @@ class Orbit:
         """Start as the scene does, or in a state on the section.
 
         Raises:
-            InputError: nothing is free, oil warms, the press starts or stops, or the scene has a motor and
-                fixed steps.
+            InputError: nothing is free, oil warms, the press starts or stops, or the scene has a
+                motor and fixed steps.
         """
         motor = scene.drive is not None
         if any(oil_of(joint) is not None for joint in scene.joints.values()):

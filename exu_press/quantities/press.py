@@ -69,6 +69,11 @@ def _if_guides_rubbed(run: Reading, _: str) -> float | None:
     return None if None in powers else RUBBING * sum(p for p in powers if p is not None)
 
 
+def _losing(scene: Scene, _: str) -> bool:
+    """Return whether guides can dissipate: ideal ones without friction cannot."""
+    return scene.guide is not None
+
+
 def _guide_loss(run: Reading, body: str) -> Array:
     lost = _of_guide(run, body, "loss")
     return np.zeros_like(run.time) if lost is None else lost
@@ -339,6 +344,8 @@ GUIDES = (
         ENERGY,
         lambda run, body: float(_guide_loss(run, body)[-1]),
         Place.GUIDE,
+        _losing,
+        title="energy dissipated in guides",
         cumulative=True,
     ),
     Quantity(
@@ -348,6 +355,7 @@ GUIDES = (
         LOAD,
         lambda run, body: run.rate(_guide_loss(run, body)),
         Place.GUIDE,
+        _losing,
         signed=True,
     ),
 )

@@ -65,7 +65,7 @@ def _span(result: Result) -> str:
     """Return from which revolutions a run's quantities are read."""
     begin, end = Reading(result).span
     start = "" if begin > 1e-3 else ", with the start"
-    return f"{round(begin, 9):.3g} to {end:.3g}{start}"
+    return f"{round(begin, 9) + 0.0:.3g} to {end:.3g}{start}"
 
 
 def _head(quantity: Quantity, unit: str) -> str:

@@ -11,6 +11,19 @@ def test_guides_without_friction_say_what_friction_would_take():
     assert float(line.split()[-1]) == float(f"{0.1 * power:.4g}")
 
 
+def test_guides_with_friction_say_what_it_takes():
+    rubbing = Scene(mechanism="slider_crank", joints={}, revolutions=0.1).replace(
+        "guide", {"friction": "coulomb"}
+    )
+    result = simulate(rubbing)
+    lost = result.quantity("guides.slider.dissipated").value
+    (line,) = (x for x in run_lines(result) if x.startswith("energy dissipated in guides, J"))
+    assert lost > 0.0
+    assert line.endswith(f"slider {lost:.4g}")
+    assert "read from revolutions" in run_lines(result)[1]
+    assert " 0 to 0.1, with the start" in run_lines(result)[1]
+
+
 def test_members_of_a_group_that_are_alike_are_one():
     result = simulate(Scene(joints={"balls": "dry"}, revolutions=0.02))
     (line,) = (line for line in run_lines(result) if line.startswith("penetration"))

@@ -13,7 +13,7 @@ from exu_press.schema.stored import from_json
 
 __all__ = ["attractor_report"]
 
-HEAD = ("quantity", "unit", "mean", "+-", "scatter", "+-", "5 %", "50 %", "95 %")
+HEAD = ("quantity", "unit", "mean", "scatter", "5 %", "50 %", "95 %")
 
 
 def attractor_report(file: Path) -> str:
@@ -72,9 +72,8 @@ def _exponent(told: dict[str, Any]) -> list[list[str]]:
 def _figure(name: str, unit: str, one: dict[str, Any]) -> list[str]:
     """Return a figure as a line of the table."""
     both = [
-        f"{one[part][entry]:.{digits}g}"
-        for part in ("mean", "scatter")
-        for entry, digits in (("value", 6), ("error", 2))
+        f"{one[part]['value']:.{digits}g} \N{PLUS-MINUS SIGN} {one[part]['error']:.2g}"
+        for part, digits in (("mean", 6), ("scatter", 2))
     ]
     shares = [
         f"{at['value']:.5g} [{at['low']:.5g}, {at['high']:.5g}]"

@@ -54,7 +54,7 @@ MODULES = [
     "laws/contact_stiffness",
     "laws/film/asperities",
     "laws/film/contract",
-    "laws/film/finite_bearing",
+    "laws/film/tabulated",
     "laws/film/long_bearing",
     "laws/film/plane_pad",
     "laws/film/short_bearing",

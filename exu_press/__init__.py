@@ -28,6 +28,7 @@ if TYPE_CHECKING:
         add_guideway_contact,
         add_joint_sensor,
         add_lubricated_revolute,
+        add_lubricated_spherical,
         add_revolute,
     )
     from exu_press.mechanism import Mechanism
@@ -55,6 +56,7 @@ __all__ = [
     "add_guideway_contact",
     "add_joint_sensor",
     "add_lubricated_revolute",
+    "add_lubricated_spherical",
     "add_revolute",
     "follow_modes",
     "simulate",
@@ -76,6 +78,7 @@ _HOMES = {
     "add_dry_spherical": "exu_press.joints",
     "add_joint_sensor": "exu_press.joints",
     "add_lubricated_revolute": "exu_press.joints",
+    "add_lubricated_spherical": "exu_press.joints",
     "add_revolute": "exu_press.joints",
     "add_guideway_contact": "exu_press.joints",
     "follow_modes": "exu_press.integrate",

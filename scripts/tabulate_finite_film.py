@@ -5,14 +5,11 @@ Run it with one BLAS thread: OMP_NUM_THREADS=1 python scripts/tabulate_finite_fi
 
 import argparse
 import math
-from pathlib import Path
 
 import numpy as np
 
-import exu_press.laws.film as film
+from exu_press.laws.film.finite_bearing import TABLE
 from exu_press.laws.film.reynolds import solve_reynolds, supply_line
-
-TABLE = Path(film.__file__).with_name("finite_bearing.npz")
 
 RATIOS = 0.1 * 40.0 ** np.linspace(0.0, 1.0, 14)  # L/D from 0.1 to 4
 DIRECTIONS = np.linspace(-0.5 * math.pi, 0.5 * math.pi, 25)  # opening, rotation, closing

@@ -7,6 +7,7 @@ from exu_press.joints.add import (
     add_guideway_film,
     add_joint_sensor,
     add_lubricated_revolute,
+    add_lubricated_spherical,
     add_revolute,
 )
 from exu_press.joints.compiled import COMPILED
@@ -27,6 +28,7 @@ __all__ = [
     "add_guideway_film",
     "add_joint_sensor",
     "add_lubricated_revolute",
+    "add_lubricated_spherical",
     "add_revolute",
     "histories",
     "user_force_of",

@@ -16,10 +16,17 @@ from exu_press.joints.on_bodies import BodyPoint, in_plane, planar_end, spatial_
 from exu_press.joints.planar import PlanarJoint
 from exu_press.joints.spatial import SpatialRevolute
 from exu_press.joints.spherical import SpatialSpherical
+from exu_press.joints.spherical_film import SphericalFilm
 from exu_press.joints.user_force import user_force_of
 from exu_press.laws.contact import NormalContact
 from exu_press.laws.contact_parameters import positive
-from exu_press.laws.film import FilmLaw, film_scale, pad_with_asperities, plane_pad
+from exu_press.laws.film import (
+    BallFilm,
+    FilmLaw,
+    film_scale,
+    pad_with_asperities,
+    plane_pad,
+)
 from exu_press.laws.friction import Friction, LuGre, no_friction
 
 if TYPE_CHECKING:
@@ -32,6 +39,7 @@ __all__ = [
     "add_guideway_film",
     "add_joint_sensor",
     "add_lubricated_revolute",
+    "add_lubricated_spherical",
     "add_revolute",
 ]
 
@@ -161,6 +169,64 @@ def add_lubricated_revolute(
         friction = no_friction() if friction is None else friction
         interfaces.append(DryInterface(contact, friction, radius, clearance - asperity_onset))
     return add_revolute(mbs, journal, bearing, interfaces, axis=axis)
+
+
+def add_lubricated_spherical(
+    mbs: exu.MainSystem,
+    ball: BodyPoint,
+    socket: BodyPoint,
+    *,
+    radius: float,
+    clearance: float,
+    viscosity: float,
+    film: BallFilm,
+    contact: NormalContact | None = None,
+    friction: Friction | LuGre | None = None,
+    asperity_onset: float = 0.0,
+) -> ClearanceJoint:
+    """Put a lubricated spherical joint between two bodies.
+
+    With a contact law, film and contact act in parallel: pass a film with the ratio of the same
+    onset to the clearance. Between planar bodies the ball moves in the plane.
+
+    Args:
+        mbs: system, not yet assembled.
+        ball: body that carries the ball, and its centre in that body.
+        socket: the same of the socket.
+        radius: radius of the ball, m.
+        clearance: radius of the socket minus that of the ball, m.
+        viscosity: dynamic viscosity, Pa s.
+        film: of the socket's caps (`exu_press.laws.film.ball`).
+        contact: normal contact law of the asperities and what is below them.
+        friction: friction law of the contact.
+        asperity_onset: gap at which the surfaces begin to touch, m.
+
+    Returns:
+        The joint; `add_joint_sensor` records it.
+
+    Raises:
+        InputError: as `add_dry_revolute`, or a radius, clearance or viscosity not positive.
+    """
+    _check(mbs, contact=contact, friction=friction, film=film, radius=radius, clearance=clearance)
+    scale = film_scale(viscosity, radius, radius, clearance)
+    friction = no_friction() if friction is None else friction
+    if in_plane(mbs, ball) and in_plane(mbs, socket):
+        interfaces: list[InterfaceLaw] = [FilmInterface(film.law, scale, clearance)]
+        if contact is not None:
+            interfaces.append(DryInterface(contact, friction, radius, clearance - asperity_onset))
+        return add_revolute(mbs, ball, socket, interfaces)
+    joint = SpatialSpherical(
+        spatial_end(mbs, ball),
+        spatial_end(mbs, socket),
+        contact,
+        friction,
+        radius,
+        clearance,
+        SphericalFilm(film, scale, clearance),
+        asperity_onset,
+    )
+    user_force_of(mbs).add(joint)
+    return joint
 
 
 def add_guideway_contact(

@@ -1,5 +1,6 @@
-"""A dry spherical clearance joint between bodies of any kind (Eqs. 12-22)."""
+"""A spherical clearance joint between bodies of any kind (Eqs. 12-22), dry or with a film."""
 
+import math
 from typing import Any
 
 import numpy as np
@@ -8,6 +9,7 @@ from exu_press.arrays import Array
 from exu_press.joints.ends import BodyEnd, Vector, cross, cross_matrix
 from exu_press.joints.joint import SHALLOW, JointState
 from exu_press.joints.path import Path
+from exu_press.joints.spherical_film import SphericalFilm
 from exu_press.laws.contact import Approach, NormalContact
 from exu_press.laws.friction import Friction, LuGre
 
@@ -18,30 +20,35 @@ class SpatialSpherical:
     """A ball in a socket, touching where their centres are further apart than the clearance.
 
     Both forces act at the contact point on the ball's surface, so that momentum and angular
-    momentum are conserved exactly; friction opposes the sliding of the two surfaces there.
+    momentum are conserved exactly; friction opposes the sliding of the two surfaces there. A film
+    acts in parallel.
     """
-
-    outside = None
 
     def __init__(
         self,
         ball: BodyEnd,
         socket: BodyEnd,
-        contact: NormalContact,
+        contact: NormalContact | None,
         friction: Friction | LuGre,
         radius: float,
         clearance: float,
+        film: SphericalFilm | None = None,
+        asperity_onset: float = 0.0,
     ) -> None:
-        """Join ball and socket; radius of the ball and radial clearance in m."""
+        """Join ball and socket; radius, radial clearance and the gap at which they touch in m."""
         self.ball = ball
         self.socket = socket
         self.indices = ball.indices + socket.indices
-        self._stateful = isinstance(friction, LuGre) or contact.needs_impact_speed
+        self._stateful = contact is not None and (
+            isinstance(friction, LuGre) or contact.needs_impact_speed
+        )
         self._contact, self._friction = contact, friction
         self._radius = radius
-        self.clearance = self.contact_onset = clearance
-        self.largest_eccentricity = clearance + SHALLOW * radius
-        self.lubricated = False
+        self.clearance = clearance
+        self.contact_onset = math.inf if contact is None else clearance - asperity_onset
+        self.largest_eccentricity = math.inf if contact is None else clearance + SHALLOW * radius
+        self.lubricated = film is not None
+        self._film = film
         self._approach = Approach()
         self._next_bristle: Array = np.zeros(3)
         self._sliding: Array | None = None
@@ -49,6 +56,11 @@ class SpatialSpherical:
         self._normal = self._normal_before = self._in_bristles = 0.0
         self._e = self._step = 0.0
         self.reset()
+
+    @property
+    def outside(self) -> float | None:
+        """Eccentricity ratio of the last state if the film's law did not hold there."""
+        return None if self._film is None else self._film.outside
 
     def begin_step(self, step: float, accepted: bool) -> None:
         """Keep bristle deflection and approach speed of the last step if it was accepted."""
@@ -73,6 +85,8 @@ class SpatialSpherical:
         self._sliding = self._sliding_before = None
         self._approach.reset()
         self._touching = False
+        if self._film is not None:
+            self._film.reset()
 
     def memory(self) -> list[Any]:
         """Return what the joint remembers of the steps before, numbers in lists."""
@@ -99,11 +113,28 @@ class SpatialSpherical:
             reach = self._radius + self._e
             self.ball.add_forces(_vector(force), _vector(self._radius * couple), out)
             self.socket.add_forces(_vector(-force), _vector(-reach * couple), out)
+        if self._film is not None:
+            force, (on_ball, on_socket) = self._film.force, self._film.moments
+            self.ball.add_forces(_vector(force), _vector(on_ball), out)
+            self.socket.add_forces(_vector(-force), _vector(on_socket), out)
 
     def jacobian(self, by_q: float, by_q_t: float) -> Array | None:
         """Return -(by_q dQ/dq + by_q_t dQ/dq_t), but for what only turns arms."""
-        if not self._touching:
-            return None
+        if self._film is None:
+            return self._of_contact(by_q, by_q_t) if self._touching else None
+        ball, ball_omega = self.ball.rates()
+        socket, socket_omega = self.socket.rates()
+        rates = np.zeros((9, len(self.indices)))
+        rates[:3] = np.hstack([ball, -socket])
+        rates[3:6, : ball.shape[1]] = ball_omega
+        rates[6:, ball.shape[1] :] = socket_omega
+        by_place, by_rates = self._film.partials()
+        matrix = -rates.T @ (by_q * by_place @ rates[:3] + by_q_t * by_rates @ rates)
+        found = np.asarray(matrix).ravel()
+        return found + self._of_contact(by_q, by_q_t) if self._touching else found
+
+    def _of_contact(self, by_q: float, by_q_t: float) -> Array:
+        """Return the part of the contact in the Jacobian."""
         n, e = self._n, self._e
         normal, stiffness, damping = self._law
         across = np.eye(3) - np.outer(n, n)
@@ -135,22 +166,25 @@ class SpatialSpherical:
         """Return what the joint does in a state of its two bodies."""
         self._move(q, q_t)
         force = self._normal_force + self._drag
-        reach, depth = self._radius + self._e, self._e - self.clearance
-        pressed = depth - self.path.drift
-        elastic = self._contact.stiffness.force(pressed)[0] if pressed > 0.0 else 0.0
+        reach, pressed, elastic, energy = self._radius + self._e, 0.0, 0.0, 0.0
+        if self._contact is not None:
+            pressed = self._e - self.contact_onset - self.path.drift
+            elastic = self._contact.stiffness.force(pressed)[0] if pressed > 0.0 else 0.0
+            energy = self._contact.elastic_energy(pressed)
         moments = np.concatenate(
             [self._radius * _cross(self._n, self._drag), -reach * _cross(self._n, self._drag)]
         )
+        if self._film is not None:
+            force = force + self._film.force
+            moments = moments + self._film.moments.ravel()
         return JointState(
             eccentricity=self.eccentricity,
             force=tuple(force.tolist()),
             velocity=self.relative_velocity,
             moments=tuple(moments.tolist()),
             angular_velocities=tuple(self._omegas.tolist()),
-            gap=-depth,
-            stored_energy=self._contact.elastic_energy(pressed)
-            + self._in_bristles
-            + self._into_bristles(),
+            gap=self.clearance - self._e,
+            stored_energy=energy + self._in_bristles + self._into_bristles(),
             stored_power=elastic * float(self._n @ self._relative) + self._power_of_bristles(),
         )
 
@@ -183,9 +217,11 @@ class SpatialSpherical:
         self._n = n = apart / e if e > 0.0 else np.array([1.0, 0.0, 0.0])
         self._relative = np.subtract(ball.velocity, socket.velocity)
         self._omegas = np.concatenate([ball.angular_velocity, socket.angular_velocity])
+        if self._film is not None:
+            self._film.move(e, n, self._relative, self._omegas)
         self._normal_force = self._drag = np.zeros(3)
         self._normal = 0.0
-        penetration = e - self.clearance - self.path.drift
+        penetration = e - self.contact_onset - self.path.drift
         self._touching = penetration > 0.0
         if not self._touching and not self._stateful:
             return
@@ -198,7 +234,7 @@ class SpatialSpherical:
         self._sliding = sliding
         self._next_bristle = bristle
         speed = self._approach.speed(penetration, rate)
-        if self._touching:
+        if self._touching and self._contact is not None:
             self._law = self._contact.force(penetration, rate, speed)
             self._normal = self._law[0]
             self._normal_force = -self._normal * n

@@ -16,17 +16,23 @@ from exu_press.errors import InputError
 from exu_press.joints import (
     ClearanceJoint,
     add_dry_spherical,
+    add_lubricated_spherical,
     add_revolute,
 )
 from exu_press.joints.interface import DryInterface, FilmInterface, InterfaceLaw
-from exu_press.laws.film import film_scale
 from exu_press.laws.friction import no_friction
 from exu_press.mechanism import GROUND, Joint, Point
 from exu_press.mechanism.holding import SingleAxis
 from exu_press.model.system import System
 from exu_press.scene import DryJoint, LubricatedJoint
 from exu_press.scene.joint import LooseJoint, unworn
-from exu_press.scene.laws import contact_law, film_law, friction_law
+from exu_press.scene.laws import (
+    ball_film,
+    contact_law,
+    film_law,
+    film_scale_of,
+    friction_law,
+)
 from exu_press.scene.own_joint import OwnJoint
 
 if TYPE_CHECKING:
@@ -48,18 +54,34 @@ def add_ideal_joint(system: System, joint: Joint) -> int:
 def add_clearance_joint(system: System, joint: Joint, kind: LooseJoint) -> ClearanceJoint:
     """Add a joint with clearance."""
     journal, bearing = (_end(system, joint, *end) for end in system.mechanism.ends(joint))
-    if not (joint.spherical and isinstance(kind, DryJoint)):
-        interfaces = interfaces_of(joint, kind)
+    if not joint.spherical or isinstance(kind, OwnJoint):
         worn = None if isinstance(kind, OwnJoint) else _worn(system, joint, kind)
+        interfaces = interfaces_of(joint, kind)
         return add_revolute(system.mbs, journal, bearing, interfaces, worn=worn)
+    contact = None if kind.contact is None else contact_law(kind, revolute=False)
+    friction = no_friction() if kind.friction is None else friction_law(kind.friction)
+    if isinstance(kind, LubricatedJoint):
+        return add_lubricated_spherical(
+            system.mbs,
+            journal,
+            bearing,
+            radius=kind.radius,
+            clearance=kind.clearance,
+            viscosity=kind.film.cold_viscosity,
+            film=ball_film(kind.film, kind.clearance),
+            contact=contact,
+            friction=friction,
+            asperity_onset=kind.onset or 0.0,
+        )
+    assert contact is not None
     return add_dry_spherical(
         system.mbs,
         journal,
         bearing,
         radius=kind.radius,
         clearance=kind.clearance,
-        contact=contact_law(kind, revolute=False),
-        friction=friction_law(kind.friction),
+        contact=contact,
+        friction=friction,
     )
 
 
@@ -70,9 +92,8 @@ def interfaces_of(joint: Joint, kind: LooseJoint) -> list[InterfaceLaw]:
     kind = unworn(kind)
     interfaces: list[InterfaceLaw] = []
     if isinstance(kind, LubricatedJoint):
-        radius, clearance, oil = kind.radius, kind.clearance, kind.film
-        scale = film_scale(oil.cold_viscosity, oil.length, radius, clearance)
-        interfaces.append(FilmInterface(film_law(oil, radius, clearance), scale, clearance))
+        law = film_law(kind.film, kind.radius, kind.clearance)
+        interfaces.append(FilmInterface(law, film_scale_of(kind), kind.clearance))
     if kind.contact is not None:
         contact = contact_law(kind, revolute=not joint.spherical)
         friction = no_friction() if kind.friction is None else friction_law(kind.friction)

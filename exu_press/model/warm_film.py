@@ -67,8 +67,8 @@ class WarmFilm:
     def __post_init__(self) -> None:
         """Find what flows out."""
         film, joint = self.joint.film, self.joint
-        assert film.oil is not None
-        self.oil = film.oil
+        assert film.oil is not None and film.length is not None  # no ball
+        self.oil, self._length = film.oil, film.length
         self._flow: SideFlow = FILM_LAWS[film.law].side_flow(film.length / (2.0 * joint.radius))
 
     @property
@@ -80,7 +80,7 @@ class WarmFilm:
         """Go on with another temperature, deg C, and another pressure, Pa."""
         self.temperature, self.pressure = temperature, pressure
         joint = self.joint
-        size = joint.film.length, joint.radius, joint.clearance
+        size = self._length, joint.radius, joint.clearance
         self.interface.scale = film_scale(self.viscosity, *size)
 
     def side_flow(self, states: JointHistory) -> Array:
@@ -93,7 +93,7 @@ class WarmFilm:
         e_dot, v_t = u * x + v * y, v * x - u * y
         rates = e / joint.clearance, e_dot / joint.clearance
         eps_w = (e * turning - 2.0 * v_t) / joint.clearance
-        return joint.film.length * joint.radius * joint.clearance * self._flow(*rates, eps_w)
+        return self._length * joint.radius * joint.clearance * self._flow(*rates, eps_w)
 
     def cooling(self, flow: Array) -> Array:
         """Return what side flow and frame take off, (n,), W."""
@@ -103,7 +103,7 @@ class WarmFilm:
 
     def mean_pressure(self, force: Array) -> Array:
         """Return the mean pressure on the projected area, (n,), Pa, of a force (n, 2)."""
-        area = 2.0 * self.joint.radius * self.joint.film.length
+        area = 2.0 * self.joint.radius * self._length
         return np.asarray(np.linalg.norm(force, axis=1) / area)
 
     def balanced(self, last: Heat) -> tuple[float, float]:

@@ -51,7 +51,7 @@ def _settling(result: Result, name: str) -> Iterator[str]:
 def _outside(result: Result, name: str, joint: LubricatedJoint) -> Iterator[str]:
     """Yield where the laws of the oil do not hold."""
     oil, shown = joint.film.oil, name.replace("_", " ")
-    assert oil is not None
+    assert oil is not None and joint.film.length is not None
     now = float(result[f"{name}_temperature"][-1])
     low, high = oil.at_celsius
     if not low <= now <= high:

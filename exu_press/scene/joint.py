@@ -68,7 +68,7 @@ class DryJoint(Table):
 
 @dataclass(frozen=True)
 class LubricatedJoint(Table):
-    """A journal in a bearing full of oil; with a mixed film its surfaces may touch as well.
+    """A journal or ball in its bearing or socket, full of oil; they touch with a mixed film alone.
 
     What is not given is None until the scene fills it in; contact and friction stay None where
     the film alone carries.
@@ -76,7 +76,7 @@ class LubricatedJoint(Table):
 
     kind: ClassVar[Literal["lubricated"]] = "lubricated"
     clearance: float = key(None, "radial clearance", "m", above=0, example=5e-5)
-    radius: float = key(None, "of the journal", "m", above=0, example=0.03)
+    radius: float = key(None, "of the journal or ball", "m", above=0, example=0.03)
     film: Film = dataclasses.field(default=cast(Any, None))
     contact: Contact | None = None
     friction: Friction | None = None
@@ -140,8 +140,8 @@ def refuse_missing(place: str, joint: Joint, *, revolute: bool) -> None:
         length = ("length",) if dry and revolute and joint.contact.shape == "cylindrical" else ()
         needed["contact"] = (joint.contact, length + _of_damping(joint.contact))
     if isinstance(joint, LubricatedJoint):
-        oil = joint.film.oil
-        needed["film"] = (joint.film, ("length",) if oil else ("viscosity", "length"))
+        oil, length = joint.film.oil, ("length",) if revolute else ()
+        needed["film"] = (joint.film, length if oil else ("viscosity", *length))
         if oil is not None:
             needed["film.oil"] = (oil, oil.needed)
     for law, (table, keys) in needed.items():

@@ -212,16 +212,14 @@ def _joint(
 ) -> Joint:
     """Return one joint, checked."""
     place = f"joints.{name}"
-    kinds = [kind for kind in JOINT_KINDS if not (spherical and kind == "lubricated")]
     kind = given.get("kind")
     try:
         own_class = own_kind(kind)
     except InputError as error:
         raise InputError(f"{place}.{error}") from None
-    if kind not in kinds and own_class is None:
+    if kind not in JOINT_KINDS and own_class is None:
         what = f"{place}.kind = {kind!r}" if "kind" in given else f"{place} has no kind"
-        ball = ", as it is a ball" if spherical else ""
-        raise InputError(f"{what}: allowed is one of {', '.join(map(repr, kinds))}{ball}")
+        raise InputError(f"{what}: allowed is one of {', '.join(map(repr, JOINT_KINDS))}")
     known = ("kind", "clearance", "radius", *LAW_TABLES, "worn")
     if own_class is not None:
         known = ("kind", *keys_used(kind, None))
@@ -260,6 +258,8 @@ def _joint(
 
 def unused_in(law: Table, *, spherical: bool) -> dict[str, str]:
     """Return the keys of a joint's law that it does not use -> the reason."""
+    if isinstance(law, Film):
+        return law.unused(joint="spherical" if spherical else "revolute")
     ball = {"shape": "point"} if spherical and isinstance(law, Contact) else {}
     return law.unused(**ball)
 
@@ -292,7 +292,11 @@ def _check_laws(place: str, joint: Joint, spherical: bool) -> None:
 
 
 def _check_cooling(film: Film) -> None:
-    """Raise InputError for a film of which nothing carries the heat off."""
+    """Raise InputError for a film of which nothing carries the heat off, or a ball's that warms."""
+    if film.oil is not None and film.length is None:
+        raise InputError(
+            "film.oil: the film of a ball does not warm; allowed is film.viscosity of its own"
+        )
     if film.oil is not None and not film.oil.conductance and not FILM_LAWS[film.law].flows_out:
         raise InputError(
             f"film.oil.conductance = 0 with film.law = {film.law!r}: allowed is a number > 0, as a "

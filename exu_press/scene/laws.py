@@ -1,5 +1,6 @@
 """The laws that a scene asks for; parameters outside a law's range are refused by name."""
 
+import math
 from collections.abc import Callable
 from typing import TypeVar
 
@@ -12,7 +13,7 @@ from exu_press.laws.contact import (
     hertz,
     hertz_stiffness,
 )
-from exu_press.laws.film import FILM_LAWS, FilmLaw, with_asperities
+from exu_press.laws.film import FILM_LAWS, BallFilm, FilmLaw, ball, film_scale, with_asperities
 from exu_press.laws.friction import Friction as FrictionLaw
 from exu_press.laws.friction import LuGre, coulomb, lugre_steady, no_friction, stribeck
 from exu_press.scene.joint import DryJoint, LubricatedJoint
@@ -26,8 +27,10 @@ from exu_press.scene.tables import (
 )
 
 __all__ = [
+    "ball_film",
     "contact_law",
     "film_law",
+    "film_scale_of",
     "friction_law",
     "guide_contact_law",
     "guide_friction_law",
@@ -108,21 +111,39 @@ def film_law(table: Film, radius: float, clearance: float) -> FilmLaw:
     """Return a joint's film law, going on beyond contact where that is asked for.
 
     Args:
-        table: [film] of the scene.
-        radius: radius of the journal, m.
+        table: film of the joint.
+        radius: radius of the journal or ball, m.
         clearance: radial clearance, m.
     """
+    if table.length is None:
+        return ball_film(table, clearance).law
     ratio = table.length / (2.0 * radius)
     law = _named("film", lambda: FILM_LAWS[table.law].factory(ratio))
+    onset = _onset_ratio(table, clearance)
+    return law if onset is None else with_asperities(law, onset)
+
+
+def ball_film(table: Film, clearance: float) -> BallFilm:
+    """Return the film of a ball in its socket; arguments as those of `film_law`."""
+    onset = _onset_ratio(table, clearance)
+    return _named("film", lambda: ball(math.radians(table.socket_angle_deg), onset))
+
+
+def film_scale_of(joint: LubricatedJoint) -> float:
+    """Return the scale P of a joint's film, N s; a ball is as long as its radius."""
+    length = joint.radius if joint.film.length is None else joint.film.length
+    return film_scale(joint.film.cold_viscosity, length, joint.radius, joint.clearance)
+
+
+def _onset_ratio(table: Film, clearance: float) -> float | None:
+    """Return the gap at which asperities touch, over the clearance; None for a film alone."""
     onset = asperity_onset(table)
-    if onset is None:
-        return law
-    if onset >= clearance:
+    if onset is not None and onset >= clearance:
         raise InputError(
             f"film.roughness * film.asperity_onset = {onset:g}: allowed is a number < "
             f"clearance = {clearance:g}"
         )
-    return with_asperities(law, onset / clearance)
+    return None if onset is None else onset / clearance
 
 
 def _named(table: str, make: Callable[[], T]) -> T:

@@ -170,9 +170,19 @@ class Film(Table):
     uses: ClassVar[Uses] = {"at_contact": {"stop": (), "mixed": ("roughness", "asperity_onset")}}
     instead: ClassVar[Mapping[str, str]] = {"oil": "viscosity", "viscosity": "oil"}
 
-    law: str = key("finite", "film law", choices=tuple(FILM_LAWS))
+    law: str = key("finite", "film law of a journal", choices=tuple(FILM_LAWS))
     viscosity: float = key(None, "dynamic viscosity (A-11)", "Pa s", above=0, example=0.09)
-    length: float = key(None, "bearing length (A-12)", "m", above=0, example=0.05)
+    length: float | None = key(
+        None, "bearing length (A-12); a ball has none", "m", above=0, example=0.05
+    )
+    socket_angle_deg: float = key(
+        90.0,
+        "ball: from the middle of each of its socket's two caps to the edge",
+        "deg",
+        at_least=45,
+        at_most=90,
+        source="two hemispheres",
+    )
     at_contact: str = key(
         "stop", "at eccentricity ratio 1: stop, or film and contact (A-13)", choices=AT_CONTACT
     )
@@ -190,6 +200,17 @@ class Film(Table):
                 f"film.viscosity = {self.viscosity!r} and film.oil: allowed is one of the two, a "
                 "constant viscosity or an oil that warms"
             )
+
+    def unused(self, **instead: str) -> dict[str, str]:
+        """Return the keys that are not used; of a joint's film those of other joints' shapes.
+
+        Args:
+            instead: `joint` is its shape; a film without a joint may be of any.
+        """
+        joint = instead.pop("joint", None)
+        others = {"revolute": ("socket_angle_deg",), "spherical": ("law", "length")}
+        why = f"the joint is {joint}"
+        return super().unused(**instead) | dict.fromkeys(others.get(joint or "", ()), why)
 
     @property
     def cold_viscosity(self) -> float:

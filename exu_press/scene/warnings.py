@@ -1,5 +1,6 @@
 """Warnings of a scene: values that are allowed but hardly meant, and figures they change."""
 
+import dataclasses
 import math
 from collections.abc import Iterator
 
@@ -133,7 +134,11 @@ def _films(scene: Scene) -> Iterator[tuple[str, LubricatedJoint]]:
     """Yield every lubricated joint, after what its film's keys begin with."""
     for name, joint in scene.joints.grouped.items():
         if isinstance(joint, LubricatedJoint):
-            yield "film" if joint.film == scene.film else f"joints.{name}.film", joint
+            own = any(
+                getattr(joint.film, key.name) not in (None, getattr(scene.film, key.name))
+                for key in dataclasses.fields(joint.film)
+            )
+            yield f"joints.{name}.film" if own else "film", joint
 
 
 def _viscosity(scene: Scene) -> Iterator[str]:
@@ -251,6 +256,8 @@ def _slip(given: float, low: float, high: float, unit: str) -> str:
 def _film_law(scene: Scene) -> Iterator[str]:
     """Yield film laws that are not meant for their bearing's width, and how far they are off."""
     for table, joint in _films(scene):
+        if joint.film.length is None:  # a ball
+            continue
         ratio = joint.film.length / (2.0 * joint.radius)
         given = FILM_LAWS[joint.film.law]
         if given.suits(ratio):

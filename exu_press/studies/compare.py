@@ -21,9 +21,10 @@ def variants(scene: Scene) -> dict[str, Scene]:
     """Return the scene with ideal, with dry and with lubricated joints, by label.
 
     These are the scene's joints with clearance, or those that its mechanism usually has; balls are
-    dry beside lubricated pins. A scene with flexible bodies is compared with rigid ones too.
-    Clearances, loads and whatever else a variant uses are the scene's; a dry bearing is as long as
-    its film. Dry joints are not lubricated where neither scene nor mechanism has an oil.
+    dry beside lubricated pins, as in the paper, unless the scene lubricates them. A scene with
+    flexible bodies is compared with rigid ones too. Clearances, loads and whatever else a variant
+    uses are the scene's; a dry bearing is as long as its film. Dry joints are not lubricated where
+    neither scene nor mechanism has an oil.
 
     Raises:
         InputError: the scene has no joint with clearance, nor does its mechanism usually have one.
@@ -38,7 +39,11 @@ def variants(scene: Scene) -> dict[str, Scene]:
         name for name in names if scene.joints.spherical.issuperset(scene.joints.members(name))
     ]
     joints = {kind: dict.fromkeys(names, kind) for kind in ("ideal", "dry", "lubricated")}
-    joints["lubricated"] |= dict.fromkeys(balls, "dry")
+    joints["lubricated"] |= {
+        name: "dry"
+        for name in balls
+        if any(scene.joints[each].kind != "lubricated" for each in scene.joints.members(name))
+    }
     kinds: dict[str, Scene] = {"": scene}
     if scene.bodies:
         kinds = {"rigid ": scene.replace(bodies={}), "flexible ": scene}
@@ -48,7 +53,7 @@ def variants(scene: Scene) -> dict[str, Scene]:
             by_joint: dict[str, Any] = {f"joints.{name}": kind for name, kind in change.items()}
             if label == "dry" and not _has_length(base, "contact"):
                 for name, joint in base.joints.grouped.items():
-                    if isinstance(joint, LubricatedJoint):
+                    if isinstance(joint, LubricatedJoint) and joint.film.length is not None:
                         by_joint[f"joints.{name}.contact.length"] = joint.film.length
             if label != "lubricated" or _has_length(base, "film") or set(names) <= set(balls):
                 found[bodies + label] = base.replace(by_joint)

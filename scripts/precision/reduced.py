@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 
 from exu_press.errors import InputError
 from exu_press.scene import DryJoint, LubricatedJoint, Scene
+from exu_press.scene.laws import film_scale_of
 
 __all__ = ["Jit", "Numbers", "ScalarFunction", "is_reducible", "numbers_of", "rate_of", "start_of"]
 
@@ -62,7 +63,6 @@ def numbers_of(scene: Scene) -> Numbers:
     size, pin = scene.slider_crank, scene.joints["crank_pin"]
     assert size is not None and isinstance(pin, DryJoint | LubricatedJoint)
     contact, friction, c = pin.contact, pin.friction, pin.clearance
-    film = pin.film if isinstance(pin, LubricatedJoint) else None
     return Numbers(
         crank_radius=size.crank_radius,
         rod_length=size.rod_length,
@@ -84,7 +84,7 @@ def numbers_of(scene: Scene) -> Numbers:
         stribeck_velocity=friction.stribeck_velocity if friction else 1.0,
         stribeck_exponent=friction.stribeck_exponent if friction else 1.0,
         regularisation_velocity=friction.regularisation_velocity if friction else 1.0,
-        film_scale=film.viscosity * film.length * pin.radius**3 / c**2 if film else 0.0,
+        film_scale=film_scale_of(pin) if isinstance(pin, LubricatedJoint) else 0.0,
     )
 
 

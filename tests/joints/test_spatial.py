@@ -18,10 +18,11 @@ from exu_press import (
     add_dry_spherical,
     add_joint_sensor,
     add_lubricated_revolute,
+    add_lubricated_spherical,
 )
 from exu_press.joints import user_force_of
 from exu_press.laws.contact import hertz, step_damping
-from exu_press.laws.film import pi_film
+from exu_press.laws.film import ball, pi_film
 from exu_press.laws.friction import LuGre, lugre_steady
 
 NODES = {"EP": NodeRigidBodyEP, "Rxyz": NodeRigidBodyRxyz, "RotVecLG": NodeRigidBodyRotVecLG}
@@ -31,6 +32,17 @@ JOINTS = {
     "dry": (add_dry_revolute, {"contact": CONTACT, "friction": FRICTION}),
     "lubricated": (add_lubricated_revolute, {"length": 0.1, "viscosity": 0.05, "law": pi_film()}),
     "spherical": (add_dry_spherical, {"contact": CONTACT, "friction": FRICTION}),
+    "lubricated ball": (add_lubricated_spherical, {"viscosity": 0.05, "film": ball()}),
+    "mixed ball": (
+        add_lubricated_spherical,
+        {
+            "viscosity": 0.01,
+            "film": ball(1.2, 0.3),
+            "asperity_onset": 3e-4,
+            "contact": CONTACT,
+            "friction": FRICTION,
+        },
+    ),
 }
 MASS, INERTIA, RADIUS, CLEARANCE = 2.0, np.diag([0.02, 0.03, 0.04]), 0.03, 1e-3
 
@@ -137,7 +149,8 @@ def test_jacobian_against_differences(kind, joint):
     )  # fmt: skip
     size = user_force_of(mbs).size
     q, q_t = np.zeros(size), np.random.default_rng(1).normal(size=size) * 1e-2
-    q[:2] = (CLEARANCE + 2e-4, 3e-4) if joint != "lubricated" else (4e-4, 3e-4)
+    inside, touching = (4e-4, 3e-4), (CLEARANCE + 2e-4, 3e-4)
+    q[:2] = {"dry": touching, "spherical": touching, "mixed ball": (9e-4, 3e-4)}.get(joint, inside)
 
     def force(q, q_t):
         out = [0.0] * (size + 3)

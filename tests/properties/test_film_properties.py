@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from exu_press.laws.film import dissipated, finite, pi_film, pinkus, short, with_asperities
+from exu_press.laws.film import ball, dissipated, finite, pi_film, pinkus, short, with_asperities
 
 FILMS = {
     "pinkus": pinkus(),
@@ -15,11 +15,14 @@ FILMS = {
     "finite": finite(0.71),
     "finite, narrow": finite(0.1),
     "finite, wide": finite(4.0),
+    "ball": ball().law,
+    "ball, narrow caps": ball(0.9).law,
 }
 MIXED = {
     "mixed pi_film": with_asperities(pi_film(), 0.05),
     "mixed finite": with_asperities(finite(0.71), 1e-3),
     "mixed short": with_asperities(short(0.4), 0.9),
+    "mixed ball": ball(1.4, 0.01).law,
 }
 EVERY = pytest.mark.parametrize("law", (FILMS | MIXED).values(), ids=(FILMS | MIXED).keys())
 

@@ -97,8 +97,16 @@ def test_contact_and_friction_of_a_film_only_where_it_is_mixed():
         ({"crank_pin": {}}, "joints.crank_pin has no kind: allowed is one of"),
         ({"crank_pin": {"kind": "dry", "gap": 1}}, "joints.crank_pin.gap = 1: unknown key"),
         (
-            {"balls": "lubricated"},
-            "joints.balls.kind = 'lubricated': allowed is one of 'ideal', 'd",
+            {"balls": {"kind": "lubricated", "film": {"length": 0.1}}},
+            "joints.balls.film.length = 0.1: not used by this scene (the joint is spherical)",
+        ),
+        (
+            {"crank_pin": {"kind": "lubricated", "film": {"socket_angle_deg": 60.0}}},
+            "joints.crank_pin.film.socket_angle_deg = 60.0: not used by this scene (the joint",
+        ),
+        (
+            {"balls": {"kind": "lubricated", "film": {"socket_angle_deg": 30.0}}},
+            "joints.balls.film.socket_angle_deg = 30.0: allowed is a number >= 45 and <= 90",
         ),
         (
             {"balls": {"kind": "dry", "clearance": -1}},

@@ -1,6 +1,7 @@
 """Film laws: hydrodynamic forces of journal bearings and plane pads, with their derivatives."""
 
 from exu_press.laws.film.asperities import pad_with_asperities, with_asperities
+from exu_press.laws.film.ball import BallFilm, ball, socket_drag
 from exu_press.laws.film.catalogue import FILM_LAWS, FilmEntry
 from exu_press.laws.film.contract import FilmForce, FilmLaw, dissipated, film_scale
 from exu_press.laws.film.finite_bearing import finite
@@ -10,11 +11,13 @@ from exu_press.laws.film.short_bearing import short
 
 __all__ = [
     "FILM_LAWS",
+    "BallFilm",
     "FilmEntry",
     "FilmForce",
     "FilmLaw",
     "PadFilm",
     "PadLaw",
+    "ball",
     "dissipated",
     "film_scale",
     "finite",
@@ -23,5 +26,6 @@ __all__ = [
     "pinkus",
     "plane_pad",
     "short",
+    "socket_drag",
     "with_asperities",
 ]

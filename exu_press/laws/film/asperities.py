@@ -6,7 +6,7 @@ from exu_press.laws.contact_parameters import demand, positive
 from exu_press.laws.film.contract import FilmForce, FilmLaw
 from exu_press.laws.film.plane_pad import PadFilm, PadLaw
 
-__all__ = ["pad_with_asperities", "with_asperities"]
+__all__ = ["effective_ratio", "pad_with_asperities", "with_asperities"]
 
 _STEEPNESS = 2.0
 
@@ -79,10 +79,7 @@ def with_asperities(law: FilmLaw, onset_ratio: float) -> FilmLaw:
     def mixed(eps: float, eps_dot: float, eps_w: float) -> FilmForce:
         if not eps > onset:
             return law(eps, eps_dot, eps_w)
-        t = _STEEPNESS * (eps - onset) / onset_ratio
-        effective = onset + onset_ratio * math.atan(t) / _STEEPNESS
-        slope = 1.0 / (1.0 + t * t)
-        bend = -2.0 * _STEEPNESS * t * slope * slope / onset_ratio
+        effective, slope, bend = effective_ratio(eps, onset_ratio)
         ratio = effective / eps
         d_ratio = (slope - ratio) / eps
         f_r, f_t, r_eps, r_dot, r_w, t_eps, t_dot, t_w, shear, shear_eps = law(
@@ -160,3 +157,12 @@ def _open_gap(gap: float, onset: float) -> tuple[float, float, float]:
     slope = 1.0 / (1.0 + t * t)
     opened = onset * (1.0 - math.atan(t) / _STEEPNESS)
     return opened, slope, 2.0 * _STEEPNESS * t * slope * slope / onset
+
+
+def effective_ratio(eps: float, onset_ratio: float) -> tuple[float, float, float]:
+    """Return tilde eps of `with_asperities` beyond the onset, and its two derivatives by eps."""
+    onset = 1.0 - onset_ratio
+    t = _STEEPNESS * (eps - onset) / onset_ratio
+    slope = 1.0 / (1.0 + t * t)
+    bend = -2.0 * _STEEPNESS * t * slope * slope / onset_ratio
+    return onset + onset_ratio * math.atan(t) / _STEEPNESS, slope, bend

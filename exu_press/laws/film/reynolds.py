@@ -8,7 +8,11 @@ from scipy.linalg import solveh_banded  # type: ignore[import-untyped,unused-ign
 
 from exu_press.arrays import Array
 
-__all__ = ["Pressure", "solve_reynolds", "supply_line"]
+__all__ = ["Pressure", "obstacle", "solve_reynolds", "supply_line"]
+
+
+ROUNDING = 1e-9
+"""Of a cell's source, by which its flow may be short before the cell counts as wet."""
 
 
 class Pressure(NamedTuple):
@@ -106,7 +110,7 @@ def solve_reynolds(
     diagonal[:, 1:] += along[:, :-1]
     source = np.outer((eps_dot * np.cos(inner) - half_w * np.sin(inner)) * w_theta, w_zeta)
 
-    p = _obstacle(diagonal, around[1:-1], along[:, :-1], source)
+    p = obstacle(diagonal, around[1:-1], along[:, :-1], source)
     load = (p @ w_zeta) * w_theta
     return Pressure(
         float(-12.0 * load @ np.cos(inner)),
@@ -118,7 +122,7 @@ def solve_reynolds(
     )
 
 
-def _obstacle(diagonal: Array, around: Array, along: Array, source: Array) -> Array:
+def obstacle(diagonal: Array, around: Array, along: Array, source: Array) -> Array:
     """The least p >= 0 with A p >= source, A of five points: complementarity, solved exactly."""
     n, m = diagonal.shape
     wet = source > 0.0
@@ -135,7 +139,7 @@ def _obstacle(diagonal: Array, around: Array, along: Array, source: Array) -> Ar
         residual[:-1] -= around * p[1:]
         residual[:, 1:] -= along * p[:, :-1]
         residual[:, :-1] -= along * p[:, 1:]
-        now = np.where(wet, p > 0.0, residual < 0.0)
+        now = np.where(wet, p > 0.0, residual < -ROUNDING * np.abs(source))
         if np.array_equal(now, wet):
             return p
         wet = now

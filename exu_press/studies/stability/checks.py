@@ -9,13 +9,12 @@ import numpy as np
 
 from exu_press.arrays import Array
 from exu_press.integrate import SolverTuning
-from exu_press.laws.film.contract import film_scale
 from exu_press.mechanism import GROUND
 from exu_press.quantities.catalogue import ECCENTRICITY_RATIO, JOINT_FORCE, quantity_of
 from exu_press.quantities.energy import energy_residual, energy_scale
 from exu_press.result import Result
 from exu_press.scene import LubricatedJoint, Scene, mechanism_of
-from exu_press.scene.laws import contact_law
+from exu_press.scene.laws import contact_law, film_scale_of
 from exu_press.verification.compared import compared
 
 __all__ = ["RESIDUAL_LIMIT", "Check", "agreement", "checks_of"]
@@ -200,13 +199,13 @@ def _energy_there(result: Result) -> Array:
 def _rounding(scene: Scene, name: str) -> float:
     """Return what the last digits of a speed make of a film's force, N; 0 without a film.
 
-    A centred film resists being squeezed by up to 12 pi mu L (R/c)^3 N s/m (long bearing).
+    A centred film resists being squeezed by up to 12 pi mu L (R/c)^3 N s/m (long bearing); a ball
+    by less, with R for L.
     """
     joint = scene.joints[name]
     if not isinstance(joint, LubricatedJoint):
         return 0.0
-    film, c = joint.film, joint.clearance
-    damping = 12.0 * math.pi * film_scale(film.cold_viscosity, film.length, joint.radius, c) / c
+    damping = 12.0 * math.pi * film_scale_of(joint) / joint.clearance
     return SolverTuning().rounding * scene.pin_speed * damping
 
 

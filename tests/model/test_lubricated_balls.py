@@ -1,0 +1,125 @@
+"""Balls with a film: in the press, and alone in a system of one's own."""
+
+import math
+
+import exudyn as exu
+import numpy as np
+import pytest
+from exudyn.itemInterface import (
+    LoadMassProportional,
+    MarkerBodyMass,
+    NodeRigidBodyEP,
+    ObjectGround,
+    ObjectRigidBody,
+)
+from scipy.integrate import quad
+
+from exu_press import Scene, add_joint_sensor, add_lubricated_spherical, simulate
+from exu_press.joints import user_force_of
+from exu_press.laws.film import ball, film_scale
+
+RADIUS, CLEARANCE, VISCOSITY = 0.07, 1e-4, 0.4
+SCALE = film_scale(VISCOSITY, RADIUS, RADIUS, CLEARANCE)
+
+
+def alone(spin, inertia=0.5, mass=50.0):
+    """A body whose ball starts centred in a socket of the ground, its sensors and its joint's."""
+    container = exu.SystemContainer()
+    mbs = container.AddSystem()
+    ground = mbs.AddObject(ObjectGround())
+    turn = [0.0, *(0.5 * np.array(spin))]
+    node = mbs.AddNode(
+        NodeRigidBodyEP(
+            referenceCoordinates=[0.0] * 3 + [1.0, 0.0, 0.0, 0.0],
+            initialVelocities=[0.0] * 3 + turn,
+        )
+    )
+    moments = [inertia] * 3 + [0.0] * 3
+    body = mbs.AddObject(ObjectRigidBody(nodeNumber=node, mass=mass, inertia=moments))
+    joint = add_lubricated_spherical(
+        mbs, (body, (0, 0, 0)), (ground, (0, 0, 0)),
+        radius=RADIUS, clearance=CLEARANCE, viscosity=VISCOSITY, film=ball(),
+    )  # fmt: skip
+    return container, mbs, node, body, add_joint_sensor(mbs, joint)
+
+
+def run(mbs, duration, steps):
+    mbs.Assemble()
+    settings = exu.SimulationSettings()
+    settings.timeIntegration.numberOfSteps, settings.timeIntegration.endTime = steps, duration
+    settings.timeIntegration.newton.useModifiedNewton = False
+    settings.solution.file.write, settings.solution.sensors.writePeriod = False, 0.0
+    mbs.SolveDynamic(settings, showHints=False)
+
+
+def test_a_ball_spins_down_alike_about_any_axis():
+    """As between two spheres about one centre, 8 pi mu R^4 / (3 c) (Landau and Lifshitz)."""
+    axis = np.array([1.0, 2.0, -2.0]) / 3.0
+    _container, mbs, node, _, _ = alone(25.0 * axis)
+    run(mbs, 0.1, 400)
+    end = mbs.GetNodeOutput(node, exu.OutputVariableType.AngularVelocity)
+    rate = 8.0 * math.pi / 3.0 * SCALE * CLEARANCE / 0.5
+    assert end == pytest.approx(25.0 * axis * math.exp(-0.1 * rate), rel=1e-4)
+
+
+def test_a_loaded_ball_sinks_as_the_closed_form_says():
+    """It falls from the middle along a slanting load, without inertia to speak of."""
+    _container, mbs, _, body, sensor = alone((0.0, 0.0, 0.0), mass=1.0)
+    along = np.array([0.6, 0.0, -0.8])
+    mass = mbs.AddMarker(MarkerBodyMass(bodyNumber=body))
+    mbs.AddLoad(LoadMassProportional(markerNumber=mass, loadVector=list(4e4 * along)))
+    run(mbs, 0.5, 1000)
+    record = np.asarray(mbs.GetSensorStoredData(sensor))
+    path = record[:, 1:4] / CLEARANCE
+    assert path == pytest.approx(np.outer(path @ along, along), abs=1e-6)
+
+    def resistance(eps):  # over P, both terms of the pressure's integral
+        part = lambda x: x * ((1 - eps * x) ** -2 - 1.0)  # noqa: E731
+        return 6.0 * math.pi / eps * quad(part, 0.0, 1.0)[0]
+
+    last = float(path[-1] @ along)
+    taken = SCALE * quad(resistance, 1e-6, last)[0] / 4e4
+    assert 0.7 < last < 1.0
+    assert taken == pytest.approx(0.5, rel=5e-3)
+
+
+@pytest.mark.parametrize("start", ["loaded", "centred"])
+def test_the_press_with_lubricated_balls(start):
+    joints = {"crank_pin": "lubricated", "balls": "lubricated"}
+    result = simulate(Scene(joints=joints, start=start, revolutions=0.25, film={"law": "finite"}))
+    assert result.completed
+    assert abs(result.quantity("energy.residual").value) < 1e-4
+    for name in ("ball_left", "ball_right"):
+        film = result.quantity(f"joints.{name}.min_film").value
+        ratio = result.quantity(f"joints.{name}.max_eccentricity_ratio").value
+        assert film == pytest.approx(CLEARANCE * (1.0 - ratio))
+        assert 0.005 < ratio < 0.9
+        assert result.quantity(f"joints.{name}.dissipated").value > 0.0
+        assert result.joints[name].force.shape[1] == 3
+
+
+def test_a_film_that_gives_way_passes_its_load_to_contact():
+    """The oil is thin: the slider's weight presses the balls through it in a part of a turn."""
+    film = {"viscosity": 0.0015, "at_contact": "mixed", "roughness": 1e-6, "socket_angle_deg": 60.0}
+    balls = {"kind": "lubricated", "film": film}
+    scene = Scene(joints={"balls": balls}, revolutions=0.25, start="centred")
+    assert Scene.from_dict(scene.to_dict()) == scene
+    result = simulate(scene)
+    assert result.completed
+    assert abs(result.quantity("energy.residual").value) < 1e-3
+    assert result.quantity("joints.ball_left.max_eccentricity_ratio").value > 0.97
+    assert result.joints["ball_left"].gap.min() < 3e-6
+
+
+def test_narrower_caps_carry_less():
+    def ratio(angle):
+        balls = {"kind": "lubricated", "film": {"socket_angle_deg": angle}}
+        result = simulate(Scene(joints={"balls": balls}, revolutions=0.2, start="centred"))
+        return result.quantity("joints.ball_left.max_eccentricity_ratio").value
+
+    assert ratio(90.0) < ratio(75.0) < ratio(55.0)
+
+
+def test_the_user_force_element_knows_that_there_is_a_film():
+    _container, mbs, _, _, _ = alone((0.0, 0.0, 1.0))
+    assert user_force_of(mbs).lubricated

@@ -105,6 +105,50 @@ def test_the_guide_loses_mu_times_its_force_times_the_way(pressed):
     ) == pytest.approx(expected, rel=0.1)
 
 
+@pytest.fixture(scope="module")
+def of_ideal_pins():
+    """Return the tutorial's run."""
+    guide = {"friction": "coulomb", "mu_kinetic": 0.08}
+    scene = Scene.load(SCENE, ["joints.drag_pins=ideal"]).replace("guide", guide)
+    result = simulate(scene)
+    assert result.completed, result.info["reason"]
+    return result
+
+
+def test_at_the_largest_load_pins_bear_it_and_the_inertia(of_ideal_pins):
+    run = of_ideal_pins
+    at = int(run["load_drawing_force"].argmax())
+    load = run["load_drawing_force"][at]
+    assert load == pytest.approx(4e5, rel=1e-3)
+    link, side = by_hand(run["crank_angle"][at], run["crank_speed"][at], load)
+    forces = {
+        name: np.linalg.norm(run[f"{name}_force"][at])
+        for name in ("crank_pin", "link_pin", "wrist_pin")
+    }
+    assert forces["crank_pin"] == pytest.approx(link, rel=0.05)
+    assert forces["link_pin"] == pytest.approx(link, rel=0.05)
+    assert forces["wrist_pin"] == pytest.approx(load - RAM * 9.81, rel=0.01)
+    # the pin's friction turns the rod, which the guide and the rod's other pin hold
+    couple = 0.1 * run.scene.joints["wrist_pin"].radius * forces["wrist_pin"]
+    assert abs(run["guide_force"][at]) == pytest.approx(side + couple / ROD, rel=0.02)
+
+
+def test_flywheel_motor_and_weights_give_what_load_and_friction_take(of_ideal_pins):
+    run = of_ideal_pins
+    speed = run["crank_speed"]
+    given = 0.5 * run.scene.drive.inertia * (speed[0] ** 2 - speed[-1] ** 2)
+    given += np.trapezoid(run["drive_power"], run.time)
+    given += RAM * 9.81 * (run["slider_position"][0] - run["slider_position"][-1])
+    taken = run.quantity("energy.dissipated").value - run.quantity("loads.drawing.work").value
+    assert given == pytest.approx(taken, rel=0.02)
+
+
+def test_the_ideal_guide_rubs_with_its_force(of_ideal_pins):
+    run = of_ideal_pins
+    expected = np.trapezoid(0.08 * np.abs(run["guide_force"] * run["slider_velocity"]), run.time)
+    assert run.quantity("guides.ram.dissipated").value == pytest.approx(expected, rel=1e-2)
+
+
 def test_its_defaults_are_physical_and_said():
     """None of the paper's values stands where the scene gives none."""
     scene = Scene.load(SCENE)

@@ -63,6 +63,7 @@ class StepError:
         self._curvature: Curvature | None = None
         self._turning: Turning | None = None
         self._step = 0.0  # last tried, s
+        self._jumped = False  # whether accelerations have, in a step of the smallest size
         self._first_order: FirstOrderError | None = None
         self._joints: list[JointError] = []
         self.limiting: list[int] = []
@@ -129,7 +130,10 @@ class StepError:
         However short the step, it is then of first order; at most half of the jump times the step,
         which is held against the tolerance itself as jumps are few.
         """
-        return 0.0 if self._bodies is None else self._relative(0.5 * step * self._bodies.of_jump())
+        if self._bodies is None:
+            return 0.0
+        self._jumped = True
+        return self._relative(0.5 * step * self._bodies.of_jump())
 
     def change_of_speed(self) -> float:
         """Return what a jump of accelerations in the step last tried changes a speed by, m/s."""
@@ -141,6 +145,9 @@ class StepError:
         if self._curvature is not None:
             self._curvature.accept()
         self._bodies.accept()
+        if self._jumped or (self._switching and self._solver.it.discontinuousIteration):
+            self._bodies.jumped()
+        self._jumped = False
         if self._turning is not None:
             self._bodies.turning = self._turning.stepped(self._step)
         if not self._scales.fixed:

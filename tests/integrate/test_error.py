@@ -294,6 +294,23 @@ def test_a_vibration_below_the_tolerance_is_not_followed_however_long_it_lasts()
     assert speed == pytest.approx(math.cos(4.0), abs=2e-3)
 
 
+@pytest.mark.parametrize("told", [True, False])
+def test_a_jump_beside_a_vibration_does_not_hide_it(told):
+    """v = V cos(omega t) with V = 3 m/s; once a contact switches in a short step."""
+    nodes = (Node(0, "a", 0, 1, 1.0, 1),)
+    scales = FoundScales(ErrorScales(1.0, 1.0), problem_at(nodes, np.zeros(1)), 1.0)
+    scales.begin(np.eye(1))
+    quiet, omega, step = Quiet(scales), 2.0 * math.pi, 1.0 / 40.0
+    for i in range(60):
+        bend = 3.0 * omega**3 * math.sin(omega * i * step)
+        size, jump = (1e-3, 0.3 / 1e-3) if i in (30, 31) else (step, 0.0)
+        found = quiet.amplitude([bend * size + (jump if i == 30 else -jump)], size)
+        quiet.accept()
+        if told and i == 30:
+            quiet.forget()
+    assert (found > 2.0) is told
+
+
 def test_the_amplitude_of_a_vibration_is_told_by_its_accelerations():
     """v = V cos(omega t), sampled forty times a period; and where a step is too long to tell."""
     nodes = (Node(0, "a", 0, 1, 1.0, 1),)

@@ -144,3 +144,7 @@ class BodyError:
         """Remember the accepted step's end as the next one's beginning."""
         self._before, self._rate_before = self._now, self.rate
         self._quiet.accept()
+
+    def jumped(self) -> None:
+        """Be told that accelerations have jumped in the accepted step."""
+        self._quiet.forget()

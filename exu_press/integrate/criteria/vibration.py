@@ -20,7 +20,8 @@ class Quiet:
     A vibration of the amplitude V and the angular frequency omega has the velocity's third
     derivative b = omega^3 V. Its change from step to step, over the step and over b, is omega, and
     2 / h where the step h is too long to tell. Both are the largest of late, as each is zero at
-    times.
+    times. A jump of the accelerations is no vibration: it would be a tiny one of the frequency of a
+    step, and what vibrates beside it would be taken for as quiet.
     """
 
     def __init__(self, scales: FoundScales) -> None:
@@ -29,6 +30,7 @@ class Quiet:
         self._before: list[float] = []
         self._size = self._rate = 0.0
         self._tried: tuple[list[float], float, float] = [], 0.0, 0.0
+        self._jumped = False  # in the last accepted step
 
     def amplitude(self, change: list[float], step: float) -> float:
         """Return it, or infinity where it is not known yet.
@@ -37,6 +39,9 @@ class Quiet:
             change: of the accelerations' rate within a step, in SI over seconds.
             step: s.
         """
+        if self._jumped:  # the change has the jump in it too
+            self._tried = [], 0.0, 0.0
+            return math.inf
         bend = [value / step for value in change]
         size = max(self._scales.norm(bend), LATE * self._size)
         rate = 0.0
@@ -52,3 +57,8 @@ class Quiet:
     def accept(self) -> None:
         """Remember the step last tried."""
         self._before, self._size, self._rate = self._tried
+        self._jumped = False
+
+    def forget(self) -> None:
+        """Be told that accelerations have jumped in the accepted step."""
+        self._jumped = True

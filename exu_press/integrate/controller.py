@@ -11,6 +11,10 @@ ORDER = 3
 """Power of the step with which its error goes."""
 
 
+SHORTENED = 0.05
+"""By what a step that failed is shortened at most."""
+
+
 class Controller(Protocol):
     """Changes steps for their errors; 1 is the largest allowed one."""
 
@@ -29,13 +33,12 @@ class LimitedGrowth:
     """
 
     def __init__(self, tuning: SolverTuning) -> None:
-        """Take its numbers `safety`, `factor_max` and `factor_min`."""
-        self._safety = tuning.safety
-        self._factor_max, self._factor_min = tuning.factor_max, tuning.factor_min
+        """Take its numbers `safety` and `factor_max`."""
+        self._safety, self._factor_max = tuning.safety, tuning.factor_max
 
     def repeated(self, error: float) -> float:
         """Return the factor with which to repeat a step whose error is above 1, or no number."""
-        return max(self._factor_min, self._factor(error))
+        return max(SHORTENED, self._factor(error))
 
     def continued(self, error: float) -> float:
         """Return the factor for the steps after one whose error is at most 1."""

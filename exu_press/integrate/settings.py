@@ -51,6 +51,9 @@ closed, and its usual limit of 1 lets what has opened go on to pull."""
 SHORTEST_RUN = 1e-7
 """Of which the 1e-10 s by which Exudyn may end it early are a thousandth, s."""
 
+FIRST_STEP = 1.0 / 64.0
+"""Over the largest one; with a film, `first_step_of_film`."""
+
 IMPLICIT = "GeneralizedAlpha", "TrapezoidalIndex2"
 """Exudyn's solvers that take the same settings; the second one is the first with other numbers."""
 
@@ -69,10 +72,8 @@ class SolverTuning:
         safety: error at which a step is aimed, of what it may be. The reserve saves repeated steps.
         factor_max: by what a step is lengthened at most. Steps that grow by half swing about what
             their errors ask for, and are a third more with a film.
-        factor_min: by what a step that failed is shortened at most.
-        first_step: first step over the largest one.
-        first_step_of_film: the same with a film, which takes up its load within a microsecond or
-            so: a longer step leaves an overshoot of 3 % in the first loads.
+        first_step_of_film: first step over the largest one with a film, which takes up its load
+            within a microsecond or so: a longer step leaves an overshoot of 3 % in the first loads.
         many_steps: times tolerance^(-1/2), the number of steps of a run from which on each may
             miss less, as their errors add up (`exu_press.integrate.error`).
         foreseen: over the time so far, for how long velocities are believed to turn on likewise, to
@@ -100,14 +101,10 @@ class SolverTuning:
             a film keeps may add up to the tolerance.
         refit: a step shorter than this, over the one that constrained velocities fit, makes them
             fit anew.
-        largest_jump: of an inertia force within one step, over the run's largest one, from where
-            the impacts are not resolved (`exu_press.integrate.stepping`).
     """
 
     safety: float = 0.4
     factor_max: float = 1.2
-    factor_min: float = 0.05
-    first_step: float = 1.0 / 64.0
     first_step_of_film: float = 1e-4
     many_steps: float = 10.0
     foreseen: float = 3.0
@@ -122,8 +119,6 @@ class SolverTuning:
     kept_steps: float = 30.0
 
     refit: float = 0.35
-
-    largest_jump: float = 0.65
 
 
 class Task:
@@ -174,7 +169,7 @@ class Task:
             self.first = max(2.0 * self.smallest, room) if problem.lubricated else largest
         else:
             of_film = max(tuning.first_step_of_film * largest, room)
-            usual = of_film if problem.lubricated else tuning.first_step * largest
+            usual = of_film if problem.lubricated else FIRST_STEP * largest
             self.first = max(integration.initialStepSize or usual, self.smallest)
         self.first = min(self.first, largest)
         impacts = problem.joints is not None or problem.switching

@@ -225,8 +225,8 @@ def solve_dynamic(
             vibration of a twentieth of it costs no steps.
         scales: what errors are relative to, where they are not to be found from the motion.
         tuning: the numbers of step control, to vary them.
-        controller: changes steps for their errors instead of `LimitedGrowth`, which has `safety`,
-            `factor_max` and `factor_min` of the tuning.
+        controller: changes steps for their errors instead of `LimitedGrowth`, which has `safety`
+            and `factor_max` of the tuning.
         next_corner: time (s) -> the next instant at which a load has a corner, s, or infinity;
             steps end on them.
         watch: time (s) -> why the motion has come to its end there, or nothing; is asked after

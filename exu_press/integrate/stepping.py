@@ -10,6 +10,10 @@ from exu_press.integrate.settings import SAME, Task
 
 __all__ = ["FixedSteps", "Resolution", "StepControl", "Unresolved"]
 
+LARGEST_JUMP = 0.65
+"""Of an inertia force within one step, over the run's largest one, from where the impacts are not
+resolved."""
+
 
 class StepControl:
     """Sets the step so that its error stays below 1.
@@ -158,7 +162,6 @@ class Resolution:
         self._scales = task.scales
         self._radius = task.spectral_radius  # by which a ring decays from step to step
         self._least = 0.1 * task.tolerance if task.problem.joints is None else 0.0
-        self._allowed = task.tuning.largest_jump
         self._before: list[float] = []
         # A stiff film that starts from rest makes the accelerations ring; that is no impact.
         self._started: list[float] = []
@@ -191,7 +194,7 @@ class Resolution:
             ringing = self._started[i] * self._ring
             self._largest = max(self._largest, mass * (math.sqrt(sizes[i]) - ringing))
             jump = mass * (math.sqrt(jumps[i]) - ringing)
-            if jump > self._allowed * self._largest:
+            if jump > LARGEST_JUMP * self._largest:
                 self._jumps.append((jump, time, step, i, 0.5 * step * math.sqrt(jumps[i])))
 
     def worst(self) -> Unresolved | None:
@@ -202,6 +205,6 @@ class Resolution:
         if self._steps < 2 or not felt:
             return None
         jump, time, step, node, _ = max(felt)
-        if jump <= self._allowed * self._largest:
+        if jump <= LARGEST_JUMP * self._largest:
             return None
         return Unresolved(time, step, node, jump / self._largest)

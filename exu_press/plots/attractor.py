@@ -3,6 +3,7 @@
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from exu_press.arrays import Array
 from exu_press.plots.headed import headed_figure
@@ -93,7 +94,7 @@ def _transient(panel: Axes, found: Attractor) -> None:
     panel.axhline(found.error, color=GREY, ls="--", lw=1.0, label="error")
     panel.set_title("transient: distance from the last point")
     panel.set(xlabel="revolution", ylabel="clearances")
-    panel.xaxis.get_major_locator().set_params(integer=True)
+    panel.xaxis.set_major_locator(MaxNLocator(integer=True))
     panel.legend(loc="best")
 
 
@@ -127,4 +128,4 @@ def _by_revolution(panel: Axes, label: str, values: Array, skip: int) -> None:
     panel.plot(np.arange(skip + 1, skip + len(values) + 1), values, "o-", color=RUN, ms=3, lw=0.6)
     panel.set_title(label)
     panel.set_xlabel("revolution")
-    panel.xaxis.get_major_locator().set_params(integer=True)
+    panel.xaxis.set_major_locator(MaxNLocator(integer=True))

@@ -57,12 +57,12 @@ class Distribution:
     percentiles: dict[float, tuple[float, float, float]]
 
     @classmethod
-    def of(cls, values: Sequence[float]) -> Self:
+    def of(cls, values: Sequence[float] | Array) -> Self:
         """Return the distribution of values, one a revolution, two at least, in their order."""
         each = np.asarray(values, dtype=float)
         return cls(
             len(each),
-            (float(each.mean()), _jackknife(each, np.mean)),
+            (float(each.mean()), _jackknife(each, _mean)),
             (float(each.std(ddof=1)), _jackknife(each, _deviation)),
             percentiles([float(value) for value in each]),
         )
@@ -80,11 +80,15 @@ class Distribution:
         }
 
 
-def _deviation(values: Array) -> np.floating[Any]:
-    return values.std(ddof=1)
+def _mean(values: Array) -> float:
+    return float(values.mean())
 
 
-def _jackknife(values: Array, statistic: Callable[[Array], np.floating[Any]]) -> float:
+def _deviation(values: Array) -> float:
+    return float(values.std(ddof=1))
+
+
+def _jackknife(values: Array, statistic: Callable[[Array], float]) -> float:
     """Return the standard error of a statistic, by leaving out one batch after the other.
 
     Revolutions that follow each other depend on each other, batches of them hardly do (B. Efron,

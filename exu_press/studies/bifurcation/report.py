@@ -105,7 +105,7 @@ class Report:
         keys = {study.name: list(study.values)}
         if study.second is not None:
             keys[study.second] = [second for second in study.seconds if second is not None]
-        places = {"way": self.ways, **keys}
+        places: dict[str, Sequence[object]] = {"way": self.ways, **keys}
         size = tuple(map(len, places.values()))
         found = {name: np.full(size, np.nan) for name in ("period", "error")}
         found |= {f"exponent{end}": np.full(size, np.nan) for end in ("", "_low", "_high")}

@@ -191,9 +191,10 @@ class StartStop:
         return self.clutch is not None and self.clutch.state == SLIPS
 
     def begin(self, torque: float) -> None:
-        """Start in the current state, with a torque that the crank is held by, N m."""
-        for one in self.pressed:
-            one.begin(torque)
+        """Start in the current state, with a torque on the crank that holds it, N m."""
+        for one, on_crank in ((self.clutch, 1.0), (self.brake, -1.0)):
+            if one is not None:
+                one.begin(on_crank * torque)
 
     def memory(self) -> list[float]:
         """Return all that the future follows from, as numbers."""

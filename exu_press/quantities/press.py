@@ -289,7 +289,7 @@ GUIDES = (
         "peak_force",
         "N",
         "largest force across the guide",
-        LOAD,
+        RESULTANT,
         _guide_peak("force"),
         Place.GUIDE,
         extreme=Extreme.LARGEST,

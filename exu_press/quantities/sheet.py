@@ -53,13 +53,19 @@ def _pull(run: Reading, load: str) -> Array:
 
 
 def _above_ideal(run: Reading) -> tuple[Array, Array, Array]:
-    """Return how far above the ideal motion the output is, (n,), m, and its rates, m/s, m/s^2."""
+    """Return how far above the ideal motion the output is, (n,), m, and its rates, m/s, m/s^2.
+
+    That of a crank at the same angle and speed, which a motor's load slows down.
+    """
     speed = run["crank_speed"]
     place, velocity, acceleration = run.mechanism.ideal_slider(run["crank_angle"], 1.0)
+    slower = 0.0
+    if run.result.scene.drive is not None:
+        slower = np.gradient(speed, run.time) * velocity
     return (
         run["slider_position"] - place,
         run["slider_velocity"] - speed * velocity,
-        run["slider_acceleration"] - speed**2 * acceleration,
+        run["slider_acceleration"] - speed**2 * acceleration - slower,
     )
 
 

@@ -1,0 +1,163 @@
+"""Presses at rest: what starts, what stands and stays, what stalls and why."""
+
+import math
+import re
+
+import numpy as np
+import pytest
+
+from exu_press import InputError, Scene, simulate
+from exu_press.studies.attractor.orbit import Orbit
+
+PRESS = {"mechanism": "eccentric_press", "speed_rpm": 60.0, "joints": {}}
+DRIVE = {
+    "rated_torque": 400.0,
+    "inertia": 300.0,
+    "driven_inertia": 2.0,
+    "begins": "standing",
+    "clutch_torque": 3000.0,
+    "clutch_on": [0.03, 0.06],
+    "clutch_off": [0.0, 0.02],
+    "brake_torque": 1500.0,
+    "brake_on": [0.02, 0.05],
+    "brake_off": [0.0, 0.02],
+    "start_time": [0.02],
+    "stop_time": [0.2],
+}
+
+
+def press(revolutions=0.4, **changes):
+    drive = {name: value for name, value in {**DRIVE, **changes}.items() if value is not None}
+    return Scene(**PRESS, revolutions=revolutions, drive=drive)
+
+
+def test_a_motor_starts_a_free_rotor_from_rest_as_kloss_says():
+    """I dw/dt = T(s): s^2 / 2 + s_b^2 ln s falls by 2 T_b s_b t / (I w_0), from s = 1 on."""
+    light = {"rod_mass": 1e-6, "slider_mass": 1e-6, "rod_inertia": 1e-8, "crank_inertia": 1.0}
+    result = simulate(
+        Scene(
+            mechanism="slider_crank",
+            joints={},
+            speed_rpm=300.0,
+            revolutions=5.0,
+            gravity=0.0,
+            slider_crank=light,
+            drive={"rated_torque": 100.0, "slip": 0.05, "inertia": 9.0, "begins": "rest"},
+            solver={"tolerance": 1e-5},
+        )
+    )
+    assert result.completed and abs(result["crank_speed"][0]) < 1e-50
+    fastest, breakdown = 10 * math.pi, 0.05 * (2.5 + math.sqrt(2.5**2 - 1.0))
+    slip = 1.0 - result["crank_speed"] / fastest
+    gone = slip**2 / 2 + breakdown**2 * np.log(slip)
+    expected = gone[0] - 2 * 250.0 * breakdown * result.time / (10.0 * fastest)
+    assert slip[-1] < 0.8
+    assert np.abs(gone - expected).max() < 1e-4 * np.ptp(gone)
+    assert result.quantity("energy.residual").value < 1e-4
+
+
+@pytest.mark.parametrize("angle", [60.0, 200.0])
+def test_a_press_that_its_brake_holds_stays(angle):
+    """Against its weight, for as long as it stands, and to the last digits."""
+    scene = press(start_time=[9.0], stop_time=None, clutch_off=None, brake_on=None)
+    result = simulate(scene.replace("start_angle_deg", angle))
+    assert result.completed
+    assert np.ptp(result["crank_angle"]) < 1e-7
+    assert np.abs(result["crank_speed"][result.time > 0.2]).max() < 1e-9
+    held = np.abs(result["brake_torque"][result.time > 0.2])
+    assert held.min() > 100.0 and np.ptp(held) < 1e-3 * held.min()
+    assert result.quantity("drive.starting_time").value is None
+
+
+def test_a_brake_too_weak_to_stop_is_told():
+    result = simulate(press(brake_torque=20.0))
+    assert result.completed and result.quantity("drive.stopping_time").value is None
+    said = " ".join(result.summary()["warnings"])
+    assert "drive.brake_torque = 20 N m does not hold the press at every angle" in said
+    assert "the press does not stand behind its last stop: the crank turns at" in said
+
+
+def test_a_cam_stops_at_its_angle_and_the_run_ends_when_the_press_stands():
+    cam = press(2.0, stop_time=None, stop_angle_deg=60.0, ends_after=0.03)
+    result = simulate(cam)
+    assert result.completed and result.time[-1] < 0.5
+    stops = result.quantity("drive.stopping_time").value
+    begun = float(np.interp(math.radians(60.0), result["crank_angle"], result.time))
+    assert result.time[-1] == pytest.approx(begun + stops + 0.03, abs=0.02)  # shafts untwist
+    turned = result.quantity("drive.stopping_angle_deg").value
+    assert np.degrees(result["crank_angle"].max()) == pytest.approx(60.0 + turned, abs=0.01)
+    over_angle = {
+        "clutch_off": None,
+        "brake_on": None,
+        "clutch_off_deg": [0.0, 2.0],
+        "brake_on_deg": [3.0, 6.0],
+    }
+    result = simulate(
+        press(2.0, stop_time=None, stop_angle_deg=60.0, ends_after=0.03, **over_angle)
+    )
+    braked = np.flatnonzero(result["brake_torque"] > 1.0)
+    braked = braked[result.time[braked] > 0.1]
+    assert np.degrees(result["crank_angle"][braked[0]]) == pytest.approx(63.0, abs=0.5)
+    assert result.quantity("energy.residual").value < 1e-3
+
+
+def test_a_jog_and_another_one():
+    result = simulate(press(0.7, start_time=[0.02, 0.4], stop_time=[0.15, 0.5]))
+    assert result.completed
+    between = (result.time > 0.3) & (result.time < 0.4)
+    assert np.abs(result["crank_speed"][between]).max() < 0.01
+    assert result["crank_speed"][result.time > 0.5].max() > 1.0
+    assert result.quantity("drive.stopping_time").value > 0.02
+    both = result["clutch_loss"][-1]
+    assert result.quantity("drive.clutch_energy").value == pytest.approx(0.5 * both)
+    assert result.quantity("energy.residual").value < 1e-3
+
+
+def test_errors_of_a_run_that_ends_when_the_press_stands():
+    result = simulate(press(0.5, ends_after=0.02), errors=True)
+    for name in ("stopping_time", "stopping_angle_deg", "starting_time", "brake_energy"):
+        value = result.quantity(f"drive.{name}")
+        assert value.determined and 0.0 < value.error < 0.02 * value.value
+
+
+def test_a_run_goes_on_behind_its_stop():
+    whole = simulate(press(0.4))
+    first = simulate(press(0.22))
+    second = simulate(press(0.18), start=first.info["state"])
+    assert second.time[0] == pytest.approx(0.22)
+    assert second["crank_angle"][-1] == pytest.approx(whole["crank_angle"][-1], abs=1e-4)
+
+
+def test_a_clutch_that_slips_for_good_is_a_stall_of_the_clutch():
+    load = {"hold": {"kind": "table", "height": [0.0, 0.07], "force": [3e5, 3e5]}}
+    result = simulate(
+        Scene(**PRESS, revolutions=1.0, drive={**DRIVE, "stop_time": [0.9]}, load=load)
+    )
+    assert result.info["status"] == "stalled"
+    told = re.search(
+        r"want (\S+) N m there, and the clutch, which slips, has 3000 N m", result.info["reason"]
+    )
+    assert float(told[1]) > 3000.0 and "drive.clutch_torque" in result.info["reason"]
+
+
+def test_what_friction_holds_is_told():
+    """The motor has more than weights want: friction of the guides has the rest."""
+    guide = {"friction": "lugre", "mu_static": 0.9, "mu_kinetic": 0.9}
+    motor = {"rated_torque": 1.0, "inertia": 1.0, "begins": "rest"}
+    side = {"side": {"kind": "table", "time": [0, 1], "force": [2e5, 2e5], "direction": [1, 0]}}
+    result = simulate(Scene(**PRESS, guide=guide, drive=motor, gravity=0.0, load=side,
+                            start_angle_deg=90.0))  # fmt: skip
+    assert result.info["status"] == "stalled"
+    assert re.search(r"friction holds at least \S+ N m; try", result.info["reason"])
+    assert np.ptp(result["crank_angle"]) < 1e-3  # and it does not creep
+
+
+def test_what_does_not_go_with_a_schedule():
+    with pytest.raises(InputError, match="starts or stops: an orbit is one of a press that runs"):
+        Orbit(press())
+    with pytest.raises(InputError, match=r"drive\.driven_inertia = 0\.0: allowed is a number > 0"):
+        Scene(
+            joints={},
+            bodies={"crank": {"flexible": "crank"}},
+            drive={**DRIVE, "driven_inertia": 0.0},
+        )

@@ -17,17 +17,17 @@ PadLaw = Callable[[float, float, float, float, float], PadFilm]
 """law(h_1, h_2, h_1_dot, h_2_dot, sliding)."""
 
 CELLS: Final = 24
-WIDTHS: Final = (0.01, 100.0)
+WIDTHS: tuple[float, float] = (0.01, 100.0)
 """Of a pad, over its length: the range of the law."""
 
-OUTSIDE: Final = (math.nan,) * 18
-NOTHING: Final = (0.0,) * 9
-
+OUTSIDE: PadFilm = (math.nan,) * 18
 Node = tuple[float, float, float, float, float]
 """Place, weights of both ends' forces, kappa times the node's share, 2 / size of the cell before
 it."""
 
 Pressed = tuple[float, float, float, float, float, float, float, float, float]
+
+NOTHING: Pressed = (0.0,) * 9
 
 ALIKE: Final = 1e-3
 """Relative difference of two gaps below which series stand for their logarithm."""

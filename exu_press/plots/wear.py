@@ -9,6 +9,7 @@ from exu_press.plots.sweep_words import words
 from exu_press.plots.typesetting import plain, typeset
 from exu_press.plots.words import describe
 from exu_press.quantities import quantity_of
+from exu_press.quantities.uncertain import significant
 from exu_press.studies.wear.run import Report
 from exu_press.studies.wear.shape import ANGLES
 
@@ -16,13 +17,16 @@ __all__ = ["wear_figure"]
 
 MOST_SHAPES = 6
 
+LEAST_SPREAD = 1e-8
+"""Of a quantity, over its value: what changes less is rounding."""
+
 
 @styled
 def wear_figure(report: Report) -> Figure:
     """Return what is worn off by angle, and clearances and quantities over the strokes."""
     study, points = report.study, report.points
     names, joints = study.names, study.joints
-    text = f"{describe([study.scene], 130)}\n{points[-1].strokes:.4g} strokes in "
+    text = f"{describe([study.scene], 130)}\n{significant(points[-1].strokes, 4)} strokes in "
     text += f"{len(points) - 1} jumps"
     rows = 1 + (1 + len(names) + 1) // 2
     figure = headed_figure("Wear over strokes", text, (9.5, 1.2 + 2.6 * rows))
@@ -39,6 +43,9 @@ def wear_figure(report: Report) -> Figure:
             axes.plot(strokes, values, "o-", markersize=3)
             axes.set_ylabel(words(name) + (f", {typeset(unit)}" if unit else ""))
             axes.ticklabel_format(axis="y", useOffset=False)
+            middle, spread = float(np.nanmean(values)), float(np.ptp(values))
+            if spread < LEAST_SPREAD * abs(middle):
+                axes.set_ylim(middle - 1e-3 * abs(middle), middle + 1e-3 * abs(middle))
         else:
             for number, joint in enumerate(joints):
                 values = [1e6 * value for value in report.clearances(joint)]
@@ -62,7 +69,7 @@ def _shapes(axes: object, report: Report, joint: str) -> None:
         shape = report.shape(points[i], joint)
         axes.plot(
             np.degrees(ANGLES), 1e6 * shape.bearing, color=colour_of(number),
-            label=f"{points[i].strokes:.3g} strokes",
+            label=f"{significant(points[i].strokes, 3)} strokes",
         )  # fmt: skip
         if shape.journal.max() > 0.05 * shape.bearing.max():
             axes.plot(np.degrees(ANGLES), 1e6 * shape.journal, "--", color=colour_of(number))

@@ -6,6 +6,7 @@ from typing import Any
 from exu_press.errors import InputError
 from exu_press.page import Live, has_library
 from exu_press.quantities.catalogue import declared
+from exu_press.quantities.uncertain import significant
 from exu_press.report.html import page, paragraph, picture, stills, table
 from exu_press.schema.stored import from_json
 
@@ -31,7 +32,7 @@ def wear_report(file: Path) -> str:
     pictures = [picture(path, "The course.") for path in sorted(file.parent.glob("*.png"))]
     head = ("strokes", "jump", *(f"{name}, {unit}" if unit else name for name, unit, _ in curves))
     return page(
-        f"Wear over {strokes[-1]:.4g} strokes",
+        f"Wear over {significant(strokes[-1], 4)} strokes",
         f"{len(strokes) - 1} jumps{ended}; {file.parent.name}/{file.name}",
         [
             *([] if live is None else [("Course", live.body)]),

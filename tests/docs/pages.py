@@ -136,12 +136,14 @@ def kind_of(tables: dict[str, object]) -> type:
     from exu_press.studies.optimise import Optimise
     from exu_press.studies.sensitivity import Sensitivity
     from exu_press.studies.sweep import Sweep
+    from exu_press.studies.wear import WearStudy
 
     own = {
         "sensitivity": Sensitivity,
         "measured": Fit,
         "curve": Fit,
         "objective": Optimise,
+        "wear": WearStudy,
     }
     return next((kind for name, kind in own.items() if name in tables), Sweep)
 

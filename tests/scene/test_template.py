@@ -21,7 +21,9 @@ def test_every_key_is_there_with_its_meaning_and_every_joint_is_named():
     for name, kind in {"": Scene, **TABLES}.items():
         for field in dataclasses.fields(kind):
             if "meaning" in field.metadata and name != "slider_crank":
-                line = next(x for x in text.splitlines() if x.lstrip("# ").startswith(field.name))
+                line = next(
+                    x for x in text.splitlines() if x.lstrip("# ").startswith(f"{field.name} ")
+                )
                 assert "  # " in line, field.name
     for joint in Scene().joints:
         assert joint in text

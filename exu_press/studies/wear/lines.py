@@ -14,7 +14,7 @@ MOST = 12
 def report_lines(report: Report) -> list[str]:
     """Return strokes, clearances and quantities point by point, and how it ended."""
     study, points = report.study, report.points
-    heads, bodies = ["strokes"], [[f"{point.strokes:.4g}" for point in points]]
+    heads, bodies = ["strokes"], [[significant(point.strokes, 4) for point in points]]
     for joint in study.joints:
         heads.append(f"{joint.replace('_', ' ')} clearance, um")
         bodies.append([f"{1e6 * value:.5g}" for value in report.clearances(joint)])
@@ -37,14 +37,14 @@ def report_lines(report: Report) -> list[str]:
     last = points[-1]
     lines = columns([heads, *shown], right=True)
     lines.append(
-        f"{last.strokes:.4g} strokes in {len(points) - 1} jumps; a jump and its halves differ by "
-        f"{1e6 * last.error:.2g} um in all"
+        f"{significant(last.strokes, 4)} strokes in {len(points) - 1} jumps; a jump and its "
+        f"halves differ by {1e6 * last.error:.2g} um in all"
     )
     lines += [
         f"worn off the ways of {body}: {1e6 * depth:.3g} um" for body, depth in last.ways.items()
     ]
     return (
-        [*lines, f"ended before {study.own.strokes:.4g} strokes: {report.reason}"]
+        [*lines, f"ended before {significant(study.own.strokes, 4)} strokes: {report.reason}"]
         if report.reason
         else lines
     )

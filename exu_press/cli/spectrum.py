@@ -44,7 +44,7 @@ def execute(options: argparse.Namespace) -> int:
     if kind is not Kind.RUN:
         raise InputError(f"{options.path}: allowed is a run.nc, or the directory that run wrote to")
     run = Result.load(file)
-    found = spectra(run, options.channels or [DEFAULT], window=options.window)
+    found = spectra(run, [*dict.fromkeys(options.channels)] or [DEFAULT], window=options.window)
     marks = marks_of(run)
     written: list[Path] = []
     directory = output_directory(options.out or file.parent)

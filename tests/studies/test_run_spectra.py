@@ -68,9 +68,11 @@ def test_a_journal_on_a_linear_contact_has_its_frequency():
 
 def test_the_command(run, tmp_path, capsys):
     run.save(tmp_path / "run.nc")
-    assert main(["spectrum", str(tmp_path), "slider_velocity", "crank_pin_force.x"]) == 0
+    twice = ["slider_velocity", "crank_pin_force.x", "slider_velocity"]
+    assert main(["spectrum", str(tmp_path), *twice]) == 0
     told = capsys.readouterr().out
     assert "window flattop" in told
+    assert told.count("spectrum_slider_velocity.png") == 1
     assert "natural frequency: crank pin on its contact" in told
     assert (tmp_path / "spectrum_crank_pin_force_x.png").stat().st_size > 10_000
     assert main(["spectrum", str(tmp_path), "--window", "round"]) == 2

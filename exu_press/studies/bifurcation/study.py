@@ -14,6 +14,9 @@ __all__ = ["FROM_THE_START", "Bifurcation", "LongRun"]
 
 FROM_THE_START = "from the start"
 
+ITS_OWN = "revolutions", "settle"
+"""Keys of a scene in whose place a study has its own."""
+
 WAYS = ("up and down", "up", "down", FROM_THE_START)
 
 
@@ -57,6 +60,11 @@ class Bifurcation(Study):
                 "one key, or two for a map"
             )
         for name in self.keys:
+            if name in ITS_OWN:
+                raise InputError(
+                    f"keys.{name}: bifurcation.skip and bifurcation.revolutions say how long runs "
+                    "are; allowed is another key"
+                )
             if not all(a < b for a, b in pairwise(self._numbers(name))):
                 raise InputError(f"keys.{name}: allowed are numbers that increase")
         if self.own.revolutions < 3 * self.own.longest:

@@ -103,6 +103,7 @@ def test_the_command(tmp_path, capsys):
     [
         ({**SPEEDS, "film.viscosity": [0.2, 0.1]}, {}, "keys.film.viscosity: allowed are numbers"),
         ({"speed_rpm": {"low": 1.0, "high": 2.0}}, {}, r"allowed is \[number, ...\]"),
+        ({"revolutions": [1.0, 2.0]}, {}, "keys.revolutions: bifurcation.skip and bifurcation"),
         ({"speed_rpm": [240.0, 230.0]}, {}, "keys.speed_rpm: allowed are numbers that increase"),
         (SPEEDS, {"revolutions": 20, "longest": 8}, "allowed are at least 24, for periods up to 8"),
         (SPEEDS, {"way": "sideways"}, "way = 'sideways': allowed is one of 'up and down'"),

@@ -5,6 +5,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from exu_press.plots.headed import headed_figure
+from exu_press.plots.scales import log_axis
 from exu_press.plots.style import COLOURS, GREY, colour_of, styled
 from exu_press.plots.sweep_words import in_unit, words
 from exu_press.plots.typesetting import plain
@@ -56,9 +57,12 @@ def bifurcation_figure(report: Report) -> Figure:
     exponent.set_ylabel("exponent per\nrevolution")
     points.set_ylabel("eccentricity x / clearance, first joint")
     points.legend(handles=handles, loc="best")
-    points.margins(x=0.03, y=0.1)
+    points.margins(y=0.1)
     label = words(study.name)
     exponent.set_xlabel(plain(f"{label}, {unit}" if unit else label))
     if len(values) > 2 and values[0] > 0.0 and values[-1] > 10.0 * values[0]:
-        exponent.set_xscale("log")
+        log_axis(exponent, "x", shown)
+    else:
+        beside = 0.03 * float(np.ptp(shown)) or 0.05 * abs(float(shown[0])) or 1.0
+        exponent.set_xlim(shown[0] - beside, shown[-1] + beside)
     return figure

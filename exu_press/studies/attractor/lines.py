@@ -30,8 +30,12 @@ def attractor_lines(found: Attractor) -> list[str]:
         told = f"{value:.3g} 1/s, 95 % in [{low:.3g}, {high:.3g}]"
         told += f"; per revolution {exponent.value:.3g} [{exponent.low:.3g}, {exponent.high:.3g}]"
     else:
-        told = f"below {high:.3g} 1/s ({exponent.high:.3g} per revolution): neighbours come"
-        told += " together within the error of a revolution"
+        told = f"below {high:.3g} 1/s ({exponent.high:.3g} per revolution): "
+        told += (
+            "neighbours come together within the error of a revolution"
+            if high < 0.0
+            else "what neighbours part by is not more than the error of a revolution"
+        )
     lines += [f"largest Lyapunov exponent: {told}", f"  motion: {exponent.sign}"]
     return [*lines, *columns(_figures(found))]
 

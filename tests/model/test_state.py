@@ -76,6 +76,19 @@ def test_fixed_steps_go_on_nearly_to_the_last_digit():
     assert difference(whole, second, "slider_position") < 1e-10
 
 
+@pytest.mark.long
+def test_after_ten_revolutions_two_pieces_are_the_longer_run_to_the_last_digit():
+    """A longer run goes on from such a state itself, in each tenth revolution."""
+    scene = DRY.replace("revolutions", 10.0)
+    state = json.loads(json.dumps(simulate(scene).info["state"]))
+    second = simulate(scene, start=state)
+    whole = simulate(scene.replace("revolutions", 20.0))
+    last = len(second.time) - 1  # the first instant is the last one of the first piece
+    for name in ("slider_position", "slider_velocity", "crank_pin_force"):
+        assert np.array_equal(whole[name][-last:], second[name][1:])
+    assert np.array_equal(whole.time[-last:], second.time[1:])
+
+
 def test_keys_may_change_and_errors_are_found():
     state = simulate(FILM).info["state"]
     run = simulate(FILM.replace("film.viscosity", 0.2), errors=True, start=state)

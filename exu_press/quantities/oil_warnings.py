@@ -44,7 +44,7 @@ def _settling(result: Result, name: str) -> Iterator[str]:
     elif balance is not None and abs(balance) > UNBALANCED:
         yield (
             f"{shown}: {balance:+.0%} of the film's heat is not carried off in the revolutions "
-            "that are read, as it still warms in the first of them: try a larger settle"
+            "that are read, as it still warms in the first of them: try more, and a larger settle"
         )
 
 

@@ -7,6 +7,7 @@ import pytest
 
 from exu_press import InputError, Result, Scene, simulate
 from exu_press.laws.film.oil import roelands, walther
+from exu_press.laws.film.side_flow import finite_flow
 from exu_press.scene import mechanism_of
 from exu_press.studies.attractor.orbit import Orbit
 
@@ -70,6 +71,26 @@ def test_a_run_with_the_viscosity_found_dissipates_the_same(result):
     assert constant.scene.film.oil is None
     for name in ("mean_power", "max_eccentricity_ratio", "peak_force"):
         assert of_pin(constant, name) == pytest.approx(of_pin(result, name), rel=2e-3)
+
+
+def test_side_flow_is_that_of_the_recorded_motion(result):
+    """From differences of eccentricities and of the bodies' angles; the flow does not jump."""
+    time, e = result.time, result.joints["crank_pin"].eccentricity
+    pin = result.scene.joints["crank_pin"]
+    drawn = next(j for j in mechanism_of(result.scene).joints if j.name == "crank_pin")
+    turning = sum(
+        np.gradient(result["body_position"][:, result.bodies.index(body), 2], time)
+        for body in (drawn.journal, drawn.bearing)
+    )
+    eps = np.linalg.norm(e, axis=1) / pin.clearance
+    eps_dot = np.gradient(eps, time)
+    gamma_dot = np.gradient(np.unwrap(np.arctan2(e[:, 1], e[:, 0])), time)
+    size = pin.film.length * pin.radius * pin.clearance
+    flow = finite_flow(pin.film.length / (2.0 * pin.radius))
+    by_hand = size * flow(eps, eps_dot, eps * (turning - 2.0 * gamma_dot))
+    inside = time > 0.5 * time[-1]
+    found = result["crank_pin_side_flow"]
+    assert np.abs(by_hand - found)[inside].mean() < 0.01 * found[inside].mean()
 
 
 def test_supply_temperature_warms_thins_and_saves(result):

@@ -7,6 +7,7 @@ from exu_press.scene.assumptions import assumed
 from exu_press.scene.oil import Oil
 from exu_press.scene.template import template
 from exu_press.scene.warnings import scene_warnings
+from exu_press.studies.sweep.units import unit_of
 
 OIL = {"viscosity_cst": [68.0, 8.7], "density": 870.0, "supply_celsius": 40.0, "conductance": 5.0}
 
@@ -103,6 +104,11 @@ def test_what_is_refused(film, words):
     with pytest.raises(InputError, match=words) as told:
         scene_of(film=film)
     assert "\n" not in str(told.value)
+
+
+def test_its_keys_have_units_in_studies():
+    assert unit_of("film.oil.supply_celsius") == "deg C"
+    assert unit_of("joints.crank_pin.film.oil.density") == "kg/m^3"
 
 
 def test_without_a_film_it_is_not_used():

@@ -13,7 +13,7 @@ from exu_press.laws.film import FILM_LAWS, film_scale
 from exu_press.laws.film.oil import HOTTEST, film_temperature
 from exu_press.laws.film.side_flow import SideFlow
 from exu_press.scene import LubricatedJoint
-from exu_press.scene.joint import Joint
+from exu_press.scene.joint import Joint, unworn
 
 __all__ = ["Heat", "WarmFilm", "warm_films"]
 
@@ -153,7 +153,9 @@ def warm_films(
         if isinstance(kind, LubricatedJoint) and kind.film.oil is not None:
             assert isinstance(joint, InterfaceJoint)
             (film,) = (one for one in joint.interfaces if isinstance(one, FilmInterface))
-            found[name] = WarmFilm(kind, film, kind.film.oil.supply_celsius)
+            round_one = unworn(kind)
+            assert isinstance(round_one, LubricatedJoint)
+            found[name] = WarmFilm(round_one, film, kind.film.oil.supply_celsius)
     return found
 
 

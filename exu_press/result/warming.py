@@ -3,6 +3,9 @@
 import math
 import warnings
 from dataclasses import replace
+from typing import Any
+
+import exudyn as exu
 
 from exu_press.integrate import SolverStatus
 from exu_press.laws.film.oil import HOTTEST
@@ -23,15 +26,21 @@ def to_next_revolution(model: Model, left: float) -> tuple[Model, float]:
     """Return a model that goes on for one revolution, and its revolutions at the scene's speed.
 
     Args:
-        model: at the start of a revolution.
+        model: at its start, which may be within a revolution, or at the end of the last one.
         left: revolutions of the run that are left, at the scene's speed.
     """
     solver = model.scene.solver
     assert solver is not None
     if model.scene.drive is None or solver.tolerance is None:
         return model, min(left, 1.0)
-    begun = model.scene.start_angle if model.until is None else model.until
-    return replace(model, until=begun + TURN), left  # a motor gets there when it does
+    if model.until is not None:
+        return replace(model, until=model.until + TURN), left
+    data: Any = model.mbs.systemData
+    begin = data.GetSystemState(configuration=exu.ConfigurationType.Initial)
+    data.SetSystemState(systemStateList=begin, configuration=exu.ConfigurationType.Current)
+    start = model.scene.start_angle
+    done = math.floor((model.crank_angle()[0] - start) / TURN + WHOLE)
+    return replace(model, until=start + TURN * (done + 1)), left  # a motor gets there when it does
 
 
 def warmed(model: Model, block: Result) -> Result:

@@ -192,6 +192,27 @@ def test_with_a_motor_films_warm_by_revolutions_of_the_crank():
     assert abs(of_pin(run, "film.change")) < 0.05
 
 
+def test_a_motor_goes_on_by_the_same_revolutions_of_the_crank():
+    drive = {"rated_torque": 300.0, "inertia": 20.0}
+    run = simulate(scene_of(drive=drive, revolutions=1.3))
+    further = simulate(run.scene.replace("revolutions", 2.0), start=run.info["state"])
+    (changed,) = np.flatnonzero(np.diff(further["crank_pin_temperature"]))
+    turns = (further["crank_angle"][changed] - run.scene.start_angle) / (2.0 * math.pi)
+    assert turns == pytest.approx(3.0, abs=1e-5)  # of part of a revolution nothing is known
+
+
+def test_a_worn_bearing_has_the_viscosity_of_its_own_gap():
+    worn = {"bearing_depth": [2e-5] * 72}
+    pin = {"kind": "lubricated", "worn": worn}
+    run = simulate(scene_of(joints={"crank_pin": pin}))
+    usual = run.scene.joints["crank_pin"].clearance
+    wide = scene_of(joints={"crank_pin": {"kind": "lubricated", "clearance": usual + 2e-5}})
+    assert of_pin(run, "film.temperature") == pytest.approx(
+        of_pin(simulate(wide), "film.temperature"), abs=0.02
+    )
+    assert abs(of_pin(run, "film.residual")) < 0.01
+
+
 def test_a_part_of_a_revolution_changes_nothing():
     run = simulate(scene_of(revolutions=0.3))
     assert (run["crank_pin_temperature"] == 40.0).all()

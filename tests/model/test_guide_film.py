@@ -16,7 +16,7 @@ OILED = {**DRY, "viscosity": 0.1, "face_width": 0.08, "contact_gap": 2e-6}
 @pytest.mark.parametrize("start", ["loaded", "centred"])
 def test_the_balance_closes(start):
     joints = {"crank_pin": "lubricated", "wrist_pin": "dry"}
-    scene = {"mechanism": "slider_crank", "joints": joints, "revolutions": 0.3, "start": start}
+    scene = {"mechanism": "slider_crank", "joints": joints, "revolutions": 0.1, "start": start}
     result = simulate(Scene(guide=OILED, **scene))
     assert result.completed, result.info["reason"]
     assert result.quantity("energy.residual").value < 1e-3

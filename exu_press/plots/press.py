@@ -119,9 +119,14 @@ def _drive(axes: Axes, result: Result) -> None:
 
 
 def _speed(axes: Axes, result: Result) -> None:
-    """Draw the crank's speed."""
-    curve(axes, result, result["crank_speed"] * 30.0 / np.pi, color=colour_of(0), linewidth=1.1)
-    axes.set(title="Crank speed", ylabel="rpm")
+    """Draw the crank's speed, and the flywheel's where a clutch is between."""
+    drawn = [name for name in ("crank_speed", "flywheel_speed") if name in result]
+    for index, name in enumerate(drawn):
+        speed, label = result[name] * 30.0 / np.pi, name.removesuffix("_speed")
+        curve(axes, result, speed, color=colour_of(index), linewidth=1.1, label=label)
+    axes.set(title="Speed" if len(drawn) > 1 else "Crank speed", ylabel="rpm")
+    if len(drawn) > 1:
+        legend_above(axes, columns=len(drawn))
 
 
 def _loads(axes: Axes, result: Result, names: list[str]) -> None:

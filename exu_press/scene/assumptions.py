@@ -86,7 +86,7 @@ ASSUMPTIONS = (
 OF_EVERY_SCENE = (9, 13, 14)
 """Assumptions that other mechanisms than the paper's press rest on, too."""
 
-OF_A_MOTOR = ("inertia", "rated_torque", "table_speed_rpm", "table_torque")
+OF_A_MOTOR = ("inertia", "rated_torque", "table_speed_rpm", "table_torque", "clutch_torque")
 """Keys of which a motor needs some."""
 
 FIRST_OF_A_RUN = 10

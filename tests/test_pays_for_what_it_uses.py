@@ -71,6 +71,7 @@ def test_a_rigid_run_imports_neither_ngsolve_nor_matplotlib(tmp_path):
     assert {name for name in modules if name.startswith("fe_models.")} == {"fe_models.errors"}
     shown = tuple(f"exu_press.{name}" for name in FOR_READERS)  # rows of a sweep do not know them
     assert not [name for name in modules if name.startswith(shown)]
+    assert "exu_press.joints.worn" not in modules
 
 
 COMMAND = """

@@ -200,13 +200,18 @@ def _heights(scene: Scene) -> Iterator[str]:
 
 
 def _wear(scene: Scene) -> Iterator[str]:
-    """Yield a coefficient of wear that no pair of metals has."""
-    wear = scene.wear
-    if wear is not None and wear.coefficient > MOST_WEAR:
-        yield (
-            f"wear.coefficient = {wear.coefficient:g} is above {MOST_WEAR:g}. Steel on steel has "
-            "7e-3 dry and 1e-6 to 1e-4 greased: is it a coefficient over the hardness, 1/Pa?"
-        )
+    """Yield coefficients of wear that no pair of metals has."""
+    if scene.wear is None:
+        return
+    given = {"wear": scene.wear.coefficient}
+    for kind, tables in (("joints", scene.wear.joints), ("guides", scene.wear.guides)):
+        given |= {f"wear.{kind}.{n}": t.get("coefficient") for n, t in (tables or {}).items()}
+    for place, coefficient in given.items():
+        if coefficient is not None and coefficient > MOST_WEAR:
+            yield (
+                f"{place}.coefficient = {coefficient:g} is above {MOST_WEAR:g}. Steel on steel has "
+                "7e-3 dry and 1e-6 to 1e-4 greased: is it a coefficient over the hardness, 1/Pa?"
+            )
 
 
 def _brake(scene: Scene) -> Iterator[str]:

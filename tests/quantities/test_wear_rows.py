@@ -83,6 +83,8 @@ def test_a_coefficient_of_a_thousand_times_steel_is_warned_of(result):
     assert not [words for words in scene_warnings(result.scene) if "wear" in words]
     doubtful = scene_warnings(result.scene.replace("wear.coefficient", 0.5))
     assert any("wear.coefficient" in words for words in doubtful)
+    there = scene_warnings(result.scene.replace("wear.joints.crank_pin.coefficient", 0.5))
+    assert any("wear.joints.crank_pin.coefficient" in words for words in there)
 
 
 DRAWN = {

@@ -48,6 +48,22 @@ def test_the_gap_of_worn_surfaces_is_recorded_and_the_energy_closes():
     assert force[0] == pytest.approx(force[1], rel=0.1)
 
 
+@pytest.mark.parametrize("at_contact", ["stop", "mixed"])
+def test_a_film_between_worn_surfaces_closes_its_energy_and_is_thinner(at_contact):
+    """The journal's own dent turns through the bearing's; the load stays that of the motion."""
+    film = {"law": "finite", "viscosity": 0.05, "length": 0.1, "at_contact": at_contact}
+    joint = {"kind": "lubricated", "clearance": 1e-4, "radius": 0.07}
+    round_one = Scene(
+        mechanism="slider_crank", joints={"crank_pin": joint}, film=film, revolutions=0.3
+    )
+    worn = {"bearing_depth": DENT, "journal_depth": DENT[::-1]}
+    runs = [simulate(one) for one in (round_one, round_one.replace("joints.crank_pin.worn", worn))]
+    forces = [run.quantity("joints.crank_pin.peak_force").value for run in runs]
+    assert forces[1] == pytest.approx(forces[0], rel=1e-2)
+    assert abs(runs[1].quantity("energy.residual").value) < 1e-4
+    assert 0.0 < runs[1].joints["crank_pin"].gap.min() < runs[0].joints["crank_pin"].gap.min()
+
+
 @pytest.mark.parametrize(
     ("worn", "words"),
     [

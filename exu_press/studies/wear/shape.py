@@ -16,6 +16,9 @@ __all__ = ["ANGLES", "Depths", "begun", "worn_scene"]
 ANGLES = 2.0 * np.pi * (np.arange(SECTORS) + 0.5) / SECTORS
 """Middles of the sectors, rad."""
 
+LEAST = 1e-15
+"""m: what is worn less is rounding of the smoothing, and none."""
+
 
 @dataclass(frozen=True)
 class Depths:
@@ -71,8 +74,8 @@ def worn_scene(scene: Scene, worn: Mapping[str, Depths]) -> Scene:
         shape = depths.reached(_rubbing(scene, name).clearance)
         changes[f"joints.{name}.worn"] = {
             "angle_deg": np.degrees(ANGLES).round(9).tolist(),
-            "bearing_depth": shape.bearing.tolist(),
-            "journal_depth": shape.journal.tolist(),
+            "bearing_depth": np.where(shape.bearing < LEAST, 0.0, shape.bearing).tolist(),
+            "journal_depth": np.where(shape.journal < LEAST, 0.0, shape.journal).tolist(),
         }
     return scene.replace(changes) if changes else scene
 

@@ -19,6 +19,7 @@ from exu_press.scene.joint import LAW_TABLES
 from exu_press.scene.load import LOAD_KINDS
 from exu_press.scene.oil import Oil
 from exu_press.scene.usage import TABLES
+from exu_press.scene.worn import Worn
 
 
 def setup(app: Any) -> dict[str, Any]:
@@ -38,7 +39,7 @@ class SceneKeys(Directive):
     def run(self) -> list[nodes.Node]:
         """Return a section a table."""
         found: list[nodes.Node] = []
-        named = {"joints.NAME": DryJoint, "bodies.NAME": Flexible}
+        named = {"joints.NAME": DryJoint, "joints.NAME.worn": Worn, "bodies.NAME": Flexible}
         named |= {f"load.NAME, {kind}": load for kind, load in LOAD_KINDS.items()}
         for name, kind in {"at the top": Scene, **named, **TABLES, "film.oil": Oil}.items():
             shown = name if kind is Scene else f"[{name}]"

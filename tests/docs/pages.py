@@ -132,6 +132,7 @@ def read(block: Block, place: Path) -> None:
 
 def kind_of(tables: dict[str, object]) -> type:
     """Return the kind of a study, which its own tables tell."""
+    from exu_press.studies.bifurcation import Bifurcation
     from exu_press.studies.fit import Fit
     from exu_press.studies.optimise import Optimise
     from exu_press.studies.sensitivity import Sensitivity
@@ -139,6 +140,7 @@ def kind_of(tables: dict[str, object]) -> type:
     from exu_press.studies.wear import WearStudy
 
     own = {
+        "bifurcation": Bifurcation,
         "sensitivity": Sensitivity,
         "measured": Fit,
         "curve": Fit,

@@ -12,7 +12,7 @@ import pytest
 
 from exu_press import Scene
 from exu_press.studies.bifurcation import Bifurcation, bifurcation
-from exu_press.studies.bifurcation import study as module
+from exu_press.studies.bifurcation import run as module
 
 FILM = Scene(
     mechanism="slider_crank",

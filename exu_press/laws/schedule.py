@@ -9,7 +9,7 @@ __all__ = ["Ramp", "Schedule"]
 NEAR = 2e-5
 """rad of the crank: corners and commands that are as near as that are reached."""
 
-LONG_AGO = -1e300
+LONG_AGO = -1e30
 """s, or rad: when what acts at the start was commanded."""
 
 

@@ -12,7 +12,7 @@ SHAPE = (0.0, 0.15, 0.5, 1.0), (0.0, 0.8, 1.0, 0.95)
 """Penetration over that at fracture, and force over the largest one, of the usual curve: elastic
 and plastic indentation, a flat top where hardening balances the smaller section, a slight fall."""
 
-LONG_AGO = -1e300
+LONG_AGO = -1e30
 """s."""
 
 Phase = Literal["whole", "cracking", "cut"]

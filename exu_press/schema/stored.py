@@ -29,8 +29,8 @@ def from_json(kind: type[T], text: str | bytes, where: str) -> T:
     """Return what a JSON text holds; a whole number does for a number.
 
     Args:
-        kind: str, bool, int, float, dict[str, ...], tuple[..., ...], a typed dictionary; one of
-            them or None; Any for whatever is made of texts, numbers, lists and dictionaries.
+        kind: str, bool, int, float, dict[str, ...], list[...], tuple[...], a typed dictionary;
+            one of them or None; Any for whatever is made of texts, numbers, lists and dictionaries.
         text: JSON.
         where: the text stands, for messages.
 
@@ -68,8 +68,12 @@ def _checked(kind: Any, value: Any, where: str) -> Any:
         inner = get_args(kind)[1] if get_args(kind) else Any
         return {name: _checked(inner, value[name], _inside(where, name)) for name in value}
     if isinstance(value, list):
-        inner = get_args(kind)[0] if get_args(kind) else Any
-        values = [_checked(inner, each, where) for each in value]
+        inner = get_args(kind) or (Any, ...)
+        if plain is list or inner[-1] is ...:
+            inner = inner[:1] * len(value)
+        if len(inner) != len(value):
+            raise InputError(f"{where} = {shown(value)}: allowed are {len(inner)} values")
+        values = [_checked(each, one, where) for each, one in zip(inner, value, strict=True)]
         return tuple(values) if plain is tuple else values
     return value
 

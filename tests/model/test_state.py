@@ -60,6 +60,27 @@ def test_two_pieces_are_one_run(scene):
     assert difference(whole, second, "slider_velocity") < 1e-4
 
 
+CUT = {"height": 0.05, "thickness": 0.04, "shear_strength": 1e8, "cut_length": 1e-3}
+CUT |= {"kind": "sheet", "penetration": 0.4, "crack_time": 2e-4}
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {},
+        {"start_angle_deg": 90.0, "revolutions": 0.01, "load": {"part": CUT}},
+        {"revolutions": 0.01, "load": {"part": CUT | {"height": 0.02, "thickness": 0.01}}},
+    ],
+    ids=["pulse", "in a sheet", "before a sheet"],
+)
+def test_a_file_of_a_run_has_what_its_loads_remember(changes, tmp_path):
+    run = simulate(SCENES["pulse by a motor"].replace(changes))
+    run.save(tmp_path / "run.nc")
+    again = Result.load(tmp_path / "run.nc").info["state"]
+    assert [*map(tuple, again["clocks"])] == [*map(tuple, run.info["state"]["clocks"])]
+    assert len(again["clocks"]) == 1
+
+
 @pytest.mark.parametrize("name", ["restitution", "bristle", "balls", "guideways"])
 def test_joints_remember_all_that_they_are_told(name):
     state = simulate(SCENES[name]).info["state"]

@@ -130,6 +130,7 @@ def joint_lines(joints: Joints, laws: Laws, comments: bool) -> list[str]:
     for name, joint in joints.grouped.items():
         meanings = {f.name: _meaning(f.metadata) for f in dataclasses.fields(joint) if f.metadata}
         meanings["kind"] = "ideal | dry | lubricated; a joint that is not named is ideal"
+        meanings["worn"] = "depths worn off the surfaces, m, by angle from the body's x axis"
         keys = {
             f"{key} = {toml_text(value)}": meanings.get(key, f"where it differs from [{key}]")
             for key, value in joint_dict(joint, laws).items()

@@ -137,7 +137,7 @@ def wear(
     points: list[Point] = []
     ended: list[str] = []
     with Runs(
-        study, directory, written=[FILE, SCENE], label="wear", function=run_worn,
+        study, directory, written=[FILE, SCENE], label="wear, at most", function=run_worn,
         workers=workers or (None if dask else 1), dask=dask, quiet=quiet,
     ) as runs:  # fmt: skip
         runs.follow([_course(study, points, ended)], 2 * study.own.most_jumps + 1)

@@ -18,9 +18,10 @@ from exu_press import (
     add_dry_revolute,
     add_dry_spherical,
     add_lubricated_revolute,
+    add_lubricated_spherical,
     solve_dynamic,
 )
-from exu_press.laws.film import with_asperities
+from exu_press.laws.film import ball, with_asperities
 from exu_press.laws.friction import no_friction
 from exu_press.scene import Scene
 from exu_press.scene.laws import contact_law, film_law
@@ -35,6 +36,8 @@ FILM = {
     "viscosity": 0.1,
     "law": film_law(SCENE.film, 0.02, 1e-4),
 }
+OILED_BALL = {"radius": 0.02, "clearance": 1e-4, "viscosity": 0.1, "film": ball()}
+IN_SPACE = add_dry_spherical, add_lubricated_spherical
 
 
 def system():
@@ -56,6 +59,12 @@ def system():
         (add_dry_spherical, {**DRY, "contact": "step"}, "contact = 'step': allowed is a law"),
         (add_lubricated_revolute, {**FILM, "law": "finite"}, "law = 'finite': allowed is a law"),
         (add_lubricated_revolute, {**FILM, "clearance": 0.05}, "clearance = 0.05: allowed is"),
+        (
+            add_lubricated_spherical,
+            {**OILED_BALL, "film": "ball"},
+            "film = 'ball': allowed is a law",
+        ),
+        (add_lubricated_spherical, {**OILED_BALL, "viscosity": 0.0}, "viscosity = 0"),
     ],
 )
 def test_what_is_refused(add, arguments, message):
@@ -67,7 +76,12 @@ def test_what_is_refused(add, arguments, message):
 
 @pytest.mark.parametrize(
     ("add", "arguments"),
-    [(add_dry_revolute, DRY), (add_dry_spherical, DRY), (add_lubricated_revolute, FILM)],
+    [
+        (add_dry_revolute, DRY),
+        (add_dry_spherical, DRY),
+        (add_lubricated_revolute, FILM),
+        (add_lubricated_spherical, OILED_BALL),
+    ],
 )
 def test_an_assembled_system_takes_no_joint(add, arguments):
     _, mbs, journal, bearing = system()
@@ -79,7 +93,7 @@ def test_an_assembled_system_takes_no_joint(add, arguments):
 def start(add, arguments, out):
     """A body that starts out of its bearing's middle (m), ready to be solved."""
     container, mbs, journal, bearing = system()
-    if add is add_dry_spherical:
+    if add in IN_SPACE:
         node = mbs.AddNode(NodeRigidBodyRxyz())
         inertia = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0]
         body = mbs.AddObject(ObjectRigidBody(nodeNumber=node, mass=1.0, inertia=inertia))
@@ -88,7 +102,7 @@ def start(add, arguments, out):
     mbs.Assemble()
     data = mbs.systemData
     before = data.GetODE2Coordinates(exu.ConfigurationType.Initial)
-    x, y = (-6, -5) if add is add_dry_spherical else (-3, -2)  # of the last node
+    x, y = (-6, -5) if add in IN_SPACE else (-3, -2)  # of the last node
     before[x] += 0.6 * out
     before[y] += 0.8 * out
     data.SetODE2Coordinates(before, exu.ConfigurationType.Initial)
@@ -111,6 +125,7 @@ TOO_FAR = [
     (add_lubricated_revolute, MIXED, 3.1e-4, "0.0003 m, a penetration of 1% of the radius"),
     (add_dry_revolute, DRY, 3.1e-4, "0.0003 m, a penetration of 1% of the radius"),
     (add_dry_spherical, DRY, 3.1e-4, "0.0003 m, a penetration of 1% of the radius"),
+    (add_lubricated_spherical, OILED_BALL, 1e-4, "less, since a film ends where the surfaces"),
 ]
 
 

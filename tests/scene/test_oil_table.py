@@ -114,3 +114,15 @@ def test_its_keys_have_units_in_studies():
 def test_without_a_film_it_is_not_used():
     with pytest.raises(InputError, match="no joint is 'lubricated'"):
         scene_of(joints={})
+
+
+def test_the_film_of_a_ball_does_not_warm():
+    joints = {"crank_pin": "lubricated", "balls": "lubricated"}
+    message = r"film.oil: the film of a ball does not warm; allowed is film.viscosity of its own"
+    with pytest.raises(InputError, match=message + r" \(joints.balls\)"):
+        scene_of(mechanism="press", joints=joints)
+    own = {"kind": "lubricated", "film": {"viscosity": 0.2}}
+    scene = scene_of(mechanism="press", joints=joints | {"balls": own})
+    assert scene.joints["ball_left"].film.cold_viscosity == 0.2
+    assert scene.joints["crank_pin"].film.oil == Oil(**OIL)
+    assert scene_warnings(scene) == []

@@ -62,7 +62,7 @@ class JointPanel:
         axes.set_aspect("equal", adjustable="box")
         axes.set_axis_off()
         axes.set(xlim=(-1.25, 2.15), ylim=(-1.6, 1.5))
-        axes.set_title(f"{title}, {joint.kind}, clearance {radial * 1e6:.4g} µm", fontsize=9.5)
+        axes.set_title(f"{title}, {joint.kind}, clearance {radial * 1e6:.4g} µm", fontsize=8.6)
         axes.add_patch(Circle((0, 0), RIM, facecolor=STEEL, edgecolor=EDGE, linewidth=0.8))
         inside = OIL if joint.kind == "lubricated" else "white"
         axes.add_patch(Circle((0, 0), BORE, facecolor=inside, edgecolor=EDGE, linewidth=0.8))

@@ -78,10 +78,11 @@ def ball(cap_angle: float = WIDEST_CAP, onset_ratio: float | None = None) -> Bal
 
     with f_r = -4 pi eps_dot at eps = 0 and beta = pi/2, and f_r -> -6 pi eps_dot / (1 - eps).
 
-    Accuracy: squeeze within 0.2 % of the closed form. Between the knots within 1 % of
-    `reynolds_sphere.facing_load` where the film closes or slides; up to some percent of a force
-    that is small where the ball leaves the wall beyond eps = 0.95: there the load has no single
-    direction. Curvature is left out, of order c / R.
+    Accuracy: squeeze within 0.5 % of the closed form. Between the knots the law is within 0.2 % of
+    `reynolds_sphere.facing_load` for most states, and within 3 % where the film closes or slides
+    (scripts/tabulate_ball_film.py --check). Where a ball leaves the wall almost straight, its weak
+    force changes its direction within a few degrees of the motion, and the table smooths it.
+    Curvature is left out, of order c / R.
 
     Examples
     --------

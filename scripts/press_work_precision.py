@@ -5,7 +5,7 @@ revolutions, against the independent model of tests/independent/symmetric_press.
 code with the package: three coordinates, SciPy's LSODA at 1e-11. Radau integrates that model too,
 in plain Python; so its evaluations are to be compared, and not its time.
 
-Run with: python scripts/press_work_precision.py [--quick] [--out FILE.png]
+Run with: python scripts/press_work_precision.py [--quick] [--pin dry] [--out FILE.png]
 """
 
 import argparse
@@ -28,6 +28,7 @@ from independent.symmetric_press import SymmetricPress
 
 parser = argparse.ArgumentParser(description=__doc__)
 parser.add_argument("--quick", action="store_true", help="a tenth of a revolution, few settings")
+parser.add_argument("--pin", choices=["dry", "lubricated"], help="one press alone")
 parser.add_argument("--out", type=Path, help="a picture of it")
 OPTIONS = parser.parse_args()
 REVOLUTIONS = 0.1 if OPTIONS.quick else 2.0
@@ -136,12 +137,15 @@ def picture(found: dict[str, list[Row]]) -> Figure:
     """Return error over processor time, a panel a press."""
     figure = Figure(figsize=(11.0, 4.2), layout="constrained")
     for axes, (pin, lines) in zip(
-        figure.subplots(1, len(found), sharey=True), found.items(), strict=True
+        figure.subplots(1, len(found), sharex=True, sharey=True, squeeze=False)[0],
+        found.items(),
+        strict=True,
     ):
         for solver, (label, colour, style) in LOOK.items():
             points = [(row[-1], max(row[2])) for row in lines if row[0] == solver]
             axes.plot(*zip(*points, strict=True), style, color=colour, label=label)
         axes.set(xscale="log", yscale="log", xlabel="processor time, s")
+        axes.margins(0.06, 0.08)
         axes.set_title(f"Press with a {pin} crank pin, two revolutions")
     figure.axes[0].set_ylabel("error of the peak acceleration, relative")
     figure.axes[0].legend(loc="lower left")
@@ -149,7 +153,7 @@ def picture(found: dict[str, list[Row]]) -> Figure:
 
 
 done = {}
-for case in CASES:
+for case in [OPTIONS.pin] if OPTIONS.pin else CASES:
     done[case] = rows(case)
     print(table(done[case]), flush=True)
 if OPTIONS.out:

@@ -27,6 +27,7 @@ LEFT_OUT = (
     "page_",
     "paper",
     "precision",
+    "press_work_",
     "stability",
 )
 """Beginnings of scripts that take minutes, need files beside them, or overwrite what the package

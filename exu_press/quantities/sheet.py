@@ -59,7 +59,7 @@ def _above_ideal(run: Reading) -> tuple[Array, Array, Array]:
     """
     speed = run["crank_speed"]
     place, velocity, acceleration = run.mechanism.ideal_slider(run["crank_angle"], 1.0)
-    slower = 0.0
+    slower: Array = np.zeros_like(speed)
     if run.result.scene.drive is not None:
         slower = np.gradient(speed, run.time) * velocity
     return (

@@ -203,7 +203,7 @@ def _wear(scene: Scene) -> Iterator[str]:
     """Yield coefficients of wear that no pair of metals has."""
     if scene.wear is None:
         return
-    given = {"wear": scene.wear.coefficient}
+    given: dict[str, float | None] = {"wear": scene.wear.coefficient}
     for kind, tables in (("joints", scene.wear.joints), ("guides", scene.wear.guides)):
         given |= {f"wear.{kind}.{n}": t.get("coefficient") for n, t in (tables or {}).items()}
     for place, coefficient in given.items():

@@ -112,20 +112,26 @@ class GuidewayFilm:
     def jacobian(self, by_q: float, by_q_t: float) -> Array:
         """Return -(by_q dQ/dq + by_q_t dQ/dq_t), but for what only turns arms, by rows."""
         # both ends' forces across, the force along and the moment, by the gaps, rates and U
-        partials = np.zeros((4, 4))
+        partials = [[0.0] * 4 for _ in range(4)]
         for side, film in self._films:
             lever = side * self._half_width
-            by = np.reshape(film[3:], (3, 5))
-            loads = np.stack([-side * by[0], -side * by[1], by[2], lever * by[2]])
-            partials[:, :2] -= side * (by_q * loads[:, :2] + by_q_t * loads[:, 2:4])
-            partials[:, 2] += by_q_t * loads[:, 4]
-            partials[:, 3] += by_q_t * lever * loads[:, 4]
+            for row, factor, first in (
+                (partials[0], -side, 3),
+                (partials[1], -side, 8),
+                (partials[2], 1.0, 13),
+                (partials[3], lever, 13),
+            ):
+                gap_1, gap_2, rate_1, rate_2, sliding = film[first : first + 5]
+                row[0] -= side * factor * (by_q * gap_1 + by_q_t * rate_1)
+                row[1] -= side * factor * (by_q * gap_2 + by_q_t * rate_2)
+                row[2] += factor * by_q_t * sliding
+                row[3] += factor * lever * by_q_t * sliding
         nowhere, axis = (0.0, 0.0, 0.0), (0.0, 0.0, 1.0)
         rear, front = (
             end.rates_along(self._across, self._along, axis, nowhere) for end in self._ends
         )
-        rates = np.stack([rear[0], front[0], 0.5 * (rear[1] + front[1]), rear[2]])
-        return np.asarray(rates.T @ (-self._viscosity * partials @ rates)).ravel()
+        rates = np.array((rear[0], front[0], 0.5 * (rear[1] + front[1]), rear[2]))
+        return np.asarray(rates.T @ (-self._viscosity * np.array(partials) @ rates)).ravel()
 
     def state(self, q: list[float], q_t: list[float]) -> JointState:
         """Return what the films do; the moments are the couple of the ends' forces and the drag's.

@@ -17,7 +17,7 @@ LONG_AGO = -1e30
 class Ramp:
     """A part that grows from 0 to 1, along a line from one place behind a command to another.
 
-    >>> [Ramp(0.02, 0.06).part(place) for place in (0.0, 0.04, 0.1)]
+    >>> [round(Ramp(0.02, 0.06).part(place), 12) for place in (0.0, 0.04, 0.1)]
     [0.0, 0.5, 1.0]
 
     Attributes:

@@ -53,9 +53,10 @@ def crank_angle_axis(
         for name, angle in centres.items():
             named |= {angle + turn: name for turn in _multiples(360.0, low - angle, high - angle)}
     step = float(np.diff(ticks).min()) if len(ticks) > 1 else high - low
-    shown = [tick for tick in ticks if all(abs(tick - at) > TOO_CLOSE * step for at in named)]
+    shown = [*ticks]
     if step <= 90.0:
-        shown += named
+        near = TOO_CLOSE * step
+        shown = [tick for tick in ticks if all(abs(tick - at) > near for at in named)] + [*named]
     texts = {at: f"{_number_text(round(at, 1), None)}\n{name}" for at, name in named.items()}
 
     def text(angle: float, _: int | None) -> str:

@@ -59,6 +59,15 @@ def test_dead_centres_are_marked_and_named():
     assert sorted(line.get_xdata()[0] for line in axes.lines) == [0.0, 180.0, 360.0]
 
 
+def test_many_revolutions_have_their_numbers():
+    """Dead centres are lines there, and take no tick's place."""
+    axes = Figure().subplots()
+    crank_angle_axis([axes], 260.0, 2058.0, {"TDC": 0.0, "BDC": 217.0})
+    axes.figure.draw_without_rendering()
+    labels = [label.get_text().partition("\n")[0] for label in axes.get_xticklabels()]
+    assert labels == ["360", "720", "1080", "1440", "1800"]
+
+
 @pytest.mark.parametrize(("low", "high"), [(0.0, 359.9986), (0.0014, 360.0), (0.0, 360.02)])
 def test_a_bent_crank_ends_its_revolution_at_a_dead_centre(low, high):
     """Flexible, one revolution: its angle is off by thousandths of a degree at the end."""

@@ -9,6 +9,7 @@ from recovery.cases import CASES
 from recovery.study import recover
 
 
+@pytest.mark.long
 def test_a_measurement_of_the_lubricated_press(tmp_path):
     found = recover("lubricated press", tmp_path, measurements=1, workers=2)
     for report in found.reports:

@@ -64,6 +64,7 @@ def test_what_moves_the_numbers_and_the_clearance_to_choose(directory):
     assert pin["0.01 mm"] > 10.0 * pin["0.15 mm"]  # sheared fifteen times as hard
 
 
+@pytest.mark.long
 def test_it_goes_on_where_it_was_stopped(directory):
     rows = (directory / "runs.jsonl").read_text().splitlines()
     before = read(directory)
@@ -89,6 +90,7 @@ def test_wrong_input_is_refused_in_one_line(arguments, named, tmp_path):
     assert named in refused.stderr and refused.stderr.count("\n") == 1
 
 
+@pytest.mark.long
 def test_section_5_inverted(tmp_path):
     printed = run("paper.py", tmp_path, "--fit", "--trials", "8", "--out", ".")
     report = json.loads((tmp_path / "inverse.json").read_text())

@@ -88,7 +88,7 @@ def ball(cap_angle: float = WIDEST_CAP, onset_ratio: float | None = None) -> Bal
     --------
     >>> film = ball().law
     >>> round(film(0.0, 1.0, 0.0)[0] / math.pi, 2)
-    -4.0
+    -4.01
 
     References
     ----------

@@ -29,8 +29,8 @@ def unit_of(name: str) -> str:
 def meaning_of(name: str) -> str:
     """Return the meaning of a scene's key or of a quantity, or nothing.
 
-    >>> meaning_of("speed_rpm")
-    'crank speed; with [drive] at the start'
+    >>> meaning_of("start_angle_deg")
+    'crank angle at the start'
     """
     if (placed := declared(name)) is not None:
         return placed.quantity.meaning

@@ -77,6 +77,7 @@ def lines(directory):
     return path.read_bytes().count(b"\n") if path.exists() else 0
 
 
+@pytest.mark.long
 def test_killed_twice_it_goes_on_without_loss(tmp_path, monkeypatch):
     monkeypatch.setenv("LOG_OF_POINTS", str(tmp_path / "log"))
     directory = tmp_path / "killed"

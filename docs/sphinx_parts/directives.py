@@ -130,7 +130,7 @@ def help_of(*words: str) -> nodes.literal_block:
 def table_of(rows: list[tuple[str, ...]]) -> nodes.table:
     """Return a table with a head; first column as code."""
     group = nodes.tgroup(cols=len(rows[0]))
-    for width in (22, 16, 44, 32):
+    for width in (22, 16, 44, 32, 32)[: len(rows[0])]:
         group += nodes.colspec(colwidth=width)
     head, body = nodes.thead(), nodes.tbody()
     for number, row in enumerate(rows):

@@ -14,7 +14,7 @@ parser = argparse.ArgumentParser(description=__doc__)
 parser.add_argument("--quick", action="store_true", help="a tenth of a revolution, once")
 QUICK = parser.parse_args().quick
 
-SHOP = Scene.load(Path(exu_press.__file__).parent / "scenes" / "shop.toml")
+SHOP = Scene.load(Path(exu_press.__file__).parent / "scenes" / "drag_link_shop.toml")
 SHORT = {"revolutions": 0.1, "settle": 0.0} if QUICK else {}
 CHANGES = {
     "no wear": {"wear": None},

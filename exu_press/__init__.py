@@ -1,11 +1,9 @@
 """exu_press: press mechanisms with clearance, contact and lubrication in their joints.
 
-What is imported here costs nothing until it is used: names are loaded on first access.
+Importing it costs nothing: a name is loaded on first access.
 """
 
 import importlib
-
-from exu_press.above import WORKERS
 
 TYPE_CHECKING = False  # that of typing takes longer to load than all of this
 
@@ -33,10 +31,15 @@ if TYPE_CHECKING:
         add_revolute,
     )
     from exu_press.mechanism import Mechanism
+    from exu_press.model.graphics import build_with_graphics as build_with_graphics
+    from exu_press.quantities import summary as summary
+    from exu_press.quantities import value_of as value_of
     from exu_press.report.cells import Comparison
+    from exu_press.report.cells import cell as cell
+    from exu_press.report.cells import page_of as page_of
     from exu_press.result import Result
     from exu_press.scene import Scene
-    from exu_press.simulation import simulate
+    from exu_press.verification.simulate import simulate
 
     __version__: str
 
@@ -65,42 +68,27 @@ __all__ = [
     "solve_dynamic",
 ]
 
-_HOMES = {
-    "Comparison": "exu_press.report.cells",
-    "FlexiblePoint": "exu_press.joints",
-    "InputError": "exu_press.errors",
-    "Mechanism": "exu_press.mechanism",
-    "Outcome": "exu_press.integrate",
-    "Result": "exu_press.result",
-    "ErrorScales": "exu_press.integrate",
-    "Scene": "exu_press.scene",
-    "SolverStatus": "exu_press.integrate",
-    "SolverTuning": "exu_press.integrate",
-    "add_dry_revolute": "exu_press.joints",
-    "add_dry_spherical": "exu_press.joints",
-    "add_joint_sensor": "exu_press.joints",
-    "add_lubricated_revolute": "exu_press.joints",
-    "add_lubricated_spherical": "exu_press.joints",
-    "add_revolute": "exu_press.joints",
-    "add_guideway_contact": "exu_press.joints",
-    "add_guideway_film": "exu_press.joints",
-    "follow_modes": "exu_press.integrate",
-    "simulate": "exu_press.simulation",
-    "solve_dynamic": "exu_press.integrate",
+_NAMES = {
+    "errors": "InputError",
+    "integrate": "ErrorScales Outcome SolverStatus SolverTuning follow_modes solve_dynamic",
+    "joints": "FlexiblePoint add_dry_revolute add_dry_spherical add_guideway_contact "
+    "add_guideway_film add_joint_sensor add_lubricated_revolute add_lubricated_spherical "
+    "add_revolute",
+    "mechanism": "Mechanism",
+    "model.graphics": "build_with_graphics",
+    "quantities": "summary value_of",
+    "report.cells": "Comparison cell page_of",
+    "result": "Result",
+    "scene": "Scene",
+    "verification.simulate": "simulate",
 }
+"""Module -> what it lends to this face: all of the above, and the work of methods of `Scene`,
+`Result` and `Mechanism` that is done by modules which know these classes."""
+
+_HOMES = {name: f"exu_press.{module}" for module, names in _NAMES.items() for name in names.split()}
 
 _ROOMS = ("laws", "quantities")
 """Packages that are used by their own names: `exu_press.quantities`."""
-
-WORKERS.update(
-    build=lambda scene: importlib.import_module("exu_press.model.graphics").build_with_graphics(
-        scene
-    ),
-    quantity=lambda result: importlib.import_module("exu_press.quantities").value_of(*result),
-    cell=lambda thing: importlib.import_module("exu_press.report.cells").cell(thing),
-    page=lambda result: importlib.import_module("exu_press.report.cells").page_of(result),
-    summary=lambda result: importlib.import_module("exu_press.quantities").summary(result),
-)
 
 
 def __getattr__(name: str) -> "Any":

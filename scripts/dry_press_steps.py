@@ -17,7 +17,7 @@ import numpy as np
 from scipy.ndimage import uniform_filter1d
 
 from exu_press import Result, Scene, simulate
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 from exu_press.terminal.columns import columns
 
 parser = argparse.ArgumentParser(description=__doc__)

@@ -60,3 +60,15 @@ def test_imports_run_one_way(unit):
         TopologicalSorter(arrows).prepare()
     except CycleError as error:
         pytest.fail(f"a circle of imports: {' -> '.join(error.args[1])}")
+
+
+def test_only_methods_for_users_ask_the_face_of_the_package():
+    """`Scene.build`, `Result.summary` and notebook cells are the work of modules above them."""
+    asking = {name_of(path) for path in FILES if "exu_press" in imported(path)}
+    assert asking == {
+        "exu_press.cli.main",
+        "exu_press.installation.check",
+        "exu_press.mechanism.mechanism",
+        "exu_press.result.result",
+        "exu_press.scene.scene",
+    }

@@ -24,10 +24,7 @@ def imported_after(code):
 def test_importing_the_package_imports_no_package():
     modules = imported_after("import exu_press")
     assert not modules & {"exudyn", "numpy", "scipy", "matplotlib", "ngsolve", "netgen", "tqdm"}
-    assert {name for name in modules if name.startswith("exu_press")} == {
-        "exu_press",
-        "exu_press.above",
-    }
+    assert {name for name in modules if name.startswith("exu_press")} == {"exu_press"}
 
 
 def test_a_scene_is_checked_without_exudyn():

@@ -19,9 +19,9 @@ from exu_press.quantities.differences import difference_lines
 from exu_press.quantities.table import comparison_lines
 from exu_press.result import Result
 from exu_press.scene import Scene
-from exu_press.simulation import simulate
 from exu_press.studies.compare import different_keys, variants
 from exu_press.terminal.columns import columns
+from exu_press.verification.simulate import simulate
 
 __all__ = ["EXAMPLE", "add_arguments", "execute"]
 

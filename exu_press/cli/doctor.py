@@ -2,7 +2,7 @@
 
 import argparse
 
-from exu_press import doctor
+from exu_press.installation import check
 
 __all__ = ["EXAMPLE", "add_arguments", "execute"]
 
@@ -15,16 +15,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def execute(options: argparse.Namespace) -> int:
     """Print what is there; return 0, or 1 if something is missing or a run goes wrong."""
-    print(doctor.machine())
-    versions = doctor.versions()
+    print(check.machine())
+    versions = check.versions()
     for name, version in versions.items():
         print(f"  {name:16} {version or 'MISSING'}")
     print("extras")
-    for extra, packages in doctor.extras().items():
+    for extra, packages in check.extras().items():
         missing = ", ".join(name for name, version in packages.items() if version is None)
         print(f"  {extra:16} {f'not installed: {missing}' if missing else 'installed'}")
-    print(f"joints: {'compiled' if doctor.joints_compiled() else 'in Python'}")
-    runs = doctor.runs()
+    print(f"joints: {'compiled' if check.joints_compiled() else 'in Python'}")
+    runs = check.runs()
     for run in runs:
         print(f"{'ok' if run.ok else 'WRONG'}: {run.name}: {_words(run)}")
     sound = all(versions.values()) and all(run.ok for run in runs)
@@ -32,7 +32,7 @@ def execute(options: argparse.Namespace) -> int:
     return 0 if sound else 1
 
 
-def _words(run: doctor.Run) -> str:
+def _words(run: check.Run) -> str:
     """Return what came out and what should have."""
     if run.reason:
         return run.reason

@@ -18,10 +18,10 @@ from exu_press.quantities.table import run_lines
 from exu_press.result import Result
 from exu_press.result.unfinished import remove, unfinished_of
 from exu_press.scene.assumptions import assumed_line
-from exu_press.simulation import simulate
-from exu_press.verification import deliver
 from exu_press.verification.refine import refined
+from exu_press.verification.simulate import simulate
 from exu_press.verification.told import delivered_lines
+from exu_press.verification.within import deliver
 
 __all__ = ["EXAMPLE", "add_arguments", "execute"]
 

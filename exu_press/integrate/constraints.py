@@ -9,8 +9,8 @@ metre a second; the rates of such systems are found from positions, a little ahe
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.arrays import Array
 from exu_press.integrate.settings import Task
+from exu_press.numerics.arrays import Array
 
 __all__ = ["Constraints"]
 

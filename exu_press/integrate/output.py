@@ -5,9 +5,9 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.integrate.problem import State
 from exu_press.integrate.settings import Task
+from exu_press.numerics.arrays import Array
 
 __all__ = ["OutputGrid", "between"]
 

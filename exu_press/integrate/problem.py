@@ -12,10 +12,10 @@ from typing import Any
 import exudyn as exu
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.errors import InputError
 from exu_press.joints import user_force_of
 from exu_press.joints.user_force import UserForceElement
+from exu_press.numerics.arrays import Array
 
 __all__ = [
     "FLEXIBLE",

@@ -12,9 +12,9 @@ import exudyn as exu
 import numpy as np
 from exudyn.itemInterface import ObjectGenericODE2, VObjectGenericODE2
 
-from exu_press.arrays import Array
 from exu_press.integrate.problem import FLEXIBLE, MODES, modal_item
 from exu_press.integrate.settings import SAME, Task, inertia_factor
+from exu_press.numerics.arrays import Array
 
 __all__ = ["FlexibleJacobian", "LastingJacobian", "ModalMass", "Newton", "follow_modes"]
 

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.integrate.constraints import Constraints
 from exu_press.integrate.settings import Task
+from exu_press.numerics.arrays import Array
 from exu_press.numerics.linear import Equations
 
 __all__ = ["fit_start", "start_rates", "start_without_mass"]

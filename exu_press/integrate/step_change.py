@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.integrate.constraints import Constraints
 from exu_press.integrate.settings import SAME, Task, inertia_factor
+from exu_press.numerics.arrays import Array
 from exu_press.numerics.linear import Equations
 
 __all__ = ["StepChange"]

@@ -9,7 +9,7 @@ from math import cos, sin
 import numpy as np
 from exudyn.rigidBodyUtilities import RotationVector2RotationMatrix, RotXYZ2G, RotXYZ2RotationMatrix
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 
 __all__ = ["NODES", "BodyEnd", "FlexiblePoint", "Vector", "cross", "cross_matrix", "dot", "turned"]
 

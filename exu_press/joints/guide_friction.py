@@ -17,8 +17,8 @@ import exudyn as exu
 import numpy as np
 from exudyn.itemInterface import ObjectGenericODE2, VObjectGenericODE2
 
-from exu_press.arrays import Array
 from exu_press.laws.friction import Friction, LuGre
+from exu_press.numerics.arrays import Array
 
 __all__ = ["GuideFriction", "HeldSide", "SideForce", "SlidingFriction", "SpringSide"]
 

@@ -10,11 +10,11 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.joints.ends import BodyEnd, Vector
 from exu_press.joints.joint import JointState
 from exu_press.joints.path import Path
 from exu_press.laws.film import PadFilm, PadLaw
+from exu_press.numerics.arrays import Array
 
 __all__ = ["GuidewayFilm"]
 

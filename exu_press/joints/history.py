@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.joints.interface import InterfaceJoint
 from exu_press.joints.joint import GROUND, ClearanceJoint, JointState
+from exu_press.numerics.arrays import Array
 
 __all__ = ["JointHistory", "histories"]
 

@@ -2,8 +2,8 @@
 
 from typing import Any, NamedTuple, Protocol
 
-from exu_press.arrays import Array
 from exu_press.joints.path import Path
+from exu_press.numerics.arrays import Array
 
 __all__ = ["GROUND", "SHALLOW", "ClearanceJoint", "JointState"]
 

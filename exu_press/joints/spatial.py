@@ -5,9 +5,9 @@ from math import sqrt
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.joints.ends import BodyEnd, Vector, cross, dot, turned
 from exu_press.joints.interface import InterfaceJoint, InterfaceLaw
+from exu_press.numerics.arrays import Array
 
 __all__ = ["SpatialRevolute"]
 

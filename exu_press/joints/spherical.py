@@ -5,13 +5,13 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.joints.ends import BodyEnd, Vector, cross, cross_matrix
 from exu_press.joints.joint import SHALLOW, JointState
 from exu_press.joints.path import Path
 from exu_press.joints.spherical_film import SphericalFilm
 from exu_press.laws.contact import Approach, NormalContact
 from exu_press.laws.friction import Friction, LuGre
+from exu_press.numerics.arrays import Array
 
 __all__ = ["SpatialSpherical"]
 

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.joints.ends import cross_matrix
 from exu_press.laws.film import BallFilm
+from exu_press.numerics.arrays import Array
 
 __all__ = ["SphericalFilm"]
 

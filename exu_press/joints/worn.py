@@ -21,11 +21,11 @@ from math import atan2, cos, sin, sqrt
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.joints.interface import DryInterface, FilmInterface, InterfaceLaw, Load
 from exu_press.joints.joint import JointState
 from exu_press.joints.planar import PlanarEnd, PlanarJoint
 from exu_press.laws.profile import Profile
+from exu_press.numerics.arrays import Array
 
 __all__ = ["Worn", "WornJoint"]
 

@@ -23,7 +23,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 
 __all__ = ["Drawing", "Group", "Pose", "groups_of", "known_bodies", "one_group_of"]
 

@@ -5,12 +5,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.mobility import Mobility, mobility_of
 from exu_press.mechanism.refusal import MotionError
 from exu_press.mechanism.stroke import Stroke, stroke_of
 from exu_press.mechanism.transmission import transmission_angles
+from exu_press.numerics.arrays import Array
 
 __all__ = ["Examination", "examine", "require_turning"]
 

@@ -20,10 +20,10 @@ from functools import lru_cache
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.errors import InputError
 from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.parts import GROUND, Guide, Joint, Point
+from exu_press.numerics.arrays import Array
 
 __all__ = ["Holding", "SingleAxis", "by_constraints", "holding_of"]
 

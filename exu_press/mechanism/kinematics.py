@@ -15,11 +15,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.arrays import Array
 from exu_press.errors import InputError
 from exu_press.mechanism.assur import Drawing, Group, Pose, groups_of, known_bodies, one_group_of
 from exu_press.mechanism.motion import Motion
 from exu_press.mechanism.refusal import MotionError
+from exu_press.numerics.arrays import Array
 
 __all__ = ["Kinematics", "kinematics_of"]
 

@@ -8,13 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.above import WORKERS
-from exu_press.arrays import Array
 from exu_press.mechanism.assur import Drawing
 from exu_press.mechanism.checks import all_of, check, check_defaults
 from exu_press.mechanism.kinematics import Kinematics, kinematics_of
 from exu_press.mechanism.motion import Motion
 from exu_press.mechanism.parts import GROUND, Body, Guide, Joint, Output, Point
+from exu_press.numerics.arrays import Array
 
 __all__ = ["Mechanism"]
 
@@ -92,7 +91,9 @@ class Mechanism:
 
     def _repr_html_(self) -> str:
         """Return the drawing, for notebooks."""
-        return str(WORKERS["cell"](self))
+        from exu_press import cell
+
+        return cell(self)
 
     @property
     def slider(self) -> str:

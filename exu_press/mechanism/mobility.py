@@ -15,9 +15,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.parts import GROUND
+from exu_press.numerics.arrays import Array
 
 __all__ = ["Mobility", "mobility_of"]
 

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 
 __all__ = ["Motion"]
 

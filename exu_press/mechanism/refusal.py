@@ -2,8 +2,8 @@
 
 from collections.abc import Mapping
 
-from exu_press.arrays import Array
 from exu_press.errors import InputError
+from exu_press.numerics.arrays import Array
 
 __all__ = ["MotionError"]
 

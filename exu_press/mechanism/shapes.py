@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.mechanism.mechanism import Mechanism
+from exu_press.numerics.arrays import Array
 
 __all__ = ["COLOURS", "Shape", "moved", "shapes_of", "swept", "swept_outlines"]
 

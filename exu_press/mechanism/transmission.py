@@ -15,10 +15,10 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.mechanism.assur import groups_of
 from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.parts import GROUND, Joint
+from exu_press.numerics.arrays import Array
 
 __all__ = ["alike", "transmission_angles"]
 

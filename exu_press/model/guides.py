@@ -13,11 +13,11 @@ from exudyn.itemInterface import (
     VObjectGenericODE2,
 )
 
-from exu_press.arrays import Array
 from exu_press.joints import ClearanceJoint, add_guideway_contact, add_guideway_film
 from exu_press.joints.guide_friction import GuideFriction, HeldSide, SideForce, SpringSide
 from exu_press.mechanism import Guide, Guideway, Point, Spring
 from exu_press.model.system import System
+from exu_press.numerics.arrays import Array
 from exu_press.scene.laws import guide_contact_law, guide_friction_law
 
 __all__ = ["add_guide", "add_guide_friction", "add_guideways", "guides_rub"]

@@ -15,12 +15,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.joints.interface import DryInterface, InterfaceLaw
 from exu_press.joints.joint import SHALLOW
 from exu_press.mechanism import GROUND, Joint, Motion
 from exu_press.model.joints import interfaces_of
 from exu_press.model.system import System
+from exu_press.numerics.arrays import Array
 from exu_press.scene import DryJoint, IdealJoint, LubricatedJoint
 from exu_press.scene.joint import unworn
 

@@ -13,9 +13,9 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.errors import InputError
 from exu_press.mechanism import Body, Joint, Mechanism, Motion, Point
+from exu_press.numerics.arrays import Array
 from exu_press.scene import Face, Flexible, Scene, mechanism_of
 from exu_press.scene.bodies import DRIVE_FACE, GUIDE_FACE, faces_given, require_rainflow
 from exu_press.scene.load import Load

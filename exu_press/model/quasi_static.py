@@ -12,7 +12,7 @@ from typing import Any
 import exudyn as exu
 import numpy as np
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 from exu_press.numerics.threads import one_thread
 
 __all__ = ["quasi_static_motion"]

@@ -17,8 +17,8 @@ from exudyn.itemInterface import (
     ObjectRotationalMass1D,
 )
 
-from exu_press.arrays import Array
 from exu_press.mechanism import Body, Motion, Point
+from exu_press.numerics.arrays import Array
 
 __all__ = ["PivotedBody", "RigidBody", "SlidingBody"]
 

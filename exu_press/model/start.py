@@ -5,12 +5,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.errors import InputError
 from exu_press.mechanism import Motion
 from exu_press.model.drive import turned_body
 from exu_press.model.quasi_static import quasi_static_motion
 from exu_press.model.system import System
+from exu_press.numerics.arrays import Array
 from exu_press.scene import Scene
 
 if TYPE_CHECKING:

@@ -6,10 +6,10 @@ from typing import Any, NotRequired, TypedDict
 import exudyn as exu
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.errors import InputError
 from exu_press.integrate.problem import Problem
 from exu_press.model.model import Model
+from exu_press.numerics.arrays import Array
 
 __all__ = ["State", "go_on_from", "state_of"]
 

@@ -6,12 +6,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.joints import ClearanceJoint, JointHistory
 from exu_press.joints.interface import FilmInterface, InterfaceJoint
 from exu_press.laws.film import FILM_LAWS, film_scale
 from exu_press.laws.film.oil import HOTTEST, film_temperature
 from exu_press.laws.film.side_flow import SideFlow
+from exu_press.numerics.arrays import Array
 from exu_press.scene import LubricatedJoint
 from exu_press.scene.joint import Joint, unworn
 

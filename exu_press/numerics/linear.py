@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 
 __all__ = ["SPARSE_FROM", "Equations"]
 

@@ -7,7 +7,7 @@ from typing import Literal
 
 import numpy as np
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 
 __all__ = ["evaluate", "hermite", "integral", "spline"]
 

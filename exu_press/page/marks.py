@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 from exu_press.page.curves import Curve
 from exu_press.quantities.alternating import LOADS, steady
 from exu_press.quantities.contact_time import TOUCH

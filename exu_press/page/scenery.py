@@ -4,10 +4,10 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.mechanism import Mechanism
 from exu_press.mechanism.parts import GROUND
 from exu_press.mechanism.shapes import shapes_of, swept_outlines
+from exu_press.numerics.arrays import Array
 from exu_press.plots.busiest import busiest
 from exu_press.plots.words import joint_in_words
 from exu_press.result import Result

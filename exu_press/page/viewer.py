@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 from exu_press.page.blocks import Blocks
 from exu_press.page.curves import Curve, curves_of, shown_unit
 from exu_press.page.document import Live, data_element, scripts, styles

@@ -7,8 +7,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from exu_press.installation.versions import version_of
 from exu_press.parallel.sources import source_digest
-from exu_press.versions import version_of
 
 __all__ = [
     "COMPLETED",

@@ -5,7 +5,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 from exu_press.plots.headed import headed_figure
 from exu_press.plots.spectrum import draw_spectrum
 from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, RUN, styled

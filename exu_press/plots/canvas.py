@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 from exu_press.plots.decimate import decimate
 from exu_press.plots.headed import headed_figure
 from exu_press.plots.scales import crank_angle_axis

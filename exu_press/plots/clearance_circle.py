@@ -11,7 +11,7 @@ from matplotlib.colors import Normalize
 from matplotlib.patches import Circle
 from matplotlib.ticker import MaxNLocator
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 from exu_press.plots.canvas import crank_degrees, legend_above
 from exu_press.plots.decimate import visible_segments
 from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, RUN, SHADE

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 
 __all__ = ["BINS", "decimate", "visible_segments"]
 

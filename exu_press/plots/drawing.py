@@ -9,12 +9,12 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 from matplotlib.ticker import NullFormatter, StrMethodFormatter
 
-from exu_press.arrays import Array
 from exu_press.mechanism import Mechanism
 from exu_press.mechanism.examine import Examination
 from exu_press.mechanism.parts import GROUND
 from exu_press.mechanism.shapes import shapes_of
 from exu_press.mechanism.transmission import alike
+from exu_press.numerics.arrays import Array
 from exu_press.plots.headed import headed_figure
 from exu_press.plots.labels import spread
 from exu_press.plots.style import GREY, RUN, colour_of, styled

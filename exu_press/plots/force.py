@@ -5,8 +5,8 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from matplotlib.figure import Figure
 
-from exu_press.arrays import Array
 from exu_press.mechanism import GROUND
+from exu_press.numerics.arrays import Array
 from exu_press.plots.busiest import busiest
 from exu_press.plots.canvas import angle_axis, crank_degrees, curve, new_figure
 from exu_press.plots.peaks import mark_peak

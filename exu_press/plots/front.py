@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 from exu_press.plots.file import save_figure
 from exu_press.plots.headed import headed_figure
 from exu_press.plots.scales import log_axis

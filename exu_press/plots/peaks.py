@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 from matplotlib.axes import Axes
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 from exu_press.plots.canvas import crank_degrees
 from exu_press.plots.style import colour_of
 from exu_press.quantities.uncertain import uncertain

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
 from matplotlib.patches import Patch
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 from exu_press.plots.headed import headed_figure
 from exu_press.plots.style import COLOURS, PATH_COLOURS, SHADE, styled
 from exu_press.plots.sweep_words import in_unit, words

@@ -7,8 +7,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from exu_press.arrays import Array
 from exu_press.mechanism import Mechanism
+from exu_press.numerics.arrays import Array
 from exu_press.numerics.piecewise import evaluate, hermite, integral
 from exu_press.plots.canvas import (
     angle_axis,

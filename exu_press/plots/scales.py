@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 from exu_press.plots.style import GREY, SHADE
 
 __all__ = ["angle_ticks", "crank_angle_axis", "impact_scale", "log_axis", "note", "widen"]

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 from exu_press.plots.canvas import angle_axis, crank_degrees, curve, new_figure
 from exu_press.plots.decimate import decimate
 from exu_press.plots.peaks import mark_peaks

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 from exu_press.plots.style import GREY, PATH_COLOURS, colour_of
 from exu_press.plots.sweep_words import in_unit, words
 from exu_press.studies.sweep import Table

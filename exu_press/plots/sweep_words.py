@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 from exu_press.plots.typesetting import typeset
 from exu_press.quantities.catalogue import declared
 from exu_press.studies.sweep.units import meaning_of, unit_of

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 from exu_press.numerics.piecewise import evaluate, hermite, integral
 
 __all__ = ["differentiated_peak", "mean_peak", "mean_peak_of", "peak"]

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 
 __all__ = ["LOADS", "beside_line", "steady"]
 

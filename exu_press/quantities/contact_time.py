@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 
 __all__ = ["TOUCH", "contacts", "share_of_contact"]
 

@@ -5,8 +5,8 @@ from functools import lru_cache
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.mechanism import Mechanism
+from exu_press.numerics.arrays import Array
 from exu_press.numerics.piecewise import hermite
 from exu_press.result import Result
 from exu_press.scene import mechanism_of

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 from exu_press.quantities.contact_time import contacts, share_of_contact
 from exu_press.quantities.kind import COUNT, ENERGY, LOAD, MEASURE, MOTION, SHARE
 from exu_press.quantities.quantity import Extreme, Place, Quantity

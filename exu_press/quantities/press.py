@@ -4,8 +4,8 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.mechanism import Guide
+from exu_press.numerics.arrays import Array
 from exu_press.numerics.piecewise import integral
 from exu_press.quantities.acceleration import mean_peak_of, peak
 from exu_press.quantities.kind import ENERGY, FLOW, LOAD, MOMENT, MOTION, RESULTANT

@@ -6,8 +6,8 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.mechanism import Mechanism
+from exu_press.numerics.arrays import Array
 from exu_press.numerics.piecewise import integral
 from exu_press.quantities.alternating import steady
 from exu_press.quantities.dead_centre import DeadCentre, bottom_dead_centres

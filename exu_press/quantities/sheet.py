@@ -5,7 +5,7 @@ from functools import partial
 
 import numpy as np
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 from exu_press.quantities.acceleration import peak
 from exu_press.quantities.kind import ENERGY, LOAD, MOTION
 from exu_press.quantities.quantity import Extreme, Place, Quantity

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 from exu_press.quantities.kind import ENERGY, MOTION
 from exu_press.quantities.quantity import Extreme, Quantity
 from exu_press.quantities.reading import Reading

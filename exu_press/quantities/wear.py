@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.laws.profile import Profile
 from exu_press.laws.wear import archard, worn_by_angle
 from exu_press.mechanism import GROUND
+from exu_press.numerics.arrays import Array
 from exu_press.quantities.kind import COUNT, FLOW, LOAD
 from exu_press.quantities.quantity import Extreme, Place, Quantity
 from exu_press.quantities.reading import Reading

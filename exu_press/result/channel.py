@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass
 
-from exu_press.arrays import Array
 from exu_press.errors import InputError
 from exu_press.mechanism import Mechanism, Point
+from exu_press.numerics.arrays import Array
 from exu_press.schema.stored import LARGEST
 
 __all__ = ["AXES", "Channel", "guide_channel", "positive"]

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 from exu_press.result.channel import Channel
 
 __all__ = ["Changed", "OnDisk", "at_rows", "described", "on_disk", "part_of"]

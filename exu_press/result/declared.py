@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 from exu_press.result.channel import Channel, guide_channel
 from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.applied import applied_loads

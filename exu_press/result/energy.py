@@ -4,8 +4,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.mechanism import Body
+from exu_press.numerics.arrays import Array
 
 __all__ = ["mechanical_energy", "work"]
 

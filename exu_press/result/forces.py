@@ -4,9 +4,9 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.mechanism import GROUND
 from exu_press.model import Model
+from exu_press.numerics.arrays import Array
 from exu_press.result.channel import Channel, guide_channel, positive
 from exu_press.result.declared import channel
 from exu_press.result.motion import body_motion, sensor

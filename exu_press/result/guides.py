@@ -4,8 +4,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.model import Model
+from exu_press.numerics.arrays import Array
 from exu_press.result.channel import Channel, guide_channel
 from exu_press.result.energy import work
 from exu_press.result.flexible import guided_motion

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 from exu_press.result.channel import Channel
 
 __all__ = ["JointRecord"]

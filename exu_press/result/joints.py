@@ -4,10 +4,10 @@ from collections.abc import Collection, Mapping
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.joints import ClearanceJoint, JointHistory, histories, user_force_of
 from exu_press.model import Model
 from exu_press.model.warm_film import WarmFilm
+from exu_press.numerics.arrays import Array
 from exu_press.numerics.piecewise import integral
 from exu_press.result.channel import Channel
 from exu_press.result.declared import channel

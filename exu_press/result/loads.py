@@ -4,9 +4,9 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.mechanism import Motion
 from exu_press.model import Model
+from exu_press.numerics.arrays import Array
 from exu_press.result.channel import Channel
 from exu_press.result.declared import channel
 from exu_press.result.energy import work

@@ -4,8 +4,8 @@ from collections.abc import Collection
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.model import Model
+from exu_press.numerics.arrays import Array
 from exu_press.result.channel import Channel
 from exu_press.result.declared import channel
 from exu_press.result.motion import point_acceleration

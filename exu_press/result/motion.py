@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.mechanism import Motion
 from exu_press.mechanism.parts import DRIVE
 from exu_press.model import Model
+from exu_press.numerics.arrays import Array
 
 __all__ = [
     "body_motion",

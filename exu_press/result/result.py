@@ -9,9 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.above import WORKERS
-from exu_press.arrays import Array
 from exu_press.errors import InputError
+from exu_press.numerics.arrays import Array
 from exu_press.result.channels import Changed, described, on_disk, part_of
 from exu_press.result.contents import Contents
 from exu_press.result.joint import JointRecord
@@ -140,8 +139,9 @@ class Result(Contents):
 
     def summary(self) -> dict[str, Any]:
         """Return the dictionary of summary.json."""
-        found: dict[str, Any] = WORKERS["summary"](self)
-        return found
+        from exu_press import summary
+
+        return summary(self)
 
     def quantity(self, name: str) -> Any:
         """Return one quantity, an `exu_press.quantities.Value`, by its full name.
@@ -149,15 +149,21 @@ class Result(Contents):
         Raises:
             InputError: the run's scene has no such quantity.
         """
-        return WORKERS["quantity"]((self, name))
+        from exu_press import value_of
+
+        return value_of(self, name)
 
     def view(self) -> Any:
         """Return the run's page, an `exu_press.report.Page`: a notebook shows it in the cell."""
-        return WORKERS["page"](self)
+        from exu_press import page_of
+
+        return page_of(self)
 
     def _repr_html_(self) -> str:
         """Return the quantities as a table, for notebooks."""
-        return str(WORKERS["cell"](self))
+        from exu_press import cell
+
+        return cell(self)
 
     def save(self, path: str | Path) -> None:
         """Write what [output] keeps, all unless it says, to a NetCDF file.

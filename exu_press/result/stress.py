@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.arrays import Array
 from exu_press.model import Model
+from exu_press.numerics.arrays import Array
 from exu_press.result.channel import Channel
 from exu_press.result.declared import channel
 from exu_press.result.flexible import modal

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 from exu_press.result.result import Result
 
 __all__ = ["revolutions_of", "settled", "until", "window"]

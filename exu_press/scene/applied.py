@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.laws.load_curve import LoadCurve, PulseClock, closing
 from exu_press.laws.sheet import Cut, Sheet
 from exu_press.mechanism import Mechanism, Point
+from exu_press.numerics.arrays import Array
 from exu_press.scene.load import BlankingLoad, SheetLoad, SpringLoad
 from exu_press.scene.scene import Scene, mechanism_of
 

@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, cast, overload
 
-from exu_press.above import WORKERS
 from exu_press.errors import InputError, UnusedKeyError
 from exu_press.mechanism import (
     SHIPPED,
@@ -357,14 +356,18 @@ class Scene(Table):
 
     def _repr_html_(self) -> str:
         """Return what it is in words and the keys it gives, for notebooks."""
-        return str(WORKERS["cell"](self))
+        from exu_press import cell
+
+        return cell(self)
 
     def build(self) -> Built:
         """Return the assembled `exu_press.model.Model`; its mbs and SC are the real Exudyn objects.
 
         Every body has graphics for Exudyn's own renderer and SolutionViewer.
         """
-        return cast(Built, WORKERS["build"](self))
+        from exu_press import build_with_graphics
+
+        return build_with_graphics(self)
 
     @property
     def shipped(self) -> str:

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.errors import InputError
+from exu_press.numerics.arrays import Array
 from exu_press.numerics.piecewise import integral
 
 __all__ = ["cell_means"]

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.signal import ShortTimeFFT, get_window, periodogram
 
-from exu_press.arrays import Array
 from exu_press.errors import InputError
+from exu_press.numerics.arrays import Array
 from exu_press.signals.cells import cell_means
 
 __all__ = ["WINDOWS", "Spectrogram", "Spectrum", "amplitude_spectrum", "spectrogram"]

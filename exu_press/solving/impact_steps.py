@@ -5,10 +5,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.joints import histories, user_force_of
 from exu_press.laws.contact import NormalContact
 from exu_press.mechanism import GROUND
+from exu_press.numerics.arrays import Array
 from exu_press.scene import IdealJoint
 from exu_press.scene.laws import contact_law
 from exu_press.solving.assembled import Assembled

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import brentq
 
-from exu_press.arrays import Array
 from exu_press.errors import InputError
 from exu_press.mechanism import GROUND
+from exu_press.numerics.arrays import Array
 from exu_press.quantities.uncertain import significant
 from exu_press.result import Result
 from exu_press.result.channel import AXES

@@ -7,8 +7,8 @@ from typing import Any, Self
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.errors import InputError
+from exu_press.numerics.arrays import Array
 from exu_press.quantities import quantities_of
 from exu_press.quantities.value import numbers_of
 from exu_press.result.run import run_once

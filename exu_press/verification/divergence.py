@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 from exu_press.result import Result
 from exu_press.scene import mechanism_of
 from exu_press.verification.growth import Growth, growth

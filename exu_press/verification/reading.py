@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 from exu_press.quantities.alternating import LOADS, beside_line
 from exu_press.quantities.energy import has_balance
 from exu_press.result import Result

@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.axes import Axes
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 from exu_press.plots.decimate import decimate
 from exu_press.plots.style import RUN
 from exu_press.result import Result

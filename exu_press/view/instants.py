@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.arrays import Array
 from exu_press.errors import InputError
+from exu_press.numerics.arrays import Array
 from exu_press.result import Result
 
 __all__ = ["SECONDS_PER_REVOLUTION", "Instants", "instants", "interval", "moment"]

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, FancyArrowPatch
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 from exu_press.plots.style import COLOURS, GREY, RUN
 from exu_press.quantities.uncertain import significant
 from exu_press.result import Result

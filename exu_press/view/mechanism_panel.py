@@ -7,10 +7,10 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Polygon
 
-from exu_press.arrays import Array
 from exu_press.mechanism import Mechanism
 from exu_press.mechanism.parts import Point
 from exu_press.mechanism.shapes import moved, shapes_of, swept_outlines
+from exu_press.numerics.arrays import Array
 from exu_press.plots.labels import spread
 from exu_press.plots.style import COLOURS, GREY
 from exu_press.plots.words import joint_in_words

@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.errors import InputError
+from exu_press.numerics.arrays import Array
 from exu_press.parallel import Batch
 from exu_press.scene import Scene, flexible_press
 from exu_press.studies.optimise.several import searched

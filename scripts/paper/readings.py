@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicHermiteSpline
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 from exu_press.quantities import Placed, Quantity, differentiated_peak, mean_peak, peak
 from exu_press.quantities.contact_time import TOUCH
 from exu_press.quantities.kind import LOAD, MOTION, SHARE

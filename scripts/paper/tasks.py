@@ -4,9 +4,9 @@ from pathlib import Path
 from typing import Any
 
 from exu_press.scene import Scene
-from exu_press.simulation import simulate
 from exu_press.verification.refinement import plan
 from exu_press.verification.run import errors_of
+from exu_press.verification.simulate import simulate
 from paper.readings import declared, readings
 
 __all__ = ["COARSER", "observe", "part_frequencies", "read"]

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 from exu_press.scene import Scene
 from exu_press.studies.precision.trajectory import Trajectory
 from precision.reduced import ScalarFunction, numbers_of, rate_of, start_of

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 from exu_press.studies.precision.measured import Attempt, Measured
 from exu_press.studies.precision.trajectory import Trajectory
 from precision.compiled import CompiledModel, has_numba

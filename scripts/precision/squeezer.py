@@ -27,10 +27,10 @@ from exudyn.itemInterface import (
     ObjectJointRevolute2D,
 )
 
-from exu_press.arrays import Array
 from exu_press.integrate import SolverStatus, solve_dynamic
 from exu_press.mechanism import Body, Motion
 from exu_press.model.rigid_body import RigidBody
+from exu_press.numerics.arrays import Array
 from exu_press.studies.precision.errors import Errors
 from exu_press.studies.precision.measured import Attempt, Measured
 from exu_press.studies.precision.own import FIXED, TOLERANCE

@@ -13,7 +13,7 @@ from exu_press.quantities.kind import MOTION
 from exu_press.quantities.table import run_lines
 from exu_press.report.run import run_report
 from exu_press.studies.sweep.units import meaning_of, unit_of
-from exu_press.verification import with_errors
+from exu_press.verification.run import with_errors
 
 ROOT = Path(exu_press.__file__).parent
 TEXT = re.compile(r"""["']([^"'\n]*)["']""")

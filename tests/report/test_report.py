@@ -16,7 +16,7 @@ from exu_press.report import Kind, find_output
 from exu_press.report.joints import joint_table
 from exu_press.result import Result
 from exu_press.scene import Scene
-from exu_press.simulation import simulate
+from exu_press.verification.simulate import simulate
 
 VOID = {"meta", "link", "img", "br", "input"}
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from exu_press.verification import growth
+from exu_press.verification.growth import growth
 
 LORENZ_EXPONENT = 0.9056
 """Largest Lyapunov exponent at sigma = 10, rho = 28, beta = 8/3 (J. C. Sprott, Chaos and

@@ -11,9 +11,8 @@ from exu_press.quantities import Placed, Quantity, quantities_of
 from exu_press.quantities.kind import MOTION
 from exu_press.quantities.value import numbers_of
 from exu_press.scene import flexible_press
-from exu_press.verification import with_errors
 from exu_press.verification.refinement import RefinementRuns, plan
-from exu_press.verification.run import errors_of
+from exu_press.verification.run import errors_of, with_errors
 
 DRY = {
     "mechanism": "slider_crank",

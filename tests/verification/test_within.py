@@ -6,9 +6,9 @@ import pytest
 
 from exu_press import InputError, Scene
 from exu_press.cli import main
-from exu_press.verification import deliver, within
+from exu_press.verification import within
 from exu_press.verification.distribution import distributions
-from exu_press.verification.within import COARSE
+from exu_press.verification.within import COARSE, deliver
 
 NAME = "peak_acceleration.resolved"
 

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.linalg import solveh_banded  # type: ignore[import-untyped,unused-ignore]
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 
 __all__ = ["Pressure", "obstacle", "solve_reynolds", "supply_line"]
 

@@ -6,8 +6,8 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import brentq  # type: ignore[import-untyped,unused-ignore]
 
-from exu_press.arrays import Array
 from exu_press.laws.film.reynolds import obstacle
+from exu_press.numerics.arrays import Array
 
 __all__ = ["CapPressure", "facing_load", "solve_cap"]
 

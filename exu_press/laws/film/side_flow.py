@@ -6,8 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.laws.contact_parameters import demand, positive
+from exu_press.numerics.arrays import Array
 
 __all__ = ["SideFlow", "finite_flow", "no_flow", "short_flow"]
 

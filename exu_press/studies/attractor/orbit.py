@@ -9,13 +9,13 @@ from typing import Any
 import exudyn as exu
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.errors import InputError
 from exu_press.integrate import SolverStatus
 from exu_press.joints.joint import ClearanceJoint
 from exu_press.mechanism.parts import DRIVE
 from exu_press.model import Model, build
 from exu_press.model.state import State, go_on_from, state_of
+from exu_press.numerics.arrays import Array
 from exu_press.result import Result, record
 from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.joint import oil_of

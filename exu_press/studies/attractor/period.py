@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.errors import InputError
+from exu_press.numerics.arrays import Array
 
 __all__ = ["MOST", "Period", "period_of"]
 

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.errors import InputError
 from exu_press.model.state import State
+from exu_press.numerics.arrays import Array
 from exu_press.quantities import quantities_of
 from exu_press.quantities.value import numbers_of
 from exu_press.result import Result

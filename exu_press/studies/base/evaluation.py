@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.errors import InputError
+from exu_press.numerics.arrays import Array
 from exu_press.parallel.task import COMPLETED, Row
 from exu_press.quantities import quantity_of
 from exu_press.scene import Scene

@@ -110,7 +110,7 @@ class Runs(ExitStack):
 
 def run_scene(arguments: dict[str, Any]) -> dict[str, Any]:
     """Run {"scene": ...}, with "save": file and "errors": True if wanted; return its row."""
-    from exu_press.simulation import simulate
+    from exu_press.verification.simulate import simulate
 
     scene = Scene.from_dict(arguments["scene"])
     result = simulate(scene, errors=bool(arguments.get("errors")), beside=False)

@@ -9,8 +9,8 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 from scipy.signal import butter, sosfilt, sosfilt_zi
 
-from exu_press.arrays import Array
 from exu_press.errors import InputError
+from exu_press.numerics.arrays import Array
 from exu_press.schema.checks import Table, key
 from exu_press.studies.fit.curve_file import CurveFile, read_curve
 from exu_press.studies.fit.measured import under_of

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.errors import InputError
 from exu_press.files.input_file import read_text
+from exu_press.numerics.arrays import Array
 from exu_press.studies.fit.units import factor_to, head_of
 
 __all__ = ["OVER", "CurveFile", "read_curve"]

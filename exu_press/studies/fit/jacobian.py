@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 
 __all__ = ["LARGEST", "STEP", "Evaluate", "Failed", "jacobian", "steps"]
 

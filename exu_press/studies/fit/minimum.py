@@ -6,7 +6,7 @@ import numpy as np
 from scipy.optimize import differential_evolution, least_squares
 from scipy.stats import qmc
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 from exu_press.studies.fit.jacobian import Evaluate, Failed, jacobian
 
 __all__ = ["Minimum", "evolved", "screened", "searched"]

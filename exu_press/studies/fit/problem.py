@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.errors import InputError
+from exu_press.numerics.arrays import Array
 from exu_press.parallel.task import COMPLETED, Row
 from exu_press.result import Result
 from exu_press.scene import Scene

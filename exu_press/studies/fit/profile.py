@@ -6,7 +6,7 @@ import numpy as np
 from scipy.optimize import lsq_linear
 from scipy.stats import chi2
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 from exu_press.studies.fit.jacobian import Evaluate
 from exu_press.studies.fit.minimum import Minimum
 

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 from scipy.stats import chi2
 
-from exu_press.arrays import Array
 from exu_press.errors import InputError
 from exu_press.files.output_directory import write_json
+from exu_press.numerics.arrays import Array
 from exu_press.scene import Scene
 from exu_press.studies.base import Runs
 from exu_press.studies.base.checked import with_errors_of

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 
 __all__ = ["chosen", "front"]
 

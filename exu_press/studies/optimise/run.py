@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.errors import InputError
 from exu_press.files.output_directory import output_directory, replacing, write_json
+from exu_press.numerics.arrays import Array
 from exu_press.parallel.task import Row
 from exu_press.scene import Scene
 from exu_press.studies.base import Range, Runs

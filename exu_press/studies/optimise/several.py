@@ -5,8 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.errors import InputError
+from exu_press.numerics.arrays import Array
 from exu_press.studies.base import Key, Range, Values
 from exu_press.studies.optimise.study import NSGA, TPE
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial.distance import directed_hausdorff
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 from exu_press.quantities.contact_time import TOUCH
 from exu_press.studies.precision.trajectory import Trajectory
 

@@ -5,7 +5,7 @@ import platform
 from pathlib import Path
 from typing import Any
 
-from exu_press.versions import version_of
+from exu_press.installation.versions import version_of
 
 __all__ = ["machine"]
 

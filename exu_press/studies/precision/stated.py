@@ -6,8 +6,8 @@ from statistics import median
 
 from exu_press.quantities.catalogue import PEAK_ACCELERATION
 from exu_press.scene import Scene
-from exu_press.simulation import simulate
 from exu_press.verification.compared import compared
+from exu_press.verification.simulate import simulate
 
 __all__ = ["Stated", "stated_errors"]
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 
-from exu_press.arrays import Array
+from exu_press.numerics.arrays import Array
 from exu_press.result import Result
 
 __all__ = ["Trajectory", "trajectory_of"]

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.integrate import SolverTuning
 from exu_press.mechanism import GROUND
+from exu_press.numerics.arrays import Array
 from exu_press.quantities.catalogue import ECCENTRICITY_RATIO, JOINT_FORCE, quantity_of
 from exu_press.quantities.energy import energy_residual, energy_scale
 from exu_press.result import Result

@@ -4,9 +4,9 @@ from typing import Any
 
 from exu_press.integrate import SolverStatus
 from exu_press.scene import Scene
-from exu_press.simulation import simulate
 from exu_press.studies.stability.checks import agreement, checks_of
-from exu_press.verification import with_errors
+from exu_press.verification.run import with_errors
+from exu_press.verification.simulate import simulate
 
 __all__ = ["RIGHT", "STOPPED", "WRONG", "finer", "judge"]
 

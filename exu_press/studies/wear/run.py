@@ -154,7 +154,7 @@ def run_worn(arguments: dict[str, Any]) -> dict[str, Any]:
         as `row_of`, and "journal", "bearing": joint -> (72,), "ways": guided body -> deepest.
     """
     from exu_press.quantities.wear import depths_of_a_revolution
-    from exu_press.simulation import simulate
+    from exu_press.verification.simulate import simulate
 
     result = simulate(Scene.from_dict(arguments["scene"]))
     row = row_of(result)

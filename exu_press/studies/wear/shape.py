@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from exu_press.arrays import Array
 from exu_press.laws.profile import profile
 from exu_press.laws.wear import reached
+from exu_press.numerics.arrays import Array
 from exu_press.quantities.wear import SECTORS
 from exu_press.scene import DryJoint, LubricatedJoint, Scene
 

@@ -14,7 +14,7 @@ from exu_press.studies.stability import judge as judging
 from exu_press.studies.stability.cases import PAIRS
 from exu_press.studies.stability.checks import agreement, checks_of
 from exu_press.studies.stability.judge import finer, judge
-from exu_press.verification import with_errors
+from exu_press.verification.run import with_errors
 
 SHORT = {"mechanism": "slider_crank", "revolutions": 0.04, "start": "centred"}
 DRY = {"joints.crank_pin": "dry", "contact": PAPER_LAWS["contact"]}

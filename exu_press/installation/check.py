@@ -7,7 +7,7 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from exu_press.versions import version_of
+from exu_press.installation.versions import version_of
 
 __all__ = ["Run", "extras", "joints_compiled", "machine", "runs", "versions"]
 

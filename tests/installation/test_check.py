@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from independent.reduced_slider_crank import ReducedSliderCrank
 
-from exu_press import Scene, doctor
+from exu_press import Scene
 from exu_press.cli import main
+from exu_press.installation import check
 
 
 def test_a_sound_installation(capsys):
@@ -21,7 +22,7 @@ def test_a_sound_installation(capsys):
 
 def test_the_stored_number_is_that_of_the_independent_model():
     reduced = ReducedSliderCrank("pinkus").slider(np.array([0.05, 0.1]), 1e-10)
-    assert reduced[-1] == pytest.approx(doctor.LUBRICATED_SLIDER, abs=1e-9)
+    assert reduced[-1] == pytest.approx(check.LUBRICATED_SLIDER, abs=1e-9)
 
 
 def test_the_allowed_error_is_far_below_what_a_film_does():
@@ -30,13 +31,13 @@ def test_the_allowed_error_is_far_below_what_a_film_does():
 
     scene = Scene(mechanism="slider_crank", joints={"crank_pin": "ideal"}, revolutions=0.4)
     ideal = simulate(scene)["slider_position"][-1]
-    assert abs(ideal - doctor.LUBRICATED_SLIDER) > 10 * doctor.LUBRICATED_ERROR
+    assert abs(ideal - check.LUBRICATED_SLIDER) > 10 * check.LUBRICATED_ERROR
 
 
 def test_a_wrong_number_is_status_1(monkeypatch, capsys):
-    sound = doctor.runs()
+    sound = check.runs()
     wrong = dataclasses.replace(sound[1], found=sound[1].wanted + 2 * sound[1].allowed)
-    monkeypatch.setattr(doctor, "runs", lambda: [sound[0], wrong])
+    monkeypatch.setattr(check, "runs", lambda: [sound[0], wrong])
     assert main(["doctor"]) == 1
     text = capsys.readouterr().out
     assert "WRONG: slider-crank" in text and "does not work" in text
@@ -46,18 +47,18 @@ def test_a_run_that_cannot_be_made_is_status_1(monkeypatch, capsys):
     def broken():
         raise ImportError("libsomething.so: cannot open")
 
-    monkeypatch.setattr(doctor, "_lubricated", broken)
+    monkeypatch.setattr(check, "_lubricated", broken)
     assert main(["doctor"]) == 1
     assert "WRONG: lubricated film: ImportError: libsomething.so" in capsys.readouterr().out
 
 
 def test_a_missing_package_is_status_1(monkeypatch, capsys):
-    monkeypatch.setattr(doctor, "versions", lambda: {"exudyn": "1.13.6", "scipy": None})
+    monkeypatch.setattr(check, "versions", lambda: {"exudyn": "1.13.6", "scipy": None})
     assert main(["doctor"]) == 1
     assert "scipy            MISSING" in capsys.readouterr().out
 
 
 def test_requirements_are_those_declared():
-    assert {"exu-press", "exudyn", "numpy", "scipy", "matplotlib"} <= set(doctor.versions())
-    assert "pytest" in doctor.extras()["test"]
-    assert doctor.extras()["flexible"].keys() == {"ngsolve"}
+    assert {"exu-press", "exudyn", "numpy", "scipy", "matplotlib"} <= set(check.versions())
+    assert "pytest" in check.extras()["test"]
+    assert check.extras()["flexible"].keys() == {"ngsolve"}

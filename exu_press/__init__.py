@@ -32,8 +32,8 @@ if TYPE_CHECKING:
     )
     from exu_press.mechanism import Mechanism
     from exu_press.model.graphics import build_with_graphics as build_with_graphics
-    from exu_press.quantities import summary as summary
-    from exu_press.quantities import value_of as value_of
+    from exu_press.quantities.summary import summary as summary
+    from exu_press.quantities.value import value_of as value_of
     from exu_press.report.cells import Comparison
     from exu_press.report.cells import cell as cell
     from exu_press.report.cells import page_of as page_of
@@ -76,7 +76,8 @@ _NAMES = {
     "add_revolute",
     "mechanism": "Mechanism",
     "model.graphics": "build_with_graphics",
-    "quantities": "summary value_of",
+    "quantities.summary": "summary",
+    "quantities.value": "value_of",
     "report.cells": "Comparison cell page_of",
     "result": "Result",
     "scene": "Scene",

@@ -55,33 +55,18 @@ __all__ = [
     "shipped_part",
 ]
 
-_HOMES = {
-    "CRANK_STEEL": "material",
-    "LINKAGE_IRON": "material",
-    "Axis": "geometry",
-    "ConvergenceRow": "clamped",
-    "CrankShape": "geometry",
-    "FlexibleBody": "exudyn_body",
-    "Interface": "part",
-    "LinkageShape": "geometry",
-    "Material": "material",
-    "OwnShape": "geometry",
-    "Part": "part",
-    "Patch": "geometry",
-    "ReducedInterface": "reduced",
-    "ReducedPart": "reduced",
-    "Reduction": "reduction",
-    "Sides": "geometry",
-    "StepFile": "geometry",
-    "add_flexible_body": "exudyn_body",
-    "clamped_frequencies": "clamped",
-    "default_folder": "cache",
-    "draw_mode_shapes": "pictures",
-    "mesh_convergence": "clamped",
-    "reduced_part": "cache",
-    "shipped_faces": "part",
-    "shipped_part": "part",
+_NAMES = {
+    "cache": "default_folder reduced_part",
+    "clamped": "ConvergenceRow clamped_frequencies mesh_convergence",
+    "exudyn_body": "FlexibleBody add_flexible_body",
+    "geometry": "Axis CrankShape LinkageShape OwnShape Patch Sides StepFile",
+    "material": "CRANK_STEEL LINKAGE_IRON Material",
+    "part": "Interface Part shipped_faces shipped_part",
+    "pictures": "draw_mode_shapes",
+    "reduced": "ReducedInterface ReducedPart",
+    "reduction": "Reduction",
 }
+_HOMES = {name: module for module, names in _NAMES.items() for name in names.split()}
 
 
 def __getattr__(name: str) -> Any:

@@ -10,6 +10,7 @@ from math import log
 from typing import Any
 
 import numpy as np
+from scipy.optimize import brentq
 
 from fe_models.arrays import Array
 from fe_models.errors import InputError
@@ -136,8 +137,5 @@ def observed_order(rows: Sequence[ConvergenceRow], mode: int) -> tuple[float, fl
     low, high = 0.05, 12.0
     if defect(low) * defect(high) > 0.0:
         return nothing
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if defect(low) * defect(middle) > 0.0 else (low, middle)
-    p = 0.5 * (low + high)
+    p = float(brentq(defect, low, high))
     return p, f3 - (f2 - f3) * h3**p / (h2**p - h3**p)

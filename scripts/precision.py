@@ -50,10 +50,13 @@ def run(options: argparse.Namespace) -> int:
         quick=options.quick,
         quiet=options.quiet,
         after_case=keep,
-        goals_of=goals_of,
         left_out=left_out(),
     )
     tell(report, directory, options)
+    if not (options.quick or options.quiet):
+        durations = {name: case["duration"] for name, case in report.cases.items()}
+        goals = goals_of(report.rows, durations)
+        print("\n".join(["", *(line for goal in goals for line in goal.lines())]))
     return 0
 
 

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import atan2, cos, hypot, sin, sqrt
 
-from exu_press.joints.interface import InterfaceJoint, InterfaceLaw, Load
+from exu_press.joints.interface import InterfaceJoint, InterfaceLaw, Load, Motion
 
 __all__ = ["PlanarEnd", "PlanarJoint"]
 
@@ -51,6 +51,15 @@ class PlanarJoint(InterfaceJoint):
 
     def add_force(self, q: list[float], q_t: list[float], out: list[float]) -> None:
         """Add the joint's generalised forces to `out`."""
+        motion = self._move(q, q_t)[4]
+        n_x, n_y = self._directions[0], self._directions[1]
+        for load in self._load(motion):
+            if load is not None:
+                f_n, f_t, m_j, m_b, _ = load
+                self._exert(f_n * n_x - f_t * n_y, f_n * n_y + f_t * n_x, m_j, m_b, out)
+
+    def _move(self, q: list[float], q_t: list[float]) -> tuple[float, float, float, float, Motion]:
+        """Turn the arms; return eccentricity and rate in the global frame, and the motion."""
         x_j, y_j, phi_j, x_b, y_b, phi_b = self.indices
         angle_j, angle_b = self._angle_j + q[phi_j], self._angle_b + q[phi_b]
         j_x, j_y = self._length_j * cos(angle_j), self._length_j * sin(angle_j)
@@ -63,16 +72,18 @@ class PlanarJoint(InterfaceJoint):
         e = sqrt(x * x + y * y)
         n_x, n_y = (x / e, y / e) if e > 0.0 else (1.0, 0.0)
         self._directions = n_x, n_y, j_x, j_y, b_x, b_y
-        for load in self._load((e, u * n_x + v * n_y, v * n_x - u * n_y, w_j, w_b)):
-            if load is not None:
-                f_n, f_t, m_j, m_b, _ = load
-                f_x, f_y = f_n * n_x - f_t * n_y, f_n * n_y + f_t * n_x
-                out[x_j] += f_x
-                out[y_j] += f_y
-                out[phi_j] += m_j + j_x * f_y - j_y * f_x
-                out[x_b] -= f_x
-                out[y_b] -= f_y
-                out[phi_b] += m_b - b_x * f_y + b_y * f_x
+        return x, y, u, v, (e, u * n_x + v * n_y, v * n_x - u * n_y, w_j, w_b)
+
+    def _exert(self, f_x: float, f_y: float, m_j: float, m_b: float, out: list[float]) -> None:
+        """Add the force on the journal, its opposite on the bearing and both moments to `out`."""
+        x_j, y_j, phi_j, x_b, y_b, phi_b = self.indices
+        _, _, j_x, j_y, b_x, b_y = self._directions
+        out[x_j] += f_x
+        out[y_j] += f_y
+        out[phi_j] += m_j + j_x * f_y - j_y * f_x
+        out[x_b] -= f_x
+        out[y_b] -= f_y
+        out[phi_b] += m_b - b_x * f_y + b_y * f_x
 
     def jacobian(self, by_q: float, by_q_t: float) -> list[float] | None:
         """Return -(by_q dQ/dq + by_q_t dQ/dq_t) at the state of the last `add_force`.

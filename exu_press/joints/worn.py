@@ -17,7 +17,7 @@ by instant: Reynolds' equation is not solved anew. Whatever the clearance, such 
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import atan2, cos, sin, sqrt
+from math import atan2, cos, sin
 
 import numpy as np
 
@@ -83,22 +83,13 @@ class WornJoint(PlanarJoint):
 
     def add_force(self, q: list[float], q_t: list[float], out: list[float]) -> None:
         """Add the joint's generalised forces to `out`."""
-        x_j, y_j, phi_j, x_b, y_b, phi_b = self.indices
-        angle_j, angle_b = self._angle_j + q[phi_j], self._angle_b + q[phi_b]
-        j_x, j_y = self._length_j * cos(angle_j), self._length_j * sin(angle_j)
-        b_x, b_y = self._length_b * cos(angle_b), self._length_b * sin(angle_b)
-        w_j, w_b = q_t[phi_j], q_t[phi_b]
-        x = q[x_j] - q[x_b] + self._far + j_x - b_x
-        y = q[y_j] - q[y_b] + self._high + j_y - b_y
-        u = q_t[x_j] - q_t[x_b] - w_j * j_y + w_b * b_y
-        v = q_t[y_j] - q_t[y_b] + w_j * j_x - w_b * b_x
-        e = sqrt(x * x + y * y)
-        n_x, n_y = (x / e, y / e) if e > 0.0 else (1.0, 0.0)
-        self._directions = n_x, n_y, j_x, j_y, b_x, b_y
-        self._moving = u, v, w_j, w_b
+        x, y, u, v, motion = self._move(q, q_t)
         self._motion_before, self._loads_before = self._motion, self._loads
-        self._motion = e, u * n_x + v * n_y, v * n_x - u * n_y, w_j, w_b
-        turned_j, turned_b = self._turned_j + q[phi_j], self._turned_b + q[phi_b]
+        self._motion = motion
+        e, _, _, w_j, w_b = motion
+        self._moving = u, v, w_j, w_b
+        turned_j = self._turned_j + q[self.indices[2]]
+        turned_b = self._turned_b + q[self.indices[5]]
         self._facing = self._local(atan2(y, x), turned_j, turned_b)
         gap = self.clearance + self._facing[2] - e
         if self._dry:
@@ -133,12 +124,7 @@ class WornJoint(PlanarJoint):
                     m_b += f_n * at[4]
         self._loads = loads
         self._sum = f_x, f_y, m_j, m_b
-        out[x_j] += f_x
-        out[y_j] += f_y
-        out[phi_j] += m_j + j_x * f_y - j_y * f_x
-        out[x_b] -= f_x
-        out[y_b] -= f_y
-        out[phi_b] += m_b - b_x * f_y + b_y * f_x
+        self._exert(f_x, f_y, m_j, m_b, out)
 
     def _open(self, film: FilmInterface, worn: float) -> float:
         """Give a film the local clearance, and return its scale for `_close`."""

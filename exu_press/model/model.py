@@ -148,8 +148,8 @@ class Model(Assembled):
         wanted = torque_wanted(self.mechanism, self.scene, forces, angle)
         slips = start_stop is not None and start_stop.slips
         there = motor.law(self.scene.speed_rpm)(speed)[0]
-        if start_stop is not None and motor.clutch_torque is not None:
-            there = motor.clutch_torque if slips else there
+        if slips and motor.clutch_torque is not None:
+            there = motor.clutch_torque
         return stalled(time, angle, wanted, there, slips=slips)
 
 

@@ -3,14 +3,13 @@
 import dataclasses
 import math
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import Any, ClassVar, Literal
 
 from exu_press.errors import InputError
 from exu_press.laws.load_curve import REVOLUTION, LoadCurve, PulseClock, blanking_pulse
 from exu_press.laws.sheet import SHAPE, Sheet, shear_force
 from exu_press.scene.bodies import Face, patch_given
-from exu_press.schema.checks import Table, key
+from exu_press.schema.checks import Table, check_columns, check_increasing, key
 
 __all__ = ["COLUMNS", "LOAD_KINDS", "BlankingLoad", "Load", "SheetLoad", "SpringLoad", "TableLoad"]
 
@@ -24,6 +23,9 @@ LOWEST = 180.0
 @dataclass(frozen=True)
 class _Placed(Table):
     """The place of a load; its direction stays in the frame however the body turns.
+
+    `over` is the variable of its curve; `closing` says whether it depends on the way that the
+    output goes.
 
     A flexible body needs to know which of its faces carry the load: those of a joint, or others. A
     point beside the middle of these moves with their mean motion.
@@ -63,6 +65,8 @@ class BlankingLoad(_Placed):
     """Triangular pulse, once a revolution (Eq. 36, A-14); a motor's crank keeps its times, too."""
 
     kind: ClassVar[Literal["blanking"]] = "blanking"
+    over: ClassVar = "crank_angle_deg"
+    closing: ClassVar = False
     force: float | None = key(None, "peak force", "N", at_least=0)
     rise: float = key(1e-3, "time from zero to the peak (2 tau)", "s", above=0)
     fall: float = key(5e-4, "time from the peak to zero (tau)", "s", above=0)
@@ -80,16 +84,6 @@ class BlankingLoad(_Placed):
             raise InputError("force: missing; allowed is a number >= 0 (peak force, N)")
         if self.start_angle_deg is not None and self.end_angle_deg != LOWEST:
             raise InputError("start_angle_deg and end_angle_deg: allowed is one of the two")
-
-    @property
-    def over(self) -> str:
-        """The variable of the curve."""
-        return "crank_angle_deg"
-
-    @property
-    def closing(self) -> bool:
-        """Whether it acts while the output closes only."""
-        return False
 
     def curve(self, angular_speed: float) -> LoadCurve:
         """Return the force over the crank angle, rad, at a speed of the crank, rad/s."""
@@ -150,12 +144,8 @@ class TableLoad(_Placed):
                 f"{shown} given: allowed is file, a CSV, or one of {', '.join(COLUMNS)} with force"
             )
         places = getattr(self, given[0])
-        if len(places) < 2 or len(places) != len(self.force):
-            raise InputError(
-                f"{given[0]}, force: {len(places)} and {len(self.force)} values; allowed are at "
-                "least two, as many of both"
-            )
-        _increasing(given[0], places)
+        check_columns((given[0], "force"), places, self.force)
+        check_increasing(given[0], places)
         if given[0] == "crank_angle_deg":
             turn = places[-1] - places[0]
             if turn > 360.0 or (turn == 360.0 and self.force[0] != self.force[-1]):
@@ -193,6 +183,8 @@ class SheetLoad(_Placed):
     """
 
     kind: ClassVar[Literal["sheet"]] = "sheet"
+    over: ClassVar = "penetration"
+    closing: ClassVar = True
     height: float | None = key(
         None, "of the sheet's upper face above bottom dead centre", "m", above=0
     )
@@ -221,31 +213,17 @@ class SheetLoad(_Placed):
                 unit = field.metadata["unit"]
                 words = ", ".join(filter(None, (field.metadata["meaning"], unit)))
                 raise InputError(f"{field.name}: missing; allowed is a number > 0 ({words})")
-        if len(self.over_fracture) < 2 or len(self.over_fracture) != len(self.over_peak):
-            raise InputError(
-                f"over_fracture, over_peak: {len(self.over_fracture)} and {len(self.over_peak)} "
-                "values; allowed are at least two, as many of both"
-            )
+        check_columns(("over_fracture", "over_peak"), self.over_fracture, self.over_peak)
         if (self.over_fracture[0], self.over_fracture[-1], self.over_peak[0]) != (0.0, 1.0, 0.0):
             raise InputError(
                 f"over_fracture from {self.over_fracture[0]!r} to {self.over_fracture[-1]!r}, "
                 f"over_peak from {self.over_peak[0]!r}: allowed is from 0 to 1, and from 0"
             )
-        _increasing("over_fracture", self.over_fracture)
+        check_increasing("over_fracture", self.over_fracture)
         if not min(self.over_peak[1:]) > 0.0:
             raise InputError(
                 f"over_peak = {min(self.over_peak[1:])!r}: allowed is > 0 after the first"
             )
-
-    @property
-    def over(self) -> str:
-        """The variable of the curve."""
-        return "penetration"
-
-    @property
-    def closing(self) -> bool:
-        """Whether it depends on the way that the output goes."""
-        return True
 
     @property
     def top(self) -> float:
@@ -277,6 +255,8 @@ class SpringLoad(_Placed):
     """
 
     kind: ClassVar[Literal["spring"]] = "spring"
+    over: ClassVar = "height"
+    closing: ClassVar = False
     height: float | None = key(
         None, "of the output above bottom dead centre where it meets the spring", "m", above=0
     )
@@ -292,27 +272,13 @@ class SpringLoad(_Placed):
                 raise InputError(f"{name}: missing; allowed are height, travel and force together")
         assert self.travel is not None
         assert self.force is not None
-        if len(self.travel) < 2 or len(self.travel) != len(self.force):
-            raise InputError(
-                f"travel, force: {len(self.travel)} and {len(self.force)} values; allowed are at "
-                "least two, as many of both"
-            )
+        check_columns(("travel", "force"), self.travel, self.force)
         if self.travel[0] != 0.0 or self.force[0] != 0.0 or min(self.force) < 0.0:
             raise InputError(
                 f"travel from {self.travel[0]!r}, force from {self.force[0]!r}: allowed is from 0 "
                 "and 0, and pushing; let a preload rise over a short travel, as its seat gives way"
             )
-        _increasing("travel", self.travel)
-
-    @property
-    def over(self) -> str:
-        """The variable of the curve."""
-        return "height"
-
-    @property
-    def closing(self) -> bool:
-        """Whether it acts while the output closes only."""
-        return False
+        check_increasing("travel", self.travel)
 
     def curve(self, angular_speed: float) -> LoadCurve:
         """Return the force over the output's height, m."""
@@ -324,12 +290,6 @@ class SpringLoad(_Placed):
 
 
 _OF_A_SHEET = ("height", "thickness", "shear_strength", "cut_length", "penetration", "crack_time")
-
-
-def _increasing(name: str, values: tuple[float, ...]) -> None:
-    for before, after in pairwise(values):
-        if not after > before:
-            raise InputError(f"{name} = {after!r} after {before!r}: allowed is increasing")
 
 
 Load = BlankingLoad | TableLoad | SheetLoad | SpringLoad

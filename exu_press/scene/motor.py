@@ -1,14 +1,13 @@
 """[drive]: a motor with its flywheel, and how it starts and stops."""
 
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import ClassVar
 
 from exu_press.errors import InputError
 from exu_press.laws.motor import MotorLaw, kloss, torque_table
 from exu_press.scene.start_stop import StartStop
 from exu_press.scene.tables import RPM
-from exu_press.schema.checks import demand_keys, key
+from exu_press.schema.checks import check_columns, check_increasing, demand_keys, key
 
 __all__ = ["Motor"]
 
@@ -67,16 +66,8 @@ class Motor(StartStop):
                     f"drive.rated_torque = {rated!r}"
                 )
             return
-        if len(speeds) != len(torques) or len(speeds) < 2:
-            raise InputError(
-                f"drive.table_speed_rpm, drive.table_torque: {len(speeds)} and {len(torques)} "
-                "values; allowed are at least two, as many of both"
-            )
-        for before, after in pairwise(speeds):
-            if not after > before:
-                raise InputError(
-                    f"drive.table_speed_rpm = {after!r} after {before!r}: allowed is increasing"
-                )
+        check_columns(("drive.table_speed_rpm", "drive.table_torque"), speeds, torques)
+        check_increasing("drive.table_speed_rpm", speeds)
         if speeds[-1] <= 0.0:
             raise InputError(
                 f"drive.table_speed_rpm = {speeds[-1]!r} at the end: allowed is a number > 0"

@@ -4,12 +4,11 @@ import fnmatch
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import ClassVar
 
 from exu_press.errors import InputError
 from exu_press.mechanism.section import Section
-from exu_press.schema.checks import Table, key, nearest
+from exu_press.schema.checks import Table, check_increasing, key, nearest
 
 __all__ = ["Output"]
 
@@ -53,11 +52,7 @@ class Output(Table):
         for angle in angles:
             if not 0.0 <= angle < 360.0:
                 raise InputError(f"output.samples = {angle!r}: allowed are numbers from 0 to < 360")
-        for before, after in pairwise(angles):
-            if not after > before:
-                raise InputError(
-                    f"output.samples = {after!r} after {before!r}: allowed is increasing"
-                )
+        check_increasing("output.samples", angles)
         if self.samples == ():
             raise InputError("output.samples: allowed is at least one crank angle, in deg")
 

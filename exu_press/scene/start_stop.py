@@ -7,7 +7,7 @@ from itertools import pairwise
 
 from exu_press.errors import InputError
 from exu_press.laws.schedule import Ramp, Schedule
-from exu_press.schema.checks import Table, demand_keys, key
+from exu_press.schema.checks import Table, check_increasing, demand_keys, key
 
 __all__ = ["StartStop"]
 
@@ -254,8 +254,6 @@ class StartStop(Table):
 
 def _rising(name: str, given: tuple[float, ...] | None) -> None:
     """Refuse places that do not increase from 0 on."""
-    for before, after in pairwise(given or ()):
-        if not after > before:
-            raise InputError(f"drive.{name} = {after!r} after {before!r}: allowed is increasing")
+    check_increasing(f"drive.{name}", given or ())
     if given and given[0] < 0.0:
         raise InputError(f"drive.{name} = {given[0]!r}: allowed is a number >= 0")

@@ -8,7 +8,7 @@ import math
 import numbers
 import types
 import typing
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sized
 from typing import Any, ClassVar, Self, TypeVar
 
 from exu_press.errors import InputError, UnusedKeyError
@@ -18,6 +18,8 @@ __all__ = [
     "Table",
     "Uses",
     "changed_table",
+    "check_columns",
+    "check_increasing",
     "demand_keys",
     "given_in",
     "inner",
@@ -353,6 +355,22 @@ def given_in(table: Any) -> dict[str, Any]:
     """Return the keys that a table gives, as a mapping or as its dataclass; none of None."""
     keys = table.given if isinstance(table, Table) else table or {}
     return dict(keys) if isinstance(keys, Mapping) else {}
+
+
+def check_columns(names: tuple[str, str], one: Sized, other: Sized) -> None:
+    """Raise InputError unless two columns of a curve are of one length, two or more."""
+    if len(one) < 2 or len(one) != len(other):
+        raise InputError(
+            f"{', '.join(names)}: {len(one)} and {len(other)} values; allowed are at least two, "
+            "as many of both"
+        )
+
+
+def check_increasing(name: str, values: Iterable[float]) -> None:
+    """Raise InputError for the first value that is not larger than the one before."""
+    for before, after in itertools.pairwise(values):
+        if not after > before:
+            raise InputError(f"{name} = {after!r} after {before!r}: allowed is increasing")
 
 
 def nearest(name: Any, known: Iterable[str]) -> str:

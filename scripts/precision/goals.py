@@ -4,12 +4,12 @@ Of processor times: all runs have one thread, and another program beside them do
 """
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from exu_press.studies.precision.own import FIXED, TOLERANCE
-from exu_press.studies.precision.report import Goal
-from exu_press.studies.precision.rows import Row, cheapest, series_of
+from exu_press.studies.precision.rows import Row, series_of
 
-__all__ = ["goals_of"]
+__all__ = ["Goal", "cheapest", "goals_of"]
 
 PEAK, PEAK_LIMIT = "error_peak_acceleration", 5e-3
 PEAKS, PEAKS_LIMIT = "error_peaks", 2e-2
@@ -32,6 +32,39 @@ REAL_TIME = (
     ("press_lubricated", PEAK, PEAK_LIMIT),
     ("press_dry", PEAKS, PEAKS_LIMIT),
 )
+
+
+@dataclass(frozen=True)
+class Goal:
+    """One ratio of run times.
+
+    Attributes:
+        what: in words.
+        ratio: our time over the other's; None where one of them did not get there.
+        at_most: what is aimed at.
+        ours: our run, in words.
+        other: what it is compared with, in words.
+    """
+
+    what: str
+    ratio: float | None
+    at_most: float
+    ours: str
+    other: str
+
+    @property
+    def met(self) -> bool | None:
+        """Whether the goal is met; None where there is nothing to compare."""
+        return None if self.ratio is None else self.ratio <= self.at_most
+
+    def lines(self) -> list[str]:
+        """Return the goal for the terminal."""
+        verdict = {True: "met", False: "NOT MET", None: "not to be told"}[self.met]
+        ratio = "-" if self.ratio is None else f"{self.ratio:.3g}"
+        return [
+            f"goal {verdict}: {self.what}: {ratio}, wanted <= {self.at_most:.3g}",
+            f"  {self.ours} against {self.other}",
+        ]
 
 
 def goals_of(rows: Sequence[Row], durations: dict[str, float]) -> list[Goal]:
@@ -68,6 +101,22 @@ def goals_of(rows: Sequence[Row], durations: dict[str, float]) -> list[Goal]:
                 )
             )
     return goals
+
+
+def cheapest(series: Sequence[Row], error: str, limit: float) -> Row | None:
+    """Return the quickest run with at most an error, among settings that are not just lucky.
+
+    A setting counts where it and every finer one that was completed has at most this error.
+    """
+    good: list[Row] = []
+    for row in reversed(series):
+        if row.status != "completed":
+            continue
+        value = getattr(row, error)
+        if value is None or value > limit:
+            break
+        good.append(row)
+    return min(good, key=lambda row: row.cpu_time, default=None)
 
 
 def _goal(what: str, ours: Row | None, other: Row | None, at_most: float) -> Goal:

@@ -9,7 +9,7 @@ from typing import Any
 from exu_press.studies.precision.errors import Errors, Late
 from exu_press.studies.precision.measured import Attempt, Measured
 
-__all__ = ["ERRORS", "Row", "cheapest", "order_of", "orders_of", "row_of", "series_of"]
+__all__ = ["ERRORS", "Row", "order_of", "orders_of", "row_of", "series_of"]
 
 ERRORS = ("error_position", "error_velocity", "error_peak_acceleration")
 
@@ -137,19 +137,3 @@ def order_of(series: Sequence[Row], error: str = "error_position") -> float | No
         if row.status == "completed" and (value := row.resolved(error)) is not None and value > 0.0
     ][-3:]
     return linear_regression(*zip(*points, strict=True)).slope if len(points) > 1 else None
-
-
-def cheapest(series: Sequence[Row], error: str, limit: float) -> Row | None:
-    """Return the quickest run with at most an error, among settings that are not just lucky.
-
-    A setting counts where it and every finer one that was completed has at most this error.
-    """
-    good: list[Row] = []
-    for row in reversed(series):
-        if row.status != "completed":
-            continue
-        value = getattr(row, error)
-        if value is None or value > limit:
-            break
-        good.append(row)
-    return min(good, key=lambda row: row.cpu_time, default=None)

@@ -9,7 +9,7 @@ from exu_press.studies.precision.cases import FULL, QUICK, Amount, Case
 from exu_press.studies.precision.machine import machine
 from exu_press.studies.precision.measured import LONG_RUN, timed
 from exu_press.studies.precision.references import Reference
-from exu_press.studies.precision.report import Goal, Report
+from exu_press.studies.precision.report import Report
 from exu_press.studies.precision.rows import ERRORS, Row, orders_of, row_of
 from exu_press.studies.precision.stated import Stated
 from exu_press.terminal.progress import Progress
@@ -23,7 +23,6 @@ def precision(
     quick: bool = False,
     quiet: bool = True,
     after_case: Callable[[Report], object] = lambda report: None,
-    goals_of: Callable[[Sequence[Row], dict[str, float]], Sequence[Goal]] = lambda rows, times: (),
     left_out: Sequence[str] = (),
 ) -> Report:
     """Run cases and return what was measured.
@@ -34,7 +33,6 @@ def precision(
         quiet: False shows the progress on standard error.
         after_case: called after every case with what was measured so far: all of them take half
             an hour.
-        goals_of: rows, and the simulated time of each case, s -> goals.
         left_out: what was not run, and why.
     """
     amount = QUICK if quick else FULL
@@ -43,13 +41,11 @@ def precision(
     stated: list[Stated] = []
 
     def report() -> Report:
-        durations = {name: case["duration"] for name, case in described.items()}
         return Report(
             quick=quick,
             cases=dict(described),
             rows=tuple(rows),
             orders=tuple(orders_of(rows)),
-            goals=() if quick else tuple(goals_of(rows, durations)),
             left_out=tuple(left_out),
             machine=machine(),
             stated=tuple(stated),

@@ -7,7 +7,7 @@ import pytest
 from exu_press.studies.precision.errors import Errors, Late
 from exu_press.studies.precision.measured import Attempt, Measured
 from exu_press.studies.precision.rows import row_of
-from precision.goals import goals_of
+from precision.goals import cheapest, goals_of
 
 NO_FLOOR = Errors(0.0, 0.0, 0.0)
 
@@ -45,3 +45,14 @@ def test_the_dry_press_is_judged_by_the_peaks_of_its_whole_run():
 def test_a_goal_without_a_run_is_not_told():
     (fixed, real_time) = goals_of([row(1e-5, 0.5, case="press_dry")], {"press_dry": 0.5})
     assert fixed.ratio is None and fixed.met is None and real_time.met is None
+
+
+def test_the_cheapest_setting_is_not_a_lucky_one():
+    lucky = [row(1e-1, 1e-6, 0.1), row(1e-2, 1e-2, 1.0), row(1e-3, 1e-5, 3.0), row(1e-4, 0.0, 9.0)]
+    assert cheapest(lucky, "error_position", 1e-4).wall_time == 3.0
+    assert cheapest(lucky[:2], "error_position", 1e-4) is None
+
+
+def test_failed_runs_do_not_count_as_quick():
+    failed = dataclasses.replace(row(1e-4, None, 0.01), status="not converged")
+    assert cheapest([row(1e-3, 1e-5, 3.0), failed], "error_position", 1e-4).wall_time == 3.0

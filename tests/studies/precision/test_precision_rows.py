@@ -1,4 +1,4 @@
-"""What rows and series say: floors, orders, cheapest settings."""
+"""Rows and series: floors and orders."""
 
 import math
 from dataclasses import replace
@@ -7,7 +7,7 @@ import pytest
 
 from exu_press.studies.precision.errors import Errors
 from exu_press.studies.precision.measured import Attempt, Measured, timed
-from exu_press.studies.precision.rows import cheapest, order_of, orders_of, row_of, series_of
+from exu_press.studies.precision.rows import order_of, orders_of, row_of, series_of
 
 NO_FLOOR = Errors(0.0, 0.0, 0.0)
 
@@ -41,17 +41,6 @@ def test_numbers_of_modes_have_no_order():
     (found,) = orders_of(steps + modes)
     assert found["solver"] == "fixed step"
     assert found["error_position"] == pytest.approx(2.0)
-
-
-def test_the_cheapest_setting_is_not_a_lucky_one():
-    lucky = [row(1e-1, 1e-6, 0.1), row(1e-2, 1e-2, 1.0), row(1e-3, 1e-5, 3.0), row(1e-4, 0.0, 9.0)]
-    assert cheapest(lucky, "error_position", 1e-4).wall_time == 3.0
-    assert cheapest(lucky[:2], "error_position", 1e-4) is None
-
-
-def test_failed_runs_do_not_count_as_quick():
-    failed = replace(row(1e-4, None, 0.01), status="not converged")
-    assert cheapest([row(1e-3, 1e-5, 3.0), failed], "error_position", 1e-4).wall_time == 3.0
 
 
 def test_series_run_from_coarse_to_fine():

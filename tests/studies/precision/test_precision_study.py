@@ -38,7 +38,7 @@ def test_the_reference_knows_how_good_it_is(report):
 def test_the_table_holds_every_run(report):
     text = "\n".join(report.lines())
     assert text.count("completed") + text.count("failed") >= len(report.rows)
-    assert report.machine["processor"] in text and not report.goals
+    assert report.machine["processor"] in text
 
 
 def test_a_horizon_is_measured_where_neighbours_part(report):

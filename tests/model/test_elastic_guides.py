@@ -152,7 +152,13 @@ def eccentric(crank_pin, balls):
     )
 
 
-@pytest.mark.parametrize(("crank_pin", "balls"), VARIANTS)
+QUICK = ("ideal", "ideal"), ("lubricated", "dry")
+
+
+@pytest.mark.parametrize(
+    ("crank_pin", "balls"),
+    [v if v in QUICK else pytest.param(*v, marks=pytest.mark.long) for v in VARIANTS],
+)
 def test_energy_balance_with_what_guides_store_and_lose(crank_pin, balls):
     """With the default tolerance; measured 3e-5 ... 2e-4 of the largest work."""
     result = eccentric(crank_pin, balls)

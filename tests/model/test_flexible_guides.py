@@ -85,8 +85,23 @@ RUBS = {"friction": "stribeck", "mu_kinetic": 0.2, "mu_static": 0.3}
 GUIDES = {"ideal": None, "elastic": SOFT, "rubbing": RUBS, "elastic, rubbing": SOFT | RUBS}
 
 
-@pytest.mark.parametrize("guide", GUIDES.values(), ids=GUIDES)
-@pytest.mark.parametrize("body", [STIFF, {"modes": 0}], ids=["stiff", "no modes"])
+BODIES = {"stiff": STIFF, "no modes": {"modes": 0}}
+QUICK = ("stiff", "elastic, rubbing"), ("no modes", "ideal")
+
+
+@pytest.mark.parametrize(
+    ("body", "guide"),
+    [
+        pytest.param(
+            BODIES[body],
+            GUIDES[guide],
+            id=f"{body}-{guide}",
+            marks=[pytest.mark.long] * ((body, guide) not in QUICK),
+        )
+        for body in BODIES
+        for guide in GUIDES
+    ],
+)
 def test_stiff_it_is_the_rigid_slider(slider, body, guide):
     """In its motion, in the drive, and in what the guide bears, stores and loses."""
     drawn = slider(body=body, load={"push": {**PUSH, "face": BOTTOM}}, guide=guide, **RUN)
@@ -116,6 +131,7 @@ PLAY = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("body", [{"youngs_modulus": 1e4 * STEEL}, {"modes": 0}])
 def test_stiff_it_hits_its_ways_as_the_rigid_slider(slider, body):
     """With both ends, on both sides, and with friction beside its middle."""
@@ -202,6 +218,7 @@ def test_a_force_compresses_it_as_all_finite_elements(slider):
     assert moved == pytest.approx((faces["bottom"].rows @ found)[1], rel=1e-4)
 
 
+@pytest.mark.long
 def test_longer_by_a_length_it_gives_way_by_that_over_ea(slider):
     """What the pin's surroundings add is the same for both."""
     moved = [
@@ -213,6 +230,7 @@ def test_longer_by_a_length_it_gives_way_by_that_over_ea(slider):
     assert moved[1] - moved[0] == pytest.approx(1e4 * 0.2 / (STEEL * WIDTH**2), rel=2e-3)
 
 
+@pytest.mark.long
 def test_the_balance_closes_and_the_solid_may_be_drawn_on_its_own(slider):
     """Lying on its side about its pin: the same run, in an ideal and in an elastic guide."""
     side = block().Move(Vec(0, -1e3 * WRIST, 0)).Rotate(Line(Pnt(0, 0, 0), Z), 90.0)

@@ -163,6 +163,7 @@ def test_the_balance_closes_only_with_the_bodys_own_motion(rocker):
     )
 
 
+@pytest.mark.long
 def test_over_the_height_that_of_the_flexible_output_counts(rocker):
     """Its frame lies in the origin of the file, 0.39 m away: the balance would not close."""
     spring = {"kind": "table", "height": [0.0, 1.0], "force": [1e3, -1e3], "acts": "both"}

@@ -70,7 +70,10 @@ def test_the_slider_has_its_play_and_what_the_ways_give(pressed):
     assert pressed["slider_lateral"].min() < -CLEARANCE
 
 
-@pytest.mark.parametrize("friction", ["none", "stribeck", "lugre"])
+@pytest.mark.parametrize(
+    "friction",
+    [*(pytest.param(law, marks=pytest.mark.long) for law in ("none", "stribeck")), "lugre"],
+)
 def test_the_balance_of_the_press_closes(friction):
     guide = {"clearance": 5e-5, "friction": friction, "width": 0.2}
     result = simulate(Scene(revolutions=0.15, guide=guide))

@@ -20,6 +20,7 @@ def test_run_press(tmp_path):
     assert {"slider.png", "orbit.png", "force.png"} <= {path.name for path in out.glob("*.png")}
 
 
+@pytest.mark.long
 def test_compare_variants(tmp_path):
     head, status, *_ = run("compare_variants.py", tmp_path).splitlines()
     assert head.split() == ["ideal", "dry", "lubricated"]
@@ -27,6 +28,7 @@ def test_compare_variants(tmp_path):
     assert (tmp_path / "out" / "compare_variants" / "compare_slider.png").exists()
 
 
+@pytest.mark.long
 def test_error_vs_runtime(tmp_path):
     printed = run("error_vs_runtime.py", tmp_path)
     (orders,) = re.findall(r"my_slider_crank  fixed step +step +(\S+)", printed)
@@ -51,6 +53,7 @@ def test_joint_in_your_model(tmp_path):
     assert len((SCRIPTS / "joint_in_your_model.py").read_text("utf-8").splitlines()) <= 30
 
 
+@pytest.mark.long
 def test_your_own_model(tmp_path):
     """Largest pivot force of a four-bar, against 5e4 fixed steps of Exudyn's own: 87.8798 N.
 
@@ -63,6 +66,7 @@ def test_your_own_model(tmp_path):
     assert forces[3] == pytest.approx(forces[5], rel=1e-2)
 
 
+@pytest.mark.long
 def test_ablation(tmp_path):
     """Half the safety is twice the care: less error, more work."""
     rows = run("ablation.py", tmp_path).splitlines()
@@ -71,6 +75,7 @@ def test_ablation(tmp_path):
     assert error < 1.0 < work
 
 
+@pytest.mark.long
 def test_dry_press_peaks(tmp_path):
     """A tenth of a revolution at ten times the default tolerance, against the independent model."""
     printed = run("dry_press_peaks.py", tmp_path)
@@ -79,6 +84,7 @@ def test_dry_press_peaks(tmp_path):
     assert re.search(r"independent model +[\d.]+$", printed.strip())
 
 
+@pytest.mark.long
 def test_dry_press_steps(tmp_path):
     """A period is off by about its phase's square over 12: 2 % of an oscillation at 33 steps."""
     printed = run("dry_press_steps.py", tmp_path)
@@ -89,6 +95,7 @@ def test_dry_press_steps(tmp_path):
     assert all(float(share) > 50.0 for share in re.findall(r" (\d+)%  ", printed))
 
 
+@pytest.mark.long
 def test_press_work_precision(tmp_path):
     """A tenth of a revolution: the tolerance and Radau have the true peak, the fixed step not."""
     printed = run("press_work_precision.py", tmp_path, "--out", "picture.png")

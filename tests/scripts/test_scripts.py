@@ -23,8 +23,15 @@ def test_help_is_all_that_help_does(script, tmp_path, monkeypatch, capsys):
     ("script", "options", "expected"),
     [
         ("benchmark_modes.py", [], "ratio"),
-        ("flexible_convergence.py", ["--out", "convergence"], "error 0.01"),
-        ("flexible_parts.py", ["--out", "parts"], "flexible, second shapes"),
+        pytest.param(
+            "flexible_convergence.py",
+            ["--out", "convergence"],
+            "error 0.01",
+            marks=pytest.mark.long,
+        ),
+        pytest.param(
+            "flexible_parts.py", ["--out", "parts"], "second shapes", marks=pytest.mark.long
+        ),
     ],
 )
 def test_script(script, options, expected, tmp_path):

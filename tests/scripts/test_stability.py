@@ -6,6 +6,7 @@ import pytest
 from running import assert_refused, run
 
 
+@pytest.mark.long
 def test_one_axis_of_the_sample(tmp_path):
     options = ["--axis", "bearing length", "--workers", "1", "--out", str(tmp_path)]
     assert "4 cases: 4 right, 0 stopped with a reason" in run("stability.py", tmp_path, *options)

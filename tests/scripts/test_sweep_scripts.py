@@ -5,7 +5,12 @@ from running import run
 
 
 @pytest.mark.parametrize(
-    ("name", "runs"), [("sweep_clearance", 4), ("sweep_speed", 2), ("sweep_blanking_force", 2)]
+    ("name", "runs"),
+    [
+        pytest.param("sweep_clearance", 4, marks=pytest.mark.long),
+        pytest.param("sweep_speed", 2, marks=pytest.mark.long),
+        ("sweep_blanking_force", 2),
+    ],
 )
 def test_sweep(name, runs, tmp_path):
     lines = run(f"{name}.py", tmp_path).splitlines()

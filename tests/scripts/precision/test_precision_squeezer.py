@@ -33,6 +33,7 @@ def test_fixed_steps_reach_the_published_endpoint_with_second_order():
     assert np.polyfit(np.log(steps), np.log(errors), 1)[0] == pytest.approx(2.0, abs=0.05)
 
 
+@pytest.mark.long
 def test_the_error_follows_the_tolerance():
     """At 1e-2 its largest step decides, half a degree of the crank's average speed."""
     attempts = squeezer_attempts((), (1e-2, 1e-4, 1e-5, 1e-6))

@@ -51,7 +51,7 @@ class Child(AbstractContextManager["Child", None]):
         """
         paths = [path or str(Path.cwd()) for path in sys.path]
         self._process = subprocess.Popen(
-            [sys.executable, "-P", "-m", "exu_press.parallel.worker", task.function],
+            [sys.executable, "-P", "-m", "exu_press.parallel.worker", task.function, *task.modules],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             text=True,
@@ -62,7 +62,8 @@ class Child(AbstractContextManager["Child", None]):
         try:
             ready = self._read()
             if "error" in ready:
-                raise InputError(f"{task.function}: a worker cannot import it ({ready['error']})")
+                names = ", ".join((task.function, *task.modules))
+                raise InputError(f"{names}: a worker cannot import it ({ready['error']})")
             if ready["versions"] != dict(task.versions):
                 raise InputError(
                     f"a worker has {ready['versions']}; allowed are the versions here, "

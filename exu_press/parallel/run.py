@@ -64,6 +64,7 @@ class Batch(ExitStack):
         dask: str | None = None,
         time_limit: float | None = None,
         kept: Callable[[Mapping[str, Any]], bool] | None = None,
+        modules: Sequence[str] = (),
         label: str = "sweep",
         quiet: bool = False,
     ) -> None:
@@ -78,6 +79,7 @@ class Batch(ExitStack):
             time_limit: of one run, s; a run over it is stopped.
             kept: says of a run's arguments whether the files that it wrote are still there; a
                 finished run is done again where they are not.
+            modules: that a worker imports first, for what they declare.
             label: of the progress bar.
             quiet: no progress bar.
 
@@ -92,7 +94,7 @@ class Batch(ExitStack):
             )
         if time_limit is not None and not time_limit > 0.0:
             raise InputError(f"time_limit = {time_limit:g}: allowed is a number > 0 (s)")
-        self._name = name_of(function)
+        self._name, self._modules = name_of(function), tuple(modules)
         self._directory = Path(directory)
         self._workers, self._dask, self._limit = workers or os.cpu_count() or 1, dask, time_limit
         self._kept, self._label, self._quiet = kept, label, quiet
@@ -125,7 +127,7 @@ class Batch(ExitStack):
             ValueError, TypeError: the arguments are no JSON.
             KeyboardInterrupt: after Ctrl-C; finished rows are kept.
         """
-        tasks = [task_of(self._name, each) for each in arguments]
+        tasks = [task_of(self._name, each, self._modules) for each in arguments]
         rows = {task.key: self._file.finished(task.key, self._limit) for task in tasks}
         for task, each in zip(tasks, arguments, strict=True):
             row = rows[task.key]
@@ -163,7 +165,7 @@ class Batch(ExitStack):
             try:
                 while True:
                     arguments = next(chain) if row is None else chain.send(dict(row))
-                    task = task_of(self._name, arguments)
+                    task = task_of(self._name, arguments, self._modules)
                     row = self._file.finished(task.key, self._limit)
                     if row is None:
                         break

@@ -15,10 +15,10 @@ FOR_READERS = ("cli", "page", "plots", "report", "view")
 
 
 @cache
-def source_digest(package: str) -> str:
-    """Return a digest of this package's sources and of those of another package or module."""
+def source_digest(*packages: str) -> str:
+    """Return a digest of this package's sources and of those of other packages or modules."""
     digest = hashlib.sha256()
-    for name in dict.fromkeys((*OURS, package)):
+    for name in dict.fromkeys((*OURS, *packages)):
         for file, known_as in _files(name):
             digest.update(f"{known_as} {file.stat().st_size};".encode())
             digest.update(file.read_bytes())

@@ -44,6 +44,7 @@ class Task:
         key: sha256 of everything that determines the row.
         function: "module:name".
         arguments: canonical JSON.
+        modules: that a worker imports first, for what they declare.
         versions: of PACKAGES and of the sources; a worker with others refuses.
     """
 
@@ -51,26 +52,31 @@ class Task:
     function: str
     arguments: str
     versions: Mapping[str, str | None]
+    modules: tuple[str, ...] = ()
 
 
-def task_of(function: str, arguments: Mapping[str, Any]) -> Task:
+def task_of(function: str, arguments: Mapping[str, Any], modules: tuple[str, ...] = ()) -> Task:
     """Return the task of a function's name and its arguments.
 
     Raises:
         ValueError, TypeError: the arguments are no JSON.
     """
     text = _canonical(arguments)
-    known = versions(function)
+    known = versions(function, *modules)
     everything = _canonical({"function": function, "arguments": text, "versions": known})
-    return Task(hashlib.sha256(everything.encode()).hexdigest(), function, text, known)
+    return Task(hashlib.sha256(everything.encode()).hexdigest(), function, text, known, modules)
 
 
-def versions(function: str) -> dict[str, str | None]:
-    """Return the versions of PACKAGES, None for what is not installed, and of a function's sources.
+def versions(function: str, *modules: str) -> dict[str, str | None]:
+    """Return the versions of PACKAGES, None for what is not installed, and a digest of sources.
+
+    Of the function's package, and of the packages of other modules that a row depends on.
 
     Our own version alone would not do: sources change between two versions.
     """
-    sources = source_digest(function.partition(":")[0].partition(".")[0])
+    sources = source_digest(
+        *(name.partition(":")[0].partition(".")[0] for name in (function, *modules))
+    )
     return {"sources": sources, **{package: version_of(package) for package in PACKAGES}}
 
 

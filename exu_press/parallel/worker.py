@@ -9,6 +9,7 @@ import math
 import os
 import sys
 import threading
+from importlib import import_module
 from queue import SimpleQueue
 from typing import Any, TextIO
 
@@ -24,11 +25,13 @@ def main() -> None:
     lines: SimpleQueue[str] = SimpleQueue()
     threading.Thread(target=_listen, args=(lines,), daemon=True).start()
     try:
+        for module in sys.argv[2:]:
+            import_module(module)
         function = function_of(sys.argv[1])
     except Exception as error:
         _answer(answers, {"error": _in_a_line(error)})
         return
-    _answer(answers, {"versions": versions(sys.argv[1])})
+    _answer(answers, {"versions": versions(*sys.argv[1:])})
     while True:
         _answer(answers, row_of(function, json.loads(lines.get())))
 

@@ -1,7 +1,14 @@
 """Quantities of interest: from channels to the numbers that people compare."""
 
 from exu_press.quantities.acceleration import differentiated_peak, mean_peak, mean_peak_of, peak
-from exu_press.quantities.catalogue import CATALOGUE, Placed, add, quantities_of, quantity_of
+from exu_press.quantities.catalogue import (
+    CATALOGUE,
+    Placed,
+    add,
+    own_modules,
+    quantities_of,
+    quantity_of,
+)
 from exu_press.quantities.dead_centre import (
     DeadCentre,
     bottom_dead_centres,
@@ -29,6 +36,7 @@ __all__ = [
     "lowest_of_strokes",
     "mean_peak",
     "mean_peak_of",
+    "own_modules",
     "peak",
     "quantities_of",
     "quantity_of",

@@ -1,5 +1,6 @@
 """Every quantity of the package, and those of the user's own."""
 
+import sys
 from dataclasses import dataclass
 
 from exu_press.errors import InputError
@@ -19,7 +20,7 @@ from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.applied import applied_loads
 from exu_press.schema.checks import nearest
 
-__all__ = ["CATALOGUE", "Placed", "add", "declared", "quantities_of", "quantity_of"]
+__all__ = ["CATALOGUE", "Placed", "add", "declared", "own_modules", "quantities_of", "quantity_of"]
 
 CATALOGUE: list[Quantity] = [
     *SLIDER,
@@ -38,6 +39,9 @@ CATALOGUE: list[Quantity] = [
     *COSTS,
 ]
 """In the order of tables."""
+
+_DECLARED_IN: dict[Quantity, str | None] = {}
+"""Modules whose import adds a user's own quantity."""
 
 
 def _declared_as(name: str, place: Place = Place.RUN) -> Quantity:
@@ -86,6 +90,8 @@ class Placed:
 def add(quantity: Quantity) -> Quantity:
     """Declare a quantity of one's own; every run read from now on has it.
 
+    Workers of studies import the module that does so at its top level.
+
     Raises:
         InputError: there is one of this name and place.
     """
@@ -95,7 +101,27 @@ def add(quantity: Quantity) -> Quantity:
                 f"quantity {quantity.name}: is declared already; allowed is another name"
             )
     CATALOGUE.append(quantity)
+    caller = sys._getframe(1)
+    imported = caller.f_code.co_name == "<module>"
+    _DECLARED_IN[quantity] = str(caller.f_globals["__name__"]) if imported else None
     return quantity
+
+
+def own_modules() -> tuple[str, ...]:
+    """Return the modules that declare the user's own quantities when a worker imports them.
+
+    Raises:
+        InputError: a quantity was added where no import does it again.
+    """
+    modules = {one: module for one, module in _DECLARED_IN.items() if one in CATALOGUE}
+    for quantity, module in modules.items():
+        if module in (None, "__main__"):
+            raise InputError(
+                f"quantity {quantity.name}: is added in the script itself or in a function, which "
+                "workers of a study do not run; allowed is `add` at the top level of a module that "
+                "the script imports"
+            )
+    return tuple(dict.fromkeys(module for module in modules.values() if module))
 
 
 def declared(name: str) -> Placed | None:

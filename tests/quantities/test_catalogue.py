@@ -1,17 +1,23 @@
 """The catalogue: every quantity is declared once, and everything else asks it."""
 
+import importlib
 import re
+import sys
 from pathlib import Path
 
 import pytest
+from matplotlib.text import Text
+from scipy.io import netcdf_file
 
 import exu_press
 from exu_press import InputError, Scene, simulate
-from exu_press.quantities import CATALOGUE, Place, Quantity, add, quantities_of, values_of
+from exu_press.plots.sweep import axes_of, sweep_figure
+from exu_press.quantities import CATALOGUE, Place, add, quantities_of, values_of
 from exu_press.quantities.catalogue import declared
-from exu_press.quantities.kind import MOTION
 from exu_press.quantities.table import run_lines
 from exu_press.report.run import run_report
+from exu_press.studies.sweep import Sweep, sweep
+from exu_press.studies.sweep.lines import table_lines
 from exu_press.studies.sweep.units import meaning_of, unit_of
 from exu_press.verification.run import with_errors
 
@@ -66,8 +72,12 @@ def test_no_name_of_a_quantity_stands_anywhere_else_in_the_package():
             assert text.split(".", 2)[-1] not in names and text not in names, (path, text)
 
 
-def test_a_quantity_of_ones_own_is_everywhere():
-    mine = Quantity(
+MINE = """
+from exu_press.quantities import Quantity, add
+from exu_press.quantities.kind import MOTION
+
+MINE = add(
+    Quantity(
         "lowest_velocity",
         "m/s",
         "least velocity of the slider, of a test",
@@ -76,19 +86,57 @@ def test_a_quantity_of_ones_own_is_everywhere():
         title="lowest velocity",
         signed=True,
     )
-    add(mine)
+)
+"""
+
+
+@pytest.fixture
+def mine(tmp_path, monkeypatch):
+    """A quantity that a module of the user's own adds."""
+    (tmp_path / "my_quantities.py").write_text(MINE)
+    monkeypatch.syspath_prepend(str(tmp_path))
+    added = importlib.import_module("my_quantities").MINE
+    yield added
+    CATALOGUE.remove(added)
+    del sys.modules["my_quantities"]
+
+
+def test_a_quantity_of_ones_own_is_everywhere(mine, tmp_path, monkeypatch):
+    """In one file; in summary, errors, terminal, report, sweep with its workers, and reference."""
+    with pytest.raises(InputError, match="is declared already"):
+        add(mine)
+    result = with_errors(simulate(CRANK), beside=False)
+    told = result.quantity("lowest_velocity")
+    assert told.value == result["slider_velocity"].min() and told.error is not None
+    assert result.summary()["quantities"]["lowest_velocity"] == told.to_dict()
+    assert any(line.startswith("lowest velocity, m/s") for line in run_lines(result))
+    assert "lowest velocity" in run_report(result, "run.nc")
+    assert unit_of("lowest_velocity") == "m/s" and meaning_of("lowest_velocity")
+
+    table = sweep(Sweep(scene=CRANK, keys={"speed_rpm": [100.0, 200.0]}), tmp_path, workers=1)
+    assert table["lowest_velocity"][1] == pytest.approx(2.0 * table["lowest_velocity"][0], rel=1e-2)
+    assert "lowest_velocity, m/s" in table_lines(table, ["lowest_velocity"])[0]
+    figure = sweep_figure(table, axes_of(table), ["lowest_velocity"])
+    assert any("lowest velocity" in text.get_text().lower() for text in figure.findobj(Text))
+    with netcdf_file(tmp_path / "table.nc", mmap=False) as file:
+        assert file.variables["lowest_velocity"].units == b"m/s"
+
+    monkeypatch.syspath_prepend(str(ROOT.parent / "docs"))
+    directives = pytest.importorskip("sphinx_parts.directives")
+    (reference,) = directives.Quantities.run(None)
+    assert mine.meaning in reference.astext()
+
+
+def test_one_that_workers_cannot_declare_is_refused(mine, tmp_path):
+    CATALOGUE.remove(mine)
     try:
-        with pytest.raises(InputError, match="is declared already"):
-            add(mine)
-        result = with_errors(simulate(CRANK), beside=False)
-        told = result.quantity("lowest_velocity")
-        assert told.value == result["slider_velocity"].min() and told.error is not None
-        assert result.summary()["quantities"]["lowest_velocity"] == told.to_dict()
-        assert any(line.startswith("lowest velocity, m/s") for line in run_lines(result))
-        assert "lowest velocity" in run_report(result, "run.nc")
-        assert unit_of("lowest_velocity") == "m/s" and meaning_of("lowest_velocity")
+        add(mine)
+        with pytest.raises(
+            InputError, match="lowest_velocity: is added in the script itself or in"
+        ):
+            sweep(Sweep(scene=CRANK, keys={"speed_rpm": [100.0]}), tmp_path, workers=1)
     finally:
-        CATALOGUE.remove(mine)
+        assert mine in CATALOGUE
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ from typing import Any, Self
 from exu_press.files.output_directory import output_directory
 from exu_press.parallel import Batch, Chain, Row, locked
 from exu_press.parallel.task import Function
-from exu_press.quantities import values_of
+from exu_press.quantities import own_modules, values_of
 from exu_press.result import Result
 from exu_press.scene import Scene
 from exu_press.studies.base.claim import claim
@@ -66,15 +66,22 @@ class Runs(ExitStack):
 
         Raises:
             InputError: it cannot be used, belongs to another study, or another run writes in it;
-                or no scheduler answers.
+                no scheduler answers; or no worker can declare a quantity of the user's own.
         """
         super().__enter__()
         try:
+            modules = own_modules()
             output_directory(self.directory)
             self.enter_context(locked(self.directory))
             claim(self.directory, self._study.to_dict(), self._written)
             self._batch = self.enter_context(
-                Batch(self._function, self.directory, kept=_file_is_whole, **self._told)
+                Batch(
+                    self._function,
+                    self.directory,
+                    kept=_file_is_whole,
+                    modules=modules,
+                    **self._told,
+                )
             )
         except BaseException:
             self.close()

@@ -3,11 +3,10 @@
 from pathlib import Path
 from typing import Any
 
-from exu_press.errors import InputError
 from exu_press.page import Live, has_library
 from exu_press.plots.words import describe
-from exu_press.report.html import page, paragraph, picture, stills, table
-from exu_press.report.run import scene_parts
+from exu_press.report.html import table
+from exu_press.report.study import reading, study_page
 from exu_press.scene import Scene
 from exu_press.schema.stored import from_json
 
@@ -18,7 +17,7 @@ HEAD = ("quantity", "unit", "mean", "scatter", "5 %", "50 %", "95 %")
 
 def attractor_report(file: Path) -> str:
     """Return the page of a motion in the long run, from attractor.json."""
-    try:
+    with reading(file, "a motion of exu-press attractor"):
         told = from_json(dict[str, Any], file.read_bytes(), file.name)
         scene = Scene.from_dict(told["scene"])
         found = [["period", str(told["period"]["in_words"])], *_exponent(told)]
@@ -28,25 +27,18 @@ def attractor_report(file: Path) -> str:
         live = _live(told) if has_library() else None
         length = f"{told['revolutions']} revolutions after {told['skip']}"
         section = f"section at crank angle {told['section_deg']:g} deg"
-    except OSError as error:
-        raise InputError(f"{error.filename}: cannot be read ({error.strerror})") from None
-    except (ValueError, KeyError, IndexError, TypeError, AttributeError) as error:
-        raise InputError(f"{file}: not a motion of exu-press attractor ({error!s:.200})") from None
-    pictures = [
-        picture(path, "Section, phase portrait, transient, orders, values by revolution.")
-        for path in sorted(file.parent.glob("attractor.png"))
-    ]
-    return page(
+    return study_page(
+        file,
         f"In the long run: {describe([scene], 200)}",
-        f"{section}, {length}; {file.parent.name}/{file.name}",
+        f"{section}, {length}",
         [
             ("Motion", table(("", "value"), found)),
-            *([] if live is None else [("Revolutions", live.body)]),
+            ("Revolutions", live),
             ("Figures over revolutions", table(HEAD, figures)),
-            ("Pictures", stills("\n".join(pictures) or paragraph("None was drawn."), live)),
-            *scene_parts(scene),
         ],
-        live,
+        "Section, phase portrait, transient, orders, values by revolution.",
+        scene=scene,
+        drawn="attractor.png",
     )
 
 

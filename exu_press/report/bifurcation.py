@@ -3,45 +3,32 @@
 from pathlib import Path
 from typing import Any
 
-from exu_press.errors import InputError
 from exu_press.page import Live, has_library
-from exu_press.report.html import page, paragraph, picture, stills, table
+from exu_press.report.html import table
+from exu_press.report.study import reading, study_page
 from exu_press.schema.stored import from_json
-from exu_press.studies.sweep.units import unit_of
+from exu_press.studies.sweep.units import unit_of, with_unit
 
 __all__ = ["bifurcation_report"]
 
 
 def bifurcation_report(file: Path) -> str:
     """Return the page of a bifurcation diagram, from bifurcation.json."""
-    try:
+    with reading(file, "a bifurcation of exu_press"):
         told = from_json(dict[str, Any], file.read_bytes(), file.name)
         names = [str(told["key"]), *([told["second_key"]] if "second_key" in told else [])]
         rows = [(way, row) for way, branch in told["branches"].items() for row in branch]
         done = [(way, row) for way, row in rows if row["status"] == "completed"]
         live = _live(names, done) if has_library() and done else None
         cells = [_cells(way, row) for way, row in rows]
-    except OSError as error:
-        raise InputError(f"{error.filename}: cannot be read ({error.strerror})") from None
-    except (ValueError, KeyError, IndexError, TypeError, AttributeError) as error:
-        raise InputError(f"{file}: not a bifurcation of exu_press ({error!s:.200})") from None
-    pictures = [picture(path, "The diagram.") for path in sorted(file.parent.glob("*.png"))]
-    head = (*map(_head, names), "way", "period", "exponent per revolution", "motion")
-    return page(
+    head = (*map(with_unit, names), "way", "period", "exponent per revolution", "motion")
+    return study_page(
+        file,
         f"Bifurcation over {' and '.join(names)}",
-        f"{len(rows)} runs, {len(rows) - len(done)} without a result; "
-        f"{file.parent.name}/{file.name}",
-        [
-            *([] if live is None else [("Points", live.body)]),
-            ("Runs", table(head, cells)),
-            ("Pictures", stills("\n".join(pictures) or paragraph("None was drawn."), live)),
-        ],
-        live,
+        f"{len(rows)} runs, {len(rows) - len(done)} without a result",
+        [("Points", live), ("Runs", table(head, cells))],
+        "The diagram.",
     )
-
-
-def _head(key: str) -> str:
-    return f"{key}, {unit_of(key)}" if unit_of(key) else key
 
 
 def _cells(way: str, row: dict[str, Any]) -> list[str]:

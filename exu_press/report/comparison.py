@@ -58,13 +58,12 @@ def comparison_page(results: Mapping[str, Result], source: str, span: Span = ALL
         f"{', '.join(results)}; {source}",
         [
             ("Differences of the scenes", table(keys, changed)),
-            *([] if live is None else [("In motion", live.body)]),
+            ("In motion", live),
             ("Warnings", warnings(told)),
             ("Results", table(head, rows)),
             ("Pictures", stills("\n".join(shown), live)),
             *scene_parts(richest.scene),
         ],
-        live,
     )
 
 

@@ -1,6 +1,7 @@
 """Which command a file or a directory comes from, and its report."""
 
 from enum import Enum
+from importlib import import_module
 from pathlib import Path
 
 from exu_press.errors import InputError
@@ -12,7 +13,7 @@ __all__ = ["Kind", "find_output", "report_of"]
 
 
 class Kind(Enum):
-    """Kinds of output that have reports, by the file that identifies them."""
+    """Kinds of output with a report, by the file that tells; a module has the name of each."""
 
     RUN = "run.nc"
     COMPARISON = "comparison.json"
@@ -60,36 +61,12 @@ def report_of(kind: Kind, file: Path, span: Span = ALL) -> str:
     Raises:
         InputError: the file is not what its name says, or the span is not in it.
     """
-    if kind is Kind.COMPARISON:
-        from exu_press.report.comparison import comparison_report
+    if kind is Kind.RUN:
+        from exu_press.report.run import run_report
 
-        return comparison_report(file, span)
-    if kind is not Kind.RUN and span != ALL:
+        return run_report(Result.load(file), f"{file.resolve().parent.name}/{file.name}", span)
+    if kind is not Kind.COMPARISON and span != ALL:
         raise InputError(f"--from, --to: {file.name} has no curves over time; allowed for runs")
-    if kind is Kind.SWEEP:
-        from exu_press.report.sweep import sweep_report
-
-        return sweep_report(file)
-    if kind is Kind.OPTIMUM:
-        from exu_press.report.optimum import optimum_report
-
-        return optimum_report(file)
-    if kind is Kind.FIT:
-        from exu_press.report.fit import fit_report
-
-        return fit_report(file)
-    if kind is Kind.BIFURCATION:
-        from exu_press.report.bifurcation import bifurcation_report
-
-        return bifurcation_report(file)
-    if kind is Kind.ATTRACTOR:
-        from exu_press.report.attractor import attractor_report
-
-        return attractor_report(file)
-    if kind is Kind.WEAR:
-        from exu_press.report.wear import wear_report
-
-        return wear_report(file)
-    from exu_press.report.run import run_report
-
-    return run_report(Result.load(file), f"{file.resolve().parent.name}/{file.name}", span)
+    name = kind.name.lower()
+    report = getattr(import_module(f"exu_press.report.{name}"), f"{name}_report")
+    return str(report(file, span) if kind is Kind.COMPARISON else report(file))

@@ -3,52 +3,42 @@
 from pathlib import Path
 from typing import Any
 
-from exu_press.errors import InputError
 from exu_press.page import Live, has_library
 from exu_press.plots.words import describe
-from exu_press.report.html import page, paragraph, picture, stills, table
-from exu_press.report.run import scene_parts
+from exu_press.report.html import paragraph, table
+from exu_press.report.study import reading, study_page
 from exu_press.scene import Scene
 from exu_press.schema.stored import from_json
-from exu_press.studies.sweep.units import unit_of
+from exu_press.studies.sweep.units import unit_of, with_unit
 
 __all__ = ["fit_report"]
 
 
 def fit_report(file: Path) -> str:
     """Return the page of a fit, from fit.json and fitted.toml beside it."""
-    try:
+    with reading(file, "a fit of exu_press"):
         told = from_json(dict[str, Any], file.read_bytes(), file.name)
         keys = [_key(name, one) for name, one in told["keys"].items()]
         numbers = [_number(one) for one in told["measured"]]
         live = _live(told) if has_library() else None
         chi_square = f"{told['chi_square']:.4g} with {told['degrees_of_freedom']:g}"
-    except OSError as error:
-        raise InputError(f"{error.filename}: cannot be read ({error.strerror})") from None
-    except (ValueError, KeyError, IndexError, TypeError, AttributeError) as error:
-        raise InputError(f"{file}: not a fit of exu_press ({error!s:.200})") from None
     scene = Scene.load(file.parent / "fitted.toml", [])
-    pictures = [
-        picture(path, "The fit as it was drawn.")
-        for path in sorted(file.parent.glob("*.png"))
-        if path.is_file()
-    ]
-    return page(
+    return study_page(
+        file,
         f"Fit: {describe([scene], 200)}",
-        f"chi-square {chi_square} degrees of freedom; {file.parent.name}/{file.name}",
+        f"chi-square {chi_square} degrees of freedom",
         [
             ("Keys", table(("key", "unit", "value", "low", "high"), keys)),
-            *([] if live is None else [("Measured and computed", live.body)]),
+            ("Measured and computed", live),
             (
                 "Numbers",
                 table(("number", "measured", "uncertainty", "computed"), numbers)
                 if numbers
                 else paragraph("None was measured; there are curves."),
             ),
-            ("Pictures", stills("\n".join(pictures) or paragraph("None was drawn."), live)),
-            *scene_parts(scene),
         ],
-        live,
+        "The fit as it was drawn.",
+        scene=scene,
     )
 
 
@@ -90,9 +80,9 @@ def _live(told: dict[str, Any]) -> Live | None:
         line = Line("(computed - measured) / uncertainty", range(len(far)), far, True, low, high)
         panels.append(Panel("Numbers", "place in the table below", "in uncertainties", [line]))
     for name, profile in told["profiles"].items():
-        unit = unit_of(name)
-        across = f"{name}, {unit}" if unit else name
         values, rises = zip(*profile, strict=True) if profile else ((), ())
         line = Line("chi-square above its least value", values, rises)
-        panels.append(Panel(f"How well {name} is determined", across, "chi-square", [line]))
+        panels.append(
+            Panel(f"How well {name} is determined", with_unit(name), "chi-square", [line])
+        )
     return lines_viewer(panels) if panels else None

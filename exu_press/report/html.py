@@ -86,24 +86,27 @@ $scripts
 """)
 
 
-def page(
-    title: str, under: str, sections: Sequence[tuple[str, str]], live: Live | None = None
-) -> str:
+def page(title: str, under: str, sections: Sequence[tuple[str, str | Live | None]]) -> str:
     """Return a page.
 
     Args:
         title: of it.
         under: what stands below the title.
-        sections: heading and HTML of each.
-        live: what moves in it, whose HTML is in one of the sections; None: pictures alone.
+        sections: heading and HTML of each, or the live part; a section of None is left out.
     """
+    live = next((inner for _, inner in sections if isinstance(inner, Live)), None)
+    parts = [
+        (heading, inner.body if isinstance(inner, Live) else inner)
+        for heading, inner in sections
+        if inner is not None
+    ]
     links = "\n".join(
         f'<a href="#part-{number}">{_text(heading)}</a>'
-        for number, (heading, _) in enumerate(sections)
+        for number, (heading, _) in enumerate(parts)
     )
     body = "\n".join(
         f'<section id="part-{number}">\n<h2>{_text(heading)}</h2>\n{inner}\n</section>'
-        for number, (heading, inner) in enumerate(sections)
+        for number, (heading, inner) in enumerate(parts)
     )
     return PAGE.substitute(
         title=_text(title),

@@ -4,14 +4,13 @@ import csv
 from pathlib import Path
 from typing import Any
 
-from exu_press.errors import InputError
 from exu_press.page import Live, has_library
 from exu_press.plots.words import describe
-from exu_press.report.html import page, paragraph, picture, stills, table
-from exu_press.report.run import scene_parts
+from exu_press.report.html import table
+from exu_press.report.study import reading, study_page
 from exu_press.scene import Scene
 from exu_press.schema.stored import from_json
-from exu_press.studies.sweep.units import unit_of
+from exu_press.studies.sweep.units import unit_of, with_unit
 
 __all__ = ["optimum_report"]
 
@@ -20,7 +19,7 @@ FRONT = "front"
 
 def optimum_report(file: Path) -> str:
     """Return the page of an optimum, from optimise.json, trials.csv and the scenes beside it."""
-    try:
+    with reading(file, "an optimum of exu_press"):
         told = from_json(dict[str, Any], file.read_bytes(), file.name)
         with (file.parent / "trials.csv").open(encoding="utf-8", newline="") as stream:
             head, *lines = csv.reader(stream)
@@ -29,32 +28,21 @@ def optimum_report(file: Path) -> str:
         chosen = int(told["chosen"])
         keys = list(front[chosen])
         places = [_place(front, trial, keys) for trial in trials]
-    except OSError as error:
-        raise InputError(f"{error.filename}: cannot be read ({error.strerror})") from None
-    except (ValueError, KeyError, IndexError, TypeError, AttributeError, csv.Error) as error:
-        raise InputError(f"{file}: not an optimum of exu_press ({error!s:.200})") from None
     scene = Scene.load(file.parent / "chosen.toml", [])
     live = _live(head, trials, keys, places) if has_library() else None
     rows = [
         [str(run), *(_shown(trial[name]) for name in head[:-1]), _of_front(place, chosen)]
         for run, (trial, place) in enumerate(zip(trials, places, strict=True))
     ]
-    names = [f"{name}, {unit_of(name)}" if unit_of(name) else name for name in head[:-1]]
-    pictures = [
-        picture(path, "The front: all trials, and those that no other one beats.")
-        for path in [file.parent / "front.png"]
-        if path.is_file()
-    ]
-    return page(
+    names = map(with_unit, head[:-1])
+    return study_page(
+        file,
         f"Optimum: {describe([scene], 200)}",
-        f"{len(trials)} trials, {len(front)} on the front; {file.parent.name}/{file.name}",
-        [
-            *([] if live is None else [("Points", live.body)]),
-            ("Trials", table(("run", *names, "front"), rows, name="runs")),
-            ("Pictures", stills("\n".join(pictures) or paragraph("None was drawn."), live)),
-            *scene_parts(scene),
-        ],
-        live,
+        f"{len(trials)} trials, {len(front)} on the front",
+        [("Points", live), ("Trials", table(("run", *names, "front"), rows, name="runs"))],
+        "The front: all trials, and those that no other one beats.",
+        scene=scene,
+        drawn="front.png",
     )
 
 

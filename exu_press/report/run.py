@@ -58,14 +58,13 @@ def run_report(result: Result, source: str, span: Span = ALL) -> str:
         f"{source}: {summary['status']} at t = {summary['end_time']:.6g} s, "
         f"crank angle {np.degrees(result['crank_angle'][-1]):.1f}°",
         [
-            *([] if live is None else [("In motion", live.body)]),
+            ("In motion", live),
             ("Warnings", warnings(warnings_of(summary))),
             ("Results", table(("quantity", "value"), numbers) + joint_table(result)),
             ("Pictures", stills(_pictures(result), live)),
             ("Energy and solver", _energy(result) + _statistics(result)),
             *scene_parts(result.scene),
         ],
-        live,
     )
 
 

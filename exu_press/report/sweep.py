@@ -21,7 +21,7 @@ from exu_press.schema.stored import LARGEST, from_json
 from exu_press.studies.sweep import Sweep, Table
 from exu_press.studies.sweep.lines import shown
 from exu_press.studies.sweep.table import cell
-from exu_press.studies.sweep.units import unit_of
+from exu_press.studies.sweep.units import unit_of, with_unit
 
 __all__ = ["sweep_report"]
 
@@ -35,7 +35,7 @@ def sweep_report(file: Path) -> str:
     ends = ", ".join(f"{number} {status}" for status, number in counts.items())
     ended = ("status", "reason") if any(runs["reason"]) else ("status",)
     names = (*runs.study.keys, *ended, *shown(runs))  # how it ended is seen at once
-    head = ("run", *(f"{name}, {unit_of(name)}" if unit_of(name) else name for name in names))
+    head = ("run", *map(with_unit, names))
     count = min(len(runs), MOST_ROWS)
     rows = [[str(run), *(runs.in_words(name, run) for name in names)] for run in range(count)]
     more = "" if count == len(runs) else paragraph(f"{len(runs) - count} more in {file.name}.")
@@ -54,13 +54,12 @@ def sweep_report(file: Path) -> str:
         f"{len(runs)} runs over {', '.join(runs.study.keys)}: {ends}; "
         f"{file.parent.name}/{file.name}",
         [
-            *([] if live is None else [("Points", live.body)]),
+            ("Points", live),
             ("Runs", table(head, rows, name="runs") + more),
             ("Warnings", warnings(told)),
             ("Pictures", stills("\n".join(pictures) or nothing, live)),
             *scene_parts(runs.study.scene),
         ],
-        live,
     )
 
 

@@ -3,11 +3,11 @@
 from pathlib import Path
 from typing import Any
 
-from exu_press.errors import InputError
 from exu_press.page import Live, has_library
 from exu_press.quantities.catalogue import declared
 from exu_press.quantities.uncertain import significant
-from exu_press.report.html import page, paragraph, picture, stills, table
+from exu_press.report.html import table
+from exu_press.report.study import reading, study_page
 from exu_press.schema.stored import from_json
 
 __all__ = ["wear_report"]
@@ -15,7 +15,7 @@ __all__ = ["wear_report"]
 
 def wear_report(file: Path) -> str:
     """Return the page of a wear study, from wear.json."""
-    try:
+    with reading(file, "a wear study of exu_press"):
         told = from_json(dict[str, Any], file.read_bytes(), file.name)
         strokes = [float(each) for each in told["strokes"]]
         curves = _curves(told)
@@ -25,21 +25,13 @@ def wear_report(file: Path) -> str:
         ]
         live = _live(strokes, curves) if has_library() and len(strokes) > 1 else None
         ended = f"; {told['reason']}" if told["reason"] else ""
-    except OSError as error:
-        raise InputError(f"{error.filename}: cannot be read ({error.strerror})") from None
-    except (ValueError, KeyError, IndexError, TypeError, AttributeError) as error:
-        raise InputError(f"{file}: not a wear study of exu_press ({error!s:.200})") from None
-    pictures = [picture(path, "The course.") for path in sorted(file.parent.glob("*.png"))]
     head = ("strokes", "jump", *(f"{name}, {unit}" if unit else name for name, unit, _ in curves))
-    return page(
+    return study_page(
+        file,
         f"Wear over {significant(strokes[-1], 4)} strokes",
-        f"{len(strokes) - 1} jumps{ended}; {file.parent.name}/{file.name}",
-        [
-            *([] if live is None else [("Course", live.body)]),
-            ("Jumps", table(head, rows)),
-            ("Pictures", stills("\n".join(pictures) or paragraph("None was drawn."), live)),
-        ],
-        live,
+        f"{len(strokes) - 1} jumps{ended}",
+        [("Course", live), ("Jumps", table(head, rows))],
+        "The course.",
     )
 
 

@@ -11,7 +11,7 @@ from exu_press.scene.oil import Oil
 from exu_press.scene.usage import TABLES
 from exu_press.schema.checks import Table
 
-__all__ = ["meaning_of", "unit_of"]
+__all__ = ["meaning_of", "unit_of", "with_unit"]
 
 
 def unit_of(name: str) -> str:
@@ -24,6 +24,15 @@ def unit_of(name: str) -> str:
         return placed.quantity.unit
     metadata = _metadata(name)
     return "" if metadata is None else str(metadata["unit"])
+
+
+def with_unit(name: str) -> str:
+    """Return a name with its unit, as the head of a column.
+
+    >>> with_unit("speed_rpm"), with_unit("status")
+    ('speed_rpm, rpm', 'status')
+    """
+    return f"{name}, {unit}" if (unit := unit_of(name)) else name
 
 
 def meaning_of(name: str) -> str:

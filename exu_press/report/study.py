@@ -1,0 +1,62 @@
+"""The common parts of studies' reports: their files are read, their pictures shown."""
+
+import csv
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+
+from exu_press.errors import InputError
+from exu_press.page import Live
+from exu_press.report.html import page, paragraph, picture, stills
+from exu_press.report.run import scene_parts
+from exu_press.scene import Scene
+
+__all__ = ["reading", "study_page"]
+
+WRONG = (ValueError, KeyError, IndexError, TypeError, AttributeError, csv.Error)
+
+
+@contextmanager
+def reading(file: Path, wanted: str) -> Iterator[None]:
+    """Turn whatever is wrong with a study's files into an InputError.
+
+    Args:
+        file: of the study.
+        wanted: what it should be, as "a fit of exu_press".
+    """
+    try:
+        yield
+    except OSError as error:
+        raise InputError(f"{error.filename}: cannot be read ({error.strerror})") from None
+    except WRONG as error:
+        raise InputError(f"{file}: not {wanted} ({error!s:.200})") from None
+
+
+def study_page(
+    file: Path,
+    title: str,
+    under: str,
+    sections: Sequence[tuple[str, str | Live | None]],
+    caption: str,
+    *,
+    scene: Scene | None = None,
+    drawn: str = "*.png",
+) -> str:
+    """Return the page of a study.
+
+    Args:
+        file: of the study; its pictures lie beside it.
+        title: of the page.
+        under: what stands below the title, before the file's name.
+        sections: its own, the live part among them.
+        caption: of each picture.
+        scene: whose keys and assumptions are shown at the end, if any.
+        drawn: pattern of the pictures' names.
+    """
+    live = next((inner for _, inner in sections if isinstance(inner, Live)), None)
+    found = [path for path in sorted(file.parent.glob(drawn)) if path.is_file()]
+    pictures = "\n".join(picture(path, caption) for path in found)
+    shown = stills(pictures or paragraph("None was drawn."), live)
+    about = [] if scene is None else scene_parts(scene)
+    under = f"{under}; {file.parent.name}/{file.name}"
+    return page(title, under, [*sections, ("Pictures", shown), *about])

@@ -255,7 +255,6 @@ def _add_flexible(
 
 
 def _container(matrix: NDArray[np.float64]) -> Any:
-    """Return a sparse Exudyn matrix: all of ours are diagonal."""
     container = exu.MatrixContainer()
     container.SetWithDenseMatrix(matrix, useDenseMatrix=False)
     return container

@@ -110,7 +110,6 @@ class StepFile:
         return shape
 
     def _bytes(self) -> bytes:
-        """Return the file's content if it is a STEP file at all."""
         path = Path(self.path)
         try:
             if path.exists() and not path.is_file():

@@ -138,6 +138,5 @@ def shipped_names() -> tuple[str, ...]:
 
 
 def _tables() -> Mapping[str, Any]:
-    """Return parts.toml."""
     with PARTS_FILE.open("rb") as file:
         return tomllib.load(file)

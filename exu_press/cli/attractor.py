@@ -1,4 +1,4 @@
-"""Find what a press does in the long run: period, Lyapunov exponent, figures by revolution."""
+"""Analyse the motion in the long run: period, Lyapunov exponent, figures by revolution."""
 
 import argparse
 import sys
@@ -42,7 +42,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def execute(options: argparse.Namespace) -> int:
-    """Run for long; print and draw what the press does."""
+    """Run for long; print and draw the motion."""
     from exu_press.studies.attractor import attractor
     from exu_press.studies.attractor.lines import attractor_lines
 

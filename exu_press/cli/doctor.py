@@ -14,7 +14,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def execute(options: argparse.Namespace) -> int:
-    """Print what is there; return 0, or 1 if something is missing or a run goes wrong."""
+    """Print the versions; return 0, or 1 if something is missing or a run goes wrong."""
     print(check.machine())
     versions = check.versions()
     for name, version in versions.items():
@@ -33,7 +33,7 @@ def execute(options: argparse.Namespace) -> int:
 
 
 def _words(run: check.Run) -> str:
-    """Return what came out and what should have."""
+    """Return the result of a run beside the right one."""
     if run.reason:
         return run.reason
     return f"{run.what} off by {run.error:.2g} {run.unit}, allowed {run.allowed:g} {run.unit}"

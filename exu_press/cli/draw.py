@@ -70,7 +70,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def execute(options: argparse.Namespace) -> int:
-    """Print and draw what the drawing tells; return 0, or 2 where it does not move."""
+    """Print and draw the examination of a drawing; return 0, or 2 where it does not move."""
     target = None if options.save is None else Path(options.save)
     if target is not None:
         from exu_press.plots.file import check_picture
@@ -182,7 +182,6 @@ def _named(name: Any, data: Mapping[str, Any]) -> Mechanism:
 
 
 def _speed(data: Mapping[str, Any]) -> float | None:
-    """Return a scene's speed, rad/s; None where it gives none."""
     rpm = data.get("speed_rpm")
     if rpm is None:
         return None
@@ -192,7 +191,6 @@ def _speed(data: Mapping[str, Any]) -> float | None:
 
 
 def _parts(mechanism: Mechanism) -> list[str]:
-    """Return the names of bodies, joints and guides in lines."""
     lines = []
     for kind, names in (
         ("bodies", [body.name for body in mechanism.bodies]),
@@ -205,7 +203,6 @@ def _parts(mechanism: Mechanism) -> list[str]:
 
 
 def _summary(examined: Examination) -> list[tuple[str, str]]:
-    """Return mobility, stroke, dead centres and extremes, each with its name."""
     mobility = examined.mobility
     counted = (
         f"{mobility.degrees} (3 x {mobility.bodies} bodies - 2 x {mobility.joints} joints "

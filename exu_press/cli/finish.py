@@ -14,11 +14,11 @@ class Report(Protocol):
     """The result of a study, as it is written and as a person reads it."""
 
     def to_dict(self) -> dict[str, Any]:
-        """Return what stands in the file."""
+        """Return the content of the file."""
         ...
 
     def lines(self) -> list[str]:
-        """Return what stands on the terminal."""
+        """Return the lines for the terminal."""
         ...
 
 

@@ -34,7 +34,7 @@ SHIPPED = Path(__file__).parent.parent / "scenes"
 
 
 def add_scene_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add what every command on one scene takes."""
+    """Add the arguments of every command on one scene."""
     parser.add_argument(
         "scene",
         metavar="SCENE.toml",
@@ -72,7 +72,7 @@ def add_error_argument(parser: argparse.ArgumentParser) -> None:
 
 
 def add_study_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add what every command on a study file takes."""
+    """Add the arguments of every command on a study file."""
     parser.add_argument("study", metavar="STUDY.toml", help="a study file")
     where = parser.add_mutually_exclusive_group()
     where.add_argument(
@@ -109,7 +109,7 @@ def study_directory(options: argparse.Namespace) -> Path:
 def resumable(
     execute: Callable[[argparse.Namespace, Path], int], options: argparse.Namespace
 ) -> int:
-    """Return a study's exit status: 3 after Ctrl-C, with what becomes of its runs."""
+    """Return a study's exit status: 3 after Ctrl-C, with a word on the runs that are kept."""
     directory = study_directory(options)
     try:
         return execute(options, directory)

@@ -41,7 +41,7 @@ def execute(options: argparse.Namespace) -> int:
 
 
 def tell_extra() -> None:
-    """Say on the terminal what the page lacks, if it does."""
+    """Name on the terminal the parts that the page lacks."""
     from exu_press.page import has_library
 
     if not has_library():

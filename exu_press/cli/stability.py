@@ -48,7 +48,7 @@ def run(
     *,
     quick: bool = False,
 ) -> int:
-    """Run the cases of a table, write, draw and print what came out.
+    """Run the cases of a table; write, draw and print the report.
 
     Args:
         table: of cases.

@@ -12,7 +12,7 @@ MOST_BYTES = 100_000_000
 
 
 def read_bytes(path: Path) -> bytes:
-    """Return what a file holds.
+    """Return the content of a file.
 
     Raises:
         InputError: it cannot be read, is no regular file (a device or a pipe may never end), or is

@@ -47,7 +47,7 @@ def output_directory(path: str | Path) -> Path:
 
 
 def remove_pictures(directory: Path, command: str) -> None:
-    """Remove what a command drew there before: beside new results it would pass for theirs."""
+    """Remove a command's pictures of before, which would pass for those of the new results."""
     for name in PICTURES[command]:
         (directory / f"{name}.png").unlink(missing_ok=True)
 

@@ -1,1 +1,1 @@
-"""What is installed, and whether it works."""
+"""Installed packages, and a check that they work."""

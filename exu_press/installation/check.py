@@ -29,10 +29,10 @@ class Run:
     """A small run and the number it should give.
 
     Attributes:
-        name: what is run.
+        name: of the run, in words.
         what: the quantity.
         unit: of it.
-        found: what came out.
+        found: the run's result.
         wanted: what should.
         allowed: largest difference.
         reason: why the run ended early or failed; empty where it did not.
@@ -71,7 +71,7 @@ def versions() -> dict[str, str | None]:
 
 
 def extras() -> dict[str, dict[str, str | None]]:
-    """Return the versions of what each extra adds, by extra; None where it is missing."""
+    """Return the versions of each extra's packages, by extra; None where one is missing."""
     return {
         extra: {name: version_of(name) for name in names}
         for extra, names in _requirements().items()
@@ -101,7 +101,6 @@ def _attempt(name: str, run: Callable[[], Run]) -> Run:
 
 
 def _ideal_press() -> Run:
-    """Return the slider's largest distance from the closed form over one revolution."""
     import numpy as np
 
     from exu_press import Scene, simulate
@@ -124,7 +123,6 @@ def _ideal_press() -> Run:
 
 
 def _lubricated() -> Run:
-    """Return where the lubricated slider-crank is after 0.4 revolutions."""
     from exu_press import Scene, simulate
 
     scene = Scene.from_dict(
@@ -150,7 +148,7 @@ def _lubricated() -> Run:
 
 
 def _requirements() -> dict[str, list[str]]:
-    """Return the names of the packages needed, by extra; "" is what is always needed."""
+    """Return the names of the packages needed, by extra; "" has those that are always needed."""
     found: dict[str, list[str]] = {"": []}
     for line in importlib.metadata.requires(PACKAGE) or []:
         requirement, _, marker = line.partition(";")

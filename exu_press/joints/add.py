@@ -151,7 +151,7 @@ def add_lubricated_revolute(
         length: length of the bearing, m.
         viscosity: dynamic viscosity, Pa s.
         law: film law.
-        contact: normal contact law of the asperities and what is below them.
+        contact: normal contact law of asperities and bodies.
         friction: friction law of the contact.
         asperity_onset: gap at which the surfaces begin to touch, m.
         axis: of the bearing, in its body's frame.
@@ -197,7 +197,7 @@ def add_lubricated_spherical(
         clearance: radius of the socket minus that of the ball, m.
         viscosity: dynamic viscosity, Pa s.
         film: of the socket's caps (`exu_press.laws.film.ball`).
-        contact: normal contact law of the asperities and what is below them.
+        contact: normal contact law of asperities and bodies.
         friction: friction law of the contact.
         asperity_onset: gap at which the surfaces begin to touch, m.
 
@@ -240,22 +240,22 @@ def add_guideway_contact(
     friction: Friction | LuGre,
     half_width: float = 0.0,
 ) -> ClearanceJoint:
-    """Put one end of a body between two straight ways of the frame: touching and rubbing.
+    """Put one end of a body into a straight guideway of the frame: touching and rubbing.
 
-    A guided body has two such ends, which keep it upright between them.
+    A guided body has two such ends, which keep it upright.
 
     Args:
         mbs: system, not yet assembled.
         body: that lies between them, and the point of it that touches, in its frame (m).
-        middle: a point in the middle of the ways, m.
-        direction: of the ways.
+        middle: a point in the middle of the guideway, m.
+        direction: of the guideway.
         clearance: on each side of the point, m.
         contact: normal contact law.
         friction: friction law.
         half_width: of the body: friction acts so far beside the point, m.
 
     Returns:
-        The contact; `add_joint_sensor` records it, with what presses the body as its force.
+        The contact; `add_joint_sensor` records it, with the force on the body.
 
     Raises:
         InputError: the body is of a kind that joints cannot hold on to, direction or clearance are
@@ -289,18 +289,18 @@ def add_guideway_film(
     asperity_onset: float,
     half_width: float = 0.0,
 ) -> ClearanceJoint:
-    """Fill the gaps between a body and two straight ways of the frame with oil.
+    """Fill the gaps between a body and a straight guideway of the frame with oil.
 
     Contacts of both ends act in parallel: `add_guideway_contact` with the clearance less the
     asperities' onset.
 
     Args:
         mbs: system, not yet assembled.
-        rear: body that lies between the ways, and the point of its end that lies behind, in its
+        rear: body that lies in the guideway, and the point of its end that lies behind, in its
             frame (m).
         front: the same body and its other end.
-        middle: a point in the middle of the ways, m.
-        direction: of the ways, from rear to front.
+        middle: a point in the middle of the guideway, m.
+        direction: of the guideway, from rear to front.
         clearance: on each side of both points, m.
         length: of the pads, from rear to front, m.
         face_width: of the pads, normal to the plane, m.
@@ -343,7 +343,7 @@ def add_guideway_film(
 def _along_ways(
     direction: Sequence[float], clearance: float, half_width: float
 ) -> tuple[float, float]:
-    """Return the direction of ways, a unit vector; raise InputError for sizes of none."""
+    """Return a guideway's direction, a unit vector; raise InputError for wrong sizes."""
     length = math.hypot(direction[0], direction[1])
     if not 0.0 < length < math.inf:
         raise InputError(f"direction = {tuple(direction)}: allowed is a direction, such as (0, 1)")
@@ -377,7 +377,7 @@ def add_joint_sensor(mbs: exu.MainSystem, joint: ClearanceJoint) -> int:
 
 
 def _check(mbs: exu.MainSystem, *, radius: float, clearance: float, **laws: Any) -> None:
-    """Raise InputError for what no joint can be made of."""
+    """Raise InputError unless a joint can be made."""
     _check_laws(mbs, **laws)
     if not 0.0 < radius < math.inf:
         raise InputError(f"radius = {radius:g}: allowed is a number > 0 (m)")
@@ -418,7 +418,7 @@ def add_revolute(
         bearing: the same of the bearing.
         interfaces: acting in parallel; the first one has the joint's clearance.
         axis: of the bearing, in its body's frame.
-        worn: what is worn off the surfaces of planar bodies beyond the mean, which is in the
+        worn: depths worn off the surfaces of planar bodies beyond the mean, which is in the
             clearance of the interfaces.
 
     Returns:

@@ -29,8 +29,8 @@ class FlexiblePoint:
     Attributes:
         body: object number of an ObjectFFRFreducedOrder.
         centre: (3,), its centre in the undeformed body's frame, m.
-        translation: (3, modes): what a modal coordinate moves it, in the body's frame.
-        rotation: (3, modes): what a modal coordinate rotates it.
+        translation: (3, modes) by a unit of each modal coordinate, in the body's frame.
+        rotation: (3, modes), likewise.
     """
 
     body: int
@@ -185,7 +185,7 @@ class BodyEnd:
         return velocity, omega
 
     def rates_along(self, n: Vector, t: Vector, axis: Vector, beside: Vector) -> Array:
-        """Return, by the coordinates' rates, what a joint in a plane asks of the end, (3, n).
+        """Return the rates that a joint in a plane needs by the coordinates' rates, (3, n).
 
         These are the velocities along two directions and the angular velocity about an axis.
 
@@ -238,7 +238,7 @@ def cross_matrix(v: Vector | Array) -> Array:
 
 
 def _orientation(kind: str, pose: list[float]) -> tuple[Matrix, list[float]]:
-    """Return a rotation and, by rows, what turns rotation rates into the angular velocity."""
+    """Return a rotation and the matrix from rotation rates to the angular velocity, by rows."""
     if kind == "RigidBodyEP":
         e, x, y, z = pose[3], pose[4], pose[5], pose[6]
         return (

@@ -62,8 +62,8 @@ class SpringSide:
         Args:
             stiffness: N/m.
             damping: N s/m.
-            across: (n,), what the coordinates move the body across its guide by.
-            missed: what it is across the guide where the coordinates are zero, m.
+            across: (n,), displacement of the body across its guide by each coordinate.
+            missed: displacement across the guide where the coordinates are zero, m.
         """
         self._stiffness, self._damping = stiffness, damping
         self._across, self._missed = across, missed
@@ -135,7 +135,7 @@ class GuideFriction:
         Args:
             mbs: not yet assembled.
             nodes: of the body.
-            along: (n,), what the coordinates of the nodes move the body along its guide by.
+            along: (n,), displacement of the body along its guide by each coordinate.
             side: the force across it.
             law: friction coefficient of a sliding velocity.
         """
@@ -154,7 +154,6 @@ class GuideFriction:
         mbs.AddObject(item)
 
     def _forces(self, mbs: exu.MainSystem, time: float, item: int, q: Any, q_t: Any) -> Array:
-        """Return the generalised forces."""
         self._begin_step(time)
         q, q_t = np.asarray(q), np.asarray(q_t)
         mu, _ = self.friction(float(self._along @ q_t))
@@ -170,7 +169,6 @@ class GuideFriction:
         by_q: float,
         by_q_t: float,
     ) -> exu.MatrixContainer:
-        """Return the Jacobian of the left-hand side."""
         self._begin_step(time)
         q, q_t = np.asarray(q), np.asarray(q_t)
         mu, slope = self.friction(float(self._along @ q_t))

@@ -1,7 +1,7 @@
-"""One end of a guided body between its ways: they touch on either side, and rub.
+"""One end of a guided body in its guideway: they touch on either side, and rub.
 
-The body's point lies beside the middle of the ways by s; they touch where |s| > c, on one side or
-the other. The normal is that of the ways and does not turn, as a journal's does with its
+The body's point lies beside the guideway's middle by s; they touch where |s| > c, on one side or
+the other. The normal is the guideway's and does not turn, as a journal's does with its
 eccentricity; all else is a dry interface's: the body's half width is its lever of friction, as the
 radius is a journal's.
 """
@@ -21,7 +21,7 @@ __all__ = ["GuidewayContact", "SpatialGuidewayContact"]
 
 
 class GuidewayContact(InterfaceJoint):
-    """A point of a planar body between two straight ways of the frame."""
+    """A point of a planar body in a straight guideway of the frame."""
 
     def __init__(
         self,
@@ -30,12 +30,12 @@ class GuidewayContact(InterfaceJoint):
         across: tuple[float, float],
         interface: DryInterface,
     ) -> None:
-        """Let a body touch its ways.
+        """Let a body touch its guideway.
 
         Args:
             end: the point of the body.
-            middle: a point in the middle of the ways, m.
-            across: unit vector across them.
+            middle: a point in the middle of the guideway, m.
+            across: unit vector across it.
             interface: of surfaces; its radius is the body's half width, m.
         """
         super().__init__([interface])
@@ -100,17 +100,17 @@ class GuidewayContact(InterfaceJoint):
         return [-x_1, -x_2, -x_3, -y_1, -y_2, -y_3, -m_1, -m_2, -m_3]
 
     def in_frame(self, along_n: float, along_t: float) -> tuple[float, ...]:
-        """Return a vector across and along the ways in the global frame."""
+        """Return a vector across and along the guideway in the global frame."""
         n_x, n_y, _, _ = self._directions
         return along_n * n_x - along_t * n_y, along_n * n_y + along_t * n_x
 
     @property
     def relative_velocity(self) -> tuple[float, ...]:
-        """Rate of the eccentricity at the last `add_force`, m/s: that across the ways."""
+        """Rate of the eccentricity at the last `add_force`, m/s: that across the guideway."""
         return self.in_frame(self._motion[1], 0.0)
 
     def state(self, q: list[float], q_t: list[float]) -> JointState:
-        """Return what the ways do in a state; the velocity is the point's, along them too."""
+        """Return the contact's state; the velocity is the point's, along the guideway too."""
         state = super().state(q, q_t)
         return state._replace(moments=(state.moments[0], 0.0))  # the frame takes any
 
@@ -125,7 +125,7 @@ class SpatialGuidewayContact(SpatialRevolute):
         across: tuple[float, float],
         interface: DryInterface,
     ) -> None:
-        """Let a body touch its ways, which lie in the plane z = 0; see `GuidewayContact`."""
+        """Let a body touch its guideway in the plane z = 0; see `GuidewayContact`."""
         x, y = middle
         frame = BodyEnd("Ground", 0, np.zeros(0), np.array([x, y, 0.0]))
         super().__init__(end, frame, (0.0, 0.0, 1.0), [interface])
@@ -141,5 +141,5 @@ class SpatialGuidewayContact(SpatialRevolute):
 
     @property
     def relative_velocity(self) -> tuple[float, ...]:
-        """Rate of the eccentricity at the last `add_force`, m/s: that across the ways."""
+        """Rate of the eccentricity at the last `add_force`, m/s: that across the guideway."""
         return self.in_frame(self._motion[1], 0.0)

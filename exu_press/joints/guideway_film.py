@@ -1,7 +1,7 @@
 """The oil films between a guided body and its guideways: a pad on either side.
 
-The gaps at the body's two ends follow from how far these lie beside the middle of the ways, and the
-films' forces act at the ends, across the ways and along them. The sliding velocity is that of the
+The gaps at the body's two ends follow from how far these lie beside the guideway's middle, and the
+films' forces act at the ends, across the guideway and along it. The sliding velocity is that of the
 body's face, half a width beside its middle.
 """
 
@@ -20,7 +20,7 @@ __all__ = ["GuidewayFilm"]
 
 
 class GuidewayFilm:
-    """Two films between a body and its ways, a `ClearanceJoint`; contacts are joints beside it.
+    """Two films in a body's guideway, a `ClearanceJoint`; contacts are joints beside it.
 
     Attributes:
         clearance: thickness of each film where the body is in the middle, m.
@@ -48,16 +48,16 @@ class GuidewayFilm:
         """Fill the gaps.
 
         Args:
-            rear: end of the body that lies behind in the direction of the ways.
+            rear: end of the body that lies behind in the direction of the guideway.
             front: the other end, of the same body.
-            middle: a point in the middle of the ways, m.
-            along: unit vector along them.
+            middle: a point in the middle of the guideway, m.
+            along: unit vector along it.
             law: of a pad, that goes on where the surfaces touch.
             viscosity: dynamic, Pa s.
             clearance: on each side, m.
             contact_onset: displacement at which surfaces touch, m.
             length: distance of the ends, m.
-            half_width: of the body across the ways, m.
+            half_width: of the body across the guideway, m.
         """
         assert rear.indices == front.indices
         self.clearance, self.contact_onset = clearance, contact_onset
@@ -134,7 +134,7 @@ class GuidewayFilm:
         return np.asarray(rates.T @ (-self._viscosity * np.array(partials) @ rates)).ravel()
 
     def state(self, q: list[float], q_t: list[float]) -> JointState:
-        """Return what the films do; the moments are the couple of the ends' forces and the drag's.
+        """Return the films' state; the moments are the couple of the ends' forces and the drag's.
 
         The force acts in the middle between the ends.
         """
@@ -155,7 +155,7 @@ class GuidewayFilm:
 
     @property
     def eccentricity(self) -> tuple[float, ...]:
-        """How far the body's middle lies beside that of the ways at the last `add_force`, m."""
+        """Displacement of the body's middle from the guideway's at the last `add_force`, m."""
         return self._in_plane(0.5 * (self._places[0] + self._places[1]), 0.0)
 
     @property
@@ -174,7 +174,7 @@ class GuidewayFilm:
         self.path, self._step = Path(), 0.0
 
     def memory(self) -> list[Any]:
-        """Return what it remembers of the steps before."""
+        """Return the memory of the steps before."""
         return [self._step, self.path.memory()]
 
     def recall(self, memory: list[Any]) -> None:
@@ -183,16 +183,15 @@ class GuidewayFilm:
         self.path.recall(memory[1])
 
     def _in_plane(self, across: float, along: float) -> tuple[float, float]:
-        """Return a vector across and along the ways in the global frame."""
+        """Return a vector across and along the guideway in the global frame."""
         n, t = self._across, self._along
         return across * n[0] + along * t[0], across * n[1] + along * t[1]
 
     def _beside(self, end: BodyEnd) -> float:
-        """Return how far an end lies beside the middle of the ways, m."""
+        """Return the displacement of an end from the guideway's middle, m."""
         x, y, _ = end.position
         return (x - self._middle[0]) * self._across[0] + (y - self._middle[1]) * self._across[1]
 
 
 def _in(v: Vector, direction: Vector) -> float:
-    """Return the part of a vector in a direction of the plane."""
     return v[0] * direction[0] + v[1] * direction[1]

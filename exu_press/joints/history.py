@@ -77,7 +77,7 @@ class JointHistory:
 
 
 def nothing(joint: ClearanceJoint) -> None:
-    """Return what a joint remembers at the start of a run."""
+    """Return a joint's memory at the start of a run: none."""
 
 
 def histories(
@@ -88,14 +88,14 @@ def histories(
     begun: Callable[[ClearanceJoint], list[Any] | None] = nothing,
     rubbing: Collection[str] = (),
 ) -> dict[str, JointHistory]:
-    """Return what joints did over recorded steps.
+    """Return the records of joints over recorded steps.
 
     Args:
         joints: go through the steps again; afterwards they remember what they did before.
         time: (n,), s.
         q: (n, m) coordinates of the user force element's item.
         q_t: (n, m) their rates.
-        begun: tells what a joint remembered at the first one, or None.
+        begun: a joint -> its memory at the first one, or None.
         rubbing: joints whose rubbing is wanted.
     """
     ended = {name: joint.memory() for name, joint in joints.items()}

@@ -59,11 +59,11 @@ class InterfaceLaw:
         needs_secant: whether Newton's method converges better with a secant: with a film,
             whose force is of first degree in the speeds but has a kink at rest.
         outside: eccentricity ratio where its law did not hold, if the last state was so.
-        drift: what is taken out of a penetration (`exu_press.joints.path`), m.
+        drift: correction of a penetration (`exu_press.joints.path`), m.
     """
 
     def __init__(self, clearance: float, stateful: bool, needs_secant: bool) -> None:
-        """Set what does not change."""
+        """Set the properties that do not change."""
         self.drift = 0.0
         self.clearance = clearance
         self.stateful = stateful
@@ -105,7 +105,7 @@ class InterfaceLaw:
         """Forget everything."""
 
     def memory(self) -> list[Any]:
-        """Return what the interface remembers of the steps before; nothing unless it says so."""
+        """Return the memory of the steps before; none unless the interface has one."""
         return []
 
     def recall(self, memory: list[Any]) -> None:
@@ -181,7 +181,6 @@ class DryInterface(InterfaceLaw):
         return self._loaded(e, normal, (mu, slope, normal, stiffness, damping))
 
     def _loaded(self, e: float, normal: float, response: Response) -> Load:
-        """Return force and moments of a normal force."""
         drag = -response[0] * normal
         return -normal, drag, self.radius * drag, -(self.radius + e) * drag, response
 
@@ -205,7 +204,7 @@ class DryInterface(InterfaceLaw):
         return self.radius, -(self.radius + e), 0.0, -1.0
 
     def stored_energy(self, e: float) -> float:
-        """Return the elastic energy of the penetration, and what the bristles have taken up."""
+        """Return the elastic energy of penetration and bristles."""
         return (
             self.contact.elastic_energy(e - self.clearance - self.drift)
             + self._in_bristles
@@ -213,7 +212,7 @@ class DryInterface(InterfaceLaw):
         )
 
     def _into_bristles(self) -> float:
-        """Return what bristles have taken up in the last step, J, at its mean normal force."""
+        """Return the energy that bristles took up in the last step at its mean normal force, J."""
         if not isinstance(self.friction, LuGre):
             return 0.0
         bent = self.friction.stored(self._next_bristle) - self.friction.stored(self.bristle)
@@ -440,7 +439,7 @@ class InterfaceJoint:
         return normal, sliding
 
     def state(self, q: list[float], q_t: list[float]) -> JointState:
-        """Return what the joint does in a state of its two bodies."""
+        """Return the joint's state in a state of its two bodies."""
         self.add_force(q, q_t, [0.0] * len(q))
         e, e_dot, v_t, w_j, w_b = self._motion
         loads = [load for load in self._loads if load is not None]
@@ -474,7 +473,7 @@ class InterfaceJoint:
             interface.reset()
 
     def memory(self) -> list[Any]:
-        """Return what the joint remembers of the steps before, numbers in lists."""
+        """Return the memory of the steps before, numbers in lists."""
         interfaces = [interface.memory() for interface in self.interfaces]
         return [self._step, self.path.memory(), interfaces]
 
@@ -487,7 +486,7 @@ class InterfaceJoint:
             interface.recall(each)
 
     def _load(self, motion: Motion) -> list[Load | None]:
-        """Return what each interface does in a state; the one before is kept for the secant."""
+        """Return each interface's load in a state; the one before is kept for the secant."""
         e, e_dot, v_t, w_j, w_b = motion
         self._motion_before, self._loads_before = self._motion, self._loads
         self._motion = motion

@@ -28,7 +28,7 @@ class JointState(NamedTuple):
             about its axis.
         angular_velocities: the angular velocities that the moments act on, rad/s.
         gap: clearance - |eccentricity|, m: the film's least thickness, or minus the penetration.
-        stored_energy: elastic energy of the contact, and what bristles have taken up so far, J.
+        stored_energy: elastic energy of contact and bristles, J.
         stored_power: its rate, W.
     """
 
@@ -92,7 +92,7 @@ class ClearanceJoint(Protocol):
         """
 
     def state(self, q: list[float], q_t: list[float]) -> JointState:
-        """Return what the joint does in a state of its two bodies."""
+        """Return the joint's state in a state of its two bodies."""
 
     def begin_step(self, step: float, accepted: bool) -> None:
         """Start a step of size `step` (s), after the last one was accepted or is repeated."""
@@ -101,7 +101,7 @@ class ClearanceJoint(Protocol):
         """Forget everything."""
 
     def memory(self) -> list[Any]:
-        """Return what it remembers of the steps before, numbers in lists."""
+        """Return the memory of the steps before, numbers in lists."""
 
     def recall(self, memory: list[Any]) -> None:
         """Take over what another joint of its kind remembers, in the state of the last forces."""

@@ -46,7 +46,7 @@ class Path:
         self.acceleration: Vector = ()
 
     def memory(self) -> list[Any]:
-        """Return what it remembers."""
+        """Return its memory."""
         parts = self.eccentricity, self.velocity, self.acceleration
         return [self.drift, *(list(part) for part in parts)]
 
@@ -57,7 +57,7 @@ class Path:
         self.acceleration = tuple(memory[3])
 
     def missed(self, eccentricity: Vector, velocity: Vector, step: float) -> tuple[float, float]:
-        """Return what a step (s) misses of its change of eccentricity, and the part along it, m."""
+        """Return the error of a step's (s) change of eccentricity, and its part along it, m."""
         half, twelfth = 0.5 * step, step / 12.0
         start, last, before = self.eccentricity, self.velocity, self.acceleration
         square = along = distance = 0.0

@@ -138,12 +138,10 @@ class SpatialRevolute(InterfaceJoint):
 
 
 def _sum(a: float, v: Vector, b: float, w: Vector) -> Vector:
-    """Return a v + b w."""
     return a * v[0] + b * w[0], a * v[1] + b * w[1], a * v[2] + b * w[2]
 
 
 def _normal_to(axis: Vector) -> Vector:
-    """Return some unit vector normal to an axis."""
     x, y, z = np.cross(axis, np.eye(3)[int(np.argmin(np.abs(axis)))]).tolist()
     length = sqrt(x * x + y * y + z * z)
     return x / length, y / length, z / length

@@ -89,7 +89,7 @@ class SpatialSpherical:
             self._film.reset()
 
     def memory(self) -> list[Any]:
-        """Return what the joint remembers of the steps before, numbers in lists."""
+        """Return the memory of the steps before, numbers in lists."""
         vectors = self._bristle, self._next_bristle, self._sliding, self._sliding_before
         told = [None if vector is None else vector.tolist() for vector in vectors]
         return [self._step, self.path.memory(), told, self._approach.memory()]
@@ -163,7 +163,7 @@ class SpatialSpherical:
         return tuple(self._relative.tolist())
 
     def state(self, q: list[float], q_t: list[float]) -> JointState:
-        """Return what the joint does in a state of its two bodies."""
+        """Return the joint's state in a state of its two bodies."""
         self._move(q, q_t)
         force = self._normal_force + self._drag
         reach, pressed, elastic, energy = self._radius + self._e, 0.0, 0.0, 0.0
@@ -189,7 +189,7 @@ class SpatialSpherical:
         )
 
     def _into_bristles(self) -> float:
-        """Return what bristles have taken up in the last step, J, at its mean normal force."""
+        """Return the energy that bristles took up in the last step at its mean normal force, J."""
         if not isinstance(self._friction, LuGre):
             return 0.0
         before, after = (
@@ -199,7 +199,7 @@ class SpatialSpherical:
         return 0.5 * (self._normal + self._normal_before) * (after - before)
 
     def _power_of_bristles(self) -> float:
-        """Return the rate of what the bristles store, W."""
+        """Return the rate of the bristles' energy, W."""
         if not isinstance(self._friction, LuGre) or self._sliding is None:
             return 0.0
         z, speed = self._next_bristle, float(np.linalg.norm(self._sliding))
@@ -278,7 +278,6 @@ class SpatialSpherical:
 
 
 def _vector(values: Array) -> Vector:
-    """Return an array's three numbers."""
     x, y, z = values.tolist()
     return x, y, z
 

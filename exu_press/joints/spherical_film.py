@@ -142,6 +142,5 @@ def _turned(n: Array, flat: Array, vector: Array) -> Array:
 
 
 def _across(n: Array) -> Array:
-    """Return some unit vector across a direction."""
     found = np.cross(n, np.eye(3)[int(np.argmin(np.abs(n)))])
     return np.asarray(found / np.sqrt(found @ found))

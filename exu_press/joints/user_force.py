@@ -111,7 +111,7 @@ class UserForceElement:
             self._mbs.SetObjectParameter(self.item, "nodeNumbers", nodes)
 
     def state(self, joint: ClearanceJoint) -> JointState:
-        """Return what a joint did when forces were last asked for."""
+        """Return a joint's state when forces were last asked for."""
         q, q_t = self._last
         if q is None:
             q = q_t = [0.0] * self.size
@@ -121,7 +121,7 @@ class UserForceElement:
         """Refuse initial values with which a joint starts further out than its laws hold.
 
         Args:
-            called: a joint -> what it is called.
+            called: a joint -> its name in messages.
 
         Raises:
             InputError: a joint does; its message has the joint, its eccentricity, its clearance and
@@ -141,12 +141,12 @@ class UserForceElement:
         return q
 
     def memory(self) -> dict[str, Any]:
-        """Return what all joints remember, for a run that goes on from here."""
+        """Return the memory of all joints, for a run that goes on from here."""
         step = None if self._step is None else list(self._step)
         return {"step": step, "joints": [joint.memory() for joint in self.joints]}
 
     def recall(self, memory: Mapping[str, Any]) -> None:
-        """Go on from what the joints of a system like this one remember, in the initial state."""
+        """Go on from the memory of a system like this one, in the initial state."""
         data: Any = self._mbs.systemData
         q = self._of_item(data.GetODE2Coordinates(exu.ConfigurationType.Initial))
         q_t = self._of_item(data.GetODE2Coordinates_t(exu.ConfigurationType.Initial))
@@ -159,7 +159,7 @@ class UserForceElement:
             joint.recall(each)
 
     def begun(self, joint: ClearanceJoint) -> list[Any] | None:
-        """Return what a joint remembered of another run where it went on from that; else None."""
+        """Return a joint's memory of another run where it went on from that; else None."""
         return self._carried[self.joints.index(joint)] if self._carried else None
 
     def _check_start(self, q: list[float], called: Callable[[ClearanceJoint], str]) -> None:
@@ -203,7 +203,7 @@ class UserForceElement:
     def damping(self) -> float:
         """The most that any force changed with a speed, N s/m, in the last Jacobian.
 
-        With what the force's point of attack adds: a speed moves it within the step.
+        The force's point of attack counts: a speed moves it within the step.
         """
         largest = (float(np.abs(block).max()) for block in self._blocks if block is not None)
         return max(largest, default=0.0) / self._by_q_t

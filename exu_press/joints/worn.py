@@ -43,7 +43,7 @@ w_B''."""
 
 @dataclass(frozen=True)
 class Worn:
-    """What is worn off a joint's surfaces, less the mean, which is in its clearance.
+    """Depths worn off a joint's surfaces, less the mean, which is in its clearance.
 
     Attributes:
         journal: over the angle on it.
@@ -137,7 +137,7 @@ class WornJoint(PlanarJoint):
         film.clearance, film.scale = self.clearance, scale
 
     def _local(self, angle: float, turned_j: float, turned_b: float) -> Local:
-        """Return the direction of an angle and what is worn there."""
+        """Return the direction of an angle and the wear there."""
         j, j_1, j_2 = self.worn.journal.at(angle - turned_j)
         b, b_1, b_2 = self.worn.bearing.at(angle - turned_b)
         return cos(angle), sin(angle), j + b, j_1, b_1, j_2, b_2
@@ -252,7 +252,7 @@ class WornJoint(PlanarJoint):
         return by_place, by_rate
 
     def state(self, q: list[float], q_t: list[float]) -> JointState:
-        """Return what the joint does in a state of its two bodies."""
+        """Return the joint's state in a state of its two bodies."""
         self.add_force(q, q_t, [0.0] * len(q))
         u, v, w_j, w_b = self._moving
         f_x, f_y, m_j, m_b = self._sum

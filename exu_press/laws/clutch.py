@@ -49,7 +49,7 @@ def coupling_torque(
 
 @dataclass
 class Coupling:
-    """What surfaces remember from step to step: the twist behind their torque.
+    """Memory of the surfaces from step to step: the twist behind their torque.
 
     >>> brake = Coupling(stiffness=1e6, damping=1e3)
     >>> brake.begin(0.0, 0.0)

@@ -134,11 +134,11 @@ class Approach:
         return speed
 
     def accept(self) -> None:
-        """Keep what was tried last."""
+        """Keep the last try."""
         self._speed, self._gap = self._next
 
     def memory(self) -> list[float]:
-        """Return what it remembers."""
+        """Return its memory."""
         return [self._speed, self._gap, *self._next]
 
     def recall(self, memory: list[float]) -> None:

@@ -94,7 +94,7 @@ class Clock(Protocol):
     """The memory of a load from step to step."""
 
     def memory(self) -> tuple[float, float | None]:
-        """Return what it remembers."""
+        """Return its memory."""
 
     def recall(self, memory: tuple[float, float | None]) -> None:
         """Take over what another one remembers."""

@@ -57,7 +57,7 @@ class Command:
 
 
 class Schedule:
-    """What is commanded until now; a crank angle may command a stop.
+    """Commands until now; a crank angle may command a stop.
 
     A start lets the brake go and then engages the clutch; a stop does the reverse.
 
@@ -91,8 +91,8 @@ class Schedule:
             stops: instants of commands to stop, s, increasing.
             stop_angle: of the crank, rad, at which a stop is commanded instead.
             clutch_on: of the clutch behind a start.
-            clutch_off: what goes of the clutch behind a stop.
-            brake_off: what goes of the brake behind a start.
+            clutch_off: falling torque of the clutch behind a stop.
+            brake_off: falling torque of the brake behind a start.
             brake_on: of the brake behind a stop.
         """
         self.running, self.starts, self.stops = running, tuple(starts), tuple(stops)
@@ -167,7 +167,7 @@ class Schedule:
         return any(last < command <= time * (1.0 + 1e-12) for command in commands)
 
     def memory(self) -> list[float]:
-        """Return what has been commanded, as numbers."""
+        """Return the commands so far, as numbers."""
         given = self._start.time, self._start.angle, self._stop.time, self._stop.angle
         return [float(self.running), *given]
 

@@ -95,10 +95,10 @@ class Sheet:
 
 
 class Cut:
-    """The stroke of a punch through a sheet: what has become of the sheet until now.
+    """The stroke of a punch through a sheet, with the state of the sheet.
 
     The penetration decides, not the clock. Up to fracture the force follows the curve at the
-    deepest penetration; a punch that goes back unloads the sheet along the curve's first line. From
+    largest penetration; a punch that goes back unloads the sheet along the curve's first line. From
     fracture on the force falls to zero within the crack time. A new sheet lies there as soon as the
     punch has left the cut one. A run that starts with the punch in the sheet starts with a cut one.
 
@@ -120,7 +120,7 @@ class Cut:
         self._started = False
 
     def phase(self, time: float, penetration: float) -> Phase:
-        """Return what the sheet is at an instant, s, and a penetration, m."""
+        """Return the sheet's state at an instant, s, and a penetration, m."""
         if self._fractured is None:
             return "whole" if penetration < self._sheet.fracture else "cracking"
         return "cracking" if time < self._fractured + self._sheet.crack_time else "cut"
@@ -186,7 +186,7 @@ class Cut:
             self._deepest = max(self._deepest, penetration)
 
     def memory(self) -> tuple[float, float | None]:
-        """Return the deepest penetration, m, and when the sheet fractured, s."""
+        """Return the largest penetration, m, and when the sheet fractured, s."""
         return self._deepest, self._fractured
 
     def recall(self, memory: tuple[float, float | None]) -> None:

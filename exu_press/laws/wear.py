@@ -71,7 +71,7 @@ def worn_by_angle(volume: Array, overlap: Array) -> Array:
 
 
 def reached(depths: Array, clearance: float, least: float = LEAST) -> Array:
-    r"""Return depths that a journal can follow, from what is worn off around a surface.
+    r"""Return depths that a journal can follow, from depths worn off around a surface.
 
     The depths are smoothed by Jackson's kernel, which has no negative weights: the volume stays,
     and what is convex stays convex. The kernel is as narrow as the curvature allows,

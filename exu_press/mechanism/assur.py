@@ -41,7 +41,7 @@ class Drawing(NamedTuple):
     """The geometry alone.
 
     Bodies are (name, centre of mass, angle), joints (name, at, journal, bearing), guides (body,
-    direction); `frame` is the name of what stands still.
+    direction); `frame` is the name of the body that stands still.
     """
 
     bodies: tuple[tuple[str, complex, float], ...]
@@ -285,7 +285,6 @@ def _closed_groups(
 def _connected(
     left: Sequence[str], neighbours: Mapping[str, set[str]], size: int
 ) -> Iterator[Sequence[str]]:
-    """Yield the sets of a size that joints connect, in the bodies' order."""
     found = {frozenset([name]) for name in left}
     for _ in range(size - 1):
         found = {

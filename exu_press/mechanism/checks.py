@@ -32,7 +32,7 @@ TAKEN = {
 RECORDED = ("drive", "frame", "guide", "shaking")
 OF_BODIES = ("guide", "modes")
 OF_LOADS = "load_"
-"""What channels begin with that are no joint's, a body's after its name."""
+"""Beginnings of channels that are no joint's; a body's follow its name."""
 
 ACROSS = 1e-9
 """Cosine of two directions that counts as a right angle."""

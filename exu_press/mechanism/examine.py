@@ -1,4 +1,4 @@
-"""All that a drawing tells before anything runs, and what is wrong with it."""
+"""Examination of a drawing before anything runs, and its faults."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ ANGLES = np.radians(np.arange(361.0))
 
 @dataclass(frozen=True)
 class Examination:
-    """A mechanism with what follows from its drawing.
+    """A mechanism with the properties that follow from its drawing.
 
     Attributes:
         mechanism: drawn.
@@ -85,7 +85,6 @@ class Examination:
         return tuple(found)
 
     def _holding(self, body: str) -> tuple[str, ...]:
-        """Return the joints and guides of a body, as the file names them."""
         joints = [
             f"joints.{j.name}" for j in self.mechanism.joints if body in (j.journal, j.bearing)
         ]
@@ -93,7 +92,7 @@ class Examination:
 
 
 def examine(mechanism: Mechanism) -> Examination:
-    """Return what a drawing tells; one whose crank does not turn is examined as far as it goes."""
+    """Examine a drawing; one whose crank does not turn is examined as far as it goes."""
     mobility = mobility_of(mechanism)
     try:
         stroke = stroke_of(mechanism, ANGLES)

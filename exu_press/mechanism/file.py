@@ -126,7 +126,7 @@ def mechanism_lines(mechanism: Mechanism, prefix: str = "") -> list[str]:
 
     Args:
         mechanism: drawn.
-        prefix: what the tables' names begin with, such as "mechanism." in a scene file.
+        prefix: of the tables' names, such as "mechanism." in a scene file.
     """
     data = mechanism_to_dict(mechanism)
     tables = {kind: data.pop(kind) for kind in (*PARTS, "groups")}
@@ -149,7 +149,7 @@ def mechanism_lines(mechanism: Mechanism, prefix: str = "") -> list[str]:
 def _keys(
     where: str, given: Any, needed: Collection[str], others: Collection[str]
 ) -> dict[str, Any]:
-    """Return what a table has; which values are allowed the mechanism knows itself."""
+    """Return the keys of a table; the mechanism checks their values itself."""
     table, known = _table(where, given), (*needed, *others)
     for key, value in table.items():
         path = f"{where}.{key}" if where else key

@@ -79,7 +79,7 @@ class Holding:
 
 @lru_cache(maxsize=64)
 def holding_of(mechanism: Mechanism, ideal: frozenset[str]) -> Holding:
-    """Return what holds a mechanism's bodies, apart from its clearance joints and springs.
+    """Return the constraints on a mechanism's bodies, apart from clearance joints and springs.
 
     Args:
         mechanism: its guides are ideal or elastic.
@@ -144,7 +144,7 @@ class _Selection:
         angles: of the bodies there, rad.
         directions: name of an ideal joint -> unit vectors that it holds, none to two.
         held: (body, "across" or "angle") -> whether its guide holds it.
-        redundant: names of what holds less than it could.
+        redundant: names of joints that hold less than they could.
         lost: names of joints that do so although no parallel guides hold their bodies.
     """
 

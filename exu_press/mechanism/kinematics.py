@@ -308,7 +308,6 @@ def _inverse(group: Group, jacobian: Array) -> Array:
 
 
 def _sign(group: Group, jacobian: Array) -> Array:
-    """Return the sign of a square group's determinant, which changes where branches cross."""
     return np.sign(np.linalg.det(jacobian)) if group.square else np.array(1.0)
 
 

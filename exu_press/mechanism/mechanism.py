@@ -35,7 +35,7 @@ class Mechanism:
         groups: names for several joints, which a scene gives clearance together.
         counterweight: names of the bodies that balance the others, without which the shaking force
             is recorded too.
-        defaults: what a scene of it has unless it says otherwise, in a scene's words: "start",
+        defaults: of its scenes, in a scene's words: "start",
             "clearance" and "radius" of a joint, "joints" with their kinds where no joint is named,
             and keys of "contact", "friction" and "film".
 
@@ -222,12 +222,10 @@ class Mechanism:
         )
 
     def _kinematics(self) -> Kinematics:
-        """Return the kinematics of the geometry, which is all that they depend on."""
         return kinematics_of(self.name, self.drawing, self.size)
 
 
 def _unit(direction: Point) -> Point:
-    """Return a direction as a unit vector."""
     length = math.hypot(*direction)
     return direction[0] / length, direction[1] / length
 

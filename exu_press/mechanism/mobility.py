@@ -129,7 +129,6 @@ def _constraints(mechanism: Mechanism, poses: Mapping[str, Array]) -> dict[str, 
 
 
 def _rank(matrix: Array) -> int:
-    """Return the number of independent rows."""
     values = np.linalg.svd(matrix, compute_uv=False)
     return int((values > INDEPENDENT * values[0]).sum())
 

@@ -117,11 +117,11 @@ class Guide:
     """A straight guide in the frame: a body moves along it and does not turn.
 
     Attributes:
-        body: what it guides.
+        body: that it guides.
         direction: along the guide; `Mechanism` makes it a unit vector.
-        lateral: what holds the body across the guide, or None where the guide is ideal.
-        tilting: what holds its angle, or None.
-        guideway: what the body slides between with clearance, or None.
+        lateral: spring across the guide, or None where the guide is ideal.
+        tilting: spring of its angle, or None.
+        guideway: with clearance, or None.
     """
 
     body: str

@@ -212,7 +212,6 @@ def press(size: Press) -> Mechanism:
 
 
 def _rod(name: str, mass: float, start: Point, end: Point) -> Body:
-    """Return a uniform rod (A-6), its x axis from start to end."""
     angle = math.atan2(end[1] - start[1], end[0] - start[0])
     inertia = mass * math.dist(start, end) ** 2 / 12
     return Body(name, mass, inertia, middle(start, end), angle)

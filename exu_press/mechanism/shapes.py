@@ -100,7 +100,6 @@ def moved(points: Array, pose: Array) -> Array:
 
 
 def _role(mechanism: Mechanism, body: str) -> str:
-    """Return what a body is."""
     if body == mechanism.crank:
         return "crank"
     if any(guide.body == body for guide in mechanism.guides):
@@ -111,7 +110,6 @@ def _role(mechanism: Mechanism, body: str) -> str:
 
 
 def _block(points: Array, margin: float) -> Array:
-    """Return a rectangle around joints."""
     (left, low), (right, high) = points.min(axis=0) - margin, points.max(axis=0) + margin
     return np.array([[left, low], [right, low], [right, high], [left, high]])
 

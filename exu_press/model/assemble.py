@@ -33,8 +33,8 @@ def build(scene: Scene, *, quiet: bool = True) -> Model:
     Flexible bodies start in the deformation, and its rate, that this motion asks for.
 
     Args:
-        scene: what is asked.
-        quiet: False shows the progress of what takes long, the modes of flexible bodies.
+        scene: of the model.
+        quiet: False shows the progress of the flexible bodies' modes, which take long.
     """
     parts: Mapping[str, PlacedPart] = {}
     if scene.bodies:
@@ -146,7 +146,7 @@ def _assembled(
 
 
 def _stall(scene: Scene) -> Stall:
-    """Return what tells whether the press stalls."""
+    """Return the function that tells whether the press stalls."""
     motor, speed = scene.drive, scene.angular_speed
     slower = speed if motor is None else min(speed, motor.fastest(scene.speed_rpm))
     return Stall(slower, 60.0 / scene.speed_rpm)

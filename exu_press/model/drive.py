@@ -14,7 +14,7 @@ from exu_press.model.system import System
 __all__ = ["CrankAngle", "add_drive", "crank_angle_of", "hold_flexible_bodies", "turned_body"]
 
 CrankAngle = Callable[[], tuple[float, float]]
-"""The angle of what the drive turns, rad, and its angular velocity, rad/s, in the current state."""
+"""Angle, rad, and angular velocity, rad/s, of the driven body in the current state."""
 
 DISC_MASS = 1e-3
 """kg: what turns a flexible crank, on which it rests, weighs nothing; but masses are positive."""
@@ -54,7 +54,7 @@ def turned_body(system: System) -> str:
 
 
 def crank_angle_of(system: System) -> CrankAngle:
-    """Return what tells the crank's angle from the mechanism's zero, and its angular velocity."""
+    """Return the function of the crank's angle from the mechanism's zero and its velocity."""
     data: Any = system.mbs.systemData
     turned, current = system.rigid[turned_body(system)], exu.ConfigurationType.Current
     column = turned.coordinates.index("angle")

@@ -1,4 +1,4 @@
-"""Flexible bodies in an Exudyn system, and what holds them in space.
+"""Flexible bodies in an Exudyn system, and their constraints in space.
 
 NGSolve's modes come from fe_models: from its cache, or made there on first use. In the plane the
 joints are those of rigid bodies; what the plane holds of itself is held here: a body that rests in
@@ -94,7 +94,7 @@ def shifted(start: FrameStart, body: Motion, away: Motion) -> FrameStart:
     Args:
         start: before.
         body: motion of a point of the body in the plane before, one instant.
-        away: by what its position (x, y, angle) and velocity change.
+        away: changes of its position (x, y, angle) and velocity.
     """
     (x, y, _), (u, v, _) = body.position[0], body.velocity[0]
     dx, dy, turn = away.position[0]
@@ -203,7 +203,7 @@ def load_point(load: str, number: int = 0) -> str:
 
 
 def joint_end(body: FlexibleBody, part: PlacedPart, joint: Joint, point: Point) -> Any:
-    """Return what a clearance joint holds on to: the interface's motion, at the point (x, y).
+    """Return an end of a clearance joint: the interface's motion, at the point (x, y).
 
     Raises:
         InputError: the joint holds several faces.
@@ -285,7 +285,7 @@ def hold_driven(mbs: exu.MainSystem, disc: int, body: FlexibleBody, part: Placed
 def fitted_to_guide(
     start: FrameStart, part: PlacedPart, guide: Guide, held: tuple[bool, bool], pose: Array
 ) -> FrameStart:
-    """Return the start that fits what an ideal guide holds of a body.
+    """Return the start that fits an ideal guide's constraints on a body.
 
     Where all joints are ideal others may hold it: ball joints, which give way with their bodies.
 
@@ -323,7 +323,7 @@ def fitted_to_guide(
 
 
 def guide_end(body: FlexibleBody, part: PlacedPart, point: Point) -> Any:
-    """Return what guideways with clearance touch: a point carried by the faces in its guide."""
+    """Return an end for guideways with clearance: a point carried by the faces in its guide."""
     place, modes = part.carried((part.guide,), point)
     if body.node_modes is None:
         return body.object_number, place
@@ -332,7 +332,7 @@ def guide_end(body: FlexibleBody, part: PlacedPart, point: Point) -> Any:
 
 
 def guided_motion(mbs: exu.MainSystem, body: FlexibleBody, part: PlacedPart) -> tuple[Array, Array]:
-    """Return what a guide holds of a body, linear in its coordinates: x, y (m) and angle (rad).
+    """Return the guided motion of a body, linear in its coordinates: x, y (m), angle (rad).
 
     It is the mean motion of the faces that lie in the guide, where the body has its centre of mass.
     In a guide a body hardly turns: what is left out goes with the square of its tilt.

@@ -108,5 +108,4 @@ def _frame(
 
 
 def _rgba(colour: str) -> list[float]:
-    """Return red, green, blue and opacity of #RRGGBB."""
     return [int(colour[i : i + 2], 16) / 255.0 for i in (1, 3, 5)] + [1.0]

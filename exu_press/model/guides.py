@@ -104,7 +104,6 @@ def add_guide_friction(system: System, guide: Guide, held: Mapping[str, int]) ->
 
 
 def _end(system: System, body: str, point: Point) -> Any:
-    """Return a point of a guided body for its ways to touch."""
     if body not in system.flexible:
         return system.bodies[body], system.rigid[body].local(point)
     from exu_press.model.flexible_body import guide_end

@@ -42,7 +42,7 @@ __all__ = ["add_clearance_joint", "add_ideal_joint", "interfaces_of"]
 
 
 def add_ideal_joint(system: System, joint: Joint) -> int:
-    """Add a revolute joint, or what holds the one direction that nothing else holds."""
+    """Add a revolute joint, or a constraint in the one direction that nothing else holds."""
     half = system.holding.single_axis.get(joint.name)
     if half is not None:
         return _hold_half(system, joint, half)
@@ -103,7 +103,7 @@ def interfaces_of(joint: Joint, kind: LooseJoint) -> list[InterfaceLaw]:
 
 
 def _worn(system: System, joint: Joint, kind: DryJoint | LubricatedJoint) -> "WornSurfaces | None":
-    """Return what a joint's surfaces are worn beyond an even clearance; None where that is none."""
+    """Return the wear of a joint's surfaces beyond an even clearance, or None."""
     profiles = None if kind.worn is None else kind.worn.profiles()
     if profiles is None:
         return None
@@ -117,7 +117,6 @@ def _worn(system: System, joint: Joint, kind: DryJoint | LubricatedJoint) -> "Wo
 
 
 def _end(system: System, joint: Joint, body: str, point: Point) -> Any:
-    """Return what a clearance joint holds on to."""
     if body == GROUND:
         return system.ground, point
     if body not in system.flexible:

@@ -179,7 +179,7 @@ class _Problem:
         return np.array(missed), np.array([*rows, columns[self.crank]])
 
     def correction(self, rows: Array, missed: Array) -> Array:
-        """Return the smallest change of the coordinates that makes up for what is missed."""
+        """Return the smallest change of the coordinates that satisfies the constraints."""
         scaled = rows * self._scale
         return np.asarray(self._scale * np.linalg.lstsq(scaled, -missed, rcond=RANK)[0])
 
@@ -233,7 +233,7 @@ class _Instant:
     """
 
     def __init__(self, problem: _Problem, i: int) -> None:
-        """Find what presses the joints; what several bear together is shared evenly."""
+        """Find the loads on the joints; several that bear one load share it evenly."""
         self._problem = problem
         parts = [problem.ideal[name] for name in problem.names]
         self.ideal: Array = np.concatenate([part.position[i] for part in parts])

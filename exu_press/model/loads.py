@@ -120,7 +120,7 @@ class Cutting:
 
 
 def _add_sheet(system: System, name: str, load: AppliedLoad) -> Cutting:
-    """Let a sheet resist the punch, by what has become of it."""
+    """Let a sheet resist the punch, by its state."""
     assert load.sheet is not None
     place = Cutting(Cut(load.sheet), load.top, _height(system))
     cut, (x, y) = place.cut, load.direction
@@ -164,7 +164,7 @@ def _place(system: System, load: AppliedLoad) -> Place:
 
 
 def _since_the_beginning(system: System, clock: Callable[[float, float], PulseClock]) -> Place:
-    """Return what tells the time since the beginning of a pulse, which the system's clocks keep."""
+    """Return the function of the time since a pulse's beginning, which the clocks keep."""
     scene, crank = system.scene, crank_angle_of(system)
     running = clock(scene.start_angle, scene.angular_speed)
     system.clocks.append((running, lambda time: crank()))
@@ -177,7 +177,7 @@ def _since_the_beginning(system: System, clock: Callable[[float, float], PulseCl
 
 
 def _height(system: System) -> Place:
-    """Return what tells the output's height, m, and velocity, m/s, of the current state."""
+    """Return the function of the output's height, m, and velocity, m/s."""
     mbs, output = system.mbs, system.mechanism.output
     x, y = output.direction
     zero = output.origin[0] * x + output.origin[1] * y + system.mechanism.bottom

@@ -1,4 +1,4 @@
-"""An assembled Exudyn system and what its items are called."""
+"""An assembled Exudyn system with the names of its items."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -32,18 +32,18 @@ CLOSE = 1e-9
 
 @dataclass(frozen=True)
 class Model(Assembled):
-    """An assembled system and what its items are called.
+    """An assembled system with the names of its items.
 
     Attributes:
         SC: Exudyn's system container; its main system is `mbs`.
         bodies: name -> object number.
         rigid: name -> rigid body.
-        drive: object number of what turns the crank.
+        drive: object number of the item that turns the crank.
         crank_angle: tells the crank's angle and angular velocity.
         start_stop: clutch, brake and their schedule, if there is a clutch.
         stall: tells whether the press has stalled.
-        loads: name -> load that acts, and what tells its place on its curve.
-        clocks: of pulses and sheets of loads, and what reads their state.
+        loads: name -> load that acts, and the function of its place on its curve.
+        clocks: of pulses and sheets of loads, and the readers of their state.
         remembered: by those, where the run goes on from another one.
         guide_friction: name of a body in a guide without clearance -> its friction there.
         parts: name -> flexible body's part; empty for rigid bodies.
@@ -75,7 +75,7 @@ class Model(Assembled):
         return count_items(self.mbs) - self.made
 
     def solve(self, *, tuning: SolverTuning = DEFAULTS, quiet: bool = True) -> Outcome:
-        """Run to the end time or to an early stop; what was computed stays in the sensors.
+        """Run to the end time or to an early stop; the sensors keep the results.
 
         Films whose oil warms keep their temperature meanwhile; `simulate` renews it.
 
@@ -100,7 +100,6 @@ class Model(Assembled):
 
     @cached_property
     def _sampled(self) -> Section | None:
-        """Samples of a crank of constant speed."""
         output = self.scene.output
         if output is None or not output.samples or self.scene.drive is not None:
             return None
@@ -154,7 +153,6 @@ class Model(Assembled):
 
 
 def _same(angle: float, other: float) -> bool:
-    """Return whether two crank angles, rad, are the same place of a revolution."""
     return abs(math.remainder(angle - other, 2.0 * math.pi)) < CLOSE
 
 

@@ -74,7 +74,7 @@ class PlacedPart:
     damping_ratio: float
 
     def carried(self, faces: tuple[str, ...], point: Point) -> tuple[Array, Array]:
-        """Return a point (3,) that faces carry, and what each mode moves it, (3, modes).
+        """Return a point (3,) that faces carry, and its displacement by each mode, (3, modes).
 
         Args:
             faces: interfaces, whose mean motion carries it.
@@ -305,7 +305,6 @@ def _patch(face: Face) -> Patch:
 
 
 def _material(table: Flexible, usual: Any) -> Any:
-    """Return a material with what the scene gives of it."""
     keys = ("youngs_modulus", "poissons_ratio", "density")
     given = {name: getattr(table, name) for name in keys}
     return replace(usual, **{name: value for name, value in given.items() if value is not None})

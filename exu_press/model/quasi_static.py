@@ -43,7 +43,7 @@ def quasi_static_motion(
         coordinate: the drive's angle among all coordinates.
         speed: of the drive, rad/s.
     """
-    with one_thread(), np.errstate(over="ignore", invalid="ignore"):  # limp bodies
+    with one_thread(), np.errstate(over="ignore", invalid="ignore"):  # compliant bodies
         balance = _Balance(mbs, drive, coordinate)
         rate = speed * _differentiation(ANGLES)
         q = np.zeros((len(ANGLES), balance.size))

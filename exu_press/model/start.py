@@ -54,12 +54,12 @@ def deformed_start(
         start[name] = rigid.motion(q, q_t, np.zeros_like(q))
     for name, body in ideal.flexible.items():
         modes = [np.zeros(0)] * 2 if body.node_modes is None else list(parts_of(body.node_modes))
-        _refuse_limp(ideal.scene, name, body, modes[0])
+        _refuse_too_compliant(ideal.scene, name, body, modes[0])
         frames[name] = deformed(mbs, body, *parts_of(body.node_rigid), *modes)
     return start, frames
 
 
-def _refuse_limp(scene: Scene, name: str, body: "FlexibleBody", modes: Array) -> None:
+def _refuse_too_compliant(scene: Scene, name: str, body: "FlexibleBody", modes: Array) -> None:
     """Refuse a body whose deformation is not small, or not a number, for its modal coordinates."""
     shift = np.linalg.norm((body.part.modes @ modes).reshape(-1, 3), axis=1).max(initial=0.0)
     share = shift / float(np.ptp(body.part.nodes, axis=0).max())

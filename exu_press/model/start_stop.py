@@ -21,7 +21,7 @@ Turned = Callable[[], tuple[float, float]]
 """An angle, rad, and its rate, rad/s, in the current state."""
 
 OPEN, STICKS, SLIPS = 0.0, 1.0, 2.0
-"""What a clutch or brake does."""
+"""State of a clutch or brake."""
 
 DAMPED = 4.0
 """Over critical damping: what the twist gives back as slip ends moves the shafts by little."""
@@ -38,7 +38,7 @@ class Pressed:
     """A clutch or brake in a system.
 
     Attributes:
-        coupling: what it remembers.
+        coupling: its memory.
         most: its full torque, N m.
         item: number of Exudyn's connector.
         state: at the last step's end: SLIPS, STICKS or OPEN.
@@ -100,7 +100,7 @@ class Pressed:
 
         Args:
             time: s.
-            close: what is as near as that is passed, s.
+            close: an end that is as near as that is passed, s.
         """
         rate = self._way * self._rate
         if self.state != SLIPS or self._slope * self._way >= 0.0:
@@ -137,7 +137,7 @@ class Pressed:
 
 
 class StartStop:
-    """What is commanded in a model, and what clutch and brake do."""
+    """Commands of a model, with its clutch and brake."""
 
     def __init__(
         self, schedule: Schedule, crank: Turned, speed: float, ends_after: float | None

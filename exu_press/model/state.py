@@ -26,7 +26,7 @@ class State(TypedDict):
         reference: place at which the second-order coordinates are zero; it goes with the start
             angle and, of flexible bodies, with the speed.
         joints: what clearance joints and guideways remember: bristles, approach speeds, paths.
-        clocks: what pulses and sheets of loads remember.
+        clocks: memory of pulses and sheets of loads.
         films: temperature, deg C, and pressure, Pa, of films whose oil warms.
         start_stop: what clutch, brake and their schedule remember; of a drive with a clutch.
     """

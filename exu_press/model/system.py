@@ -34,7 +34,7 @@ class System:
     """A system that is being assembled, with all that its parts need.
 
     Attributes:
-        scene: what is asked.
+        scene: of the system.
         parts: name -> flexible body's part; empty for rigid bodies.
         mechanism: bodies, joints and guides.
         holding: which ideal joints and guides hold what.

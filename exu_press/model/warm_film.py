@@ -23,13 +23,13 @@ short run, and from their mean where no two revolutions are alike."""
 
 
 LEAST_SLOPE, LARGEST_SLOPE = -0.5, 0.75
-"""Of the temperature that the heat asks for, over the one that the film had: what is taken of it.
+"""Share of a step from the film's temperature to the one that the heat asks for.
 It is not 0 as the journal sinks when the oil thins, and as friction in contacts does not fall."""
 
 
 @dataclass(frozen=True)
 class Heat:
-    """What a film did in a revolution.
+    """A film's revolution.
 
     Attributes:
         power: dissipated, mean, W.
@@ -53,7 +53,7 @@ class WarmFilm:
         interface: of the film, which has the viscosity.
         temperature: deg C.
         pressure: that thickens the oil, Pa.
-        before: what it did in the revolutions so far.
+        before: its revolutions so far.
         asked: temperature in the last revolution, and the one that its heat asked for, deg C.
     """
 
@@ -65,7 +65,7 @@ class WarmFilm:
     asked: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
-        """Find what flows out."""
+        """Find the side flow."""
         film, joint = self.joint.film, self.joint
         assert film.oil is not None and film.length is not None  # no ball
         self.oil, self._length = film.oil, film.length
@@ -84,7 +84,7 @@ class WarmFilm:
         self.interface.scale = film_scale(self.viscosity, *size)
 
     def side_flow(self, states: JointHistory) -> Array:
-        """Return what flows out at both ends, (n,), m^3/s."""
+        """Return the flow at both ends, (n,), m^3/s."""
         joint = self.joint
         e = np.linalg.norm(states.eccentricity, axis=1)
         x, y = (states.eccentricity[:, :2] / np.maximum(e, 1e-300)[:, None]).T
@@ -113,7 +113,7 @@ class WarmFilm:
         last two of them foretells how it will change with the temperature.
 
         Args:
-            last: what it did in the last revolution.
+            last: its last revolution.
         """
         self.before.append(last)
         recent = self.before[-max(1, len(self.before) // AVERAGED) :]

@@ -23,7 +23,7 @@ class Blocks:
     elements: list[str] = field(default_factory=list)
 
     def add(self, values: NDArray[np.generic], kind: str = "f4") -> dict[str, object]:
-        """Store an array, (n,) or (n, k), column after column; return what the script needs.
+        """Store an array, (n,) or (n, k), column after column; return its entry for the script.
 
         Args:
             values: numbers.

@@ -25,7 +25,7 @@ class Curve:
 
     Attributes:
         name: unique in a run.
-        group: what it belongs to, as people read it.
+        group: its owner, as people read it.
         label: which of its values this is.
         unit: SI.
         channel: in which it is stored.
@@ -72,7 +72,6 @@ def curves_of(result: Result) -> list[Curve]:
 
 
 def _joint(result: Result, name: str) -> Iterator[Curve]:
-    """Yield what a joint does."""
     group, joint = f"Joint {_words(name)}", result.joints[name]
     force = f"{name}_force"
     yield from _plain(result, force, group, "force", {force: _peak(Place.JOINT, "force", name)})
@@ -121,7 +120,6 @@ def _beginning(result: Result, begin: str, group: str, place: Place, at: str) ->
 
 
 def _body(result: Result, index: int, body: str) -> Iterator[Curve]:
-    """Yield a body's pose and, of a flexible one, its stress and modes."""
     group = f"Body {_words(body)}"
     if f"{body}_stress" in result:
         yield from _plain(result, f"{body}_stress", group, "stress where it is largest", {})
@@ -158,7 +156,6 @@ def _plain(
 
 
 def _words(name: str) -> str:
-    """Return a name as people read it."""
     words = joint_in_words(name).replace(r"\$", "$")
     return words[:1].lower() + words[1:]
 

@@ -21,7 +21,7 @@ class Live:
 
     Attributes:
         body: HTML, with the data in it.
-        scripts: what the browser runs, in this order; nothing else does it run.
+        scripts: that the browser runs, in this order, and no others.
         style: CSS.
     """
 
@@ -47,7 +47,6 @@ def has_library() -> bool:
 
 @cache
 def _library() -> str:
-    """Return BokehJS."""
     import bokeh
 
     path = Path(bokeh.__file__).parent / "server" / "static" / "js" / "bokeh.min.js"

@@ -39,8 +39,8 @@ class Panel:
 
     Attributes:
         title: above it.
-        across: what the x axis is, with its unit.
-        up: what the y axis is.
+        across: label of the x axis, with its unit.
+        up: label of the y axis.
         lines: drawn over each other.
     """
 
@@ -89,7 +89,6 @@ def _text(text: str) -> str:
 
 
 def _figure(panel: Panel) -> Any:
-    """Return a figure of the library with the curves in it."""
     from bokeh.models import BoxZoomTool, ColumnDataSource, PanTool, Range1d, WheelZoomTool
     from bokeh.models.annotations import Whisker
     from bokeh.plotting import figure

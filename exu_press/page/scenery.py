@@ -65,7 +65,7 @@ def _label(body: str) -> str:
 
 
 def _joint(result: Result, mechanism: Mechanism, name: str) -> dict[str, Any]:
-    """Return where a joint is, and what is known of it."""
+    """Return a joint's place and properties."""
     record = result.joints[name]
     joint = next(joint for joint in mechanism.joints if joint.name == name)
     (body, point), (bearing, there) = mechanism.ends(joint)
@@ -90,7 +90,7 @@ def _magnified(result: Result) -> list[str]:
 
 
 def _rails(outline: Array, unit: float) -> list[list[list[float]]]:
-    """Return what stands on both sides of a body in a guide."""
+    """Return the rails on both sides of a body in a guide."""
     gap, width = 0.004 * unit, 0.008 * unit
     (left, low), (right, high) = outline.min(axis=0), outline.max(axis=0)
     found = []

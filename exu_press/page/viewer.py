@@ -78,7 +78,7 @@ def viewer(
 def _recorded(
     result: Result, curves: list[Curve], thinned: Thinning, blocks: Blocks
 ) -> dict[str, Any]:
-    """Return what the page has of a run's record."""
+    """Return the page's part of a run's record."""
     kept = thinned.kept
     stored = {
         channel: blocks.add(_columns(result.channels[channel], thinned))
@@ -95,7 +95,7 @@ def _recorded(
 
 
 def _marked(result: Result, curves: list[Curve], shown: Result) -> dict[str, Any]:
-    """Return what is marked in the part of a run that is shown; read from all of it."""
+    """Return the marks in the part of a run that is shown; read from all of it."""
     begin, end = float(shown.time[0]), float(shown.time[-1])
     found, more = impacts(result)
     stated = peaks(result, curves)
@@ -143,7 +143,7 @@ def _recipe(result: Result, curve: Curve, thinned: Thinning) -> dict[str, Any]:
 def _groups(
     results: Mapping[str, Result], curves: Mapping[str, list[Curve]]
 ) -> list[dict[str, Any]]:
-    """Return the curves that any of the runs has, by what they belong to, with their units."""
+    """Return the curves that any of the runs has, by their groups, with their units."""
     found: dict[str, dict[str, Any]] = {}
     for label, result in results.items():
         for curve in curves[label]:
@@ -160,7 +160,6 @@ def _groups(
 
 
 def _first(results: Mapping[str, Result], curves: Mapping[str, list[Curve]]) -> list[str]:
-    """Return the curves that are shown at first."""
     richest = max(results.values(), key=lambda result: len(result.clearance_joints))
     names = richest.clearance_joints or tuple(richest.joints)
     drawn, _ = busiest([richest], sorted(names), "force", 1)

@@ -123,7 +123,6 @@ class Child(AbstractContextManager["Child", None]):
         self._process.kill()
 
     def _read(self) -> Any:
-        """Return one answer."""
         assert self._process.stdout is not None
         line = self._process.stdout.readline()
         if line.endswith("\n"):

@@ -106,7 +106,7 @@ def perform_alone(task: Task, time_limit: float | None) -> Row:
 
 
 def _check(address: str) -> None:
-    """Raise InputError for what is no address."""
+    """Raise InputError unless this is an address."""
     parts = urlsplit(address)
     with contextlib.suppress(ValueError):  # a port that is no number
         if parts.scheme in SCHEMES and parts.hostname and parts.port:

@@ -35,7 +35,7 @@ class RowFile(AbstractContextManager["RowFile", None]):
     """
 
     def __init__(self, path: Path) -> None:
-        """Read what is there.
+        """Read the rows that are there.
 
         Raises:
             InputError: the file cannot be read, or holds something else.

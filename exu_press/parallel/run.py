@@ -101,7 +101,7 @@ class Batch(ExitStack):
         self._pool: Pool | None = None
 
     def __enter__(self) -> Self:
-        """Take the directory and read what is finished.
+        """Take the directory and read the finished rows.
 
         Raises:
             InputError: `directory` cannot be used, or another batch is at work in it.

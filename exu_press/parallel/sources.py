@@ -11,7 +11,7 @@ OURS = ("exu_press", "fe_models")
 SUFFIXES = (".py", ".npz", ".toml")
 
 FOR_READERS = ("cli", "page", "plots", "report", "view")
-"""Folders of a package that no row comes from: they show what came out."""
+"""Folders of a package that no row comes from: they show results."""
 
 
 @cache

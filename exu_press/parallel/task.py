@@ -68,7 +68,7 @@ def task_of(function: str, arguments: Mapping[str, Any], modules: tuple[str, ...
 
 
 def versions(function: str, *modules: str) -> dict[str, str | None]:
-    """Return the versions of PACKAGES, None for what is not installed, and a digest of sources.
+    """Return the versions of PACKAGES, None for missing ones, and a digest of sources.
 
     Of the function's package, and of the packages of other modules that a row depends on.
 

@@ -21,7 +21,7 @@ ORDERS = 30
 
 @styled
 def attractor_figure(found: Attractor) -> Figure:
-    """Return eight panels: of the first joint with clearance, and of what scatters most."""
+    """Return eight panels, of the first joint with clearance and the most scattered figure."""
     low, high = found.per_second[1:]
     exponent = f"in [{low:.3g}, {high:.3g}]" if np.isfinite(low) else f"below {high:.3g}"
     words = f"{describe([found.scene], 160)}\nperiod: {found.period}; largest Lyapunov exponent "

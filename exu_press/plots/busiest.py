@@ -87,7 +87,6 @@ def draw_rest(axes: Axes, result: Result, rest: Mapping[str, str], size: float) 
 
 
 def _eccentricity(result: Result, name: str) -> str:
-    """Return the largest eccentricity over the clearance of a joint, in words."""
     joint = result.joints[name]
     ratio = float(joint.distance.max()) / joint.clearance
     return with_error(result, ECCENTRICITY_RATIO.at(name), ratio, 1.0, 3)

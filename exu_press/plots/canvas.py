@@ -31,7 +31,7 @@ def new_figure(heading: str, results: Mapping[str, Result], size: tuple[float, f
     """Return a figure without pyplot: heading, scene in words, and why a run stopped early.
 
     Args:
-        heading: what is shown.
+        heading: of the picture.
         results: of what, by label.
         size: width and height, inch.
     """
@@ -68,7 +68,7 @@ def angle_axis(
 
 
 def _lighten_start(panels: Iterable[Axes], results: Mapping[str, Result]) -> None:
-    """Cover what is before the revolutions from which quantities are read."""
+    """Cover the revolutions before those from which quantities are read."""
     settled = {result.scene.settled for result in results.values()}
     begin, end = angle_range(results)
     if len(settled) == 1 and 0.0 < (turns := settled.pop()) < (end - begin) / 360.0:
@@ -77,7 +77,7 @@ def _lighten_start(panels: Iterable[Axes], results: Mapping[str, Result]) -> Non
 
 
 def angle_words(results: Mapping[str, Result]) -> str:
-    """Return what the crank angle counts from, for an axis."""
+    """Return the zero of the crank angle in words, for an axis."""
     top = dead_centres(results).get("TDC")
     return f"crank angle{' from top dead centre' if top == 0.0 else ''}, deg"
 

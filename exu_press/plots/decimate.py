@@ -19,7 +19,7 @@ def decimate(x: Array, *curves: Array, bins: int = BINS) -> NDArray[np.intp]:
 
     Args:
         x: (n,), not decreasing.
-        curves: each (n,); what is extreme in one of them is kept.
+        curves: each (n,); extremes of each of them are kept.
         bins: of equal width over x.
 
     Returns:

@@ -37,7 +37,7 @@ MOST_TRANSMISSIONS = 6
 
 @styled
 def drawing_figure(examined: Examination, text: str, speed: float | None = None) -> Figure:
-    """Return the drawing with names and, where the crank turns, what follows over the crank angle.
+    """Return the drawing with names and, where the crank turns, curves over the crank angle.
 
     Bodies, joints and guides that are wrong are red; where links lock at a crank angle the drawing
     shows them there, too.
@@ -101,7 +101,6 @@ def _draw(axes: Axes, examined: Examination) -> None:
 
 
 def _complaints(examined: Examination) -> str:
-    """Return in lines what is wrong, and what is dashed."""
     texts = [*examined.complaints]
     if examined.refusal is not None and examined.refusal.angle and examined.refusal.poses:
         texts.append(f"dashed: at crank angle {np.degrees(examined.refusal.angle):.4g} deg")

@@ -54,7 +54,7 @@ def energy_figure(result: Result) -> Figure:
 
 
 def _losses(axes: Axes, result: Result) -> None:
-    """Draw what every joint has dissipated; two balls that do the same, guides, modes as one."""
+    """Draw each joint's dissipated energy; two balls that do the same, guides, modes as one."""
     names = [name.removesuffix("_loss") for name in result if name.endswith("_loss")]
     others = [name for name in names if name not in result.joints]
     modes = [name for name in others if name.endswith("_modes")]
@@ -80,7 +80,6 @@ def _losses(axes: Axes, result: Result) -> None:
 
 
 def _residual(axes: Axes, result: Result) -> None:
-    """Draw what the balance misses, and say how much that is of the work (as the summary does)."""
     given, stored, lost = (result[name] for name in BALANCE_LINES)
     residual, relative = given - stored - lost, energy_residual(result)
     worst = float(np.abs(residual).max())

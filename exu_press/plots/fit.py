@@ -72,7 +72,7 @@ def profiles_figure(report: Report) -> Figure:
     level = report.study.fit.level
     rise = float(chi2.ppf(level, 1))
     figure = headed_figure(
-        "What the measurement tells of each key",
+        "How well the measurement determines each key",
         f"Between the dashed lines, the key agrees with the measurement ({100 * level:g} %).",
         (4.0 * across + 0.5, 1.2 + 2.9 * down),
     )

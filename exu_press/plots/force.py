@@ -86,7 +86,6 @@ def _joints(results: Sequence[Result]) -> list[str]:
 
 
 def _figure_of(result: Result, channel: str) -> str:
-    """Return the dotted name of the figure that is a channel's peak."""
     if channel == "drive_torque":
         return PEAK_TORQUE.name
     if channel == "guide_force":

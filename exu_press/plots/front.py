@@ -69,7 +69,6 @@ def save_front(report: Report, directory: str | Path) -> Path:
 
 
 def _all(report: Report, quantity: str) -> Array:
-    """Return a quantity of all points in the unit that is shown."""
     place = report.study.quantities.index(quantity)
     scale = quantity_of(report.study.scene, quantity).quantity.scale
     return np.asarray(report.trials.numbers[:, place] * scale)

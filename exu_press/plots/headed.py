@@ -12,7 +12,7 @@ def headed_figure(heading: str, text: str, size: tuple[float, float]) -> Figure:
     """Return a figure without pyplot.
 
     Args:
-        heading: what is shown.
+        heading: of the picture.
         text: below it, in lines.
         size: width and height, inch.
     """

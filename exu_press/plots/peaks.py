@@ -1,4 +1,4 @@
-"""Peaks with what is known of their errors."""
+"""Peaks with their errors."""
 
 from collections.abc import Mapping
 
@@ -17,7 +17,7 @@ __all__ = ["error_of", "mark_peak", "mark_peaks", "with_error"]
 
 
 def error_of(result: Result, name: str) -> Error | None:
-    """Return what is known of a figure's error, by its dotted name."""
+    """Return a figure's error by its dotted name, or None."""
     errors: Mapping[str, Error] = result.info.get("errors", {})
     return errors.get(name)
 
@@ -41,7 +41,7 @@ def mark_peak(
     """Draw an error bar at a curve's largest magnitude; return it in words, "" without an error.
 
     Args:
-        axes: what holds the curve.
+        axes: of the curve.
         result: of the run.
         name: dotted, of the figure.
         values: (n,), SI.
@@ -72,7 +72,7 @@ def mark_peaks(axes: Axes, curves: Mapping[str, tuple[Result, Array]], name: str
     """Draw error bars at the peaks of runs by label; return that of a single run in words.
 
     Args:
-        axes: what holds the curves.
+        axes: of the curves.
         curves: label -> run and values (n,), SI, in the order of their colours.
         name: dotted, of the figure.
     """

@@ -42,7 +42,7 @@ MARKERS = ("1", "2", "3", "4", "+", "x")
 def precision_figure(report: Report, name: str) -> Figure:
     """Return position and peak acceleration error of a case over run time, and stated over true.
 
-    Where motions part before the end, the error of the peaks of the whole run, as a distribution.
+    Where trajectories diverge before the end, the error of the whole run's peaks, as distributions.
     Errors that the reference cannot tell lie hollow on the shaded band's edge; failed runs are
     crosses above.
     """
@@ -161,7 +161,7 @@ def _style(solver: str, index: int) -> dict[str, Any]:
 
 
 def _words(report: Report, case: Mapping[str, Any]) -> str:
-    """Return what the errors are measured against, and where the times come from."""
+    """Return the reference of the errors, and the machine of the times."""
     reference = case["reference"]
     text = f"reference: {reference['method']}"
     if reference["status"] != "ok":

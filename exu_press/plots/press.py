@@ -94,7 +94,6 @@ def press_figure(result: Result) -> Figure:
 
 
 def _shaking(axes: Axes, result: Result) -> None:
-    """Draw the vertical and the horizontal shaking force, and the former without counterweight."""
     bare = "shaking_force_without_counterweight"
     _draw(
         axes,
@@ -110,7 +109,6 @@ def _shaking(axes: Axes, result: Result) -> None:
 
 
 def _drive(axes: Axes, result: Result) -> None:
-    """Draw the drive's power."""
     _draw(axes, result, {"": result["drive_power"]}, ())
     axes.set(title="Power of the drive", ylabel="mean over 1 ms, kW")
     worst = float(np.abs(result["drive_torque"]).max())
@@ -119,7 +117,6 @@ def _drive(axes: Axes, result: Result) -> None:
 
 
 def _speed(axes: Axes, result: Result) -> None:
-    """Draw the crank's speed, and the flywheel's where a clutch is between."""
     drawn = [name for name in ("crank_speed", "flywheel_speed") if name in result]
     for index, name in enumerate(drawn):
         speed, label = result[name] * 30.0 / np.pi, name.removesuffix("_speed")
@@ -130,7 +127,6 @@ def _speed(axes: Axes, result: Result) -> None:
 
 
 def _loads(axes: Axes, result: Result, names: list[str]) -> None:
-    """Draw the loads' forces."""
     for index, name in enumerate(names):
         force = 1e-3 * result[f"load_{name}_force"]
         label = name.replace("_", " ")
@@ -140,7 +136,6 @@ def _loads(axes: Axes, result: Result, names: list[str]) -> None:
 
 
 def _guides(axes: Axes, result: Result) -> None:
-    """Draw the guides' lateral forces."""
     mechanism = mechanism_of(result.scene)
     names = {
         joint_in_words(guide.body).lower(): f"{guide_channel(mechanism, guide.body)}_force"

@@ -83,12 +83,12 @@ def impact_scale(axes: Axes, curves: Iterable[tuple[Array, Array]], *, signed: b
     beyond (symlog).
 
     Args:
-        axes: what holds the curves.
+        axes: of the curves.
         curves: crank angle (n,) and values (n,), in the axis' unit, of every run.
         signed: whether values are of either sign.
 
     Returns:
-        What the scale is, in words; empty where it is linear.
+        The scale in words; empty where it is linear.
     """
     peak, ordinary = 0.0, 0.0
     for angle, values in curves:

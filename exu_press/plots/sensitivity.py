@@ -29,7 +29,7 @@ def sensitivity_figure(report: Report) -> Figure:
     names, keys = study.sensitivity.quantities, list(study.keys)
     lines = [describe([study.scene], 130), report.told[0]]
     height = 1.0 + len(names) * (1.6 + 0.32 * len(keys))
-    figure = headed_figure("What tolerances make", "\n".join(lines), (11.5, height))
+    figure = headed_figure("Effect of tolerances", "\n".join(lines), (11.5, height))
     panels = figure.subplots(len(names), 3, squeeze=False, width_ratios=(1.0, 1.0, 1.0))
     for place, (name, row) in enumerate(zip(names, panels, strict=True)):
         quantity = quantity_of(study.scene, name).quantity
@@ -92,7 +92,6 @@ def _spread(
 def _indices(
     axes: Axes, found: Indices, order: "np.ndarray[tuple[int], np.dtype[np.intp]]"
 ) -> None:
-    """Draw first and total indices as points with their intervals."""
     for shift, values, bounds, colour, label in (
         (-0.13, found.first, found.first_bounds, COLOURS["green"], "alone"),
         (0.13, found.total, found.total_bounds, COLOURS["vermilion"], "with others"),

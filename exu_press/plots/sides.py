@@ -48,7 +48,7 @@ def joint_titles(
     Args:
         results: in which the sides are looked at.
         names: of the joints, the one to show of two sides first.
-        quantity: what the name of the joint's channel ends in.
+        quantity: end of the name of the joint's channel.
     """
     shown: dict[str, str] = {}
     for name in names:

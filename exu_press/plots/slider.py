@@ -24,7 +24,7 @@ Panels = NDArray[np.object_]
 Motion = tuple[Array, Array, Array]
 
 WINDOW = 1e-3
-"""Over which the acceleration is averaged, s: about what a measurement resolves."""
+"""Over which the acceleration is averaged, s: about the resolution of a measurement."""
 
 MOST_OF_IDEAL = 8.0
 """The averaged acceleration's panel ends at this multiple of the ideal peak, and says so."""

@@ -119,7 +119,6 @@ def _draw_pairs(axes: Axes, rows: Sequence[Row], colours: ScalarMappable) -> Non
 
 
 def _mark(axes: Axes, x: float, y: float, row: Row, colours: ScalarMappable) -> None:
-    """Draw one case."""
     style = dict(MARKERS[row.verdict])
     if "color" not in style:
         style["color"] = colours.to_rgba(np.array([row.residual]))

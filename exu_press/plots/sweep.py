@@ -106,7 +106,6 @@ def _curves(table: Table, axes: Sequence[str]) -> dict[str, list[int]] | None:
 
 
 def _words(table: Table, width: int) -> str:
-    """Return what the runs have in common, and how they ended."""
     ends = Counter(table["status"])
     told = ", ".join(f"{number} {status}" for status, number in ends.items())
     return f"{describe(table.study.scenes, width)}\n{told}"

@@ -34,7 +34,7 @@ def in_unit(name: str, values: Array) -> tuple[Array, str]:
 
 
 def words(name: str) -> str:
-    """Return what a column is.
+    """Return a column in words.
 
     >>> words("joints.balls.clearance"), words("joints.crank_pin.peak_force")
     ('balls, radial clearance', 'crank pin: joint force, max')

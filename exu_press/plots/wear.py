@@ -1,4 +1,4 @@
-"""A wear study in one picture: the shape of the gap, the clearance, and what follows from it."""
+"""A wear study in one picture: shape of the gap, clearance, quantities."""
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -18,12 +18,12 @@ __all__ = ["wear_figure"]
 MOST_SHAPES = 6
 
 LEAST_SPREAD = 1e-8
-"""Of a quantity, over its value: what changes less is rounding."""
+"""Of a quantity, over its value: a smaller change is rounding."""
 
 
 @styled
 def wear_figure(report: Report) -> Figure:
-    """Return what is worn off by angle, and clearances and quantities over the strokes."""
+    """Return worn depths by angle, and clearances and quantities over the strokes."""
     study, points = report.study, report.points
     names, joints = study.names, study.joints
     text = f"{describe([study.scene], 130)}\n{significant(points[-1].strokes, 4)} strokes in "
@@ -59,7 +59,7 @@ def wear_figure(report: Report) -> Figure:
 
 
 def _shapes(axes: object, report: Report, joint: str) -> None:
-    """Draw what is worn off a bearing over the angle on it, at some of the points."""
+    """Draw the depth worn off a bearing over the angle on it, at some of the points."""
     from matplotlib.axes import Axes
 
     assert isinstance(axes, Axes)

@@ -19,7 +19,7 @@ CROSS = "\N{MULTIPLICATION X}"  # as it marks the end of the curves
 
 
 def describe(scenes: Iterable[Scene], width: int = 130) -> str:
-    """Return in words what the scenes have in common, in lines of at most `width` letters.
+    """Return the common parts of scenes in words, in lines of at most `width` letters.
 
     A joint that only some scenes have with clearance is named with that clearance.
     """
@@ -83,7 +83,6 @@ def _parts(scene: Scene, joints: Collection[str], *, grouped: bool) -> dict[str,
 
 
 def _of_guides(guide: ElasticGuide) -> str:
-    """Return clearance, elasticity and friction of the guides."""
     words = []
     if guide.clearance is not None:
         words.append(f"clearance {guide.clearance * 1e3:g} mm")
@@ -97,13 +96,11 @@ def _of_guides(guide: ElasticGuide) -> str:
 
 
 def _of_bodies(scene: Scene) -> str:
-    """Return which bodies are flexible."""
     names = ", ".join(name.replace("_", " ") for name in scene.bodies)
     return f"flexible {names}" if names else "rigid bodies"
 
 
 def _of_loads(scene: Scene) -> dict[str, str]:
-    """Return kind, peak and place of each load."""
     parts = {}
     for name, load in applied_loads(scene).items():
         what = "blanking" if load.kind == "blanking" else f"{name.replace('_', ' ')}"
@@ -118,7 +115,6 @@ def _of_loads(scene: Scene) -> dict[str, str]:
 
 
 def _of_each(scene: Scene, joints: Iterable[str]) -> dict[str, str]:
-    """Return kind and clearance of each joint or group."""
     parts = {}
     for name in joints:
         members = [scene.joints[n] for n in scene.joints.members(name) if n in scene.joints]

@@ -14,7 +14,7 @@ from exu_press.numerics.piecewise import evaluate, hermite, integral
 __all__ = ["differentiated_peak", "mean_peak", "mean_peak_of", "peak"]
 
 AT_ONCE = 200_000
-"""Instants whose windows are looked at together: what is worked out takes ten times their memory.
+"""Instants whose windows are looked at together: the arrays take ten times their memory.
 """
 
 MOST_SAMPLES = 10_000_000

@@ -1,4 +1,4 @@
-"""Loads without what alternates from step to step, as peaks are read from them."""
+"""Loads without the part that alternates from step to step, as peaks are read from them."""
 
 import numpy as np
 
@@ -13,14 +13,14 @@ LITTLE = 0.05
 """Of a channel's largest value."""
 
 AT_ONCE = 200_000
-"""Instants that are looked at together: what is worked out takes ten times their memory."""
+"""Instants that are looked at together: the arrays take ten times their memory."""
 
 ALIKE = 0.3
 """Of the larger one of two neighbours, from which on they count as large as each other."""
 
 
 def steady(time: Array, values: Array) -> Array:
-    """Return a load (n, ...) at instants (n,), s, without what alternates from step to step.
+    """Return a load (n, ...) at instants (n,), s, without its part that alternates.
 
     Constraints of index 3 leave an error in generalized-alpha's accelerations that changes its sign
     in each step; the rounding of positions feeds it, the more the shorter the steps are (M. Arnold,

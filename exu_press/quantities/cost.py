@@ -1,4 +1,4 @@
-"""Quantities of what a run took."""
+"""Costs of a run."""
 
 from exu_press.quantities.kind import COST
 from exu_press.quantities.quantity import Quantity

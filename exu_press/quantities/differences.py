@@ -33,7 +33,7 @@ def difference_lines(results: Mapping[str, Result]) -> list[str]:
 
 
 def _unsure(one: Mapping[str, Error], other: Mapping[str, Error]) -> Iterator[str]:
-    """Yield the quantities whose bounds overlap; what is exactly the same is no difference."""
+    """Yield the quantities whose bounds overlap, but are not exactly the same."""
     for name, a in one.items():
         b = other.get(name)
         if b is None or a == b:

@@ -14,7 +14,6 @@ __all__ = ["IMPACTS", "JOINTS", "START"]
 
 
 def _loose(scene: Scene, joint: str) -> bool:
-    """Return whether a joint has clearance."""
     return not isinstance(scene.joints[joint], IdealJoint)
 
 
@@ -23,7 +22,6 @@ def _lubricated(scene: Scene, joint: str) -> bool:
 
 
 def _touching(scene: Scene, joint: str) -> bool:
-    """Return whether a joint's surfaces may touch."""
     described = scene.joints[joint]
     return not isinstance(described, IdealJoint) and described.onset is not None
 
@@ -33,14 +31,13 @@ def _record(run: Reading, joint: str) -> JointRecord:
 
 
 def _depth(run: Reading, joint: str) -> Array:
-    """Return the penetration beyond the contact onset, (n,), m."""
     described = run.result.scene.joints[joint]
     assert not isinstance(described, IdealJoint) and described.onset is not None
     return described.onset - _record(run, joint).gap
 
 
 def _start(run: Reading, _: str) -> float | None:
-    """Return the largest joint force before what has settled, over the largest one in it."""
+    """Return the largest joint force before the settled part, over the largest one in it."""
     before = run.run.time < run.time[0]
     if not before.any():
         return None

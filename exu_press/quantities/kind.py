@@ -18,7 +18,7 @@ __all__ = [
 ]
 
 ROUNDING = 1e-9
-"""Of a quantity, what no two runs agree to better than."""
+"""Of a quantity: no two runs agree better."""
 
 
 @dataclass(frozen=True)
@@ -77,4 +77,4 @@ MEASURE = Kind("measure of error", has_error=False)
 """Says itself how good a run is."""
 
 COST = Kind("cost", has_error=False)
-"""Is what the run took."""
+"""Is a cost of the run."""

@@ -15,7 +15,7 @@ def _warm(scene: Scene, joint: str) -> bool:
 
 
 def film_balance(run: Reading, joint: str) -> float | None:
-    """Return what the heat balance of a film misses, over what is dissipated.
+    """Return the residual of a film's heat balance, over the dissipated heat.
 
     Over whole revolutions; None without one.
     """

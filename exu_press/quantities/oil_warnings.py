@@ -1,4 +1,4 @@
-"""What a reader of a run should know of films whose oil warms."""
+"""Warnings about films whose oil warms."""
 
 from collections.abc import Iterator
 

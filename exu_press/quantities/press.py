@@ -17,7 +17,7 @@ from exu_press.scene import Scene, mechanism_of
 __all__ = ["DRIVE", "GUIDES", "LOADS", "SHAKING"]
 
 RUBBING = 0.1
-"""Coefficient of friction of guides that have none, for what they would dissipate."""
+"""Coefficient of friction of guides that have none, for the power that they would dissipate."""
 
 
 def _motor(scene: Scene, _: str) -> bool:
@@ -39,7 +39,6 @@ def _guide(run: Reading, body: str) -> Guide:
 
 
 def _of_guide(run: Reading, body: str, quantity: str) -> Array | None:
-    """Return a channel of a guide, None where the run does not have it."""
     name = f"{guide_channel(run.mechanism, body)}_{quantity}"
     return run.channel(name)
 
@@ -55,7 +54,6 @@ def _guide_peak(quantity: str) -> Callable[[Reading, str], float | None]:
 
 
 def _sliding_power(run: Reading, body: str) -> float | None:
-    """Return the mean of side force times sliding speed, W."""
     force = _of_guide(run, body, "force")
     if force is None or len(run.time) < 2:
         return None

@@ -23,7 +23,7 @@ class Place(Enum):
 
 
 class Extreme(Enum):
-    """Of what the quantity is an extreme over the run; the run continued can only exceed it."""
+    """Kinds of extremes over a run, which the run continued can only exceed."""
 
     NONE = "none"
     LARGEST = "largest"
@@ -49,14 +49,14 @@ class Quantity:
         kind: from which its error follows.
         read: returns it from a reading and the name of the place ("" of the run); None where the
             run is too short to have it.
-        place: what it belongs to.
+        place: its owner.
         has: whether a scene has it at a place, known before it runs.
         title: of its line in tables, without unit; "" where it is in none.
         shown: the unit in which tables show it; the SI unit unless given.
         digits: shown where no error is known.
         under: whether its line is a detail of the line above.
         signed: whether it may be below zero.
-        extreme: of what it is an extreme.
+        extreme: whether it is the largest or the least value.
         headline: whether it is among those that everybody looks at first.
         cumulative: whether it adds up over a run.
         curve: whose extreme it is: a channel, CHANNEL:x of one of its columns, or, at a place, what

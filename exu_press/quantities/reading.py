@@ -21,15 +21,15 @@ Read = TypeVar("Read")
 
 
 class Reading:
-    """A run and what is worked out of it once.
+    """A run and its readings, each made once.
 
     Attributes:
         run: all of it.
-        result: what has settled of it; quantities are read from this.
+        result: its settled part, from which quantities are read.
     """
 
     def __init__(self, run: Result) -> None:
-        """Take what has settled of a run."""
+        """Take the settled part of a run."""
         self.run = run
         self.result = settled(run)
         self._found: dict[Any, Any] = {}
@@ -51,7 +51,7 @@ class Reading:
         return self._load[1]
 
     def once(self, read: Callable[[Result], Read]) -> Read:
-        """Return what a function makes of the run; it is asked once, however many quantities do."""
+        """Return a function of the run; it is called once, however many quantities need it."""
         if read not in self._found:
             self._found[read] = read(self.result)
         found: Read = self._found[read]

@@ -14,7 +14,7 @@ __all__ = ["SLIDER", "STROKES"]
 
 
 def _guided_softly(scene: Scene, _: str) -> bool:
-    """Return whether the slider's guide lets it tilt: what rigid guides leave is rounding."""
+    """Return whether the slider's guide lets it tilt: the tilt in rigid guides is rounding."""
     mechanism = mechanism_of(scene)
     return any(
         guide.body == mechanism.slider and (guide.lateral or guide.tilting or guide.guideway)

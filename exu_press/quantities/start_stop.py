@@ -138,7 +138,7 @@ def _per_stop(run: Reading, _: str) -> float:
 
 
 def _speed_drop(run: Reading, _: str) -> float:
-    """Return the largest fall of the flywheel's speed below what it was before, over that."""
+    """Return the largest fall of the flywheel's speed, over the largest one before."""
     speed = run["flywheel_speed"]
     before = np.maximum.accumulate(speed)
     return float(((before - speed) / np.maximum(before, 1e-300)).max())
@@ -163,7 +163,7 @@ START_STOP = (
              MOTION, _starting_time,
              has=_starts, title="starting time", shown="ms", extreme=Extreme.LARGEST),
     Quantity("drive.speed_drop", "",
-             "largest fall of the flywheel's speed below what it was before, over that",
+             "largest fall of the flywheel's speed, over the largest one before",
              MOTION, _speed_drop,
              has=_clutch, title="speed drop of the flywheel", extreme=Extreme.LARGEST),
     Quantity("drive.clutch_energy", "J", "energy that the clutch dissipates, for each start",

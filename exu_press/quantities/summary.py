@@ -16,7 +16,7 @@ __all__ = ["summary"]
 
 
 def summary(result: Result) -> dict[str, Any]:
-    """Return how a run ended, what was assumed, quantities with their errors, cost and scene.
+    """Return a run's end, assumptions, quantities with their errors, cost and scene.
 
     Plain numbers, texts, lists and dictionaries.
     """
@@ -50,7 +50,6 @@ def summary(result: Result) -> dict[str, Any]:
 
 
 def _strokes(result: Result, run: Reading) -> list[dict[str, float]]:
-    """Return the bottom dead centre of every stroke."""
     return [
         {
             "position": centre.position,

@@ -62,7 +62,6 @@ def run_lines(result: Result) -> list[str]:
 
 
 def _span(result: Result) -> str:
-    """Return from which revolutions a run's quantities are read."""
     begin, end = Reading(result).span
     start = "" if begin > 1e-3 else ", with the start"
     return f"{round(begin, 9) + 0.0:.3g} to {end:.3g}{start}"
@@ -110,7 +109,6 @@ def _at_places(quantity: Quantity, result: Result, values: Mapping[str, Value]) 
 
 
 def _names(values: Mapping[str, Value], place: Place) -> list[str]:
-    """Return the joints, guides, loads or bodies that have quantities."""
     begin = f"{place.value}."
     return list(
         dict.fromkeys(
@@ -120,7 +118,6 @@ def _names(values: Mapping[str, Value], place: Place) -> list[str]:
 
 
 def _load(values: Mapping[str, Value], place: Place, at: str) -> float:
-    """Return the largest load at a place, in its unit."""
     loads = (
         values[name].value
         for quantity in CATALOGUE

@@ -27,7 +27,7 @@ def significant(value: float, digits: int) -> str:
 def uncertain(
     value: float | None, error: Mapping[str, Any] | None, scale: float = 1.0, digits: int = 4
 ) -> str:
-    """Return a figure with its error, or the bounds of what the scene does not determine.
+    """Return a figure with its error, or its bounds where the scene does not determine it.
 
     Args:
         value: SI, None where there is none.

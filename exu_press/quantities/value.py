@@ -1,4 +1,4 @@
-"""The value of a quantity, with what is known of its error."""
+"""The value of a quantity, with its error where that is known."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -86,7 +86,7 @@ def _value(result: Result, placed: Placed, run: Reading) -> Value:
 
 
 def _read(result: Result, placed: Placed, run: Reading) -> float | int | None:
-    """Return a quantity's value; what was read before channels were left out counts."""
+    """Return a quantity's value, as it was read before channels were left out."""
     stored = result.info.get("figures", {"quantities": {}})["quantities"]
     if placed.name not in stored:
         return placed.read(run)

@@ -19,7 +19,7 @@ RESIDUAL = 0.01
 """Of the energy exchanged; beyond this the energy balance casts doubt on the integration."""
 
 ALIKE = 0.01
-"""Of mass and inertia, and of the mechanism's size: what a solid may differ by unsaid."""
+"""Of mass and inertia, and of the mechanism's size: difference of a solid without a warning."""
 
 NEARLY_TOUCHING = 0.95
 """Eccentricity ratio from which a film is thinner than its law is good for."""
@@ -72,7 +72,7 @@ def _held_twice(scene: Scene) -> Iterator[str]:
 
 
 def _solids(result: Result) -> Iterator[str]:
-    """Yield what of a flexible body's solid differs from the mechanism's body."""
+    """Yield differences of a flexible body's solid from the mechanism's body."""
     scene = result.scene
     mechanism = mechanism_of(scene)
     solids: Mapping[str, Mapping[str, Any]] = result.info.get("solids", {})

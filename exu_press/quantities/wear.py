@@ -45,7 +45,7 @@ AT_ONCE = 4096
 
 @dataclass(frozen=True)
 class Sliding:
-    """What rubs in a joint, or at one end of a guided body, between the instants of a run.
+    """Rubbing in a joint, or at one end of a guided body, between the instants of a run.
 
     Attributes:
         work: normal force times the way on which it slides, in each step, (n,), N m.
@@ -57,7 +57,7 @@ class Sliding:
 
 
 def sliding_of(result: Result, joint: str) -> Sliding:
-    """Return what rubs in a joint."""
+    """Return the rubbing in a joint."""
     return _slid(result, result[f"{joint}_normal_force"], result[f"{joint}_sliding"])
 
 
@@ -111,9 +111,9 @@ def _sampled(shape: Profile) -> tuple[Array, Array]:
 
 
 def guideway_depths(result: Result, body: str) -> Array:
-    """Return the depths worn off the ways of a guided body, (2, 2, 72), m.
+    """Return the depths worn off the guideway of a guided body, (2, 2, 72), m.
 
-    By its back and front end, on the left and on the right, in 72 parts of the way of each end. The
+    By its back and front end, on the left and on the right, in 72 parts of each end's path. The
     ends' own edges lose as much, and have no depth.
     """
     wear = wear_of_guide(result.scene, body)
@@ -135,12 +135,12 @@ def guideway_depths(result: Result, body: str) -> Array:
 
 
 def depths_of_a_revolution(result: Result) -> dict[str, Any]:
-    """Return what the mean revolution of what has settled wears off joints and ways, m.
+    """Return the depths that the mean settled revolution wears off joints and guideways, m.
 
-    "journal" and "bearing": joint -> (72,); "ways": guided body -> deepest; for JSON.
+    "journal" and "bearing": joint -> (72,); "guideways": guided body -> largest; for JSON.
     """
     run = Reading(result)
-    found: dict[str, dict[str, Any]] = {"journal": {}, "bearing": {}, "ways": {}}
+    found: dict[str, dict[str, Any]] = {"journal": {}, "bearing": {}, "guideways": {}}
     if run.whole is None:
         return found
     last, turns = _whole(run, run.whole)
@@ -149,7 +149,7 @@ def depths_of_a_revolution(result: Result) -> dict[str, Any]:
         found["journal"][joint] = (journal / turns).tolist()
         found["bearing"][joint] = (bearing / turns).tolist()
     for body in wearing_guides(result.scene):
-        found["ways"][body] = _guideway_depth(last, body) / turns
+        found["guideways"][body] = _guideway_depth(last, body) / turns
     return found
 
 
@@ -182,7 +182,7 @@ def _volume(result: Result, joint: str) -> float:
 
 
 def _ends(result: Result, body: str) -> list[Sliding]:
-    """Return what rubs at the ends of a guided body."""
+    """Return the rubbing at the ends of a guided body."""
     shown = guide_channel(mechanism_of(result.scene), body)
     force, speed = result[f"{shown}_normal_force"], result[f"{shown}_sliding"]
     return [_slid(result, np.abs(force[:, end]), speed[:, end]) for end in (0, 1)]
@@ -270,7 +270,7 @@ WEAR = (
              "largest depth that a revolution wears off the journal, mean over 5 degrees",
              FLOW, partial(_per_revolution, partial(_depth, 0)), Place.JOINT, _wears),
     Quantity("wear.guideway_depth", "m",
-             "largest depth that a revolution wears off the ways, mean over 1/72 of the stroke",
+             "largest depth that a revolution wears off the guideway, mean over 1/72 of the stroke",
              FLOW, partial(_per_revolution, _guideway_depth), Place.GUIDE, _guide_wears),
     *_rows(Place.JOINT),
     *_rows(Place.GUIDE),

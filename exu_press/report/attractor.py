@@ -62,7 +62,6 @@ def _exponent(told: dict[str, Any]) -> list[list[str]]:
 
 
 def _figure(name: str, unit: str, one: dict[str, Any]) -> list[str]:
-    """Return a figure as a line of the table."""
     both = [
         f"{one[part]['value']:.{digits}g} \N{PLUS-MINUS SIGN} {one[part]['error']:.2g}"
         for part, digits in (("mean", 6), ("scatter", 2))

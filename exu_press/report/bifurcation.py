@@ -32,7 +32,6 @@ def bifurcation_report(file: Path) -> str:
 
 
 def _cells(way: str, row: dict[str, Any]) -> list[str]:
-    """Return a run as a line of the table."""
     at = [f"{row[place]:g}" for place in ("value", "second") if place in row]
     if row["status"] != "completed":
         return [*at, way, str(row["status"]), str(row["reason"]), ""]

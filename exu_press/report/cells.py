@@ -44,7 +44,7 @@ class Comparison:
         return "\n".join(comparison_lines(self.results))
 
     def _repr_html_(self) -> str:
-        """Return what differs and what came out."""
+        """Return the differences of the scenes, and the quantities."""
         head, *changed = different_keys({n: run.scene for n, run in self.results.items()})
         names, *rows = comparison_cells(self.results)
         return _framed(table(head, changed) + table(names, rows))
@@ -69,7 +69,6 @@ def cell(thing: Any) -> str:
 
 
 def _drawing(mechanism: Mechanism) -> str:
-    """Return the drawing of a mechanism with its names."""
     with tempfile.TemporaryDirectory() as folder:
         drawn = drawing_figure(examine(mechanism), mechanism.name)
         path = save_figure(drawn, Path(folder) / "mechanism.png")

@@ -26,7 +26,7 @@ class Kind(Enum):
 
 
 def find_output(path: Path) -> tuple[Kind, Path]:
-    """Return what a path is and the file to read: a result file, or a directory with one of them.
+    """Return a path's kind and the file to read: a result file, or a directory with one of them.
 
     Raises:
         InputError: nothing is there, or results of several commands are.

@@ -91,7 +91,7 @@ def page(title: str, under: str, sections: Sequence[tuple[str, str | Live | None
 
     Args:
         title: of it.
-        under: what stands below the title.
+        under: line below the title.
         sections: heading and HTML of each, or the live part; a section of None is left out.
     """
     live = next((inner for _, inner in sections if isinstance(inner, Live)), None)
@@ -121,7 +121,7 @@ def page(title: str, under: str, sections: Sequence[tuple[str, str | Live | None
 
 
 def stills(inner: str, live: Live | None) -> str:
-    """Return pictures; beside what moves they are for print, and are shown on demand."""
+    """Return pictures; beside a live part they are for print, and are shown on demand."""
     if live is None:
         return inner
     return (
@@ -170,7 +170,7 @@ def table(
 
 
 def details(words: str, inner: str) -> str:
-    """Return what is shown on demand."""
+    """Return a part that is shown on demand."""
     return f"<details><summary>{_text(words)}</summary>\n{inner}\n</details>"
 
 
@@ -185,5 +185,4 @@ def picture(path: Path, words: str) -> str:
 
 
 def _text(text: str) -> str:
-    """Return a plain text for a page, its units typeset."""
     return html.escape(typeset(text))

@@ -49,7 +49,7 @@ def optimum_report(file: Path) -> str:
 def _live(
     head: list[str], trials: list[dict[str, Any]], keys: list[str], places: list[int | None]
 ) -> Live:
-    """Return the trials as points; what opens with one of the front is its scene."""
+    """Return the trials as points; one of the front opens with its scene."""
     from exu_press.page.study import Column, study_viewer
 
     def column(name: str) -> Column:

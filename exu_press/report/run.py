@@ -31,7 +31,7 @@ CAPTIONS = {
     "slider": "Slider motion against the ideal mechanism: position, velocity, acceleration.",
     "orbit": "Journal and ball centres in their clearance circles.",
     "force": "Joint forces and drive torque.",
-    "press": "What the press does to its frame and drive.",
+    "press": "Forces of the press on its frame, and loads of its drive.",
     "energy": "Energy balance since the start; the residual is the error of the integration.",
 }
 """By the picture's file name; pictures that are not listed are shown under their names."""
@@ -69,7 +69,7 @@ def run_report(result: Result, source: str, span: Span = ALL) -> str:
 
 
 def live_part(results: Mapping[str, Result], span: Span = ALL) -> Live | None:
-    """Return what moves in the page of runs; nothing without the extra `page`."""
+    """Return the live part of the page of runs; nothing without the extra `page`."""
     ends = {label: interval(result, *span) for label, result in results.items()}
     if not has_library():
         return None
@@ -88,7 +88,7 @@ def changed_keys(scene: Scene) -> str:
 
 
 def scene_parts(scene: Scene) -> list[tuple[str, str]]:
-    """Return the sections about what was asked: changed keys, assumptions, every key."""
+    """Return the sections about the scene: changed keys, assumptions, every key."""
     keys = keys_of(scene).values()
     everything = [
         _row(key.name, key.value, key.unit, key.meaning, "assumed" if key.assumed else "given")
@@ -136,14 +136,12 @@ def _pictures(result: Result) -> str:
 
 
 def _energy(result: Result) -> str:
-    """Return the balance at the end."""
     if not has_balance(result):
         return ""
     return _listed(result, BALANCE, "Energy")
 
 
 def _statistics(result: Result) -> str:
-    """Return what the integration took, and with what."""
     versions = [[f"version of {name}", text] for name, text in result.info["versions"].items()]
     return _listed(result, COSTS, "Solver", versions)
 

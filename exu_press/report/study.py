@@ -22,7 +22,7 @@ def reading(file: Path, wanted: str) -> Iterator[None]:
 
     Args:
         file: of the study.
-        wanted: what it should be, as "a fit of exu_press".
+        wanted: its kind, as "a fit of exu_press".
     """
     try:
         yield
@@ -47,7 +47,7 @@ def study_page(
     Args:
         file: of the study; its pictures lie beside it.
         title: of the page.
-        under: what stands below the title, before the file's name.
+        under: line below the title, before the file's name.
         sections: its own, the live part among them.
         caption: of each picture.
         scene: whose keys and assumptions are shown at the end, if any.

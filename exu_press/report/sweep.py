@@ -123,7 +123,6 @@ def _table(file: Path) -> Table:
 
 
 def _value(text: str) -> str | float | bool | None:
-    """Return what a cell holds; what is no finite number is a text."""
     if text in ("true", "false"):
         return text == "true"
     try:

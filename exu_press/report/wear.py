@@ -53,7 +53,6 @@ def _cell(value: float | None) -> str:
 
 
 def _live(strokes: list[float], curves: list[tuple[str, str, list[float | None]]]) -> Live:
-    """Return clearances and quantities over the strokes."""
     from exu_press.page.study import Column, study_viewer
 
     columns = [Column(name, unit, values) for name, unit, values in curves]

@@ -74,7 +74,7 @@ class AppliedLoad:
             time: of the instants, from the start of the run for a pulse.
             crank: its angle, rad, and angular velocity, rad/s.
             slider: its height, m, and velocity, m/s.
-            memory: what the load's clock or sheet remembers before the first instant.
+            memory: of the load's clock or sheet before the first instant.
         """
         if self.sheet is not None:
             depths = self.top - slider[0], -slider[1]
@@ -138,7 +138,6 @@ def _cutting(
     rate: Array,
     memory: tuple[float, float | None] | None,
 ) -> Array:
-    """Return the forces of a sheet, (n,), N."""
     running = Cut(sheet)
     forces: list[float] = []
     if memory is not None:

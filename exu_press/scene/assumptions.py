@@ -36,7 +36,7 @@ class Assumption:
 
     Attributes:
         number: n of A-n.
-        text: what is assumed.
+        text: the assumption in words.
         keys: of the scene, where to change it, * for any name; a table's name where its absence is
             the assumption.
     """
@@ -99,8 +99,8 @@ class Key:
 
     Attributes:
         name: dotted.
-        value: what it is.
-        default: what it would be, had it not been given.
+        value: in the scene.
+        default: its value, had it not been given.
         unit: SI, as the scene's table says it.
         meaning: in words.
         source: who gives the default, where that decides results.
@@ -192,7 +192,7 @@ def assumed(scene: Scene) -> list[str]:
 
 
 def assumed_line(scene: Scene) -> str:
-    """Return what was assumed, in one line; empty if nothing was."""
+    """Return the assumptions in one line; empty without any."""
     named = assumed(scene)
     return f"assumed: {', '.join(named)}" if named else ""
 
@@ -205,7 +205,6 @@ def _own_laws(scene: Scene) -> set[str]:
 
 
 def _law_defaults(scene: Scene) -> dict[str, Any]:
-    """Return what the keys of laws are where a scene does not give them."""
     own = mechanism_of(scene).defaults
     found: dict[str, Any] = {
         f"{law}.{field.name}": own.get(law, {}).get(field.name, field.default)
@@ -291,7 +290,6 @@ def _inside(place: str, table: Table) -> Iterator[tuple[str, tuple[Any, dataclas
 
 
 def _text(value: Any) -> str:
-    """Return a value as a scene file has it, numbers short."""
     if isinstance(value, bool):
         return str(value).lower()
     return f"{value:g}" if isinstance(value, float) else str(value)

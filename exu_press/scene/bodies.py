@@ -153,7 +153,7 @@ class Flexible(Table):
 def bodies_of(
     given: Any, mechanism: str, joints: Mapping[str, Sequence[str]]
 ) -> dict[str, Flexible]:
-    """Return the flexible bodies from what a scene gives.
+    """Return the flexible bodies of a scene.
 
     Args:
         given: body -> a shipped part's name or a STEP file's path, a mapping of keys or a
@@ -204,7 +204,7 @@ def flexible_press(**keys: Any) -> dict[str, dict[str, Any]]:
 
 
 def body_dict(body: Flexible) -> dict[str, Any]:
-    """Return a flexible body as a nested mapping, without what it does not give."""
+    """Return a flexible body as a nested mapping of the keys it gives."""
     found: dict[str, Any] = {}
     for field in dataclasses.fields(body):
         value = getattr(body, field.name)
@@ -255,7 +255,6 @@ def require_rainflow() -> Any:
 
 
 def _keys(given: Any) -> Any:
-    """Return what is given of a body as its keys."""
     return {"flexible": given} if isinstance(given, str) else given
 
 
@@ -264,7 +263,7 @@ def _shown(value: Any) -> str:
 
 
 def faces_given(given: Any) -> dict[str, tuple[Face, ...]]:
-    """Return joint -> faces from what a scene file or a shipped part gives.
+    """Return joint -> faces of a scene file or a shipped part.
 
     Raises:
         InputError: a face is none.
@@ -287,7 +286,7 @@ def patch_given(where: str, given: Any) -> tuple[Face, ...]:
     """Return the faces that a guide or a load holds together.
 
     Args:
-        where: what messages begin with.
+        where: beginning of messages.
         given: one or a list of them, each a name or a table of name or ranges.
 
     Raises:

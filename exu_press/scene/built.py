@@ -12,7 +12,7 @@ __all__ = ["Built"]
 
 
 class Built(Protocol):
-    """An assembled Exudyn system; what it is made of is told by `exu_press.model.Model`."""
+    """An assembled Exudyn system; `exu_press.model.Model` has all of its parts."""
 
     @property
     def mbs(self) -> "exu.MainSystem":

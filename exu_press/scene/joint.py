@@ -128,7 +128,7 @@ def keys_used(kind: Any, at_contact: Any) -> tuple[str, ...]:
 
 
 def refuse_missing(place: str, joint: Joint, *, revolute: bool) -> None:
-    """Raise InputError for the first key without a default that decides what a joint does."""
+    """Raise InputError for the first missing key that decides a joint's behaviour."""
     if isinstance(joint, IdealJoint):
         return
     sizes: tuple[str, ...] = SIZES
@@ -155,12 +155,11 @@ def refuse_missing_damping(place: str, contact: Contact) -> None:
 
 
 def _of_damping(contact: Contact) -> tuple[str, ...]:
-    """Return the keys without defaults that the damping of a contact needs."""
     return ("damping_max", "damping_depth") if contact.damping == "step" else ()
 
 
 def joint_dict(joint: Joint, laws: Mapping[str, Table | None]) -> dict[str, Any]:
-    """Return a joint as a nested mapping, of its laws what differs from the scene's."""
+    """Return a joint as a nested mapping, with the keys of laws that differ from the scene's."""
     found: dict[str, Any] = {"kind": joint.kind}
     for field in dataclasses.fields(joint):
         value = getattr(joint, field.name)

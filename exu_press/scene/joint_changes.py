@@ -70,7 +70,7 @@ def changed_joints(
 def by_group(
     message: str, groups: Mapping[str, tuple[str, ...]], changes: Mapping[str, Any]
 ) -> str:
-    """Return a message about a joint with the group's name, where that is what was changed.
+    """Return a message about a joint with the group's name, where that was changed.
 
     Args:
         message: names one joint of the group.

@@ -210,7 +210,6 @@ def _joint(
     *,
     spherical: bool,
 ) -> Joint:
-    """Return one joint, checked."""
     place = f"joints.{name}"
     kind = given.get("kind")
     try:
@@ -307,7 +306,6 @@ def _check_cooling(film: Film) -> None:
 def _unknown(
     name: str, mechanism: str, joints: Iterable[str], groups: Iterable[str], value: Any = None
 ) -> str:
-    """Return the message about a joint or group that there is not."""
     groups = list(groups)
     known = [*joints, *groups]
     given = "" if value is None else f" = {value!r}"

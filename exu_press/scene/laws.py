@@ -147,7 +147,7 @@ def _onset_ratio(table: Film, clearance: float) -> float | None:
 
 
 def _named(table: str, make: Callable[[], T]) -> T:
-    """Return what is made; an error names the scene's table too."""
+    """Return the law that is made; an error names the scene's table too."""
     try:
         return make()
     except InputError as error:

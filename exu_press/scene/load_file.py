@@ -52,7 +52,6 @@ def read_load_table(path: str | Path) -> dict[str, list[float]]:
 
 
 def _numbers(where: str, line: str) -> tuple[float, float]:
-    """Return the two numbers of a line."""
     try:
         place, force = map(float, next(csv.reader([line])))
     except (ValueError, csv.Error):

@@ -1,4 +1,4 @@
-"""Every load of a scene by its name, from what is given."""
+"""Every load of a scene by its name."""
 
 import dataclasses
 import math
@@ -21,7 +21,7 @@ __all__ = ["changed_loads", "load_dict", "loads_of", "with_files_beside"]
 def loads_of(
     given: Any, mechanism: Mechanism, flexible: Collection[str], speed_rpm: float
 ) -> dict[str, Load]:
-    """Return the loads of a scene from what it gives, by name, in the order in which it does.
+    """Return the loads of a scene, by name, in the order in which it gives them.
 
     Args:
         given: name -> mapping of keys with its kind, or one of the dataclasses; or None.
@@ -112,7 +112,6 @@ _PLACES = ("body", "offset", "joint", "face", "direction")
 
 
 def _load(where: str, given: Any) -> Load:
-    """Return one load, checked."""
     if isinstance(given, Load):
         return given
     if not isinstance(given, Mapping):
@@ -149,7 +148,7 @@ def _load(where: str, given: Any) -> Load:
 
 
 def _check_height(where: str, load: SheetLoad | SpringLoad, mechanism: Mechanism) -> None:
-    """Check that the output leaves what it meets, and that it cuts a sheet through."""
+    """Check that the output leaves sheet or spring, and that it cuts a sheet through."""
     angle = np.linspace(0.0, 2.0 * math.pi, 721)
     stroke = float(mechanism.ideal_slider(angle, 1.0)[0].max()) - mechanism.bottom
     assert load.height is not None

@@ -158,6 +158,5 @@ def _lines(keys: Mapping[str, str], comments: bool) -> list[str]:
 
 
 def _meaning(metadata: Mapping[str, Any]) -> str:
-    """Return what a key means, its unit and what it may be."""
     meaning = ", ".join(filter(None, [metadata["meaning"], metadata["unit"]]))
     return ": ".join(filter(None, [meaning, " | ".join(metadata["choices"])]))

@@ -80,7 +80,7 @@ if TYPE_CHECKING:
 
 @dataclasses.dataclass(frozen=True)
 class Scene(Table):
-    """One simulation, complete: what is not given has its default, what is not used is None.
+    """One simulation, complete: a key that is not given has its default, an unused one is None.
 
     A table may be given as a mapping or as its dataclass. Angles count from top dead centre.
 
@@ -132,7 +132,7 @@ class Scene(Table):
     slider_crank: SliderCrank | None = None
 
     def __post_init__(self) -> None:
-        """Check the keys, refuse what the scene does not use and fill in what it does."""
+        """Check the keys, refuse those that the scene does not use and fill in the others."""
         object.__setattr__(self, "mechanism", _asked(self.mechanism))
         super().__post_init__()
         if not SHORTEST_RUN <= self.duration <= LONGEST_RUN:
@@ -170,7 +170,7 @@ class Scene(Table):
         self._settle_loads()
 
     def _check_start_stop(self) -> None:
-        """Refuse what does not go with a press that starts or stops."""
+        """Refuse keys that do not go with a press that starts or stops."""
         motor = self.drive
         if motor is None or not motor.scheduled:
             return
@@ -187,7 +187,7 @@ class Scene(Table):
             )
 
     def _settle_joints(self) -> None:
-        """Say what every joint of the mechanism is; a law that no joint has is refused."""
+        """Complete every joint of the mechanism; a law that no joint has is refused."""
         given, laws, mechanism = self.joints, self.laws, mechanism_of(self)
         usual = mechanism.defaults
         if given is None:
@@ -227,7 +227,7 @@ class Scene(Table):
             refuse_missing_damping("guide.clearance", contact)
 
     def _settle_wear(self) -> None:
-        """Say what wears how; a scene in which nothing does has no such table."""
+        """Complete the wear of each place; a scene in which nothing wears has no such table."""
         if self.wear is None:
             return
         mechanism = mechanism_of(self)
@@ -249,7 +249,7 @@ class Scene(Table):
         return "" if rubs else f"surfaces of joints.{drawn.name} do not touch"
 
     def _settle_bodies(self) -> None:
-        """Say which bodies are flexible."""
+        """Complete the flexible bodies."""
         mechanism = mechanism_of(self)
         joints = {b.name: [j.name for j in mechanism.joints_of(b.name)] for b in mechanism.bodies}
         joints[mechanism.crank].append(DRIVE_FACE)
@@ -273,7 +273,7 @@ class Scene(Table):
                     )
 
     def _settle_loads(self) -> None:
-        """Say what acts on which body; tables of forces are read."""
+        """Complete the loads; tables of forces are read."""
         loads = loads_of(self.load, mechanism_of(self), self.bodies, self.speed_rpm)
         object.__setattr__(self, "load", loads)
 
@@ -317,8 +317,8 @@ class Scene(Table):
     def replace(self, *change: Any, **changes: Any) -> "Scene":
         """Return the scene with other values: replace("film.viscosity", 0.1) or replace({...}).
 
-        Top-level keys may be keyword arguments. What the changed scene no longer uses is dropped
-        (a scene made dry loses its film); what the change itself names is not.
+        Top-level keys may be keyword arguments. The keys that the changed scene does not use are
+        dropped (a scene made dry loses its film), but for those that the change itself names.
         """
         if len(change) == 2:
             changes[change[0]] = change[1]
@@ -355,7 +355,7 @@ class Scene(Table):
                 raise InputError(by_group(str(error), groups, changes)) from None
 
     def _repr_html_(self) -> str:
-        """Return what it is in words and the keys it gives, for notebooks."""
+        """Return the scene in words and the keys it gives, for notebooks."""
         from exu_press import cell
 
         return cell(self)
@@ -465,7 +465,6 @@ def mechanism_of(scene: Scene) -> Mechanism:
 
 
 def _beyond(given: Mapping[str, Any], usual: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the keys that are not as usual."""
     return {key: value for key, value in given.items() if usual.get(key) != value}
 
 

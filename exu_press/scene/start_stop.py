@@ -31,7 +31,7 @@ OF_CLUTCH = (
 """Keys that only a drive with a clutch has."""
 
 OF_START, OF_STOP = ("clutch_on", "brake_off"), ("clutch_off", "brake_on")
-"""Ramps behind a command: what acts first has to be over before the other begins."""
+"""Ramps behind a command: the first has to be over before the other begins."""
 
 
 @dataclass(frozen=True)
@@ -231,7 +231,7 @@ class StartStop(Table):
         return found
 
     def schedule(self) -> Schedule:
-        """Return what is commanded when, and how clutch and brake answer."""
+        """Return the commands, and how clutch and brake answer."""
 
         def ramp(name: str) -> Ramp | None:
             over_time, over_angle = getattr(self, name), getattr(self, f"{name}_deg", None)

@@ -39,7 +39,7 @@ AT_CONTACT = ("stop", "mixed")
 HERTZ = 1.5
 
 OF_FRICTION = ("mu_static", "mu_kinetic", "stribeck_velocity", "regularisation_velocity")
-"""Keys of friction that guides have of their own; what else their law needs is in [friction]."""
+"""Keys of friction that guides have of their own; other keys of their law are in [friction]."""
 
 OF_TILTING = ("tilting_stiffness", "tilting_damping")
 OF_SPRINGS = (*OF_TILTING, "damping_ratio", "lateral_damping")
@@ -303,7 +303,7 @@ class ElasticGuide(Table):
             self._check_pads(self.clearance)
 
     def _check_pads(self, clearance: float) -> None:
-        """Demand what a film needs, and that its pads lie in their law's range."""
+        """Demand a film's keys, and that its pads lie in their law's range."""
         demand_keys("guide.viscosity", self, OF_PADS, "guide", "[guide]")
         assert self.face_width is not None and self.contact_gap is not None
         if not self.contact_gap < clearance:

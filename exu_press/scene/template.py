@@ -24,7 +24,7 @@ __all__ = ["template"]
 
 
 def template(mechanism: str, shown: str = "") -> str:
-    """Return a scene of a mechanism as TOML: what it uses as it stands, the rest as comments.
+    """Return a scene of a mechanism as TOML: keys in use as they stand, others as comments.
 
     Every key has its meaning and unit behind it; a table that is not in use has its defaults.
 
@@ -93,7 +93,6 @@ def _usual(kind: type[Table]) -> Table:
 
 
 def _an_oil() -> Iterator[str]:
-    """Yield the table of an oil, as an example."""
     fields = {field.name: field for field in dataclasses.fields(Oil)}
     example = Oil(**{name: fields[name].metadata["example"] for name in Oil.needed})
     yield f"[film.oil]  # {(Oil.__doc__ or '').splitlines()[0]}"
@@ -101,7 +100,6 @@ def _an_oil() -> Iterator[str]:
 
 
 def _loads() -> Iterator[str]:
-    """Yield the tables of two loads, as examples."""
     examples: dict[str, Load] = {
         "blanking": BlankingLoad(force=1e4),
         "forming": TableLoad(crank_angle_deg=(120.0, 175.0, 180.0), force=(0.0, 1e4, 0.0)),
@@ -117,7 +115,6 @@ def _loads() -> Iterator[str]:
 
 
 def _a_flexible_body(scene: Scene) -> Iterator[str]:
-    """Yield the table of a flexible body, as an example."""
     mechanism = mechanism_of(scene)
     guided = {guide.body for guide in mechanism.guides}
     free = [body.name for body in mechanism.bodies if body.name not in guided]

@@ -45,7 +45,7 @@ REACHED = 0.01
 
 
 def scene_warnings(scene: Scene) -> list[str]:
-    """Return what is allowed but hardly meant: the key, what was given, and what it changes."""
+    """Return warnings about values that are allowed but hardly meant: key, value, effect."""
     return [
         *doubtful_sizes(scene),
         *_film_law(scene),
@@ -68,7 +68,7 @@ def doubtful_sizes(scene: Scene) -> list[str]:
 
 
 def _drawing(scene: Scene) -> Iterator[str]:
-    """Yield what of a drawing is of another size than machines are, or than the rest of it."""
+    """Yield parts of a drawing of another size than machines, or than the rest of it."""
     mechanism = mechanism_of(scene)
     size = mechanism.size
     if size > LARGEST:
@@ -115,7 +115,6 @@ def _guides(scene: Scene) -> Iterator[str]:
 
 
 def _clearances(scene: Scene) -> Iterator[str]:
-    """Yield the clearances that are wide for their radius."""
     for name, joint in scene.joints.grouped.items():
         if isinstance(joint, OwnJoint):
             continue
@@ -142,7 +141,6 @@ def _films(scene: Scene) -> Iterator[tuple[str, LubricatedJoint]]:
 
 
 def _viscosity(scene: Scene) -> Iterator[str]:
-    """Yield viscosities that no bearing oil has."""
     films = {
         f"{table}.{'viscosity' if joint.film.oil is None else 'oil has as supplied'}": (
             joint.film.cold_viscosity
@@ -163,7 +161,6 @@ def _viscosity(scene: Scene) -> Iterator[str]:
 
 
 def _stiffness(scene: Scene) -> Iterator[str]:
-    """Yield the stiffness of bodies that no material has."""
     for name, body in scene.bodies.items():
         density = body.density
         if density is not None and not LIGHTEST <= density <= HEAVIEST:

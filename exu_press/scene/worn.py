@@ -1,4 +1,4 @@
-"""What is worn off a joint's surfaces: the [joints.NAME.worn] table of a scene."""
+"""Depths worn off a joint's surfaces: the [joints.NAME.worn] table of a scene."""
 
 import math
 from dataclasses import dataclass

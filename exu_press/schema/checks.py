@@ -52,7 +52,7 @@ RENAMED = {
     "guide.slide_inertia": "press.slide_inertia",
     "guide.counterweight_inertia": "press.counterweight_inertia",
 }
-"""Keys of before -> what is written instead."""
+"""Old keys -> new ones, in words."""
 
 
 def key(
@@ -91,7 +91,6 @@ def key(
 
 
 def _allowed(field: dataclasses.Field[Any]) -> str:
-    """Return what a key allows, in words."""
     meta = field.metadata
     if meta.get("choices"):
         also = f", or {meta['meaning']}" if meta.get("also") else ""
@@ -131,7 +130,7 @@ class Table:
 
     @property
     def given(self) -> dict[str, Any]:
-        """The keys that were given, and what they are."""
+        """The keys that were given, with their values."""
         names: frozenset[str] = self._given  # type: ignore[attr-defined]
         values = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
         return {name: v for name, v in values.items() if name in names and v is not None}
@@ -384,6 +383,5 @@ def nearest(name: Any, known: Iterable[str]) -> str:
 
 
 def _kind(field: dataclasses.Field[Any]) -> type:
-    """Return the scalar type of a field declared as `kind` or `kind | None`."""
     kinds = typing.get_args(field.type) or (field.type,)
     return next(kind for kind in kinds if isinstance(kind, type) and kind is not types.NoneType)

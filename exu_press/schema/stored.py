@@ -26,7 +26,7 @@ NOUNS = {
 
 
 def from_json(kind: type[T], text: str | bytes, where: str) -> T:
-    """Return what a JSON text holds; a whole number does for a number.
+    """Return the content of a JSON text; a whole number does for a number.
 
     Args:
         kind: str, bool, int, float, dict[str, ...], list[...], tuple[...], a typed dictionary;
@@ -35,7 +35,7 @@ def from_json(kind: type[T], text: str | bytes, where: str) -> T:
         where: the text stands, for messages.
 
     Raises:
-        InputError: the text is no JSON, or what it holds is of another kind.
+        InputError: the text is no JSON, or its content is of another kind.
     """
     try:
         return cast(T, _checked(kind, json.loads(text), where))
@@ -89,7 +89,6 @@ def _table(kind: Any, value: dict[str, Any], where: str) -> dict[str, Any]:
 
 
 def _inside(where: str, name: str) -> str:
-    """Return where the entry of a table stands."""
     _check_text(name, where)
     return f"{where}.{name}" if name.isidentifier() else f"{where}[{shown(name)}]"
 

@@ -19,7 +19,7 @@ DECIMAL_COMMA = re.compile(r"^\s*[\w.]+\s*=\s*[-+]?\d+,\d+", re.MULTILINE)
 
 
 def read_toml(path: Path) -> dict[str, Any]:
-    """Return what a TOML file holds.
+    """Return the content of a TOML file.
 
     Raises:
         InputError: the file cannot be read or parsed.
@@ -28,7 +28,7 @@ def read_toml(path: Path) -> dict[str, Any]:
 
 
 def parse_toml(text: str, where: str) -> dict[str, Any]:
-    """Return what a text in TOML holds.
+    """Return the content of a text in TOML.
 
     Raises:
         InputError: the text is no TOML, nests too deep, or has a number of too many digits.

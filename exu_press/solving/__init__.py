@@ -1,4 +1,4 @@
-"""Solve a scene's model: what the scene asks for, in the integrator's terms, and its words."""
+"""Solve a scene's model: its keys in the integrator's terms, and advice in its words."""
 
 from exu_press.solving.assembled import Assembled
 from exu_press.solving.solve import DEFAULTS, scales, settings_for, solve

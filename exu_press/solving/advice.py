@@ -1,4 +1,4 @@
-"""What a scene's run is told when it stops early: crank angles, and the keys to change."""
+"""Advice to a run that stops early: crank angles, and the keys to change."""
 
 import math
 
@@ -38,7 +38,7 @@ class SceneAdvice(Advice):
 
     @property
     def setting(self) -> str:
-        """What makes steps larger or smaller."""
+        """The keys that make steps larger or smaller."""
         return f"solver.{super().setting}"
 
     def place(self, time: float) -> str:
@@ -57,21 +57,21 @@ class SceneAdvice(Advice):
         return next(n for n, other in self._model.clearance_joints.items() if other is joint)
 
     def film(self) -> str:
-        """Return what helps a film that broke down."""
+        """Return the cure of a film that broke down."""
         slips = self._slips()
         thicker = "film.at_contact = 'mixed', or a larger film.viscosity or film.length"
         return f"another value, as this one is hardly meant: {slips}" if slips else thicker
 
     def smallest(self) -> str:
-        """Return what helps where steps became too small."""
+        """Return the cure where steps became too small."""
         return "a larger solver.tolerance or a smaller solver.min_step"
 
     def budget(self) -> str:
-        """Return what helps where too many steps were needed."""
+        """Return the cure where too many steps were needed."""
         return f"fewer revolutions, a larger {self.setting} or solver.max_steps"
 
     def redundancy(self, redundant: int) -> str:
-        """Return what helps where so many constraints say the same as others."""
+        """Return the cure where so many constraints are redundant."""
         say = "constraints say" if redundant > 1 else "constraint says"
         here = f"{redundant} {say} the same as others where the mechanism is"
         return f"{here}; try {self.convergence()}"

@@ -19,7 +19,7 @@ class Assembled(ABC):
     """What solving needs of a scene's model; `exu_press.model.Model` is one, and has more.
 
     Attributes:
-        scene: what was asked.
+        scene: of the model.
         mechanism: bodies, joints and guides.
         holding: which ideal joints and guides hold what.
         mbs: Exudyn's main system, assembled.
@@ -50,7 +50,7 @@ class Assembled(ABC):
     @property
     @abstractmethod
     def event(self) -> Callable[[exu.MainSystem, float], float] | None:
-        """What changes its sign at the samples of a motor's crank, or None."""
+        """A function that changes its sign at the samples of a motor's crank, or None."""
 
     @abstractmethod
     def watch(self, time: float) -> str:

@@ -1,4 +1,4 @@
-"""What a scene asks for, in the integrator's terms."""
+"""A scene's keys in the integrator's terms."""
 
 import dataclasses
 import math
@@ -26,7 +26,7 @@ USUAL_STEP = math.radians(1.5)
 
 
 def solve(model: Assembled, *, tuning: SolverTuning = DEFAULTS, quiet: bool = True) -> Outcome:
-    """Run a model to its end time or to an early stop; what was computed stays in its sensors.
+    """Run a model to its end time or to an early stop; its sensors keep the results.
 
     Args:
         model: of a scene; items that were added to `model.mbs` and assembled take part.
@@ -50,7 +50,7 @@ def solve(model: Assembled, *, tuning: SolverTuning = DEFAULTS, quiet: bool = Tr
         next_corner=model.next_corner,
         watch=model.watch,
         event=model.event,
-        # modes and drive: no say
+        # modes and drive: excluded from the norm
         bodies={node: (name, masses.get(name, math.inf)) for name, node in model.nodes.items()},
         advice=lambda problem, by_tolerance: SceneAdvice(model, problem, by_tolerance),
         tuning=tuning,

@@ -49,7 +49,7 @@ class Animation:
     def __init__(
         self, result: Result, instants: Instants, figure: Figure, flexible: Look | None = None
     ) -> None:
-        """Draw what does not change.
+        """Draw the still parts.
 
         Args:
             result: of the run.
@@ -75,7 +75,7 @@ class Animation:
         )
 
     def draw(self, artists: Iterable[Artist]) -> None:
-        """Draw some of what changes."""
+        """Draw some of the moving parts."""
         for artist in artists:
             self.figure.draw_artist(artist)
 
@@ -124,7 +124,6 @@ class Animation:
     def _draw_curves(
         self, place: SubplotSpec, curves: tuple[tuple[str, str, str, float], ...]
     ) -> None:
-        """Draw the slider's curves, one below the other."""
         result, step = self.result, self.instants.step
         heights = (1.0, 1.0, 1.0) if len(curves) == 3 else (0.6, 1.0)
         rows = place.subgridspec(len(curves), 1, hspace=0.33, height_ratios=heights)

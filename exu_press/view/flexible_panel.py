@@ -127,7 +127,7 @@ class FlexiblePanel:
         return float(np.linalg.norm(self._surfaces[name].displacement(modal), axis=1).max())
 
     def _level(self, name: str, modal: Array) -> Array:
-        """Return what the nodes' colours show, m or Pa."""
+        """Return the values behind the nodes' colours, m or Pa."""
         surface: Surface = self._surfaces[name]
         if self._stress:
             return np.asarray(surface.von_mises(modal), dtype=float)

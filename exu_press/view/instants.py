@@ -106,7 +106,7 @@ def moment(
 
 
 def interval(result: Result, start: float | None, stop: float | None) -> tuple[float, float]:
-    """Return begin and end of what is shown, s; those of the record where none are given.
+    """Return begin and end of the shown part, s; those of the record where none are given.
 
     Raises:
         InputError: they lie outside the record, or in another order.

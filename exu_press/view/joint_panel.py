@@ -152,7 +152,6 @@ class JointPanel:
             dot.set_data([x], [y])
 
     def _in_words(self, step: int, force: float) -> str:
-        """Return eccentricity, gap and force."""
         distance = float(self._distance[step])
         gap = (1.0 - distance) * self._clearance * 1e6
         named = f"gap {gap:.1f} µm" if gap >= 0.0 else f"penetration {-gap:.2f} µm"
@@ -182,7 +181,6 @@ def _journal_angle(result: Result, name: str) -> Array:
 
 
 def _legend(body: str, largest: float, still: bool) -> str:
-    """Return what the arrow is."""
     what = (
         f"force on the {body}" if still else f"largest force on the {body} since the frame before"
     )
@@ -190,7 +188,6 @@ def _legend(body: str, largest: float, still: bool) -> str:
 
 
 def _in_newtons(force: float) -> str:
-    """Return a force in kN, a small one in N."""
     if abs(force) < 100.0:
         return f"{significant(force, 3)} N"
     return f"{significant(force / 1e3, 3)} kN" if abs(force) < 9.995e5 else f"{force / 1e3:.0f} kN"

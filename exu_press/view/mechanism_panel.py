@@ -38,7 +38,7 @@ class MechanismPanel:
     """Draws every body at its pose; the ideal mechanism's dead centres stand beside the slider."""
 
     def __init__(self, axes: Axes, result: Result, instants: Instants) -> None:
-        """Draw what stands still, and every body once."""
+        """Draw the frame, and every body once."""
         self._mechanism = mechanism = mechanism_of(result.scene)
         self._poses = poses(result, mechanism, instants)
         self._shapes = shapes_of(mechanism)
@@ -86,7 +86,7 @@ class MechanismPanel:
         self.artists = animated(*self._bodies.values(), pins, marked, *leaders)
 
     def _layer(self, body: str) -> int:
-        """Return what lies behind what: the slider, other blocks, links, and the crank in front."""
+        """Return a body's layer: the slider, other blocks, links, and the crank in front."""
         if body == self._mechanism.slider:
             return -1
         return {"block": 0, "crank": 2}.get(self._shapes[body].role, 1)

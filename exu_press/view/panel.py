@@ -1,4 +1,4 @@
-"""What every part of the picture is: axes, and artists that change from frame to frame."""
+"""A part of the picture: axes, and artists that change from frame to frame."""
 
 from collections.abc import Sequence
 from typing import Protocol
@@ -13,7 +13,7 @@ class Panel(Protocol):
 
     @property
     def artists(self) -> Sequence[Artist]:
-        """What changes, in the order of drawing; everything else is drawn once."""
+        """Artists that change, in the order of drawing; everything else is drawn once."""
 
     def show(self, frame: int) -> None:
         """Bring the artists to a frame."""

@@ -98,7 +98,6 @@ def save_animation(
 
 
 def _write_png(path: Path, number: int, image: Image.Image) -> Path:
-    """Write one of many."""
     numbered = path.with_name(NUMBER.sub(lambda found: found[0] % number, path.name))
     with replacing(numbered) as partial:
         image.save(partial, format="png")
@@ -156,7 +155,6 @@ def _write_mp4(path: Path, partial: Path, frames: Iterator[Image.Image], fps: fl
 
 
 def _feed(process: "subprocess.Popen[bytes]", frames: Iterator[Image.Image]) -> tuple[bytes, bytes]:
-    """Write frames to a program's input; return what it said."""
     pipe: IO[bytes] | None = process.stdin
     assert pipe is not None
     try:

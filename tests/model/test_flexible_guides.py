@@ -122,7 +122,7 @@ def test_stiff_it_is_the_rigid_slider(slider, body, guide):
     assert result["load_push_work"][-1] == pytest.approx(other["load_push_work"][-1], rel=1e-4)
 
 
-PLAY = {
+GUIDEWAYS = {
     "clearance": 2e-5,
     "friction": "coulomb",
     "length": 0.2,
@@ -137,7 +137,7 @@ def test_stiff_it_hits_its_ways_as_the_rigid_slider(slider, body):
     """With both ends, on both sides, and with friction beside its middle."""
     run = {**RUN, "solver": {"tolerance": 1e-6}, "revolutions": 0.1}
     load = {"push": {**PUSH, "face": BOTTOM}}
-    flexible, rigid = with_rigid(slider(body=body, load=load, guide=PLAY, **run))
+    flexible, rigid = with_rigid(slider(body=body, load=load, guide=GUIDEWAYS, **run))
     result, other = simulate(flexible), simulate(rigid)
     assert result.completed and other.completed
     assert other["guide_force"].max() > 100.0 and other["guide_force"].min() < -100.0
@@ -155,7 +155,7 @@ def test_in_its_play_a_soft_slider_touches_with_what_its_guide_holds(slider):
     soft = {"youngs_modulus": 0.01 * STEEL, "modes": 8}
     run = {"revolutions": 0.06, "speed_rpm": 200.0, "solver": {"tolerance": 1e-4}}
     load = {"push": {**PUSH, "face": BOTTOM}}
-    model = build(slider(body=soft, load=load, guide=PLAY, **run))
+    model = build(slider(body=soft, load=load, guide=GUIDEWAYS, **run))
     result = record(model, model.solve())
     held = guided_motion(model, "slider").position
     ends = {str(number): end for number, end in enumerate(model.guideways["slider"])}
@@ -163,7 +163,7 @@ def test_in_its_play_a_soft_slider_touches_with_what_its_guide_holds(slider):
         states.eccentricity[:, 0] for states in states_of(model, result.time, ends).values()
     )
     assert np.abs(0.5 * (low + high) - held[:, 0]).max() < 1e-9
-    assert np.abs((low - high) / PLAY["length"] - np.sin(held[:, 2])).max() < 1e-8
+    assert np.abs((low - high) / GUIDEWAYS["length"] - np.sin(held[:, 2])).max() < 1e-8
     assert np.abs(held[:, 2] - result["slider_tilt"]).max() > 3e-7
     assert np.abs(result["guide_force"]).max() > 100.0
     summary = result.summary()

@@ -21,7 +21,7 @@ def test_beside_a_flexible_body_a_joint_with_clearance_is_one_in_space(kind, coo
 
 
 def test_with_play_in_the_guides_they_start_in_the_deformation_between_ideal_ones():
-    """Bodies with play rest nowhere, so that no balance could be found with them."""
+    """Bodies with clearance rest nowhere, so that no balance could be found with them."""
     scene = Scene(bodies=flexible_press(**SMALL), start_angle_deg=60.0)
     modes = []
     for guide in (None, {"clearance": 5e-5}):

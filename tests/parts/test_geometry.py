@@ -29,7 +29,7 @@ def test_the_cranks_volume_in_closed_form():
 def test_the_parts_fit_each_other_and_have_walls(number):
     crank = shipped_part("crank" + number).geometry
     rod = shipped_part("linkage" + number).geometry
-    assert rod.big_width <= crank.pin_length - 0.004  # 2 mm of side play at least
+    assert rod.big_width <= crank.pin_length - 0.004  # 2 mm of clearance at each side at least
     assert rod.big_bore_radius == crank.pin_radius == 0.07
     assert rod.big_outer_radius - rod.big_bore_radius > 0.03
     assert rod.small_outer_radius - rod.small_bore_radius > 0.03

@@ -22,7 +22,7 @@ SMALL = 0.05
 
 
 class BallFilm(NamedTuple):
-    """A ball's film: what a film law says, and the drag of a ball that spins in its film.
+    """A ball's film: a film law, and the drag of a ball that spins in its film.
 
     Attributes:
         law: film law; its drag is that of a rotation across the eccentricity.

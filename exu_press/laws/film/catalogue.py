@@ -16,7 +16,7 @@ __all__ = ["FILM_LAWS", "FilmEntry"]
 
 @dataclass(frozen=True, slots=True)
 class FilmEntry:
-    """A film law: its factory, the L/D that it is meant for, and what flows out at its ends."""
+    """A film law: its factory, the L/D that it is meant for, and its side flow."""
 
     factory: Callable[[float], FilmLaw]
     """Takes L/D; a long bearing ignores it. What is outside its range it refuses (`finite`)."""

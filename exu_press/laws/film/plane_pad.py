@@ -48,7 +48,7 @@ def plane_pad(length: float, width: float) -> PadLaw:
     h_1 and h_2 are the gaps at the rear and at the front end, lambda runs from the one to the other
     and U is the velocity of the pad along it, p = 0 at the pad's edges. F_1 and F_2 press the pad's
     two ends off the way and F_t acts along it, the opposite on the way: the power F_1 h_1' + F_2
-    h_2' + F_t U is what the film turns into heat, never positive.
+    h_2' + F_t U is minus the heat of the film, never positive.
 
     Across the pad the pressure has one shape, cosh(a w / 2) - cosh(a z) with a^2 = 10 / L^2, along
     it what Galerkin's method leaves of Reynolds' equation (Kantorovich's method, the shape that of

@@ -1,4 +1,4 @@
-"""What flows out of a bearing at its two ends."""
+"""Side flow: oil that leaves a bearing at its two ends."""
 
 import math
 from collections.abc import Callable
@@ -47,7 +47,7 @@ def short_flow(length_to_diameter: float) -> SideFlow:
 
     Notes
     -----
-    Range: L/D <= 0.5; above it `finite_flow` has less. The viscosity has no say: the pressure is in
+    Range: L/D <= 0.5; above it `finite_flow` has less. The viscosity cancels: the pressure is in
     proportion to it, and the flow to the pressure over it.
 
     Examples

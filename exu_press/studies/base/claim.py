@@ -20,7 +20,7 @@ def claim(directory: Path, study: Mapping[str, Any], written: Sequence[str]) -> 
 
     Args:
         directory: of one study.
-        study: what makes it another one than others.
+        study: the data that tell it from others.
         written: names of files that the study writes in the end.
 
     Raises:

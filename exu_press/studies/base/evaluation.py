@@ -37,7 +37,7 @@ class Evaluation:
         quantities: Sequence[str],
         run: Callable[[Sequence[Scene]], Sequence[Row]],
     ) -> None:
-        """Take what is evaluated.
+        """Take study, quantities and runner.
 
         Args:
             study: whose keys a point has.
@@ -89,7 +89,6 @@ class Evaluation:
         return lines + [f"  {n} x {reason}" for reason, n in self.failures.most_common(3)]
 
     def _failed(self, row: Row) -> str:
-        """Return why a run gives no number, or nothing."""
         if row["status"] != COMPLETED:
             return f"{row['status']}: {row['reason']}"
         missing = [name for name in self.quantities if row.get(name) is None]

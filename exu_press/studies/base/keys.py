@@ -35,7 +35,7 @@ class Values:
         return self.values
 
     def plain(self) -> list[Any]:
-        """Return what the file says."""
+        """Return the value as it stands in the file."""
         return list(self.values)
 
 
@@ -80,7 +80,7 @@ class Range(Table):
         return np.asarray((value - self.low) / (self.high - self.low))
 
     def plain(self) -> dict[str, Any]:
-        """Return what the file says."""
+        """Return the value as it stands in the file."""
         return {"low": self.low, "high": self.high} | ({"log": True} if self.log else {})
 
 
@@ -133,7 +133,7 @@ class Normal(Table):
         return np.asarray(found, dtype=float)
 
     def plain(self) -> dict[str, Any]:
-        """Return what the file says."""
+        """Return the value as it stands in the file."""
         bounds = {name: getattr(self, name) for name in ("low", "high")}
         given = {name: bound for name, bound in bounds.items() if bound is not None}
         return {"mean": self.mean, "deviation": self.deviation, **given}

@@ -1,4 +1,4 @@
-"""Runs of scenes for a study: side by side, resumable, and what is kept of each."""
+"""Runs of scenes for a study: side by side, resumable, each with the part of it that is kept."""
 
 from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
@@ -127,7 +127,7 @@ def run_scene(arguments: dict[str, Any]) -> dict[str, Any]:
 
 
 def row_of(result: Result) -> dict[str, Any]:
-    """Return what a study keeps of a run: how it ended, its quantities and their errors."""
+    """Return a study's row of a run: how it ended, its quantities and their errors."""
     info, values = result.info, values_of(result)
     row: dict[str, Any] = {name: info[name] for name in ("status", "reason", "end_time")}
     row |= {name: value.value for name, value in values.items()}

@@ -21,7 +21,7 @@ class Study(Table):
     """The common part of study files; a kind of study adds its tables.
 
     Attributes:
-        scene: what is common to all runs; a Scene or its mapping.
+        scene: common to all runs; a Scene or its mapping.
         keys: dotted key of the scene -> how it varies (`Values`, `Range` or `Normal`, or as a file
             has them).
         save_runs: whether every run keeps its run.nc.
@@ -60,7 +60,7 @@ class Study(Table):
         return data
 
     def check_keys(self) -> None:
-        """Check the scene with each key alone at what it may be, before anything runs."""
+        """Check the scene with each key alone at its ends, before anything runs."""
         for name, each in self.keys.items():
             for value in each.ends:
                 self.scene_at({name: value})
@@ -78,7 +78,7 @@ class Study(Table):
             raise InputError(f"run with {where}: {error}") from None
 
     def to_dict(self) -> dict[str, Any]:
-        """Return what makes this study another one than others; a time limit does not."""
+        """Return the data that tell this study from others; a time limit does not."""
         found: dict[str, Any] = {}
         for field in dataclasses.fields(self):
             value = getattr(self, field.name)

@@ -35,7 +35,7 @@ class Amount:
         finest_peer: smaller tolerances of the peers are left out.
         loosen: factor on the tolerances of the references.
         reference_step: smallest fixed step of a reference, s.
-        starts: of a reference, beside its own, where neighbouring motions part.
+        starts: of a reference, beside its own, where trajectories diverge.
         stated: tolerances whose stated errors are held against the true ones.
     """
 
@@ -62,7 +62,7 @@ class Case:
     Attributes:
         name: on the command line and in the files.
         title: in words.
-        scene: what is run; None for a system that is no scene.
+        scene: of the runs; None for a system that is no scene.
         steps: fixed ones, s.
         tolerances: of the step control.
         reference_tolerance: the tightest one, which is the reference of a scene that has no closed
@@ -105,7 +105,7 @@ class Case:
         )
 
     def reference(self, amount: Amount) -> Reference:
-        """Return what its runs are compared with."""
+        """Return the reference of its runs."""
         if _has_closed_form(self._scene):
             return references.closed_form(self._scene)
         tolerance = amount.loosen * self.reference_tolerance
@@ -128,7 +128,7 @@ class Case:
         return errors, late
 
     def stated(self, amount: Amount, horizon: float) -> list[Stated]:
-        """Return what runs until the horizon state of their errors."""
+        """Return the stated errors of runs until the horizon."""
         if self.scene is None:
             return []
         part = self.scene.replace(revolutions=self.scene.revolutions * horizon / self.duration)
@@ -152,6 +152,5 @@ def case_of(name: str, scene: Scene) -> Case:
 
 
 def _has_closed_form(scene: Scene) -> bool:
-    """Return whether the motion is that of a mechanism without any give, at constant speed."""
     gives = scene.joints.with_clearance or (scene.guide and scene.guide.soft) or scene.bodies
     return not gives and scene.drive is None

@@ -1,6 +1,6 @@
 """Distance of a trajectory from the reference: pointwise up to a horizon, by figures beyond it.
 
-Dry impacts drive neighbouring motions apart, so that after a while no two integrators agree point
+Trajectories diverge in dry impacts, so that after a while no two integrators agree point
 by point. What happens then is compared as a whole: when surfaces touch, how large the forces are,
 and how far apart the graphs of the velocity lie.
 """
@@ -96,8 +96,8 @@ def late_of(
     """Return the figures of a dry run, or None where no surfaces touch.
 
     Args:
-        run: what is judged.
-        reference: the truth until motions part.
+        run: to be judged.
+        reference: the truth until trajectories diverge.
         starts: more of the run, from starts that differ by what nobody knows.
         others: the same of the reference.
     """
@@ -141,14 +141,12 @@ def _touches(run: Trajectory) -> Array:
 
 
 def _rms(run: Trajectory) -> float:
-    """Return the root of the mean square of the joint's force over time, N."""
     assert run.force is not None
     mean_square = np.trapezoid(run.force**2, run.time) / (run.time[-1] - run.time[0])
     return float(np.sqrt(mean_square))
 
 
 def _graph_distance(run: Trajectory, reference: Trajectory) -> float:
-    """Return the Hausdorff distance between the graphs of the slider's velocity."""
     end, speed = float(reference.time[-1]), float(np.abs(reference.velocity).max())
     instants = np.linspace(0.0, end, GRAPH_POINTS)
     graphs = [

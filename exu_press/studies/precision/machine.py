@@ -13,7 +13,7 @@ PACKAGES = ("exu-press", "exudyn", "numpy", "scipy", "numba", "scikit-sundae", "
 
 
 def machine() -> dict[str, Any]:
-    """Return processor, system, how busy it is, and versions; null for what is not installed."""
+    """Return processor, system, its load, and versions; null for missing packages."""
     return {
         "processor": _processor(),
         "cores": os.cpu_count(),

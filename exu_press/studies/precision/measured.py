@@ -62,7 +62,7 @@ class Attempt:
 
     Attributes:
         solver: as it is shown.
-        setting: what is varied: "step", "tolerance".
+        setting: that is varied: "step", "tolerance".
         value: of the setting, s or dimensionless.
         run: does it once.
         again: does it once more for its time, as one of several starts; None: `run` does.
@@ -79,7 +79,7 @@ def timed(attempt: Attempt, repeats: int, longest: float = LONG_RUN) -> Measured
     """Run an attempt so many times; the trajectory is the first one's.
 
     Args:
-        attempt: what is run.
+        attempt: to be run.
         repeats: how often.
         longest: once does where a run takes longer than this, s.
     """
@@ -97,7 +97,7 @@ def timed(attempt: Attempt, repeats: int, longest: float = LONG_RUN) -> Measured
 
 
 def measured_of(result: Result, cpu_time: float) -> Measured:
-    """Return what a result of the package says, with the processor time it took, s."""
+    """Return a result of the package as a measurement, with its processor time, s."""
     info = result.info
     return Measured(
         trajectory=trajectory_of(result) if result.completed else None,

@@ -24,7 +24,7 @@ KNOWN = 1e-3
 """Of the smallest clearance: two references whose sliders are further apart are none any more."""
 
 STAYS = Growth(None, None)
-"""Of motions that do not part."""
+"""Of trajectories that do not diverge."""
 
 KINEMATIC_STEP = 1e-5  # s, between the points of a closed-form trajectory
 
@@ -32,7 +32,7 @@ NOTHING = Errors(None, None, None)
 
 NEIGHBOUR = 4.0
 LOOSER = 10.0
-"""Times the reference's tolerance for further starts: they part as soon whatever it is."""
+"""Times the reference's tolerance for further starts: they diverge as soon whatever it is."""
 
 
 @dataclass(frozen=True)
@@ -45,8 +45,8 @@ class Reference:
         difference: between the two integrators, up to the horizon; zeros where it is exact.
         diverged: how fast neighbouring motions diverge, and the horizon: from when on errors exceed
             what is looked at.
-        starts: further trajectories, of starts that differ by what nobody knows, where motions part
-            before the end.
+        starts: further trajectories, of starts that differ by rounding, where trajectories
+            diverge before the end.
     """
 
     method: str
@@ -74,14 +74,14 @@ def closed_form(scene: Scene) -> Reference:
 def from_own(scene: Scene, tolerance: float, step: float, starts: int) -> Reference:
     """Return the tightest tolerance, checked against fixed steps extrapolated to zero.
 
-    How neighbouring motions part, and so the horizon, is measured by a run at NEIGHBOUR times the
+    The trajectories' divergence, and so the horizon, is measured by a run at NEIGHBOUR times the
     tolerance.
 
     Args:
-        scene: what is run.
+        scene: of the runs.
         tolerance: of the reference.
         step: smallest fixed one, with twice it beside, s.
-        starts: further ones, where neighbouring motions part.
+        starts: further ones, where trajectories diverge.
     """
     method = f"tolerance {tolerance:.0e} against fixed steps {2 * step:.0e}, {step:.0e} s"
     tight = run_scene(scene, "tolerance", tolerance).trajectory
@@ -114,7 +114,7 @@ def from_own(scene: Scene, tolerance: float, step: float, starts: int) -> Refere
 
 
 def divergence(scene: Scene, one: Trajectory, other: Trajectory) -> Growth:
-    """Return how two trajectories of a scene part, until they are KNOWN apart."""
+    """Return the growth of two trajectories' distance, until they are KNOWN apart."""
     clearances = [joint.clearance for joint in scene.joints.with_clearance.values()]
     clearances += [
         g.guideway.clearance for g in mechanism_of(scene).guides if g.guideway is not None

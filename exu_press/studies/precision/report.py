@@ -21,7 +21,7 @@ class Report:
         rows: one a run.
         orders: observed orders, one entry a case and solver.
         stated: stated against true errors, one entry a case and tolerance.
-        left_out: what was not run, and why.
+        left_out: runs that were left out, and why.
         machine: processor, system, versions.
     """
 

@@ -1,4 +1,4 @@
-"""A row of precision.json, and what a series of rows says."""
+"""A row of precision.json, and orders of a series of rows."""
 
 import math
 from collections.abc import Iterable, Sequence
@@ -37,7 +37,7 @@ class Row:
         law_evaluations: of the joints' forces, or of the right-hand side.
         status: "completed" or how it failed.
         reason: why it failed.
-        late: what is compared of the whole of a dry run.
+        late: figures of the whole of a dry run.
     """
 
     case: str

@@ -38,7 +38,7 @@ class Stated:
 def stated_errors(
     case: str, scene: Scene, tolerances: Sequence[float], reference: float
 ) -> list[Stated]:
-    """Return what runs state, against a run at the reference's tolerance.
+    """Return the stated errors of runs, against a run at the reference's tolerance.
 
     Args:
         case: name.

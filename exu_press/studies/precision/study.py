@@ -25,7 +25,7 @@ def precision(
     after_case: Callable[[Report], object] = lambda report: None,
     left_out: Sequence[str] = (),
 ) -> Report:
-    """Run cases and return what was measured.
+    """Run cases and return the measurements.
 
     Args:
         chosen: of a user's scene from `case_of`, or a table of your own.
@@ -33,7 +33,7 @@ def precision(
         quiet: False shows the progress on standard error.
         after_case: called after every case with what was measured so far: all of them take half
             an hour.
-        left_out: what was not run, and why.
+        left_out: runs that were left out, and why.
     """
     amount = QUICK if quick else FULL
     rows: list[Row] = []
@@ -93,7 +93,7 @@ def _describe(
         "scene": None if case.scene is None else case.scene.to_dict(),
         "duration": case.duration,
         "horizon": horizon,
-        "amplification": reference.diverged.rate,
+        "lyapunov_exponent": reference.diverged.rate,
         "reference": {
             "status": "ok" if told else "no reference",
             "method": reference.method,

@@ -85,12 +85,12 @@ def order_lines(orders: Sequence[Mapping[str, Any]]) -> list[str]:
 
 
 def horizon_words(case: Mapping[str, Any]) -> str:
-    """Return in words until when neighbouring motions stay together, and how fast they part."""
-    rate = case["amplification"]
+    """Return the horizon in words, and how fast trajectories diverge."""
+    rate = case["lyapunov_exponent"]
     how = "" if rate is None or rate <= 0.0 else f" tenfold in {math.log(10.0) / rate:.2g} s"
     if case["horizon"] < case["duration"]:
-        return f"horizon {case['horizon']:g} s: neighbouring motions part{how}"
-    return f"no horizon: neighbouring motions {'part' if how else 'stay together'}{how}"
+        return f"horizon {case['horizon']:g} s: trajectories diverge{how}"
+    return f"no horizon: trajectories {'diverge' if how else 'stay together'}{how}"
 
 
 def stated_lines(stated: Sequence[Stated]) -> list[str]:
@@ -148,7 +148,7 @@ def _error(row: Row, name: str) -> str:
 
 
 def _late_lines(rows: Sequence[Row]) -> list[str]:
-    """Return what is compared of the whole of dry runs, where any errors are."""
+    """Return the figures of whole dry runs, where any errors are."""
     cells: list[tuple[str, ...]] = [
         (
             row.solver,

@@ -38,7 +38,7 @@ class Trajectory:
         return np.asarray(position(instants)), np.asarray(velocity(instants))
 
     def until(self, end: float) -> "Trajectory":
-        """Return what lies before an instant, s."""
+        """Return the part before an instant, s."""
         kept = self.time <= end * (1.0 + 1e-12)
         return Trajectory(
             self.time[kept],

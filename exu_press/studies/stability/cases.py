@@ -13,7 +13,7 @@ PAIRS = "pairs of extremes"
 """The axis of those cases that are at the end of two axes at once."""
 
 FACTORS = (1e-3, 1e-2, 0.1, 10.0, 100.0, 1e3)
-"""Times what the scene has; a value that a scene refuses is left out."""
+"""Times the scene's value; one that a scene refuses is left out."""
 
 NOT_PUSHED = (
     *("mechanism", "revolutions", "start_angle_deg", "gravity", "press", "slider_crank"),
@@ -33,7 +33,7 @@ class Case:
 
     Attributes:
         name: unique.
-        axis: what is varied.
+        axis: key or choice that is varied.
         value: in words, as the map shows it; of a pair, the two.
         scene: complete.
     """

@@ -41,7 +41,7 @@ OF_BOTH = 1.25
 """Of what a run states, by how much it may differ from a finer one: at a tenth of the tolerance
 that one is off itself, by about 10^(-2/3) of what the run is."""
 
-AGREEMENT = "difference from a finer run, of what is stated"
+AGREEMENT = "difference from a finer run, over the stated error"
 
 
 @dataclass(frozen=True)
@@ -49,10 +49,10 @@ class Check:
     """One figure that must not be above its limit.
 
     Attributes:
-        name: what is checked.
+        name: of the check.
         value: None where it is not finite.
         limit: in the same unit.
-        note: what is worst, where there are several.
+        note: the worst one, where there are several.
     """
 
     name: str
@@ -98,7 +98,7 @@ def checks_of(result: Result) -> list[Check]:
 
 
 def agreement(result: Result, finer: Result) -> Check:
-    """Return how far a run is from a more accurate one, of what it states; OF_BOTH is allowed.
+    """Return a run's distance from a finer one over its stated error; OF_BOTH is allowed.
 
     Every figure is held against its own stated error, and against LITTLE where that is less. Of a
     figure that the scene does not determine nineteen in twenty runs lie between its bounds: it may
@@ -166,7 +166,7 @@ def _drifts(result: Result) -> Iterator[tuple[float, str]]:
 
 
 def _elastic_energy(result: Result) -> Array | None:
-    """Return what the contacts of all joints store, (n,), J; None where nothing may touch."""
+    """Return the elastic energy of all contacts, (n,), J; None where nothing may touch."""
     total, found = np.zeros_like(result.time), False
     for name, joint in result.scene.joints.with_clearance.items():
         if joint.contact is None or joint.onset is None:
@@ -179,7 +179,7 @@ def _elastic_energy(result: Result) -> Array | None:
 
 
 def _energy_there(result: Result) -> Array:
-    """Return what contacts can have stored at most beyond what they held at the start, (n,), J.
+    """Return the most energy that contacts can have stored since the start, (n,), J.
 
     The kinetic energy of the start and the drive's work, less what has gone into height.
     """

@@ -22,13 +22,13 @@ class Row:
 
     Attributes:
         name: unique.
-        axis: what is varied.
+        axis: key or choice that is varied.
         value: of it, in words.
         parameters: the scene.
         verdict: RIGHT, STOPPED or WRONG.
         status: of its run, or of the worker that failed.
         reason: why it stopped or is wrong.
-        checks: of what makes it right.
+        checks: of the run.
         residual: of the energy balance, relative.
         steps: accepted ones.
         wall_time: s.

@@ -49,7 +49,6 @@ def stability(
 
 
 def _row(case: Case, found: Mapping[str, Any]) -> Row:
-    """Return a case's row; a worker that failed, hung or died gives a wrong one."""
     told: dict[str, Any] = {"name": case.name, "axis": case.axis, "value": case.value}
     told["parameters"] = case.scene.to_dict()
     if "verdict" not in found:

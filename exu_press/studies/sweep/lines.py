@@ -21,7 +21,7 @@ MOST_LINES = 24
 
 
 def table_lines(table: Table, wanted: Sequence[str] = ()) -> list[str]:
-    """Return what varies and what came out, at most MOST_LINES runs, and how the runs ended."""
+    """Return keys and quantities of at most MOST_LINES runs, and how the runs ended."""
     names = (*table.study.keys, *shown(table, wanted), "status")
     runs = range(min(len(table), MOST_LINES))
     cells = [[_head(name) for name in names]]
@@ -77,7 +77,6 @@ def _changing_most(table: Table) -> tuple[str, ...]:
 
 
 def _change(table: Table, name: str) -> float:
-    """Return by how much a column's numbers differ, over the largest; 1 of a single run."""
     if not table.is_numeric(name):
         return 0.0
     values = table.numbers(name)

@@ -1,4 +1,4 @@
-"""Run a sweep: its runs, and the table of what came out."""
+"""Run a sweep: its runs, and the table of their quantities."""
 
 from pathlib import Path
 
@@ -21,7 +21,7 @@ def sweep(
     dask: str | None = None,
     quiet: bool = True,
 ) -> Table:
-    """Run what is not run yet, write table.csv and table.nc, and return the table.
+    """Run the points that are missing, write table.csv and table.nc, and return the table.
 
     Called again after a kill or Ctrl-C, it goes on; see `exu_press.parallel.Batch`.
 

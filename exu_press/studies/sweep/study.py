@@ -81,7 +81,7 @@ class Sweep(Study):
         return tuple(map(self.scene_at, self.points))
 
     def to_dict(self) -> dict[str, Any]:
-        """Return what makes this sweep another one than others."""
+        """Return the data that tell this sweep from others."""
         given = {name: v for name, v in dataclasses.asdict(self.sweep).items() if v is not None}
         return {**super().to_dict(), "sweep": given}
 

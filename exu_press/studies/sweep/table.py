@@ -35,7 +35,7 @@ class Table:
     """The result of a sweep.
 
     Attributes:
-        study: what was asked.
+        study: of the runs.
         columns: name -> values, one a run in the study's order, None where a run has none. First
             the keys that vary, then status and reason, then the scalars of the summaries.
     """
@@ -61,14 +61,14 @@ class Table:
         return bool(values) and not any(isinstance(value, (str, bool)) for value in values)
 
     def error(self, name: str, run: int) -> dict[str, Any] | None:
-        """Return what is known of a number's error, as in a summary; None without."""
+        """Return a number's error, as in a summary, or None."""
         parts = ("error", "determined", "low", "high")
         columns = [self.columns.get(f"errors.{name}.{part}") for part in parts]
         found = {p: c[run] for p, c in zip(parts, columns, strict=True) if c is not None}
         return found if None not in found.values() and len(found) == len(parts) else None
 
     def in_words(self, name: str, run: int, none: str = "") -> str:
-        """Return what a run has in a column, a number with its error where that is known."""
+        """Return a run's value in a column, a number with its error where that is known."""
         value, error = self.columns[name][run], self.error(name, run)
         if value is None:
             return none
@@ -92,7 +92,7 @@ def table_of(study: Sweep, rows: Sequence[Mapping[str, Any]], files: Sequence[st
     """Return the table of a study's rows.
 
     Args:
-        study: what was asked.
+        study: of the runs.
         rows: as the runs gave them, nested, in the study's order.
         files: where the runs are, or nothing.
     """
@@ -115,12 +115,12 @@ def table_of(study: Sweep, rows: Sequence[Mapping[str, Any]], files: Sequence[st
 
 
 def cell(value: Any) -> Value:
-    """Return what varies as a cell has it: a list or a table as TOML."""
+    """Return a key's value as a cell: a list or a table as TOML."""
     return toml_text(value) if isinstance(value, (Mapping, list, tuple)) else value
 
 
 def _scalars(row: Mapping[str, Any]) -> dict[str, Any]:
-    """Return what is one value, nested names joined by a dot; lists are left to run.nc."""
+    """Return single values, nested names joined by a dot; lists are left to run.nc."""
     scalars = {name: value for name, value in flat(row).items() if not isinstance(value, list)}
     for name in scalars:
         if not COLUMN_NAME.fullmatch(name):

@@ -48,7 +48,7 @@ def meaning_of(name: str) -> str:
 
 
 def _metadata(name: str) -> Mapping[str, Any] | None:
-    """Return what a key of a scene states of itself."""
+    """Return the declaration of a scene's key."""
     table, _, inner = name.removeprefix("scene.").rpartition(".")
     kind: type[Table] = TABLES.get(table, Scene)
     if table == "film.oil" or table.endswith(".film.oil"):

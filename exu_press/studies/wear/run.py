@@ -151,7 +151,7 @@ def run_worn(arguments: dict[str, Any]) -> dict[str, Any]:
     """Run {"scene": ...}; return its row, and what a stroke wears off every joint and way, m.
 
     Returns:
-        as `row_of`, and "journal", "bearing": joint -> (72,), "ways": guided body -> deepest.
+        as `row_of`, and "journal", "bearing": joint -> (72,), "guideways": guided body -> largest.
     """
     from exu_press.quantities.wear import depths_of_a_revolution
     from exu_press.verification.simulate import simulate
@@ -171,7 +171,7 @@ def _course(study: WearStudy, points: list[Point], ended: list[str]) -> Chain:
         return {"scene": worn_scene(scene, worn).to_dict()}
 
     row = yield arguments(depths)
-    ways = dict.fromkeys(row.get("ways", {}), 0.0)
+    ways = dict.fromkeys(row.get("guideways", {}), 0.0)
     points.append(Point(0.0, 0.0, 0.0, depths, ways, row))
     if row["status"] != COMPLETED:
         ended.append(f"the first run {row['status']}: {row['reason']}")
@@ -209,7 +209,7 @@ def _course(study: WearStudy, points: list[Point], ended: list[str]) -> Chain:
         jump *= min(LONGEST, max(SHORTEST, CAUTION / math.sqrt(max(off, 1e-12))))
         if off > 1.0:
             continue
-        ways = {body: ways[body] + step * row["ways"][body] for body in ways}
+        ways = {body: ways[body] + step * row["guideways"][body] for body in ways}
         row = yield arguments(after)
         if row["status"] != COMPLETED:
             tries += 1

@@ -53,9 +53,9 @@ def test_a_horizon_is_measured_where_neighbours_part(report):
     assert found.rate == pytest.approx(np.log(10.0) / 0.02, rel=1e-2)
     assert divergence(scene, one, one).horizon is None
     text = "\n".join(report.lines())
-    assert "no horizon: neighbouring motions " in text
-    case = {"duration": 0.2, "horizon": 0.08, "amplification": found.rate}
-    assert horizon_words(case) == "horizon 0.08 s: neighbouring motions part tenfold in 0.02 s"
+    assert "no horizon: trajectories " in text
+    case = {"duration": 0.2, "horizon": 0.08, "lyapunov_exponent": found.rate}
+    assert horizon_words(case) == "horizon 0.08 s: trajectories diverge tenfold in 0.02 s"
 
 
 def test_stated_errors_stand_beside_the_true_ones(report):

@@ -32,6 +32,7 @@ MODULES = [
     "integrate/criteria/newton_matrix",
     "integrate/criteria/share",
     "integrate/criteria/turning",
+    "integrate/criteria/turning_force",
     "integrate/criteria/vibration",
     "integrate/error",
     "integrate/monitor",

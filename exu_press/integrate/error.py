@@ -10,6 +10,7 @@ rate j_n = (a_n - a_(n-1)) / h, the scale of speeds V, eccentricities e and the 
     first-order coordinates            h^3 |y_ttt| / 12           over share |y|    FirstOrderError
     eccentricities                     e less the integral of e_t over share c      JointError
     penetrations                       the same across surfaces   over a part of it JointError
+    forces of films that turn          |F| (turned angle)^2 / 8   over tol |F|      TurningForce
     switches of Exudyn's contacts      h |a| / 2                  over tol V        StepError
 
 The share of the tolerance is that of `ErrorPerStep`; 1 is what a step may miss.
@@ -24,9 +25,13 @@ from exu_press.integrate.criteria.first_order import FirstOrderError
 from exu_press.integrate.criteria.newton_matrix import NewtonMatrix
 from exu_press.integrate.criteria.share import ErrorPerStep
 from exu_press.integrate.criteria.turning import Turning
+from exu_press.integrate.criteria.turning_force import TurningForce
 from exu_press.integrate.settings import Task
 
 __all__ = ["StepError"]
+
+TURNS_BY_ROUNDING = 10.0
+"""Over the smallest step: in shorter ones rounding turns the forces of films."""
 
 
 class StepError:
@@ -41,7 +46,8 @@ class StepError:
     rounding moves in an equilibrium is no error.
 
     Clearance joints: what the eccentricity changes by, less the integral of its rate, against the
-    joint's clearance and penetration, in films against the clearance and the time: `JointError`.
+    joint's clearance and penetration, in films against the clearance and the time: `JointError`;
+    and what a film's force is off a line while it turns: `TurningForce`.
 
     Attributes:
         start: accelerations of all coordinates at the run's start, where they are not Exudyn's.
@@ -66,6 +72,7 @@ class StepError:
         self._jumped = False  # whether accelerations have, in a step of the smallest size
         self._first_order: FirstOrderError | None = None
         self._joints: list[JointError] = []
+        self._films: list[tuple[int, TurningForce]] = []
         self.limiting: list[int] = []
 
     def __call__(self, step: float) -> float:
@@ -107,6 +114,10 @@ class StepError:
             if found > 1.0:
                 left = left or self._matrix.left_in_constraints()
                 found = joint.error(step, left)
+            if found > error:
+                error, largest = found, number
+        for number, film in self._films:
+            found = film.error(step)
             if found > error:
                 error, largest = found, number
         if largest >= 0:
@@ -154,6 +165,8 @@ class StepError:
             self._scales.update(self._velocities.tolist(), self._accelerations.tolist())
         if self._first_order is not None:
             self._first_order.accept()
+        for _, film in self._films:
+            film.accept()
 
     def _relative(self, speed: float) -> float:
         """Return an error of a speed (m/s) over what the run may have of it."""
@@ -181,6 +194,11 @@ class StepError:
             self._joints = [
                 JointError(j, whole * j.clearance, per_time * j.clearance, noise, penetration)
                 for j in problem.joints.joints
+            ]
+            self._films = [
+                (number, TurningForce(joint, task.tolerance, TURNS_BY_ROUNDING * task.smallest))
+                for number, joint in enumerate(problem.joints.joints)
+                if joint.lubricated
             ]
             self.limiting = [0] * len(self._joints)
         start = self.start or problem.start.accelerations.tolist()

@@ -144,7 +144,7 @@ class GuidewayFilm:
         couple, tilting = 0.5 * self._length * (across_1 - across_2), (rate_1 - rate_2)
         return JointState(
             eccentricity=self.eccentricity,
-            force=self._in_plane(across_1 + across_2, along),
+            force=self.force,
             velocity=self._in_plane(0.5 * (rate_1 + rate_2), self._sliding),
             moments=(couple, moment),
             angular_velocities=(tilting / self._length, self._turning),
@@ -162,6 +162,12 @@ class GuidewayFilm:
     def relative_velocity(self) -> tuple[float, ...]:
         """Rate of the eccentricity at the last `add_force`, m/s."""
         return self._in_plane(0.5 * (self._rates[0] + self._rates[1]), 0.0)
+
+    @property
+    def force(self) -> tuple[float, ...]:
+        """Force on the body at the last `add_force`, N."""
+        across_1, across_2, along, _ = self._loads
+        return self._in_plane(across_1 + across_2, along)
 
     def begin_step(self, step: float, accepted: bool) -> None:
         """Start a step of size `step` (s), after the last one was accepted or is repeated."""

@@ -424,6 +424,16 @@ class InterfaceJoint:
         return self.in_frame(self._motion[1], self._motion[2])
 
     @property
+    def force(self) -> tuple[float, ...]:
+        """Force on the journal at the last `add_force`, N."""
+        along_n = along_t = 0.0
+        for load in self._loads:
+            if load is not None:
+                along_n += load[0]
+                along_t += load[1]
+        return self.in_frame(along_n, along_t)
+
+    @property
     def rubbing(self) -> tuple[float, float]:
         """Normal force of the contact, N, and sliding velocity, m/s, at the last `add_force`."""
         return self._rubbing(self._motion)
@@ -445,7 +455,7 @@ class InterfaceJoint:
         loads = [load for load in self._loads if load is not None]
         return JointState(
             eccentricity=self.eccentricity,
-            force=self.in_frame(sum((f[0] for f in loads), 0.0), sum((f[1] for f in loads), 0.0)),
+            force=self.force,
             velocity=self.in_frame(e_dot, v_t),
             moments=(sum((f[2] for f in loads), 0.0), sum((f[3] for f in loads), 0.0)),
             angular_velocities=(w_j, w_b),

@@ -82,6 +82,10 @@ class ClearanceJoint(Protocol):
     def relative_velocity(self) -> Vector:
         """Rate of the eccentricity at the last `add_force`, m/s."""
 
+    @property
+    def force(self) -> Vector:
+        """Force on the journal at the last `add_force`, N."""
+
     def add_force(self, q: list[float], q_t: list[float], out: list[float]) -> None:
         """Add the joint's generalised forces to `out`."""
 

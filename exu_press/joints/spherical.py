@@ -162,10 +162,17 @@ class SpatialSpherical:
         """Rate of the eccentricity at the last `add_force`, m/s."""
         return tuple(self._relative.tolist())
 
+    @property
+    def force(self) -> tuple[float, ...]:
+        """Force on the ball at the last `add_force`, N."""
+        force = self._normal_force + self._drag
+        if self._film is not None:
+            force = force + self._film.force
+        return tuple(force.tolist())
+
     def state(self, q: list[float], q_t: list[float]) -> JointState:
         """Return the joint's state in a state of its two bodies."""
         self._move(q, q_t)
-        force = self._normal_force + self._drag
         reach, pressed, elastic, energy = self._radius + self._e, 0.0, 0.0, 0.0
         if self._contact is not None:
             pressed = self._e - self.contact_onset - self.path.drift
@@ -175,11 +182,10 @@ class SpatialSpherical:
             [self._radius * _cross(self._n, self._drag), -reach * _cross(self._n, self._drag)]
         )
         if self._film is not None:
-            force = force + self._film.force
             moments = moments + self._film.moments.ravel()
         return JointState(
             eccentricity=self.eccentricity,
-            force=tuple(force.tolist()),
+            force=self.force,
             velocity=self.relative_velocity,
             moments=tuple(moments.tolist()),
             angular_velocities=tuple(self._omegas.tolist()),

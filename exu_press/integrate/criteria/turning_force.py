@@ -1,0 +1,56 @@
+"""Forces of films between two instants, while they turn."""
+
+import math
+
+from exu_press.joints.joint import ClearanceJoint
+
+__all__ = ["TurningForce"]
+
+
+class TurningForce:
+    """What the force F of a film is off the line between a step's ends, over what it may.
+
+    A force that turns by an angle theta bulges by |F| theta^2 / 8 beside this line. With that of
+    both ends, |F|^2 = |F_0| |F_1|, and theta^2 / 2 as 1 - cos(theta)::
+
+        (|F_0| |F_1| - F_0 . F_1) / (4 sqrt(|F_0| |F_1|))    over tol max |F|
+
+    A film whose load is reversed passes it to its other side within microseconds. Its force turns
+    by half a turn then, and need not go through zero; no eccentricity and no speed feels it, so
+    that no other criterion sees this peak.
+    """
+
+    def __init__(self, joint: ClearanceJoint, tolerance: float, shortest: float) -> None:
+        """Take a joint.
+
+        Args:
+            joint: whose force is looked at.
+            tolerance: of the run.
+            shortest: step that may be asked for, s: in shorter ones rounding turns forces.
+        """
+        self._joint, self._tolerance, self._shortest = joint, tolerance, shortest
+        self._before: tuple[float, ...] = ()
+        self._now: tuple[float, ...] = ()
+        self._most = 0.0  # so far, N
+
+    def error(self, step: float) -> float:
+        """Return it for a step (s) that ends where the joint was last asked for its force."""
+        self._now = now = self._joint.force
+        if not self._before or step < self._shortest:
+            return 0.0
+        here = there = along = 0.0
+        for a, b in zip(self._before, now, strict=True):
+            here += a * a
+            there += b * b
+            along += a * b
+        product = math.sqrt(here) * math.sqrt(there)
+        largest = max(self._most, math.sqrt(max(here, there)))
+        if not product > 0.0:
+            return 0.0
+        off = (product - along) / (4.0 * math.sqrt(product) * self._tolerance * largest)
+        return math.pow(max(off, 0.0), 1.5)  # as the step's cube
+
+    def accept(self) -> None:
+        """Remember the accepted step's end as the next one's beginning."""
+        self._before = self._now
+        self._most = max(self._most, math.hypot(*self._now))

@@ -139,7 +139,7 @@ class GuidewayFilm:
         The force acts in the middle between the ends.
         """
         self.add_force(q, q_t, [0.0] * len(q))
-        across_1, across_2, along, moment = self._loads
+        across_1, across_2, _, moment = self._loads
         rate_1, rate_2 = self._rates
         couple, tilting = 0.5 * self._length * (across_1 - across_2), (rate_1 - rate_2)
         return JointState(

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 __all__ = [
     "COST",
     "COUNT",
+    "DIFFERENCE",
     "ENERGY",
     "FLOW",
     "INSTANT",
@@ -33,6 +34,8 @@ class Kind:
         of_forces: least error over the run's largest force, in the unit of the quantity over N.
         of_energies: least error over the run's largest energy.
         from_accelerations: whether the first step leaves an error of its own in it.
+        may_vanish: whether nothing, within an error, is an answer. Where it is none, as for a peak,
+            a figure that is smaller than its error is not determined.
     """
 
     name: str
@@ -42,10 +45,14 @@ class Kind:
     of_forces: float = 0.0
     of_energies: float = 0.0
     from_accelerations: bool = False
+    may_vanish: bool = False
 
 
 MOTION = Kind("motion")
 """Follows from positions and velocities."""
+
+DIFFERENCE = Kind("difference", may_vanish=True)
+"""Is the distance between positions or speeds that may be the same."""
 
 LOAD = Kind("load", relative=1e-5, from_accelerations=True)
 """Follows from accelerations, as forces, torques and powers do."""

@@ -8,7 +8,15 @@ from exu_press.mechanism import Guide
 from exu_press.numerics.arrays import Array
 from exu_press.numerics.piecewise import integral
 from exu_press.quantities.acceleration import mean_peak_of, peak
-from exu_press.quantities.kind import ENERGY, FLOW, LOAD, MOMENT, MOTION, RESULTANT
+from exu_press.quantities.kind import (
+    DIFFERENCE,
+    ENERGY,
+    FLOW,
+    LOAD,
+    MOMENT,
+    MOTION,
+    RESULTANT,
+)
 from exu_press.quantities.quantity import Extreme, Place, Quantity, always
 from exu_press.quantities.reading import Reading
 from exu_press.result.channel import guide_channel
@@ -143,7 +151,7 @@ DRIVE = (
     Quantity("drive.fluctuation", "",
              "largest less smallest crank speed over the mean one, over whole revolutions or a "
              "nominal one",
-             MOTION, _fluctuation,
+             DIFFERENCE, _fluctuation,
              has=_motor, title="coefficient of fluctuation", under=True),
 )  # fmt: skip
 

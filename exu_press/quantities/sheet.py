@@ -7,7 +7,7 @@ import numpy as np
 
 from exu_press.numerics.arrays import Array
 from exu_press.quantities.acceleration import peak
-from exu_press.quantities.kind import ENERGY, LOAD, MOTION
+from exu_press.quantities.kind import DIFFERENCE, ENERGY, LOAD
 from exu_press.quantities.quantity import Extreme, Place, Quantity
 from exu_press.quantities.reading import Reading
 from exu_press.result.energy import work
@@ -133,6 +133,6 @@ SHEETS = (
              extreme=Extreme.LARGEST),
     Quantity("stack_up", "m",
              "way by which the output jumps ahead of the ideal motion as clearances change sides",
-             MOTION, partial(_largest, _stack_up), Place.LOAD, _is_sheet,
+             DIFFERENCE, partial(_largest, _stack_up), Place.LOAD, _is_sheet,
              title="stack-up", shown="um", under=True, extreme=Extreme.LARGEST),
 )  # fmt: skip

@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 
 from exu_press.quantities.acceleration import differentiated_peak, mean_peak, peak
-from exu_press.quantities.kind import LOAD, MOTION
+from exu_press.quantities.kind import DIFFERENCE, LOAD, MOTION
 from exu_press.quantities.quantity import Extreme, Quantity
 from exu_press.quantities.reading import Reading
 from exu_press.scene import Scene, mechanism_of
@@ -68,16 +68,16 @@ STROKES = (
              signed=True),
     Quantity("strokes.range", "m",
              "distance between the highest and the lowest bottom dead centre of the strokes",
-             MOTION, _of_strokes(np.ptp, 2),
+             DIFFERENCE, _of_strokes(np.ptp, 2),
              title="dead centres differ by", shown="um", extreme=Extreme.LARGEST),
     Quantity("strokes.standard_deviation", "m",
              "standard deviation of the strokes' bottom dead centres",
-             MOTION, _of_strokes(lambda positions: positions.std(ddof=1), 2)),
+             DIFFERENCE, _of_strokes(lambda positions: positions.std(ddof=1), 2)),
     Quantity("slider_tilt", "rad", "largest tilt of the slider in its guide",
-             MOTION, lambda run, _: peak(run["slider_tilt"]),
+             DIFFERENCE, lambda run, _: peak(run["slider_tilt"]),
              has=_guided_softly, title="slider tilt, max", shown="urad", extreme=Extreme.LARGEST,
              curve="slider_tilt"),
     Quantity("slider_lateral", "m", "largest displacement of the slider across its guide",
-             MOTION, lambda run, _: peak(run["slider_lateral"]),
+             DIFFERENCE, lambda run, _: peak(run["slider_lateral"]),
              has=_guided_softly, extreme=Extreme.LARGEST, curve="slider_lateral"),
 )  # fmt: skip

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from exu_press.numerics.arrays import Array
-from exu_press.quantities.kind import ENERGY, MOTION
+from exu_press.quantities.kind import DIFFERENCE, ENERGY, MOTION
 from exu_press.quantities.quantity import Extreme, Quantity
 from exu_press.quantities.reading import Reading
 from exu_press.scene import Scene
@@ -164,7 +164,7 @@ START_STOP = (
              has=_starts, title="starting time", shown="ms", extreme=Extreme.LARGEST),
     Quantity("drive.speed_drop", "",
              "largest fall of the flywheel's speed, over the largest one before",
-             MOTION, _speed_drop,
+             DIFFERENCE, _speed_drop,
              has=_clutch, title="speed drop of the flywheel", extreme=Extreme.LARGEST),
     Quantity("drive.clutch_energy", "J", "energy that the clutch dissipates, for each start",
              ENERGY, _per_start,

@@ -41,6 +41,9 @@ OF_READING = 0.75
 """Of what averaging with the neighbours takes of a quantity: a peak between steps may be higher by
 half of it, one of alternating loads is too high by all of it."""
 
+OF_FLOOR = 3.0
+"""Times the least error of a kind: with a smaller error a figure that is nothing is known."""
+
 SAME = 1e-9
 """Relative: a figure that has changed by less since the horizon is one from before it."""
 
@@ -168,11 +171,13 @@ def errors_of(
         least = _least(
             quantity, [found[name] for found in by_end[end].values() if name in found], sizes
         )
-        least += left_open
         told_values = by_end[end], before, after
-        errors[name] = error = _error(name, quantity.extreme, *told_values, least, safety)
+        error = _error(name, quantity.extreme, *told_values, least + left_open, safety)
         if value >= 0.0 and not quantity.signed:
             error["low"] = max(error["low"], 0.0)
+            known = error["error"] <= max(value, OF_FLOOR * least)
+            error["determined"] &= known or quantity.kind.may_vanish
+        errors[name] = error
     return {
         "errors": errors,
         "horizon": diverged.horizon,

@@ -1,0 +1,67 @@
+"""What a film's force is off a line while it turns, and what that costs."""
+
+import math
+from types import SimpleNamespace
+
+import pytest
+
+from exu_press import Scene, simulate
+from exu_press.integrate.criteria.turning_force import TurningForce
+
+TOLERANCE = 1e-3
+SHORTEST = 1e-7
+
+
+def error_of(before, after, step=1e-4):
+    joint = SimpleNamespace(force=before)
+    film = TurningForce(joint, TOLERANCE, SHORTEST)
+    assert film.error(step) == 0.0  # nothing is known before the first step
+    film.accept()
+    joint.force = after
+    return film.error(step)
+
+
+def test_a_force_that_turns_bulges_beside_the_line():
+    angle = 0.02
+    found = error_of((500.0, 0.0), (500.0 * math.cos(angle), 500.0 * math.sin(angle)))
+    assert found == pytest.approx((angle**2 / 8.0 / TOLERANCE) ** 1.5, rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [
+        ((0.0, 0.0), (900.0, 0.0)),  # an impact
+        ((300.0, 400.0), (600.0, 800.0)),  # a load that grows
+        ((300.0, 400.0), (0.0, 0.0)),
+    ],
+)
+def test_a_force_that_keeps_its_direction_is_followed(before, after):
+    assert error_of(before, after) == pytest.approx(0.0, abs=1e-9)
+
+
+def test_a_force_is_held_against_the_largest_so_far():
+    joint = SimpleNamespace(force=(1e6, 0.0))
+    film = TurningForce(joint, TOLERANCE, SHORTEST)
+    film.error(1e-4)
+    film.accept()
+    joint.force = (0.0, 300.0)
+    film.error(1e-4)
+    film.accept()
+    joint.force = (0.0, -300.0)
+    assert film.error(1e-4) == pytest.approx(0.15**1.5)
+
+
+def test_steps_that_rounding_turns_forces_in_are_taken():
+    assert error_of((500.0, 0.0), (-500.0, 0.0)) > 1.0
+    assert error_of((500.0, 0.0), (-500.0, 0.0), step=0.5 * SHORTEST) == 0.0
+
+
+@pytest.mark.parametrize("joint", ["crank_pin", "wrist_pin"])
+def test_a_film_that_turns_with_its_load_takes_no_more_steps(joint, monkeypatch):
+    scene = Scene(mechanism="slider_crank", joints={joint: "lubricated"}, revolutions=0.5)
+    with_it = simulate(scene).info["steps"]
+    monkeypatch.setattr(
+        "exu_press.integrate.error.TurningForce",
+        lambda *_: SimpleNamespace(error=lambda step: 0.0, accept=lambda: None),
+    )
+    assert with_it <= 1.02 * simulate(scene).info["steps"]

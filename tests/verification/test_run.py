@@ -245,6 +245,7 @@ def test_a_peak_while_a_film_passes_its_load_over_is_seen(tolerance):
     scene = Scene(
         mechanism="slider_crank",
         speed_rpm=100.0,
+        revolutions=1.0,
         joints={"wrist_pin": {"kind": "lubricated", "clearance": 1e-4}},
         film={"at_contact": "mixed"},
         load={"pulse": {"kind": "blanking", "force": 65e3}},

@@ -47,6 +47,7 @@ MODULES = [
     "joints/interface",
     "joints/path",
     "joints/planar",
+    "joints/replay",
     "joints/spatial",
     "joints/guideway",
     "joints/guideway_film",

@@ -11,10 +11,14 @@ from exu_press.cli.options import (
     scene_of,
     show_warnings,
 )
+from exu_press.errors import InputError
 from exu_press.files.output_directory import output_directory, write_json
 from exu_press.scene.warnings import scene_warnings
 
 __all__ = ["EXAMPLE", "add_arguments", "execute"]
+
+ITS_OWN = {"revolutions": "--revolutions", "settle": "--skip"}
+"""Keys of a scene in whose place the command has arguments."""
 
 EXAMPLE = "exu-press attractor press --set joints.crank_pin=dry --revolutions 100 --skip 30"
 
@@ -23,7 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the command's arguments."""
     add_scene_arguments(parser)
     parser.add_argument(
-        "--revolutions", type=int, default=100, metavar="N", help="after the transient (100)"
+        "--revolutions", type=int, default=100, metavar="N", help="after the transient (100); the scene's own do not count"
     )
     parser.add_argument(
         "--skip", type=int, default=30, metavar="N", help="revolutions of the transient (30)"
@@ -47,6 +51,9 @@ def execute(options: argparse.Namespace) -> int:
     from exu_press.studies.attractor.lines import attractor_lines
 
     check_format(options)
+    for name in (assignment.partition("=")[0].strip() for assignment in options.set):
+        if name in ITS_OWN:
+            raise InputError(f"--set {name}: a long run has its own; allowed is {ITS_OWN[name]} N")
     scene = scene_of(options)
     directory = output_directory(directory_of(options))
     found = attractor(

@@ -69,17 +69,21 @@ class StepControl:
         self._step *= self._controller.continued(self.error)
 
     def next_step(self, time: float) -> float:
-        """Return the step from a time on, s; it ends exactly on corners and the end."""
+        """Return the step from a time on, s; it ends exactly on corners and the end.
+
+        Two steps of one size lead to the next of these, where one would not get there. A corner
+        that only rounding tells from the end is the end: as a stop of its own it would be neared by
+        halves, down to the smallest step.
+        """
         self._step = step = min(self._step, self._largest)
-        for stop in (self._next_corner(time), self._end):
-            left = stop - time
-            if left <= self._smallest:
-                continue
-            if step >= left:
-                step = left
-            elif step > 0.5 * left:
-                step = 0.5 * left
-        return step
+        left, corner = self._end - time, self._next_corner(time)
+        if self._smallest < corner - time < left - self._smallest:
+            left = corner - time
+        if left <= self._smallest:
+            return step
+        if step >= left:
+            return left
+        return 0.5 * left if step > 0.5 * left else step
 
 
 class FixedSteps:

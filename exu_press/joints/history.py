@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.joints.interface import InterfaceJoint
-from exu_press.joints.joint import GROUND, ClearanceJoint, JointState
+from exu_press.joints.joint import GROUND, ClearanceJoint
+from exu_press.joints.replay import replayed
 from exu_press.numerics.arrays import Array
 
 __all__ = ["JointHistory", "histories"]
@@ -106,37 +106,32 @@ def histories(
             joint.state([*q[0].tolist(), *GROUND], [*q_t[0].tolist(), *GROUND])
             joint.recall(memory)
     parts: dict[str, list[list[Array]]] = {name: [] for name in joints}
-    rubbed: dict[str, list[tuple[float, float]]] = {name: [] for name in joints}
+    rubbed: dict[str, list[float] | None] = {
+        name: [] if name in rubbing else None for name in joints
+    }
     steps = np.diff(time, prepend=time[0])
+    ground = np.zeros((min(len(time), AT_ONCE), len(GROUND)))
     for first in range(0, len(time), AT_ONCE):
         part = slice(first, first + AT_ONCE)
-        states: dict[str, list[JointState]] = {name: [] for name in joints}
-        each = [
-            (joint.begin_step, joint.state, states[name].append) for name, joint in joints.items()
-        ]
-        rubs = [
-            (joint, rubbed[name].append)
-            for name, joint in joints.items()
-            if name in rubbing and isinstance(joint, InterfaceJoint)
-        ]
-        for step, row, row_t in zip(
-            steps[part].tolist(), q[part].tolist(), q_t[part].tolist(), strict=True
-        ):
-            row += GROUND
-            row_t += GROUND
-            for begin_step, state, keep in each:
-                begin_step(step, True)
-                keep(state(row, row_t))
-            for joint, keep_rubbing in rubs:
-                keep_rubbing(joint.rubbing)
-        for name, found in states.items():
-            parts[name].append([np.array(values) for values in zip(*found, strict=True)])
+        of_steps = steps[part].tolist()
+        rows, rows_t = (
+            np.hstack([each[part], ground[: len(of_steps)]]).tolist() for each in (q, q_t)
+        )
+        for name, joint in joints.items():
+            numbers, lengths = replayed(joint, of_steps, rows, rows_t, rubbed[name])
+            table = np.array(numbers).reshape(len(of_steps), -1)
+            ends = np.cumsum(lengths)[:-1].tolist()
+            parts[name].append(np.split(table, ends, axis=1))
     for name, joint in joints.items():
         joint.recall(ended[name])
-    return {
-        name: JointHistory(
-            *[np.concatenate(values) for values in zip(*found, strict=True)]
-            + [np.array(rubbed[name]).reshape(-1, 2)]
-        )
-        for name, found in parts.items()
-    }
+    return {name: _history(found, rubbed[name]) for name, found in parts.items()}
+
+
+def _history(parts: list[list[Array]], rubbing: list[float] | None) -> JointHistory:
+    """Return the record of a joint from its states, part by part."""
+    eccentricity, force, velocity, moments, turning, *numbers = (
+        np.concatenate(columns) for columns in zip(*parts, strict=True)
+    )
+    gap, energy, power = (column[:, 0] for column in numbers)
+    rubbed = np.array(rubbing or []).reshape(-1, 2)
+    return JointHistory(eccentricity, force, velocity, moments, turning, gap, energy, power, rubbed)

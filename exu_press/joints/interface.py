@@ -452,16 +452,26 @@ class InterfaceJoint:
         """Return the joint's state in a state of its two bodies."""
         self.add_force(q, q_t, [0.0] * len(q))
         e, e_dot, v_t, w_j, w_b = self._motion
-        loads = [load for load in self._loads if load is not None]
+        f_n = f_t = m_j = m_b = 0.0
+        for load in self._loads:
+            if load is not None:
+                f_n += load[0]
+                f_t += load[1]
+                m_j += load[2]
+                m_b += load[3]
+        energy = power = 0.0
+        for interface in self.interfaces:
+            energy += interface.stored_energy(e)
+            power += interface.stored_power(e, e_dot)
         return JointState(
-            eccentricity=self.eccentricity,
-            force=self.force,
-            velocity=self.in_frame(e_dot, v_t),
-            moments=(sum((f[2] for f in loads), 0.0), sum((f[3] for f in loads), 0.0)),
-            angular_velocities=(w_j, w_b),
-            gap=self.clearance - e,
-            stored_energy=sum(interface.stored_energy(e) for interface in self.interfaces),
-            stored_power=sum(interface.stored_power(e, e_dot) for interface in self.interfaces),
+            self.eccentricity,
+            self.in_frame(f_n, f_t),
+            self.in_frame(e_dot, v_t),
+            (m_j, m_b),
+            (w_j, w_b),
+            self.clearance - e,
+            energy,
+            power,
         )
 
     def begin_step(self, step: float, accepted: bool) -> None:

@@ -194,6 +194,25 @@ def test_steps_end_on_corners_and_the_end():
     assert min(sizes) > 0.5e-3, "nothing little is left before one"
 
 
+@PATCHED
+@pytest.mark.parametrize("apart", [0.0, 1e-16, 5e-13, 8e-10])
+@pytest.mark.parametrize("number", range(1, 40, 6))
+def test_a_corner_at_the_end_of_a_block_cuts_no_step_to_pieces(number, apart):
+    """Both are multiples of a revolution, worked out differently: rounding tells them apart."""
+    end = 0.1 * number / 7.0
+    for corner in (end * (1.0 - apart), end * (1.0 + apart)):
+        sizes, _ = steps(good=3e-4, first=1e-4, corner=corner, end=end)
+        assert sum(sizes) == pytest.approx(end, rel=1e-14)
+        assert min(sizes) > 0.9e-4
+
+
+@PATCHED
+def test_a_corner_shortly_before_the_end_costs_one_step():
+    sizes, _ = steps(good=1.0, corner=4.5e-3, end=5.0e-3)
+    assert sizes[-1] == pytest.approx(0.5e-3)
+    assert len(sizes) == 6 and min(sizes[:-1]) > 0.7e-3
+
+
 def test_a_load_that_jumps_late_in_a_run_is_passed():
     """The smallest step, 1e-8 s, is told as a difference of times with an error of 1e-5 of it."""
     mbs = exu.SystemContainer().AddSystem()

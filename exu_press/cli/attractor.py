@@ -27,7 +27,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the command's arguments."""
     add_scene_arguments(parser)
     parser.add_argument(
-        "--revolutions", type=int, default=100, metavar="N", help="after the transient (100); the scene's own do not count"
+        "--revolutions",
+        type=int,
+        default=100,
+        metavar="N",
+        help="after the transient (100); the scene's own do not count",
     )
     parser.add_argument(
         "--skip", type=int, default=30, metavar="N", help="revolutions of the transient (30)"

@@ -11,7 +11,10 @@ from exu_press.cli import main
         (["--set", "revolutions=200"], "--set revolutions: a long run has its own; allowed is --"),
         (["--set", "settle=2"], "--set settle: a long run has its own; allowed is --skip N"),
         (["--skip", "0"], "--skip 0: allowed is a whole number >= 1"),
-        (["--revolutions", "30"], "--revolutions 30: allowed are at least 48, for periods up to 16"),
+        (
+            ["--revolutions", "30"],
+            "--revolutions 30: allowed are at least 48, for periods up to 16",
+        ),
         (["--set", "joints.crank_pin=ideal"], "joints: none has clearance"),
         (["--format", ".bmp"], "--format .bmp: allowed are .png"),
     ],

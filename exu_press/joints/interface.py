@@ -452,11 +452,9 @@ class InterfaceJoint:
         """Return the joint's state in a state of its two bodies."""
         self.add_force(q, q_t, [0.0] * len(q))
         e, e_dot, v_t, w_j, w_b = self._motion
-        f_n = f_t = m_j = m_b = 0.0
+        m_j = m_b = 0.0
         for load in self._loads:
             if load is not None:
-                f_n += load[0]
-                f_t += load[1]
                 m_j += load[2]
                 m_b += load[3]
         energy = power = 0.0
@@ -465,7 +463,7 @@ class InterfaceJoint:
             power += interface.stored_power(e, e_dot)
         return JointState(
             self.eccentricity,
-            self.in_frame(f_n, f_t),
+            self.force,
             self.in_frame(e_dot, v_t),
             (m_j, m_b),
             (w_j, w_b),

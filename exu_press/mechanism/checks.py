@@ -6,7 +6,7 @@ from typing import Any, TypeVar
 
 from exu_press.errors import InputError
 from exu_press.mechanism.parts import DRIVE, FLYWHEEL, GROUND, Body, Guide, Joint, Output
-from exu_press.schema.checks import nearest
+from exu_press.schema.checks import nearest, refuse_unknown
 
 __all__ = ["all_of", "check", "check_defaults"]
 
@@ -51,12 +51,8 @@ def check_defaults(defaults: Any) -> None:
     """Raise InputError for the first default that no scene has."""
     if not isinstance(defaults, Mapping):
         raise InputError(f"defaults = {defaults!r}: allowed is a table of keys")
+    refuse_unknown("defaults", defaults, DEFAULTS)
     for key, value in defaults.items():
-        if key not in DEFAULTS:
-            raise InputError(
-                f"defaults.{key} = {value!r}: unknown key{nearest(key, DEFAULTS)}; allowed are "
-                f"{', '.join(DEFAULTS)}"
-            )
         if not isinstance(value, DEFAULTS[key]):
             words = {str: "a text", float: "a number"}
             kind = words.get(DEFAULTS[key][-1], "a table of keys")

@@ -30,7 +30,7 @@ from typing import Any
 from exu_press.errors import InputError
 from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.parts import Body, Guide, Joint, Output
-from exu_press.schema.checks import nearest
+from exu_press.schema.checks import refuse_unknown
 from exu_press.schema.toml import read_toml, toml_text
 
 __all__ = [
@@ -151,15 +151,10 @@ def _keys(
 ) -> dict[str, Any]:
     """Return the keys of a table; the mechanism checks their values itself."""
     table, known = _table(where, given), (*needed, *others)
+    refuse_unknown(where, table, known)
     for key, value in table.items():
-        path = f"{where}.{key}" if where else key
-        if key not in known:
-            raise InputError(
-                f"{path} = {value!r}: unknown key{nearest(key, known)}; allowed are "
-                f"{', '.join(known)}"
-            )
         if isinstance(value, float) and math.isnan(value):  # `ROD`, which is left out here
-            raise InputError(f"{path} = {value!r}: allowed is a number")
+            raise InputError(f"{where}.{key} = {value!r}: allowed is a number")
     for key in needed:
         if key not in table:
             raise InputError(f"{f'{where}.{key}' if where else key}: missing")

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from exu_press.errors import InputError
-from exu_press.schema.checks import Table, key, nearest, table_from
+from exu_press.schema.checks import Table, key, nearest, refuse_unknown, table_from
 
 __all__ = [
     "DRIVE_FACE",
@@ -319,12 +319,7 @@ def _face(where: str, given: Any, known: tuple[str, ...]) -> Face:
         raise InputError(
             f"{where} = {given!r}: allowed is a face's name, or a table of {', '.join(known)}"
         )
-    for one in given:
-        if one not in known:
-            raise InputError(
-                f"{where}.{one} = {given[one]!r}: unknown key{nearest(one, known)}; allowed are "
-                f"{', '.join(known)}"
-            )
+    refuse_unknown(where, given, known)
     keys = dict(given)
     for axis in ("x", "y", "z"):
         if (ends := keys.get(axis)) is not None:

@@ -21,7 +21,7 @@ from exu_press.scene.laws import contact_law, film_law, friction_law
 from exu_press.scene.own_joint import OwnJoint, own_kind
 from exu_press.scene.tables import Contact, Film
 from exu_press.scene.worn import Worn
-from exu_press.schema.checks import Table, given_in, nearest, table_from, table_with
+from exu_press.schema.checks import Table, given_in, nearest, refuse_unknown, table_from, table_with
 
 __all__ = ["Joints", "joints_of", "keys_given"]
 
@@ -222,11 +222,7 @@ def _joint(
     known = ("kind", "clearance", "radius", *LAW_TABLES, "worn")
     if own_class is not None:
         known = ("kind", *keys_used(kind, None))
-    for unknown in [key for key in given if key not in known]:
-        raise InputError(
-            f"{place}.{unknown} = {given[unknown]!r}: unknown key{nearest(unknown, known)}; "
-            f"allowed are {', '.join(known)}"
-        )
+    refuse_unknown(place, given, known)
     own = {law: _law(place, law, given.get(law), laws[law]) for law in LAW_TABLES}
     film = own["film"]
     assert isinstance(film, Film)

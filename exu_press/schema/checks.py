@@ -26,6 +26,7 @@ __all__ = [
     "key",
     "nearest",
     "plain",
+    "refuse_unknown",
     "table_from",
     "table_with",
 ]
@@ -283,17 +284,28 @@ def table_from(table: type[T], name: str, data: Any) -> T:
         raise InputError(f"{name} = {data!r:.200}: allowed is a table of keys")
     known = [field.name for field in dataclasses.fields(table)]  # type: ignore[arg-type]
     for given in data:
-        if given not in known:
-            path = f"{name}.{given}" if name else given
-            raise InputError(
-                f"{path} = {data[given]!r:.200}: "
-                + (
-                    f"is {RENAMED.get(path) or RENAMED[given]} now"
-                    if {path, given} & RENAMED.keys()
-                    else f"unknown key{nearest(given, known)}; allowed are {', '.join(known)}"
-                )
-            )
+        path = f"{name}.{given}" if name else given
+        if given not in known and {path, given} & RENAMED.keys():
+            now = RENAMED.get(path) or RENAMED[given]
+            raise InputError(f"{path} = {data[given]!r:.200}: is {now} now")
+    refuse_unknown(name, data, known)
     return table(**data)
+
+
+def refuse_unknown(where: str, given: Mapping[str, Any], known: Collection[str]) -> None:
+    """Raise InputError for the first key of a table that is not known.
+
+    Args:
+        where: the table's name, "" at the top.
+        given: the table.
+        known: its keys.
+    """
+    for name, value in given.items():
+        if name not in known:
+            raise InputError(
+                f"{f'{where}.{name}' if where else name} = {value!r:.200}: unknown key"
+                f"{nearest(name, known)}; allowed are {', '.join(known)}"
+            )
 
 
 def table_with(table: type[T], name: str, data: Any, usual: Mapping[str, Any]) -> T:

@@ -1,7 +1,9 @@
-"""Exudyn's own solver on a system of a test's, without files and without a word; its bodies."""
+"""Solvers on a system of a test's, without files and without a word; its bodies."""
 
 import exudyn as exu
 from exudyn.itemInterface import NodeRigidBody2D, ObjectRigidBody2D, SensorNode
+
+from exu_press import SolverStatus, solve_dynamic
 
 
 def solve(mbs, settings):
@@ -23,6 +25,18 @@ def fixed_steps(duration, step):
     settings.timeIntegration.endTime = duration
     settings.timeIntegration.generalizedAlpha.spectralRadius = 0.9
     return settings
+
+
+def completed(mbs, end, steps=200, tolerance=1e-4):
+    """Solve an assembled system to a tolerance, up to its end."""
+    settings = exu.SimulationSettings()
+    settings.timeIntegration.endTime = end
+    settings.timeIntegration.numberOfSteps = steps
+    settings.timeIntegration.verboseMode = 0
+    settings.solution.file.write = False
+    settings.solution.sensors.writePeriod = 0.0
+    outcome = solve_dynamic(mbs, settings, tolerance=tolerance)
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
 
 
 def planar_body(mbs, mass, inertia, place=(0.0, 0.0, 0.0), velocity=(0.0, 0.0, 0.0), **node):

@@ -14,9 +14,8 @@ from exudyn.itemInterface import (
 )
 from hypothesis import given
 from hypothesis import strategies as st
-from solving import planar_body, recorded
+from solving import completed, planar_body, recorded
 
-from exu_press import SolverStatus, solve_dynamic
 from exu_press.joints.guide_friction import (
     GuideFriction,
     HeldSide,
@@ -60,14 +59,7 @@ def block(slope, law, speed=0.0):
 
 
 def speeds(mbs, motion, along, end=0.5, tolerance=1e-4):
-    settings = exu.SimulationSettings()
-    settings.timeIntegration.endTime = end
-    settings.timeIntegration.numberOfSteps = 100
-    settings.timeIntegration.verboseMode = 0
-    settings.solution.file.write = False
-    settings.solution.sensors.writePeriod = 0.0
-    outcome = solve_dynamic(mbs, settings, tolerance=tolerance)
-    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
+    completed(mbs, end, 100, tolerance)
     data = np.asarray(mbs.GetSensorStoredData(motion))
     return data[:, 0], data[:, 1:3] @ along
 

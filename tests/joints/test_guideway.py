@@ -12,9 +12,9 @@ from exudyn.itemInterface import (
     NodeRigidBody2D,
     ObjectRigidBody2D,
 )
-from solving import planar_body, recorded
+from solving import completed, planar_body, recorded
 
-from exu_press import InputError, SolverStatus, solve_dynamic
+from exu_press import InputError
 from exu_press.joints import add_guideway_contact, add_joint_sensor
 from exu_press.joints.ends import BodyEnd
 from exu_press.joints.guideway import GuidewayContact, SpatialGuidewayContact
@@ -56,23 +56,12 @@ def block(slope, friction, *, moment=0.0, half_width=0.0, start=(0.0, 0.0, 0.0),
     return container, mbs, sensors, motion, along
 
 
-def run(mbs, end=0.5):
-    settings = exu.SimulationSettings()
-    settings.timeIntegration.endTime = end
-    settings.timeIntegration.numberOfSteps = 200
-    settings.timeIntegration.verboseMode = 0
-    settings.solution.file.write = False
-    settings.solution.sensors.writePeriod = 0.0
-    outcome = solve_dynamic(mbs, settings, tolerance=1e-4)
-    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
-
-
 @pytest.mark.parametrize("degrees", [20.0, 45.0])
 def test_a_block_slides_down_a_slope_as_coulomb_says(degrees):
     """a = g (sin - mu cos) from rest, once it lies on its way."""
     slope, mu = math.radians(degrees), 0.2
     _container, mbs, sensors, motion, along = block(slope, coulomb(mu, 1e-4))
-    run(mbs)
+    completed(mbs, 0.5)
     data = np.asarray(mbs.GetSensorStoredData(motion))
     speed = data[:, 1:3] @ np.array(along)
     begin, end = np.searchsorted(data[:, 0], [0.2, 0.5 - 1e-9])
@@ -88,7 +77,7 @@ def test_below_the_angle_of_friction_it_stays_but_for_a_creep():
     """Coulomb's smooth law creeps at v_r artanh(tan / mu)."""
     slope, mu = math.radians(5.0), 0.2
     _container, mbs, _, motion, along = block(slope, coulomb(mu, 1e-4))
-    run(mbs)
+    completed(mbs, 0.5)
     speed = np.asarray(mbs.GetSensorStoredData(motion))[-1, 1:3] @ np.array(along)
     assert speed == pytest.approx(1e-4 * math.atanh(math.tan(slope) / mu), rel=1e-3)
 
@@ -97,7 +86,7 @@ def test_with_bristles_it_stays():
     _container, mbs, _, motion, along = block(
         math.radians(5.0), LuGre(0.3, 0.2, 1e5, 300.0, 0.0, 0.01, 2.0)
     )
-    run(mbs, end=1.0)
+    completed(mbs, end=1.0)
     data = np.asarray(mbs.GetSensorStoredData(motion))
     late = data[:, 0] > 0.5
     speed = data[late, 1:3] @ np.array(along)
@@ -107,7 +96,7 @@ def test_with_bristles_it_stays():
 
 def test_a_sliding_block_comes_to_rest_after_v_over_mu_g():
     _container, mbs, _, motion, _ = block(0.0, coulomb(0.3, 1e-4), speed=0.5)
-    run(mbs)
+    completed(mbs, 0.5)
     data = np.asarray(mbs.GetSensorStoredData(motion))
     rest = data[np.argmax(data[:, 1] < 1e-3), 0]
     assert rest == pytest.approx(0.5 / (0.3 * GRAVITY), rel=2e-2)  # it falls on its way first
@@ -119,7 +108,7 @@ def test_a_moment_is_borne_by_opposite_corners():
     moment = 300.0
     _container, mbs, sensors, _, _ = block(0.0, no_friction(), moment=moment)
     mbs.SetLoadParameter(0, "loadVector", [0.0, 0.0, 0.0])
-    run(mbs, end=1.0)
+    completed(mbs, end=1.0)
     ends = [np.asarray(mbs.GetSensorStoredData(s))[-1] for s in sensors]
     force = moment / LENGTH
     assert ends[0][4] == pytest.approx(force, rel=1e-3)
@@ -131,7 +120,7 @@ def test_friction_beside_the_middle_turns_the_block():
     """Both ends' friction, mu m g, acts half a width below: N_1 - N_2 bears mu m g w."""
     mu, half_width = 0.25, 0.04
     _container, mbs, sensors, _, _ = block(0.0, coulomb(mu, 1e-4), half_width=half_width, speed=3.0)
-    run(mbs)
+    completed(mbs, 0.5)
     rear, front = (np.asarray(mbs.GetSensorStoredData(s))[-1, 4] for s in sensors)
     weight = MASS * GRAVITY
     assert rear + front == pytest.approx(weight, rel=1e-4)

@@ -8,9 +8,9 @@ import pytest
 from exudyn.itemInterface import LoadForceVector, LoadTorqueVector, MarkerBodyRigid
 from independent.pad_pressure import end_forces
 from scipy.integrate import solve_ivp
-from solving import planar_body, recorded
+from solving import completed, planar_body, recorded
 
-from exu_press import InputError, SolverStatus, solve_dynamic
+from exu_press import InputError
 from exu_press.joints import add_guideway_contact, add_guideway_film, add_joint_sensor
 from exu_press.joints.ends import BodyEnd
 from exu_press.joints.guideway_film import GuidewayFilm
@@ -128,17 +128,6 @@ def block(side=SIDE, moment=MOMENT, speed=SPEED, viscosity=VISCOSITY):
     return container, mbs, motion, sensors
 
 
-def run(mbs, end, tolerance=1e-4):
-    settings = exu.SimulationSettings()
-    settings.timeIntegration.endTime = end
-    settings.timeIntegration.numberOfSteps = 200
-    settings.timeIntegration.verboseMode = 0
-    settings.solution.file.write = False
-    settings.solution.sensors.writePeriod = 0.0
-    outcome = solve_dynamic(mbs, settings, tolerance=tolerance)
-    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
-
-
 def reduced(end):
     """Return the block's motion from Reynolds' equation in two dimensions, without our law.
 
@@ -177,7 +166,7 @@ def test_a_sliding_block_pressed_aslant_moves_as_its_own_model_says():
     """Squeeze, wedge and shear at once, with cavitation."""
     end = 0.02
     _container, mbs, (places, speeds), _ = block()
-    run(mbs, end)
+    completed(mbs, end)
     data, rates = (np.asarray(mbs.GetSensorStoredData(s)) for s in (places, speeds))
     expected = reduced(end)(data[:, 0])
     assert np.abs(data[:, 2]).max() > 0.25 * CLEARANCE
@@ -192,7 +181,7 @@ def test_a_sliding_block_pressed_aslant_moves_as_its_own_model_says():
 def test_the_film_gives_way_to_contact():
     """In the end contacts bear the force, after the film has borne it alone."""
     _container, mbs, _, sensors = block(side=5e3, moment=0.0, speed=0.0, viscosity=5e-4)
-    run(mbs, 6.0)
+    completed(mbs, 6.0)
     ends = [np.asarray(mbs.GetSensorStoredData(s)) for s in sensors]
     borne = [each[-1, 4] for each in ends]
     assert sum(borne[:2]) == pytest.approx(-5e3, rel=1e-3)
@@ -206,7 +195,7 @@ def test_the_film_gives_way_to_contact():
 def test_it_sinks_as_the_closed_form_of_a_squeeze_says():
     """1/h^2 grows by 2 F / (mu w^3 L f) of the side that closes; f is the series of torsion."""
     _container, mbs, (places, _), _ = block(side=2e4, moment=0.0, speed=0.0)
-    run(mbs, 0.03)
+    completed(mbs, 0.03)
     data = np.asarray(mbs.GetSensorStoredData(places))
     begin, end = np.searchsorted(data[:, 0], [0.005, 0.03 - 1e-12])
     inverse = 1.0 / (CLEARANCE - data[:, 2]) ** 2

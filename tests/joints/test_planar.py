@@ -1,11 +1,12 @@
 """A clearance joint between two planar bodies: balance, power, and its Jacobian."""
 
-import functools
 import math
 import random
+from functools import partial
 
 import numpy as np
 import pytest
+from differences import assert_partials, forces
 
 from exu_press.joints.interface import DryInterface, FilmInterface
 from exu_press.joints.joint import GROUND
@@ -49,7 +50,7 @@ DRY = {
 LAWS = {"pinkus": pinkus(), "pi_film": pi_film(), "short": short(0.7), "finite": finite(0.7)}
 FILMS = {
     **{
-        name: functools.partial(lambda law: [FilmInterface(law, SCALE, CLEARANCE)], law)
+        name: partial(lambda law: [FilmInterface(law, SCALE, CLEARANCE)], law)
         for name, law in LAWS.items()
     },
     "mixed": mixed,
@@ -113,12 +114,6 @@ def centres(joint, q):
         along, across = end.point
         found.append(place + along * unit(angle) + across * turned(unit(angle)))
     return found
-
-
-def forces(joint, q, q_t):
-    out = [0.0] * 9
-    joint.add_force([*q, *GROUND], [*q_t, *GROUND], out)
-    return np.array(out[:6])
 
 
 @BOTH
@@ -194,20 +189,7 @@ def test_jacobian_against_differences(interfaces, factors):
             continue  # held at zero: no tension
         acting += 1
         given = np.array(joint.jacobian(by_q, by_q_t)).reshape(6, 6)
-        by_place, by_speed = np.empty((6, 6)), np.empty((6, 6))
-        for i in range(6):
-            for target, out, width in ((q, by_place, 1e-9), (q_t, by_speed, 1e-7)):
-                kept = target[i]
-                target[i] = kept + width
-                high = forces(joint, q, q_t)
-                target[i] = kept - width
-                low = forces(joint, q, q_t)
-                target[i] = kept
-                out[:, i] = (high - low) / (2 * width)
-        expected = -(by_q * by_place + by_q_t * by_speed)
-        size = np.abs(by_q * by_place) + np.abs(by_q_t * by_speed)
-        scale = np.sqrt(size.max(axis=1, keepdims=True) * size.max(axis=0, keepdims=True))
-        assert np.all(np.abs(given - expected) < 1e-4 * scale), (given - expected) / scale
+        assert_partials(given, partial(forces, joint, q, q_t), (q, q_t), factors, 1e-4)
     assert acting > 5
 
 

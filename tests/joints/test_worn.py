@@ -2,9 +2,11 @@
 
 import math
 import random
+from functools import partial
 
 import numpy as np
 import pytest
+from differences import assert_partials, forces
 
 from exu_press.joints.interface import DryInterface, FilmInterface
 from exu_press.joints.joint import GROUND
@@ -98,12 +100,6 @@ def state_of(joint, rng, name):
     return [float(v) for v in q], [float(v) for v in q_t], angle
 
 
-def forces(joint, q, q_t):
-    out = [0.0] * 9
-    joint.add_force([*q, *GROUND], [*q_t, *GROUND], out)
-    return np.array(out[:6])
-
-
 def joints(name, seed, count):
     rng = random.Random(seed)
     for _ in range(count):
@@ -183,20 +179,7 @@ def test_jacobian_against_differences(name, factors):
             continue
         acting += 1
         given = np.array(joint.jacobian(by_q, by_q_t)).reshape(6, 6)
-        by_place, by_speed = np.empty((6, 6)), np.empty((6, 6))
-        for i in range(6):
-            for target, out, width in ((q, by_place, 1e-9), (q_t, by_speed, 1e-7)):
-                kept = target[i]
-                target[i] = kept + width
-                high = forces(joint, q, q_t)
-                target[i] = kept - width
-                low = forces(joint, q, q_t)
-                target[i] = kept
-                out[:, i] = (high - low) / (2 * width)
-        expected = -(by_q * by_place + by_q_t * by_speed)
-        size = np.abs(by_q * by_place) + np.abs(by_q_t * by_speed)
-        scale = np.sqrt(size.max(axis=1, keepdims=True) * size.max(axis=0, keepdims=True))
-        assert np.all(np.abs(given - expected) < 2e-4 * scale), (given - expected) / scale
+        assert_partials(given, partial(forces, joint, q, q_t), (q, q_t), factors, 2e-4)
     assert acting > 5
 
 

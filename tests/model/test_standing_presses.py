@@ -5,55 +5,16 @@ import re
 
 import numpy as np
 import pytest
+from schedules import SCHEDULE, scheduled
 
 from exu_press import InputError, Scene, simulate
 from exu_press.studies.attractor.orbit import Orbit
 
-PRESS = {"mechanism": "eccentric_press", "speed_rpm": 60.0, "joints": {}}
-DRIVE = {
-    "rated_torque": 400.0,
-    "inertia": 300.0,
-    "driven_inertia": 2.0,
-    "begins": "standing",
-    "clutch_torque": 3000.0,
-    "clutch_on": [0.03, 0.06],
-    "clutch_off": [0.0, 0.02],
-    "brake_torque": 1500.0,
-    "brake_on": [0.02, 0.05],
-    "brake_off": [0.0, 0.02],
-    "start_time": [0.02],
-    "stop_time": [0.2],
-}
+DRIVE = {**SCHEDULE, "driven_inertia": 2.0}
 
 
 def press(revolutions=0.4, **changes):
-    drive = {name: value for name, value in {**DRIVE, **changes}.items() if value is not None}
-    return Scene(**PRESS, revolutions=revolutions, drive=drive)
-
-
-def test_a_motor_starts_a_free_rotor_from_rest_as_kloss_says():
-    """I dw/dt = T(s): s^2 / 2 + s_b^2 ln s falls by 2 T_b s_b t / (I w_0), from s = 1 on."""
-    light = {"rod_mass": 1e-6, "slider_mass": 1e-6, "rod_inertia": 1e-8, "crank_inertia": 1.0}
-    result = simulate(
-        Scene(
-            mechanism="slider_crank",
-            joints={},
-            speed_rpm=300.0,
-            revolutions=5.0,
-            gravity=0.0,
-            slider_crank=light,
-            drive={"rated_torque": 100.0, "slip": 0.05, "inertia": 9.0, "begins": "rest"},
-            solver={"tolerance": 1e-5},
-        )
-    )
-    assert result.completed and abs(result["crank_speed"][0]) < 1e-50
-    fastest, breakdown = 10 * math.pi, 0.05 * (2.5 + math.sqrt(2.5**2 - 1.0))
-    slip = 1.0 - result["crank_speed"] / fastest
-    gone = slip**2 / 2 + breakdown**2 * np.log(slip)
-    expected = gone[0] - 2 * 250.0 * breakdown * result.time / (10.0 * fastest)
-    assert slip[-1] < 0.8
-    assert np.abs(gone - expected).max() < 1e-4 * np.ptp(gone)
-    assert result.quantity("energy.residual").value < 1e-4
+    return scheduled(revolutions, **{**DRIVE, **changes})
 
 
 @pytest.mark.parametrize("angle", [60.0, 200.0])
@@ -130,9 +91,7 @@ def test_a_run_goes_on_behind_its_stop():
 
 def test_a_clutch_that_slips_for_good_is_a_stall_of_the_clutch():
     load = {"hold": {"kind": "table", "height": [0.0, 0.07], "force": [3e5, 3e5]}}
-    result = simulate(
-        Scene(**PRESS, revolutions=1.0, drive={**DRIVE, "stop_time": [0.9]}, load=load)
-    )
+    result = simulate(press(1.0, stop_time=[0.9]).replace("load", load))
     assert result.info["status"] == "stalled"
     told = re.search(
         r"want (\S+) N m there, and the clutch, which slips, has 3000 N m", result.info["reason"]
@@ -145,8 +104,8 @@ def test_what_friction_holds_is_told():
     guide = {"friction": "lugre", "mu_static": 0.9, "mu_kinetic": 0.9}
     motor = {"rated_torque": 1.0, "inertia": 1.0, "begins": "rest"}
     side = {"side": {"kind": "table", "time": [0, 1], "force": [2e5, 2e5], "direction": [1, 0]}}
-    result = simulate(Scene(**PRESS, guide=guide, drive=motor, gravity=0.0, load=side,
-                            start_angle_deg=90.0))  # fmt: skip
+    keys = {"mechanism": "eccentric_press", "speed_rpm": 60.0, "joints": {}, "gravity": 0.0}
+    result = simulate(Scene(**keys, guide=guide, drive=motor, load=side, start_angle_deg=90.0))
     assert result.info["status"] == "stalled"
     assert re.search(r"friction holds at least \S+ N m; try", result.info["reason"])
     assert np.ptp(result["crank_angle"]) < 1e-3  # and it does not creep

@@ -4,11 +4,11 @@ import math
 
 import numpy as np
 import pytest
+from schedules import LIGHT, OneCoordinate, keys, kloss
 from scipy.integrate import solve_ivp
 
 from exu_press import Scene, simulate
 
-ROTORS = {"rod_mass": 1e-6, "slider_mass": 1e-6, "rod_inertia": 1e-8, "crank_inertia": 4.0}
 FREE = {
     "rated_torque": 1e-3,
     "inertia": 20.0,
@@ -26,15 +26,14 @@ FREE = {
 
 def rotors(**changes):
     """Return two rotors: a flywheel of 20 kg m^2 and a crank of 4 kg m^2, without weight."""
-    drive = {name: value for name, value in {**FREE, **changes}.items() if value is not None}
     return Scene(
         mechanism="slider_crank",
         joints={},
         speed_rpm=60.0,
         revolutions=1.3,
         gravity=0.0,
-        slider_crank=ROTORS,
-        drive=drive,
+        slider_crank={**LIGHT, "crank_inertia": 4.0},
+        drive=keys(**{**FREE, **changes}),
     )
 
 
@@ -100,32 +99,8 @@ def reduced(scene, end):
     Of two coordinates, from the closed form of the slider-crank, with dry friction that jumps: each
     piece is integrated by LSODA until something slips or sticks.
     """
-    size, motor = scene.slider_crank, scene.drive
-    r, rod, m, big_m = size.crank_radius, size.rod_length, size.rod_mass, size.slider_mass
-    wheel = motor.inertia
-    free, ratio = scene.angular_speed, 2.5
-    breakdown = motor.slip * (ratio + math.sqrt(ratio**2 - 1.0))
-
-    def terms(a):
-        sine = r * math.sin(a) / rod
-        cosine = math.sqrt(1 - sine**2)
-        swing = r * math.cos(a) / (rod * cosine)
-        down = -r * math.sin(a) + rod * sine * swing
-        middle = -r * math.cos(a) / 2, (down - r * math.sin(a)) / 2
-        inertia = size.crank_inertia + motor.driven_inertia + size.rod_inertia * swing**2
-        inertia += m * (middle[0] ** 2 + middle[1] ** 2) + big_m * down**2
-        height = r * math.cos(a) - rod * cosine
-        return inertia, scene.gravity * (big_m * height + m * (r * math.cos(a) + height) / 2)
-
-    def crank(a, speed):
-        """Return the inertia, and the torque that the motion itself has."""
-        step = 1e-5
-        (j_2, v_2), (j_1, v_1), (j, _) = terms(a + step), terms(a - step), terms(a)
-        return j, -(v_2 - v_1) / (2 * step) - 0.5 * (j_2 - j_1) / (2 * step) * speed**2
-
-    def motor_torque(speed):
-        slip = 1.0 - speed / free
-        return 2.0 * ratio * motor.rated_torque * slip * breakdown / (slip**2 + breakdown**2)
+    motor, wheel, free = scene.drive, scene.drive.inertia, scene.angular_speed
+    crank = OneCoordinate(scene, motor.driven_inertia).crank
 
     def ramp(pair, since):
         return min(1.0, max(0.0, (since - pair[0]) / (pair[1] - pair[0])))
@@ -146,7 +121,7 @@ def reduced(scene, end):
         """`clutched`, `braked`: the signs with which they slip, 0 where they stick."""
         a, speed, turning = state
         j, own = crank(a, speed)
-        drive = motor_torque(turning)
+        drive = kloss(motor, turning, free)
         if braked == 0:
             through = clutched * clutch(t)
             return [0.0, 0.0, (drive - through) / wheel]
@@ -165,7 +140,7 @@ def reduced(scene, end):
     def through(t, state):
         """Return the torque of a clutch that sticks."""
         j, own = crank(state[0], state[1])
-        return (j * motor_torque(state[2]) - wheel * (own - brake(t))) / (j + wheel)
+        return (j * kloss(motor, state[2], free) - wheel * (own - brake(t))) / (j + wheel)
 
     def slips(t, state):
         return clutch(t) - abs(through(t, state))

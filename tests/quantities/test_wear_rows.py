@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from heavy_wheel import HEAVY_WHEEL
 
 from exu_press import InputError, Scene, simulate
 from exu_press.quantities.wear import guideway_depths, sliding_of, wear_depths
@@ -87,30 +88,11 @@ def test_a_coefficient_of_a_thousand_times_steel_is_warned_of(result):
     assert any("wear.joints.crank_pin.coefficient" in words for words in there)
 
 
-DRAWN = {
-    "name": "weight",
-    "crank": "wheel",
-    "output": {"body": "slide", "direction": [1.0, 0.0]},
-    "bodies": {
-        "wheel": {"mass": 500.0, "inertia": 50.0, "centre_of_mass": [0.0, 0.0]},
-        "rod": {"mass": 1e-3, "inertia": 1e-5, "centre_of_mass": [0.3, 0.0]},
-        "slide": {"mass": 1e-3, "inertia": 1e-5, "centre_of_mass": [0.5, 0.0]},
-    },
-    "joints": {
-        "shaft": {"at": [0.0, 0.0], "journal": "wheel", "bearing": "frame"},
-        "pin": {"at": [0.1, 0.0], "journal": "wheel", "bearing": "rod"},
-        "wrist": {"at": [0.5, 0.0], "journal": "rod", "bearing": "slide"},
-    },
-    "guides": {"slide": {"direction": [1.0, 0.0]}},
-}
-"""A heavy wheel on its shaft; what hangs on it weighs nothing beside."""
-
-
 @pytest.fixture(scope="module")
 def weight():
     return simulate(
         Scene(
-            mechanism=DRAWN,
+            mechanism=HEAVY_WHEEL,
             joints={"shaft": {"kind": "dry", "clearance": 5e-5, "radius": 0.05}},
             contact={"length": 0.1},
             friction={"law": "coulomb", "mu_kinetic": 0.02},

@@ -1,28 +1,16 @@
 """[drive] with clutch, brake and schedule: what is refused, and what a scene keeps."""
 
 import pytest
+from schedules import SCHEDULE, scheduled
 
 from exu_press import InputError, Scene
 from exu_press.scene.warnings import scene_warnings
 
-DRIVE = {
-    "rated_torque": 400.0,
-    "inertia": 300.0,
-    "begins": "standing",
-    "clutch_torque": 3000.0,
-    "clutch_on": [0.03, 0.06],
-    "clutch_off": [0.0, 0.02],
-    "brake_torque": 1500.0,
-    "brake_on": [0.02, 0.05],
-    "brake_off": [0.0, 0.03],
-    "start_time": [0.05],
-    "stop_time": [0.6],
-}
+DRIVE = {**SCHEDULE, "brake_off": [0.0, 0.03], "start_time": [0.05], "stop_time": [0.6]}
 
 
 def scene(**changes):
-    drive = {name: value for name, value in {**DRIVE, **changes}.items() if value is not None}
-    return Scene(mechanism="eccentric_press", speed_rpm=60.0, joints={}, drive=drive)
+    return scheduled(2.0, **{**DRIVE, **changes})
 
 
 def test_a_scene_comes_back_as_it_was(tmp_path):

@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+from heavy_wheel import HEAVY_WHEEL
 
 from exu_press import InputError, Scene
 from exu_press.cli import main
@@ -12,28 +13,12 @@ from exu_press.studies.wear.run import run_worn
 from exu_press.studies.wear.shape import ANGLES, Depths, worn_scene
 
 WEAR = {"coefficient": 1e-4, "hardness": 2e9, "length": 0.1}
-DRAWN = {
-    "name": "weight",
-    "crank": "wheel",
-    "output": {"body": "slide", "direction": [1.0, 0.0]},
-    "bodies": {
-        "wheel": {"mass": 500.0, "inertia": 50.0, "centre_of_mass": [0.0, 0.0]},
-        "rod": {"mass": 1e-3, "inertia": 1e-5, "centre_of_mass": [0.3, 0.0]},
-        "slide": {"mass": 1e-3, "inertia": 1e-5, "centre_of_mass": [0.5, 0.0]},
-    },
-    "joints": {
-        "shaft": {"at": [0.0, 0.0], "journal": "wheel", "bearing": "frame"},
-        "pin": {"at": [0.1, 0.0], "journal": "wheel", "bearing": "rod"},
-        "wrist": {"at": [0.5, 0.0], "journal": "rod", "bearing": "slide"},
-    },
-    "guides": {"slide": {"direction": [1.0, 0.0]}},
-}
 STROKES = 400
 
 
 def scene(**keys):
     given = {
-        "mechanism": DRAWN,
+        "mechanism": HEAVY_WHEEL,
         "joints": {"shaft": {"kind": "dry", "clearance": 5e-5, "radius": 0.05}},
         "contact": {"length": 0.1},
         "friction": {"law": "coulomb", "mu_kinetic": 0.02},

@@ -15,7 +15,7 @@ from exu_press.plots.headed import headed_figure
 from exu_press.plots.save import save_figures
 from exu_press.plots.style import COLOURS, GREY, SHADE, colour_of, styled
 from exu_press.studies.precision import Report, Row
-from exu_press.studies.precision.own import FIXED, TOLERANCE
+from exu_press.studies.precision.measured import FIXED, TOLERANCE
 from exu_press.studies.precision.rows import series_of
 from exu_press.studies.precision.stated import Stated
 from exu_press.studies.precision.table import horizon_words

@@ -6,7 +6,7 @@ from typing import Any
 
 from exu_press.mechanism.holding import holding_of
 from exu_press.quantities.energy import energy_residual
-from exu_press.quantities.oil_warnings import oil_warnings
+from exu_press.quantities.oil import oil_warnings
 from exu_press.quantities.reading import Reading
 from exu_press.quantities.start_stop import still_turns
 from exu_press.result import Result

@@ -11,7 +11,7 @@ from exu_press.plots.words import describe
 from exu_press.quantities.table import comparison_cells
 from exu_press.report.html import page, picture, stills, table, warnings
 from exu_press.report.run import live_part, scene_parts, warnings_of
-from exu_press.report.span import ALL, Span
+from exu_press.report.shown import ALL, Span
 from exu_press.result import Result
 from exu_press.schema.stored import from_json, shown
 from exu_press.studies.compare import different_keys

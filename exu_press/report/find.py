@@ -5,7 +5,7 @@ from importlib import import_module
 from pathlib import Path
 
 from exu_press.errors import InputError
-from exu_press.report.span import ALL, Span
+from exu_press.report.shown import ALL, Span
 from exu_press.result import Result
 from exu_press.result.unfinished import unfinished_of
 

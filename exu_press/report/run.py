@@ -10,14 +10,17 @@ from matplotlib.figure import Figure
 
 from exu_press.page import Live, has_library
 from exu_press.plots import save_pictures
-from exu_press.plots.words import describe
+from exu_press.plots.words import describe, joint_in_words
 from exu_press.quantities import Quantity, value_of
+from exu_press.quantities.catalogue import CATALOGUE
 from exu_press.quantities.cost import COSTS
 from exu_press.quantities.energy import BALANCE, has_balance
-from exu_press.quantities.table import comparison_cells, shown_value
+from exu_press.quantities.kind import LOAD
+from exu_press.quantities.quantity import Place
+from exu_press.quantities.table import MOST_PLACES, comparison_cells, shown_value
+from exu_press.quantities.value import values_of
 from exu_press.report.html import details, page, paragraph, picture, stills, table, warnings
-from exu_press.report.joints import joint_table
-from exu_press.report.span import ALL, Span
+from exu_press.report.shown import ALL, Span
 from exu_press.result import Result
 from exu_press.scene import Scene
 from exu_press.scene.assumptions import engineering_values, keys_of, used_assumptions
@@ -25,7 +28,28 @@ from exu_press.view import Animation, moment, save_picture
 from exu_press.view.animation import SIZE
 from exu_press.view.instants import interval
 
-__all__ = ["changed_keys", "live_part", "run_report", "scene_parts", "warnings_of"]
+__all__ = ["changed_keys", "joint_table", "live_part", "run_report", "scene_parts", "warnings_of"]
+
+
+def joint_table(result: Result) -> str:
+    """Return a table of all joints, those with the largest forces first; nothing where few are."""
+    if len(result.clearance_joints) <= MOST_PLACES:
+        return ""
+    values, joints = values_of(result), result.scene.joints
+    shown = [q for q in CATALOGUE if q.place is Place.JOINT and q.title]
+    forces = next(q for q in shown if q.kind is LOAD)
+    found = [name for name in joints if values[forces.at(name)].value is not None]
+    rows = []
+    for name in sorted(found, key=lambda name: -(values[forces.at(name)].value or 0.0)):
+        joint = joints[name]
+        clearance = f"{joint.clearance * 1e6:g}" if joint.clearance else "-"
+        texts = [
+            shown_value(quantity, values[quantity.at(name)]) if quantity.at(name) in values else "-"
+            for quantity in shown
+        ]
+        rows.append([joint_in_words(name), joint.kind, clearance, *texts])
+    return table(("joint", "kind", "clearance, um", *(q.head for q in shown)), rows, "All joints")
+
 
 CAPTIONS = {
     "slider": "Slider motion against the ideal mechanism: position, velocity, acceleration.",

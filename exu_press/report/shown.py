@@ -8,7 +8,13 @@ from pathlib import Path
 from exu_press.errors import InputError
 from exu_press.files.output_directory import check_writable, replacing
 
-__all__ = ["Page", "check_page", "open_file", "write_page"]
+__all__ = ["ALL", "Page", "Span", "check_page", "open_file", "write_page"]
+
+Span = tuple[float | None, float | None]
+"""Begin and end, s; None: those of the record."""
+
+ALL: Span = (None, None)
+
 
 CELL = 900
 """Height of a page in a notebook's cell, pixels."""

@@ -10,7 +10,7 @@ import numpy as np
 
 from exu_press.numerics.arrays import Array
 from exu_press.scene import Scene
-from exu_press.studies.precision.trajectory import Trajectory
+from exu_press.studies.precision.errors import Trajectory
 from precision.reduced import ScalarFunction, numbers_of, rate_of, start_of
 
 __all__ = ["CompiledModel", "compile_model", "has_numba"]

@@ -16,8 +16,8 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from exu_press.numerics.arrays import Array
+from exu_press.studies.precision.errors import Trajectory
 from exu_press.studies.precision.measured import Attempt, Measured
-from exu_press.studies.precision.trajectory import Trajectory
 from precision.compiled import CompiledModel, has_numba
 
 __all__ = ["PEERS", "Peer", "PeerError", "installed", "left_out", "peer_attempts"]

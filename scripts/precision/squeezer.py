@@ -31,10 +31,8 @@ from exu_press.integrate import SolverStatus, solve_dynamic
 from exu_press.mechanism import Body, Motion
 from exu_press.model.rigid_body import RigidBody
 from exu_press.numerics.arrays import Array
-from exu_press.studies.precision.errors import Errors
-from exu_press.studies.precision.measured import Attempt, Measured
-from exu_press.studies.precision.own import FIXED, TOLERANCE
-from exu_press.studies.precision.trajectory import Trajectory
+from exu_press.studies.precision.errors import Errors, Trajectory
+from exu_press.studies.precision.measured import FIXED, TOLERANCE, Attempt, Measured
 
 __all__ = ["DURATION", "END", "END_RATE", "squeezer_attempts", "squeezer_errors"]
 

@@ -15,8 +15,15 @@ from exu_press.result import record
 from exu_press.scene import Scene
 from exu_press.solving import settings_for
 from exu_press.studies.precision.cases import Amount, Case
-from exu_press.studies.precision.measured import Attempt, Measured, measured_of
-from exu_press.studies.precision.own import FIXED, TOLERANCE, attempt, run
+from exu_press.studies.precision.measured import (
+    FIXED,
+    TOLERANCE,
+    Attempt,
+    Measured,
+    attempt,
+    measured_of,
+    run,
+)
 from exu_press.studies.precision.stated import Stated
 
 __all__ = ["Modes", "newton_modes", "spectral_radii"]

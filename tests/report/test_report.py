@@ -13,7 +13,7 @@ from exu_press.errors import InputError
 from exu_press.plots.words import joint_in_words
 from exu_press.quantities.warnings import run_warnings
 from exu_press.report import Kind, find_output
-from exu_press.report.joints import joint_table
+from exu_press.report.run import joint_table
 from exu_press.result import Result
 from exu_press.scene import Scene
 from exu_press.verification.simulate import simulate

@@ -4,9 +4,9 @@ from dataclasses import dataclass, replace
 from typing import Self
 
 from exu_press.scene import Scene
-from exu_press.studies.precision import own, references
+from exu_press.studies.precision import references
 from exu_press.studies.precision.errors import Errors, Late, errors_of, late_of
-from exu_press.studies.precision.measured import Attempt, Measured
+from exu_press.studies.precision.measured import Attempt, Measured, fixed_steps, tolerances
 from exu_press.studies.precision.references import Reference
 from exu_press.studies.precision.stated import Stated, stated_errors
 
@@ -115,7 +115,7 @@ class Case:
     def attempts(self, amount: Amount) -> list[Attempt]:
         """Return its runs."""
         scene = self._scene
-        return own.fixed_steps(scene, self.steps) + own.tolerances(scene, self.tolerances)
+        return fixed_steps(scene, self.steps) + tolerances(scene, self.tolerances)
 
     def errors(
         self, run: Measured, reference: Reference, horizon: float

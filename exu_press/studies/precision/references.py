@@ -10,9 +10,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from exu_press.scene import Scene, mechanism_of
-from exu_press.studies.precision.errors import INSTANTS_APART, Errors, errors_of, instants_until
-from exu_press.studies.precision.own import moved, run_scene
-from exu_press.studies.precision.trajectory import Trajectory
+from exu_press.studies.precision.errors import (
+    INSTANTS_APART,
+    Errors,
+    Trajectory,
+    errors_of,
+    instants_until,
+)
+from exu_press.studies.precision.measured import moved, run_scene
 from exu_press.verification.growth import Growth, growth
 
 __all__ = ["Reference", "closed_form", "divergence", "from_own"]

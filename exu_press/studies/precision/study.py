@@ -6,10 +6,9 @@ from dataclasses import asdict
 from typing import Any
 
 from exu_press.studies.precision.cases import FULL, QUICK, Amount, Case
-from exu_press.studies.precision.machine import machine
 from exu_press.studies.precision.measured import LONG_RUN, timed
 from exu_press.studies.precision.references import Reference
-from exu_press.studies.precision.report import Report
+from exu_press.studies.precision.report import Report, machine
 from exu_press.studies.precision.rows import ERRORS, Row, orders_of, row_of
 from exu_press.studies.precision.stated import Stated
 from exu_press.terminal.progress import Progress

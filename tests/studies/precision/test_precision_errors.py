@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from exu_press.studies.precision.errors import errors_of, instants_until, late_of
-from exu_press.studies.precision.trajectory import Trajectory
+from exu_press.studies.precision.errors import Trajectory, errors_of, instants_until, late_of
 
 TIME = np.linspace(0.0, 0.1, 401)
 

@@ -9,9 +9,9 @@ import pytest
 from exu_press import Scene
 from exu_press.studies.precision import case_of, precision
 from exu_press.studies.precision.cases import QUICK
+from exu_press.studies.precision.errors import Trajectory
 from exu_press.studies.precision.references import divergence
 from exu_press.studies.precision.table import horizon_words
-from exu_press.studies.precision.trajectory import Trajectory
 
 
 @pytest.fixture(scope="module")

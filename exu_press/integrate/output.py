@@ -5,7 +5,6 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.integrate.problem import State
 from exu_press.integrate.settings import Task
 from exu_press.numerics.arrays import Array
 
@@ -15,33 +14,38 @@ AT_ONCE = 1e-10
 """Distance below which two instants are one for Exudyn's output, s."""
 
 
-def between(part: float, step: float, start: list[Array], end: list[Array]) -> list[Array]:
-    """Return a state within a step.
+def between(parts: Array, step: float, start: list[Array], end: list[Array]) -> list[Array]:
+    """Return states within a step, a row for each instant.
 
     Velocities and first-order coordinates follow the cubic through their values and slopes at both
     ends; positions are the integral of velocities, and what that misses of their change is spread
     smoothly; accelerations, forces of constraints and rates lie on lines.
 
     Args:
-        part: of the step, from 0 to 1.
+        parts: of the step, from 0 to 1, (m,).
         step: s.
         start: positions, velocities, accelerations, multipliers, first-order coordinates and rates.
         end: likewise.
     """
-    s = part
-    (q0, v0, a0, _, y0, r0), (q1, v1, a1, _, y1, r1) = start, end
+    s = parts
+    (q0, v0, a0, f0, y0, r0), (q1, v1, a1, f1, y1, r1) = start, end
     smooth = s * s * (3.0 - 2.0 * s)
-    from_slopes = step * s * (1.0 - s) * (1.0 - s), -step * s * s * (1.0 - s)
-    found = [one + s * (other - one) for one, other in zip(start, end, strict=True)]
-    found[1] = v0 + smooth * (v1 - v0) + from_slopes[0] * a0 + from_slopes[1] * a1
-    found[4] = y0 + smooth * (y1 - y0) + from_slopes[0] * r0 + from_slopes[1] * r1
-    of_change = s * s * s * (1.0 - 0.5 * s)
-    of_a0 = step * s * s * (0.5 - s * (2.0 / 3.0 - 0.25 * s))
-    of_a1 = step * s * s * s * (0.25 * s - 1.0 / 3.0)
-    way = step * (s * v0 + of_change * (v1 - v0) + of_a0 * a0 + of_a1 * a1)
-    whole = step * (0.5 * (v0 + v1) + step * (a0 - a1) / 12.0)
-    found[0] = q0 + way + smooth * (q1 - q0 - whole)
-    return found
+    line = np.array([1.0 - s, s]).T
+    cubic = np.array([1.0 - smooth, smooth, step * s * (1.0 - s) ** 2, -step * s * s * (1.0 - s)]).T
+    found = [np.empty(0)] * 6
+    if len(q0):
+        of_change = s * s * s * (1.0 - 0.5 * s) - 0.5 * smooth
+        of_a0 = s * s * (0.5 - s * (2.0 / 3.0 - 0.25 * s)) - smooth / 12.0
+        of_a1 = s * s * s * (0.25 * s - 1.0 / 3.0) + smooth / 12.0
+        way = step * np.array([s - smooth, of_change, step * of_a0, step * of_a1]).T
+        found[0] = q0 + smooth[:, None] * (q1 - q0) + way @ np.array([v0, v1 - v0, a0, a1])
+        found[1] = cubic @ np.array([v0, v1, a0, a1])
+        found[2] = line @ np.array([a0, a1])
+    if len(f0):
+        found[3] = line @ np.array([f0, f1])
+    if len(y0):
+        found[4], found[5] = cubic @ np.array([y0, y1, r0, r1]), line @ np.array([r0, r1])
+    return [rows if len(rows) else np.empty((len(s), 0)) for rows in found]
 
 
 class OutputGrid:
@@ -59,7 +63,9 @@ class OutputGrid:
         """Look at a task."""
         self._task, problem = task, task.problem
         self._active = not task.fixed and problem.joints is None
-        self._current = problem.current
+        now = problem.current
+        of_bodies = now.positions, now.velocities, now.accelerations, now.multipliers
+        self._current = (*of_bodies, now.first_order, now.rates)
         self._periods: list[float] = []
         self._start: list[Array] = []
         self.writing = False
@@ -74,25 +80,24 @@ class OutputGrid:
         least = max(self._task.smallest, AT_ONCE)  # below it, as with 0.0, every step is a row
         self._periods = [period for period in periods if period > least and self._active]
         if self._periods:
-            self._start = _copy(self._current)
+            self._start = [part.copy() for part in self._current]
 
     def stepped(self, begin: float, end: float) -> None:
         """Write what lies within an accepted step, s, that ends in the current state."""
         if not self._periods:
             return
-        state = _copy(self._current)
-        for time in self._times(begin, end):
-            self._put(
-                time, between((time - begin) / (end - begin), end - begin, self._start, state)
-            )
+        state, times = [part.copy() for part in self._current], self._times(begin, end)
+        if times:
+            mbs, step = self._task.problem.mbs, end - begin
+            settings = mbs.sys["simulationSettings"]
+            rows = between((np.array(times) - begin) / step, step, self._start, state)
             self.writing = True
-            self._task.solver.FinishStep(self._task.problem.mbs, self._settings())
+            for number, time in enumerate(times):
+                self._put(time, [part[number] for part in rows])
+                self._task.solver.FinishStep(mbs, settings)
             self.writing = False
             self._put(end, state)
         self._start = state
-
-    def _settings(self) -> Any:
-        return self._task.problem.mbs.sys["simulationSettings"]
 
     def _times(self, begin: float, end: float) -> list[float]:
         """Return the multiples within a step; its end is written by Exudyn itself."""
@@ -106,30 +111,6 @@ class OutputGrid:
 
     def _put(self, time: float, state: list[Array]) -> None:
         """Set the current state."""
-        current = self._current
-        parts = (
-            current.positions,
-            current.velocities,
-            current.accelerations,
-            current.multipliers,
-            current.first_order,
-            current.rates,
-        )
-        for part, values in zip(parts, state, strict=True):
+        for part, values in zip(self._current, state, strict=True):
             part[:] = values
         self._task.problem.data.SetTime(time)
-
-
-def _copy(state: State) -> list[Array]:
-    """Return the parts of a state, in their order."""
-    return [
-        np.array(part)
-        for part in (
-            state.positions,
-            state.velocities,
-            state.accelerations,
-            state.multipliers,
-            state.first_order,
-            state.rates,
-        )
-    ]

@@ -87,10 +87,10 @@ def test_within_a_step_a_polynomial_of_fourth_degree_is_met():
         values = t**4, 4.0 * t**3, 12.0 * t**2, 2.0 * t, t**3, 3.0 * t**2
         return [np.array([value]) for value in values]
 
-    found = between(0.3, 0.5, state(1.0), state(1.5))
-    exact = state(1.15)
-    for i in (0, 1, 3, 4):
-        assert found[i] == pytest.approx(exact[i], rel=1e-12)
+    found = between(np.array([0.3, 0.8]), 0.5, state(1.0), state(1.5))
+    for row, exact in enumerate((state(1.15), state(1.4))):
+        for i in (0, 1, 3, 4):
+            assert found[i][row] == pytest.approx(exact[i], rel=1e-12)
 
 
 def test_a_run_goes_on_where_another_one_ended():

@@ -182,7 +182,9 @@ class StepError:
         per_step = self._per_step
         if problem.joints is None:
             duration = task.end - task.start
-            self._turning = Turning(problem, self._scales, duration, tuning.foreseen)
+            self._turning = Turning(
+                problem, self._scales, duration, tuning.foreseen, self._tolerance
+            )
         else:
             whole = self._per_step.whole
             of_bodies, penetration = tuning.beside_joints * whole, tuning.penetration

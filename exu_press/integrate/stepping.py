@@ -45,6 +45,7 @@ class StepControl:
         latest = max(abs(task.start), abs(task.end))
         self._no_shorter = task.smallest * (1.0 + SAME) + 2.0 * math.ulp(latest)
         self._step = self._first = task.first
+        self._asked = 0.0  # what Exudyn is to try, s; shorter than the step, up to a corner
 
     def restart(self) -> None:
         """Go on as at the start, where the motion is about to change."""
@@ -58,15 +59,17 @@ class StepControl:
         self.error = error
         if error <= 1.0:
             return 0.0
-        self._step = step * self._controller.repeated(error)
+        self._step = self._asked = step * self._controller.repeated(error)
         return self._step
 
     def accept(self, step: float) -> None:
         """Take the step last tried as done; choose the size of those to come."""
         self._estimate.accept()
-        if step >= 0.5 * self._step:  # else it was cut short, by what it ends on
+        shortened = step < (1.0 - SAME) * self._asked  # by Exudyn
+        if shortened and step >= 0.5 * self._step:  # else by a contact that it ends on
             self._step = step
-        self._step *= self._controller.continued(self.error)
+        part = step / self._step
+        self._step *= self._controller.continued(self.error / (part * part * part))
 
     def next_step(self, time: float) -> float:
         """Return the step from a time on, s; it ends exactly on corners and the end.
@@ -79,11 +82,10 @@ class StepControl:
         left, corner = self._end - time, self._next_corner(time)
         if self._smallest < corner - time < left - self._smallest:
             left = corner - time
-        if left <= self._smallest:
-            return step
-        if step >= left:
-            return left
-        return 0.5 * left if step > 0.5 * left else step
+        if left > self._smallest and step > 0.5 * left:
+            step = left if step >= left else 0.5 * left
+        self._asked = step
+        return step
 
 
 class FixedSteps:

@@ -22,10 +22,18 @@ class Turning:
 
     The angle so far is that between velocity and acceleration over time, with its sign, in the
     kinetic norm; each instant counts with the square of the largest speed then, as what nearly
-    rests has no direction. The velocities of Euler parameters turn by half of what the body does.
+    rests has no direction; nothing below the tolerance counts, as it cannot be off by more. The
+    velocities of Euler parameters turn by half of what the body does.
     """
 
-    def __init__(self, problem: Problem, scales: FoundScales, duration: float, foreseen: float):
+    def __init__(
+        self,
+        problem: Problem,
+        scales: FoundScales,
+        duration: float,
+        foreseen: float,
+        tolerance: float = 0.0,
+    ) -> None:
         """Follow the bodies of a system.
 
         Args:
@@ -33,7 +41,9 @@ class Turning:
             scales: of the motion.
             duration: of the run, s.
             foreseen: over the time so far, for how long the motion is believed to go on likewise.
+            tolerance: of the run.
         """
+        self._tolerance = tolerance
         self._state, self._scales = problem.current, scales
         self._duration, self._foreseen = duration, foreseen
         points = [(i, node) for i, node in enumerate(problem.nodes) if node.displacements]
@@ -67,7 +77,8 @@ class Turning:
         weights = self._roots / np.sqrt(np.where(masses > 0.0, masses, math.inf))[:, None]
         speeds = weights * self._state.velocities[self._places]
         changes = weights * self._state.accelerations[self._places]
-        self._squares += span * float(np.square(speeds).sum(axis=1).max())
+        least = self._tolerance * self._scales.speed
+        self._squares += span * max(float(np.square(speeds).sum(axis=1).max()), least * least)
         if self._squares == 0.0:
             return 0.0
         products = span * speeds[:, :, None] * changes[:, None, :]

@@ -144,6 +144,9 @@ def replace(variant, file):
             else:
                 integration.solverType = solver
                 period = (integration.endTime - integration.startTime) / users
+                for output in (settings.solution.sensors, settings.solution.file):
+                    if output.writePeriod > 0.0:  # no more rows than the user's steps have
+                        output.writePeriod = max(output.writePeriod, period)
                 outcome = solve_dynamic(
                     mbs, settings, tolerance=variant["tolerance"], sample=period
                 )

@@ -43,7 +43,8 @@ class StepError:
     and contacts undo the rest within the step (L. F. Shampine's filter for stiff systems, see
     Hairer and Wanner, Solving Ordinary Differential Equations II, IV.8). Without films and contacts
     also velocities that follow from constraints, at each instant against the tolerance itself. What
-    rounding moves in an equilibrium is no error.
+    rounding moves in an equilibrium is no error: it is told from a motion as small by errors that
+    do not shrink with the step.
 
     Clearance joints: what the eccentricity changes by, less the integral of its rate, against the
     joint's clearance and penetration, in films against the clearance and the time: `JointError`;
@@ -69,6 +70,10 @@ class StepError:
         self._curvature: Curvature | None = None
         self._turning: Turning | None = None
         self._step = 0.0  # last tried, s
+        self._noise = (
+            0.0  # what rounded positions make of accelerations, times the step's square, m
+        )
+        self._doubted = 0.0  # error of a repeated step, in a motion that may be rounding
         self._jumped = False  # whether accelerations have, in a step of the smallest size
         self._first_order: FirstOrderError | None = None
         self._joints: list[JointError] = []
@@ -81,9 +86,11 @@ class StepError:
             self._bodies = self._first_look()
         self._step = step
         bodies, scales, now = self._bodies, self._scales, self._accelerations.tolist()
-        still = scales.resting and scales.still(self._velocities.tolist())
-        if scales.resting and not still:
+        small = scales.resting and scales.still(self._velocities.tolist())
+        if scales.resting and not small:
             scales.set_out(self._velocities.tolist(), now)
+        still = small and scales.rounded
+        bodies.noise = 0.0 if small and not still else self._noise
         if bodies.turning > 1.0:
             bodies.velocities = self._velocities.tolist()
         error, left = bodies.tried(now, step), 0.0
@@ -99,6 +106,8 @@ class StepError:
             if error > 1.0 and self._joints:
                 left = self._matrix.left_in_constraints()
                 error = bodies.error(change, step, left)
+        if small and error > 1.0 and self._is_rounded(error):
+            still, error = True, 0.0
         if not (still or self._joints):  # whose impacts and films need finer steps, by far
             offset = self._relative(bodies.offset(step))
             if self._curvature is not None:
@@ -123,6 +132,16 @@ class StepError:
         if largest >= 0:
             self.limiting[largest] += 1
         return error
+
+    def _is_rounded(self, error: float) -> bool:
+        """Return whether what moves by no more than rounding does is rounding, by its error.
+
+        That of a motion shrinks where a step is repeated with a smaller size, that of rounding
+        grows.
+        """
+        self._scales.rounded = 0.0 < self._doubted <= error
+        self._doubted = error
+        return self._scales.rounded
 
     def of_switch(self, step: float) -> float:
         """Return the error of a step in which Exudyn's contacts or friction have switched.
@@ -159,6 +178,7 @@ class StepError:
         if self._jumped or (self._switching and self._solver.it.discontinuousIteration):
             self._bodies.jumped()
         self._jumped = False
+        self._doubted = 0.0
         if self._turning is not None:
             self._bodies.turning = self._turning.stepped(self._step)
         if not self._scales.fixed:
@@ -176,7 +196,7 @@ class StepError:
     def _first_look(self) -> BodyError:
         """Return the bodies' errors from the first step's beginning on; look at the rest too."""
         task, problem, tuning = self._task, self._task.problem, self._task.tuning
-        noise = self._scales.alternating(tuning.rounding, self._solver.alphaF)
+        self._noise = noise = self._scales.alternating(tuning.rounding, self._solver.alphaF)
         if len(problem.start.rates):
             self._first_order = FirstOrderError(problem, self._per_step)
         per_step = self._per_step

@@ -334,6 +334,7 @@ class FoundScales:
         length: of the coordinates whose last digits are rounded, m.
         fixed: whether all is given.
         rest: speed up to which the system is still, m/s; 0.0 where that is not known.
+        rounded: whether what moves no faster was found to be rounding.
         masses: of the nodes, kg, infinite for what has no say; where the system gives none, the
             node's largest kinetic energy over half the square of `speed`.
     """
@@ -360,7 +361,7 @@ class FoundScales:
         """
         self._given, self._problem, self._longest = given, problem, longest
         self._first, self._stir = first, stir
-        self.rest = 0.0
+        self.rest, self.rounded = 0.0, False
         self.length = problem.length
         self.masses: list[float] = []
         self._ends = [node.start + node.size for node in problem.nodes]
@@ -407,8 +408,8 @@ class FoundScales:
 
     @property
     def unseen(self) -> bool:
-        """Whether something has moved, but by no more than what rounding is taken to move."""
-        return 0.0 < self.speed <= self.rest
+        """Whether something has moved, but by no more than what rounding moves."""
+        return self.rounded and 0.0 < self.speed <= self.rest
 
     def still(self, velocities: list[float]) -> bool:
         """Return whether nothing has moved yet, in a state either, but what rounding moves."""

@@ -358,7 +358,7 @@ def test_an_equilibrium_is_at_rest(system, tolerance):
     system(mbs)
     outcome = solve_dynamic(mbs, settings(1.0), tolerance=tolerance)
     assert outcome.status is SolverStatus.COMPLETED, outcome.reason
-    assert outcome.steps < 200 and outcome.rejected_steps < 5
+    assert outcome.steps < 600 and outcome.rejected_steps < 5
     assert np.abs(mbs.systemData.GetODE2Coordinates_t()).max() < 1e-9
 
 
@@ -784,8 +784,8 @@ def test_vibrations_below_an_absolute_tolerance_are_not_followed():
     assert speed == pytest.approx(exact, rel=1e-3)
 
 
-def test_a_motion_below_rounding_is_told():
-    """A mass a metre away vibrates at 1e-12 m/s and 5 Hz: taken for a rest."""
+def test_a_motion_below_rounding_is_followed():
+    """A mass a metre away vibrates at 1e-12 m/s and 5 Hz, which was taken for a rest."""
 
     def run(tolerance, steps):
         mbs = exu.SystemContainer().AddSystem()
@@ -805,7 +805,5 @@ def test_a_motion_below_rounding_is_told():
         solve_dynamic(mbs, settings(2.0, steps=steps), tolerance=tolerance)
         return mbs.GetNodeOutput(node, exu.OutputVariableType.Coordinates_t) / 1e-12
 
-    with pytest.warns(UserWarning, match="taken to be at rest"):
-        unseen = run(1e-3, 20)
-    assert abs(unseen - 1.0) > 0.05
+    assert run(1e-3, 20) == pytest.approx(1.0, abs=0.01)
     assert run(None, 4000) == pytest.approx(1.0, abs=0.02)

@@ -19,6 +19,7 @@ class BodyError:
     Attributes:
         change: of the accelerations' rate, by the step last tried, in SI over seconds.
         rate: of the accelerations' change, in the step last tried.
+        noise: what rounded positions make of accelerations, times the step's square, m.
         turning: angle by which velocities are to turn yet, rad: `Turning`.
         velocities: of all coordinates, where they are to turn by more than a radian.
     """
@@ -43,7 +44,7 @@ class BodyError:
             tolerance: of the run.
         """
         self._scales, self._per_step, self._tolerance = scales, per_step, tolerance
-        self._noise = noise
+        self.noise = noise
         self._constant = tuning.velocity_constant
         self._before = self._now = accelerations
         self._rate_before: list[float] = []  # none before the first step
@@ -86,7 +87,7 @@ class BodyError:
             step: s.
             left: what its constraints leave open of positions, m.
         """
-        noise = max(self._noise, left)
+        noise = max(self.noise, left)
         missed = self._constant * step * step
         error = missed * self._scales.norm(change) / self._limit(step, noise, 1.0)
         if self.turning > 1.0:
@@ -107,7 +108,7 @@ class BodyError:
         """
         missed = self._constant * step * step * step * self._scales.norm(rate)
         per_length = self.largest() / self._scales.speed
-        return missed * per_length / self._limit(step, self._noise, 1.0)
+        return missed * per_length / self._limit(step, self.noise, 1.0)
 
     def _limit(self, step: float, noise: float, grows: float) -> float:
         """Return what a velocity may be off by in a step (s), m/s, if that grows by a factor."""
@@ -129,7 +130,7 @@ class BodyError:
         what alternates because positions are rounded.
         """
         off = step * step * self._scales.norm(self.rate) / 12.0
-        return off if off > self._noise / (6.0 * step) else 0.0
+        return off if off > self.noise / (6.0 * step) else 0.0
 
     @property
     def begun(self) -> bool:

@@ -140,8 +140,9 @@ class Problem:
         switching: whether there are data variables or general contacts, which Exudyn iterates on
             after Newton's method.
         untold_rates: whether Exudyn does not tell how fast some constraints are violated: where
-            user functions prescribe offsets, but not their rates, or whole constraints, and at
-            flexible bodies' rigid markers, whose velocities are no rates of their positions.
+            user functions prescribe offsets, whose rates they give not at all or only nearly, or
+            whole constraints, and at flexible bodies' rigid markers, whose velocities are no rates
+            of their positions.
         length: largest displacement coordinate at the start, m; their last digits are rounded.
     """
 
@@ -241,9 +242,9 @@ def _untold_rates(mbs: exu.MainSystem, objects: list[dict[str, Any]]) -> bool:
     data: Any = mbs.systemData
     kinds = {mbs.GetMarker(number)["markerType"] for number in range(data.NumberOfMarkers())}
     return "SuperElementRigid" in kinds or any(
-        item.get("constraintUserFunction", 0) != 0
-        or (item.get("offsetUserFunction", 0) != 0 and item.get("offsetUserFunction_t", 0) == 0)
+        item.get(name, 0) != 0
         for item in objects
+        for name in ("constraintUserFunction", "offsetUserFunction")
     )
 
 

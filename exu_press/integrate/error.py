@@ -90,7 +90,7 @@ class StepError:
         if scales.resting and not small:
             scales.set_out(self._velocities.tolist(), now)
         still = small and scales.rounded
-        bodies.noise = 0.0 if small and not still else self._noise
+        bodies.noise = 0.0 if small and not still and scales.speed > 0.0 else self._noise
         if bodies.turning > 1.0:
             bodies.velocities = self._velocities.tolist()
         error, left = bodies.tried(now, step), 0.0

@@ -1,9 +1,11 @@
 """What a long run costs: time over the integration's alone, memory, and the size of its file.
 
-    python scripts/benchmark_long_run.py [--revolutions 1000] [--scene press]
+    python scripts/benchmark_long_run.py [--revolutions 1000] [--scene press] [--attractor]
 
-The scene's [output] keeps a sample once a revolution and no channels. The process that is measured
-does nothing else: memory is its largest resident set.
+The scene's [output] keeps a sample once a revolution and no channels. With --attractor it is
+`exu-press attractor` that is measured, against the integration of its revolutions, their neighbours
+and their errors. The process does nothing else: memory is its largest resident set. Times are
+processor times, which another process beside changes little.
 """
 
 import argparse
@@ -14,6 +16,8 @@ import time
 from pathlib import Path
 
 from exu_press import Scene, simulate
+from exu_press.integrate import Outcome
+from exu_press.model import Model
 
 SCENES = {
     "press": {
@@ -30,32 +34,70 @@ SCENES = {
 """The lubricated press, and a dry slider-crank."""
 
 
+SOLVE = Model.solve
+
+
+class Integration:
+    """The processor time that models take to be solved, s."""
+
+    spent = 0.0
+
+    @classmethod
+    def solve(cls, model: Model, **options: bool) -> Outcome:
+        """Solve a model, and add what that takes."""
+        begin = time.process_time()
+        try:
+            return SOLVE(model, **options)
+        finally:
+            cls.spent += time.process_time() - begin
+
+
 def main() -> None:
-    """Run a scene, read all of its quantities, save it, and print what that took."""
+    """Run a scene, and print what that took."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--revolutions", type=float, default=1000.0)
+    parser.add_argument("--revolutions", type=int, default=1000)
     parser.add_argument("--scene", choices=SCENES, default="press")
+    parser.add_argument("--attractor", action="store_true")
     options = parser.parse_args()
     scene = Scene.from_dict(
         {
             **SCENES[options.scene],
-            "revolutions": options.revolutions,
+            "revolutions": float(options.revolutions),
             "output": {"channels": [], "samples": [0.0]},
             "solver": {"max_steps": 10**9},
         }
     )
-    loaded = _memory()
-    begin = time.perf_counter()
+    Model.solve = lambda model, **keys: Integration.solve(model, **keys)  # type: ignore[method-assign]
+    if options.attractor:
+        _long_run(scene, options.revolutions)
+    else:
+        _run(scene)
+
+
+def _long_run(scene: Scene, revolutions: int) -> None:
+    """Find period and exponent, with the figures of all revolutions."""
+    from exu_press.studies.attractor import attractor  # would count as the other's memory
+
+    begin = time.process_time()
+    found = attractor(scene, revolutions=revolutions, skip=10, most=4)
+    total = time.process_time() - begin
+    print(f"{scene.mechanism}, attractor of {revolutions} revolutions: {found.period}")
+    print(f"integration, s               {Integration.spent:.1f}")
+    print(f"all over that                {total / Integration.spent:.3f}")
+    print(f"memory, MB                   {_memory():.0f}")
+
+
+def _run(scene: Scene) -> None:
+    """Simulate, read all quantities, and save them."""
+    loaded, begin = _memory(), time.process_time()
     result = simulate(scene)
-    ran = time.perf_counter()
-    run = _memory()
+    ran, run, integration = time.process_time(), _memory(), Integration.spent
     with tempfile.TemporaryDirectory() as place:
         file = Path(place) / "run.nc"
         result.save(file)  # with its quantities
-        saved = time.perf_counter()
+        saved = time.process_time()
         size = file.stat().st_size
-    integration = result.info["wall_time"]
-    print(f"{options.scene}, {options.revolutions:g} revolutions: {result.info['status']}")
+    print(f"{scene.mechanism}, {scene.revolutions:g} revolutions: {result.info['status']}")
     print(f"steps                        {result.info['steps']:,}")
     print(f"integration, s               {integration:.1f}")
     print(f"whole run over that          {(ran - begin) / integration:.3f}")

@@ -40,7 +40,7 @@ def execute(options: argparse.Namespace) -> int:
     from exu_press.studies.spectrum import DEFAULT, marks_of, spectra
 
     check_format(options)
-    kind, file = find_output(Path(options.path))
+    kind, file = find_output(Path(options.path), Kind.RUN)
     if kind is not Kind.RUN:
         raise InputError(f"{options.path}: allowed is a run.nc, or the directory that run wrote to")
     run = Result.load(file)

@@ -25,8 +25,12 @@ class Kind(Enum):
     WEAR = "wear.json"
 
 
-def find_output(path: Path) -> tuple[Kind, Path]:
+def find_output(path: Path, wanted: Kind | None = None) -> tuple[Kind, Path]:
     """Return a path's kind and the file to read: a result file, or a directory with one of them.
+
+    Args:
+        path: of a file or a directory.
+        wanted: kind that is taken of a directory with results of several commands.
 
     Raises:
         InputError: nothing is there, or results of several commands are.
@@ -38,6 +42,8 @@ def find_output(path: Path) -> tuple[Kind, Path]:
             found = [Kind.RUN]
         if not found:
             raise InputError(f"{path}: has none of {named}, so there is nothing to report")
+        if wanted in found:
+            return wanted, path / wanted.value
         if len(found) > 1:
             several = " and ".join(kind.value for kind in found)
             raise InputError(f"{path}: has {several}; name the file that is meant")

@@ -50,6 +50,12 @@ class Block:
         return named[1] if named else None
 
     @property
+    def partly_printed_by(self) -> str | None:
+        """The command that printed it and more."""
+        named = re.search(r"<!-- part of what this prints: (.+) -->", self.notes)
+        return named[1] if named else None
+
+    @property
     def shortened(self) -> list[str]:
         """What shows that the commands run, in a tenth of a revolution unless more is looked at."""
         return [] if re.search("--at |--from ", self.text) else ["--set", "revolutions=0.1"]
@@ -155,12 +161,25 @@ def printed_blocks() -> list[tuple[Path, Block]]:
     return [(page, block) for page in PAGES[1:] for block in blocks_of(page) if block.printed_by]
 
 
+def partly_printed_blocks() -> list[tuple[Path, Block]]:
+    """Return the blocks that show a part of what is printed within some minutes.
+
+    Diagrams take half an hour, and so does all that scripts/paper.py prints.
+    """
+    return [
+        (page, block)
+        for page in PAGES[1:]
+        for block in blocks_of(page)
+        if (block.partly_printed_by or "").startswith("exu-press attractor")
+    ]
+
+
 def printed_again(page: Path, block: Block, place: Path) -> str:
-    """Run what printed a block, with the files that the page saves before it."""
+    """Run what printed a block or a part of it, with the files that the page saves before it."""
     for before in blocks_of(page):
         if before.file:
             (place / before.file).write_text(before.text, encoding="utf-8")
-    words = shlex.split(block.printed_by or "")
+    words = shlex.split(block.printed_by or block.partly_printed_by or "")
     if words[0] == "exu-press":
         return run([str(BIN / words[0]), *words[1:]], place)
     return run([sys.executable, str(ROOT / words[1]), *words[2:]], place)

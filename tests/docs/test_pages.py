@@ -62,6 +62,25 @@ def test_what_is_shown_is_what_is_printed(page, block, tmp_path):
             assert new == pytest.approx(old, rel=0.05), (shown, now)
 
 
+@pytest.mark.long
+@pytest.mark.parametrize(("page", "block"), pages.partly_printed_blocks(), ids=name)
+def test_what_is_shown_is_a_part_of_what_is_printed(page, block, tmp_path):
+    """Every line has one of the same words; numbers that are small beside its largest are noise."""
+    printed = pages.printed_again(page, block, tmp_path).splitlines()
+    for shown in block.text.splitlines():
+        same = [line for line in printed if words_of(line) == words_of(shown)]
+        assert len(same) == 1, (shown, printed)
+        if "differ" not in shown:
+            old, new = (list(map(float, NUMBER.findall(line))) for line in (shown, same[0]))
+            near = 1e-3 * max(map(abs, old), default=0.0)
+            assert new == pytest.approx(old, rel=0.1, abs=near), (shown, same[0])
+
+
+def words_of(line):
+    """What stands between the numbers, but for blanks that line columns up."""
+    return [part.split() for part in NUMBER.split(line)]
+
+
 def test_the_reference_begins_with_every_public_name():
     text = (pages.ROOT / "docs" / "reference" / "public.md").read_text("utf-8")
     for public in set(exu_press.__all__) - {"__version__"}:

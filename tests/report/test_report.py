@@ -171,6 +171,7 @@ def test_the_file_names_the_kind(outputs, tmp_path):
     (tmp_path / "table.csv").touch()
     with pytest.raises(InputError, match=r"has run\.nc and table\.csv; name the file"):
         find_output(tmp_path)
+    assert find_output(tmp_path, Kind.RUN) == (Kind.RUN, tmp_path / "run.nc")
 
 
 @pytest.mark.parametrize(

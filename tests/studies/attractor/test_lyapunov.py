@@ -108,7 +108,15 @@ def test_figures_of_each_revolution_are_kept(lubricated):
     }
 
 
-def test_the_command_writes_what_it_found(tmp_path, capsys):
+def test_the_command_writes_what_it_found(lubricated, tmp_path, capsys, monkeypatch):
+    """The same study as the fixture's, which is not run again."""
+
+    def known(scene, revolutions, skip, most, names, **_):
+        assert (scene, revolutions, skip, most) == (FILM, 20, 2, 4)
+        assert names == ["joints.crank_pin.peak_force"]
+        return lubricated
+
+    monkeypatch.setattr("exu_press.studies.attractor.attractor", known)
     scene = tmp_path / "film.toml"
     FILM.save(scene)
     given = ["attractor", str(scene), "--revolutions", "20", "--skip", "2", "--longest", "4"]

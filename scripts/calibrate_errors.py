@@ -1,6 +1,7 @@
 """Do the stated errors cover the true ones? Random scenes, each against much finer runs.
 
     python scripts/calibrate_errors.py [--scenes 200] [--seed 1] [--minutes 25] [--out DIR]
+    python scripts/calibrate_errors.py --chaotic 3 --scenes 12
 
 All shipped mechanisms and random own ones; ideal, dry, lubricated and mixed joints, alone and in
 pairs; all friction laws; guides with clearance, elasticity and friction; motors; pulses, tables of
@@ -8,7 +9,8 @@ forces, sheets and springs; flexible bodies; fixed steps, and tolerances of 3e-5
 0.35 revolutions: `calibration.scenes` draws them. Each scene's figures are held against those of
 the same scene at the finest of REFERENCES that is affordable, with small largest steps. Beyond the
 horizon no tolerance gives a true value: there MEMBERS further runs at a tenth of the tolerance,
-which have nothing in common with each other, stand for it.
+which have nothing in common with each other, stand for it. With --chaotic the scenes are dry ones
+of so many revolutions at the default tolerance, against runs at the tolerances CHAOTIC over it.
 
 Prints, group by group, the share of figures whose stated error covers the true one, and, of figures
 whose true error the reference can tell, how many times as large it is in the median. Called again,
@@ -33,7 +35,7 @@ from typing import Any
 
 import numpy as np
 
-from calibration.scenes import groups_of, random_scene
+from calibration.scenes import chaotic_scene, groups_of, random_scene
 from exu_press import InputError, Result, Scene, simulate
 from exu_press.verification.compared import compared
 
@@ -64,20 +66,29 @@ ENDED = SIGXCPU, SIGKILL
 
 RAN = "completed", "under-resolved"
 
+CHAOTIC = (1.0 / 10.0, 1.0 / 30.0)
+"""Tolerances over the default one of what chaotic scenes are held against."""
+
 MEMBERS = 4
 APART = 0.01
 """Of the tolerance: by how much those of the members differ."""
 
 
-def references(run: Result, cost: float) -> tuple[str, list[Result]]:
+def references(run: Result, cost: float, *, chaotic: bool) -> tuple[str, list[Result]]:
     """Return what a run with errors is held against, in words and as runs.
 
     Args:
         run: with its errors.
         cost: processor time that it took, with its refinements, s.
+        chaotic: whether its scene is one of `chaotic_scene`.
     """
     solver = run.scene.solver
     assert solver is not None
+    if chaotic:
+        assert solver.tolerance is not None
+        wanted = [run.scene.replace("solver.tolerance", p * solver.tolerance) for p in CHAOTIC]
+        parted = "without" if run.info["horizon"] is None else "with"
+        return f"finer runs, {parted} horizon", [simulate(scene) for scene in wanted]
     tolerance = solver.tolerance or LIKE_FIXED
     as_tolerance = run.scene.replace({"solver.step": None, "solver.tolerance": tolerance})
     if run.info["horizon"] is None:
@@ -94,7 +105,9 @@ def references(run: Result, cost: float) -> tuple[str, list[Result]]:
     return f"{MEMBERS} runs", members
 
 
-def judged(number: int, scene: Scene, tell: Callable[[dict[str, Any]], None]) -> None:
+def judged(
+    number: int, scene: Scene, tell: Callable[[dict[str, Any]], None], *, chaotic: bool
+) -> None:
     """Tell a scene's row as soon as it has run, and again with its figures.
 
     Of each figure the row has name, share covered, ratio and whether it is determined.
@@ -114,7 +127,7 @@ def judged(number: int, scene: Scene, tell: Callable[[dict[str, Any]], None]) ->
         row["seconds_to_errors"] = time.process_time() - begun
         tell(row)
         if run.completed:
-            row["reference"], others = references(run, time.process_time() - begun)
+            row["reference"], others = references(run, time.process_time() - begun, chaotic=chaotic)
             row["figures"] = held_against(run, others)
     except InputError as error:
         row["reason"] = str(error)
@@ -188,7 +201,7 @@ def in_a_row(label: str, figures: Sequence[tuple[dict[str, Any], Sequence[Any]]]
     return f"{label:32s} {scenes:6d} {len(figures):7d} {covered:8.1%} {ratio:>11s}"
 
 
-def in_a_process(number: int, scene: Scene) -> dict[str, Any]:
+def in_a_process(number: int, scene: Scene, *, chaotic: bool) -> dict[str, Any]:
     """Return a scene's row from a process of its own, which may die or take too long."""
     context = multiprocessing.get_context("fork")
     here, there = context.Pipe(duplex=False)
@@ -198,7 +211,7 @@ def in_a_process(number: int, scene: Scene) -> dict[str, Any]:
         def work() -> None:
             os.dup2(terminal.fileno(), 2)
             resource.setrlimit(resource.RLIMIT_CPU, (LIMIT, LIMIT))
-            judged(number, scene, there.send)
+            judged(number, scene, there.send, chaotic=chaotic)
 
         process = context.Process(target=work)
         begun = time.monotonic()
@@ -224,16 +237,23 @@ def main(arguments: list[str]) -> None:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--minutes", type=float, default=25.0, help="no scene is begun later")
     parser.add_argument("--longest", type=float, default=0.35, help="revolutions")
+    parser.add_argument("--chaotic", type=float, help="revolutions of dry scenes")
     parser.add_argument("--out", default="out/calibration", help="where finished scenes are kept")
     options = parser.parse_args(arguments)
-    file = Path(options.out) / f"seed_{options.seed}.jsonl"
+    kind = "" if options.chaotic is None else f"chaotic_{options.chaotic:g}_"
+    file = Path(options.out) / f"{kind}seed_{options.seed}.jsonl"
     file.parent.mkdir(parents=True, exist_ok=True)
     rows = [json.loads(line) for line in file.read_text().splitlines()] if file.exists() else []
     end = time.monotonic() + 60.0 * options.minutes
     while len(rows) < options.scenes and time.monotonic() < end:
         random = np.random.default_rng([options.seed, len(rows)])
-        scene = random_scene(random, options.longest)
-        rows.append(in_a_process(len(rows), scene))
+        chaotic = options.chaotic is not None
+        scene = (
+            chaotic_scene(random, options.chaotic)
+            if chaotic
+            else random_scene(random, options.longest)
+        )
+        rows.append(in_a_process(len(rows), scene, chaotic=chaotic))
         with file.open("a", encoding="utf-8") as stream:
             stream.write(json.dumps(rows[-1]) + "\n")
         label = f"{len(rows):3d} {rows[-1]['status']} {rows[-1]['seconds']:.0f} s"

@@ -25,7 +25,7 @@ from exu_press.integrate.stepping import FixedSteps, Resolution, StepControl
 from exu_press.joints import ClearanceJoint
 from exu_press.terminal.progress import Progress
 
-__all__ = ["Monitor"]
+__all__ = ["Monitor", "most_limiting"]
 
 SECONDS_BETWEEN_UPDATES = 0.1
 
@@ -205,11 +205,10 @@ class Monitor:
             self._progress.say(f"about {left:.0f} s left: {why(steps, self._limiting())}")
 
     def _limiting(self) -> ClearanceJoint | None:
-        """Return the clearance joint that limits more than half of the steps, if one does."""
-        joints, counts = self._task.problem.joints, self._estimate.limiting
-        if joints is None or not counts or max(counts) < 0.5 * self.tries:
-            return None
-        return joints.joints[counts.index(max(counts))]
+        """Return the clearance joint that limits most of the steps, if such joints limit them."""
+        joints = self._task.problem.joints
+        number = most_limiting(self._estimate.limiting, self.tries)
+        return None if joints is None or number is None else joints.joints[number]
 
     def _before_residual(self, mbs: exu.MainSystem, end: float, iteration: int, other: int) -> None:
         if self._users[1]:
@@ -283,3 +282,17 @@ class Monitor:
 def _function(found: Any) -> Any:
     """Return what Exudyn's getters of user functions hold, or 0 where nothing is set."""
     return found["function"] if isinstance(found, dict) else 0
+
+
+def most_limiting(counts: list[int], tries: int) -> int | None:
+    """Return which joint limits most steps, if joints together limit half of them.
+
+    The two ends of a guide, or two pins, share them: each may have less than half.
+
+    Args:
+        counts: of tries that each joint has limited.
+        tries: in all.
+    """
+    if not counts or sum(counts) < 0.5 * tries:
+        return None
+    return counts.index(max(counts))

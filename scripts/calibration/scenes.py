@@ -12,7 +12,7 @@ from exu_press.mechanism import SHIPPED, Mechanism
 from exu_press.quantities.dead_centre import ideal_bottom_angle
 from exu_press.scene import flexible_press, mechanism_of
 
-__all__ = ["groups_of", "random_scene"]
+__all__ = ["chaotic_scene", "groups_of", "random_scene"]
 
 LAWS = ("none", "coulomb", "stribeck", "lugre_steady", "lugre")
 
@@ -34,6 +34,17 @@ def random_scene(random: np.random.Generator, longest: float) -> Scene:
             return Scene.from_dict(_drawn(random, longest))
         except InputError:  # a drawn clearance is none of this mechanism, or the like
             continue
+
+
+def chaotic_scene(random: np.random.Generator, revolutions: float) -> Scene:
+    """Return a random scene of rigid bodies and dry joints, so long that impacts part its motions.
+
+    It has the default tolerance.
+    """
+    while True:
+        scene = random_scene(random, 0.35)
+        if "joints: dry" in groups_of(scene) and not scene.bodies and not scene.guide:
+            return scene.replace({"revolutions": revolutions, "solver": {}})
 
 
 def groups_of(scene: Scene) -> list[str]:

@@ -27,7 +27,7 @@ def parser() -> argparse.ArgumentParser:
         help="which reading of what the paper leaves open brings its numbers nearest, instead",
     )
     found.add_argument(
-        "--trials", type=int, default=48, metavar="N", help="readings that --fit tries (48)"
+        "--trials", type=int, default=16, metavar="N", help="readings that --fit tries (16)"
     )
     found.add_argument("--out", metavar="DIR", default="out/paper", help="where to write")
     found.add_argument(

@@ -7,8 +7,9 @@ import argparse
 from pathlib import Path
 
 from exu_press import Scene
-from exu_press.plots.sweep import save_sweep
-from exu_press.studies.sweep import Sweep, sweep, table_lines
+from exu_press.plots.file import save_figures
+from exu_press.plots.sweep import sweep_figures
+from exu_press.studies.sweep import Sweep, report_lines, sweep
 
 parser = argparse.ArgumentParser(description=__doc__)
 parser.add_argument("--quick", action="store_true", help="four short runs")
@@ -29,5 +30,5 @@ study = Sweep(
 )
 shown = ("peak_acceleration.resolved", "peak_acceleration.mean_1ms", "joints.crank_pin.peak_force")
 table = sweep(study, out, quiet=quick)
-print("\n".join(table_lines(table, shown)))
-print(*save_sweep(table, out, quantities=shown))
+print("\n".join(report_lines(table, show=shown)))
+print(*save_figures(sweep_figures(table, show=shown), out))

@@ -3,7 +3,7 @@
 import argparse
 import sys
 import textwrap
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from pathlib import Path
 
 from exu_press.errors import InputError
@@ -20,7 +20,6 @@ __all__ = [
     "add_study_arguments",
     "check_format",
     "directory_of",
-    "resumable",
     "scene_of",
     "scene_path",
     "shipped_names",
@@ -95,7 +94,7 @@ def check_format(options: argparse.Namespace) -> None:
     """Raise InputError unless pictures can be written in the format that is asked for."""
     if options.no_pictures:
         return
-    from exu_press.plots.file import FORMATS
+    from exu_press.files.output_directory import FORMATS
 
     if options.format not in FORMATS:
         raise InputError(f"--format {options.format}: allowed are {', '.join(FORMATS)}")
@@ -104,22 +103,6 @@ def check_format(options: argparse.Namespace) -> None:
 def study_directory(options: argparse.Namespace) -> Path:
     """Return the directory that is asked for; it need not exist."""
     return Path(options.out or Path("out") / Path(options.study).stem)
-
-
-def resumable(
-    execute: Callable[[argparse.Namespace, Path], int], options: argparse.Namespace
-) -> int:
-    """Return a study's exit status: 3 after Ctrl-C, with a word on the runs that are kept."""
-    directory = study_directory(options)
-    try:
-        return execute(options, directory)
-    except KeyboardInterrupt:
-        print(
-            f"exu-press: interrupted: finished runs are kept in {directory}; the same command "
-            "goes on with them",
-            file=sys.stderr,
-        )
-        return 3
 
 
 def scene_of(options: argparse.Namespace) -> Scene:

@@ -1,23 +1,15 @@
 """Run many scenes, as a study file says: table.csv, table.nc and a picture; may be interrupted."""
 
 import argparse
-import sys
-from pathlib import Path
+from typing import Any
 
-from exu_press.cli.options import add_study_arguments, resumable, show_warnings
+from exu_press.cli.study import study_command
 from exu_press.errors import InputError
-from exu_press.files.output_directory import remove_pictures
-from exu_press.parallel.task import FAILED, TIME_LIMIT, WORKER_DIED
-from exu_press.scene.warnings import scene_warnings
 
 __all__ = ["EXAMPLE", "add_arguments", "execute"]
 
-EXAMPLE = "exu-press sweep study.toml --workers 2 --out out/study"
 
-
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the command's arguments."""
-    add_study_arguments(parser)
+def _add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--over",
         action="append",
@@ -34,16 +26,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def execute(options: argparse.Namespace) -> int:
-    """Run the study; return 0, or 3 after Ctrl-C or if all runs failed. Failed runs are rows."""
-    return resumable(_execute, options)
-
-
-def _execute(options: argparse.Namespace, directory: Path) -> int:
+def _asked(options: argparse.Namespace, study: Any) -> dict[str, list[str]]:
     from exu_press.quantities import quantities_of
-    from exu_press.studies.sweep import load_study, sweep, table_lines
 
-    study = load_study(options.study)
     unknown = [key for key in options.over if key not in study.keys]
     if unknown:
         raise InputError(f"--over {unknown[0]}: allowed are {', '.join(study.keys)}")
@@ -52,19 +37,24 @@ def _execute(options: argparse.Namespace, directory: Path) -> int:
             raise InputError(
                 f"--show {name}: allowed are {', '.join(quantities_of(study.scenes[0]))}"
             )
-    table = sweep(study, directory, workers=options.workers, dask=options.dask, quiet=options.quiet)
-    remove_pictures(directory, "sweep")
-    written = ["table.csv", "table.nc"]
-    if not options.no_pictures:
-        from exu_press.plots.sweep import save_sweep
+    return {"over": options.over, "show": options.show}
 
-        pictures = save_sweep(table, directory, options.over, options.show)
-        written += [path.name for path in pictures]
-    if not options.quiet:
-        print("\n".join(table_lines(table, options.show)))
-        show_warnings(warning for scene in study.scenes for warning in scene_warnings(scene))
-        print("written:", ", ".join(written), f"in {directory}")
-    if set(table["status"]) <= {FAILED, TIME_LIMIT, WORKER_DIED}:
-        print(f"exu-press: no run reached an end: {table['reason'][0]}", file=sys.stderr)
-        return 3
-    return 0
+
+def _stopped(table: Any) -> str:
+    from exu_press.parallel.task import FAILED, TIME_LIMIT, WORKER_DIED
+
+    failed = set(table["status"]) <= {FAILED, TIME_LIMIT, WORKER_DIED}
+    return f"no run reached an end: {table['reason'][0]}" if failed else ""
+
+
+EXAMPLE, add_arguments, execute = study_command(
+    "sweep",
+    "Sweep",
+    "sweep.sweep_figures",
+    ("table.csv", "table.nc"),
+    example="exu-press sweep study.toml --workers 2 --out out/study",
+    add=_add,
+    asked=_asked,
+    warned=lambda study, table: study.scenes,
+    stopped=_stopped,
+)

@@ -11,6 +11,7 @@ from typing import Any
 from exu_press.errors import InputError
 
 __all__ = [
+    "FORMATS",
     "PICTURES",
     "check_writable",
     "output_directory",
@@ -19,16 +20,20 @@ __all__ = [
     "write_json",
 ]
 
+FORMATS = (".png", ".svg", ".pdf")
+"""Endings of pictures."""
+
 PICTURES = {
     "run": ("slider", "orbit", "force", "press", "energy"),
     "compare": ("compare_slider", "compare_force"),
     "sweep": ("sweep",),
+    "bifurcation": ("bifurcation",),
     "fit": ("fit", "profiles"),
     "sensitivity": ("sensitivity",),
     "wear": ("wear",),
     "optimise": ("front",),
 }
-"""Names of the pictures of a command, without .png."""
+"""Names of the pictures of a command, without their endings."""
 
 
 def output_directory(path: str | Path) -> Path:
@@ -49,7 +54,8 @@ def output_directory(path: str | Path) -> Path:
 def remove_pictures(directory: Path, command: str) -> None:
     """Remove a command's pictures of before, which would pass for those of the new results."""
     for name in PICTURES[command]:
-        (directory / f"{name}.png").unlink(missing_ok=True)
+        for ending in FORMATS:
+            (directory / f"{name}{ending}").unlink(missing_ok=True)
 
 
 @contextmanager

@@ -5,6 +5,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from exu_press.plots.headed import headed_figure
+from exu_press.plots.period_map import period_map_figure
 from exu_press.plots.scales import log_axis
 from exu_press.plots.style import COLOURS, GREY, colour_of, styled
 from exu_press.plots.sweep_words import in_unit, words
@@ -12,7 +13,7 @@ from exu_press.plots.typesetting import plain
 from exu_press.plots.words import describe
 from exu_press.studies.bifurcation import Report
 
-__all__ = ["bifurcation_figure"]
+__all__ = ["bifurcation_figure", "bifurcation_figures"]
 
 MARKERS = {"up": "^", "down": "v", "from the start": "o"}
 
@@ -21,7 +22,7 @@ MARKERS = {"up": "^", "down": "v", "from the start": "o"}
 def bifurcation_figure(report: Report) -> Figure:
     """Return the diagram of one key: eccentricity on the section, period, exponent over it."""
     study, values = report.study, report.study.values
-    own = study.own
+    own = study.bifurcation
     text = f"{describe([study.scene_at({study.name: v}) for v in values], 110)}\n"
     text += f"{own.revolutions} revolutions after {own.skip} at each of {len(values)} values"
     figure = headed_figure("Bifurcation diagram", text, (9.5, 9.0))
@@ -43,7 +44,7 @@ def bifurcation_figure(report: Report) -> Figure:
                 linestyle="", alpha=0.7,
             )  # fmt: skip
             told = row["period"] if row["told"] else None
-            at = told or study.own.longest + (1 if row["told"] else 2)
+            at = told or study.bifurcation.longest + (1 if row["told"] else 2)
             period.plot(value, at, marker, color=colour if row["told"] else GREY)
             mean, low, high = row["exponent"]
             exponent.plot(value, mean, marker, color=colour, markersize=4)
@@ -66,3 +67,9 @@ def bifurcation_figure(report: Report) -> Figure:
         beside = 0.03 * float(np.ptp(shown)) or 0.05 * abs(float(shown[0])) or 1.0
         exponent.set_xlim(shown[0] - beside, shown[-1] + beside)
     return figure
+
+
+def bifurcation_figures(report: Report) -> dict[str, Figure]:
+    """Return the diagram over one key, or the map over two, by its name."""
+    figure = bifurcation_figure if report.study.second is None else period_map_figure
+    return {"bifurcation": figure(report)}

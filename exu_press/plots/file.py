@@ -1,5 +1,6 @@
 """A picture as a file."""
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -9,12 +10,10 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from exu_press.errors import InputError
-from exu_press.files.output_directory import replacing
+from exu_press.files.output_directory import FORMATS, replacing
 from exu_press.plots.style import DPI, look
 
-__all__ = ["FORMATS", "check_picture", "save_figure"]
-
-FORMATS = (".png", ".svg", ".pdf")
+__all__ = ["check_picture", "save_figure", "save_figures"]
 
 
 def check_picture(path: Path) -> None:
@@ -44,3 +43,10 @@ def save_figure(figure: Figure, path: Path) -> Path:
         image = Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")
         image.save(partial, format="png", dpi=(DPI, DPI), compress_level=4)
     return path
+
+
+def save_figures(
+    figures: Mapping[str, Figure], directory: str | Path, ending: str = FORMATS[0]
+) -> list[Path]:
+    """Write each figure under its name and return the files."""
+    return [save_figure(each, Path(directory) / f"{n}{ending}") for n, each in figures.items()]

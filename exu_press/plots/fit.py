@@ -1,23 +1,20 @@
 """A fit in two pictures: measured against computed, and how chi-square rises with each key."""
 
-from pathlib import Path
-
 import numpy as np
 from matplotlib.figure import Figure
 from scipy.stats import chi2
 
-from exu_press.plots.file import save_figure
 from exu_press.plots.headed import headed_figure
 from exu_press.plots.scales import log_axis
 from exu_press.plots.style import COLOURS, GREY, SHADE, styled
 from exu_press.plots.sweep_words import in_unit, words
-from exu_press.plots.typesetting import plain
+from exu_press.plots.typesetting import plain, wrapped
 from exu_press.plots.words import describe
 from exu_press.quantities.uncertain import significant
 from exu_press.studies.base import Range
 from exu_press.studies.fit import Report
 
-__all__ = ["fit_figure", "profiles_figure", "save_fit"]
+__all__ = ["fit_figure", "fit_figures", "profiles_figure"]
 
 MOST_ACROSS = 3
 
@@ -97,17 +94,13 @@ def profiles_figure(report: Report) -> Figure:
         panel.set_ylim(0.0, 2.2 * rise)
         panel.margins(x=0.05)
         panel.set_xlabel(plain(f"{name}{f', {unit}' if unit else ''}"))
-        panel.set_title(plain(words(name))[:44])
+        panel.set_title(wrapped(words(name), 38))
         panel.set_ylabel("chi-square above its least")
     for panel in list(panels):
         panel.axis("off")
     return figure
 
 
-def save_fit(report: Report, directory: str | Path) -> list[Path]:
-    """Draw fit.png and profiles.png and return the files."""
-    directory = Path(directory)
-    return [
-        save_figure(fit_figure(report), directory / "fit.png"),
-        save_figure(profiles_figure(report), directory / "profiles.png"),
-    ]
+def fit_figures(report: Report) -> dict[str, Figure]:
+    """Return the pictures of a fit by their names."""
+    return {"fit": fit_figure(report), "profiles": profiles_figure(report)}

@@ -1,7 +1,6 @@
 """An optimum in one picture: objectives against each other, and the keys along the front."""
 
 from itertools import combinations
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -9,18 +8,17 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from exu_press.numerics.arrays import Array
-from exu_press.plots.file import save_figure
 from exu_press.plots.headed import headed_figure
 from exu_press.plots.scales import log_axis
 from exu_press.plots.style import COLOURS, GREY, styled
-from exu_press.plots.sweep_words import in_unit, words
-from exu_press.plots.typesetting import plain, typeset
+from exu_press.plots.sweep_words import headed, in_unit, words
+from exu_press.plots.typesetting import wrapped
 from exu_press.plots.words import describe
 from exu_press.quantities import quantity_of
 from exu_press.studies.base import Range
 from exu_press.studies.optimise import Report
 
-__all__ = ["front_figure", "save_front"]
+__all__ = ["front_figure", "front_figures"]
 
 ACROSS = 3
 
@@ -47,12 +45,12 @@ def front_figure(report: Report) -> Figure:
     panels = list(figure.subplots(down, across, squeeze=False).flat)
     for (first, second), panel in zip(pairs, panels, strict=False):
         _points(panel, report, _all(report, first), _all(report, second), (first, second))
-        panel.set_xlabel(_label(report, first))
+        panel.set_xlabel(wrapped(headed(first)))
     for name, panel in zip(ranged, panels[len(pairs) :], strict=False):
         values = np.array([float(point[name]) for point in report.trials.points])
         shown, unit = in_unit(name, values)
         _points(panel, report, shown, _all(report, objectives[0]), ("", objectives[0]))
-        panel.set_xlabel(plain(words(name) + (f", {unit}" if unit else "")))
+        panel.set_xlabel(wrapped(words(name) + (f", {unit}" if unit else "")))
         each = study.keys[name]
         if isinstance(each, Range) and each.log:
             log_axis(panel, "x", shown)
@@ -63,23 +61,15 @@ def front_figure(report: Report) -> Figure:
     return figure
 
 
-def save_front(report: Report, directory: str | Path) -> Path:
-    """Draw front.png and return the file."""
-    return save_figure(front_figure(report), Path(directory) / "front.png")
+def front_figures(report: Report) -> dict[str, Figure]:
+    """Return the picture of an optimum by its name."""
+    return {"front": front_figure(report)}
 
 
 def _all(report: Report, quantity: str) -> Array:
     place = report.study.quantities.index(quantity)
     scale = quantity_of(report.study.scene, quantity).quantity.scale
     return np.asarray(report.trials.numbers[:, place] * scale)
-
-
-def _label(report: Report, quantity: str) -> str:
-    found = quantity_of(report.study.scene, quantity).quantity
-    unit = typeset(found.shown or found.unit)
-    title = words(quantity)
-    short = title if len(title) < 34 else quantity.replace("_", " ")
-    return plain(short + (f", {unit}" if unit else ""))
 
 
 def _points(panel: Axes, report: Report, across: Array, up: Array, names: tuple[str, str]) -> None:
@@ -102,7 +92,7 @@ def _points(panel: Axes, report: Report, across: Array, up: Array, names: tuple[
         label="chosen",
     )  # fmt: skip
     panel.margins(x=0.05, y=0.05)
-    panel.set_ylabel(_label(report, names[1]))
+    panel.set_ylabel(wrapped(headed(names[1])))
     for which, values in (("x", across), ("y", up)):
         if (which == "y" or names[0]) and _wide(values):
             log_axis(panel, which, values)

@@ -28,7 +28,8 @@ def period_map_figure(report: Report) -> Figure:
     assert study.second is not None
     points = [study.at(x, y) for y in study.seconds for x in study.values]
     text = f"{describe([study.scene_at(point) for point in points], 110)}\n"
-    text += f"{study.own.revolutions} revolutions after {study.own.skip} at each of {len(points)}"
+    own = study.bifurcation
+    text += f"{own.revolutions} revolutions after {own.skip} at each of {len(points)}"
     text += " points; the exponent is the upper end of its interval"
     figure = headed_figure("Map of periods", text, (11.5, 1.8 + 4.2 * len(report.ways)))
     ends = [row["exponent"][2] for branch in report.branches for row in branch.rows
@@ -39,7 +40,7 @@ def period_map_figure(report: Report) -> Figure:
         rows = [branch for branch in report.branches if branch.name == way]
         ordered = [[one for _, one in sorted(branch, key=lambda at: at[0])] for branch in rows]
         periods, exponents = panels[row]
-        _periods(periods, ordered, study.own.longest)
+        _periods(periods, ordered, study.bifurcation.longest)
         exponents_shown = _exponents(exponents, ordered, most)
         figure.colorbar(exponents_shown, ax=exponents, label="exponent per revolution")
         for panel, title in ((periods, "period"), (exponents, "largest exponent")):

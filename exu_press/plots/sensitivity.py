@@ -1,25 +1,21 @@
 """A sensitivity study in one picture: the spread of each quantity, and its share by key."""
 
-from pathlib import Path
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from exu_press.plots.file import save_figure
 from exu_press.plots.headed import headed_figure
 from exu_press.plots.style import COLOURS, GREY, styled
-from exu_press.plots.sweep_words import words
-from exu_press.plots.typesetting import plain, typeset
+from exu_press.plots.sweep_words import headed, words
+from exu_press.plots.typesetting import typeset, wrapped
 from exu_press.plots.words import describe
 from exu_press.quantities import quantity_of
 from exu_press.studies.sensitivity import Report
 from exu_press.studies.sensitivity.indices import Indices
 
-__all__ = ["save_sensitivity", "sensitivity_figure"]
+__all__ = ["sensitivity_figure", "sensitivity_figures"]
 
 BINS = 30
-MOST_LETTERS = 44
 
 
 @styled
@@ -34,15 +30,14 @@ def sensitivity_figure(report: Report) -> Figure:
     for place, (name, row) in enumerate(zip(names, panels, strict=True)):
         quantity = quantity_of(study.scene, name).quantity
         unit = typeset(quantity.shown or quantity.unit)
-        label = words(name) + (f", {unit}" if unit else "")
-        _spread(row[0], report.sample.values[place] * quantity.scale, report, place, label)
+        _spread(row[0], report.sample.values[place] * quantity.scale, report, place)
         found = report.indices[place]
         if found is None:
             for axes in row[1:]:
                 axes.axis("off")
             continue
         order = np.argsort(found.total)
-        told = [_short(words(keys[n])) for n in order]
+        told = [wrapped(words(keys[n])) for n in order]
         bars = report.bars[order, :, place] * quantity.scale
         middle = report.middle[place] * quantity.scale
         places = np.arange(len(order))
@@ -62,9 +57,9 @@ def sensitivity_figure(report: Report) -> Figure:
     return figure
 
 
-def save_sensitivity(report: Report, directory: str | Path) -> Path:
-    """Draw sensitivity.png and return the file."""
-    return save_figure(sensitivity_figure(report), Path(directory) / "sensitivity.png")
+def sensitivity_figures(report: Report) -> dict[str, Figure]:
+    """Return the picture of a sensitivity study by its name."""
+    return {"sensitivity": sensitivity_figure(report)}
 
 
 def _ends() -> tuple[list[object], list[str]]:
@@ -76,16 +71,17 @@ def _ends() -> tuple[list[object], list[str]]:
 
 def _spread(
     axes: Axes, values: "np.ndarray[tuple[int], np.dtype[np.float64]]", report: Report,
-    place: int, label: str,
+    place: int,
 ) -> None:  # fmt: skip
     axes.hist(values, BINS, color=COLOURS["sky blue"], edgecolor="white", linewidth=0.5)
-    quantity = quantity_of(report.study.scene, report.study.sensitivity.quantities[place]).quantity
+    name = report.study.sensitivity.quantities[place]
+    quantity = quantity_of(report.study.scene, name).quantity
     each = report.spreads[place]
     for value in (each.low, each.middle, each.high):
         axes.axvline(value * quantity.scale, color=GREY, linewidth=1.0, linestyle="--")
     axes.margins(x=0.03)
     axes.locator_params(axis="x", nbins=5)
-    axes.set(xlabel=_short(label), ylabel="runs")
+    axes.set(xlabel=wrapped(headed(name)), ylabel="runs")
     axes.set_title("Distribution; lines at 5, 50, 95 %")
 
 
@@ -99,14 +95,8 @@ def _indices(
         places = np.arange(len(order)) + shift
         axes.hlines(places, bounds[order, 0], bounds[order, 1], color=colour, linewidth=1.5)
         axes.plot(values[order], places, "o", color=colour, markersize=5, label=label)
-    axes.set_xlim(-0.15, 1.3)
+    axes.update_datalim([(-0.05, 0.0), (1.05, 0.0)])
+    axes.margins(x=0.05)
     axes.set_ylim(-0.6, len(order) - 0.4)
     axes.set_title("Share of the variance")
     axes.set_xlabel("Sobol index, with its 95 % interval")
-
-
-def _short(text: str) -> str:
-    """Return a key's words in at most two lines."""
-    import textwrap
-
-    return plain("\n".join(textwrap.wrap(text, MOST_LETTERS, max_lines=2, placeholder="...")))

@@ -2,12 +2,10 @@
 
 from collections import Counter
 from collections.abc import Sequence
-from pathlib import Path
 
 from matplotlib.figure import Figure
 
 from exu_press.errors import InputError
-from exu_press.plots.file import save_figure
 from exu_press.plots.headed import headed_figure
 from exu_press.plots.style import styled
 from exu_press.plots.sweep_panels import draw_curves, draw_map
@@ -17,7 +15,7 @@ from exu_press.plots.words import describe
 from exu_press.studies.sweep import Table
 from exu_press.studies.sweep.lines import shown
 
-__all__ = ["axes_of", "save_sweep", "sweep_figure"]
+__all__ = ["axes_of", "sweep_figure", "sweep_figures"]
 
 MOST_CURVES = 6
 
@@ -72,18 +70,16 @@ def sweep_figure(table: Table, axes: Sequence[str], quantities: Sequence[str]) -
     return figure
 
 
-def save_sweep(
-    table: Table, directory: str | Path, axes: Sequence[str] = (), quantities: Sequence[str] = ()
-) -> list[Path]:
-    """Draw the sweep; return sweep.png, or nothing where no number varies or none came out.
+def sweep_figures(
+    table: Table, over: Sequence[str] = (), show: Sequence[str] = ()
+) -> dict[str, Figure]:
+    """Return the picture of a sweep, or none where no number varies or none came out.
 
     Raises:
-        InputError: an axis or a quantity is not there, or the file cannot be written.
+        InputError: an axis or a quantity is not there.
     """
-    over, drawn = axes_of(table, axes), shown(table, quantities)
-    if not over or not drawn:
-        return []
-    return [save_figure(sweep_figure(table, over, drawn), Path(directory) / "sweep.png")]
+    axes, drawn = axes_of(table, over), shown(table, show)
+    return {"sweep": sweep_figure(table, axes, drawn)} if axes and drawn else {}
 
 
 def _curves(table: Table, axes: Sequence[str]) -> dict[str, list[int]] | None:

@@ -11,7 +11,7 @@ from exu_press.plots.typesetting import typeset
 from exu_press.quantities.catalogue import declared
 from exu_press.studies.sweep.units import meaning_of, unit_of
 
-__all__ = ["in_unit", "setting", "words"]
+__all__ = ["headed", "in_unit", "setting", "words"]
 
 PREFIXES = {-9: "n", -6: "u", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 PREFIXED = ("m", "s", "N", "N m", "J", "W", "Pa")
@@ -54,6 +54,17 @@ def words(name: str) -> str:
     if name.startswith(("joints.", "load.")) and meaning:
         return f"{parts[0].replace('_', ' ')}, {meaning}"
     return meaning or ", ".join(part.replace("_", " ") for part in parts)
+
+
+def headed(name: str) -> str:
+    """Return what a quantity is, in words, with the unit that is shown.
+
+    >>> headed("peak_acceleration.resolved")
+    'peak acceleration, m/s^2'
+    """
+    placed = declared(name)
+    unit = "" if placed is None else placed.quantity.shown or placed.quantity.unit
+    return words(name) + (f", {unit}" if unit else "")
 
 
 def setting(name: str, value: Any) -> str:

@@ -1,8 +1,12 @@
 """Texts as pictures and pages have them; terminals, CSV and NetCDF keep units in ASCII."""
 
 import re
+import textwrap
 
-__all__ = ["plain", "typeset"]
+__all__ = ["plain", "typeset", "wrapped"]
+
+LETTERS = 44
+"""In a line beside a panel."""
 
 POWERS = str.maketrans("23", "\N{SUPERSCRIPT TWO}\N{SUPERSCRIPT THREE}")
 POWER = re.compile(r"(?<=\w)\^([23])(?!\w)")
@@ -12,6 +16,15 @@ MICRO_UNIT = re.compile(r"(?<![\w./])u(?=(?:m|rad)(?![\w/]|\.\w))")
 def plain(text: str) -> str:
     """Return a text as matplotlib draws it: as it stands, nothing in it a formula."""
     return text.replace("$", r"\$")
+
+
+def wrapped(text: str, letters: int = LETTERS) -> str:
+    """Return a text in lines of a panel's width, as matplotlib draws it.
+
+    >>> wrapped("largest acceleration of the slider, averaged over 1 ms, m/s^2")
+    'largest acceleration of the slider, averaged\\nover 1 ms, m/s²'
+    """
+    return plain("\n".join(textwrap.wrap(typeset(text), letters)))
 
 
 def typeset(text: str) -> str:

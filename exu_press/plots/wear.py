@@ -5,17 +5,20 @@ from matplotlib.figure import Figure
 
 from exu_press.plots.headed import headed_figure
 from exu_press.plots.style import colour_of, styled
-from exu_press.plots.sweep_words import words
-from exu_press.plots.typesetting import plain, typeset
+from exu_press.plots.sweep_words import headed
+from exu_press.plots.typesetting import plain, typeset, wrapped
 from exu_press.plots.words import describe
 from exu_press.quantities import quantity_of
 from exu_press.quantities.uncertain import significant
 from exu_press.studies.wear.run import Report
 from exu_press.studies.wear.shape import ANGLES
 
-__all__ = ["wear_figure"]
+__all__ = ["wear_figure", "wear_figures"]
 
 MOST_SHAPES = 6
+
+LETTERS = 34
+"""In a line beside a panel of this height."""
 
 LEAST_SPREAD = 1e-8
 """Of a quantity, over its value: a smaller change is rounding."""
@@ -38,10 +41,9 @@ def wear_figure(report: Report) -> Figure:
         axes = figure.add_subplot(grid[1 + place // 2, place % 2])
         if name:
             quantity = quantity_of(study.scene, name).quantity
-            unit = quantity.shown or quantity.unit
             values = [np.nan if v is None else v * quantity.scale for v in report.values(name)]
             axes.plot(strokes, values, "o-", markersize=3)
-            axes.set_ylabel(words(name) + (f", {typeset(unit)}" if unit else ""))
+            axes.set_ylabel(wrapped(headed(name), LETTERS))
             axes.ticklabel_format(axis="y", useOffset=False)
             middle, spread = float(np.nanmean(values)), float(np.ptp(values))
             if spread < LEAST_SPREAD * abs(middle):
@@ -56,6 +58,11 @@ def wear_figure(report: Report) -> Figure:
         axes.set_xlabel("strokes")
         axes.margins(x=0.03)
     return figure
+
+
+def wear_figures(report: Report) -> dict[str, Figure]:
+    """Return the picture of a wear study by its name."""
+    return {"wear": wear_figure(report)}
 
 
 def _shapes(axes: object, report: Report, joint: str) -> None:

@@ -20,6 +20,7 @@ class Kind(Enum):
     SWEEP = "table.csv"
     OPTIMUM = "optimise.json"
     FIT = "fit.json"
+    SENSITIVITY = "sensitivity.json"
     BIFURCATION = "bifurcation.json"
     ATTRACTOR = "attractor.json"
     WEAR = "wear.json"

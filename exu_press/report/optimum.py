@@ -1,9 +1,9 @@
 """The report of an optimum: all trials as points, those of the front with their scenes."""
 
-import csv
 from pathlib import Path
 from typing import Any
 
+from exu_press.files.csv_table import read_csv
 from exu_press.page import Live, has_library
 from exu_press.plots.words import describe
 from exu_press.report.html import table
@@ -21,10 +21,10 @@ def optimum_report(file: Path) -> str:
     """Return the page of an optimum, from optimise.json, trials.csv and the scenes beside it."""
     with reading(file, "an optimum of exu_press"):
         told = from_json(dict[str, Any], file.read_bytes(), file.name)
-        with (file.parent / "trials.csv").open(encoding="utf-8", newline="") as stream:
-            head, *lines = csv.reader(stream)
-        trials = [dict(zip(head, map(_value, line), strict=True)) for line in lines]
-        front = [{name: _plain(v) for name, v in one["keys"].items()} for one in told["front"]]
+        columns = read_csv(file.parent / "trials.csv")
+        head = list(columns)
+        trials = [dict(zip(head, row, strict=True)) for row in zip(*columns.values(), strict=True)]
+        front = [one["keys"] for one in told["front"]]
         chosen = int(told["chosen"])
         keys = list(front[chosen])
         places = [_place(front, trial, keys) for trial in trials]
@@ -77,18 +77,6 @@ def _of_front(place: int | None, chosen: int) -> str:
     if place is None:
         return ""
     return f"{place + 1:02}.toml" + (", chosen" if place == chosen else "")
-
-
-def _value(text: str) -> float | str | None:
-    try:
-        return float(text)
-    except ValueError:
-        return text or None
-
-
-def _plain(value: Any) -> Any:
-    """Return a key's value as the table has it."""
-    return _value(str(value))
 
 
 def _shown(value: Any) -> str:

@@ -1,9 +1,10 @@
 """The common parts of studies' reports: their files are read, their pictures shown."""
 
-import csv
-from collections.abc import Iterator, Sequence
+import shlex
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 from exu_press.errors import InputError
 from exu_press.page import Live
@@ -11,9 +12,9 @@ from exu_press.report.html import page, paragraph, picture, stills
 from exu_press.report.run import scene_parts
 from exu_press.scene import Scene
 
-__all__ = ["reading", "study_page"]
+__all__ = ["command_of", "reading", "study_page"]
 
-WRONG = (ValueError, KeyError, IndexError, TypeError, AttributeError, csv.Error)
+WRONG = (ValueError, KeyError, IndexError, TypeError, AttributeError)
 
 
 @contextmanager
@@ -60,3 +61,13 @@ def study_page(
     about = [] if scene is None else scene_parts(scene)
     under = f"{under}; {file.parent.name}/{file.name}"
     return page(title, under, [*sections, ("Pictures", shown), *about])
+
+
+def command_of(changes: Mapping[str, Any]) -> str:
+    """Return the command that runs a study's scene with keys changed; None leaves one as it is.
+
+    >>> command_of({"speed_rpm": 300.0, "film.law": None})
+    'exu-press run SCENE.toml --set speed_rpm=300.0'
+    """
+    told = (f"{name}={value}" for name, value in changes.items() if value is not None)
+    return " ".join(["exu-press run SCENE.toml", *(f"--set {shlex.quote(one)}" for one in told)])

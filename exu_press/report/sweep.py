@@ -1,6 +1,5 @@
 """The report of a sweep: its runs as a table and a picture."""
 
-import csv
 import shlex
 import tempfile
 from collections import Counter
@@ -8,16 +7,19 @@ from pathlib import Path
 from typing import Any
 
 from exu_press.errors import InputError
+from exu_press.files.csv_table import read_csv
 from exu_press.page import Live, has_library
-from exu_press.plots.sweep import save_sweep
+from exu_press.plots.file import save_figures
+from exu_press.plots.sweep import sweep_figures
 from exu_press.plots.words import describe
 from exu_press.quantities.catalogue import declared
 from exu_press.quantities.kind import COST
 from exu_press.report.html import page, paragraph, picture, stills, table, warnings
 from exu_press.report.run import scene_parts
+from exu_press.report.study import command_of, reading
 from exu_press.scene.warnings import scene_warnings
 from exu_press.schema.checks import table_from
-from exu_press.schema.stored import LARGEST, from_json
+from exu_press.schema.stored import from_json
 from exu_press.studies.sweep import Sweep, Table
 from exu_press.studies.sweep.lines import shown
 from exu_press.studies.sweep.table import cell
@@ -43,7 +45,7 @@ def sweep_report(file: Path) -> str:
     with tempfile.TemporaryDirectory() as folder:
         pictures = [
             picture(path, f"Over {' and '.join(runs.study.keys)}.")
-            for path in save_sweep(runs, folder)
+            for path in save_figures(sweep_figures(runs), folder)
         ]
     reasons = Counter(str(reason) for reason in runs["reason"] if reason)
     reasons += Counter(warning for scene in runs.study.scenes for warning in scene_warnings(scene))
@@ -95,38 +97,15 @@ def _command(runs: Table, run: int) -> str:
     """Return the command that shows a run again: its file's, or the one that computes it."""
     if "file" in runs.columns:
         return f"exu-press view {shlex.quote(str(runs['file'][run]))}"
-    changes = (
-        f"{name}={value}" for name in runs.study.keys if (value := runs[name][run]) is not None
-    )
-    return " ".join(["exu-press run SCENE.toml", *(f"--set {shlex.quote(c)}" for c in changes)])
+    return command_of({name: runs[name][run] for name in runs.study.keys})
 
 
 def _table(file: Path) -> Table:
     """Return the table that a sweep wrote; columns that its runs lack stay empty."""
-    try:
-        stored = (file.parent / "study.json").read_bytes()
-        with file.open(encoding="utf-8", newline="") as stream:
-            head, *lines = csv.reader(stream)
-        columns = [tuple(map(_value, column)) for column in zip(*lines, strict=True)]
-        table = dict(zip(head, columns, strict=True))
-        study = table_from(Sweep, "", from_json(dict[str, Any], stored, "study.json"))
-    except OSError as error:
-        raise InputError(f"{error.filename}: cannot be read ({error.strerror})") from None
-    except InputError as error:
-        raise InputError(f"{file}: not a sweep of exu_press: {error}") from None
-    except (ValueError, TypeError, csv.Error):
-        raise InputError(f"{file}: not a sweep of exu_press") from None
+    with reading(file, "a sweep of exu_press"):
+        told = from_json(dict[str, Any], file.with_name("study.json").read_bytes(), "study.json")
+        study, columns = table_from(Sweep, "", told), read_csv(file)
     asked = {name: tuple(cell(point[name]) for point in study.points) for name in study.keys}
-    if not {"status", "reason"} <= set(head) or any(table.get(n) != asked[n] for n in asked):
+    if not {"status", "reason"} <= set(columns) or any(columns.get(n) != asked[n] for n in asked):
         raise InputError(f"{file}: does not belong to the study.json beside it")
-    return Table(study, table)
-
-
-def _value(text: str) -> str | float | bool | None:
-    if text in ("true", "false"):
-        return text == "true"
-    try:
-        number = float(text)
-    except ValueError:
-        return text or None
-    return number if abs(number) < LARGEST else text
+    return Table(study, columns)

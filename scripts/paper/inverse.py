@@ -15,13 +15,13 @@ from exu_press.parallel import Batch
 from exu_press.scene import Scene, flexible_press
 from exu_press.studies.optimise.several import searched
 from exu_press.studies.optimise.study import TPE
-from paper.open_keys import OPEN, OURS, alternatives, as_read
+from paper.open_keys import FOUND, OPEN, OURS, alternatives, as_read
 from paper.published import Number, published
 from paper.readings import MODELS
 from paper.runs import DEFAULT, paper_runs
 from paper.tasks import read
 
-__all__ = ["CAP", "Inverse", "Trial", "distance", "inverse"]
+__all__ = ["CAP", "OBSERVED", "Inverse", "Trial", "distance", "inverse"]
 
 CAP = math.log(4.0)
 """Of a number's log ratio, in what the search makes small: how far beyond a factor of four a number
@@ -32,15 +32,22 @@ SEARCH: Mapping[str, Any] = {"revolutions": 1.55, "solver.tolerance": 1e-2}
 change by less than 0.5 %, those of a nearly undamped contact by 10 to 30 %, within what the scenes
 do not determine. What is told in the end of three readings is run as all of section 5 is."""
 
-TIME_LIMIT = 60.0
-"""Of a rigid run, s; TIME_LIMIT_FLEXIBLE of a flexible one."""
+TIME_LIMIT = 600.0
+"""Of a rigid run, s, on a machine that does other work too; TIME_LIMIT_FLEXIBLE of a flexible one,
+which takes a minute or less alone."""
 
-TIME_LIMIT_FLEXIBLE = 300.0
+TIME_LIMIT_FLEXIBLE = 3600.0
+
+MOST_FLEXIBLE = 4
+"""Readings beside the rigid recommendation that are run with flexible bodies too: one key each is
+elsewhere, those first by which rigid bodies lose least."""
 
 FREE = 0.01
 """Of the distance: what changes it by less cannot be told."""
 
 OBSERVED = "observation"
+
+RIGID, FLEXIBLE = "rigid", "flexible"
 
 
 @dataclass(frozen=True)
@@ -50,10 +57,12 @@ class Trial:
     Attributes:
         reading: name of what is open -> what it is taken for.
         ratios: ours over the paper's, in the order of `Inverse.numbers`; None of a failed run.
+        bodies: "rigid" or "flexible".
     """
 
     reading: Mapping[str, Any]
     ratios: tuple[float, ...] | None
+    bodies: str = RIGID
 
     @property
     def distance(self) -> float:
@@ -77,12 +86,15 @@ class Inverse:
 
     Attributes:
         numbers: that the paper computed and prints, in its order.
-        trials: all readings, ours first.
-        ours, best, recommended: readings and what they make.
+        trials: all readings, ours and that of an earlier search first.
+        ours, best: readings with rigid bodies and what they make.
+        from_rigid: what rigid bodies recommend, where the flexible search starts.
         alone: name of what is open -> trials that differ from `base` in it alone.
-        flexible: the recommended reading with flexible bodies.
         base: best reading of the search, before the changes by one key.
+        flexible: trials of the flexible search, `from_rigid` first.
+        ours_flexible, recommended: ours and the best of these, run as all of section 5 is.
         failures: why runs gave no numbers -> how many.
+        repeated: runs that were repeated with smaller tolerances.
         runs: how many there were.
     """
 
@@ -90,18 +102,22 @@ class Inverse:
     trials: list[Trial]
     ours: Trial
     best: Trial
-    recommended: Trial
+    from_rigid: Trial
     alone: Mapping[str, list[Trial]]
-    flexible: Trial
     base: Trial
+    ours_flexible: Trial
+    recommended: Trial
+    flexible: list[Trial] = field(default_factory=list)
     failures: Counter[str] = field(default_factory=Counter)
+    repeated: int = 0
     runs: int = 0
 
     @property
     def all(self) -> list[Trial]:
         """Return every trial that has numbers."""
         more = [one for each in self.alone.values() for one in each]
-        found = [*self.trials, self.best, self.recommended, *more]
+        found = [*self.trials, self.best, self.from_rigid, *more]
+        found += [*self.flexible, self.ours_flexible, self.recommended]
         return [one for one in found if one.ratios is not None]
 
     def nearest(self, place: int) -> Trial:
@@ -114,7 +130,7 @@ class Inverse:
         return [
             name
             for name, each in self.alone.items()
-            if all(abs(one.distance - self.best.distance) < FREE for one in each)
+            if all(abs(one.distance - self.base.distance) < FREE for one in each)
         ]
 
     def to_dict(self) -> dict[str, Any]:
@@ -124,15 +140,40 @@ class Inverse:
             "trials": [[dict(t.reading), t.ratios] for t in self.trials],
             "ours": [dict(self.ours.reading), self.ours.ratios],
             "best": [dict(self.best.reading), self.best.ratios],
+            "from_rigid": [dict(self.from_rigid.reading), self.from_rigid.ratios],
+            "flexible": [[dict(t.reading), t.ratios] for t in self.flexible],
+            "ours_flexible": self.ours_flexible.ratios,
             "recommended": [dict(self.recommended.reading), self.recommended.ratios],
-            "flexible": self.flexible.ratios,
             "alone": {
                 name: [[one.reading[name], one.ratios] for one in each]
                 for name, each in self.alone.items()
             },
             "failures": dict(self.failures),
+            "repeated": self.repeated,
             "runs": self.runs,
         }
+
+    def count(self, judge: "_Judge") -> None:
+        """Add a judge's runs."""
+        self.failures += judge.failures
+        self.repeated += judge.repeated
+        self.runs += judge.runs
+
+
+def _beside(report: Inverse) -> list[dict[str, Any]]:
+    """Return readings beside the rigid recommendation, for the flexible search.
+
+    What is free and how accelerations are observed need no runs of their own.
+    """
+    told = [
+        (min(each, key=lambda one: one.distance), name)
+        for name, each in report.alone.items()
+        if name not in (OBSERVED, *report.free)
+    ]
+    told.sort(key=lambda pair: pair[0].distance)
+    return [
+        {**report.from_rigid.reading, name: one.reading[name]} for one, name in told[:MOST_FLEXIBLE]
+    ]
 
 
 def _alone(judge: "_Judge", best: Trial, quick: bool) -> dict[str, list[Trial]]:
@@ -160,29 +201,40 @@ def _alone(judge: "_Judge", best: Trial, quick: bool) -> dict[str, list[Trial]]:
 class _Judge:
     """Runs readings, several side by side, and remembers them."""
 
-    def __init__(self, batch: Batch, numbers: Sequence[Number], scenes: Mapping[str, Scene]):
-        self._batch, self._numbers, self._scenes = batch, numbers, scenes
+    def __init__(
+        self, batch: Batch, numbers: Sequence[Number], scenes: Mapping[str, Scene], bodies: str
+    ) -> None:
+        self._batch, self._numbers, self._scenes, self._bodies = batch, numbers, scenes, bodies
         self._names = list(dict.fromkeys(number.run for number in numbers))
         self.trials: list[Trial] = []
         self.failures: Counter[str] = Counter()
-        self._asked: set[str] = set()
+        self._asked: dict[str, Mapping[str, Any]] = {}
 
     @property
     def runs(self) -> int:
         """How many different ones were asked for."""
         return len(self._asked)
 
+    @property
+    def repeated(self) -> int:
+        """How many of them needed a smaller tolerance."""
+        return sum(row.get("repeated", 0) > 0 for row in self._asked.values())
+
     def ask(self, points: Sequence[Mapping[str, Any]]) -> tuple[Array, Array]:
         """Return the distances of readings as optuna's samplers ask for them.
 
         A run is observed in each way at no cost: the best observation counts.
         """
-        every = self.of([{**point, OBSERVED: how} for how in MODELS for point in points])
-        number = len(points)
-        found = [min(every[place::number], key=lambda one: one.distance) for place in range(number)]
+        found = self.best_observed(points)
         self.trials += found
         values = [one.distance if one.ratios else np.nan for one in found]
         return np.array(values)[:, None], np.zeros(len(found))
+
+    def best_observed(self, points: Sequence[Mapping[str, Any]]) -> list[Trial]:
+        """Return the trials of readings, each observed as it comes nearest."""
+        every = self.of([{**point, OBSERVED: how} for how in MODELS for point in points])
+        number = len(points)
+        return [min(every[place::number], key=lambda one: one.distance) for place in range(number)]
 
     def of(self, points: Sequence[Mapping[str, Any]]) -> list[Trial]:
         """Return the trials of readings."""
@@ -198,12 +250,12 @@ class _Judge:
             places.append({name: len(tasks) + n for n, name in enumerate(scenes)})
             tasks += [{"scene": scene.to_dict()} for scene in scenes.values()]
         rows = self._batch.rows(tasks)
-        self._asked |= {str(task) for task in tasks}
+        self._asked |= {str(task): row for task, row in zip(tasks, rows, strict=True)}
         for row in rows:
             if row["status"] != "completed":
                 self.failures[f"{row['status']}: {row['reason'][:90]}"] += 1
         return [
-            Trial(dict(point), None if at is None else self._ratios(point, at, rows))
+            Trial(dict(point), None if at is None else self._ratios(point, at, rows), self._bodies)
             for point, at in zip(points, places, strict=True)
         ]
 
@@ -226,7 +278,7 @@ def inverse(
     directory: Path, *, trials: int, quick: bool = False, workers: int | None = None,
     quiet: bool = True,
 ) -> Inverse:  # fmt: skip
-    """Search readings with rigid bodies, vary the best one by one key, run it with flexible ones.
+    """Search readings with rigid bodies, vary the best one by one key, go on with flexible ones.
 
     Called again after a kill, it goes on.
 
@@ -245,9 +297,9 @@ def inverse(
     coarse = {**SEARCH, "revolutions": 0.03} if quick else SEARCH
     told: dict[str, Any] = {"workers": workers, "quiet": quiet, "label": "readings"}
     with Batch(read, directory, time_limit=TIME_LIMIT, **told) as batch:
-        judge = _Judge(batch, numbers, {n: s.replace(coarse) for n, s in scenes.items()})
+        judge = _Judge(batch, numbers, {n: s.replace(coarse) for n, s in scenes.items()}, RIGID)
         (ours,) = judge.of([OURS])
-        judge.ask([OURS])
+        judge.ask([OURS, FOUND])
         varying = {name: key for name, key in OPEN.items() if name != OBSERVED}
         searched(judge.ask, varying, 1, trials, TPE, 0)
         best = min(judge.trials, key=lambda one: one.distance)
@@ -256,24 +308,31 @@ def inverse(
         alone = _alone(judge, best, quick)
         better = min((t for each in alone.values() for t in each), key=lambda t: t.distance)
         base, best = best, min(best, better, key=lambda t: t.distance)
-        report = Inverse(numbers, judge.trials, ours, best, best, alone, best, base)
+        report = Inverse(
+            numbers, judge.trials, ours, best, best, alone, base, ours_flexible=ours,
+            recommended=best,
+        )  # fmt: skip
         reading = {**best.reading, **{name: OURS[name] for name in report.free}}
         (plain,) = judge.of([reading])
-        report.recommended = plain if plain.distance < best.distance + 2 * FREE else best
-        report.failures, report.runs = judge.failures, judge.runs
+        report.from_rigid = plain if plain.distance < best.distance + 2 * FREE else best
+        report.count(judge)
         if not quick:
-            fine = _Judge(batch, numbers, scenes)
-            report.ours, report.best, report.recommended = fine.of(
-                [one.reading for one in (ours, report.best, report.recommended)]
+            fine = _Judge(batch, numbers, scenes, RIGID)
+            report.ours, report.best, report.from_rigid = fine.of(
+                [one.reading for one in (ours, report.best, report.from_rigid)]
             )
-            report.failures += fine.failures
-            report.runs += fine.runs
-    if quick:
-        return report
+            report.count(fine)
     bodies = {name: scene.replace(bodies=flexible_press()) for name, scene in scenes.items()}
     with Batch(read, directory, time_limit=TIME_LIMIT_FLEXIBLE, **told) as batch:
-        judge = _Judge(batch, numbers, bodies)
-        (report.flexible,) = judge.of([report.recommended.reading])
-        report.failures += judge.failures
-        report.runs += judge.runs
+        judge = _Judge(batch, numbers, {n: s.replace(coarse) for n, s in bodies.items()}, FLEXIBLE)
+        readings = [report.from_rigid.reading, *([] if quick else _beside(report))]
+        report.flexible = judge.best_observed(readings)
+        start, nearest = report.flexible[0], min(report.flexible, key=lambda one: one.distance)
+        better = nearest.distance < start.distance - FREE
+        report.recommended = nearest if better else start
+        report.count(judge)
+        if not quick:
+            fine = _Judge(batch, numbers, bodies, FLEXIBLE)
+            report.ours_flexible, report.recommended = fine.of([OURS, report.recommended.reading])
+            report.count(fine)
     return report

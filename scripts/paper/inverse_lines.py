@@ -3,7 +3,7 @@
 import math
 
 from exu_press.terminal.columns import columns
-from paper.inverse import FREE, Inverse, Trial, distance
+from paper.inverse import FREE, OBSERVED, Inverse, Trial, distance
 from paper.open_keys import OPEN, OURS, in_words
 
 __all__ = ["inverse_lines", "inverse_rows"]
@@ -14,11 +14,12 @@ AGREES = 1.25
 
 def inverse_rows(report: Inverse) -> list[list[str]]:
     """Return for each number of section 5 whether it agrees, and under which reading."""
-    rows = [["number of section 5", "paper", "ours", "recommended", "nearest", "verdict"]]
+    head = ["number of section 5", "paper", "ours", "recommended", "nearest", "verdict"]
+    rows = [head]
     for place, number in enumerate(report.numbers):
         nearest = report.nearest(place)
         ratio = _ratio(nearest, place)
-        if _agrees(_ratio(report.ours, place)):
+        if _agrees(_ratio(report.ours_flexible, place)):
             verdict = "agrees"
         elif _agrees(_ratio(report.recommended, place)):
             verdict = "agrees with the recommended reading"
@@ -32,7 +33,7 @@ def inverse_rows(report: Inverse) -> list[list[str]]:
                 f"{number.published:g}",
                 *(
                     f"{_ratio(one, place):.2f}"
-                    for one in (report.ours, report.recommended, nearest)
+                    for one in (report.ours_flexible, report.recommended, nearest)
                 ),
                 verdict,
             ]
@@ -46,14 +47,18 @@ def inverse_lines(report: Inverse) -> list[str]:
     lines = [
         f"{len(report.trials)} readings, {len(tried)} with numbers; "
         f"{report.runs} runs with those that differ from the best reading in one key",
+        f"{report.repeated} runs were repeated with a smaller tolerance, for their impacts",
         *(f"  {n} x {why}" for why, n in report.failures.most_common(3)),
         "",
         *columns(_distances(report)),
         "",
-        "ratios, ours over the paper's",
+        "ratios with flexible bodies, ours over the paper's; nearest of all runs",
         *columns(inverse_rows(report)),
         "",
-        "recommended reading, and by how much the distance grows with one key elsewhere",
+        "flexible bodies, from the best rigid reading on, one key elsewhere",
+        *columns(_flexible(report)),
+        "",
+        "recommended reading, and what one key elsewhere adds to the distance of rigid bodies",
         *columns(_preferences(report)),
     ]
     free = ", ".join(report.free) or "nothing"
@@ -66,8 +71,9 @@ def _distances(report: Inverse) -> list[list[str]]:
     for name, one in (
         ("our reading, rigid", report.ours),
         ("best reading found, rigid", report.best),
-        ("recommended reading, rigid", report.recommended),
-        ("recommended reading, flexible", report.flexible),
+        ("where the flexible search starts, rigid", report.from_rigid),
+        ("our reading, flexible", report.ours_flexible),
+        ("recommended reading, flexible", report.recommended),
     ):
         if one.ratios is None:
             rows.append([name, "a run failed", "", ""])
@@ -80,8 +86,22 @@ def _distances(report: Inverse) -> list[list[str]]:
     return rows
 
 
+def _flexible(report: Inverse) -> list[list[str]]:
+    rows = [["elsewhere", "distance"]]
+    for one in report.flexible:
+        told = [
+            f"{name}: {in_words(value)}"
+            for name, value in one.reading.items()
+            if value != report.from_rigid.reading[name] and name != OBSERVED
+        ]
+        rows.append(
+            [", ".join(told) or "nothing", f"{one.distance:.3f}" if one.ratios else "a run failed"]
+        )
+    return rows
+
+
 def _preferences(report: Inverse) -> list[list[str]]:
-    rows = [["open", "ours", "recommended", "distance grows by"]]
+    rows = [["open", "ours", "recommended", "adds"]]
     for name in OPEN:
         told = [
             f"{in_words(one.reading[name])}: "
@@ -108,5 +128,6 @@ def _agrees(ratio: float) -> bool:
 
 
 def _difference(one: Trial) -> str:
-    """Return the two choices of a reading that matter most to a reader: observation and damping."""
-    return ", ".join(f"{n} {in_words(one.reading[n])}" for n in ("observation", "damping"))
+    """Return what matters most to a reader of a trial: bodies, observation and damping."""
+    told = [f"{n} {in_words(one.reading[n])}" for n in ("observation", "damping")]
+    return ", ".join([f"{one.bodies} bodies", *told])

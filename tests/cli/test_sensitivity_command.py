@@ -3,6 +3,7 @@
 import pytest
 
 from exu_press.cli import main
+from exu_press.files.csv_table import read_csv
 
 STUDY = """
 [scene]
@@ -29,8 +30,15 @@ def test_lines_and_picture(tmp_path, capsys):
     printed = capsys.readouterr().out
     assert "of the presses built no more than" in printed
     assert "slider_crank.slider_mass" in printed
-    assert printed.splitlines()[-1].startswith("written: sensitivity.json, sensitivity.png in")
+    assert printed.splitlines()[-1].startswith(
+        "written: sensitivity.json, samples.csv, sensitivity.png in"
+    )
     assert (tmp_path / "out" / "sensitivity.png").stat().st_size > 10_000
+    samples = read_csv(tmp_path / "out" / "samples.csv")
+    assert set(map(len, samples.values())) == {16}
+    assert main(["report", str(tmp_path / "out"), "--quiet"]) == 0
+    page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    assert "Shares: peak_velocity" in page and "Presses of the sample" in page
     assert run(tmp_path, STUDY, "--quiet", "--no-pictures") == 0
     assert capsys.readouterr().out == ""
 
@@ -40,7 +48,7 @@ def test_lines_and_picture(tmp_path, capsys):
     [
         ("samples = 8", "samples = 9", "a power of two"),
         ('[sensitivity]\nquantities = ["peak_velocity", "joints.wrist_pin.peak_force"]\n', "",
-         "no [sensitivity]; allowed is"),
+         "sensitivity.quantities = (): allowed is a list of names"),
         ("samples = 8", "sampels = 8", "did you mean 'samples'"),
         ("low = 1300.0, high = 1400.0", "low = 1400.0, high = 1300.0", "low < high"),
         ("slider_crank.slider_mass", "film.viscosity", "film"),

@@ -46,6 +46,10 @@ def test_a_sensitivity_study(tmp_path):
     change = 1e-3 * (report.bars[order, :, 0] - report.middle[0])
     assert widths == pytest.approx(np.concatenate([change[:, 0], change[:, 1]]))
     assert [line.get_label() for line in axes[2].lines] == ["alone", "with others"]
+    left, right = axes[2].get_xlim()
+    found = report.indices[0]
+    ends = np.concatenate([found.first_bounds, found.total_bounds])
+    assert left < min(0.0, ends.min()) and max(1.0, ends.max()) < right
 
 
 def test_an_optimum(tmp_path):
@@ -53,6 +57,7 @@ def test_an_optimum(tmp_path):
     report = optimise(Optimise(scene=SCENE, optimise={"trials": 8}, **given), tmp_path, workers=1)
     figure = front_figure(report)
     assert len(figure.axes) == 3
+    assert figure.axes[0].get_xlabel() == "wrist pin: joint force, max, kN"
     lines = {line.get_label(): line for line in figure.axes[0].lines}
     assert len(lines["tried"].get_xdata()) == 8
     place = report.places[report.chosen]

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from exu_press import InputError, Scene
-from exu_press.plots.sweep import axes_of, save_sweep, sweep_figure
+from exu_press.plots.sweep import axes_of, sweep_figure, sweep_figures
 from exu_press.plots.sweep_words import in_unit
 from exu_press.studies.sweep import Sweep
 from exu_press.studies.sweep.table import table_of
@@ -111,8 +111,8 @@ def test_what_is_drawn_over_what():
 
 
 def test_nothing_to_draw_is_no_picture(tmp_path):
-    assert save_sweep(table(keys={"mechanism": ["press"]}), tmp_path) == []
-    assert save_sweep(table(missing=[0, 1, 2], keys={"speed_rpm": SPEEDS}), tmp_path) == []
+    assert sweep_figures(table(keys={"mechanism": ["press"]})) == {}
+    assert sweep_figures(table(missing=[0, 1, 2], keys={"speed_rpm": SPEEDS})) == {}
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ from exu_press.schema.checks import Table, key, table_from
 from exu_press.schema.toml import read_toml
 from exu_press.studies.base.keys import Key, keys_from
 
-__all__ = ["Study", "load_study"]
+__all__ = ["Study", "load_study", "names_in"]
 
 S = TypeVar("S", bound="Study")
 
@@ -35,6 +35,12 @@ class Study(Table):
     with_keys: ClassVar[bool] = True
     """Whether keys of the scene vary."""
 
+    plain_runs: ClassVar[bool] = True
+    """Whether runs may have errors and may be kept."""
+
+    tables: ClassVar[Mapping[str, type[Table]]] = {}
+    """The kind's own tables by name; one whose field is () by default is a list of tables."""
+
     scene: Scene
     keys: Mapping[str, Key]
     save_runs: bool = key(False, "keep a run.nc for every run")
@@ -42,8 +48,21 @@ class Study(Table):
     time_limit: float | None = key(None, "for one run", "s", above=0)
 
     def __post_init__(self) -> None:
-        """Check the keys, each in the scene."""
+        """Check the tables, and the keys, each in the scene."""
         super().__post_init__()
+        if (self.errors or self.save_runs) and not self.plain_runs:
+            command = next(iter(self.tables))
+            raise InputError(f"errors, save_runs: not used by exu-press {command}; remove them")
+        lists = {field.name for field in dataclasses.fields(self) if field.default == ()}
+        for name, kind in self.tables.items():
+            given = getattr(self, name)
+            if name not in lists:
+                read: Any = table_from(kind, name, {} if given is None else given)
+            elif isinstance(given, list | tuple):
+                read = tuple(table_from(kind, name, each) for each in given)
+            else:
+                raise InputError(f"{name} = {given!r:.80}: allowed are tables [[{name}]]")
+            object.__setattr__(self, name, read)
         for name in ("scene", "keys"):
             if not isinstance(value := getattr(self, name), (Mapping, Scene)):
                 raise InputError(f"{name} = {value!r:.200}: allowed is a table")
@@ -86,11 +105,24 @@ class Study(Table):
                 value = {name: each.plain() for name, each in value.items()}
             elif isinstance(value, Scene):
                 value = value.to_dict()
-            elif dataclasses.is_dataclass(value) and not isinstance(value, type):
+            elif isinstance(value, Table):
                 value = dataclasses.asdict(value)
+            elif isinstance(value, tuple):
+                value = [dataclasses.asdict(one) for one in value]
             if field.name != "time_limit" and value is not None:
                 found[field.name] = value
         return found
+
+
+def names_in(name: str, given: Any) -> tuple[str, ...]:
+    """Return a key that is a list of names of quantities.
+
+    Raises:
+        InputError: it is not, or has none.
+    """
+    if isinstance(given, list | tuple) and given and all(isinstance(one, str) for one in given):
+        return tuple(given)
+    raise InputError(f"{name} = {given!r:.200}: allowed is a list of names of quantities")
 
 
 def load_study(path: str | Path, kind: type[S]) -> S:

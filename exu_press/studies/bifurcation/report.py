@@ -1,4 +1,4 @@
-"""The result of a bifurcation study: on the terminal, as a file, and as a dataset."""
+"""The result of a bifurcation study, as a file and as a dataset."""
 
 import dataclasses
 import importlib
@@ -11,11 +11,8 @@ from exu_press.errors import InputError
 from exu_press.studies.base import Row
 from exu_press.studies.bifurcation.study import Bifurcation
 from exu_press.studies.sweep.units import meaning_of, unit_of
-from exu_press.terminal.columns import columns
 
 __all__ = ["Branch", "Report"]
-
-WORDS = 60
 
 
 @dataclasses.dataclass(frozen=True)
@@ -68,22 +65,6 @@ class Report:
         other_key = {} if self.study.second is None else {"second_key": self.study.second}
         return {**key, **other_key, "branches": found}
 
-    def lines(self) -> list[str]:
-        """Return what stands on the terminal."""
-        names = [self.study.name, *([] if self.study.second is None else [self.study.second])]
-        rows = [(*names, "way", "period", "exponent per revolution", "motion")]
-        for branch in self.branches:
-            other = [] if branch.second is None else [f"{branch.second:g}"]
-            for value, row in branch:
-                at = (f"{value:g}", *other, branch.name)
-                if row["status"] != "completed":
-                    rows.append((*at, row["status"], row["reason"][:WORDS], ""))
-                    continue
-                _, low, high = row["exponent"]
-                told = f"below {high:.3g}" if low is None else f"{low:.3g} to {high:.3g}"
-                rows.append((*at, row["in_words"], told, row["motion"]))
-        return columns(rows)
-
     def to_xarray(self) -> Any:
         """Return every point as an `xarray.Dataset` over way, keys, revolution and coordinate.
 
@@ -101,7 +82,7 @@ class Report:
             ) from None
         study = self.study
         done = [row for branch in self.branches for row in branch.rows if "points" in row]
-        section = np.shape(done[0]["points"]) if done else (study.own.revolutions, 0)
+        section = np.shape(done[0]["points"]) if done else (study.bifurcation.revolutions, 0)
         keys = {study.name: list(study.values)}
         if study.second is not None:
             keys[study.second] = [second for second in study.seconds if second is not None]
@@ -129,6 +110,6 @@ class Report:
             coords={
                 "way": self.ways,
                 **{name: (name, values, words[name]) for name, values in keys.items()},
-                "revolution": study.own.skip + 1 + np.arange(section[0]),
+                "revolution": study.bifurcation.skip + 1 + np.arange(section[0]),
             },
         )

@@ -43,7 +43,7 @@ def bifurcation(
         study, directory, written=[FILE], label="bifurcation", function=run_point,
         workers=workers, dask=dask, quiet=quiet,
     ) as runs:  # fmt: skip
-        if study.own.way == FROM_THE_START:
+        if study.bifurcation.way == FROM_THE_START:
             points = [(value, second) for second in study.seconds for value in values]
             rows = iter(runs.rows([_arguments(study, *point, None) for point in points]))
             branches = [
@@ -52,7 +52,7 @@ def bifurcation(
             ]
         else:
             ways = {"up": values, "down": values[::-1]}
-            names = [name for name in ways if name in study.own.way]
+            names = [name for name in ways if name in study.bifurcation.way]
             found: list[list[Row]] = []
             branches, chains = [], []
             for second in study.seconds:
@@ -82,7 +82,7 @@ def _arguments(
 ) -> dict[str, Any]:
     """Return the arguments of `run_point`, from the row at the value before."""
     scene: Scene = study.scene_at(study.at(value, second))
-    own = study.own
+    own = study.bifurcation
     found: dict[str, Any] = {
         "scene": scene.to_dict(),
         "skip": own.skip,

@@ -1,12 +1,11 @@
 """The study's file: one key that goes up and down, or two for a map of periods."""
 
 import dataclasses
-from collections.abc import Mapping
 from itertools import pairwise
-from typing import Any
+from types import MappingProxyType
 
 from exu_press.errors import InputError
-from exu_press.schema.checks import Table, key, table_from
+from exu_press.schema.checks import Table, key
 from exu_press.studies.attractor.lyapunov import BATCHES
 from exu_press.studies.base import Study, Values
 
@@ -37,23 +36,21 @@ class Bifurcation(Study):
     """A study file with one key or two, and its table [bifurcation].
 
     Attributes:
-        bifurcation: of `LongRun`, or its mapping.
+        bifurcation: how long each run is, and where it begins.
 
     Raises:
         InputError: there are more keys than two, a key's values are no numbers that increase, or
             the runs are too short for the period asked.
     """
 
-    bifurcation: LongRun | Mapping[str, Any] = dataclasses.field(default_factory=LongRun)
+    plain_runs = False
+    tables = MappingProxyType({"bifurcation": LongRun})
+
+    bifurcation: LongRun = LongRun()
 
     def __post_init__(self) -> None:
         """Check the keys and the lengths."""
         super().__post_init__()
-        if not isinstance(self.bifurcation, LongRun):
-            if not isinstance(self.bifurcation, Mapping):
-                raise InputError(f"bifurcation = {self.bifurcation!r:.200}: allowed is a table")
-            own = table_from(LongRun, "bifurcation", self.bifurcation)
-            object.__setattr__(self, "bifurcation", own)
         if len(self.keys) > 2:
             raise InputError(
                 f"[keys]: {', '.join(self.keys)}; allowed in a file for exu-press bifurcation is "
@@ -67,19 +64,11 @@ class Bifurcation(Study):
                 )
             if not all(a < b for a, b in pairwise(self._numbers(name))):
                 raise InputError(f"keys.{name}: allowed are numbers that increase")
-        if self.own.revolutions < 3 * self.own.longest:
+        if self.bifurcation.revolutions < 3 * self.bifurcation.longest:
             raise InputError(
-                f"bifurcation.revolutions = {self.own.revolutions}: allowed are at least "
-                f"{3 * self.own.longest}, for periods up to {self.own.longest}"
+                f"bifurcation.revolutions = {self.bifurcation.revolutions}: allowed are at least "
+                f"{3 * self.bifurcation.longest}, for periods up to {self.bifurcation.longest}"
             )
-        if self.errors or self.save_runs:
-            raise InputError("errors, save_runs: not used by exu-press bifurcation; remove them")
-
-    @property
-    def own(self) -> LongRun:
-        """The table [bifurcation]."""
-        assert isinstance(self.bifurcation, LongRun)
-        return self.bifurcation
 
     @property
     def name(self) -> str:

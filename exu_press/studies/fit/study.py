@@ -4,11 +4,12 @@ import dataclasses
 import os
 from collections.abc import Mapping
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from exu_press.errors import InputError
 from exu_press.quantities import quantity_of
-from exu_press.schema.checks import Table, key, nearest, table_from
+from exu_press.schema.checks import Table, key, nearest
 from exu_press.studies.base import Range, Study
 from exu_press.studies.base.evaluation import ranged
 from exu_press.studies.fit.curve import Curve
@@ -50,6 +51,8 @@ class Fit(Study):
         InputError: not allowed, no measurement, or more keys than numbers.
     """
 
+    tables = MappingProxyType({"fit": Search, "measured": Measured, "curve": Curve})
+
     measured: tuple[Measured, ...] = ()
     curve: tuple[Curve, ...] = ()
     start: Mapping[str, float] = dataclasses.field(default_factory=dict)
@@ -57,13 +60,6 @@ class Fit(Study):
 
     def __post_init__(self) -> None:
         """Check keys, measurements and the start."""
-        object.__setattr__(self, "fit", table_from(Search, "fit", self.fit))
-        for name, kind in (("measured", Measured), ("curve", Curve)):
-            given = getattr(self, name)
-            if not isinstance(given, list | tuple):
-                raise InputError(f"{name} = {given!r:.80}: allowed are tables [[{name}]]")
-            tables = tuple(table_from(kind, name, each) for each in given)
-            object.__setattr__(self, name, tables)
         super().__post_init__()
         names = ranged(self, "fit")
         unders = [*(m.under for m in self.measured), *(c.under for c in self.curve)]
@@ -121,8 +117,4 @@ class Fit(Study):
             if read is not None:
                 table["samples"] = [read.at.tolist(), read.values.tolist(), read.unit]
             curves.append(table)
-        return {
-            **super().to_dict(),
-            "measured": [dataclasses.asdict(one) for one in self.measured],
-            "curve": curves,
-        }
+        return {**super().to_dict(), "curve": curves}

@@ -1,6 +1,5 @@
 """Run an optimum."""
 
-import csv
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -9,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from exu_press.errors import InputError
-from exu_press.files.output_directory import output_directory, replacing, write_json
+from exu_press.files.csv_table import write_csv
+from exu_press.files.output_directory import output_directory, write_json
 from exu_press.numerics.arrays import Array
 from exu_press.parallel.task import Row
 from exu_press.scene import Scene
@@ -271,17 +271,12 @@ def _save(report: Report, directory: Path) -> None:
     write_json(directory / "optimise.json", report.to_dict())
     trials, study = report.trials, report.study
     on_front = set(report.places)
-    with (
-        replacing(directory / "trials.csv") as partial,
-        partial.open("w", newline="", encoding="utf-8") as file,
-    ):
-        writer = csv.writer(file, lineterminator="\n")
-        names = list(dict.fromkeys(study.quantities))
-        columns = [study.quantities.index(name) for name in names]
-        writer.writerow([*study.keys, *names, "front"])
-        for place, (point, row) in enumerate(zip(trials.points, trials.numbers, strict=True)):
-            found = ["" if np.isnan(row[n]) else repr(float(row[n])) for n in columns]
-            writer.writerow([*point.values(), *found, int(place in on_front)])
+    columns = {key: [point[key] for point in trials.points] for key in study.keys}
+    for name in dict.fromkeys(study.quantities):
+        numbers = trials.numbers[:, study.quantities.index(name)]
+        columns[name] = [None if np.isnan(value) else float(value) for value in numbers]
+    columns["front"] = [int(place in on_front) for place in range(len(trials.points))]
+    write_csv(directory / "trials.csv", columns)
     scenes = report.scenes
     scenes[report.chosen].save(directory / "chosen.toml", overwrite=True)
     output_directory(directory / "front")

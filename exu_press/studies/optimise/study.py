@@ -1,11 +1,11 @@
 """The study file of an optimisation."""
 
 import dataclasses
-from typing import Any
+from types import MappingProxyType
 
 from exu_press.errors import InputError
 from exu_press.quantities import quantity_of
-from exu_press.schema.checks import Table, key, table_from
+from exu_press.schema.checks import Table, key
 from exu_press.studies.base import Range, Study, Values
 from exu_press.studies.base.evaluation import ranged
 
@@ -91,18 +91,14 @@ class Optimise(Study):
             have.
     """
 
+    tables = MappingProxyType({"optimise": Search, "objective": Objective, "limit": Limit})
+
     objective: tuple[Objective, ...] = ()
     limit: tuple[Limit, ...] = ()
     optimise: Search = Search()
 
     def __post_init__(self) -> None:
         """Check keys, objectives and limits."""
-        object.__setattr__(self, "optimise", table_from(Search, "optimise", self.optimise))
-        for name, kind in (("objective", Objective), ("limit", Limit)):
-            given = getattr(self, name)
-            if not isinstance(given, list | tuple):
-                raise InputError(f"{name} = {given!r:.80}: allowed are tables [[{name}]]")
-            object.__setattr__(self, name, tuple(table_from(kind, name, each) for each in given))
         super().__post_init__()
         if not self.objective:
             raise InputError('no objective; allowed is [[objective]] quantity = "NAME"')
@@ -132,11 +128,3 @@ class Optimise(Study):
             *(one.quantity for one in self.objective),
             *(one.quantity for one in self.limit),
         )
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return what makes this optimum another one than others."""
-        tables = {
-            name: [dataclasses.asdict(one) for one in getattr(self, name)]
-            for name in ("objective", "limit")
-        }
-        return {**super().to_dict(), **tables}

@@ -7,9 +7,10 @@ from typing import Any
 import numpy as np
 
 from exu_press.errors import InputError
+from exu_press.files.csv_table import write_csv
 from exu_press.files.output_directory import write_json
 from exu_press.numerics.arrays import Array
-from exu_press.studies.base import Runs, Values
+from exu_press.studies.base import Runs
 from exu_press.studies.base.checked import error_in, with_errors_of
 from exu_press.studies.base.evaluation import Evaluation
 from exu_press.studies.sensitivity.indices import Indices, Sample, indices, sample
@@ -18,7 +19,7 @@ from exu_press.studies.sensitivity.study import Sensitivity
 
 __all__ = ["Report", "sensitivity"]
 
-WRITTEN = ("sensitivity.json",)
+WRITTEN = ("sensitivity.json", "samples.csv")
 
 
 @dataclass(frozen=True)
@@ -50,6 +51,17 @@ class Report:
         names = self.study.sensitivity.quantities
         found = {name: self._of(place) for place, name in enumerate(names)}
         return {"runs": self.told, "drawn": self.sample.drawn, "quantities": found}
+
+    def columns(self) -> dict[str, list[float]]:
+        """Return keys and quantities of the two independent samples, the contents of samples.csv.
+
+        These presses are drawn from the distributions, and no key is the same in two of them.
+        """
+        shares = np.concatenate(self.sample.shares)
+        points = [self.study.point_at(share) for share in shares]
+        found = {name: [point[name] for point in points] for name in self.study.keys}
+        names = self.study.sensitivity.quantities
+        return found | dict(zip(names, self.sample.values.tolist(), strict=True))
 
     def _of(self, place: int) -> dict[str, Any]:
         """Return the entry of one quantity."""
@@ -97,15 +109,8 @@ def sensitivity(study: Sensitivity, directory: str | Path, **how: Any) -> Report
     with Runs(study, directory, written=WRITTEN, label="sensitivity", **how) as runs:
         evaluation = Evaluation(study, asked.quantities, runs.of)
 
-        def point(share: Array) -> dict[str, float]:
-            found = {}
-            for (name, each), part in zip(keys.items(), share, strict=True):
-                assert not isinstance(each, Values)
-                found[name] = float(each.at(part))
-            return found
-
         def evaluate(shares: Array) -> Array:
-            return evaluation([point(share) for share in shares])
+            return evaluation([study.point_at(share) for share in shares])
 
         middle, bars = tornado(evaluate, len(keys))
         found = sample(evaluate, len(keys), asked.samples, asked.seed)
@@ -114,8 +119,8 @@ def sensitivity(study: Sensitivity, directory: str | Path, **how: Any) -> Report
                 f"{'; '.join(evaluation.told())}: too few for {asked.samples} samples; the cure is "
                 "narrower distributions, or what the runs' reasons say"
             )
-    (checked,) = with_errors_of(study, directory, [study.scene_at(point(np.full(len(keys), 0.5)))],
-                                **how)  # fmt: skip
+    medians = study.scene_at(study.point_at(np.full(len(keys), 0.5)))
+    (checked,) = with_errors_of(study, directory, [medians], **how)
     report = Report(
         study,
         found,
@@ -127,4 +132,5 @@ def sensitivity(study: Sensitivity, directory: str | Path, **how: Any) -> Report
         evaluation.told(),
     )
     write_json(Path(directory) / "sensitivity.json", report.to_dict())
+    write_csv(Path(directory) / "samples.csv", report.columns())
     return report

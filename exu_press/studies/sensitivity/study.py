@@ -1,13 +1,16 @@
 """The study file of a sensitivity study."""
 
 import dataclasses
+from types import MappingProxyType
 from typing import Any, cast
 
 from exu_press.errors import InputError
+from exu_press.numerics.arrays import Array
 from exu_press.quantities import quantity_of
-from exu_press.schema.checks import Table, key, table_from
-from exu_press.studies.base import Normal, Range, Study
+from exu_press.schema.checks import Table, key
+from exu_press.studies.base import Normal, Range, Study, Values
 from exu_press.studies.base.evaluation import ranged
+from exu_press.studies.base.study import names_in
 
 __all__ = ["Asked", "Sensitivity"]
 
@@ -33,12 +36,8 @@ class Asked(Table):
     def __post_init__(self) -> None:
         """Check the names and the number."""
         super().__post_init__()
-        names = self.quantities
-        if isinstance(names, str) or not all(isinstance(n, str) for n in names) or not names:
-            raise InputError(
-                f"sensitivity.quantities = {names!r}: allowed is a list of names of quantities"
-            )
-        object.__setattr__(self, "quantities", tuple(names))
+        names = names_in("sensitivity.quantities", self.quantities)
+        object.__setattr__(self, "quantities", names)
         if self.samples & (self.samples - 1):
             raise InputError(
                 f"sensitivity.samples = {self.samples}: allowed is a power of two, as 64 or 128"
@@ -53,14 +52,21 @@ class Sensitivity(Study):
         sensitivity: what is asked.
     """
 
+    tables = MappingProxyType({"sensitivity": Asked})
+
     sensitivity: Asked = dataclasses.field(default=cast(Any, None))
 
     def __post_init__(self) -> None:
         """Check the keys and the quantities."""
-        if self.sensitivity is None:
-            raise InputError('no [sensitivity]; allowed is [sensitivity] quantities = ["NAME"]')
-        object.__setattr__(self, "sensitivity", table_from(Asked, "sensitivity", self.sensitivity))
         super().__post_init__()
         ranged(self, "sensitivity", (Range, Normal))
         for name in self.sensitivity.quantities:
             quantity_of(self.scene, name)
+
+    def point_at(self, shares: Array) -> dict[str, float]:
+        """Return what the keys are below which these shares of their distributions lie, (keys,)."""
+        found = {}
+        for (name, each), share in zip(self.keys.items(), shares, strict=True):
+            assert not isinstance(each, Values)
+            found[name] = float(each.at(share))
+        return found

@@ -12,7 +12,7 @@ from exu_press.studies.sweep.table import Table
 from exu_press.studies.sweep.units import unit_of
 from exu_press.terminal.columns import columns
 
-__all__ = ["shown", "table_lines"]
+__all__ = ["report_lines", "shown"]
 
 MOST_COLUMNS = 4
 NO_CHANGE = 1e-6
@@ -20,9 +20,9 @@ NO_CHANGE = 1e-6
 MOST_LINES = 24
 
 
-def table_lines(table: Table, wanted: Sequence[str] = ()) -> list[str]:
+def report_lines(table: Table, over: Sequence[str] = (), show: Sequence[str] = ()) -> list[str]:
     """Return keys and quantities of at most MOST_LINES runs, and how the runs ended."""
-    names = (*table.study.keys, *shown(table, wanted), "status")
+    names = (*table.study.keys, *shown(table, show), "status")
     runs = range(min(len(table), MOST_LINES))
     cells = [[_head(name) for name in names]]
     cells += [[table.in_words(name, run, "-") for name in names] for run in runs]

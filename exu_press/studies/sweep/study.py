@@ -2,16 +2,16 @@
 
 import dataclasses
 from functools import cached_property
+from types import MappingProxyType
 from typing import Any
 
 from exu_press.errors import InputError
 from exu_press.scene import Scene
-from exu_press.schema.checks import Table, key, table_from
+from exu_press.schema.checks import Table, key
 from exu_press.studies.base import Study
-from exu_press.studies.base.study import load_study as load
 from exu_press.studies.sweep.points import Points, grid, listed, sample
 
-__all__ = ["Sweep", "Way", "load_study"]
+__all__ = ["Sweep", "Way"]
 
 GRID, LIST, SAMPLE = "grid", "list", "sample"
 
@@ -50,12 +50,9 @@ class Sweep(Study):
         sweep: how the keys' values go together; every combination unless told.
     """
 
-    sweep: Way = Way()
+    tables = MappingProxyType({"sweep": Way})
 
-    def __post_init__(self) -> None:
-        """Check the keys, and every scene."""
-        object.__setattr__(self, "sweep", table_from(Way, "sweep", self.sweep))
-        super().__post_init__()
+    sweep: Way = Way()
 
     def check_keys(self) -> None:
         """Check every scene, before anything runs."""
@@ -84,8 +81,3 @@ class Sweep(Study):
         """Return the data that tell this sweep from others."""
         given = {name: v for name, v in dataclasses.asdict(self.sweep).items() if v is not None}
         return {**super().to_dict(), "sweep": given}
-
-
-def load_study(path: Any) -> Sweep:
-    """Return the sweep of a TOML file; see `exu_press.studies.base.load_study`."""
-    return load(path, Sweep)

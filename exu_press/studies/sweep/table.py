@@ -1,7 +1,5 @@
 """The table of a sweep: one row a run, whatever became of it."""
 
-import csv
-import io
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -12,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.errors import InputError
-from exu_press.files.output_directory import replacing
+from exu_press.files.csv_table import Value, write_csv
 from exu_press.quantities.cost import COSTS
 from exu_press.quantities.uncertain import uncertain
 from exu_press.schema.stored import shown
@@ -20,8 +18,6 @@ from exu_press.schema.toml import toml_text
 from exu_press.studies.sweep.study import Sweep
 
 __all__ = ["RUN_TIMES", "Table", "cell", "table_of"]
-
-Value = str | float | bool | None
 
 COLUMN_NAME = re.compile(r"[\w.-]+", re.ASCII)
 """Of a column: what NetCDF takes for a name."""
@@ -78,14 +74,7 @@ class Table:
 
     def save_csv(self, path: Path) -> None:
         """Write the table; numbers with all their digits, nothing where a run has none."""
-        text = io.StringIO()
-        writer = csv.writer(text, lineterminator="\n")
-        writer.writerow(self.columns)
-        writer.writerows(
-            [_text(value) for value in row] for row in zip(*self.columns.values(), strict=True)
-        )
-        with replacing(path) as partial:
-            partial.write_text(text.getvalue(), encoding="utf-8")
+        write_csv(path, self.columns)
 
 
 def table_of(study: Sweep, rows: Sequence[Mapping[str, Any]], files: Sequence[str]) -> Table:
@@ -142,11 +131,3 @@ def flat(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
                 raise InputError(f"{each}: given twice")
         found |= inner
     return found
-
-
-def _text(value: Value) -> str:
-    if value is None:
-        return ""
-    if isinstance(value, bool):
-        return str(value).lower()
-    return value if isinstance(value, str) else repr(value)

@@ -43,8 +43,4 @@ def report_lines(report: Report) -> list[str]:
     lines += [
         f"worn off the ways of {body}: {1e6 * depth:.3g} um" for body, depth in last.ways.items()
     ]
-    return (
-        [*lines, f"ended before {significant(study.own.strokes, 4)} strokes: {report.reason}"]
-        if report.reason
-        else lines
-    )
+    return lines

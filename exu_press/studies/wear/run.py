@@ -11,6 +11,7 @@ import numpy as np
 from exu_press.files.output_directory import write_json
 from exu_press.parallel import Chain
 from exu_press.parallel.task import COMPLETED
+from exu_press.quantities.uncertain import significant
 from exu_press.scene import Scene
 from exu_press.studies.base import Row, Runs, row_of
 from exu_press.studies.wear.shape import Depths, begun, worn_scene
@@ -67,6 +68,12 @@ class Report:
     study: WearStudy
     points: Sequence[Point]
     reason: str = ""
+
+    @property
+    def ended(self) -> str:
+        """That it ended before all strokes were done, and why; empty where they are."""
+        strokes = significant(self.study.wear.strokes, 4)
+        return f"ended before {strokes} strokes: {self.reason}" if self.reason else ""
 
     def shape(self, point: Point, joint: str) -> Depths:
         """Return the depths that a joint's journal can follow."""
@@ -140,7 +147,7 @@ def wear(
         study, directory, written=[FILE, SCENE], label="wear, at most", function=run_worn,
         workers=workers or (None if dask else 1), dask=dask, quiet=quiet,
     ) as runs:  # fmt: skip
-        runs.follow([_course(study, points, ended)], 2 * study.own.most_jumps + 1)
+        runs.follow([_course(study, points, ended)], 2 * study.wear.most_jumps + 1)
     report = Report(study, points, "".join(ended))
     write_json(Path(directory) / FILE, report.to_dict())
     report.scene().save(Path(directory) / SCENE, overwrite=True)
@@ -163,7 +170,7 @@ def run_worn(arguments: dict[str, Any]) -> dict[str, Any]:
 
 def _course(study: WearStudy, points: list[Point], ended: list[str]) -> Chain:
     """Yield the arguments of one run after another, and add what they lead to."""
-    scene, own = study.scene, study.own
+    scene, own = study.scene, study.wear
     clearance = {name: float(scene.joints[name].clearance) for name in study.joints}
     depths = {name: begun(scene, name) for name in study.joints}
 

@@ -2,15 +2,17 @@
 
 import dataclasses
 from collections.abc import Mapping
-from typing import Any, ClassVar
+from types import MappingProxyType
+from typing import Any, cast
 
 from exu_press.errors import InputError
 from exu_press.quantities import quantity_of
 from exu_press.quantities.catalogue import DEAD_CENTRE, JOINT_FORCE
 from exu_press.scene.wearing import wearing_joints
-from exu_press.schema.checks import Table, key, table_from
+from exu_press.schema.checks import Table, key
 from exu_press.studies.base import Study
 from exu_press.studies.base.keys import Key
+from exu_press.studies.base.study import names_in
 from exu_press.studies.wear.shape import Depths, worn_scene
 
 __all__ = ["Strokes", "WearStudy"]
@@ -41,13 +43,9 @@ class Strokes(Table):
         super().__post_init__()
         if self.strokes is None:
             raise InputError("wear.strokes: missing; allowed is a number > 0, as in strokes = 1e6")
-        names = self.quantities
-        if names is not None:
-            if isinstance(names, str) or not all(isinstance(name, str) for name in names):
-                raise InputError(
-                    f"wear.quantities = {names!r:.200}: allowed is a list of names of quantities"
-                )
-            object.__setattr__(self, "quantities", tuple(names))
+        if self.quantities is not None:
+            names = names_in("wear.quantities", self.quantities)
+            object.__setattr__(self, "quantities", names)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -62,19 +60,17 @@ class WearStudy(Study):
             given that it does not use.
     """
 
-    with_keys: ClassVar[bool] = False
+    with_keys = plain_runs = False
+    tables = MappingProxyType({"wear": Strokes})
 
     keys: Mapping[str, Key] = dataclasses.field(default_factory=dict)
-    wear: Strokes | Mapping[str, Any] = dataclasses.field(default_factory=dict)
+    wear: Strokes = dataclasses.field(default=cast(Any, None))
 
     def __post_init__(self) -> None:
         """Check the scene and the quantities."""
         if self.keys:
             raise InputError("[keys]: not used by exu-press wear; remove them")
-        object.__setattr__(self, "wear", table_from(Strokes, "wear", self.wear))
         super().__post_init__()
-        if self.errors or self.save_runs:
-            raise InputError("errors, save_runs: not used by exu-press wear; remove them")
         scene = self.scene
         if scene.wear is None:
             raise InputError("scene: has no [wear]; allowed is a scene with Archard's coefficient")
@@ -92,12 +88,6 @@ class WearStudy(Study):
         worn_scene(scene, {name: Depths.even(1e-9) for name in self.joints})
 
     @property
-    def own(self) -> Strokes:
-        """The table [wear]."""
-        assert isinstance(self.wear, Strokes)
-        return self.wear
-
-    @property
     def joints(self) -> tuple[str, ...]:
         """The joints that wear."""
         return wearing_joints(self.scene)
@@ -105,6 +95,6 @@ class WearStudy(Study):
     @property
     def names(self) -> tuple[str, ...]:
         """Full names of the quantities that are followed."""
-        if self.own.quantities is not None:
-            return self.own.quantities
+        if self.wear.quantities is not None:
+            return self.wear.quantities
         return DEAD_CENTRE.name, *(JOINT_FORCE.at(name) for name in self.joints)

@@ -6,6 +6,7 @@ import pytest
 from exu_press import InputError, Scene
 from exu_press.plots.period_map import period_map_figure
 from exu_press.studies.bifurcation import Bifurcation, Branch, Report, bifurcation
+from exu_press.studies.bifurcation.lines import report_lines
 
 FILM = Scene(
     mechanism="slider_crank",
@@ -42,7 +43,7 @@ def test_every_point_has_both_keys(report):
     places = [(one["value"], one["second"]) for one in told["branches"]["down"]]
     assert places == [(x, y) for y in (200.0, 240.0) for x in (2e-4, 1e-4, 5e-5)]
     assert "state" not in told["branches"]["down"][0]
-    lines = report.lines()
+    lines = report_lines(report)
     assert lines[0].split()[:3] == [*KEYS, "way"]
     assert len(lines) == 7
     assert "why not" in lines[3]

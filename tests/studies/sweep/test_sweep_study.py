@@ -3,7 +3,8 @@
 import pytest
 
 from exu_press import InputError, Scene
-from exu_press.studies.sweep import Sweep, load_study
+from exu_press.studies.base import load_study
+from exu_press.studies.sweep import Sweep
 
 SCENE = '[scene]\njoints.crank_pin = "lubricated"\n'
 
@@ -15,7 +16,7 @@ SAMPLE = '[sweep]\nway = "sample"\nn = 5\nseed = 2\n'
 def load(tmp_path, text):
     path = tmp_path / "study.toml"
     path.write_text(text, encoding="utf-8")
-    return load_study(path)
+    return load_study(path, Sweep)
 
 
 def test_a_grid_with_the_scene_inside(tmp_path):

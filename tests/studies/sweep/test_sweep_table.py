@@ -9,7 +9,7 @@ from scipy.io import netcdf_file
 
 from exu_press import InputError, Scene
 from exu_press.studies.sweep import Sweep
-from exu_press.studies.sweep.lines import shown, table_lines
+from exu_press.studies.sweep.lines import report_lines, shown
 from exu_press.studies.sweep.netcdf import save_netcdf
 from exu_press.studies.sweep.table import table_of
 
@@ -83,7 +83,7 @@ def test_what_is_shown(table):
 
 
 def test_the_table_in_a_terminal(table):
-    head, first, second, third, *rest = table_lines(table)
+    head, first, second, third, *rest = report_lines(table)
     assert head.split() == [
         "speed_rpm",
         "bottom_dead_centre,",

@@ -1,0 +1,59 @@
+"""A table as a CSV file: numbers with all their digits, nothing where there is none."""
+
+import csv
+import io
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from exu_press.files.output_directory import replacing
+from exu_press.schema.stored import LARGEST
+
+__all__ = ["Value", "read_csv", "write_csv"]
+
+Value = str | float | bool | None
+
+
+def write_csv(path: Path, columns: Mapping[str, Sequence[Value]]) -> None:
+    """Write columns of equal lengths under their names."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(columns)
+    writer.writerows([_text(value) for value in row] for row in zip(*columns.values(), strict=True))
+    with replacing(path) as partial:
+        partial.write_text(text.getvalue(), encoding="utf-8")
+
+
+def read_csv(path: Path) -> dict[str, tuple[Value, ...]]:
+    """Return the columns of a file that `write_csv` wrote.
+
+    Raises:
+        OSError: it cannot be read.
+        ValueError: it is no table.
+    """
+    try:
+        with path.open(encoding="utf-8", newline="") as stream:
+            head, *lines = csv.reader(stream)
+    except csv.Error as error:
+        raise ValueError(f"{path.name}: {error}") from None
+    columns = zip(*lines, strict=True) if lines else [()] * len(head)
+    return {n: tuple(map(_value, each)) for n, each in zip(head, columns, strict=True)}
+
+
+def _text(value: Value) -> str:
+    """Return what a cell has; `repr` shows all digits of a number."""
+    if value is None:
+        return ""
+    if isinstance(value, bool):
+        return str(value).lower()
+    return value if isinstance(value, str) else repr(value)
+
+
+def _value(text: str) -> Value:
+    """Return what a cell holds; what is no finite number is a text."""
+    if text in ("true", "false"):
+        return text == "true"
+    try:
+        number = float(text)
+    except ValueError:
+        return text or None
+    return number if abs(number) < LARGEST else text

@@ -1,0 +1,94 @@
+"""The report of a sensitivity study: every press of the sample, spreads, and shares by key."""
+
+from pathlib import Path
+from typing import Any
+
+from exu_press.files.csv_table import Value, read_csv
+from exu_press.page import Live, has_library
+from exu_press.plots.words import describe
+from exu_press.quantities.catalogue import declared
+from exu_press.report.html import table
+from exu_press.report.study import command_of, reading, study_page
+from exu_press.scene import Scene
+from exu_press.schema.stored import from_json
+from exu_press.studies.sweep.units import unit_of
+
+__all__ = ["sensitivity_report"]
+
+SPREADS = ("quantity", "5 %", "50 %", "95 %", "standard deviation", "half width", "error of a run")
+SHARES = ("key", "alone", "with others", "at its 5 %", "at its 95 %")
+
+
+def sensitivity_report(file: Path) -> str:
+    """Return the page of a sensitivity study, from sensitivity.json and samples.csv beside it."""
+    with reading(file, "a sensitivity study of exu_press"):
+        study = from_json(dict[str, Any], file.with_name("study.json").read_bytes(), "study.json")
+        told = from_json(dict[str, Any], file.read_bytes(), file.name)
+        scene, keys = Scene.from_dict(study["scene"]), list(study["keys"])
+        samples = read_csv(file.with_name("samples.csv"))
+        quantities = told["quantities"]
+        spreads = [_spread(name, one) for name, one in quantities.items()]
+        shares = [
+            (f"Shares: {name}", table(SHARES, _shares(name, one), name))
+            for name, one in quantities.items()
+            if one["moves"]
+        ]
+        live = _live(samples, keys, quantities) if has_library() else None
+        runs = str(told["runs"][0])
+    return study_page(
+        file,
+        f"Sensitivity: {describe([scene], 200)}",
+        runs,
+        [("Presses of the sample", live), ("Spreads", table(SPREADS, spreads)), *shares],
+        "Spreads, changes by one key, shares of the variance.",
+        scene=scene,
+    )
+
+
+def _spread(name: str, one: dict[str, Any]) -> list[str]:
+    """Return a quantity as a line of the table, in the unit that is shown."""
+    placed = declared(name)
+    unit = "" if placed is None else placed.quantity.shown or placed.quantity.unit
+    scale = 1.0 if placed is None else placed.quantity.scale
+    ends = [one["percentiles"][part] for part in ("5", "50", "95")]
+    numbers = [*ends, one["deviation"], one["half_width"], one["error_of_a_run"]]
+    digits = (8, 8, 8, 3, 3, 2)
+    cells = [
+        "" if value is None else f"{value * scale:.{n}g}"
+        for value, n in zip(numbers, digits, strict=True)
+    ]
+    return [f"{name}, {unit}" if unit else name, *cells]
+
+
+def _shares(name: str, one: dict[str, Any]) -> list[list[str]]:
+    """Return each key's indices, the largest first, and the quantity at the key's two ends."""
+    placed = declared(name)
+    scale = 1.0 if placed is None else placed.quantity.scale
+    found = sorted(one["keys"].items(), key=lambda pair: -pair[1]["total_order"]["value"])
+    rows = []
+    for key, entry in found:
+        indices = [
+            f"{part['value']:.2f} ({part['low']:.2f} to {part['high']:.2f})"
+            for part in (entry["first_order"], entry["total_order"])
+        ]
+        ends = ["failed" if end is None else f"{end * scale:.8g}" for end in entry["alone"]]
+        rows.append([key, *indices, *ends])
+    return rows
+
+
+def _live(
+    samples: dict[str, tuple[Value, ...]], keys: list[str], quantities: dict[str, Any]
+) -> Live:
+    """Return the presses of the sample as points, the first quantity over what decides it."""
+    from exu_press.page.study import Column, study_viewer
+
+    def column(name: str) -> Column:
+        return Column(name, unit_of(name), samples[name])
+
+    first, entry = next(iter(quantities.items()))
+    most = keys[0]
+    if entry["moves"]:
+        most = max(keys, key=lambda key: float(entry["keys"][key]["total_order"]["value"]))
+    rows = zip(*(samples[key] for key in keys), strict=True)
+    opens = [command_of(dict(zip(keys, row, strict=True))) for row in rows]
+    return study_viewer([*map(column, keys)], [*map(column, quantities)], opens, (most, first))

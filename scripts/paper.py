@@ -27,7 +27,11 @@ def parser() -> argparse.ArgumentParser:
         help="which reading of what the paper leaves open brings its numbers nearest, instead",
     )
     found.add_argument(
-        "--trials", type=int, default=16, metavar="N", help="readings that --fit tries (16)"
+        "--trials",
+        type=int,
+        default=16,
+        metavar="N",
+        help="readings that --fit tries (16); 0: flexible bodies alone, where a search led",
     )
     found.add_argument("--out", metavar="DIR", default="out/paper", help="where to write")
     found.add_argument(
@@ -66,8 +70,8 @@ def run_fit(options: argparse.Namespace, directory: Path) -> int:
     from paper.inverse import inverse
     from paper.inverse_lines import inverse_lines, inverse_rows
 
-    if options.trials < 8:
-        raise InputError(f"--trials {options.trials}: allowed is a whole number >= 8")
+    if 0 < options.trials < 8 or options.trials < 0:
+        raise InputError(f"--trials {options.trials}: allowed is 0, or a whole number >= 8")
     found = inverse(
         directory,
         trials=options.trials,

@@ -15,7 +15,7 @@ from exu_press.parallel import Batch
 from exu_press.scene import Scene, flexible_press
 from exu_press.studies.optimise.several import searched
 from exu_press.studies.optimise.study import TPE
-from paper.open_keys import FOUND, OPEN, OURS, alternatives, as_read
+from paper.open_keys import BESIDE, FOUND, OPEN, OURS, alternatives, as_read
 from paper.published import Number, published
 from paper.readings import MODELS
 from paper.runs import DEFAULT, paper_runs
@@ -30,17 +30,13 @@ lies tells nothing, and one that no reading reaches must not decide about all ot
 SEARCH: Mapping[str, Any] = {"revolutions": 1.55, "solver.tolerance": 1e-2}
 """Of the runs that readings are compared by: a quarter of the work. Peaks of the printed damping
 change by less than 0.5 %, those of a nearly undamped contact by 10 to 30 %, within what the scenes
-do not determine. What is told in the end of three readings is run as all of section 5 is."""
+do not determine. What is told in the end of three trials is run as all of section 5 is."""
 
 TIME_LIMIT = 600.0
 """Of a rigid run, s, on a machine that does other work too; TIME_LIMIT_FLEXIBLE of a flexible one,
 which takes a minute or less alone."""
 
 TIME_LIMIT_FLEXIBLE = 3600.0
-
-MOST_FLEXIBLE = 4
-"""Readings beside the rigid recommendation that are run with flexible bodies too: one key each is
-elsewhere, those first by which rigid bodies lose least."""
 
 FREE = 0.01
 """Of the distance: what changes it by less cannot be told."""
@@ -87,12 +83,14 @@ class Inverse:
     Attributes:
         numbers: that the paper computed and prints, in its order.
         trials: all readings, ours and that of an earlier search first.
-        ours, best: readings with rigid bodies and what they make.
-        from_rigid: what rigid bodies recommend, where the flexible search starts.
+        ours: with rigid bodies, run as all of section 5 is.
+        from_rigid: what rigid bodies recommend, run likewise; the flexible search starts there.
+        best: of the search and of the changes by one key.
         alone: name of what is open -> trials that differ from `base` in it alone.
         base: best reading of the search, before the changes by one key.
         flexible: trials of the flexible search, `from_rigid` first.
-        ours_flexible, recommended: ours and the best of these, run as all of section 5 is.
+        ours_flexible: ours with flexible bodies, as in the search.
+        recommended: the best of `flexible`, run as all of section 5 is.
         failures: why runs gave no numbers -> how many.
         repeated: runs that were repeated with smaller tolerances.
         runs: how many there were.
@@ -158,22 +156,6 @@ class Inverse:
         self.failures += judge.failures
         self.repeated += judge.repeated
         self.runs += judge.runs
-
-
-def _beside(report: Inverse) -> list[dict[str, Any]]:
-    """Return readings beside the rigid recommendation, for the flexible search.
-
-    What is free and how accelerations are observed need no runs of their own.
-    """
-    told = [
-        (min(each, key=lambda one: one.distance), name)
-        for name, each in report.alone.items()
-        if name not in (OBSERVED, *report.free)
-    ]
-    told.sort(key=lambda pair: pair[0].distance)
-    return [
-        {**report.from_rigid.reading, name: one.reading[name]} for one, name in told[:MOST_FLEXIBLE]
-    ]
 
 
 def _alone(judge: "_Judge", best: Trial, quick: bool) -> dict[str, list[Trial]]:
@@ -284,7 +266,7 @@ def inverse(
 
     Args:
         directory: for the runs.
-        trials: readings of the search.
+        trials: readings of the search; 0: flexible bodies alone, from where an earlier search led.
         quick: a fraction of a revolution: tries the machinery only.
         workers: processes; all cores unless told.
         quiet: False shows the progress on standard error.
@@ -301,13 +283,13 @@ def inverse(
         (ours,) = judge.of([OURS])
         judge.ask([OURS, FOUND])
         varying = {name: key for name, key in OPEN.items() if name != OBSERVED}
-        searched(judge.ask, varying, 1, trials, TPE, 0)
+        searched(judge.ask, varying, 1, trials, TPE, 0)  # of no trials: nothing
         best = min(judge.trials, key=lambda one: one.distance)
         if best.ratios is None:
             raise InputError(f"no reading gives numbers: {judge.failures.most_common(2)}")
-        alone = _alone(judge, best, quick)
-        better = min((t for each in alone.values() for t in each), key=lambda t: t.distance)
-        base, best = best, min(best, better, key=lambda t: t.distance)
+        alone = _alone(judge, best, quick) if trials else {}
+        base = best
+        best = min([base, *(t for each in alone.values() for t in each)], key=lambda t: t.distance)
         report = Inverse(
             numbers, judge.trials, ours, best, best, alone, base, ours_flexible=ours,
             recommended=best,
@@ -318,21 +300,21 @@ def inverse(
         report.count(judge)
         if not quick:
             fine = _Judge(batch, numbers, scenes, RIGID)
-            report.ours, report.best, report.from_rigid = fine.of(
-                [one.reading for one in (ours, report.best, report.from_rigid)]
-            )
+            report.ours, report.from_rigid = fine.of([OURS, report.from_rigid.reading])
             report.count(fine)
     bodies = {name: scene.replace(bodies=flexible_press()) for name, scene in scenes.items()}
     with Batch(read, directory, time_limit=TIME_LIMIT_FLEXIBLE, **told) as batch:
         judge = _Judge(batch, numbers, {n: s.replace(coarse) for n, s in bodies.items()}, FLEXIBLE)
-        readings = [report.from_rigid.reading, *([] if quick else _beside(report))]
-        report.flexible = judge.best_observed(readings)
+        (report.ours_flexible,) = judge.of([OURS])
+        start_at = report.from_rigid.reading
+        beside = BESIDE[:1] if quick else BESIDE
+        report.flexible = judge.best_observed([start_at, *({**start_at, **b} for b in beside)])
         start, nearest = report.flexible[0], min(report.flexible, key=lambda one: one.distance)
         better = nearest.distance < start.distance - FREE
         report.recommended = nearest if better else start
         report.count(judge)
         if not quick:
             fine = _Judge(batch, numbers, bodies, FLEXIBLE)
-            report.ours_flexible, report.recommended = fine.of([OURS, report.recommended.reading])
+            (report.recommended,) = fine.of([report.recommended.reading])
             report.count(fine)
     return report

@@ -57,6 +57,10 @@ def inverse_lines(report: Inverse) -> list[str]:
         "",
         "flexible bodies, from the best rigid reading on, one key elsewhere",
         *columns(_flexible(report)),
+    ]
+    if not report.alone:
+        return lines
+    lines += [
         "",
         "recommended reading, and what one key elsewhere adds to the distance of rigid bodies",
         *columns(_preferences(report)),

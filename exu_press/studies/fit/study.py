@@ -73,7 +73,7 @@ class Fit(Study):
         numbers = len(self.measured) + sum(one.count - one.nuisances for one in self.curve)
         if numbers < len(names):
             raise InputError(
-                f"{len(names)} keys and {numbers:g} measured numbers: allowed are as many numbers "
+                f"{len(names)} keys and {numbers:g} measured number{'s' * (numbers != 1)}: allowed are as many numbers "
                 "as keys at least; the cure is to leave out keys that are known"
             )
         self._check_start()

@@ -9,7 +9,7 @@ from exu_press.quantities.uncertain import significant
 from exu_press.studies.base import Range
 from exu_press.studies.fit.determined import Direction
 from exu_press.studies.fit.run import Report
-from exu_press.studies.sweep.units import unit_of
+from exu_press.studies.sweep.units import unit_of, with_unit
 from exu_press.terminal.columns import columns
 
 __all__ = ["report_lines"]
@@ -51,7 +51,6 @@ def _keys(report: Report) -> list[str]:
     rows = [("key", "best", f"{level} interval", "")]
     for name, best in report.values.items():
         low, high = report.low[name], report.high[name]
-        unit = unit_of(name)
         digits = _digits(best, low, high)
         ends = [
             f"{significant(end, digits)}{' (end of the range)' * open_}"
@@ -62,8 +61,7 @@ def _keys(report: Report) -> list[str]:
         word = "" if symmetric or not known else "not symmetric"
         if all(report.open[name]):
             word = "not determined"
-        head = f"{name}, {unit}" if unit and not name.endswith(unit) else name
-        rows.append((head, significant(best, digits), f"{ends[0]} to {ends[1]}", word))
+        rows.append((with_unit(name), significant(best, digits), f"{ends[0]} to {ends[1]}", word))
     return columns(rows)
 
 

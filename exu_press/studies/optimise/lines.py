@@ -5,7 +5,7 @@ import numpy as np
 from exu_press.quantities import quantity_of
 from exu_press.quantities.uncertain import significant, uncertain
 from exu_press.studies.optimise.run import Report
-from exu_press.studies.sweep.units import unit_of
+from exu_press.studies.sweep.units import with_unit
 from exu_press.terminal.columns import columns
 
 __all__ = ["report_lines"]
@@ -23,7 +23,7 @@ def report_lines(report: Report) -> list[str]:
     rows = [
         (
             "",
-            *(_head(key, unit_of(key)) for key in study.keys),
+            *map(with_unit, study.keys),
             *(_title(report, name) for name in names),
         )
     ]
@@ -51,13 +51,9 @@ def report_lines(report: Report) -> list[str]:
     return lines
 
 
-def _head(name: str, unit: str) -> str:
-    return f"{name}, {unit}" if unit and not name.endswith(f"_{unit}") else name
-
-
 def _title(report: Report, name: str) -> str:
     quantity = quantity_of(report.study.scene, name).quantity
-    return _head(name, quantity.shown or quantity.unit)
+    return with_unit(name, quantity.shown or quantity.unit)
 
 
 def _number(report: Report, name: str, place: int) -> str:

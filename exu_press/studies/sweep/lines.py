@@ -9,7 +9,7 @@ from exu_press.errors import InputError
 from exu_press.quantities import Place, Quantity
 from exu_press.quantities.catalogue import declared
 from exu_press.studies.sweep.table import Table
-from exu_press.studies.sweep.units import unit_of
+from exu_press.studies.sweep.units import with_unit
 from exu_press.terminal.columns import columns
 
 __all__ = ["report_lines", "shown"]
@@ -24,7 +24,7 @@ def report_lines(table: Table, over: Sequence[str] = (), show: Sequence[str] = (
     """Return keys and quantities of at most MOST_LINES runs, and how the runs ended."""
     names = (*table.study.keys, *shown(table, show), "status")
     runs = range(min(len(table), MOST_LINES))
-    cells = [[_head(name) for name in names]]
+    cells = [[with_unit(name) for name in names]]
     cells += [[table.in_words(name, run, "-") for name in names] for run in runs]
     lines = columns(cells)
     if len(table) > MOST_LINES:
@@ -83,8 +83,3 @@ def _change(table: Table, name: str) -> float:
     values = values[np.isfinite(values)]
     largest = float(np.abs(values).max(initial=0.0))
     return (1.0 if len(values) == 1 else float(np.ptp(values)) / largest) if largest else 0.0
-
-
-def _head(name: str) -> str:
-    unit = unit_of(name)
-    return f"{name}, {unit}" if unit and not name.endswith(f"_{unit}") else name

@@ -26,13 +26,14 @@ def unit_of(name: str) -> str:
     return "" if metadata is None else str(metadata["unit"])
 
 
-def with_unit(name: str) -> str:
-    """Return a name with its unit, as the head of a column.
+def with_unit(name: str, unit: str | None = None) -> str:
+    """Return a name with its unit, SI unless told, as the head of a column.
 
-    >>> with_unit("speed_rpm"), with_unit("status")
-    ('speed_rpm, rpm', 'status')
+    >>> with_unit("peak_velocity"), with_unit("speed_rpm"), with_unit("status")
+    ('peak_velocity, m/s', 'speed_rpm', 'status')
     """
-    return f"{name}, {unit}" if (unit := unit_of(name)) else name
+    unit = unit_of(name) if unit is None else unit
+    return f"{name}, {unit}" if unit and not name.endswith(f"_{unit}") else name
 
 
 def meaning_of(name: str) -> str:

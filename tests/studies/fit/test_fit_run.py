@@ -116,7 +116,7 @@ def test_a_curve_through_a_sensor(tmp_path):
     ("changes", "said"),
     [
         ({"measured": []}, "no measurement"),
-        ({"measured": measured()[:1]}, "2 keys and 1 measured numbers"),
+        ({"measured": measured()[:1]}, r"more keys \(2\) than measured numbers \(1\)"),
         ({"measured": [{"quantity": "stroke", "value": 1.0}]}, "measured.uncertainty: not given"),
         (
             {"measured": measured(("stroke",), value=1.0, uncertainty=0.0)},

@@ -73,8 +73,8 @@ class Fit(Study):
         numbers = len(self.measured) + sum(one.count - one.nuisances for one in self.curve)
         if numbers < len(names):
             raise InputError(
-                f"more keys ({len(names)}) than measured numbers ({numbers:g}): allowed are as many "
-                "numbers as keys at least; the cure is to leave out keys that are known"
+                f"more keys ({len(names)}) than measured numbers ({numbers:g}): allowed are as "
+                "many numbers as keys at least; the cure is to leave out keys that are known"
             )
         self._check_start()
 

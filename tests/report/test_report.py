@@ -177,7 +177,7 @@ def test_the_file_names_the_kind(outputs, tmp_path):
 @pytest.mark.parametrize(
     ("content", "path", "message"),
     [
-        ({}, ".", "has none of run.nc, comparison.json, table.csv, optimise.json, fit.json, bif"),
+        ({}, ".", "has none of run.nc, comparison.json, table.csv, optimise.json, fit.json, s"),
         ({}, "no.nc", "cannot be read"),
         ({"run.nc": "x"}, "run.nc", "not a result of exu_press"),
         ({"comparison.json": "{"}, ".", "not a comparison of exu_press"),

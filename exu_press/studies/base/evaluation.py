@@ -1,6 +1,6 @@
 """Quantities at points of a study's keys; a run that did not get there gives no number."""
 
-from collections import Counter
+from collections import defaultdict
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -27,7 +27,7 @@ class Evaluation:
     Attributes:
         quantities: full names.
         asked: points asked for so far, equal ones once.
-        failures: why runs gave no number -> how many of them.
+        failures: kind of end without a number -> why each of these runs had it.
         rows: of points that were asked for.
     """
 
@@ -50,7 +50,7 @@ class Evaluation:
         for name in quantities:
             quantity_of(study.scene, name)
         self.quantities = tuple(quantities)
-        self.failures: Counter[str] = Counter()
+        self.failures: defaultdict[str, list[str]] = defaultdict(list)
         self.rows: dict[tuple[Any, ...], Row] = {}
         self._study, self._run = study, run
 
@@ -75,22 +75,25 @@ class Evaluation:
                 new[key] = self._study.scene_at(point)
             except InputError as error:
                 self.rows[key] = {"status": NO_SCENE, "reason": str(error)}
-                self.failures[f"{NO_SCENE}: {error}"] += 1
+                self.failures[NO_SCENE].append(str(error))
         for key, row in zip(new, self._run(list(new.values())), strict=True):
             self.rows[key] = row
-            if why := self._failed(row):
-                self.failures[why] += 1
+            if kind := self._failed(row):
+                self.failures[kind].append(str(row["reason"]))
         return [self.rows[_key(point)] for point in points]
 
     def told(self) -> list[str]:
         """Return how many runs gave numbers, and why others did not, in lines."""
-        failed = sum(self.failures.values())
+        failed = sum(map(len, self.failures.values()))
         lines = [f"{self.asked} runs: {self.asked - failed} gave numbers, {failed} did not"]
-        return lines + [f"  {n} x {reason}" for reason, n in self.failures.most_common(3)]
+        for kind, reasons in sorted(self.failures.items(), key=lambda one: -len(one[1])):
+            first = ("; the first: " if len(reasons) > 1 else ": ") + reasons[0]
+            lines.append(f"  {len(reasons)} x {kind}{first if reasons[0] else ''}")
+        return lines
 
     def _failed(self, row: Row) -> str:
         if row["status"] != COMPLETED:
-            return f"{row['status']}: {row['reason']}"
+            return str(row["status"])
         missing = [name for name in self.quantities if row.get(name) is None]
         return f"too short to have {missing[0]}" if missing else ""
 

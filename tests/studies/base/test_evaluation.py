@@ -48,6 +48,8 @@ def test_failed_runs_are_counted_and_give_no_number():
     assert any("not a scene" in line for line in told)
     evaluation([point(100.0)])
     assert len(runs.scenes) == 3
+    evaluation([point(300.0, 0.5)])
+    assert evaluation.told()[1] == "  2 x failed; the first: too fast"
 
 
 def test_a_quantity_that_the_scene_has_not():

@@ -14,7 +14,7 @@ AT_ONCE = 1e-10
 """Distance below which two instants are one for Exudyn's output, s."""
 
 
-def between(parts: Array, step: float, start: list[Array], end: list[Array]) -> list[Array]:
+def between(parts: list[float], step: float, start: list[Array], end: list[Array]) -> list[Array]:
     """Return states within a step, a row for each instant.
 
     Velocities and first-order coordinates follow the cubic through their values and slopes at both
@@ -22,30 +22,32 @@ def between(parts: Array, step: float, start: list[Array], end: list[Array]) -> 
     smoothly; accelerations, forces of constraints and rates lie on lines.
 
     Args:
-        parts: of the step, from 0 to 1, (m,).
+        parts: of the step, from 0 to 1.
         step: s.
         start: positions, velocities, accelerations, multipliers, first-order coordinates and rates.
         end: likewise.
     """
-    s = parts
     (q0, v0, a0, f0, y0, r0), (q1, v1, a1, f1, y1, r1) = start, end
-    smooth = s * s * (3.0 - 2.0 * s)
-    line = np.array([1.0 - s, s]).T
-    cubic = np.array([1.0 - smooth, smooth, step * s * (1.0 - s) ** 2, -step * s * s * (1.0 - s)]).T
-    found = [np.empty(0)] * 6
-    if len(q0):
-        of_change = s * s * s * (1.0 - 0.5 * s) - 0.5 * smooth
-        of_a0 = s * s * (0.5 - s * (2.0 / 3.0 - 0.25 * s)) - smooth / 12.0
-        of_a1 = s * s * s * (0.25 * s - 1.0 / 3.0) + smooth / 12.0
-        way = step * np.array([s - smooth, of_change, step * of_a0, step * of_a1]).T
-        found[0] = q0 + smooth[:, None] * (q1 - q0) + way @ np.array([v0, v1 - v0, a0, a1])
-        found[1] = cubic @ np.array([v0, v1, a0, a1])
-        found[2] = line @ np.array([a0, a1])
-    if len(f0):
-        found[3] = line @ np.array([f0, f1])
-    if len(y0):
-        found[4], found[5] = cubic @ np.array([y0, y1, r0, r1]), line @ np.array([r0, r1])
-    return [rows if len(rows) else np.empty((len(s), 0)) for rows in found]
+    places: list[list[float]] = []
+    values: list[list[float]] = []
+    slopes: list[list[float]] = []
+    for s in parts:
+        smooth = s * s * (3.0 - 2.0 * s)
+        of_v1 = step * (s * s * s * (1.0 - 0.5 * s) - 0.5 * smooth)
+        of_a0 = step * step * (s * s * (0.5 - s * (2.0 / 3.0 - 0.25 * s)) - smooth / 12.0)
+        of_a1 = step * step * (s * s * s * (0.25 * s - 1.0 / 3.0) + smooth / 12.0)
+        way = step * (s - smooth) - of_v1
+        by_slopes = step * s * (1.0 - s) * (1.0 - s), -step * s * s * (1.0 - s)
+        places.append([1.0 - smooth, smooth, way, of_v1, of_a0, of_a1])
+        values.append([0.0, 0.0, 1.0 - smooth, smooth, *by_slopes])
+        slopes.append([0.0, 0.0, 0.0, 0.0, 1.0 - s, s])
+    count = len(parts)
+    line = np.array(slopes)[:, 4:]
+    found = np.array(places + values + slopes) @ np.array([q0, q1, v0, v1, a0, a1])
+    rates = np.array(values)[:, 2:] @ np.array([y0, y1, r0, r1])
+    forces = line @ np.array([f0, f1])
+    of_bodies = [found[:count], found[count : 2 * count], found[2 * count :]]
+    return [*of_bodies, forces, rates, line @ np.array([r0, r1])]
 
 
 class OutputGrid:
@@ -66,6 +68,7 @@ class OutputGrid:
         now = problem.current
         of_bodies = now.positions, now.velocities, now.accelerations, now.multipliers
         self._current = (*of_bodies, now.first_order, now.rates)
+        self._filled = [i for i, part in enumerate(self._current) if len(part)]
         self._periods: list[float] = []
         self._start: list[Array] = []
         self.writing = False
@@ -90,7 +93,8 @@ class OutputGrid:
         if times:
             mbs, step = self._task.problem.mbs, end - begin
             settings = mbs.sys["simulationSettings"]
-            rows = between((np.array(times) - begin) / step, step, self._start, state)
+            parts = [(time - begin) / step for time in times]
+            rows = between(parts, step, self._start, state)
             self.writing = True
             for number, time in enumerate(times):
                 self._put(time, [part[number] for part in rows])
@@ -111,6 +115,6 @@ class OutputGrid:
 
     def _put(self, time: float, state: list[Array]) -> None:
         """Set the current state."""
-        for part, values in zip(self._current, state, strict=True):
-            part[:] = values
+        for i in self._filled:
+            self._current[i][:] = state[i]
         self._task.problem.data.SetTime(time)

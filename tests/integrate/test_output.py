@@ -87,7 +87,7 @@ def test_within_a_step_a_polynomial_of_fourth_degree_is_met():
         values = t**4, 4.0 * t**3, 12.0 * t**2, 2.0 * t, t**3, 3.0 * t**2
         return [np.array([value]) for value in values]
 
-    found = between(np.array([0.3, 0.8]), 0.5, state(1.0), state(1.5))
+    found = between([0.3, 0.8], 0.5, state(1.0), state(1.5))
     for row, exact in enumerate((state(1.15), state(1.4))):
         for i in (0, 1, 3, 4):
             assert found[i][row] == pytest.approx(exact[i], rel=1e-12)

@@ -4,7 +4,10 @@ Takes the folder of a checkout of github.com/jgerstmayr/EXUDYN, and runs every s
 main/pythonDev/Examples and TestModels that solves a motion with an implicit solver, up to the end
 of the first one: with the user's own steps, with two finer ones as references, with a tolerance
 and steps of at most a hundredth of the run, and with the tolerance and the user's steps as the
-largest. Each run is a process of its own. What is in OUT is not run again.
+largest. Each run is a process of its own. What is in OUT is not run again. A run with a tolerance
+may take ten times the user's own processor time, and the limit on top: what takes longer is far
+slower than fixed steps. All runs but coarser ones call a pre-step function on the grid of the
+user's steps, as it is a part of the system.
 
 With --equal-error, processor time is also compared with that of the fixed step of the same error,
 between a 64th of the user's steps and the references.

@@ -86,6 +86,20 @@ class Record:
         return self.own(mbs, time) if self.own else True
 
 
+def on_grid(function, start, period):
+    """Return a pre-step function that is called once a period, with its end, as by the user."""
+    called = [start]
+
+    def call(mbs, time):
+        end = start + math.ceil((time - start) / period - 1e-6) * period
+        if end == called[0]:
+            return True
+        called[0] = end
+        return function(mbs, end)
+
+    return call
+
+
 def quiet():
     """No windows, no pictures, no files."""
 
@@ -128,8 +142,14 @@ def replace(variant, file):
         settings.displayComputationTime = settings.displayStatistics = False
         settings.timeIntegration.simulateInRealtime = False
         users = integration.numberOfSteps
+        period = (integration.endTime - integration.startTime) / users
         if "times" in variant:
             integration.numberOfSteps = max(SAMPLES, round(users * variant["times"]))
+            before = mbs.GetPreStepUserFunction()
+            if variant["times"] > 1 and isinstance(before, dict) and before["function"]:
+                mbs.SetPreStepUserFunction(
+                    on_grid(before["function"], integration.startTime, period)
+                )
         elif variant.get("steps"):
             integration.numberOfSteps = variant["steps"]
         record = Record(mbs, integration.startTime, integration.endTime)
@@ -143,7 +163,6 @@ def replace(variant, file):
                 found["status"] = "completed"
             else:
                 integration.solverType = solver
-                period = (integration.endTime - integration.startTime) / users
                 for output in (settings.solution.sensors, settings.solution.file):
                     if output.writePeriod > 0.0:  # no more rows than the user's steps have
                         output.writePeriod = max(output.writePeriod, period)

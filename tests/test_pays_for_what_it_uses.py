@@ -110,7 +110,7 @@ def user_functions(model):
     ]
 
 
-def test_an_ideal_scene_has_no_overlay_and_no_callback():
+def test_an_ideal_scene_has_no_user_force_element_and_no_callback():
     model = build(joints={})
     assert "GenericODE2" not in kinds(model)
     assert user_functions(model) == []

@@ -1,4 +1,4 @@
-"""A block between its ways: the Jacobian, Coulomb's law on a slope, corners that bear a moment."""
+"""A block in its guideway: the Jacobian, Coulomb's law on a slope, corners that bear a moment."""
 
 import math
 
@@ -27,7 +27,7 @@ MASS, LENGTH, GRAVITY, CLEARANCE, STIFFNESS = 20.0, 0.3, 9.81, 5e-5, 5e7
 
 
 def block(slope, friction, *, moment=0.0, half_width=0.0, start=(0.0, 0.0, 0.0), speed=0.0):
-    """Return a system with a block on ways that fall by a slope, and their two contacts."""
+    """Return a system with a block on a guideway that falls by a slope, and their two contacts."""
     container = exu.SystemContainer()
     mbs = container.AddSystem()
     along = math.cos(slope), -math.sin(slope)

@@ -1,4 +1,4 @@
-"""Oil between a block and its ways: the Jacobian, power, a model of its own on Reynolds' film."""
+"""Oil between a block and its guideway: the Jacobian, power, a model of its own on Reynolds' film."""
 
 import math
 
@@ -24,7 +24,7 @@ SIDE, MOMENT, SPEED = 1e5, 3e3, 0.3
 
 
 def film_between(angle=0.0):
-    """Return a film of a block at a place, whose ways lie at an angle, and its coordinates."""
+    """Return a film of a block at a place, whose guideway lies at an angle, and its coordinates."""
     along = np.array([math.cos(angle), math.sin(angle)])
     rear, front = (
         BodyEnd("RigidBody2D", 0, np.array([0.1, -0.2, angle]), np.array([half * LENGTH, 0.0, 0.0]))
@@ -63,8 +63,8 @@ def coordinates(along, across, beside, tilt, rate, turning, speed):
 @pytest.mark.parametrize("state", STATES)
 def test_the_jacobian_is_that_of_the_forces(state):
     """But for what only turns arms, which the third column by the coordinates has."""
-    film, *ways = film_between(0.7)
-    q, q_t = coordinates(*ways, *state)
+    film, *guideway = film_between(0.7)
+    q, q_t = coordinates(*guideway, *state)
     for by_q, by_q_t, small in ((1.0, 0.0, 1e-11), (0.0, 1.0, 1e-8)):
         forces(film, q, q_t)
         found = np.reshape(film.jacobian(by_q, by_q_t), (3, 3))
@@ -80,16 +80,16 @@ def test_the_jacobian_is_that_of_the_forces(state):
 
 @pytest.mark.parametrize("state", STATES)
 def test_its_power_is_that_of_its_forces(state):
-    film, *ways = film_between(0.7)
-    q, q_t = coordinates(*ways, *state)
+    film, *guideway = film_between(0.7)
+    q, q_t = coordinates(*guideway, *state)
     told = film.state([*q], [*q_t])
     assert told.power == pytest.approx(forces(film, q, q_t) @ q_t, rel=1e-6)
     assert told.dissipated_power > 0.0
-    assert told.eccentricity == pytest.approx(state[0] * ways[1], abs=1e-12)
+    assert told.eccentricity == pytest.approx(state[0] * guideway[1], abs=1e-12)
 
 
 def block(side=SIDE, moment=MOMENT, speed=SPEED, viscosity=VISCOSITY):
-    """Return a system with a block between ways along x, pressed and turned, and its motion."""
+    """Return a system with a block in a guideway along x, pressed and turned, and its motion."""
     container = exu.SystemContainer()
     mbs = container.AddSystem()
     inertia = MASS * LENGTH**2 / 12
@@ -98,7 +98,7 @@ def block(side=SIDE, moment=MOMENT, speed=SPEED, viscosity=VISCOSITY):
     mbs.AddLoad(LoadForceVector(markerNumber=marker, loadVector=[0.0, side, 0.0]))
     mbs.AddLoad(LoadTorqueVector(markerNumber=marker, loadVector=[0.0, 0.0, moment]))
     ends = [(body, (half * LENGTH, 0.0)) for half in (-0.5, 0.5)]
-    ways = {"middle": (0.0, 0.0), "direction": (1.0, 0.0), "half_width": HALF}
+    guideway = {"middle": (0.0, 0.0), "direction": (1.0, 0.0), "half_width": HALF}
     contact = step_damping(hertz(STIFFNESS, 1.0), damping_max=2e4, damping_depth=1e-6)
     joints = [
         add_guideway_contact(
@@ -107,7 +107,7 @@ def block(side=SIDE, moment=MOMENT, speed=SPEED, viscosity=VISCOSITY):
             clearance=CLEARANCE - ONSET,
             contact=contact,
             friction=no_friction(),
-            **ways,
+            **guideway,
         )
         for end in ends
     ]
@@ -119,7 +119,7 @@ def block(side=SIDE, moment=MOMENT, speed=SPEED, viscosity=VISCOSITY):
         face_width=WIDTH,
         viscosity=viscosity,
         asperity_onset=ONSET,
-        **ways,
+        **guideway,
     )
     joints.append(film)
     sensors = [add_joint_sensor(mbs, joint) for joint in joints]

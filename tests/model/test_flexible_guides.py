@@ -133,7 +133,7 @@ GUIDEWAYS = {
 
 @pytest.mark.long
 @pytest.mark.parametrize("body", [{"youngs_modulus": 1e4 * STEEL}, {"modes": 0}])
-def test_stiff_it_hits_its_ways_as_the_rigid_slider(slider, body):
+def test_stiff_it_hits_its_guideway_as_the_rigid_slider(slider, body):
     """With both ends, on both sides, and with friction beside its middle."""
     run = {**RUN, "solver": {"tolerance": 1e-6}, "revolutions": 0.1}
     load = {"push": {**PUSH, "face": BOTTOM}}
@@ -150,7 +150,7 @@ def test_stiff_it_hits_its_ways_as_the_rigid_slider(slider, body):
         )
 
 
-def test_in_its_play_a_soft_slider_touches_with_what_its_guide_holds(slider):
+def test_in_its_clearance_a_soft_slider_touches_with_its_guided_faces(slider):
     """Both ends lie where the mean motion of the guide's faces puts them; the balance closes."""
     soft = {"youngs_modulus": 0.01 * STEEL, "modes": 8}
     run = {"revolutions": 0.06, "speed_rpm": 200.0, "solver": {"tolerance": 1e-4}}

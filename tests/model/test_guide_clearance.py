@@ -59,7 +59,7 @@ def test_the_losses_are_the_work_of_friction(pressed):
     assert summary["quantities"]["guides.slider.peak_friction"]["value"] > 1e3
 
 
-def test_the_slider_has_its_play_and_what_the_ways_give(pressed):
+def test_the_slider_has_its_clearance_and_the_give_of_its_guideway(pressed):
     stiffness = pressed.scene.guide.lateral_stiffness
     beside = np.abs(pressed["slider_lateral"])
     expected = CLEARANCE + np.abs(pressed["guide_force"]) / stiffness

@@ -20,7 +20,7 @@ def test_beside_a_flexible_body_a_joint_with_clearance_is_one_in_space(kind, coo
     assert model.rigid["slide"].coordinates == coordinates
 
 
-def test_with_play_in_the_guides_they_start_in_the_deformation_between_ideal_ones():
+def test_with_clearance_in_the_guides_they_start_in_the_deformation_between_ideal_ones():
     """Bodies with clearance rest nowhere, so that no balance could be found with them."""
     scene = Scene(bodies=flexible_press(**SMALL), start_angle_deg=60.0)
     modes = []

@@ -262,7 +262,7 @@ def add_guideway_contact(
             none, a law is given by its name, or the system is assembled already.
     """
     _check_laws(mbs, contact=contact, friction=friction)
-    x, y = _along_ways(direction, clearance, half_width)
+    x, y = _along_guideway(direction, clearance, half_width)
     across = y, -x
     interface = DryInterface(contact, friction, half_width, clearance)
     place = float(middle[0]), float(middle[1])
@@ -317,7 +317,7 @@ def add_guideway_film(
             clearance, or the system is assembled already.
     """
     _check_laws(mbs)
-    along = _along_ways(direction, clearance, half_width)
+    along = _along_guideway(direction, clearance, half_width)
     positive(viscosity=viscosity)
     if not 0.0 < asperity_onset < clearance:
         raise InputError(
@@ -340,7 +340,7 @@ def add_guideway_film(
     return film
 
 
-def _along_ways(
+def _along_guideway(
     direction: Sequence[float], clearance: float, half_width: float
 ) -> tuple[float, float]:
     """Return a guideway's direction, a unit vector; raise InputError for wrong sizes."""

@@ -23,7 +23,7 @@ from exu_press.scene.laws import guide_contact_law, guide_friction_law
 __all__ = ["add_guide", "add_guide_friction", "add_guideways", "guides_rub"]
 
 
-def add_guideways(system: System, guide: Guide, ways: Guideway) -> tuple[ClearanceJoint, ...]:
+def add_guideways(system: System, guide: Guide, guideway: Guideway) -> tuple[ClearanceJoint, ...]:
     """Let both ends of a body touch its guideways with clearance, and oil be between them."""
     table, damped = system.scene.guide, system.scene.contact
     assert table is not None
@@ -31,7 +31,7 @@ def add_guideways(system: System, guide: Guide, ways: Guideway) -> tuple[Clearan
     body = system.mechanism.body(guide.body)
     along = np.array(guide.direction)
     drawn = [
-        np.array(body.centre_of_mass) + 0.5 * side * ways.length * along for side in (-1.0, 1.0)
+        np.array(body.centre_of_mass) + 0.5 * side * guideway.length * along for side in (-1.0, 1.0)
     ]
     ends = [_end(system, guide.body, body.local((float(at[0]), float(at[1])))) for at in drawn]
     onset = 0.0 if table.contact_gap is None else table.contact_gap
@@ -41,10 +41,10 @@ def add_guideways(system: System, guide: Guide, ways: Guideway) -> tuple[Clearan
             end,
             middle=body.centre_of_mass,
             direction=guide.direction,
-            clearance=ways.clearance - onset,
-            contact=guide_contact_law(damped, ways.stiffness),
+            clearance=guideway.clearance - onset,
+            contact=guide_contact_law(damped, guideway.stiffness),
             friction=guide_friction_law(table, system.scene.friction),
-            half_width=ways.half_width,
+            half_width=guideway.half_width,
         )
         for end in ends
     ]
@@ -56,12 +56,12 @@ def add_guideways(system: System, guide: Guide, ways: Guideway) -> tuple[Clearan
         *ends,
         middle=body.centre_of_mass,
         direction=guide.direction,
-        clearance=ways.clearance,
-        length=ways.length,
+        clearance=guideway.clearance,
+        length=guideway.length,
         face_width=table.face_width,
         viscosity=table.viscosity,
         asperity_onset=onset,
-        half_width=ways.half_width,
+        half_width=guideway.half_width,
     )
     return (*contacts, film)
 

@@ -1,4 +1,4 @@
-"""Oil between a block and its guideway: the Jacobian, power, a model of its own on Reynolds' film."""
+"""Oil between a block and its guideway: Jacobian, power, a model of its own on Reynolds' film."""
 
 import math
 

@@ -42,7 +42,7 @@ def attractor_figure(found: Attractor) -> Figure:
     _frequencies(panels[1, 0], each)
     _orders(panels[1, 1], each)
     name, values = max(found.figures.items(), key=lambda one: _scatter(one[1]))
-    label = typeset(f"{name}, {found.units[name]}")
+    label = typeset(", ".join(part for part in (name, found.units[name]) if part))
     _histogram(panels[1, 2], label, values)
     _by_revolution(panels[1, 3], label, values, found.skip)
     return figure

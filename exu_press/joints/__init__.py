@@ -1,5 +1,8 @@
 """Clearance joints: the only place where a law meets Exudyn."""
 
+from pathlib import Path
+
+from exu_press.joints import interface
 from exu_press.joints.add import (
     add_dry_revolute,
     add_dry_spherical,
@@ -10,7 +13,6 @@ from exu_press.joints.add import (
     add_lubricated_spherical,
     add_revolute,
 )
-from exu_press.joints.compiled import COMPILED
 from exu_press.joints.ends import FlexiblePoint
 from exu_press.joints.history import JointHistory, histories
 from exu_press.joints.joint import ClearanceJoint, JointState
@@ -33,3 +35,6 @@ __all__ = [
     "histories",
     "user_force_of",
 ]
+
+COMPILED = Path(interface.__file__).suffix != ".py"
+"""Whether forces and Jacobians come from compiled code; setup.py compiles the same sources."""

@@ -3,12 +3,12 @@
 from pathlib import Path
 from typing import Any
 
-from exu_press.files.csv_table import read_csv
 from exu_press.page import Live, has_library
 from exu_press.plots.words import describe
 from exu_press.report.html import table
 from exu_press.report.study import reading, study_page
 from exu_press.scene import Scene
+from exu_press.schema.csv_table import read_csv
 from exu_press.schema.stored import from_json
 from exu_press.studies.sweep.units import unit_of, with_unit
 

@@ -3,13 +3,13 @@
 from pathlib import Path
 from typing import Any
 
-from exu_press.files.csv_table import Value, read_csv
 from exu_press.page import Live, has_library
 from exu_press.plots.words import describe
 from exu_press.quantities.catalogue import declared
 from exu_press.report.html import table
 from exu_press.report.study import command_of, reading, study_page
 from exu_press.scene import Scene
+from exu_press.schema.csv_table import Value, read_csv
 from exu_press.schema.stored import from_json
 from exu_press.studies.sweep.units import unit_of
 

@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Any
 
 from exu_press.errors import InputError
-from exu_press.files.csv_table import read_csv
 from exu_press.page import Live, has_library
 from exu_press.plots.file import save_figures
 from exu_press.plots.sweep import sweep_figures
@@ -19,6 +18,7 @@ from exu_press.report.run import scene_parts
 from exu_press.report.study import command_of, reading
 from exu_press.scene.warnings import scene_warnings
 from exu_press.schema.checks import table_from
+from exu_press.schema.csv_table import read_csv
 from exu_press.schema.stored import from_json
 from exu_press.studies.sweep import Sweep, Table
 from exu_press.studies.sweep.lines import shown

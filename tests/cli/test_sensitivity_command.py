@@ -3,7 +3,7 @@
 import pytest
 
 from exu_press.cli import main
-from exu_press.files.csv_table import read_csv
+from exu_press.schema.csv_table import read_csv
 
 STUDY = """
 [scene]

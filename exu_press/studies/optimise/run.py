@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 
 from exu_press.errors import InputError
-from exu_press.files.csv_table import write_csv
 from exu_press.files.output_directory import output_directory, write_json
 from exu_press.numerics.arrays import Array
 from exu_press.parallel.task import Row
 from exu_press.scene import Scene
+from exu_press.schema.csv_table import write_csv
 from exu_press.studies.base import Range, Runs
 from exu_press.studies.base.checked import error_in, with_errors_of
 from exu_press.studies.base.evaluation import Evaluation, Point, numbers_in

@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.errors import InputError
-from exu_press.files.csv_table import Value, write_csv
 from exu_press.quantities.cost import COSTS
 from exu_press.quantities.uncertain import uncertain
+from exu_press.schema.csv_table import Value, write_csv
 from exu_press.schema.stored import shown
 from exu_press.schema.toml import toml_text
 from exu_press.studies.sweep.study import Sweep

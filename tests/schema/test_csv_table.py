@@ -2,7 +2,7 @@
 
 import pytest
 
-from exu_press.files.csv_table import read_csv, write_csv
+from exu_press.schema.csv_table import read_csv, write_csv
 
 
 def test_what_was_written_is_read_again(tmp_path):

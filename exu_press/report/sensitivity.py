@@ -29,7 +29,7 @@ def sensitivity_report(file: Path) -> str:
         quantities = told["quantities"]
         spreads = [_spread(name, one) for name, one in quantities.items()]
         shares = [
-            (f"Shares: {name}", table(SHARES, _shares(name, one), name))
+            (f"Shares: {name}", table(SHARES, _shares(name, one)))
             for name, one in quantities.items()
             if one["moves"]
         ]

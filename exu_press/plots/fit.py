@@ -8,7 +8,7 @@ from exu_press.plots.headed import headed_figure
 from exu_press.plots.scales import log_axis
 from exu_press.plots.style import COLOURS, GREY, SHADE, styled
 from exu_press.plots.sweep_words import in_unit, words
-from exu_press.plots.typesetting import plain, wrapped
+from exu_press.plots.typesetting import plain, typeset, wrapped
 from exu_press.plots.words import describe
 from exu_press.quantities.uncertain import significant
 from exu_press.studies.base import Range
@@ -55,7 +55,7 @@ def fit_figure(report: Report) -> Figure:
         panel.plot(at, told.values, color=COLOURS["blue"], label="computed, through the sensor")
         panel.set_title(plain(f"Curve {one.name}"))
         panel.set_xlabel("time, s" if one.read.over == "time" else "crank angle, deg")
-        panel.set_ylabel(plain(one.read.name.replace("_", " ") + ", SI"))
+        panel.set_ylabel(plain(typeset(f"{one.read.name.replace('_', ' ')}, {told.unit}")))
         panel.legend(loc="best")
     return figure
 

@@ -63,7 +63,7 @@ def _live(told: dict[str, Any]) -> Live | None:
         Panel(
             f"Curve {name}",
             curve["across"],
-            f"{curve['channel']}, SI",
+            f"{curve['channel']}, {curve['unit']}",
             [
                 Line("measured", curve["at"], curve["measured"], points=True),
                 Line("computed, through the sensor", curve["at"], curve["computed"]),

@@ -40,6 +40,7 @@ def fitted(tmp_path):
         "curves": {
             "torque": {
                 "channel": "drive_torque",
+                "unit": "N m",
                 "across": "time, s",
                 "at": [0.0, 1.0, 2.0],
                 "measured": [1.0, 2.0, 3.0],

@@ -117,6 +117,7 @@ class Matched:
     Attributes:
         values: at the measured places, (m,).
         offset, shift, low_cut, high_cut: of the sensor; None of a filter that it has not.
+        unit: SI, of the values.
     """
 
     values: Array
@@ -124,6 +125,7 @@ class Matched:
     shift: float
     low_cut: float | None
     high_cut: float | None
+    unit: str = ""
 
     def plain(self) -> dict[str, float]:
         """Return the sensor's parameters that there are."""

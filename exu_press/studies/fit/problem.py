@@ -1,5 +1,6 @@
 """A fit as a solver sees it: scaled keys in, residuals in units of uncertainties out."""
 
+import dataclasses
 import hashlib
 import json
 from collections.abc import Callable, Sequence
@@ -163,10 +164,12 @@ class Problem:
                 f"{curve.file}: column {name!r}{nearest(name, result.units)}; allowed are channels "
                 f"of a run, as {', '.join(list(result.units)[:8])}"
             )
-        wanted = curve.values(result.units[name])
+        unit = result.units[name]
+        wanted = curve.values(unit)
         angle = curve.read.over == "crank_angle"
         at = np.degrees(result["crank_angle"]) if angle else result.time
-        return wanted, matched(curve, wanted, at, result[name])
+        told = matched(curve, wanted, at, result[name])
+        return wanted, None if told is None else dataclasses.replace(told, unit=unit)
 
 
 def file_of(scene: Scene) -> str:

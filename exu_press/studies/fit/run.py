@@ -122,6 +122,7 @@ class Report:
             "curves": {
                 one.name: {
                     "channel": one.read.name,
+                    "unit": told.unit,
                     "across": "time, s" if one.read.over == "time" else "crank angle, deg",
                     "at": one.read.at.tolist(),
                     "measured": wanted.tolist(),

@@ -124,7 +124,7 @@ DECLARED = {
         Declared(
             "{guide}_normal_force",
             "N",
-            "{guide}: what presses the body's back and front end on its ways, on the right side +",
+            "{guide}: normal forces on the body's back and front end, on the right side +",
             "guided",
             always=False,
         ),

@@ -100,7 +100,7 @@ def execute(options: argparse.Namespace) -> int:
 def _asked(given: str, changes: Mapping[str, Any]) -> tuple[Mechanism, float | None]:
     """Return the mechanism, and the crank's speed (rad/s) where a scene says it.
 
-    A scene is read as far as its mechanism goes: `Scene` refuses what is to be seen here.
+    A scene is read as far as its mechanism goes: `Scene` refuses mechanisms with faults.
     """
     path = Path(given)
     if not path.exists() and not path.suffix:

@@ -1,4 +1,4 @@
-"""Find keys of a scene from a measurement: best values, intervals, what it does not determine."""
+"""Find keys of a scene from a measurement: best values, intervals, keys left undetermined."""
 
 from exu_press.cli.study import study_command
 

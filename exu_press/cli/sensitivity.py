@@ -1,4 +1,4 @@
-"""Find out which tolerances decide: Sobol indices, a tornado, and what presses built will show."""
+"""Find out which tolerances decide: Sobol indices, a tornado, and the spread of presses."""
 
 from exu_press.cli.study import study_command
 

@@ -287,7 +287,7 @@ class FilmInterface(InterfaceLaw):
         f_r = p * response[0]
         if f_r == f_r:
             self.outside = None
-        elif e == e:  # what follows on such a force may be no place at all
+        elif e == e:  # after such a force there may be no place at all
             self.outside = e / c
         f_t = p * response[1]
         if e_dot == 0.0 and eps_w == 0.0 and f_r == f_r:

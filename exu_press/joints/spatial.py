@@ -73,7 +73,7 @@ class SpatialRevolute(InterfaceJoint):
         """Return -(by_q dQ/dq + by_q_t dQ/dq_t), but for what only turns arms and axes."""
         e, e_dot, v_t, w_j, w_b = self._motion
         turn = 1.0 / e if self._turns and e > 0.0 else 0.0
-        # (F_n, F_t, M_J, M_B) by what moves along n and t and turns journal and bearing
+        # (F_n, F_t, M_J, M_B) by motions along n and t and rotations of journal and bearing
         normal, across = [0.0] * 4, [0.0] * 4
         on_journal, on_bearing = [0.0] * 4, [0.0] * 4
         acting = False

@@ -56,7 +56,7 @@ class SphericalFilm:
         self._started = True
         self._e, self._n, self._apart = e, n, e * n
         self._mean, self._spin = 0.5 * (omegas[:3] + omegas[3:]), omegas[:3] - omegas[3:]
-        # what presses oil out of the gap: the eccentricity's rate as the film sees it that turns
+        # the eccentricity's rate in the frame that turns with the film: it presses oil out
         self._swept = relative - cross_matrix(self._mean) @ self._apart
         v_n = float(n @ self._swept)
         aside = self._swept - v_n * n

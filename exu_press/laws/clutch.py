@@ -86,7 +86,7 @@ class Coupling:
         return abs(self.stiffness * twist + self.damping * rate) - capacity
 
     def accept(self, step: float, angle: float, rate: float, capacity: float) -> None:
-        """Keep the state at the end of a step, s: what slips twists no further."""
+        """Keep the state at the end of a step, s: surfaces that slip twist no further."""
         torque = self.torque(angle, rate, capacity)
         if self.beyond(angle, rate, capacity) <= 0.0:
             self._twist += angle - self._angle

@@ -108,7 +108,7 @@ class Approach:
     """The rate at which two surfaces first touched, kept until they part.
 
     Between two instants the rate's square changes evenly with the way, as under an even force: a
-    rate taken at the last instant apart would be off by what a whole step adds to it.
+    rate taken at the last instant apart would be off by the change of a whole step.
     """
 
     def __init__(self) -> None:

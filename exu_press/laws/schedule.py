@@ -10,7 +10,7 @@ NEAR = 2e-5
 """rad of the crank: corners and commands that are as near as that are reached."""
 
 LONG_AGO = -1e30
-"""s, or rad: when what acts at the start was commanded."""
+"""s, or rad: command of the state at the start."""
 
 
 @dataclass(frozen=True)

@@ -74,7 +74,7 @@ def reached(depths: Array, clearance: float, least: float = LEAST) -> Array:
     r"""Return depths that a journal can follow, from depths worn off around a surface.
 
     The depths are smoothed by Jackson's kernel, which has no negative weights: the volume stays,
-    and what is convex stays convex. The kernel is as narrow as the curvature allows,
+    and a convex profile stays convex. The kernel is as narrow as the curvature allows,
 
     .. math::
         c + w + w'' \ge \text{least} \cdot c

@@ -39,7 +39,7 @@ ACROSS = 1e-9
 
 
 def all_of(kind: type[Kind], where: str, given: Any) -> tuple[Kind, ...]:
-    """Return what is given as a tuple; raise InputError for the first that is of another kind."""
+    """Return the given parts as a tuple; raise InputError for the first of another kind."""
     found = tuple(given) if isinstance(given, Iterable) else (given,)
     for each in found:
         if not isinstance(each, kind):

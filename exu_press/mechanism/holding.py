@@ -10,7 +10,7 @@ that share its load, and nothing but guides bears side forces.
 
 Some mechanisms need at one crank angle what is redundant at all others: of two coupling rods a
 quarter turn apart, one turns the follower while the other is in its dead centre. There everything
-is held, and the solver bears with what is held twice.
+is held, and the solver bears with redundant constraints.
 """
 
 import math
@@ -195,7 +195,7 @@ class _Selection:
         self.redundant = tuple(redundant)
 
     def _take(self, rows: Array) -> list[Array]:
-        """Add what is independent of rows (m, n) to the basis; return its combinations (m,)."""
+        """Add the independent part of rows (m, n) to the basis; return its combinations (m,)."""
         rows = rows / np.linalg.norm(rows, axis=1).max()  # keeps the angle between two directions
         rest = rows - (rows @ self._basis.T) @ self._basis
         rest = rest - (rest @ self._basis.T) @ self._basis  # once more, for rounding

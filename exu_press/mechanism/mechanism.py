@@ -40,7 +40,7 @@ class Mechanism:
             and keys of "contact", "friction" and "film".
 
     Raises:
-        InputError: names are used twice or unknown, a body has no mass, or what else cannot be.
+        InputError: names are used twice or unknown, a body has no mass, or the like.
             Whether the crank turns is found out by `motion`.
     """
 

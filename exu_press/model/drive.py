@@ -17,7 +17,7 @@ CrankAngle = Callable[[], tuple[float, float]]
 """Angle, rad, and angular velocity, rad/s, of the driven body in the current state."""
 
 DISC_MASS = 1e-3
-"""kg: what turns a flexible crank, on which it rests, weighs nothing; but masses are positive."""
+"""kg: the disc on a flexible crank weighs nothing; but masses are positive."""
 
 
 def add_drive(system: System) -> int:

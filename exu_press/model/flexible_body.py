@@ -335,7 +335,7 @@ def guided_motion(mbs: exu.MainSystem, body: FlexibleBody, part: PlacedPart) -> 
     """Return the guided motion of a body, linear in its coordinates: x, y (m), angle (rad).
 
     It is the mean motion of the faces that lie in the guide, where the body has its centre of mass.
-    In a guide a body hardly turns: what is left out goes with the square of its tilt.
+    In a guide a body hardly turns: the error goes with the square of its tilt.
 
     Args:
         mbs: the system.

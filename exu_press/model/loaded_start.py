@@ -3,7 +3,7 @@
 Journals that start in the middle of their bearings at full speed fall on them, and the first peaks
 are those of this fall. Here each joint has the force of the ideal motion, from inertia, weight and
 loads, and lies where its contact or its film bears this force. The bodies follow from the joints.
-A journal in a film begins at rest in its bearing: how it moves on follows from what came before.
+A journal in a film begins at rest in its bearing: how it moves on follows from the time before.
 One in contact moves along the surface, as the force turns. Its penetration begins at rest: a strong
 damper would turn its rate into a force many times the one that it bears.
 """

@@ -187,7 +187,7 @@ def _height(system: System) -> Place:
         node, middle = system.nodes[slider], np.array([*system.parts[slider].centre, 0.0])
 
         def read(level: exu.OutputVariableType) -> Any:
-            """Return what the frame has in the body's centre of mass."""
+            """Return position or velocity of the body's centre of mass."""
             kinds = exu.OutputVariableType.RotationMatrix, exu.OutputVariableType.AngularVelocity
             rotation, omega, own = (np.array(mbs.GetNodeOutput(node, k)) for k in (*kinds, level))
             arm = rotation.reshape(3, 3) @ middle

@@ -98,7 +98,7 @@ class _Balance:
         missing[:size] -= matrix[size:, :size].T @ forces
         solver.ComputeAlgebraicEquations(mbs, velocityLevel=False)
         missing[size:] = -self._residual()[size:]
-        missing[size + self._driven] = angle - q[self._coordinate]  # its speed is what is held
+        missing[size + self._driven] = angle - q[self._coordinate]  # its speed is held
         matrix[:size, :size] = self._stiffness
         found = np.linalg.solve(matrix, missing)
         q += found[:size]

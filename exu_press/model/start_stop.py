@@ -24,7 +24,7 @@ OPEN, STICKS, SLIPS = 0.0, 1.0, 2.0
 """State of a clutch or brake."""
 
 DAMPED = 4.0
-"""Over critical damping: what the twist gives back as slip ends moves the shafts by little."""
+"""Over critical damping: the energy of the twist hardly moves the shafts as slip ends."""
 
 CLOSE = 2e-5
 """rad at the nominal speed: an end of slip that is foreseen and as near as that is passed. The rest

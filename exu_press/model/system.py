@@ -40,7 +40,7 @@ class System:
         holding: which ideal joints and guides hold what.
         ideal: name -> motion of the ideal mechanism at the start.
         loads: name -> load.
-        clocks: of pulses and sheets, each with what reads its state; it is told that at the end of
+        clocks: of pulses and sheets, each with the reader of its state, told at the end of
             every step.
         SC: Exudyn's system container.
         mbs: Exudyn's main system, not yet assembled.

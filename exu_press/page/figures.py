@@ -28,7 +28,7 @@ HEIGHT = 150
 """Of a panel, pixels."""
 
 DASHES = ("solid", "dashed", "dotdash", "dotted")
-"""Of runs over each other: what colours tell apart, these do without colours too."""
+"""Of runs over each other, which are told apart without colours too."""
 
 SCROLLING = ".bk-events { touch-action: pan-y !important; }"
 """A finger that moves up or down scrolls the page."""

@@ -52,7 +52,7 @@ def study_viewer(
     Args:
         keys: what varied.
         quantities: numbers of the runs.
-        told: of each run, what opens with its point: how it is run again.
+        told: of each run, the text that opens with its point: how it is run again.
         first: columns of the picture at first, across and up; None: the first key and quantity.
         colour: column that the colours show at first; "": the first key that is not across.
     """

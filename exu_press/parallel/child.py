@@ -119,7 +119,7 @@ class Child(AbstractContextManager["Child", None]):
                 stream.close()
 
     def kill(self) -> None:
-        """Kill the process from another thread; what waits for its answer gets WorkerDiedError."""
+        """Kill the process from another thread; a thread that waits gets WorkerDiedError."""
         self._process.kill()
 
     def _read(self) -> Any:

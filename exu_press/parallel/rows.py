@@ -30,7 +30,7 @@ class Record(TypedDict):
 class RowFile(AbstractContextManager["RowFile", None]):
     """runs.jsonl: every line is the record of a task.
 
-    A line without its end is what a kill in the middle of a write leaves; it is cut off. Used as a
+    A kill in the middle of a write leaves a line without its end; it is cut off. Used as a
     context manager, under the directory's lock.
     """
 

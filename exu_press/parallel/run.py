@@ -79,7 +79,7 @@ class Batch(ExitStack):
             time_limit: of one run, s; a run over it is stopped.
             kept: says of a run's arguments whether the files that it wrote are still there; a
                 finished run is done again where they are not.
-            modules: that a worker imports first, for what they declare.
+            modules: that a worker imports first, for their declarations.
             label: of the progress bar.
             quiet: no progress bar.
 

@@ -33,7 +33,7 @@ TIME_LIMIT = "time limit"
 WORKER_DIED = "worker died"
 
 PACKAGES = ("exu-press", "exudyn", "ngsolve")
-"""Whose version changes what a run gives."""
+"""Packages whose version changes a run's results."""
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class Task:
         key: sha256 of everything that determines the row.
         function: "module:name".
         arguments: canonical JSON.
-        modules: that a worker imports first, for what they declare.
+        modules: that a worker imports first, for their declarations.
         versions: of PACKAGES and of the sources; a worker with others refuses.
     """
 

@@ -21,7 +21,7 @@ __all__ = ["main", "row_of"]
 def main() -> None:
     """Perform tasks until standard input closes."""
     answers = os.fdopen(os.dup(sys.stdout.fileno()), "w", encoding="utf-8")
-    os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # what a function prints is no answer
+    os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # a function's own prints are no answer
     lines: SimpleQueue[str] = SimpleQueue()
     threading.Thread(target=_listen, args=(lines,), daemon=True).start()
     try:

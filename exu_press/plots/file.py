@@ -27,7 +27,7 @@ def check_picture(path: Path) -> None:
 def save_figure(figure: Figure, path: Path) -> Path:
     """Write under a temporary name, then rename.
 
-    `Figure.savefig` would draw a PNG twice, the first time to find out what is on it.
+    `Figure.savefig` would draw a PNG twice, the first time to find out its artists.
     """
     figure.set_layout_engine("none")  # it has been laid out; not again
     figure.set_dpi(DPI)

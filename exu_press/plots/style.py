@@ -45,7 +45,7 @@ SHADE = "#F1F4F7"
 PATH_COLOURS: Colormap = ListedColormap(
     matplotlib.colormaps["viridis"].resampled(256)(range(232)), "viridis without its yellow end"
 )
-"""For what runs with the crank angle along a path."""
+"""For the crank angle along a path."""
 
 LOOK: dict[str, Any] = {
     "axes.axisbelow": True,

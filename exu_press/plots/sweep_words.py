@@ -57,7 +57,7 @@ def words(name: str) -> str:
 
 
 def headed(name: str) -> str:
-    """Return what a quantity is, in words, with the unit that is shown.
+    """Return a quantity in words, with the unit that is shown.
 
     >>> headed("peak_acceleration.resolved")
     'peak acceleration, m/s^2'

@@ -24,7 +24,7 @@ def has_balance(result: Result) -> bool:
 
 
 def energy_scale(result: Result) -> float:
-    """Return the largest energy, J, that was put in, exchanged with what is stored, or dissipated.
+    """Return the largest energy, J, that was put in, exchanged with the stored one, or dissipated.
 
     Since the start and in either direction: a rotor that runs down is put nothing in.
     """

@@ -119,7 +119,7 @@ class Reading:
     def rate(self, amount: Array) -> float | None:
         """Return the mean rate of change of a channel (n,) over the last whole revolutions.
 
-        Over a part of one it tells what the mechanism stores: None then.
+        Over a part of one the mechanism's stored energy counts: None then.
         """
         if self.whole is None:
             return None

@@ -66,7 +66,7 @@ def report_of(kind: Kind, file: Path, span: Span = ALL) -> str:
         span: begin and end of the curves of runs, s; None: those of the record.
 
     Raises:
-        InputError: the file is not what its name says, or the span is not in it.
+        InputError: the file is of another kind than its name, or the span is not in it.
     """
     if kind is Kind.RUN:
         from exu_press.report.run import run_report

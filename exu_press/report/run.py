@@ -130,7 +130,7 @@ def scene_parts(scene: Scene) -> list[tuple[str, str]]:
             "Assumptions",
             paragraph(
                 "What this scene does not give and rests on: engineering values with their source, "
-                "and numbered what the paper leaves out or misprints. "
+                "and numbered gaps and misprints of the paper. "
                 "Each key can be set in the scene."
             )
             + table(("source", "assumption", "default assumed"), assumed),

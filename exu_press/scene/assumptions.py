@@ -1,6 +1,6 @@
 """Assumptions of a scene: its defaults, and those of them that decide its results.
 
-The assumptions A-1 to A-14, which stand for what the paper does not say, are listed here once;
+The assumptions A-1 to A-14, which fill the paper's gaps, are listed here once;
 meanings, defaults and their sources are in tables.py.
 """
 

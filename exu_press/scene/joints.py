@@ -1,4 +1,4 @@
-"""Every joint of a mechanism: ideal, dry or lubricated, from what a scene says of some of them."""
+"""Every joint of a mechanism: ideal, dry or lubricated, from a scene's table of some of them."""
 
 import dataclasses
 from collections.abc import Iterable, Iterator, Mapping
@@ -45,7 +45,7 @@ class Joints(Mapping[str, Joint]):
         groups: Mapping[str, tuple[str, ...]],
         spherical: Iterable[str] = (),
     ) -> None:
-        """Keep joints that have been checked; `joints_of` makes them from what is given."""
+        """Keep joints that have been checked; `joints_of` makes them from a scene's table."""
         self.spherical = frozenset(spherical)
         self._joints = dict(joints)
         self.mechanism = mechanism
@@ -108,7 +108,7 @@ class Joints(Mapping[str, Joint]):
         """Return the joints with clearance as nested mappings.
 
         Args:
-            laws: the scene's; what a joint's own differ in is given.
+            laws: the scene's; keys of a joint that differ from them are given.
         """
         return {name: joint_dict(joint, laws) for name, joint in self.with_clearance.items()}
 
@@ -137,7 +137,7 @@ def joints_of(
     laws: Laws,
     sizes: Mapping[str, float],
 ) -> Joints:
-    """Return every joint of a mechanism from what a scene gives.
+    """Return every joint of a mechanism from a scene's table.
 
     A joint's own keys go before those of its group; a joint that is not named is ideal.
 
@@ -146,7 +146,7 @@ def joints_of(
         mechanism: its name.
         spherical: every joint of it -> whether it is a ball in a socket.
         groups: names for several joints at once -> these joints.
-        laws: the scene's own, for what a joint does not say.
+        laws: the scene's own, for keys that a joint does not give.
         sizes: the mechanism's clearance and radius, likewise, where it has them.
 
     Raises:
@@ -188,7 +188,7 @@ def joints_of(
 
 
 def keys_given(name: str, given: Any) -> dict[str, Any]:
-    """Return what is given of a joint or group as a mapping with its kind."""
+    """Return the given keys of a joint or group as a mapping with its kind."""
     if isinstance(given, Joint):
         fields = {field.name: getattr(given, field.name) for field in dataclasses.fields(given)}
         return {"kind": given.kind, **{k: v for k, v in fields.items() if v is not None}}
@@ -260,7 +260,7 @@ def unused_in(law: Table, *, spherical: bool) -> dict[str, str]:
 
 
 def _law(place: str, law: str, given: Any, usual: Table) -> Table:
-    """Return a joint's law: the scene's, but for what it says itself."""
+    """Return a joint's law: the scene's, but for its own keys."""
     complete = {field.name: getattr(usual, field.name) for field in dataclasses.fields(usual)}
     try:
         return table_with(LAW_TABLES[law], law, {} if given is None else given, complete)
@@ -269,7 +269,7 @@ def _law(place: str, law: str, given: Any, usual: Table) -> Table:
 
 
 def _check_laws(place: str, joint: Joint, spherical: bool) -> None:
-    """Make every law once, so that what is outside its range is refused before anything is run."""
+    """Make every law once, so that values outside its range are refused before anything is run."""
     if isinstance(joint, IdealJoint):
         return
     try:

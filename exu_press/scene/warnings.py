@@ -130,7 +130,7 @@ def _clearances(scene: Scene) -> Iterator[str]:
 
 
 def _films(scene: Scene) -> Iterator[tuple[str, LubricatedJoint]]:
-    """Yield every lubricated joint, after what its film's keys begin with."""
+    """Yield every lubricated joint, after the beginning of its film's keys."""
     for name, joint in scene.joints.grouped.items():
         if isinstance(joint, LubricatedJoint):
             own = any(

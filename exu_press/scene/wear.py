@@ -42,10 +42,10 @@ class Wear(WearAt):
 
     table: ClassVar[str] = "wear"
     joints: Mapping[str, Mapping[str, float]] | None = _own(
-        "joint = {coefficient, hardness, length}, what differs there"
+        "joint = {coefficient, hardness, length}, those that differ there"
     )
     guides: Mapping[str, Mapping[str, float]] | None = _own(
-        "guided body = {coefficient, hardness, length}, what differs there"
+        "guided body = {coefficient, hardness, length}, those that differ there"
     )
 
     def __post_init__(self) -> None:
@@ -69,7 +69,7 @@ class Wear(WearAt):
     def check_places(
         self, joints: Mapping[str, str], guides: Mapping[str, str], groups: Mapping[str, Any]
     ) -> "Wear":
-        """Return the table with groups as their joints; all keys are there for what wears.
+        """Return the table with groups as their joints; every place that wears has all keys.
 
         Args:
             joints: every joint -> why it does not wear, or nothing.

@@ -34,7 +34,7 @@ __all__ = [
 T = TypeVar("T")
 
 SMALLEST, LARGEST = 1e-30, 1e30
-"""Magnitudes of a number other than 0: sums and squares of what is within are numbers, too."""
+"""Magnitudes of a number other than 0: sums and squares within them are numbers, too."""
 
 Uses = Mapping[str, Mapping[Any, tuple[str, ...]]]
 
@@ -257,7 +257,7 @@ def demand_keys(place: str, table: Table, keys: Collection[str], law: str, where
     """Raise InputError for the first of some keys that a table does not have.
 
     Args:
-        place: what needs them.
+        place: that needs them.
         table: with them.
         keys: that are needed, each with an example.
         law: name of the table in the message, if it has one.

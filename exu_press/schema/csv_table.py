@@ -40,7 +40,7 @@ def read_csv(path: Path) -> dict[str, tuple[Value, ...]]:
 
 
 def _text(value: Value) -> str:
-    """Return what a cell has; `repr` shows all digits of a number."""
+    """Return the text of a cell; `repr` shows all digits of a number."""
     if value is None:
         return ""
     if isinstance(value, bool):
@@ -49,7 +49,7 @@ def _text(value: Value) -> str:
 
 
 def _value(text: str) -> Value:
-    """Return what a cell holds; what is no finite number is a text."""
+    """Return the content of a cell: a finite number, or a text."""
     if text in ("true", "false"):
         return text == "true"
     try:

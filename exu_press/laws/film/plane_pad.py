@@ -171,7 +171,7 @@ def _across(ratio: float) -> tuple[float, float]:
         ratio: w / L; sums of the shape's integrals lose digits with its fourth power.
     """
     x = 0.5 * math.sqrt(10.0) * ratio
-    if x < 0.05:  # a parabola, and what it misses to the first order in x^2
+    if x < 0.05:  # a parabola, and its error to the first order in x^2
         more = 1.0 + x * x / 105.0
         return 10.0 / ratio**2 * more, 5.0 / 6.0 * more
     flat, steep = math.tanh(x) / x, 1.0 / math.cosh(x) ** 2
@@ -243,7 +243,7 @@ def _from_rear(
     full = len(ones)
     if full == 0:
         return NOTHING
-    # what lies behind the last full node: the end, or a node without pressure
+    # behind the last full node lies the end, or a node without pressure
     gaps.append(ahead if full == count else gap)
     place = 1.0 if full == count else nodes[full][0]
     flows.append(flow if full == count else before)

@@ -83,7 +83,7 @@ def finite_flow(length_to_diameter: float) -> SideFlow:
     Returns
     -------
     The flow over L R c [1/s] at eps, eps_dot, eps_w; below eps = 0.01 and beyond 0.9997 psi is the
-    one reached there. NaN for what is no number.
+    one reached there. NaN for NaN.
 
     Raises
     ------

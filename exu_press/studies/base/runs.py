@@ -22,7 +22,7 @@ class Runs(ExitStack):
 
     Worker processes stay alive from call to call of `of`. Every row is on the disk before the next
     run begins, so that a study that was killed goes on where it was: runs that it asks for again
-    are read. Scenes alone decide what is the same run; the order and the number of calls do not.
+    are read. Scenes alone decide which runs are the same; order and number of calls do not.
     """
 
     def __init__(

@@ -1,7 +1,7 @@
 """One run, timed: the median of several after a warm-up.
 
-Processor time is what the run took from the one thread it has; on a machine with nothing else to do
-it is the wall time, on a busy one it is what can still be compared.
+Processor time is the time of the run's one thread; on a machine with nothing else to do
+it is the wall time, and on a busy one it can still be compared.
 """
 
 import statistics

@@ -30,7 +30,7 @@ def precision(
         chosen: of a user's scene from `case_of`, or a table of your own.
         quick: a reduced form, whose times mean nothing.
         quiet: False shows the progress on standard error.
-        after_case: called after every case with what was measured so far: all of them take half
+        after_case: called after every case with the report so far: all of them take half
             an hour.
         left_out: runs that were left out, and why.
     """

@@ -23,7 +23,7 @@ RESIDUAL_LIMIT = 1e-3
 """Of the energy balance, as in the summary."""
 
 COARSE_RESIDUAL = 0.1
-"""Times the tolerance: what may be left of the energy where more than a hundredth was asked for."""
+"""Times the tolerance: allowed residual of the energy where that is above a hundredth."""
 
 DRIFT_LIMIT = 1e-9  # m
 
@@ -181,7 +181,7 @@ def _elastic_energy(result: Result) -> Array | None:
 def _energy_there(result: Result) -> Array:
     """Return the most energy that contacts can have stored since the start, (n,), J.
 
-    The kinetic energy of the start and the drive's work, less what has gone into height.
+    The kinetic energy of the start and the drive's work, less the potential energy.
     """
     scene = result.scene
     mechanism = mechanism_of(scene)
@@ -197,7 +197,7 @@ def _energy_there(result: Result) -> Array:
 
 
 def _rounding(scene: Scene, name: str) -> float:
-    """Return what the last digits of a speed make of a film's force, N; 0 without a film.
+    """Return the force of a film by the last digits of a speed, N; 0 without a film.
 
     A centred film resists being squeezed by up to 12 pi mu L (R/c)^3 N s/m (long bearing); a ball
     by less, with R for L.

@@ -68,8 +68,13 @@ class Model:
         return error(self.fine[1], self.fine[0]) if self.fine else np.nan
 
     def comparable(self):
-        """Return whether there is something to compare with."""
-        return self.fine is not None and np.isfinite(self.own)
+        """Return whether there is something to compare with, or a refusal to count."""
+        refused = any(run["status"] == "refused" for run in self.runs.values())
+        return self.fine is not None and (refused or bool(np.isfinite(self.own)))
+
+    def agree(self):
+        """Return whether both references say the same; a refused model has no weights for that."""
+        return not self.own > AGREE
 
     def found(self, variant="tolerance"):
         """Return the error of a run."""
@@ -102,7 +107,7 @@ class Model:
             return 1
         if found <= 3.0 * self.own:
             return 2
-        if self.own > AGREE:
+        if not self.agree():
             return 9
         return 3 if found <= 100 * tolerance else 4
 
@@ -126,8 +131,14 @@ def table(models, tolerance):
     for variant in comparable[0].runs if comparable else ():
         kinds = [model.kind(tolerance, variant) for model in comparable]
         counts = Counter(kinds)
+        agreeing = Counter(
+            kind for model, kind in zip(comparable, kinds, strict=True) if model.agree()
+        )
         lines.append(f"\n{variant} {tolerance:g}:")
-        lines += [f"{counts[i]:5d}  {name}" for i, name in enumerate(CLASSES)]
+        lines.append(f"{'all':>5s} {'references agree':>17s}")
+        lines.append(f"{counts.total():5d} {agreeing.total():17d}  comparable")
+        for i, name in enumerate(CLASSES):
+            lines.append(f"{counts[i]:5d} {agreeing[i]:17d}  {name}")
         ended = [m for m, kind in zip(comparable, kinds, strict=True) if kind < 5]
         ratios = [m.runs[variant]["seconds"] / max(m.user["seconds"], 1e-3) for m in ended]
         if ratios:

@@ -15,14 +15,16 @@ APART = 0.3
 """Of a clearance: journals that differ by this have nothing in common any more."""
 
 
-def divergence(result: Result, other: Result) -> Growth:
-    """Return how fast two runs of a scene part, in clearances, and from when on they have diverged.
+def divergence(result: Result, other: Result, ratio: float) -> Growth:
+    """Return how fast a run parts from the truth, in clearances, and from when on it has diverged.
+
+    The other run is none: at half the tolerance it is half of the way from the run to the truth, as
+    errors go with the tolerance until motions have diverged.
 
     Args:
         result: whose instants count.
-        other: at another tolerance or step. A finer one is as good as the truth. A coarser one is
-            not much further from it than the run: errors that impacts amplify were measured to fall
-            with the root of the tolerance.
+        other: at another tolerance or step.
+        ratio: of the other one's tolerance or step to the run's.
     """
     distance = np.zeros_like(result.time)
     for (clearance, here), (_, there) in zip(_plays(result), _plays(other), strict=True):
@@ -31,7 +33,7 @@ def divergence(result: Result, other: Result) -> Growth:
             for i in range(here.shape[1])
         ]
         distance = np.maximum(distance, np.sqrt(np.sum(squares, axis=0)) / clearance)
-    return growth(result.time, distance, APART)
+    return growth(result.time, distance / min(abs(1.0 - ratio), 1.0), APART)
 
 
 def _plays(run: Result) -> Iterator[tuple[float, Array]]:

@@ -143,7 +143,7 @@ def errors_of(
             continue
         run = until(refinement, end)
         if diverged is None:
-            diverged = divergence(result, run)
+            diverged = divergence(result, run, ratio)
             horizon = end if diverged.horizon is None else diverged.horizon
             by_end = {at: {1.0: read(until(result, at))} for at in (end, horizon)}
             after = {1.0: read(window(result, horizon, end))} if horizon < end else {}

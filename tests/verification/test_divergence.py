@@ -29,17 +29,24 @@ def moved(result, column, amount):
 
 def test_a_body_that_is_elsewhere_between_its_ways_has_parted(run):
     across = int(np.argmax(np.abs(mechanism_of(LOOSE).guides[0].across)))
-    assert divergence(run, moved(run, across, 0.9 * APART * PLAY / 2**0.5)).horizon is None
-    found = divergence(run, moved(run, across, APART * PLAY))
+    assert divergence(run, moved(run, across, 0.9 * APART * PLAY / 2**0.5), 2.0).horizon is None
+    found = divergence(run, moved(run, across, APART * PLAY), 2.0)
     assert 0.9 * run.time[-1] < found.horizon <= run.time[-1]
 
 
 def test_one_that_tilts_has_too(run):
     tilt = APART * PLAY / 0.1  # about half the length, its ends are so far away
-    assert divergence(run, moved(run, 2, 0.9 * tilt / 2**0.5)).horizon is None
-    assert divergence(run, moved(run, 2, tilt)).horizon is not None
+    assert divergence(run, moved(run, 2, 0.9 * tilt / 2**0.5), 2.0).horizon is None
+    assert divergence(run, moved(run, 2, tilt), 2.0).horizon is not None
 
 
 def test_one_that_is_ahead_has_not(run):
     along = int(np.argmax(np.abs(mechanism_of(LOOSE).guides[0].direction)))
-    assert divergence(run, moved(run, along, PLAY)).horizon is None
+    assert divergence(run, moved(run, along, PLAY), 2.0).horizon is None
+
+
+@pytest.mark.parametrize(("ratio", "horizon"), [(0.5, True), (0.25, False), (8.0, False)])
+def test_a_run_at_half_the_tolerance_is_half_way_to_the_truth(run, ratio, horizon):
+    across = int(np.argmax(np.abs(mechanism_of(LOOSE).guides[0].across)))
+    found = divergence(run, moved(run, across, 0.5 * APART * PLAY), ratio)
+    assert (found.horizon is not None) is horizon

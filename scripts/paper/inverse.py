@@ -232,8 +232,10 @@ class _Judge:
             places.append({name: len(tasks) + n for n, name in enumerate(scenes)})
             tasks += [{"scene": scene.to_dict()} for scene in scenes.values()]
         rows = self._batch.rows(tasks)
-        self._asked |= {str(task): row for task, row in zip(tasks, rows, strict=True)}
-        for row in rows:
+        new = {str(task): row for task, row in zip(tasks, rows, strict=True)}
+        new = {task: row for task, row in new.items() if task not in self._asked}
+        self._asked |= new
+        for row in new.values():
             if row["status"] != "completed":
                 self.failures[f"{row['status']}: {row['reason'][:90]}"] += 1
         return [

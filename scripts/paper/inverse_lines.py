@@ -46,7 +46,7 @@ def inverse_lines(report: Inverse) -> list[str]:
     tried = [one for one in report.trials if one.ratios is not None]
     lines = [
         f"{len(report.trials)} readings, {len(tried)} with numbers; "
-        f"{report.runs} runs with those that differ from the best reading in one key",
+        f"{report.runs} runs with those that differ from the best one in one key",
         f"{report.repeated} runs were repeated with a smaller tolerance, for their impacts",
         *(f"  {n} x {why}" for why, n in report.failures.most_common(3)),
         "",
@@ -57,14 +57,12 @@ def inverse_lines(report: Inverse) -> list[str]:
         "",
         "flexible bodies, from the best rigid reading on, one key elsewhere",
         *columns(_flexible(report)),
-    ]
-    if not report.alone:
-        return lines
-    lines += [
         "",
         "recommended reading, and what one key elsewhere adds to the distance of rigid bodies",
         *columns(_preferences(report)),
     ]
+    if not report.alone:
+        return lines
     free = ", ".join(report.free) or "nothing"
     return [*lines, f"the numbers cannot tell (distance changes by less than {FREE:g}): {free}"]
 
@@ -112,6 +110,8 @@ def _preferences(report: Inverse) -> list[list[str]]:
             + (f"{one.distance - report.base.distance:+.3f}" if one.ratios else "fails")
             for one in report.alone.get(name, [])
         ]
+        if not (told or report.recommended.reading[name] != OURS[name]):
+            continue
         rows.append(
             [
                 name,

@@ -15,7 +15,8 @@ __all__ = ["COARSER", "observe", "part_frequencies", "read"]
 COARSER = 1.5
 """Mesh beside the one whose frequencies are taken, over it."""
 
-MOST_REPEATED = 2
+MOST_REPEATED = 4
+"""Thirds of the tolerance: 1e-2 becomes 1e-4."""
 
 
 def observe(arguments: dict[str, Any]) -> dict[str, Any]:

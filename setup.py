@@ -38,6 +38,7 @@ MODULES = [
     "integrate/monitor",
     "integrate/problem",
     "integrate/sampling",
+    "integrate/scales",
     "integrate/scheme",
     "integrate/start",
     "integrate/step_change",

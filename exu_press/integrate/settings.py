@@ -14,7 +14,8 @@ from typing import Any
 import exudyn as exu
 
 from exu_press.errors import InputError
-from exu_press.integrate.problem import ErrorScales, FoundScales, Problem
+from exu_press.integrate.problem import Problem
+from exu_press.integrate.scales import ErrorScales, FoundScales
 
 __all__ = [
     "SAME",

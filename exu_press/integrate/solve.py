@@ -19,7 +19,8 @@ import numpy as np
 from exu_press.errors import InputError
 from exu_press.integrate.controller import Controller
 from exu_press.integrate.monitor import Monitor
-from exu_press.integrate.problem import ErrorScales, Node, Problem
+from exu_press.integrate.problem import Node, Problem
+from exu_press.integrate.scales import ErrorScales
 from exu_press.integrate.settings import SolverTuning, Task, prepared, refuse_unusable
 from exu_press.integrate.stepping import Unresolved
 from exu_press.joints.joint import ClearanceJoint

@@ -9,7 +9,8 @@ import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 
 from exu_press import solve_dynamic
-from exu_press.integrate.problem import Problem, weights
+from exu_press.integrate.problem import Problem
+from exu_press.integrate.scales import weights
 
 __all__ = ["Run", "at_equal_error", "error", "run"]
 

@@ -30,7 +30,8 @@ import exudyn.utilities
 import numpy as np
 
 from exu_press import InputError, solve_dynamic
-from exu_press.integrate.problem import Problem, weights
+from exu_press.integrate.problem import Problem
+from exu_press.integrate.scales import weights
 
 EXPORTED = (
     math,

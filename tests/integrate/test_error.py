@@ -16,7 +16,8 @@ from exu_press.integrate.criteria.eccentricity import JointError
 from exu_press.integrate.criteria.share import ErrorPerStep
 from exu_press.integrate.criteria.turning import Turning
 from exu_press.integrate.criteria.vibration import Quiet
-from exu_press.integrate.problem import ErrorScales, FoundScales, Node
+from exu_press.integrate.problem import Node
+from exu_press.integrate.scales import ErrorScales, FoundScales
 from exu_press.integrate.settings import SolverTuning
 from exu_press.joints.path import Path
 from exu_press.scene import flexible_press

@@ -1,16 +1,12 @@
-"""An assembled system as the integration sees it, kinetic norms, and scales that grow with it."""
-
-from types import SimpleNamespace
+"""An assembled system as the integration sees it."""
 
 import exudyn as exu
 import exudyn.utilities as items
 import numpy as np
 import pytest
-from patched import PATCHED
-from stand_in import problem_at
 
 from exu_press import InputError
-from exu_press.integrate.problem import ErrorScales, FoundScales, Node, Problem, weights
+from exu_press.integrate.problem import Problem
 from exudyn_examples import EXAMPLES
 
 
@@ -125,79 +121,3 @@ def test_joints_along_cables_are_refused():
     mbs.Assemble()
     with pytest.raises(InputError, match=r"object 2 .* is a JointSliding2D: allowed"):
         Problem.of(mbs)
-
-
-def bodies(*masses):
-    """Nodes of planar bodies, whose masses are given or to be found (None)."""
-    return [
-        Node(i, f"body {i}", 3 * i, 3, mass, 2 if mass is None else 0)
-        for i, mass in enumerate(masses)
-    ]
-
-
-def scales(nodes, inertias, velocities, given=None, **changes):
-    problem = problem_at(nodes, velocities, length=2.0, **changes)
-    found = FoundScales(given or ErrorScales(), problem, longest=0.1)
-    found.begin(np.diag(inertias))
-    return found
-
-
-def test_the_largest_body_counts_by_its_kinetic_energy():
-    found = scales(bodies(None, None), [2.0, 2.0, 0.5, 8.0, 8.0, 1.0], [0.0] * 6)
-    assert found.squares([3.0, 4.0, 0.0, 0.0, 0.0, 8.0]) == pytest.approx([25.0, 8.0])
-    assert found.norm([3.0, 4.0, 0.0, 0.0, 0.0, 8.0]) == pytest.approx(5.0)
-
-
-def test_speed_and_force_are_the_largest_so_far():
-    found = scales(bodies(None), [2.0, 2.0, 0.5], [3.0, 4.0, 0.0])
-    assert found.speed == pytest.approx(5.0)
-    found.update([6.0, 8.0, 0.0], [1.0, 0.0, 0.0])
-    found.update([0.0, 0.0, 0.0], [0.0, 0.0, 0.0])
-    assert (found.speed, found.force) == pytest.approx((10.0, 2.0))
-
-
-def test_what_is_given_stays():
-    given = ErrorScales(speed=7.0, force=9.0)
-    found = scales(bodies(None), [2.0, 2.0, 0.5], [3.0, 4.0, 0.0], given)
-    found.update([60.0, 80.0, 0.0], [100.0, 0.0, 0.0])
-    assert found.fixed and (found.speed, found.force) == (7.0, 9.0)
-
-
-STILL = {"velocities": [0.0] * 3, "accelerations": [10.0, 0.0, 0.0]}
-
-
-def test_a_system_at_rest_has_the_speed_that_it_will_have_within_the_largest_step():
-    assert scales(bodies(None), [2.0, 2.0, 0.5], **STILL).speed == pytest.approx(1.0)
-
-
-@PATCHED
-def test_a_body_at_rest_in_a_clearance_has_the_speed_at_which_it_arrives():
-    narrow = scales(bodies(None), [2.0, 2.0, 0.5], **STILL, joints=SimpleNamespace(widest=1e-3))
-    assert narrow.speed == pytest.approx(np.sqrt(4.0 * 1e-3 * 10.0))
-
-
-def test_what_is_not_displaced_counts_by_its_own_largest_energy():
-    nodes = [Node(0, "rotor", 0, 1, mass=None), Node(1, "mass", 1, 1, mass=None, displacements=1)]
-    found = scales(nodes, [0.5, 2.0], [100.0, 4.0])
-    assert found.speed == pytest.approx(4.0)
-    assert found.norm([100.0, 0.0]) == pytest.approx(4.0), "a whole speed, whatever its inertia"
-
-
-def test_weights_of_nodes():
-    """Euler parameters have their mean, modes their frame's; what has no inertia has no say."""
-    nodes = [
-        Node(0, "frame", 0, 7, displacements=3, quaternion=True),
-        Node(1, "modes", 7, 2, carrier=0),
-        Node(2, "massless", 9, 1, displacements=1),
-    ]
-    matrix = np.diag([3.0, 3.0, 3.0, 1.0, 2.0, 3.0, 6.0, 1.0, 1.0, 0.0])
-    inertias, masses = weights(nodes, matrix)
-    assert inertias == pytest.approx([3.0] * 7 + [1.0, 1.0, 0.0])
-    assert masses == [3.0, 3.0, np.inf]
-
-
-def test_rounding_alternates_by_the_spectral_radius():
-    """rho = alpha_f / (1 - alpha_f), up to 0.95."""
-    found = scales(bodies(None), [2.0, 2.0, 0.5], [0.0] * 3)
-    assert found.alternating(1e-15, 0.8 / 1.8) == pytest.approx(1e-15 * 2.0 * 25.0)
-    assert found.alternating(1e-15, 0.5) == pytest.approx(1e-15 * 2.0 * 400.0)

@@ -6,7 +6,8 @@ import exudyn as exu
 import pytest
 
 from exu_press import InputError, Scene
-from exu_press.integrate.problem import ErrorScales, Problem
+from exu_press.integrate.problem import Problem
+from exu_press.integrate.scales import ErrorScales
 from exu_press.integrate.settings import SolverTuning, Task, prepared, refuse_unusable
 from exudyn_examples import EXAMPLES
 

@@ -4,7 +4,7 @@ import math
 
 from exu_press.integrate.criteria.share import ErrorPerStep
 from exu_press.integrate.criteria.vibration import Quiet
-from exu_press.integrate.problem import FoundScales
+from exu_press.integrate.scales import FoundScales
 from exu_press.integrate.settings import SolverTuning
 
 __all__ = ["BodyError"]

@@ -1,7 +1,7 @@
 """Accelerations between two instants, which the forces of constraints follow."""
 
 from exu_press.integrate.criteria.bodies import BodyError
-from exu_press.integrate.problem import FoundScales
+from exu_press.integrate.scales import FoundScales
 from exu_press.integrate.settings import SAME
 
 __all__ = ["Curvature"]

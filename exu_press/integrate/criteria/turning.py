@@ -4,7 +4,8 @@ import math
 
 import numpy as np
 
-from exu_press.integrate.problem import FoundScales, Problem
+from exu_press.integrate.problem import Problem
+from exu_press.integrate.scales import FoundScales
 
 __all__ = ["Turning"]
 

@@ -2,7 +2,7 @@
 
 import math
 
-from exu_press.integrate.problem import FoundScales
+from exu_press.integrate.scales import FoundScales
 
 __all__ = ["Quiet"]
 

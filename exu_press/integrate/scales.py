@@ -1,0 +1,232 @@
+"""What errors are relative to: scales that are given, or found from the motion as it goes."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from exu_press.integrate.problem import Node, Problem
+
+__all__ = ["ErrorScales", "FoundScales", "weights"]
+
+
+@dataclass(frozen=True)
+class ErrorScales:
+    """Scales of errors; None is found from the motion as it goes.
+
+    Attributes:
+        speed: of the bodies, m/s; found: the largest so far.
+        force: Newton's method balances forces to a part of it, N; found: what accelerates all
+            bodies together, at most so far.
+        step: usual size of the longest steps, s; errors that films keep may add up to the tolerance
+            within some of them. Found: the largest step.
+    """
+
+    speed: float | None = None
+    force: float | None = None
+    step: float | None = None
+
+
+class FoundScales:
+    """The scales of a run so far.
+
+    A system at rest has no speed yet: what its first accelerations make of it within the largest
+    step counts instead, or on their way through the widest clearance. In an equilibrium these are
+    rounded forces over masses: what has moved no faster than rounded positions do in the first step
+    is still.
+
+    Attributes:
+        speed: m/s.
+        force: N.
+        inertias: of the coordinates, kg where they are displacements.
+        length: of the coordinates whose last digits are rounded, m.
+        fixed: whether all is given.
+        rest: speed up to which the system is still, m/s; 0.0 where that is not known.
+        rounded: whether what moves no faster was found to be rounding.
+        masses: of the nodes, kg, infinite for what has no say; where the system gives none, the
+            node's largest kinetic energy over half the square of `speed`.
+    """
+
+    def __init__(
+        self,
+        given: ErrorScales,
+        problem: Problem,
+        longest: float,
+        first: float = math.inf,
+        stir: float = 0.0,
+        floor: float = 0.0,
+    ) -> None:
+        """Take what is given; the rest is found from `begin` on.
+
+        Args:
+            given: scales.
+            problem: what is solved.
+            longest: step, s.
+            first: step, s.
+            stir: what rounded positions make of accelerations, times the step's square, over the
+                length.
+            floor: the least scale of speeds, m/s.
+        """
+        self._given, self._problem, self._longest = given, problem, longest
+        self._first, self._stir = first, stir
+        self.rest, self.rounded = 0.0, False
+        self.length = problem.length
+        self.masses: list[float] = []
+        self._ends = [node.start + node.size for node in problem.nodes]
+        self.inertias: list[float] = []
+        self._own: list[bool] = []
+        self._energies: list[float] = []  # twice the largest kinetic energy of each node so far
+        self.speed = max(given.speed or 0.0, floor)
+        self.force = given.force or 0.0
+        self.fixed = False
+
+    def begin(self, mass_matrix: Any) -> None:
+        """Look at the state from which the run starts, and the mass matrix, (n, n)."""
+        problem = self._problem
+        self.inertias, masses = weights(problem.nodes, mass_matrix)
+        self.masses = masses
+        self._own = [mass == 0.0 for mass in masses]
+        self._energies = [0.0 for _ in masses]
+        positions = (problem.current.positions + problem.reference).tolist()
+        known = max(self.length, self.norm(positions))
+        self.length = known or 1.0  # where all is zero
+        given = self._given.speed, self._given.force
+        self.fixed = True not in self._own and None not in given
+        if self.fixed:
+            return
+        velocities = problem.current.velocities.tolist()
+        accelerations = problem.current.accelerations.tolist()
+        largest, time = self.norm(accelerations), self._longest
+        if problem.joints is not None and largest > 0.0:
+            time = min(time, math.sqrt(4.0 * problem.joints.widest / largest))
+        self.update([time * value for value in accelerations], accelerations)
+        self.update(velocities, accelerations)
+        if not known and self.speed > 0.0:  # as far as it gets in ten runs of a hundred steps
+            self.length = min(1.0, 1e3 * self.speed * self._longest)
+        if known and not any(self._own) and self._given.speed is None:
+            self.rest = self._stir * known / self._first
+            if self._given.force is None:
+                weighed = math.hypot(*(mass for mass in masses if mass < math.inf))
+                self.force = max(self.force, weighed * self._stir * known / self._longest**2)
+
+    @property
+    def resting(self) -> bool:
+        """Whether the system moves by less than a billionth of its length in the longest step."""
+        return self.speed * self._longest <= 1e-9 * self.length
+
+    @property
+    def unseen(self) -> bool:
+        """Whether something has moved, but by no more than what rounding moves."""
+        return self.rounded and 0.0 < self.speed <= self.rest
+
+    def still(self, velocities: list[float]) -> bool:
+        """Return whether nothing has moved yet, in a state either, but what rounding moves."""
+        return self.speed <= self.rest and self.norm(velocities) <= self.rest
+
+    def set_out(self, velocities: list[float], accelerations: list[float]) -> None:
+        """Be told of a state that a step was tried to, in which a system may have left its rest."""
+        self.update([self._longest * value for value in accelerations], accelerations)
+        self.update(velocities, accelerations)
+
+    def update(self, velocities: list[float], accelerations: list[float]) -> None:
+        """Be told of a state."""
+        if self.fixed:
+            return
+        energies, masses = self._sums(velocities, velocities), self.masses
+        speed_2 = 0.0
+        for i in range(len(masses)):
+            if energies[i] > self._energies[i]:
+                self._energies[i] = energies[i]
+            if not self._own[i]:
+                speed_2 = max(speed_2, energies[i] / masses[i])
+        if self._given.speed is None:
+            self.speed = max(self.speed, math.sqrt(speed_2))
+            if self.speed == 0.0 and True in self._own:
+                self.speed = 1.0  # nothing is displaced: any speed will do, energies count
+        square = self.speed * self.speed
+        for i in range(len(masses)):
+            if self._own[i]:
+                masses[i] = self._energies[i] / square if square > 0.0 else 0.0
+        if self._given.force is None:
+            squares = 0.0
+            for i in range(len(accelerations)):
+                force = self.inertias[i] * accelerations[i]
+                squares += force * force
+            self.force = max(self.force, math.sqrt(squares))
+
+    def norm(self, vector: list[float]) -> float:
+        """Return the largest kinetic norm of a body; what has no say may be no number."""
+        largest = 0.0
+        for square in self.squares(vector):
+            if square > largest:
+                largest = square
+        return math.sqrt(largest)
+
+    def squares(self, vector: list[float]) -> list[float]:
+        """Return the squares of each body's kinetic norm of a vector over all coordinates."""
+        squares, masses = self._sums(vector, vector), self.masses
+        for i in range(len(squares)):
+            mass = masses[i]
+            squares[i] = squares[i] / mass if mass > 0.0 else 0.0
+        return squares
+
+    def along(self, vector: list[float], velocities: list[float]) -> float:
+        """Return the largest part of a vector along a body's velocity, in the kinetic norm."""
+        products, squares = self._sums(vector, velocities), self.squares(velocities)
+        largest = 0.0
+        for product, mass, square in zip(products, self.masses, squares, strict=True):
+            if 0.0 < mass < math.inf and square > 0.0:
+                largest = max(largest, abs(product) / (mass * math.sqrt(square)))
+        return largest
+
+    def _sums(self, one: list[float], other: list[float]) -> list[float]:
+        """Return the sum of inertia times both vectors' values over each node's coordinates."""
+        found: list[float] = []
+        inertias = self.inertias
+        i = 0
+        for end in self._ends:
+            total = 0.0
+            while i < end:
+                total += inertias[i] * one[i] * other[i]
+                i += 1
+            found.append(total)
+        return found
+
+    def alternating(self, rounding: float, alpha_f: float) -> float:
+        """Return what rounded positions make of accelerations, times the step's square, m.
+
+        Args:
+            rounding: of positions, over the largest one, in each step.
+            alpha_f: generalized-alpha's; its spectral radius is alpha_f / (1 - alpha_f).
+        """
+        radius = min(alpha_f / (1.0 - alpha_f), 0.95)
+        return rounding * self.length / (1.0 - radius) ** 2
+
+
+def weights(nodes: Sequence[Node], mass_matrix: Any) -> tuple[list[float], list[float]]:
+    """Return each coordinate's inertia and each node's mass, 0.0 where that is to be found.
+
+    Euler parameters count with the mean of their four inertias, which no rotation changes.
+
+    Args:
+        nodes: of the system, in the order of their coordinates.
+        mass_matrix: (n, n).
+    """
+    inertias = np.array(np.diag(mass_matrix), dtype=float) if nodes else np.zeros(0)
+    masses: dict[int, float] = {}
+    for node in nodes:
+        first, last = node.start, node.start + node.size
+        if node.quaternion:
+            inertias[last - 4 : last] = inertias[last - 4 : last].mean()
+        mass = node.mass
+        if mass is None:
+            mass = float(inertias[first : first + node.displacements].max(initial=0.0))
+            if not inertias[first:last].any():
+                mass = math.inf
+        masses[node.number] = mass
+    for node in nodes:
+        if node.mass is None and node.carrier is not None:
+            masses[node.number] = masses[node.carrier]
+    return inertias.tolist(), [masses[node.number] for node in nodes]

@@ -35,6 +35,7 @@ MODULES = [
     "integrate/criteria/turning_force",
     "integrate/criteria/vibration",
     "integrate/error",
+    "integrate/modal_mass",
     "integrate/monitor",
     "integrate/problem",
     "integrate/sampling",

@@ -15,9 +15,10 @@ from exu_press.integrate.constraints import Constraints
 from exu_press.integrate.contact import Gaps, fit_data
 from exu_press.integrate.controller import Controller
 from exu_press.integrate.error import StepError
+from exu_press.integrate.modal_mass import ModalMass
 from exu_press.integrate.output import OutputGrid
 from exu_press.integrate.sampling import Event, Sampling
-from exu_press.integrate.scheme import ModalMass, Newton
+from exu_press.integrate.scheme import Newton
 from exu_press.integrate.settings import Task
 from exu_press.integrate.start import fit_start, start_rates, start_without_mass
 from exu_press.integrate.step_change import StepChange

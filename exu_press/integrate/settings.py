@@ -97,7 +97,7 @@ class SolverTuning:
             an error.
         vibrating_penetration: instead of `penetration` there.
         modal_mass: what the modes' mass is changed by, over what keeps their frequencies
-            (`exu_press.integrate.scheme`).
+            (`exu_press.integrate.modal_mass`).
         kept_steps: within so many of the usual longest steps, 45 degrees of the crank, errors that
             a film keeps may add up to the tolerance.
         refit: a step shorter than this, over the one that constrained velocities fit, makes them

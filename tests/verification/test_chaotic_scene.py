@@ -1,0 +1,29 @@
+"""A dry shaft over three revolutions, whose impacts part motions."""
+
+import pytest
+
+from exu_press import Scene, simulate
+
+SCENE = Scene.from_dict(
+    {
+        "mechanism": "eccentric_press",
+        "speed_rpm": 327.1655547459466,
+        "revolutions": 3.0,
+        "start_angle_deg": 270.74765147729784,
+        "joints": {"shaft": {"kind": "dry", "clearance": 8.736209995142197e-05}},
+        "contact": {"restitution": 0.9398828529733374},
+        "friction": {"law": "none"},
+    }
+)
+"""One of the random ones (seed [4, 104] of the calibration)."""
+
+
+@pytest.mark.long
+def test_figures_that_finer_runs_scatter_are_not_determined():
+    """The run ends 0.24 clearances from one at half the tolerance, 0.44 and 0.67 from those at a
+    tenth and a thirtieth. Their drive powers are -1.1 and -9.5 W; 14.2 +- 6.5 W was "determined".
+    """
+    result = simulate(SCENE, errors=True, beside=False)
+    assert result.info["horizon"] is not None
+    for name in ("drive.mean_power", "energy.input"):
+        assert not result.quantity(name).determined

@@ -274,7 +274,7 @@ def test_constraints_that_a_pre_step_function_moves_are_named():
 
 
 def test_a_prescribed_motion_that_jumps_is_thought_of():
-    """No step is short enough for a cable whose end is given another speed at once."""
+    """Steps become too many, or too small, for a cable whose end is given another speed at once."""
     mbs = exu.SystemContainer().AddSystem()
     nodes, _ = cables(mbs, 2.1e8)
     hold(mbs, nodes[0], (0,))
@@ -284,13 +284,14 @@ def test_a_prescribed_motion_that_jumps_is_thought_of():
     ]
 
     def push(mbs, time, item, offset):
-        return max(0.0, time - 0.01)
+        return max(0.0, time - 2e-4)
 
     mbs.AddObject(items.ObjectConnectorCoordinate(markerNumbers=ends, offsetUserFunction=push))
     mbs.Assemble()
-    outcome = solve_dynamic(mbs, settings(0.02), tolerance=1e-4)
-    assert outcome.status is SolverStatus.STEP_TOO_SMALL
-    assert outcome.end_time == pytest.approx(0.01) and "without jumps" in outcome.reason
+    outcome = solve_dynamic(mbs, settings(4e-4), tolerance=1e-4, max_steps=3000)
+    stopped = SolverStatus.STEP_TOO_SMALL, SolverStatus.TOO_MANY_STEPS
+    assert outcome.status in stopped, outcome.reason
+    assert outcome.end_time == pytest.approx(2e-4, rel=0.05) and "without jumps" in outcome.reason
 
 
 def test_a_start_that_does_not_fit_is_named_with_its_jump():

@@ -8,7 +8,7 @@ from fe_models.arrays import Array
 __all__ = ["facing", "turned_view"]
 
 LIGHT = np.array([-0.35, 0.65, 0.67])
-"""Where it comes from: right, up, towards the eye."""
+"""Direction towards the light: right, up, towards the eye."""
 
 
 def turned_view(about_y: float, about_x: float) -> Array:

@@ -30,7 +30,7 @@ class Constraints:
     """The constraints of a system."""
 
     def __init__(self, task: Task) -> None:
-        """Take what is solved."""
+        """Take the problem."""
         problem = task.problem
         self._mbs, self._solver, self._data = problem.mbs, task.solver, problem.data
         self._current, self._untold = problem.current, problem.untold_rates

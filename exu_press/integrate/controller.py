@@ -12,7 +12,7 @@ ORDER = 3
 
 
 SHORTENED = 0.05
-"""By what a step that failed is shortened at most."""
+"""Least ratio by which a failed step is shortened."""
 
 
 class Controller(Protocol):

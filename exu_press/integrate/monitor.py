@@ -281,7 +281,7 @@ class Monitor:
 
 
 def _function(found: Any) -> Any:
-    """Return what Exudyn's getters of user functions hold, or 0 where nothing is set."""
+    """Return the contents of Exudyn's getters of user functions, or 0 where nothing is set."""
     return found["function"] if isinstance(found, dict) else 0
 
 

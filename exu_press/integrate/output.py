@@ -86,7 +86,7 @@ class OutputGrid:
             self._start = [part.copy() for part in self._current]
 
     def stepped(self, begin: float, end: float) -> None:
-        """Write what lies within an accepted step, s, that ends in the current state."""
+        """Write the rows within an accepted step, s, that ends in the current state."""
         if not self._periods:
             return
         state, times = [part.copy() for part in self._current], self._times(begin, end)

@@ -1,4 +1,4 @@
-"""What errors are relative to: scales that are given, or found from the motion as it goes."""
+"""Scales of errors: given, or found from the motion as it goes."""
 
 import math
 from collections.abc import Sequence

@@ -95,7 +95,7 @@ class Newton:
         self._last, self._now[:] = step, self._accelerations
 
     def before_residual(self, step: float, iteration: int) -> None:
-        """Set what an iteration of a step (s) starts from, and where it may end."""
+        """Set the start of the iteration of a step (s), and its limits."""
         if not iteration:
             self._advance(step)
             self._accept(self._tolerance())
@@ -107,7 +107,7 @@ class Newton:
             self._accept(max(self._tolerance(), self._rounded()))
 
     def _rounded(self) -> float:
-        """Return what the last digits of the state make of forces, N."""
+        """Return the rounding errors of forces, N: the last digits of the state."""
         if self._joints is not None:
             return self._rounding * self._joints.damping * self._scales.speed
         size, forces = self._residual()
@@ -124,7 +124,7 @@ class Newton:
         return size * float(changed / np.linalg.norm(forces))
 
     def _residual(self) -> tuple[float, Array]:
-        """Return what forces and constraints leave in the current state, N, and it by coordinate.
+        """Return the residual of the current state, N, as a whole and by coordinate.
 
         The latter are scaled with the step, but all alike.
         """
@@ -166,7 +166,7 @@ class Newton:
                 floats[first + k] += longer * turned[k]
 
     def _tolerance(self) -> float:
-        """Return to what Newton's method is to balance forces, N."""
+        """Return the limit of the residual in Newton's method, N."""
         return self._part * self._scales.force or self._given
 
     def _accept(self, residual: float) -> None:

@@ -113,12 +113,12 @@ class Advice:
         return f"at t = {time:.6g} s"
 
     def joint(self, joint: ClearanceJoint) -> str:
-        """Return what a clearance joint is called."""
+        """Return the name of a clearance joint."""
         assert self.problem.joints is not None
         return self.problem.joints.number(joint)
 
     def film(self) -> str:
-        """Return what helps a film that broke down."""
+        """Return the cure for a film that broke down."""
         return "a mixed film (contact=, asperity_onset=), or a larger viscosity or length"
 
     def smallest(self) -> str:

@@ -26,7 +26,7 @@ MASSLESS = 1e-12
 
 
 class _Start:
-    """The state at the start, and what its constraints say of it and ahead of it."""
+    """The state at the start, and its constraints there and soon after."""
 
     def __init__(self, task: Task, constraints: Constraints) -> None:
         self._data, self._current = task.problem.data, task.problem.current
@@ -147,7 +147,7 @@ class _WithoutMass:
     """
 
     def __init__(self, task: Task, constraints: Constraints) -> None:
-        """Look for what has no mass; the solver has computed the mass matrix of the state."""
+        """Find coordinates without mass; the solver has computed the mass matrix of the state."""
         self._solver, self._mbs, self._current = task.solver, task.problem.mbs, task.problem.current
         self._mass = mass = np.array(task.solver.GetSystemMassMatrix())
         held = [constraints.directions()] if constraints.count else []
@@ -168,13 +168,13 @@ class _WithoutMass:
         return found
 
     def _forces(self) -> Array:
-        """Return what acts on the coordinates, but constraints."""
+        """Return the forces on the coordinates, without constraints."""
         self._solver.ComputeODE2RHS(self._mbs)
         return np.array(self._solver.GetSystemResidual())[: len(self._mass)]
 
 
 def start_without_mass(task: Task, constraints: Constraints) -> tuple[Array, Array] | None:
-    """Set accelerations at the start, and velocities of what has no mass, if there is any.
+    """Set accelerations at the start, and velocities of coordinates without mass, if there are any.
 
     Exudyn starts with accelerations of zero then. Those of what has no mass are known from its
     velocities a little ahead.

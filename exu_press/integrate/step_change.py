@@ -1,4 +1,4 @@
-"""What generalized-alpha carries over from step to step, where the step changes."""
+"""Generalized-alpha's memory from step to step, where the step changes."""
 
 import math
 

@@ -184,7 +184,7 @@ class GuidewayFilm:
         return [self._step, self.path.memory()]
 
     def recall(self, memory: list[Any]) -> None:
-        """Take over what another one remembers."""
+        """Take over another's memory."""
         self._step = memory[0]
         self.path.recall(memory[1])
 

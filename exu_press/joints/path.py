@@ -51,7 +51,7 @@ class Path:
         return [self.drift, *(list(part) for part in parts)]
 
     def recall(self, memory: list[Any]) -> None:
-        """Take over what another one remembers."""
+        """Take over another's memory."""
         self.drift = memory[0]
         self.eccentricity, self.velocity = tuple(memory[1]), tuple(memory[2])
         self.acceleration = tuple(memory[3])

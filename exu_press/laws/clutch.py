@@ -100,5 +100,5 @@ class Coupling:
         return self._twist, self._angle
 
     def recall(self, memory: tuple[float, float]) -> None:
-        """Take over what another one remembers."""
+        """Take over another's memory."""
         self._twist, self._angle = memory

@@ -142,7 +142,7 @@ class Approach:
         return [self._speed, self._gap, *self._next]
 
     def recall(self, memory: list[float]) -> None:
-        """Take over what another one remembers."""
+        """Take over another's memory."""
         self._speed, self._gap = memory[0], memory[1]
         self._next = memory[2], memory[3]
 

@@ -97,7 +97,7 @@ class Clock(Protocol):
         """Return its memory."""
 
     def recall(self, memory: tuple[float, float | None]) -> None:
-        """Take over what another one remembers."""
+        """Take over another's memory."""
 
     def accept(self, time: float, place: float, rate: float, /) -> None:
         """Keep the state at the end of a step."""
@@ -156,7 +156,7 @@ class PulseClock:
         return self._angle, self._begun
 
     def recall(self, memory: tuple[float, float | None]) -> None:
-        """Take over what another clock remembers."""
+        """Take over another clock's memory."""
         self._angle, self._begun = memory
 
     def accept(self, time: float, angle: float, speed: float) -> None:

@@ -172,6 +172,6 @@ class Schedule:
         return [float(self.running), *given]
 
     def recall(self, memory: Sequence[float]) -> None:
-        """Take over what another one remembers."""
+        """Take over another's memory."""
         self.running = bool(memory[0])
         self._start, self._stop = Command(*memory[1:3]), Command(*memory[3:5])

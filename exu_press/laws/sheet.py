@@ -190,7 +190,7 @@ class Cut:
         return self._deepest, self._fractured
 
     def recall(self, memory: tuple[float, float | None]) -> None:
-        """Take over what another one remembers."""
+        """Take over another's memory."""
         self._deepest, self._fractured = memory
         self._started = True
 

@@ -162,7 +162,7 @@ class _Problem:
         return apart, rows
 
     def held(self, q: Array, ideal: Array) -> tuple[Array, Array]:
-        """Return what ideal joints, guides and drive miss at coordinates q, and the Jacobian."""
+        """Return the residuals of ideal joints, guides and drive at q, and their Jacobian."""
         missed: list[float] = []
         rows: list[Array] = []
         for joint in self._tight:

@@ -131,7 +131,7 @@ class Pressed:
         return [*self.coupling.memory(), self.state, self._way]
 
     def recall(self, memory: Sequence[float]) -> None:
-        """Take over what another one remembers."""
+        """Take over another's memory."""
         twist, angle, self.state, self._way = memory
         self.coupling.recall((twist, angle))
 
@@ -204,7 +204,7 @@ class StartStop:
         return found
 
     def recall(self, memory: list[float]) -> None:
-        """Take over what another one remembers."""
+        """Take over another's memory."""
         self.schedule.recall(memory[:5])
         for number, one in enumerate(self.pressed):
             one.recall(memory[5 + 4 * number : 9 + 4 * number])

@@ -96,7 +96,7 @@ class WarmFilm:
         return self._length * joint.radius * joint.clearance * self._flow(*rates, eps_w)
 
     def cooling(self, flow: Array) -> Array:
-        """Return what side flow and frame take off, (n,), W."""
+        """Return the heat that side flow and frame carry off, (n,), W."""
         oil, film = self.oil, self.temperature
         by_flow = oil.heat_capacity * flow * (film - oil.supply_celsius)
         return np.asarray(by_flow + oil.conductance * (film - oil.frame))

@@ -1,4 +1,4 @@
-"""A run as quantities read it, with what several of them need worked out once."""
+"""A run as quantities read it, with shared results worked out once."""
 
 from collections.abc import Callable
 from functools import cached_property

@@ -1,4 +1,4 @@
-"""Quantities of a press that starts and stops: what safety standards and clutches are chosen by."""
+"""Quantities of a press that starts and stops: for clutches and safety standards."""
 
 from collections.abc import Iterator
 

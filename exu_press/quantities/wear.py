@@ -168,7 +168,7 @@ def _guide_wears(scene: Scene, body: str) -> bool:
 
 
 def _per_revolution(worn: Callable[[Result, str], float], run: Reading, place: str) -> float | None:
-    """Return what whole revolutions wear, over their number; None where there is none."""
+    """Return the mean wear of whole revolutions; None where there is none."""
     if run.whole is None:
         return None
     last, turns = _whole(run, run.whole)

@@ -1,4 +1,4 @@
-"""What flywheel, clutch and brake did."""
+"""Channels of flywheel, clutch and brake."""
 
 import numpy as np
 

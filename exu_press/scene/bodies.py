@@ -1,4 +1,4 @@
-"""Which bodies of a mechanism are flexible, and what their solids are."""
+"""Flexible bodies of a mechanism, and their solids."""
 
 import dataclasses
 import importlib

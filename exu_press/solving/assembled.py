@@ -1,4 +1,4 @@
-"""What solving needs of a scene's model."""
+"""A scene's model as solving sees it."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
@@ -16,7 +16,7 @@ __all__ = ["Assembled"]
 
 @dataclass(frozen=True)
 class Assembled(ABC):
-    """What solving needs of a scene's model; `exu_press.model.Model` is one, and has more.
+    """A scene's model as solving sees it; `exu_press.model.Model` is one, and has more.
 
     Attributes:
         scene: of the model.

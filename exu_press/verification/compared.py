@@ -15,7 +15,7 @@ NOTHING = 1e-6
 """Over a figure: smaller errors are no matter of tolerances."""
 
 UNSURE = 2.0
-"""Times what reading leaves open of a reference: it cannot tell less."""
+"""Times the error of reading a reference: it cannot tell less."""
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class Compared:
 
     @property
     def covered(self) -> bool:
-        """Whether what is stated covers the true error."""
+        """Whether the stated error covers the true one."""
         low = self.told["low"] - UNSURE * self.reading
         high = self.told["high"] + UNSURE * self.reading
         return low <= self.true <= high or self.off <= NOTHING * abs(self.value)

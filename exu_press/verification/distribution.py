@@ -68,7 +68,7 @@ class Distribution:
         )
 
     def to_dict(self) -> dict[str, Any]:
-        """Return what files have of it."""
+        """Return it as files have it."""
         return {
             "revolutions": self.revolutions,
             "mean": dict(zip(("value", "error"), self.mean, strict=True)),

@@ -32,7 +32,7 @@ PLANS: dict[float, tuple[float, float]] = {8.0: (0.5, 8.0), 2.0: (0.5, 2.0), 0.0
   quantities, at half and 8 times 98.5 %, for a sixth more time.
 - The other one is coarser where that is allowed, as it takes half as long as the run.
 
-The least ratio is first: it tells where the motions part.
+The least ratio is first: it tells where the trajectories diverge.
 """
 
 LOOSEST = 0.1
@@ -89,13 +89,13 @@ def _may_fork() -> bool:
 
 
 def _forked(directory: Path, numbers: Sequence[int]) -> None:
-    """Do in a copy of this process what `refinement_process` does in a new one."""
+    """Do the work of `refinement_process` in a copy of this process."""
     sys.stdout = sys.stderr = _said(directory, numbers).open("w", encoding="utf-8")
     refinement_process.main(directory, numbers)
 
 
 def _said(directory: Path, numbers: Sequence[int]) -> Path:
-    """Return what the process of these refinements writes to its terminal."""
+    """Return the terminal output of the process of these refinements."""
     return directory / SAID.format(numbers[0])
 
 
@@ -166,7 +166,7 @@ class RefinementRuns:
         return self
 
     def __exit__(self, *_: object) -> None:
-        """End the processes that are not done, and clear away what they wrote."""
+        """End the processes that are not done, and delete their files."""
         for process in self._processes:
             process.kill()
         for process in self._processes:

@@ -56,7 +56,7 @@ def simulate_with_errors(
     quiet: bool = True,
     beside: bool = True,
 ) -> Result:
-    """Do what `simulate` does, with refinement runs.
+    """Simulate, with refinement runs.
 
     Args:
         scene: what to simulate.
@@ -115,7 +115,7 @@ def errors_of(
     refinements: Iterable[tuple[float, Result]],
     declared: Mapping[str, Placed] | None = None,
 ) -> Errors:
-    """Return what a summary says of errors.
+    """Return a summary's entries of errors.
 
     Refinement runs that stopped before the run itself did are left out; without any nothing is
     known.

@@ -12,7 +12,7 @@ __all__ = ["delivered_lines"]
 
 
 def delivered_lines(delivered: Delivered, within: float) -> list[str]:
-    """Return what a tolerance delivers, and what no tolerance does, for the terminal."""
+    """Return the figures that a tolerance delivers, and those that none does, for the terminal."""
     tolerance = delivered.tolerance
     if not delivered.missed:
         return [f"every figure asked for within {100 * within:.3g} %: tolerance {tolerance:.2g}"]

@@ -1,1 +1,1 @@
-"""What one step misses: one criterion a class, with its equation."""
+"""The local error of a step: one criterion a class, with its equation."""

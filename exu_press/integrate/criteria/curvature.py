@@ -8,7 +8,7 @@ __all__ = ["Curvature"]
 
 
 class Curvature:
-    """What accelerations are off a line between a step's ends, over what they may.
+    """Deviation of accelerations from a line between a step's ends, over its limit.
 
     h^2 |second derivative of the acceleration| / 8 against a tolerance of the largest one so far,
     or against what changes no velocity within the step by more than the absolute tolerance. What

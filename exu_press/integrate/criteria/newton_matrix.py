@@ -1,4 +1,4 @@
-"""What Newton's matrix says of errors: what it lets through, and what rounding makes of it."""
+"""Newton's matrix as a filter of errors, and the errors that rounding makes in it."""
 
 import numpy as np
 

@@ -8,7 +8,7 @@ __all__ = ["TurningForce"]
 
 
 class TurningForce:
-    """What the force F of a film is off the line between a step's ends, over what it may.
+    """Deviation of a film's force F from the line between a step's ends, over its limit.
 
     A force that turns by an angle theta bulges by |F| theta^2 / 8 beside this line. With that of
     both ends, |F|^2 = |F_0| |F_1|, and theta^2 / 2 as 1 - cos(theta)::

@@ -1,4 +1,4 @@
-r"""The largest Lyapunov exponent: how fast neighbouring motions part.
+r"""The largest Lyapunov exponent: how fast neighbouring trajectories diverge.
 
 Two neighbouring motions are brought back together after each revolution (Benettin, Galgani,
 Giorgilli, Strelcyn, Meccanica 15 (1980) 9-20; Wolf, Swift, Swinney, Vastano, Physica 16D (1985)

@@ -57,7 +57,7 @@ class Point:
 
 @dataclasses.dataclass(frozen=True)
 class Report:
-    """What was found.
+    """The course of wear, and how it ended.
 
     Attributes:
         study: what was asked.

@@ -1,4 +1,4 @@
-"""What is worn off a joint's surfaces, and the scene in which it is."""
+"""Depths of wear on a joint's surfaces, and the scene that has them."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

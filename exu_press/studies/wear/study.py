@@ -1,4 +1,4 @@
-"""What a wear study asks."""
+"""A wear study: its keys and their check."""
 
 import dataclasses
 from collections.abc import Mapping

@@ -46,7 +46,7 @@ def test_stress_and_displacement_are_those_of_the_file(tmp_path, browser):
     )
     live = viewer({"": run})
     path = tmp_path / "page.html"
-    path.write_text(page("flexible", "", [("In motion", live.body)], live), encoding="utf-8")
+    path.write_text(page("flexible", "", [("In motion", live)]), encoding="utf-8")
     surface, step = run.surfaces["rod"], len(run.time) // 3
     coordinates = run["rod_modes"][step]
     with opened(browser, path) as shown:

@@ -30,7 +30,7 @@ def test_a_hundred_revolutions_open_within_five_seconds(press, tmp_path, browser
     assert len(run.time) > 200_000
     live = viewer({"": run})
     page_file = tmp_path / "page.html"
-    page_file.write_text(page("long", "", [("In motion", live.body)], live), encoding="utf-8")
+    page_file.write_text(page("long", "", [("In motion", live)]), encoding="utf-8")
     begun = perf_counter()
     with opened(browser, page_file) as shown:
         assert perf_counter() - begun < 5.0
@@ -61,7 +61,7 @@ def test_a_part_of_a_long_run_has_every_step(press, tmp_path, browser):
     begin, end = 7.0, 7.25
     live = viewer({"": run}, {"": (begin, end)})
     page_file = tmp_path / "page.html"
-    page_file.write_text(page("part", "", [("In motion", live.body)], live), encoding="utf-8")
+    page_file.write_text(page("part", "", [("In motion", live)]), encoding="utf-8")
     steps = np.count_nonzero((run.time >= begin) & (run.time <= end))
     with opened(browser, page_file) as shown:
         assert "no peak is lost" not in shown.inner_text("#thinned")

@@ -33,8 +33,7 @@ def study(tmp_path_factory):
     text = page(
         "study",
         "",
-        [("Points", live.body), ("Runs", table(["run", "c", "k", "F"], rows, name="runs"))],
-        live,
+        [("Points", live), ("Runs", table(["run", "c", "k", "F"], rows, name="runs"))],
     )
     path = tmp_path_factory.mktemp("study") / "page.html"
     path.write_text(text, encoding="utf-8")

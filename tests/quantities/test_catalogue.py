@@ -17,7 +17,7 @@ from exu_press.quantities.catalogue import declared
 from exu_press.quantities.table import run_lines
 from exu_press.report.run import run_report
 from exu_press.studies.sweep import Sweep, sweep
-from exu_press.studies.sweep.lines import table_lines
+from exu_press.studies.sweep.lines import report_lines
 from exu_press.studies.sweep.units import meaning_of, unit_of
 from exu_press.verification.run import with_errors
 
@@ -115,7 +115,7 @@ def test_a_quantity_of_ones_own_is_everywhere(mine, tmp_path, monkeypatch):
 
     table = sweep(Sweep(scene=CRANK, keys={"speed_rpm": [100.0, 200.0]}), tmp_path, workers=1)
     assert table["lowest_velocity"][1] == pytest.approx(2.0 * table["lowest_velocity"][0], rel=1e-2)
-    assert "lowest_velocity, m/s" in table_lines(table, ["lowest_velocity"])[0]
+    assert "lowest_velocity, m/s" in report_lines(table, show=["lowest_velocity"])[0]
     figure = sweep_figure(table, axes_of(table), ["lowest_velocity"])
     assert any("lowest velocity" in text.get_text().lower() for text in figure.findobj(Text))
     with netcdf_file(tmp_path / "table.nc", mmap=False) as file:

@@ -9,7 +9,8 @@ from exu_press.numerics.arrays import Array
 from exu_press.plots.headed import headed_figure
 from exu_press.plots.spectrum import draw_spectrum
 from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, RUN, styled
-from exu_press.plots.typesetting import typeset
+from exu_press.plots.sweep_words import words as in_words
+from exu_press.plots.typesetting import typeset, wrapped
 from exu_press.plots.words import describe
 from exu_press.studies.attractor import Attractor
 from exu_press.studies.spectrum import Spectra, spectra
@@ -42,7 +43,7 @@ def attractor_figure(found: Attractor) -> Figure:
     _frequencies(panels[1, 0], each)
     _orders(panels[1, 1], each)
     name, values = max(found.figures.items(), key=lambda one: _scatter(one[1]))
-    label = typeset(", ".join(part for part in (name, found.units[name]) if part))
+    label = wrapped(", ".join(part for part in (in_words(name), found.units[name]) if part))
     _histogram(panels[1, 2], label, values)
     _by_revolution(panels[1, 3], label, values, found.skip)
     return figure
@@ -126,6 +127,6 @@ def _histogram(panel: Axes, label: str, values: Array) -> None:
 
 def _by_revolution(panel: Axes, label: str, values: Array, skip: int) -> None:
     panel.plot(np.arange(skip + 1, skip + len(values) + 1), values, "o-", color=RUN, ms=3, lw=0.6)
-    panel.set_title(label)
-    panel.set_xlabel("revolution")
+    panel.set_title("value of each revolution")
+    panel.set(xlabel="revolution", ylabel=label)
     panel.xaxis.set_major_locator(MaxNLocator(integer=True))

@@ -41,7 +41,7 @@ def test_what_each_panel_shows(run):
     assert orders.get_xlim()[0] < 1.0
     assert sum(bar.get_height() for bar in values.patches) == 5  # revolutions that have the figure
     assert by_revolution.lines[0].get_xdata().tolist() == [3, 4, 5, 6, 7, 8]
-    assert by_revolution.get_title(loc="left") == "peak_velocity, m/s²"
+    assert by_revolution.get_ylabel() == "peak velocity, m/s²"
 
 
 def test_ideal_joints_and_a_motor_have_the_cranks_speed_alone(run):
@@ -54,4 +54,4 @@ def test_ideal_joints_and_a_motor_have_the_cranks_speed_alone(run):
 def test_a_figure_without_a_unit_is_called_by_its_name(run):
     found = motion(run, np.array([[0.95], [0.96]] * 3))
     ratio = replace(found, figures={"ratio": np.arange(6.0)}, units={"ratio": ""})
-    assert attractor_figure(ratio).axes[-1].get_title(loc="left") == "ratio"
+    assert attractor_figure(ratio).axes[-1].get_ylabel() == "ratio"

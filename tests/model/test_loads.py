@@ -176,7 +176,8 @@ def test_a_forming_force_takes_out_its_area_and_gives_nothing_back(joints):
     assert result.completed
     force, done = result["load_draw_force"], result["load_draw_work"]
     assert done[-1] == pytest.approx(-work_of(FORMING), rel=1e-3 if not joints else 3e-2)
-    assert (np.diff(done) <= 1e-9 * abs(done[-1])).all(), "it never pushes"
+    quadrature = 1e-6 * abs(done[-1])  # of the step in which the slider turns round
+    assert (np.diff(done) <= quadrature).all(), "it never pushes"
     assert (force[result["slider_velocity"] >= 0.0] == 0.0).all()
     assert force.max() == pytest.approx(260e3, rel=1e-3)
     assert result.quantity("energy.residual").value < 1e-3

@@ -56,6 +56,24 @@ def test_steps_that_rounding_turns_forces_in_are_taken():
     assert error_of((500.0, 0.0), (-500.0, 0.0), step=0.5 * SHORTEST) == 0.0
 
 
+def test_a_force_that_rings_from_step_to_step_is_taken():
+    joint = SimpleNamespace(force=(500.0, 0.0))
+    film = TurningForce(joint, TOLERANCE, SHORTEST)
+    for force in ((-400.0, 10.0), (390.0, 0.0), (-380.0, 5.0)):
+        film.error(1e-4)
+        film.accept()
+        joint.force = force
+    assert film.error(1e-4) == 0.0
+
+
+def test_stiff_films_take_no_more_steps():
+    """Films that are nearly ideal joints ring with the method at the start."""
+    film = {"kind": "lubricated", "clearance": 1e-5}
+    joints = {"shaft": film, "pivots": film}
+    run = simulate(Scene(joints=joints, revolutions=0.02, solver={"tolerance": 1e-4}))
+    assert run.info["steps"] < 600  # without looking at turning forces: 266
+
+
 @pytest.mark.parametrize(("joint", "most"), [("crank_pin", 1.0), ("wrist_pin", 2.0)])
 def test_a_film_that_turns_with_its_load_takes_no_more_steps(joint, most, monkeypatch):
     """A wrist pin's load is reversed twice a revolution; these passages are resolved."""

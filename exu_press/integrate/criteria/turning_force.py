@@ -6,6 +6,9 @@ from exu_press.joints.joint import ClearanceJoint
 
 __all__ = ["TurningForce"]
 
+# part of its last change that a force takes back if it rings: a passage's steps go one way
+TAKEN_BACK = 0.25
+
 
 class TurningForce:
     """Deviation of a film's force F from the line between a step's ends, over its limit.
@@ -18,6 +21,9 @@ class TurningForce:
     A film whose load is reversed passes it to its other side within microseconds. Its force turns
     by half a turn then, and need not go through zero; no eccentricity and no speed feels it, so
     that no other criterion sees this peak.
+
+    A force that comes back after a step does not pass to another side: stiff films ring with the
+    method, by a change of opposite sign in every step, however short the steps are.
     """
 
     def __init__(self, joint: ClearanceJoint, tolerance: float, shortest: float) -> None:
@@ -31,6 +37,7 @@ class TurningForce:
         self._joint, self._tolerance, self._shortest = joint, tolerance, shortest
         self._before: tuple[float, ...] = ()
         self._now: tuple[float, ...] = ()
+        self._change: tuple[float, ...] = ()  # in the step before
         self._most = 0.0  # so far, N
 
     def error(self, step: float) -> float:
@@ -47,10 +54,22 @@ class TurningForce:
         largest = max(self._most, math.sqrt(max(here, there)))
         if not product > 0.0:
             return 0.0
+        if self._rings():
+            return 0.0
         off = (product - along) / (4.0 * math.sqrt(product) * self._tolerance * largest)
         return math.pow(max(off, 0.0), 1.5)  # as the step's cube
 
+    def _rings(self) -> bool:
+        """Return whether the force takes back a good part of its last change."""
+        back = last = 0.0
+        for change, a, b in zip(self._change, self._before, self._now, strict=False):
+            back -= change * (b - a)
+            last += change * change
+        return back > TAKEN_BACK * last > 0.0
+
     def accept(self) -> None:
         """Remember the accepted step's end as the next one's beginning."""
+        if self._before:
+            self._change = tuple(b - a for a, b in zip(self._before, self._now, strict=True))
         self._before = self._now
         self._most = max(self._most, math.hypot(*self._now))

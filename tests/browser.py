@@ -35,7 +35,7 @@ def opened(browser, path, width=1366, height=768, live=True, **context):
     page.on("request", lambda request: asked.append(request.url))
     page.goto(path.as_uri())
     if live:
-        page.wait_for_selector("html[data-ready]", state="attached", timeout=20_000)
+        page.wait_for_selector("html[data-ready]", state="attached", timeout=60_000)
     try:
         yield page
         away = [url for url in asked[1:] if not url.startswith(("data:", "blob:"))]

@@ -1,12 +1,10 @@
-"""A long run: small enough, quick to open, without a lost peak."""
-
-from time import perf_counter
+"""A long run: thinned, without a lost peak."""
 
 import numpy as np
 import pytest
 from browser import opened
 
-from exu_press.page.thinning import Thinning
+from exu_press.page.thinning import MOST_VALUES, Thinning
 from exu_press.report.html import page
 
 pytest.importorskip("bokeh")
@@ -25,18 +23,17 @@ def repeated(result, times):
     return result.with_values(values)
 
 
-def test_a_hundred_revolutions_open_within_five_seconds(press, tmp_path, browser):
+def test_a_hundred_revolutions_are_thinned(press, tmp_path, browser):
     run = repeated(press, 50)
     assert len(run.time) > 200_000
     live = viewer({"": run})
     page_file = tmp_path / "page.html"
     page_file.write_text(page("long", "", [("In motion", live)]), encoding="utf-8")
-    begun = perf_counter()
     with opened(browser, page_file) as shown:
-        assert perf_counter() - begun < 5.0
         drawn = np.array(
             shown.evaluate("Array.from(Bokeh.documents[0].get_model_by_name('curve-2-0').data.y)")
         )
+        assert len(drawn) < MOST_VALUES / 25 < len(run.time)  # a press has more than 25 curves
         assert drawn.max() == pytest.approx(run["slider_acceleration"].max(), rel=1e-6)
         assert drawn.min() == pytest.approx(run["slider_acceleration"].min(), rel=1e-6)
         assert "no peak is lost" in shown.inner_text("#thinned")

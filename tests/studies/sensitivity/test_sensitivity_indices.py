@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.stats import sobol_indices
 
 from exu_press.studies.sensitivity.indices import indices, sample
 
@@ -61,3 +62,16 @@ def test_one_key_alone_explains_everything():
     assert found.first == found.total == [1.0]
     assert found.first_bounds.tolist() == found.total_bounds.tolist() == [[1.0, 1.0]]
     assert constant is None
+
+
+def test_they_are_scipy_s_and_the_bounds_are_the_same_each_time():
+    drawn = sample(ishigami, 3, 256, 1)
+    found, again = indices(drawn)[0], indices(drawn)[0]
+    parts = {"f_A": drawn.a[:1], "f_B": drawn.b[:1], "f_AB": drawn.ab[:, :1]}
+    theirs = sobol_indices(func=parts, n=256)
+    assert found.first == pytest.approx(theirs.first_order, rel=1e-12)
+    assert found.total == pytest.approx(theirs.total_order, rel=1e-12)
+    widths = theirs.bootstrap().total_order.confidence_interval
+    assert np.ptp(found.total_bounds) == pytest.approx(np.ptp(widths), rel=0.1)
+    assert (found.total_bounds == again.total_bounds).all()
+    assert (found.first_bounds == again.first_bounds).all()

@@ -133,7 +133,7 @@ def _estimates(a: Array, b: Array, ab: Array) -> Array:
 
     These are those of `scipy.stats.sobol_indices`, whose own bootstrap takes no seed.
 
-    Source: A. Saltelli et al., Computer Physics Communications 181 (2010) 259-270, table 2 (b), (f).
+    Source: A. Saltelli et al., Computer Physics Communications 181 (2010) 259-270, table 2.
     """
     first = np.mean(b * (ab - a), axis=-1)
     total = 0.5 * np.mean((a - ab) ** 2, axis=-1)

@@ -1,5 +1,6 @@
 """The error of a figure, from the same figure of runs at other tolerances."""
 
+import math
 from collections.abc import Sequence
 from itertools import combinations
 
@@ -14,6 +15,7 @@ __all__ = [
     "SAFETY_OF_STEPS",
     "converging",
     "of_both",
+    "of_one",
     "scattered",
 ]
 
@@ -38,7 +40,12 @@ ROUNDING = 1e-9
 
 
 def converging(
-    values: Sequence[float], ratios: Sequence[float], least: float = 0.0, safety: float = SAFETY
+    values: Sequence[float],
+    ratios: Sequence[float],
+    least: float = 0.0,
+    safety: float = SAFETY,
+    *,
+    alone: bool = False,
 ) -> Error:
     """Return the error of a figure whose error goes with the tolerance (or the step).
 
@@ -50,16 +57,40 @@ def converging(
         ratios: of these tolerances to the first.
         least: error, in the figure's unit.
         safety: factor on what the differences say.
+        alone: whether only the second run still has the first one's motion, so that the others'
+            differences, which do not go with the tolerance any more, may hide its error.
 
     >>> round(converging([1.01, 1.04, 1.08], [1.0, 4.0, 8.0])["error"], 6)  # SAFETY times 1.01 - 1
     0.015
     """
     pairs = combinations(zip(values, ratios, strict=True), 2)
     largest = max(abs(a - b) / abs(i - j) for (a, i), (b, j) in pairs)
-    return _about(values[0], safety * largest + least, determined=True)
+    error = safety * largest
+    if alone:
+        error = max(error, of_one(ratios[1]) * abs(values[1] - values[0]))
+    return _about(values[0], error + least, determined=True)
 
 
-def scattered(values: Sequence[float], least: float = 0.0) -> Error:
+def of_one(ratio: float) -> float:
+    """Return an error over the difference of the run from one refinement alone.
+
+    Two errors that are normal, of either sign, the refinement's `ratio` times as large: nineteen
+    in twenty are within this of their difference (the tails of Cauchy's distribution).
+
+    Args:
+        ratio: of the tolerances, below 1.
+
+    >>> round(of_one(0.5), 1)
+    5.2
+    """
+    mean = 1.0 / (1.0 + ratio**2)  # of the error over the difference, and the scale about it
+    scale = ratio / (1.0 + ratio**2) / (0.05 * math.pi)
+    return scale + math.hypot(scale, mean)
+
+
+def scattered(
+    values: Sequence[float], least: float = 0.0, shares: Sequence[float] | None = None
+) -> Error:
     """Return between which bounds a figure lies that depends on what nobody knows.
 
     Nineteen in twenty further runs lie there, if such figures scatter normally.
@@ -67,8 +98,13 @@ def scattered(values: Sequence[float], least: float = 0.0) -> Error:
     Args:
         values: of runs that have nothing in common any more; the first one is reported.
         least: error, in the figure's unit, on top.
+        shares: how far each of the others has got from the first, over the distance of motions
+            that have nothing in common: half of it shows half of the scatter. All of it unless
+            told.
     """
     apart = np.asarray(values[1:]) - values[0]
+    if shares is not None:
+        apart = apart / np.minimum(shares, 1.0)
     factor = NINETEEN_IN_TWENTY.get(len(apart), 2.4)
     error = factor * float(np.sqrt(np.mean(apart**2))) + ROUNDING * abs(values[0]) + least
     return _about(values[0], error, determined=error <= LITTLE * abs(values[0]))

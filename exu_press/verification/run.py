@@ -16,7 +16,7 @@ from exu_press.result.info import Error, Errors
 from exu_press.result.run import run_once
 from exu_press.result.windows import until, window
 from exu_press.scene import Scene
-from exu_press.verification.divergence import divergence
+from exu_press.verification.divergence import Divergence, divergence
 from exu_press.verification.estimate import (
     SAFETY,
     SAFETY_OF_STEPS,
@@ -24,7 +24,6 @@ from exu_press.verification.estimate import (
     of_both,
     scattered,
 )
-from exu_press.verification.growth import Growth
 from exu_press.verification.reading import overshot, smoothed, turned, unbalanced
 from exu_press.verification.refinement import RefinementRuns, plan
 
@@ -119,7 +118,6 @@ def errors_of(
 
     Refinement runs that stopped before the run itself did are left out; without any nothing is
     known.
-    Each is read as it comes, while the next one may still be on its way.
 
     Args:
         result: of a run.
@@ -135,31 +133,22 @@ def errors_of(
         return numbers_of(run, told)
 
     end = float(result.time[-1])
-    diverged: Growth | None = None
-    by_end: dict[float, dict[float, Mapping[str, float]]] = {}
-    after: dict[float, Mapping[str, float]] = {}
-    for ratio, refinement in refinements:
-        if refinement.time[-1] < end * (1.0 - 1e-9):
-            continue
-        run = until(refinement, end)
-        if diverged is None:
-            diverged = divergence(result, run, ratio)
-            horizon = end if diverged.horizon is None else diverged.horizon
-            by_end = {at: {1.0: read(until(result, at))} for at in (end, horizon)}
-            after = {1.0: read(window(result, horizon, end))} if horizon < end else {}
-            ways = (
-                (OF_READING, smoothed),
-                (OF_READING, overshot),
-                (1.0, turned),
-                (1.0, unbalanced),
-            )
-            reads = [(part, read(changed(result))) for part, changed in ways]
-        for instant, found in by_end.items():
-            found[ratio] = read(until(run, instant))
-        if after:
-            after[ratio] = read(window(run, horizon, end))
-    if diverged is None:
+    complete = {r: until(run, end) for r, run in refinements if run.time[-1] >= end * (1.0 - 1e-9)}
+    if not complete:
         return {"errors": {}, "horizon": None, "lyapunov_exponent": None}
+    diverged = divergence(result, complete)
+    horizon = end if diverged.growth.horizon is None else diverged.growth.horizon
+    runs = {1.0: result, **complete}
+    by_end = {at: {r: read(until(run, at)) for r, run in runs.items()} for at in (end, horizon)}
+    parted = horizon < end
+    after = {r: read(window(run, horizon, end)) for r, run in runs.items()} if parted else {}
+    ways = (
+        (OF_READING, smoothed),
+        (OF_READING, overshot),
+        (1.0, turned),
+        (1.0, unbalanced),
+    )
+    reads = [(part, read(changed(result))) for part, changed in ways]
     solver = result.scene.solver
     safety = SAFETY if solver is not None and solver.step is None else SAFETY_OF_STEPS
     before = by_end[horizon]
@@ -172,7 +161,7 @@ def errors_of(
             quantity, [found[name] for found in by_end[end].values() if name in found], sizes
         )
         told_values = by_end[end], before, after
-        error = _error(name, quantity.extreme, *told_values, least + left_open, safety)
+        error = _error(name, quantity.extreme, *told_values, least + left_open, safety, diverged)
         if value >= 0.0 and not quantity.signed:
             error["low"] = max(error["low"], 0.0)
             known = error["error"] <= max(value, OF_FLOOR * least)
@@ -180,8 +169,8 @@ def errors_of(
         errors[name] = error
     return {
         "errors": errors,
-        "horizon": diverged.horizon,
-        "lyapunov_exponent": diverged.rate,
+        "horizon": diverged.growth.horizon,
+        "lyapunov_exponent": diverged.growth.rate,
     }
 
 
@@ -193,6 +182,7 @@ def _error(
     after: Numbers,
     least: float,
     safety: float,
+    diverged: Divergence,
 ) -> Error:
     """Return the error of a quantity.
 
@@ -207,18 +197,21 @@ def _error(
         after: of the motion from then on.
         least: least error.
         safety: factor on errors that go with the tolerance or the step.
+        diverged: how the run has parted from its refinements.
     """
     values = {ratio: found[name] for ratio, found in now.items() if name in found}
     if len(values) < 2:
         return scattered([values[1.0], 0.0])
     begun = {r: before[r].get(name, np.nan) for r in values}
-    if all(abs(begun[r] - value) <= SAME * abs(value) for r, value in values.items()):
-        return converging(list(values.values()), list(values), least, safety)
     later = {r: found.get(name, np.nan) for r, found in after.items() if r in values}
-    if not later or not _is_of_both(extreme, values, begun, later):
-        return scattered(list(values.values()), least)
-    known = converging(list(begun.values()), list(values), least, safety)
-    return of_both(values[1.0], known, scattered(list(later.values()), least), extreme)
+    known = converging(list(begun.values()), list(values), least, safety, alone=diverged.alone)
+    shares = [diverged.distances.get(r, 1.0) for r in values if r != 1.0]
+    if later and _is_of_both(extreme, values, begun, later):
+        beyond = scattered(list(later.values()), least, shares)
+        return of_both(values[1.0], known, beyond, extreme)
+    if all(abs(begun[r] - value) <= SAME * abs(value) for r, value in values.items()):
+        return known
+    return scattered(list(values.values()), least, shares)
 
 
 def _is_of_both(

@@ -6,6 +6,7 @@ import pytest
 from exu_press import Scene, simulate
 from exu_press.scene import mechanism_of
 from exu_press.verification.divergence import APART, divergence
+from exu_press.verification.estimate import of_one
 
 PLAY = 1e-4
 LOOSE = Scene(
@@ -27,26 +28,44 @@ def moved(result, column, amount):
     return result.with_values({"body_position": values})
 
 
+def horizon(result, others):
+    return divergence(result, others).growth.horizon
+
+
 def test_a_body_that_is_elsewhere_between_its_ways_has_parted(run):
     across = int(np.argmax(np.abs(mechanism_of(LOOSE).guides[0].across)))
-    assert divergence(run, moved(run, across, 0.9 * APART * PLAY / 2**0.5), 2.0).horizon is None
-    found = divergence(run, moved(run, across, APART * PLAY), 2.0)
-    assert 0.9 * run.time[-1] < found.horizon <= run.time[-1]
+    assert horizon(run, {2.0: moved(run, across, 0.9 * APART * PLAY / 2**0.5)}) is None
+    found = horizon(run, {2.0: moved(run, across, APART * PLAY)})
+    assert 0.9 * run.time[-1] < found <= run.time[-1]
 
 
 def test_one_that_tilts_has_too(run):
     tilt = APART * PLAY / 0.1  # about half the length, its ends are so far away
-    assert divergence(run, moved(run, 2, 0.9 * tilt / 2**0.5), 2.0).horizon is None
-    assert divergence(run, moved(run, 2, tilt), 2.0).horizon is not None
+    assert horizon(run, {2.0: moved(run, 2, 0.9 * tilt / 2**0.5)}) is None
+    assert horizon(run, {2.0: moved(run, 2, tilt)}) is not None
 
 
 def test_one_that_is_ahead_has_not(run):
     along = int(np.argmax(np.abs(mechanism_of(LOOSE).guides[0].direction)))
-    assert divergence(run, moved(run, along, PLAY), 2.0).horizon is None
+    assert horizon(run, {2.0: moved(run, along, PLAY)}) is None
 
 
-@pytest.mark.parametrize(("ratio", "horizon"), [(0.5, True), (0.25, False), (8.0, False)])
-def test_a_run_at_half_the_tolerance_is_half_way_to_the_truth(run, ratio, horizon):
+@pytest.mark.parametrize(("ratio", "parted"), [(0.5, True), (0.25, False), (8.0, False)])
+def test_a_run_at_half_the_tolerance_is_half_way_to_the_truth(run, ratio, parted):
     across = int(np.argmax(np.abs(mechanism_of(LOOSE).guides[0].across)))
-    found = divergence(run, moved(run, across, 0.5 * APART * PLAY), ratio)
-    assert (found.horizon is not None) is horizon
+    found = horizon(run, {ratio: moved(run, across, 0.5 * APART * PLAY)})
+    assert (found is not None) is parted
+
+
+def test_a_run_at_half_the_tolerance_vouches_for_less_where_a_coarser_one_has_diverged(run):
+    """One difference is small by chance more often than two."""
+    across = int(np.argmax(np.abs(mechanism_of(LOOSE).guides[0].across)))
+    near = moved(run, across, 1.1 * APART * PLAY / of_one(0.5))
+    beside, away = (moved(run, across, part * APART * PLAY) for part in (0.6, 1.5))
+    found = divergence(run, {0.5: near, 8.0: beside})
+    assert found.growth.horizon is None
+    assert not found.alone
+    found = divergence(run, {0.5: near, 8.0: away})
+    assert 0.9 * run.time[-1] < found.growth.horizon <= run.time[-1]
+    assert found.alone
+    assert found.distances[8.0] > found.distances[0.5] > 0.0

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from exu_press.verification.estimate import SAFETY, converging, scattered
+from exu_press.verification.estimate import SAFETY, converging, of_one, scattered
 
 
 def test_errors_that_go_with_the_tolerance_are_found():
@@ -29,3 +29,25 @@ def test_nineteen_in_twenty_further_runs_lie_within_the_bounds(refinements):
         assert not found["determined"] or found["error"] <= 0.05 * runs[0]
         inside += found["low"] <= further <= found["high"]
     assert 0.935 < inside / 2000 < 0.965
+
+
+@pytest.mark.parametrize("ratio", [0.25, 0.5])
+def test_one_difference_covers_nineteen_errors_in_twenty(ratio):
+    """Errors of both are normal, of either sign."""
+    mine, other = np.random.default_rng(1).normal(size=(2, 200_000))
+    inside = np.abs(mine) <= of_one(ratio) * np.abs(mine - ratio * other)
+    assert 0.94 < inside.mean() < 0.96
+
+
+def test_a_run_that_has_no_motion_in_common_any_more_does_not_hide_the_error():
+    values, ratios = [5.0, 5.01, 5.011], [1.0, 0.5, 8.0]
+    error = converging(values, ratios)["error"]
+    assert converging(values, ratios, alone=True)["error"] == pytest.approx(of_one(0.5) * 0.01)
+    assert error < of_one(0.5) * 0.01
+
+
+def test_motions_that_have_half_parted_show_half_of_the_scatter():
+    values = [5.0, 5.1, 4.8]
+    parted = scattered(values)["error"]
+    assert scattered(values, shares=[0.5, 0.5])["error"] == pytest.approx(2.0 * parted)
+    assert scattered(values, shares=[1.5, 2.0])["error"] == parted

@@ -23,6 +23,9 @@ MECHANISMS = ("press", "slider_crank", *SHIPPED, *OWN)
 BY_DEFAULT = ("press", "slider_crank", "eccentric_press")
 """Mechanisms with sizes of their own for joints, contact and film."""
 
+PARTING = (*3 * ("slider_crank",), "press", "eccentric_press", "four_bar")
+"""Mechanisms of chaotic scenes: most are slider-cranks, whose runs are short and part often."""
+
 FORCES = {"press": 6e4, "eccentric_press": 6e4, "six_bar": 3e4, "knuckle": 1e4}
 """Largest forces of loads, N; of others 1 kN."""
 
@@ -36,15 +39,39 @@ def random_scene(random: np.random.Generator, longest: float) -> Scene:
             continue
 
 
-def chaotic_scene(random: np.random.Generator, revolutions: float) -> Scene:
-    """Return a random scene of rigid bodies and dry joints, so long that impacts part its motions.
+def chaotic_scene(random: np.random.Generator, longest: float) -> Scene:
+    """Return a random scene whose impacts may part its motions, of 1 to `longest` revolutions.
 
-    It has the default tolerance.
+    It has a dry joint with a large clearance, little damping, high speed, and a tolerance of 1e-3,
+    3e-3 or 1e-2. In a third of such scenes motions part.
     """
-    while True:
-        scene = random_scene(random, 0.35)
-        if "joints: dry" in groups_of(scene) and not scene.bodies and not scene.guide:
-            return scene.replace({"revolutions": revolutions, "solver": {}})
+    name = _one_of(random, PARTING)
+    mechanism = mechanism_of(Scene.from_dict({"mechanism": name}))
+    joints = [joint.name for joint in mechanism.joints if not joint.spherical]
+    if name == "press":
+        joints = ["crank_pin"]
+    own_sizes = name not in BY_DEFAULT
+    given: dict[str, Any] = {
+        "mechanism": name,
+        "speed_rpm": float(random.uniform(150.0, 400.0)),
+        "revolutions": float(random.uniform(1.0, longest)),
+        "start_angle_deg": float(random.uniform(0.0, 360.0)),
+        "joints": {
+            _one_of(random, joints): {
+                "kind": "dry",
+                "clearance": float(10.0 ** random.uniform(-4.0, -3.7)),
+                **({"radius": 0.02} if own_sizes else {}),
+            }
+        },
+        "friction": {"law": _one_of(random, LAWS[:2])},
+        "solver": {"tolerance": (1e-3, 3e-3, 1e-2)[int(random.integers(3))]},
+    }
+    contact = {"length": 0.03} if own_sizes else {}
+    if name != "press":  # its contact is damped by steps
+        contact["restitution"] = float(random.uniform(0.8, 0.95))
+    if contact:
+        given["contact"] = contact
+    return Scene.from_dict(given)
 
 
 def groups_of(scene: Scene) -> list[str]:

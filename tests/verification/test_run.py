@@ -120,6 +120,32 @@ def test_what_refinements_did_before_the_horizon_widens_no_bounds():
     assert force["high"] > 1e7
 
 
+def test_a_peak_may_be_exceeded_after_the_horizon_although_it_was_in_no_run():
+    """Later forces scatter by half of the peak, beneath it."""
+    scene = Scene(**DRY, revolutions=0.1)
+    result = simulate(scene)
+    peak = result.quantity("joints.crank_pin.peak_force").value
+    part = (result.time / result.time[-1])[:, None]
+    away = np.where(part > 0.9, 2e-4, 0.0) * [1.0, 0.0]
+    runs = [
+        result.with_values(
+            {
+                "crank_pin_eccentricity": result["crank_pin_eccentricity"] + shift,
+                "crank_pin_force": np.where(
+                    part > 0.9, [later * peak, 0.0], result["crank_pin_force"]
+                ),
+            }
+        )
+        for later, shift in ((0.4, 0.0 * away), (0.9, away), (0.2, away))
+    ]
+    errors = errors_of(runs[0], [(4.0, runs[1]), (8.0, runs[2])])["errors"]
+    force = errors["joints.crank_pin.peak_force"]
+    assert runs[0].quantity("joints.crank_pin.peak_force").value == pytest.approx(peak)
+    assert force["low"] == pytest.approx(peak, rel=0.02)
+    assert force["high"] > 1.3 * peak
+    assert not force["determined"]
+
+
 def test_magnitudes_are_not_below_zero_and_energies_may_be():
     """The bounds of two runs that have nothing in common are wide."""
     scene = Scene(**DRY, revolutions=0.1)

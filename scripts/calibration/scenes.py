@@ -43,7 +43,7 @@ def chaotic_scene(random: np.random.Generator, longest: float) -> Scene:
     """Return a random scene whose impacts may part its motions, of 1 to `longest` revolutions.
 
     It has a dry joint with a large clearance, little damping, high speed, and a tolerance of 1e-3,
-    3e-3 or 1e-2. In a third of such scenes motions part.
+    3e-3 or 1e-2.
     """
     name = _one_of(random, PARTING)
     mechanism = mechanism_of(Scene.from_dict({"mechanism": name}))

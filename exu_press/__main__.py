@@ -1,4 +1,4 @@
-"""Where `exu-press` begins: until its command runs, Ctrl-C ends the process without a word."""
+"""The start of `exu-press`: until its command runs, Ctrl-C ends the process without a word."""
 
 import signal
 

@@ -1,4 +1,4 @@
-"""How arrays are typed."""
+"""Types of arrays."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -6,4 +6,4 @@ from numpy.typing import NDArray
 __all__ = ["Array"]
 
 Array = NDArray[np.float64]
-"""Of real numbers."""
+"""Array of real numbers."""

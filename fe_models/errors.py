@@ -5,10 +5,11 @@ import re
 __all__ = ["InputError"]
 
 MOST_LETTERS = 8000
-"""Of a message: lists of what is allowed have up to half of them."""
+"""Most letters of a message: lists of what is allowed have up to half of them."""
 
 MOST_IN_A_WORD = 400
-"""Of a message: a path of a usual length stands in full, what was pasted by mistake does not."""
+"""Most letters of a word in a message: a path of a usual length stands in full, what was pasted by
+mistake does not."""
 
 LONG_WORD = re.compile(rf"\S{{{MOST_IN_A_WORD + 1},}}")
 

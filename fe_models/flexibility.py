@@ -16,10 +16,10 @@ from fe_models.errors import InputError
 __all__ = ["Statics", "moved_in_plane", "shares"]
 
 STIFF = 1e-6
-"""Of the largest flexibility: combinations of loads that give way less are left out."""
+"""Part of the largest flexibility: combinations of loads that give way less are left out."""
 
 IDLE = 1e-5
-"""Of the work of loads and of centrifugal forces: modes that carry less stay at rest."""
+"""Part of the work of loads and of centrifugal forces: modes that carry less stay at rest."""
 
 
 class Statics:

@@ -1,4 +1,4 @@
-"""What a part's solid is: dimensions of a crank shaft or linkage, a STEP file, an OCC shape.
+"""Solids of parts: dimensions of a crank shaft or linkage, a STEP file, an OCC shape.
 
 Each geometry has `key()`, everything that determines the solid as plain data (for the cache, no
 NGSolve needed), and `build()`, which returns a fresh netgen.occ shape with named faces. A fresh

@@ -47,7 +47,7 @@ class Interface:
 
 @dataclass(frozen=True)
 class Part:
-    """What a reduced flexible body is made from.
+    """Data that a reduced flexible body is made from.
 
     Attributes:
         name: in messages, and part of the cache's file name.

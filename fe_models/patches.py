@@ -19,7 +19,7 @@ PARALLEL = 1e-3
 """rad: between a plane's normal and the direction that it is across."""
 
 FLAT = 1e-6
-"""Of the distance of points: how far they may lie beside a plane."""
+"""Distance beside a plane over that of the points, up to which they lie in it."""
 
 
 def name_patches(

@@ -30,14 +30,14 @@ MOST_MODES = 80
 """That a flexibility error is sought with."""
 
 ROUND = 1e-4
-"""Of a face's size: how far its nodes may lie beside a circle."""
+"""Distance of nodes from a circle over the face's size, up to which it is round."""
 
 Report = Callable[[str, float], None]  # (what is done next, share done so far)
 
 
 @dataclass(frozen=True)
 class Reduction:
-    """How a part is reduced.
+    """Method of reducing a part.
 
     Attributes:
         modes: number of modal coordinates, from 0 (a rigid body) up; 20 unless given. Craig-Bampton

@@ -1,4 +1,4 @@
-"""Whether a STEP file can be read, found out in a process of its own.
+"""Check in a process of its own that a STEP file can be read.
 
 A damaged file may end the process that reads it, or keep it busy for ever.
 """

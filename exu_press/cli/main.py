@@ -38,7 +38,7 @@ COMMANDS = (
 
 INTERRUPTED = 130
 CLOSED_PIPE = 141
-"""As a shell says of a program that SIGINT or SIGPIPE ended."""
+"""Exit statuses that a shell gives a program that SIGINT or SIGPIPE ended."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

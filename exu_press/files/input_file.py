@@ -8,7 +8,7 @@ from exu_press.errors import InputError
 __all__ = ["MOST_BYTES", "read_bytes", "read_text"]
 
 MOST_BYTES = 100_000_000
-"""Of an input file; a table of a million lines has a third of it."""
+"""Largest size of an input file; a table of a million lines has a third of it."""
 
 
 def read_bytes(path: Path) -> bytes:

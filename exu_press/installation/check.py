@@ -1,4 +1,4 @@
-"""Whether an installation works: versions, extras, and two small runs whose results are known."""
+"""Checks of an installation: versions, extras, and two small runs whose results are known."""
 
 import importlib.metadata
 import os
@@ -53,7 +53,7 @@ class Run:
 
     @property
     def ok(self) -> bool:
-        """Whether the number is right."""
+        """Return whether the number is right."""
         return not self.reason and self.error <= self.allowed
 
 

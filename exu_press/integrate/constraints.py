@@ -19,8 +19,8 @@ __all__ = ["Constraints"]
 Flags = NDArray[np.bool_]
 
 GIVE = 1e-8
-"""Of constraints, over what the masses give way. Where two of them nearly say the same, a hundredth
-of it made 5e-11 m of the last digits of positions, which contacts took for a motion."""
+"""Compliance given to constraints, over that of the masses. Where two of them nearly say the same,
+a hundredth of it made 5e-11 m of the last digits of positions, which contacts took for a motion."""
 
 REDUNDANT = 1e-8
 """Singular value of constraints' directions of length 1, below which one repeats others."""

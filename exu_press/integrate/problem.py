@@ -205,7 +205,7 @@ class Problem:
 
     @property
     def lubricated(self) -> bool:
-        """Whether there is a film."""
+        """Return whether there is a film."""
         return self.joints is not None and self.joints.lubricated
 
 

@@ -1,4 +1,5 @@
-"""When a run looks at its surroundings: the grid of a pre-step function, and events."""
+"""Instants at which a run looks at its surroundings: the grid of a pre-step function, and
+events."""
 
 import math
 from collections.abc import Callable

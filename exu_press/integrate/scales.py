@@ -113,12 +113,12 @@ class FoundScales:
 
     @property
     def resting(self) -> bool:
-        """Whether the system moves by less than a billionth of its length in the longest step."""
+        """Return whether it moves by less than a billionth of its length in the longest step."""
         return self.speed * self._longest <= 1e-9 * self.length
 
     @property
     def unseen(self) -> bool:
-        """Whether something has moved, but by no more than what rounding moves."""
+        """Return whether something has moved, but by no more than what rounding moves."""
         return self.rounded and 0.0 < self.speed <= self.rest
 
     def still(self, velocities: list[float]) -> bool:

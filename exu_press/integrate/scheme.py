@@ -17,7 +17,7 @@ from exu_press.numerics.arrays import Array
 __all__ = ["FlexibleJacobian", "LastingJacobian", "Newton"]
 
 BALANCE = 0.2
-"""Of the tolerance, to which part of the usual forces Newton's method balances them."""
+"""Part of the usual forces, over the tolerance, to which Newton's method balances them."""
 
 PATIENCE = 4
 """Newton iterations after which rounding is thought of; most steps take one or two."""

@@ -37,7 +37,7 @@ MOST_HALVED = 2.0**10
 """Number of halvings of a fixed step where Newton's method fails."""
 
 RELATIVE_RESIDUAL = 1e-10
-"""Of the first residual: where Newton's method ends if it cannot get further."""
+"""Residual over the first one, at which Newton's method ends if it cannot get further."""
 
 LARGE = 60
 """Coordinates of a system in which a Jacobian takes far longer than an iteration."""
@@ -50,7 +50,7 @@ SWITCHED = 0.5
 closed, and its usual limit of 1 lets what has opened go on to pull."""
 
 SHORTEST_RUN = 1e-7
-"""Of which the 1e-10 s by which Exudyn may end it early are a thousandth, s."""
+"""Time of which the 1e-10 s by which Exudyn may end early are a thousandth, s."""
 
 FIRST_STEP = 1.0 / 64.0
 """Over the largest one; with a film, `first_step_of_film`."""

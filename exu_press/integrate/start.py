@@ -14,7 +14,7 @@ LOOK_AHEAD = 0.01
 smooth in it."""
 
 START_ITERATIONS = 4
-"""Of Newton's method to positions that fit the constraints."""
+"""Iterations of Newton's method to positions that fit the constraints."""
 
 FITS = 1e-14, 1e-6, 1e-6
 """Relative violation up to which positions, velocities and accelerations may be off before they

@@ -12,10 +12,10 @@ from exu_press.numerics.linear import Equations
 __all__ = ["StepChange"]
 
 AHEAD = 1.0 / 64.0
-"""Of a step: near enough to tell velocities from positions, far enough for rounded ones."""
+"""Part of a step: near enough to tell velocities from positions, far enough for rounded ones."""
 
 MORE = 0.999
-"""Of what masses resist a change with: to which part forces resist it too, but for rounding."""
+"""Part of the masses' resistance to a change that forces have too, but for rounding."""
 
 CHANGE_ITERATIONS = 3
 """To velocities and positions that fit the constraints; each leaves some hundredths."""

@@ -11,8 +11,8 @@ from exu_press.integrate.settings import SAME, Task
 __all__ = ["FixedSteps", "Resolution", "StepControl", "Unresolved"]
 
 LARGEST_JUMP = 0.65
-"""Of an inertia force within one step, over the run's largest one, from where the impacts are not
-resolved."""
+"""Change of an inertia force within one step, over the run's largest one, above which impacts are
+not resolved."""
 
 
 class StepControl:

@@ -37,4 +37,4 @@ __all__ = [
 ]
 
 COMPILED = Path(interface.__file__).suffix != ".py"
-"""Whether forces and Jacobians come from compiled code; setup.py compiles the same sources."""
+"""True where forces and Jacobians are compiled; setup.py compiles the same sources."""

@@ -35,7 +35,7 @@ class SideForce(Protocol):
 
 
 class HeldSide:
-    """That of a constraint which holds the body across an ideal guide."""
+    """Normal force of a constraint that holds the body across an ideal guide."""
 
     partials: tuple[Array, Array] | None = None
 
@@ -54,7 +54,7 @@ class HeldSide:
 
 
 class SpringSide:
-    """That of a spring and damper across an elastic guide."""
+    """Normal force of a spring and damper across an elastic guide."""
 
     def __init__(self, stiffness: float, damping: float, across: Array, missed: float) -> None:
         """Take a spring.

@@ -41,7 +41,7 @@ Arms = tuple[float, float, float, float]
 
 
 Response = tuple[float, ...]
-"""Of an interface's laws: their values and derivatives."""
+"""Values of an interface's laws, and their derivatives."""
 
 Motion = tuple[float, float, float, float, float]
 """|e|, d|e|/dt, v_t, omega_J, omega_B."""

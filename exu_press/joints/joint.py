@@ -64,9 +64,9 @@ class ClearanceJoint(Protocol):
     largest_eccentricity: float
     """Eccentricity up to which its contact laws hold, m; infinite without contact."""
     lubricated: bool
-    """Whether it has a film."""
+    """True with a film."""
     path: Path
-    """Of the journal."""
+    """Path of the journal."""
     indices: list[int]
     """Positions of the joint's coordinates among those of the item."""
 

@@ -21,11 +21,11 @@ __all__ = ["Path"]
 Vector = tuple[float, ...]
 
 KEPT = 0.999
-"""Of the drift, from step to step: errors always to one side would add up, in a contact
-that lasts a hundred revolutions, to a tenth of the penetration."""
+"""Part of the drift that is kept from step to step: errors always to one side would add up, in a
+contact that lasts a hundred revolutions, to a tenth of the penetration."""
 
 SMALL_DRIFT = 0.1
-"""Of a penetration, up to which a step's error is known well enough to be taken out."""
+"""Part of a penetration up to which a step's error is known well enough to be taken out."""
 
 
 class Path:

@@ -191,7 +191,7 @@ class UserForceElement:
 
     @property
     def lubricated(self) -> bool:
-        """Whether any joint has a film."""
+        """Return whether any joint has a film."""
         return any(joint.lubricated for joint in self.joints)
 
     @property

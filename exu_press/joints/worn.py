@@ -272,5 +272,5 @@ class WornJoint(PlanarJoint):
 
     @property
     def rubbing(self) -> tuple[float, float]:
-        """As `InterfaceJoint.rubbing`, where the surfaces touch."""
+        """Return what `InterfaceJoint.rubbing` does, where the surfaces touch."""
         return self._rubbing(self._touch)

@@ -1,4 +1,4 @@
-"""How deep a surface is worn over the angle on it: a smooth periodic function of a table."""
+"""The worn depth of a surface over the angle on it: a smooth periodic function of a table."""
 
 import math
 from bisect import bisect_right

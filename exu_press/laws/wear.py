@@ -10,7 +10,7 @@ FINEST = 18
 """Harmonics of a profile: shapes down to 20 degrees."""
 
 LEAST = 0.1
-"""Of the clearance: the radius on which a journal's centre goes around in a worn bearing."""
+"""Radius, over the clearance, on which a journal's centre goes around in a worn bearing."""
 
 
 def archard(coefficient: float, hardness: float, force: float, distance: float) -> float:

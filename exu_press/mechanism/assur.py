@@ -131,7 +131,7 @@ class Group:
 
     @property
     def square(self) -> bool:
-        """Whether there are as many equations as coordinates."""
+        """Return whether there are as many equations as coordinates."""
         return 2 * len(self.loops) == len(self.members)
 
     def drawn(self) -> Array:

@@ -1,4 +1,4 @@
-"""Which constraints hold a mechanism's bodies: as many as are independent, no more.
+"""The constraints that hold a mechanism's bodies: as many as are independent, no more.
 
 Guides and joints of a planar mechanism often hold the same thing twice: two balls of a guided
 slider in guided plungers hold it upright and sideways once more. A multibody system with redundant

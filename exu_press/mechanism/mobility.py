@@ -60,7 +60,7 @@ class Mobility:
 
     @property
     def right(self) -> bool:
-        """Whether the crank turns and all else follows it."""
+        """Return whether the crank turns and all else follows it."""
         return self.turns and not self.loose
 
 

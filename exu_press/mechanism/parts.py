@@ -78,12 +78,12 @@ class Joint:
 
     @property
     def spherical(self) -> bool:
-        """Whether a ball sits in a socket."""
+        """Return whether a ball sits in a socket."""
         return self.shape == "spherical"
 
     @property
     def on_frame(self) -> bool:
-        """Whether one of its bodies is the frame."""
+        """Return whether one of its bodies is the frame."""
         return GROUND in (self.journal, self.bearing)
 
 
@@ -132,12 +132,12 @@ class Guide:
 
     @property
     def holds_across(self) -> bool:
-        """Whether it holds the body across its direction without any give."""
+        """Return whether it holds the body across its direction without any give."""
         return self.lateral is None and self.guideway is None
 
     @property
     def holds_angle(self) -> bool:
-        """Whether it holds the body's angle without any give."""
+        """Return whether it holds the body's angle without any give."""
         return self.tilting is None and self.guideway is None
 
     @property
@@ -148,7 +148,7 @@ class Guide:
 
 @dataclass(frozen=True)
 class Output:
-    """Whose motion the slider's channels record.
+    """The body and the direction whose motion the slider's channels record.
 
     Attributes:
         body: its centre of mass is meant.

@@ -24,7 +24,7 @@ BLOCK = 0.07
 """Margin of the heaviest block around its joints, relative to the mechanism's height."""
 
 CORNERS = 48
-"""Of a link's outline, most of them at its round ends."""
+"""Corners of a link's outline, most of them at its round ends."""
 
 
 @dataclass(frozen=True)

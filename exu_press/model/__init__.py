@@ -1,4 +1,4 @@
-"""From a scene to an assembled Exudyn system: only what the scene uses is built."""
+"""The assembled Exudyn system of a scene: only what the scene uses is built."""
 
 from exu_press.model.assemble import build
 from exu_press.model.model import Model

@@ -18,7 +18,7 @@ from exu_press.scene import Scene
 __all__ = ["add_graphics", "build_with_graphics"]
 
 THICKNESS = 0.03
-"""Of a body along z, relative to the mechanism's height; neighbours lie side by side."""
+"""Thickness of a body along z, relative to the mechanism's height; neighbours lie side by side."""
 
 FRAME = [0.55, 0.55, 0.55, 1.0]
 DISC = [0.90, 0.72, 0.25, 1.0]

@@ -41,7 +41,8 @@ SHARPEST = 5.0
 changing sides it rests nowhere."""
 
 RANK = 1e-7
-"""Of the largest singular value: smaller ones belong to constraints that hold the same twice."""
+"""Singular value over the largest one: smaller ones belong to constraints that hold the same
+twice."""
 
 
 def moved_start(

@@ -19,10 +19,10 @@ from exu_press.scene.applied import AppliedLoad, applied_loads
 __all__ = ["Place", "add_loads", "force_at", "next_corner", "torque_wanted"]
 
 Place = Callable[[float], tuple[float, float]]
-"""Of a load's curve: time -> the place where the load is now, and how fast that changes."""
+"""Function of time: the place of a load on its curve, and its rate."""
 
 CLOSE = 1e-9
-"""Of a revolution: corners as close as that are passed."""
+"""Part of a revolution: corners as close as that are passed."""
 
 FORESEEN = 3e-6
 """The same of corners that are foreseen from a position and its rate, to the square of a step: the

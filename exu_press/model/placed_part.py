@@ -102,13 +102,16 @@ class PlacedPart:
 
     @property
     def centre_of_mass(self) -> Point:
-        """Of the solid, in the body's frame, m: zero where the mechanism has it."""
+        """Return the solid's centre of mass in the body's frame, m.
+
+        It is zero where the mechanism has it.
+        """
         x, y = self.reduced.centre_of_mass[:2] - self.centre
         return _turned((float(x), float(y)), -self.angle)
 
     @property
     def inertia(self) -> float:
-        """Of the solid about its centre of mass, in the plane, kg m^2."""
+        """Return the solid's inertia about its centre of mass, in the plane, kg m^2."""
         x, y = self.reduced.centre_of_mass[:2]
         return float(self.reduced.inertia[2, 2] - self.reduced.mass * (x * x + y * y))
 

@@ -20,16 +20,16 @@ __all__ = ["quasi_static_motion"]
 CURRENT = exu.ConfigurationType.Current
 
 ANGLES = np.radians(np.arange(-3.0, 4.0))
-"""Of the drive about the start's, rad: a polynomial of sixth degree differentiates there. From half
-to twice this spacing the result is the same to 1e-6."""
+"""Angles of the drive about the start's, rad: a polynomial of sixth degree differentiates there.
+From half to twice this spacing the result is the same to 1e-6."""
 
 ITERATIONS = 4
-"""Of the iteration: the first one at rest, the last one changes modes by 1e-4 of themselves. More
-would let rounding grow, which differentiating multiplies."""
+"""Turns of the iteration: the first one at rest, the last one changes modes by 1e-4 of themselves.
+More would let rounding grow, which differentiating multiplies."""
 
 CORRECTIONS = 4
-"""Of Newton's method in the first turn, from the undeformed start's position up to 3 degrees away;
-later ones start where the last one ended and take half as many."""
+"""Steps of Newton's method in the first turn, from the undeformed start's position up to 3 degrees
+away; later ones start where the last one ended and take half as many."""
 
 
 def quasi_static_motion(
@@ -68,7 +68,7 @@ class _Balance:
     """
 
     def __init__(self, mbs: exu.MainSystem, drive: int, coordinate: int) -> None:
-        """As `quasi_static_motion`."""
+        """Take what `quasi_static_motion` takes."""
         settings = exu.SimulationSettings()
         settings.linearSolver.solverType = exu.LinearSolverType.EigenDense
         settings.solution.file.write = False

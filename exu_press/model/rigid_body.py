@@ -92,7 +92,7 @@ class SlidingBody(RigidBody):
         direction: Point,
         reference: Array | None = None,
     ) -> None:
-        """As `RigidBody`, of whose pose and velocity it takes those along the guide.
+        """Take what `RigidBody` takes; pose and velocity along the guide are used.
 
         Args:
             mbs: not yet assembled.
@@ -140,7 +140,7 @@ class SlidingBody(RigidBody):
         return point
 
     def motion(self, q: Array, q_t: Array, q_tt: Array) -> Motion:
-        """As `RigidBody.motion`."""
+        """Return what `RigidBody.motion` returns."""
         return Motion(self.reference + q * self._along, q_t * self._along, q_tt * self._along)
 
 
@@ -158,7 +158,7 @@ class PivotedBody(RigidBody):
         point: Point,
         reference: Array | None = None,
     ) -> None:
-        """As `RigidBody`, of whose pose and velocity it takes the angle's.
+        """Take what `RigidBody` takes; the angle's pose and velocity are used.
 
         Args:
             mbs: not yet assembled.
@@ -191,7 +191,7 @@ class PivotedBody(RigidBody):
         return point[0] - self._point[0], point[1] - self._point[1]
 
     def motion(self, q: Array, q_t: Array, q_tt: Array) -> Motion:
-        """As `RigidBody.motion`."""
+        """Return what `RigidBody.motion` returns."""
         still = np.zeros((len(q), 2))
         places = np.column_stack([still + self._pivot, self.reference[2] + q])
         turned = Motion(places, np.column_stack([still, q_t]), np.column_stack([still, q_tt]))

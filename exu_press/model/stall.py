@@ -1,18 +1,18 @@
-"""When a press has stalled, and why."""
+"""The instant at which a press has stalled, and the reason."""
 
 import math
 
 __all__ = ["Stall", "stalled"]
 
 SLOW = 0.01
-"""Of the speed at the start, or without load: a crank that ran and is slower has stalled. Pressed
-by a forming force, which fades with the ram's speed, it goes on creeping."""
+"""Speed over that at the start, or without load: a crank that ran and is slower has stalled.
+Pressed by a forming force, which fades with the ram's speed, it goes on creeping."""
 
 PATIENCE = 0.1
 """Revolutions at the nominal speed for which a crank that is to start may get no faster."""
 
 FASTER = 1e-3
-"""Of the speed below which it is slow: by so much a crank has got faster."""
+"""Gain of speed, over that below which it is slow, by which a crank has got faster."""
 
 
 class Stall:

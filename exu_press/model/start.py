@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 __all__ = ["deformed_start"]
 
 SMALL = 0.1
-"""Of a body's size: deformations are linear in the modes, as those are that are small beside it."""
+"""Deformation over a body's size, up to which it is small, and so linear in the modes."""
 
 
 def deformed_start(

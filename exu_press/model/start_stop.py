@@ -31,7 +31,7 @@ CLOSE = 2e-5
 of the way would be a step so short that it rings."""
 
 STILL = 1e-3
-"""Of the nominal speed: a crank that a brake holds and that turns by less stands."""
+"""Part of the nominal speed: a crank that a brake holds and that turns by less stands."""
 
 
 class Pressed:
@@ -123,7 +123,7 @@ class Pressed:
 
     @property
     def sticks(self) -> bool:
-        """Whether it held at the last step's end."""
+        """Return whether it held at the last step's end."""
         return self.state == STICKS
 
     def memory(self) -> list[float]:
@@ -187,7 +187,7 @@ class StartStop:
 
     @property
     def slips(self) -> bool:
-        """Whether the clutch slips."""
+        """Return whether the clutch slips."""
         return self.clutch is not None and self.clutch.state == SLIPS
 
     def begin(self, torque: float) -> None:

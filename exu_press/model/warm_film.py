@@ -73,7 +73,7 @@ class WarmFilm:
 
     @property
     def viscosity(self) -> float:
-        """Of the oil in the film, Pa s."""
+        """Return the viscosity of the oil in the film, Pa s."""
         return self.oil.viscosity(self.temperature, self.pressure)
 
     def put(self, temperature: float, pressure: float) -> None:

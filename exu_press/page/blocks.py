@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 __all__ = ["Blocks"]
 
 LEVEL = 6
-"""Of gzip: more takes three times as long for a hundredth of the size."""
+"""Compression level of gzip: more takes three times as long for a hundredth of the size."""
 
 KINDS = {"f4": "<f4", "f8": "<f8", "u4": "<u4", "i2": "<i2"}
 """Name that the page's script knows -> type of the numbers."""

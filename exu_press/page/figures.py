@@ -22,13 +22,13 @@ from bokeh.plotting import figure
 __all__ = ["DASHES", "PANELS", "curve_panels", "marks_strip"]
 
 PANELS = 6
-"""Of curves, one below the other; those that are not in use are hidden."""
+"""Panels of curves, one below the other; those that are not in use are hidden."""
 
 HEIGHT = 150
-"""Of a panel, pixels."""
+"""Height of a panel, pixels."""
 
 DASHES = ("solid", "dashed", "dotdash", "dotted")
-"""Of runs over each other, which are told apart without colours too."""
+"""Line styles of runs over each other, which are told apart without colours too."""
 
 SCROLLING = ".bk-events { touch-action: pan-y !important; }"
 """A finger that moves up or down scrolls the page."""

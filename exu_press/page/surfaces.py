@@ -11,7 +11,7 @@ from exu_press.result import Result
 __all__ = ["surfaces"]
 
 STEPS = 32767
-"""Of an integer of 16 bits, to which modes and stresses are rounded: far below a pixel."""
+"""Largest integer of 16 bits, to which modes and stresses are rounded: far below a pixel."""
 
 ENOUGH = 1e-3
 """A mode that never moves or stresses a body by more of the whole is left out."""

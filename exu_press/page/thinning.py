@@ -10,12 +10,12 @@ from exu_press.numerics.arrays import Array
 __all__ = ["MOST_VALUES", "Thinning", "thinning"]
 
 MOST_VALUES = 5_000_000
-"""Of a page; they take 3 bytes each."""
+"""Most values in a page; they take 3 bytes each."""
 
 
 @dataclass(frozen=True)
 class Thinning:
-    """Which instants a page has of a run.
+    """The instants that a page has of a run.
 
     Attributes:
         count: steps of the run.

@@ -19,7 +19,7 @@ from exu_press.parallel.task import TIME_LIMIT, WORKER_DIED, Row, Task
 __all__ = ["Child", "WorkerDiedError", "perform", "worker_died"]
 
 ATTEMPTS = 2
-"""Of a task whose worker dies."""
+"""Attempts at a task whose worker dies."""
 
 ONE_THREAD = dict.fromkeys(
     (
@@ -32,7 +32,7 @@ ONE_THREAD = dict.fromkeys(
     ),
     "1",
 )
-"""As many processes as cores, so one thread in each: more would only wait for each other."""
+"""Environment of a worker: one thread each, as there are as many processes as cores."""
 
 
 class WorkerDiedError(Exception):
@@ -75,7 +75,7 @@ class Child(AbstractContextManager["Child", None]):
 
     @property
     def alive(self) -> bool:
-        """Whether the process runs."""
+        """Return whether the process runs."""
         return self._process.poll() is None
 
     def perform(self, task: Task, time_limit: float | None) -> Row:

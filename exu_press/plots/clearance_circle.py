@@ -58,7 +58,7 @@ class Path:
 
     @property
     def ball(self) -> bool:
-        """Whether this is a spherical joint."""
+        """Return whether this is a spherical joint."""
         return self.record.spherical
 
     @property
@@ -78,12 +78,12 @@ class Path:
 
     @property
     def small(self) -> bool:
-        """Whether the path would be hard to see at the circle's scale."""
+        """Return whether the path would be hard to see at the circle's scale."""
         return self.reach < SMALL_PATH * self.clearance
 
     @property
     def vertical(self) -> bool:
-        """Whether the path is a vertical line to the eye, as that of a ball with ideal guides."""
+        """Return whether the path looks like a vertical line, as of a ball with ideal guides."""
         return float(np.abs(self.points[:, 0]).max()) < 1e-3 * max(self.reach, 1e-9)
 
     @property

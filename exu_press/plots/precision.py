@@ -35,7 +35,7 @@ PEERS = {
     "numbalsoda LSODA": {"color": COLOURS["purple"], "marker": "d", "linestyle": "--"},
 }
 MARKERS = ("1", "2", "3", "4", "+", "x")
-"""Of the package's own settings that are varied, in grey."""
+"""Markers of the package's own settings that are varied, in grey."""
 
 
 @styled

@@ -17,10 +17,10 @@ MOST_CENTRES = 100
 """More dead centres than this would hide the curves; they are not marked."""
 
 TOO_CLOSE = 0.6
-"""Of the ticks' distance: so near a dead centre none stands."""
+"""Distance over that of the ticks: so near a dead centre none stands."""
 
 SLACK = 1e-4
-"""Of an axis' length, how far beyond its ends a tick may lie."""
+"""Distance over an axis' length by which a tick may lie beyond its ends."""
 
 DWARFED = 6.0
 """An axis is logarithmic where its peak is more than this times what most of the run shows."""

@@ -20,7 +20,7 @@ from exu_press.studies.spectrum import Mark, Spectra
 __all__ = ["draw_spectrum", "save_spectra", "spectrum_figure"]
 
 DECADES = 1e-4
-"""Of the largest amplitude, the smallest that is drawn."""
+"""Smallest amplitude that is drawn, over the largest one."""
 
 HIGHEST_ORDER = 60.0
 

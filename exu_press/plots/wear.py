@@ -21,7 +21,7 @@ LETTERS = 34
 """In a line beside a panel of this height."""
 
 LEAST_SPREAD = 1e-8
-"""Of a quantity, over its value: a smaller change is rounding."""
+"""Change of a quantity over its value: a smaller one is rounding."""
 
 
 @styled

@@ -18,7 +18,7 @@ AT_ONCE = 200_000
 """
 
 MOST_SAMPLES = 10_000_000
-"""Of a displacement; they take 80 MB a copy."""
+"""Most samples of a displacement; they take 80 MB a copy."""
 
 
 def peak(values: Array) -> float:

@@ -10,13 +10,13 @@ LOADS = frozenset({"m/s^2", "N", "N m", "W"})
 """Units of the channels that follow from accelerations."""
 
 LITTLE = 0.05
-"""Of a channel's largest value."""
+"""Part of a channel's largest value that is small."""
 
 AT_ONCE = 200_000
 """Instants that are looked at together: the arrays take ten times their memory."""
 
 ALIKE = 0.3
-"""Of the larger one of two neighbours, from which on they count as large as each other."""
+"""Ratio of two neighbours from which on they count as large as each other."""
 
 
 def steady(time: Array, values: Array) -> Array:

@@ -1,4 +1,4 @@
-"""Which differences between runs are real, and which are within the errors of their quantities."""
+"""Differences between runs: real ones, and those within the errors of their quantities."""
 
 import textwrap
 from collections.abc import Iterator, Mapping

@@ -19,7 +19,7 @@ __all__ = [
 ]
 
 ROUNDING = 1e-9
-"""Of a quantity: no two runs agree better."""
+"""Least relative error of a quantity: no two runs agree better."""
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ UNSETTLED = 0.5
 """K, within which a film has found its temperature."""
 
 UNBALANCED = 0.05
-"""Of the dissipated heat, within which it is carried off in the revolutions that are read."""
+"""Part of the dissipated heat within which it is carried off in the revolutions that are read."""
 
 THICKER = 1.5
 """Viscosity at the largest force over that at the mean one."""

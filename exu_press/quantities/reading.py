@@ -74,7 +74,7 @@ class Reading:
 
     @property
     def span(self) -> tuple[float, float]:
-        """From which to which revolution it is read."""
+        """Return the first and the last revolution that are read."""
         first, *_, last = self["crank_angle"] if len(self.time) > 1 else [0.0, 0.0]
         begin = self.run.scene.start_angle
         return float(first - begin) / (2 * np.pi), float(last - begin) / (2 * np.pi)

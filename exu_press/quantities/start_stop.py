@@ -16,7 +16,7 @@ SAME = 1e-9
 """s: an instant that a step ends on."""
 
 STILL = 1e-3
-"""Of the nominal speed: a crank that turns no faster until the next start stands."""
+"""Part of the nominal speed: a crank that turns no faster until the next start stands."""
 
 
 def _clutch(scene: Scene, _: str) -> bool:

@@ -16,10 +16,10 @@ from exu_press.scene.warnings import scene_warnings
 __all__ = ["run_warnings"]
 
 RESIDUAL = 0.01
-"""Of the energy exchanged; beyond this the energy balance casts doubt on the integration."""
+"""Residual over the energy exchanged, beyond which the balance casts doubt on the integration."""
 
 ALIKE = 0.01
-"""Of mass and inertia, and of the mechanism's size: difference of a solid without a warning."""
+"""Difference of a solid, over mass, inertia and the mechanism's size, without a warning."""
 
 NEARLY_TOUCHING = 0.95
 """Eccentricity ratio from which a film is thinner than its law is good for."""

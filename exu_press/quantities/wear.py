@@ -37,7 +37,7 @@ __all__ = [
 ]
 
 SECTORS = 72
-"""Of 5 degrees, over each of which depths are means; as many parts of a guideway."""
+"""Sectors of 5 degrees over which depths are averaged; as many parts of a guideway."""
 
 AT_ONCE = 4096
 """Steps whose overlaps are worked out together."""

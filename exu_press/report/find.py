@@ -1,4 +1,4 @@
-"""Which command a file or a directory comes from, and its report."""
+"""The command that a file or a directory comes from, and its report."""
 
 from enum import Enum
 from importlib import import_module

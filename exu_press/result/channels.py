@@ -137,7 +137,7 @@ class Changed(Mapping[str, Channel]):
 
     @property
     def on_disk(self) -> bool:
-        """Whether the channels that are changed are on disk."""
+        """Return whether the channels that are changed are on disk."""
         return self._found is None
 
 

@@ -29,7 +29,7 @@ class JointRecord:
 
     @property
     def spherical(self) -> bool:
-        """Whether it is a ball in a socket."""
+        """Return whether it is a ball in a socket."""
         return self.channels[f"{self.name}_force"].axis == "space"
 
     @property

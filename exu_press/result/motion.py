@@ -1,4 +1,4 @@
-"""From a model's sensors to the motion of its bodies."""
+"""The motion of a model's bodies from its sensors."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""From a model's sensors to the channels of a result."""
+"""The channels of a result from a model's sensors."""
 
 import functools
 import importlib.metadata

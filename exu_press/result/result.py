@@ -85,7 +85,7 @@ class Result(Contents):
 
     @property
     def completed(self) -> bool:
-        """Whether the run reached its end; "under-resolved" says that its peaks are not right."""
+        """Return whether the run reached its end; if "under-resolved", its peaks are not right."""
         return self.info["status"] in ("completed", "under-resolved")
 
     @cached_property

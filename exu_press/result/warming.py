@@ -19,7 +19,7 @@ __all__ = ["to_next_revolution", "warmed"]
 TURN = 2.0 * math.pi
 
 WHOLE = 1e-6
-"""Of a revolution: what may be missing of a whole one."""
+"""Part of a revolution that may be missing of a whole one."""
 
 
 def to_next_revolution(model: Model, left: float) -> tuple[Model, float]:

@@ -16,9 +16,9 @@ from exu_press.scene.scene import Scene, mechanism_of
 __all__ = ["AppliedLoad", "applied_loads"]
 
 FADE = 1e-3
-"""Of the ideal output's largest speed: below it, a forming force fades. A crank at constant speed
-passes through it within 0.06 degrees of dead centre, where the output moves by 3e-7 of its stroke.
-A press that stalls creeps at no more than that."""
+"""Speed over the ideal output's largest one: below it, a forming force fades. A crank at constant
+speed passes through it within 0.06 degrees of dead centre, where the output moves by 3e-7 of its
+stroke. A press that stalls creeps at no more than that."""
 
 
 @dataclass(frozen=True)

@@ -115,7 +115,7 @@ class Key:
 
     @property
     def assumed(self) -> bool:
-        """Whether it is at its default."""
+        """Return whether it is at its default."""
         return bool(self.value == self.default)
 
     def __str__(self) -> str:

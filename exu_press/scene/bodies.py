@@ -42,7 +42,7 @@ OLD = "is bodies.NAME now, a table for each flexible body, as in bodies.linkage 
 
 @dataclass(frozen=True)
 class Face:
-    """Which faces of a solid a joint, a guide or a load holds.
+    """The faces of a solid that a joint, a guide or a load holds.
 
     By name; or, of a joint, cylinders and spheres about its axis; of a guide or a load, all that
     lie wholly within ranges.
@@ -141,12 +141,12 @@ class Flexible(Table):
 
     @property
     def from_file(self) -> bool:
-        """Whether the solid is a STEP file's."""
+        """Return whether the solid is a STEP file's."""
         return self.flexible.lower().endswith(STEP_FILES)
 
     @property
     def path(self) -> Path:
-        """Of the STEP file."""
+        """Return the path of the STEP file."""
         return Path(self.flexible)
 
 

@@ -161,7 +161,7 @@ class TableLoad(_Placed):
 
     @property
     def closing(self) -> bool:
-        """Whether it acts while the output closes only."""
+        """Return whether it acts while the output closes only."""
         return (self.acts or ("closing" if self.over == "height" else "both")) == "closing"
 
     def curve(self, angular_speed: float) -> LoadCurve:

@@ -58,7 +58,7 @@ class Output(Table):
 
     @property
     def whole(self) -> bool:
-        """Whether the file keeps every channel at every step."""
+        """Return whether the file keeps every channel at every step."""
         return self.channels == "all" and self.every == 1
 
     def kept(self, names: Iterable[str]) -> list[str]:

@@ -36,7 +36,7 @@ OF_START, OF_STOP = ("clutch_on", "brake_off"), ("clutch_off", "brake_on")
 
 @dataclass(frozen=True)
 class StartStop(Table):
-    """How the run begins, and a friction clutch and brake behind the flywheel, by a schedule.
+    """Start of the run, and a friction clutch and brake behind the flywheel, by a schedule.
 
     A clutch or brake slips at its torque, and below it sticks. A start lets the brake go, then
     engages the clutch; a stop does the reverse. Ramps are lines between two places behind the
@@ -200,17 +200,17 @@ class StartStop(Table):
 
     @property
     def stops(self) -> bool:
-        """Whether a stop is commanded."""
+        """Return whether a stop is commanded."""
         return bool(self.stop_time) or self.stop_angle_deg is not None
 
     @property
     def scheduled(self) -> bool:
-        """Whether the press starts or stops in the run."""
+        """Return whether the press starts or stops in the run."""
         return self.begins != "turning" or self.stops or bool(self.start_time)
 
     @property
     def stands(self) -> bool:
-        """Whether the crank stands at the start."""
+        """Return whether the crank stands at the start."""
         return self.begins != "turning"
 
     def unused(self, **instead: str) -> dict[str, str]:

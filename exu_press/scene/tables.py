@@ -320,12 +320,12 @@ class ElasticGuide(Table):
 
     @property
     def soft(self) -> bool:
-        """Whether guided bodies can move across their guides."""
+        """Return whether guided bodies can move across their guides."""
         return self.lateral_stiffness is not None
 
     @property
     def rubs(self) -> bool:
-        """Whether there is friction."""
+        """Return whether there is friction."""
         return self.friction != "none"
 
     def unused(self, **instead: str) -> dict[str, str]:

@@ -33,7 +33,7 @@ FAR = 3.0
 """Sizes of the mechanism, from a body's joints to its centre of mass."""
 
 SHORT = 0.02
-"""Of the crank's circle: a shorter stroke is hardly meant."""
+"""Stroke over the crank's circle: a shorter one is hardly meant."""
 
 MILLI = 1e-3
 
@@ -41,7 +41,7 @@ MOST_WEAR = 0.05
 """Archard's coefficient: mild steel on itself has 7e-3, dry (Archard 1953)."""
 
 REACHED = 0.01
-"""Of a table's heights, that the output has at least where they are meant in m."""
+"""Part of a table's heights that the output reaches at least where they are meant in m."""
 
 
 def scene_warnings(scene: Scene) -> list[str]:

@@ -1,4 +1,4 @@
-"""Which joints and guides of a scene wear, and how."""
+"""The joints and guides of a scene that wear, and their data."""
 
 from exu_press.scene.joint import DryJoint, Joint, LubricatedJoint
 from exu_press.scene.scene import Scene, mechanism_of

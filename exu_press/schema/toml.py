@@ -13,7 +13,7 @@ from exu_press.files.input_file import read_text
 __all__ = ["parse_toml", "read_toml", "toml_text"]
 
 MOST_LEVELS = 100
-"""Of tables and lists within each other."""
+"""Most tables and lists within each other."""
 
 DECIMAL_COMMA = re.compile(r"^\s*[\w.]+\s*=\s*[-+]?\d+,\d+", re.MULTILINE)
 

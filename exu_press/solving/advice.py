@@ -18,7 +18,7 @@ THIN = 1e-6
 """m; the damping of a film of 1e-7 m, 1e17 N s/m, makes 10 N of a speed's last digit."""
 
 WIDE_CIRCLE = 0.3
-"""Of the friction circle's radius, in crank radii."""
+"""Radius of a wide friction circle, in crank radii."""
 
 STEPS_IN_AN_EDGE = 5.0
 """So many fixed steps in the steepest edge of a load: a peak, which may lie between two of them, is

@@ -16,13 +16,13 @@ __all__ = ["DEFAULTS", "largest_step", "scales", "settings_for", "solve"]
 DEFAULTS = SolverTuning()
 
 FALL = 0.03
-"""Of free fall's acceleration, what counts as usual at least where there is clearance: parts fall
-through it, however slowly the crank turns. Asked for less (below 30 rpm), Newton's method iterates
-on what rounding leaves: at 0.01 rpm a hundred times for each step of 1e-4 s."""
+"""Acceleration over that of free fall, usual at least where there is clearance: parts fall through
+it, however slowly the crank turns. Asked for less (below 30 rpm), Newton's method iterates on what
+rounding leaves: at 0.01 rpm a hundred times for each step of 1e-4 s."""
 
 
 USUAL_STEP = math.radians(1.5)
-"""Of the crank: the largest step, unless a scene asks for another one."""
+"""Largest turn of the crank in a step, rad, unless a scene asks for another one."""
 
 
 def solve(model: Assembled, *, tuning: SolverTuning = DEFAULTS, quiet: bool = True) -> Outcome:

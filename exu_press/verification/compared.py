@@ -43,7 +43,7 @@ class Compared:
 
     @property
     def covered(self) -> bool:
-        """Whether the stated error covers the true one."""
+        """Return whether the stated error covers the true one."""
         low = self.told["low"] - UNSURE * self.reading
         high = self.told["high"] + UNSURE * self.reading
         return low <= self.true <= high or self.off <= NOTHING * abs(self.value)

@@ -14,7 +14,7 @@ from exu_press.verification.growth import Growth, growth
 __all__ = ["Divergence", "divergence"]
 
 APART = 0.3
-"""Of a clearance: journals that differ by this have nothing in common any more."""
+"""Part of a clearance: journals that differ by this have nothing in common any more."""
 
 
 @dataclass(frozen=True)

@@ -20,13 +20,13 @@ __all__ = [
 ]
 
 SAFETY = 1.5
-"""Of errors that go with the tolerance. Of 107 random scenes of scripts/calibrate_errors.py 98.5 %
-of the figures are covered with 1.2, 98.9 % with 1.5, 99.1 % with 1.8, at 3.4, 3.9 and 4.4 times the
-true error in the median; of long dry ones 96.0, 96.5 and 96.8 %."""
+"""Factor on errors that go with the tolerance. Of 107 random scenes of scripts/calibrate_errors.py
+98.5 % of the figures are covered with 1.2, 98.9 % with 1.5, 99.1 % with 1.8, at 3.4, 3.9 and 4.4
+times the true error in the median; of long dry ones 96.0, 96.5 and 96.8 %."""
 
 SAFETY_OF_STEPS = 3.0
-"""Of errors that go with a fixed step: impacts and films that it leaps over are not sampled better
-by half of it."""
+"""Factor on errors that go with a fixed step: impacts and films that it leaps over are not sampled
+better by half of it."""
 
 NINETEEN_IN_TWENTY = {1: 11.0, 2: 3.85, 3: 2.9, 4: 2.55}
 """Over the root mean square of a normal sample's differences to so many others: within this of it
@@ -36,7 +36,7 @@ LITTLE = 0.05
 """Over the figure: within this a figure counts as determined, however chaotic the motion is."""
 
 ROUNDING = 1e-9
-"""Of a figure, what no two runs agree to better than."""
+"""Least relative error of a quantity: no two runs agree better."""
 
 
 def converging(

@@ -16,14 +16,14 @@ SPEEDS = frozenset({"m/s", "rad/s"})
 """Units of the channels whose peaks lie between steps, too; positions are read as cubics there."""
 
 OF_FIRST_STEP = 0.25
-"""Of a load's change in the first step, its overshoot: 0.07 to 0.18 were measured with films."""
+"""Overshoot over a load's change in the first step: 0.07 to 0.18 were measured with films."""
 
 BESIDE = 0.07
-"""Of the change of a force that turns round within a step, what may act across meanwhile: 0.02 to
-0.07 were measured of a mixed film behind a blanking pulse, in steps of 0.1 us."""
+"""Force across, over the change of one that turns round within a step: 0.02 to 0.07 were measured
+of a mixed film behind a blanking pulse, in steps of 0.1 us."""
 
 AT_ONCE = 1e-6
-"""Of the first step: an instant so soon after the start."""
+"""Part of the first step: an instant so soon after the start."""
 
 
 def smoothed(run: Result) -> Result:

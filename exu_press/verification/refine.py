@@ -13,7 +13,7 @@ from exu_press.verification.run import simulate_with_errors
 __all__ = ["doubtful", "refined"]
 
 ENOUGH = 0.05
-"""Of a quantity: with a larger error it is not known well."""
+"""Relative error of a quantity: with a larger one it is not known well."""
 
 FINER = 4.0
 """A tolerance is made finer by this factor at a time."""
@@ -22,7 +22,7 @@ LONGER = 2.0
 """A run takes this much longer then."""
 
 BUDGET = 3.0
-"""Of the time that the first run took, which finer ones may take together."""
+"""Time that finer runs may take together, over that of the first one."""
 
 FINEST = 1e-6
 

@@ -15,7 +15,7 @@ __all__ = ["RESULT", "SCENES", "main"]
 SCENES = "scenes.pickle"
 
 RESULT = "{}.pickle"
-"""Of the scene of this number."""
+"""File name of the result of the scene of this number."""
 
 
 LATER = 10

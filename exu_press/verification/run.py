@@ -37,8 +37,8 @@ OF_THE_START = 1e-4
 the first step leaves of accelerations is in all of them."""
 
 OF_READING = 0.75
-"""Of what averaging with the neighbours takes of a quantity: a peak between steps may be higher by
-half of it, one of alternating loads is too high by all of it."""
+"""Part of the loss of a quantity by averaging with its neighbours: a peak between steps may be
+higher by half of it, one of alternating loads is too high by all of it."""
 
 OF_FLOOR = 3.0
 """Times the least error of a kind: with a smaller error a figure that is nothing is known."""

@@ -19,7 +19,7 @@ FINEST = 1e-6
 ROUNDS = 6
 
 ENOUGH = 0.3
-"""Of the allowed error: a tolerance that uses this much of it is not made looser."""
+"""Part of the allowed error: a tolerance that uses this much of it is not made looser."""
 
 COARSE = 3.0
 """A tolerance is not looked for more closely than by this factor."""
@@ -29,7 +29,7 @@ AT_MOST = 30.0
 do later on, and a finer run takes longer."""
 
 AIM = 0.8
-"""Of the allowed error."""
+"""Part of the allowed error that is aimed at."""
 
 
 @dataclass(frozen=True)

@@ -23,10 +23,10 @@ __all__ = ["FlexiblePanel", "Look"]
 TIMES_SIGN = "\N{MULTIPLICATION SIGN}"
 
 DEFLECTION = 0.06
-"""Of the bodies' extent: how large the largest displacement of the animation is drawn."""
+"""Largest displacement of the animation as drawn, over the bodies' extent."""
 
 TURN, TILT = np.radians(-55.0), np.radians(20.0)
-"""Of the view, about y and then about x."""
+"""Angles of the view, about y and then about x."""
 
 COLOURS: Colormap = ListedColormap(
     matplotlib.colormaps["YlGnBu"].resampled(256)(range(30, 256)), "YlGnBu without its palest end"
@@ -38,7 +38,7 @@ KINDS = {"displacement": (1e6, "displacement, µm"), "stress": (1e-6, "von Mises
 
 @dataclass(frozen=True)
 class Look:
-    """How flexible bodies are shown.
+    """The look of flexible bodies.
 
     Attributes:
         colour: "displacement" or "stress".

@@ -1,4 +1,4 @@
-"""When the animation shows the run: equally spaced instants, and the steps between them."""
+"""The instants of an animation: equally spaced, and the steps between them."""
 
 from dataclasses import dataclass
 
@@ -12,7 +12,7 @@ from exu_press.result import Result
 __all__ = ["SECONDS_PER_REVOLUTION", "Instants", "instants", "interval", "moment"]
 
 SECONDS_PER_REVOLUTION = 5.0
-"""Of the animation, unless told otherwise, s."""
+"""Length of the animation, unless told otherwise, s."""
 
 MOST_FRAMES = 20_000
 

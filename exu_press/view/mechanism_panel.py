@@ -25,7 +25,7 @@ MARKED = COLOURS["vermilion"]
 """Joints with clearance, here and magnified."""
 
 LINE = 0.04
-"""Of a panel's height, which a label takes."""
+"""Height of a label over that of a panel."""
 
 EDGE = "#333333"
 FIXED: dict[str, Any] = {

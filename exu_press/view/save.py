@@ -34,7 +34,7 @@ NUMBER = re.compile(r"%0?\d*d")
 """In a file name: the frame's number, as in frame_%04d.png."""
 
 MOST_DIGITS = 9
-"""Of a frame's number."""
+"""Most digits of a frame's number."""
 
 ALLOWED = ".mp4, .gif, .png, or .png with the frame's number, as in frame_%04d.png"
 

@@ -134,7 +134,7 @@ class BodyError:
 
     @property
     def begun(self) -> bool:
-        """Whether a step was accepted before the one last tried."""
+        """Return whether a step was accepted before the one last tried."""
         return bool(self._rate_before)
 
     def size(self) -> float:

@@ -1,4 +1,4 @@
-"""How far velocities turn to one side until the run ends, as errors of speeds grow by that."""
+"""The turn of velocities to one side until the run ends, by which errors of speeds grow."""
 
 import math
 

@@ -7,7 +7,7 @@ from exu_press.integrate.scales import FoundScales
 __all__ = ["Quiet"]
 
 LATE = 0.99
-"""Of the largest value of late, what is left of it after a step."""
+"""Part of the largest recent value that is left of it after a step."""
 
 
 class Quiet:

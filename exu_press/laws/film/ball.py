@@ -157,7 +157,7 @@ def socket_drag(
     powers = [(1.0 - low ** (2 * k + 1)) / (2 * k + 1) for k in range(7)]
 
     def integrals(eps: float) -> tuple[float, float, float, float]:
-        """Of 1 / (1 - eps^2 x^2) and of x^2 times it over a cap, and their derivatives."""
+        """Return integrals of 1 / (1 - eps^2 x^2) and x^2 times it over a cap, with derivatives."""
         if not 0.0 <= eps < 1.0:
             return (math.nan,) * 4
         square = eps * eps

@@ -26,11 +26,11 @@ class FilmEntry:
 
     @property
     def flows_out(self) -> bool:
-        """Whether oil flows out at its ends."""
+        """Return whether oil flows out at its ends."""
         return self.side_flow is not no_flow
 
     def suits(self, length_to_diameter: float) -> bool:
-        """Whether L/D lies in the range that the law's source states."""
+        """Return whether L/D lies in the range that the law's source states."""
         low, high = self.length_to_diameter
         return low <= length_to_diameter <= high
 

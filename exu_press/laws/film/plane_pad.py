@@ -18,7 +18,7 @@ PadLaw = Callable[[float, float, float, float, float], PadFilm]
 
 CELLS: Final = 24
 WIDTHS: tuple[float, float] = (0.01, 100.0)
-"""Of a pad, over its length: the range of the law."""
+"""Least and largest width of a pad over its length: the range of the law."""
 
 OUTSIDE: PadFilm = (math.nan,) * 18
 Node = tuple[float, float, float, float, float]

@@ -12,7 +12,7 @@ __all__ = ["Pressure", "obstacle", "solve_reynolds", "supply_line"]
 
 
 ROUNDING = 1e-9
-"""Of a cell's source, by which its flow may be short before the cell counts as wet."""
+"""Part of a cell's source by which its flow may be short before the cell counts as wet."""
 
 
 class Pressure(NamedTuple):

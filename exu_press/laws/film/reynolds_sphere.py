@@ -12,7 +12,8 @@ from exu_press.numerics.arrays import Array
 __all__ = ["CapPressure", "facing_load", "solve_cap"]
 
 FURTHEST = 0.7
-"""Of the disk's radius: moved further, the grid's centre would leave too few angles elsewhere."""
+"""Largest shift over the disk's radius: moved further, the grid's centre would leave too few angles
+elsewhere."""
 
 STEEPEST = 0.4999 * math.pi
 """rad between the load and v."""

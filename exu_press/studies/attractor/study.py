@@ -29,10 +29,10 @@ DISTANCES = (1e-2, 1e-3)
 """Between neighbouring motions at the beginning of a revolution, without dimension."""
 
 FINER = 0.1
-"""Of the tolerance: what a revolution's error is measured against."""
+"""Tolerance of the run that a revolution's error is measured against, over the scene's."""
 
 FINER_STEP = 0.25
-"""Of a fixed step, likewise."""
+"""Fixed step of that run over the scene's."""
 
 MEASURED = 5
 """Revolutions whose error is measured."""

@@ -33,10 +33,10 @@ class Study(Table):
     """
 
     with_keys: ClassVar[bool] = True
-    """Whether keys of the scene vary."""
+    """True where keys of the scene vary."""
 
     plain_runs: ClassVar[bool] = True
-    """Whether runs may have errors and may be kept."""
+    """True where runs may have errors and may be kept."""
 
     tables: ClassVar[Mapping[str, type[Table]]] = {}
     """The kind's own tables by name; one whose field is () by default is a list of tables."""

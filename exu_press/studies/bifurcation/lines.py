@@ -6,7 +6,7 @@ from exu_press.terminal.columns import columns
 __all__ = ["report_lines"]
 
 WORDS = 60
-"""Of a reason."""
+"""Most letters of a reason."""
 
 
 def report_lines(report: Report) -> list[str]:

@@ -22,7 +22,7 @@ PER_PERIOD = 20
 """Samples of the computed curve in a period of a sensor's upper corner frequency."""
 
 ROUNDS = 3
-"""Of fitting shift and corner frequencies one after the other."""
+"""Rounds of fitting shift and corner frequencies one after the other."""
 
 
 @dataclasses.dataclass(frozen=True)

@@ -30,7 +30,7 @@ class Direction:
 
     @property
     def keys(self) -> list[int]:
-        """Which keys have a part in it, the largest first."""
+        """Return the keys that have a part in it, the largest first."""
         return [int(k) for k in np.argsort(-np.abs(self.vector)) if abs(self.vector[k]) > PART]
 
 

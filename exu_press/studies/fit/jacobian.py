@@ -13,10 +13,10 @@ Evaluate = Callable[[Array], Array]
 units of their uncertainties; NaN in all of a row whose run failed."""
 
 STEP = 0.02
-"""Of a key's range, the least step of a difference."""
+"""Least step of a difference over a key's range."""
 
 LARGEST = 0.25
-"""Of a key's range, the largest step."""
+"""Largest step over a key's range."""
 
 VISIBLE = 10.0
 """Change of the residuals by a step over what evaluations' errors leave in them."""

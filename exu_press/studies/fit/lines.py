@@ -21,11 +21,11 @@ UNREACHED = (
     "no values of the keys within their ranges give the measured numbers: look at the largest "
     "residuals"
 )
-"""Where even the true values would leave so large a chi-square less often than UNLIKELY: at them it
-is that of all numbers, and the minimum is not larger."""
+"""Told where even the true values would leave so large a chi-square less often than UNLIKELY: at
+them it is that of all numbers, and the minimum is not larger."""
 
 EXACT = 0.3
-"""Of an uncertainty: evaluations are to be more exact than that."""
+"""Largest error of evaluations over the uncertainty of a number."""
 
 NEARLY = 0.05
 """Relative, between the two halves of an interval that is called symmetric."""

@@ -16,10 +16,10 @@ ALIKE = 0.05
 
 MOST_STEPS = 25
 CHANGE = 1e-3
-"""Of the sum of squares, below which a further step does not matter."""
+"""Change of the sum of squares below which a further step does not matter, relative."""
 
 SHIFT = 1e-3
-"""Of a key's range, likewise."""
+"""Shift over a key's range, likewise."""
 
 
 @dataclass(frozen=True)

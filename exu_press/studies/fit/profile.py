@@ -13,10 +13,10 @@ from exu_press.studies.fit.minimum import Minimum
 __all__ = ["Interval", "profile"]
 
 NEAR = 0.03
-"""Of the root of the rise of chi-square, at which an end is found."""
+"""Error in the root of the rise of chi-square at which an end is found, relative."""
 
 GAIN = 0.02
-"""Of chi-square, that a further fit of the other keys would have to promise."""
+"""Fall of chi-square that a further fit of the other keys would have to promise."""
 
 BETTER = 0.05
 """By which a chi-square is below the minimum's where the search had not ended there."""
@@ -24,7 +24,7 @@ BETTER = 0.05
 MOST_ENDS = 8
 MOST_FITS = 6
 REACH = 0.25
-"""Of a range, the largest step of the other keys."""
+"""Largest step of the other keys over their range."""
 
 
 @dataclass(frozen=True)

@@ -80,7 +80,8 @@ class Report:
 
     @property
     def probability(self) -> float | None:
-        """That chance alone makes chi-square as large; None without a degree of freedom."""
+        """Return the probability that chance makes chi-square as large; None without a degree of
+        freedom."""
         return float(chi2.sf(self.chi_square, self.freedom)) if self.freedom > 0.0 else None
 
     def to_dict(self) -> dict[str, Any]:

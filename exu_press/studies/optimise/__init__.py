@@ -1,4 +1,4 @@
-"""Which keys make a press best: one objective, or several against each other."""
+"""The keys of the best press: by one objective, or by several against each other."""
 
 from exu_press.studies.optimise.run import Report, optimise
 from exu_press.studies.optimise.study import Optimise

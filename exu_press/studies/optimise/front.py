@@ -1,4 +1,4 @@
-"""Which of several points are not worse than another in everything, and one of them to choose."""
+"""The points that no other one betters in everything, and one of them to choose."""
 
 from collections.abc import Sequence
 

@@ -11,7 +11,7 @@ from exu_press.terminal.columns import columns
 __all__ = ["report_lines"]
 
 MOST_LINES = 14
-"""Of a front: evenly along it, the chosen point always."""
+"""Most lines of a front: evenly along it, the chosen point always."""
 
 
 def report_lines(report: Report) -> list[str]:

@@ -26,13 +26,13 @@ __all__ = ["Report", "Trials", "optimise"]
 WRITTEN = ("optimise.json", "trials.csv", "chosen.toml")
 
 ROUGH = 0.01
-"""Of the objective's spread over the ranges: with a larger error of runs a simplex goes astray."""
+"""Error of runs over the objective's spread: with a larger one a simplex goes astray."""
 
 MOST_CHECKED = 12
 """Points of a front that get their errors: evenly along it, the chosen one always."""
 
 FINER = 0.1
-"""Of the tolerance, or of the step, with which the chosen point is run again."""
+"""Tolerance, or step, of the chosen point's second run over the scene's."""
 
 SCREEN = 4
 """Part of the trials of one objective that is spread over the ranges first, as 1 / SCREEN."""

@@ -15,14 +15,14 @@ Judge = Callable[[Array], Array]
 limits; beyond any of these what limits are violated by, and above that points without numbers."""
 
 BEYOND = 1e9
-"""Of the objective's scale: added to a violation, so that every point within limits is better
-(K. Deb, Computer Methods in Applied Mechanics and Engineering 186 (2000) 311-338)."""
+"""Penalty over the objective's scale: added to a violation, so that every point within limits is
+better (K. Deb, Computer Methods in Applied Mechanics and Engineering 186 (2000) 311-338)."""
 
 POPULATION = 6
 """Points of differential evolution over the number of keys."""
 
 RESOLVED = 1e-3
-"""Of a key's range, to which the simplex shrinks."""
+"""Size over a key's range to which the simplex shrinks."""
 
 
 def spread_points(keys: int, number: int, seed: int) -> Array:

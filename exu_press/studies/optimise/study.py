@@ -118,7 +118,7 @@ class Optimise(Study):
 
     @property
     def has_values(self) -> bool:
-        """Whether a key has values to choose from."""
+        """Return whether a key has values to choose from."""
         return any(isinstance(each, Values) for each in self.keys.values())
 
     @property

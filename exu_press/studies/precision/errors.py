@@ -94,7 +94,8 @@ PEAKS_APART = 0.0125
 that needs no threshold, and no two count for one impact."""
 
 GRAPH_POINTS = 4001
-"""Of a graph over the whole run; the distance is resolved to about the run's length over this."""
+"""Points of a graph over the whole run; the distance is resolved to about the run's length over
+this."""
 
 
 @dataclass(frozen=True)

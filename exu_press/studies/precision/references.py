@@ -26,10 +26,11 @@ RESERVE = 10.0
 """An error must be this many times the references' mutual difference to be believed."""
 
 KNOWN = 1e-3
-"""Of the smallest clearance: two references whose sliders are further apart are none any more."""
+"""Distance over the smallest clearance: references whose sliders differ by more are none any
+more."""
 
 STAYS = Growth(None, None)
-"""Of trajectories that do not diverge."""
+"""Growth of trajectories that do not diverge."""
 
 KINEMATIC_STEP = 1e-5  # s, between the points of a closed-form trajectory
 

@@ -1,4 +1,4 @@
-"""Which tolerance decides: Sobol indices, a tornado, and the spread that tolerances make."""
+"""Shares of tolerances: Sobol indices, a tornado, and the spread that tolerances make."""
 
 from exu_press.studies.sensitivity.run import Report, sensitivity
 from exu_press.studies.sensitivity.study import Sensitivity

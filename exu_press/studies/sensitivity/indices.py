@@ -57,7 +57,7 @@ class Indices:
 
 
 ALONE = Indices(np.ones(1), np.ones((1, 2)), np.ones(1), np.ones((1, 2)))
-"""Of one key alone, which explains everything."""
+"""Indices of one key alone, which explains everything."""
 
 
 def sample(evaluate: Callable[[Array], Array], keys: int, n: int, seed: int) -> Sample | None:

@@ -12,10 +12,10 @@ from exu_press.terminal.columns import columns
 __all__ = ["report_lines"]
 
 NO_EFFECT = 0.01
-"""Of the variance: a key whose total index surely lies below has no effect."""
+"""Part of the variance: a key whose total index surely lies below has no effect."""
 
 NOISE = 0.1
-"""Of the deviation: a larger error of the runs themselves is part of what was found."""
+"""Error of the runs over the deviation: a larger one is part of what was found."""
 
 
 def report_lines(report: Report) -> list[str]:

@@ -20,7 +20,7 @@ from exu_press.verification.compared import compared
 __all__ = ["RESIDUAL_LIMIT", "Check", "agreement", "checks_of"]
 
 RESIDUAL_LIMIT = 1e-3
-"""Of the energy balance, as in the summary."""
+"""Largest residual of the energy balance, as in the summary."""
 
 COARSE_RESIDUAL = 0.1
 """Times the tolerance: allowed residual of the energy where that is above a hundredth."""
@@ -28,7 +28,7 @@ COARSE_RESIDUAL = 0.1
 DRIFT_LIMIT = 1e-9  # m
 
 ENERGY_LIMIT = 1e-3
-"""Of what joints may seem to create or to store beyond what was there, relative to the same: what
+"""Energy that joints may seem to create or to store beyond what was there, relative to that: what
 the energy balance itself leaves open."""
 
 LITTLE = 0.01
@@ -38,8 +38,8 @@ NOTHING = 1e-12
 """The same in the figure's unit: what rounding leaves of tilts and means that are zero."""
 
 OF_BOTH = 1.25
-"""Of what a run states, by how much it may differ from a finer one: at a tenth of the tolerance
-that one is off itself, by about 10^(-2/3) of what the run is."""
+"""Difference from a finer run over the error that a run states: at a tenth of the tolerance that
+one is off itself, by about 10^(-2/3) of what the run is."""
 
 AGREEMENT = "difference from a finer run, over the stated error"
 
@@ -62,7 +62,7 @@ class Check:
 
     @property
     def passed(self) -> bool:
-        """Whether the figure is finite and not above its limit."""
+        """Return whether the figure is finite and not above its limit."""
         return self.value is not None and self.value <= self.limit
 
     def to_dict(self) -> dict[str, Any]:

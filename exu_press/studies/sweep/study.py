@@ -60,7 +60,7 @@ class Sweep(Study):
 
     @property
     def way(self) -> str:
-        """Which of grid, list and sample."""
+        """Return one of grid, list and sample."""
         return self.sweep.way
 
     @cached_property

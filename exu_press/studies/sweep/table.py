@@ -20,7 +20,7 @@ from exu_press.studies.sweep.study import Sweep
 __all__ = ["RUN_TIMES", "Table", "cell", "table_of"]
 
 COLUMN_NAME = re.compile(r"[\w.-]+", re.ASCII)
-"""Of a column: what NetCDF takes for a name."""
+"""Name of a column that NetCDF takes."""
 
 RUN_TIMES = tuple(quantity.name for quantity in COSTS if quantity.unit == "s")
 """Columns that differ from run to run of the same scene; they stand last."""

@@ -25,7 +25,7 @@ LONGEST, SHORTEST = 4.0, 0.2
 """Times the last jump that the next one may be."""
 
 CAUTION = 0.8
-"""Of the jump that just meets the tolerance."""
+"""Jump over the one that just meets the tolerance."""
 
 FIRST = 2.0
 """Tolerances that the first jump wears at most."""
@@ -71,7 +71,7 @@ class Report:
 
     @property
     def ended(self) -> str:
-        """That it ended before all strokes were done, and why; empty where they are."""
+        """Return why it ended before all strokes were done; empty where they are."""
         strokes = significant(self.study.wear.strokes, 4)
         return f"ended before {strokes} strokes: {self.reason}" if self.reason else ""
 

@@ -16,6 +16,21 @@ RANGE = (
 )
 
 
+@pytest.fixture(scope="module")
+def opened_once(report, browser):
+    """The page that tests use one after the other; errors on its console end the last of them."""
+    with opened(browser, report) as page:
+        yield page
+
+
+@pytest.fixture
+def page(opened_once, press):
+    """The page as it opens: the whole run, its begin at the pointer."""
+    zoom(opened_once, 0.0, 1e3 * float(press.time[-1]))
+    put(opened_once, 0.0)
+    return opened_once
+
+
 def put(page, milliseconds):
     """Put the slider somewhere, as a hand does."""
     page.evaluate(
@@ -49,94 +64,89 @@ def test_the_shipped_press_is_small_and_opens_without_a_word(report, browser):
         assert not page.is_visible("#failed")
 
 
-def test_values_at_the_slider_are_those_of_the_file(report, press, browser):
+def test_values_at_the_slider_are_those_of_the_file(page, press):
     steps = np.linspace(0, len(press.time) - 1, 7).astype(int)
-    with opened(browser, report) as page:
-        for step in steps:
-            put(page, 1e3 * press.time[step])
-            for panel, (channel, factor) in enumerate(
-                [("slider_position", 1e3), ("slider_velocity", 1), ("slider_acceleration", 1)]
-            ):
-                expected = factor * press[channel][step]
-                largest = factor * np.abs(press[channel]).max()
-                assert shown(page, panel) == pytest.approx(expected, rel=1e-5, abs=1e-6 * largest)
-            force = np.linalg.norm(press["crank_pin_force"][step]) / 1e3
-            assert shown(page, 3) == pytest.approx(force, rel=1e-5)
-            assert float(page.evaluate("document.documentElement.dataset.time")) == pytest.approx(
-                1e3 * press.time[step], abs=1e-9
-            )
+    for step in steps:
+        put(page, 1e3 * press.time[step])
+        for panel, (channel, factor) in enumerate(
+            [("slider_position", 1e3), ("slider_velocity", 1), ("slider_acceleration", 1)]
+        ):
+            expected = factor * press[channel][step]
+            largest = factor * np.abs(press[channel]).max()
+            assert shown(page, panel) == pytest.approx(expected, rel=1e-5, abs=1e-6 * largest)
+        force = np.linalg.norm(press["crank_pin_force"][step]) / 1e3
+        assert shown(page, 3) == pytest.approx(force, rel=1e-5)
+        assert float(page.evaluate("document.documentElement.dataset.time")) == pytest.approx(
+            1e3 * press.time[step], abs=1e-9
+        )
 
 
-def test_no_zoom_loses_a_peak(report, press, browser):
+def test_no_zoom_loses_a_peak(page, press):
     """The line has the largest and the least value of whatever is shown, down to single steps."""
     time, values = 1e3 * press.time, press["slider_acceleration"]
     peak = float(time[np.argmax(np.abs(values))])
-    with opened(browser, report) as page:
-        for width in (500.0, 100.0, 10.0, 1.0, 0.1, 0.02):
-            low, high = max(peak - 0.4 * width, 0.0), min(peak + 0.6 * width, time[-1])
-            zoom(page, low, high)
-            inside = (time >= low) & (time <= high)
-            drawn = np.array(page.evaluate(DRAWN, "curve-2-0"))
-            assert drawn.max() == pytest.approx(values[inside].max(), rel=1e-6)
-            assert drawn.min() <= values[inside].min() + 1e-3
-            if width <= 1.0:
-                assert inside.sum() <= len(drawn) <= inside.sum() + 2
-            assert len(drawn) < 8000
+    for width in (500.0, 100.0, 10.0, 1.0, 0.1, 0.02):
+        low, high = max(peak - 0.4 * width, 0.0), min(peak + 0.6 * width, time[-1])
+        zoom(page, low, high)
+        inside = (time >= low) & (time <= high)
+        drawn = np.array(page.evaluate(DRAWN, "curve-2-0"))
+        assert drawn.max() == pytest.approx(values[inside].max(), rel=1e-6)
+        assert drawn.min() <= values[inside].min() + 1e-3
+        if width <= 1.0:
+            assert inside.sum() <= len(drawn) <= inside.sum() + 2
+        assert len(drawn) < 8000
 
 
-def test_the_next_impact_opens(report, press, browser):
-    with opened(browser, report) as page:
-        put(page, 0.0)
-        page.click("#next")
-        told = page.inner_text("#mark")
-        begin = float(re.search(r"from (\S+) to", told)[1])
-        joint = re.search(r": ([^,]+(, \w+)?), touching", told)[1]
-        name = joint.lower().replace(", ", "_").replace(" ", "_")
-        first = press.time[np.argmax(press.joints[name].gap < 0)] * 1e3
-        assert begin == pytest.approx(first, rel=1e-5)
-        low, high = page.evaluate(RANGE)
-        assert low < begin < high and high - low < 50.0
-        page.keyboard.press("0")
-        page.wait_for_timeout(50)
-        assert page.evaluate(RANGE) == pytest.approx([0.0, 1e3 * press.time[-1]])
+def test_the_next_impact_opens(page, press):
+    put(page, 0.0)
+    page.click("#next")
+    told = page.inner_text("#mark")
+    begin = float(re.search(r"from (\S+) to", told)[1])
+    joint = re.search(r": ([^,]+(, \w+)?), touching", told)[1]
+    name = joint.lower().replace(", ", "_").replace(" ", "_")
+    first = press.time[np.argmax(press.joints[name].gap < 0)] * 1e3
+    assert begin == pytest.approx(first, rel=1e-5)
+    low, high = page.evaluate(RANGE)
+    assert low < begin < high and high - low < 50.0
+    page.keyboard.press("0")
+    page.wait_for_timeout(50)
+    assert page.evaluate(RANGE) == pytest.approx([0.0, 1e3 * press.time[-1]])
 
 
-def test_pointer_slider_and_mechanism_are_one(report, press, browser):
+def test_pointer_slider_and_mechanism_are_one(page, press):
     """A pointer on the curves leads the slider, the slider the pointer, both the mechanism."""
     place = "() => document.querySelector('#mechanism .body').getAttribute('transform')"
-    with opened(browser, report) as page:
-        put(page, 100.0)
-        before = page.evaluate(place)
-        box = page.locator("#figure-1").bounding_box()
-        page.mouse.move(box["x"] + 0.8 * box["width"], box["y"] + 0.5 * box["height"])
-        now = float(page.evaluate("document.getElementById('slider').value"))
-        assert 300.0 < now < 450.0
-        assert shown(page, 1) == pytest.approx(
-            np.interp(now, 1e3 * press.time, press["slider_velocity"]), abs=1e-4
-        )
-        assert page.evaluate(place) != before
-        page.focus("#slider")
-        page.keyboard.press("ArrowRight")
-        after = float(page.evaluate("document.documentElement.dataset.time"))
-        assert after == pytest.approx(1e3 * press.time[np.searchsorted(1e3 * press.time, now)])
+    put(page, 100.0)
+    before = page.evaluate(place)
+    box = page.locator("#figure-1").bounding_box()
+    page.mouse.move(box["x"] + 0.8 * box["width"], box["y"] + 0.5 * box["height"])
+    now = float(page.evaluate("document.getElementById('slider').value"))
+    assert 300.0 < now < 450.0
+    assert shown(page, 1) == pytest.approx(
+        np.interp(now, 1e3 * press.time, press["slider_velocity"]), abs=1e-4
+    )
+    assert page.evaluate(place) != before
+    page.focus("#slider")
+    page.keyboard.press("ArrowRight")
+    after = float(page.evaluate("document.documentElement.dataset.time"))
+    assert after == pytest.approx(1e3 * press.time[np.searchsorted(1e3 * press.time, now)])
 
 
-def test_it_plays(report, browser):
+def test_it_plays(page):
     """What is shown, 500 ms, in 10 s; paused, it stands."""
     time = "Number(document.documentElement.dataset.time)"
-    with opened(browser, report) as page:
-        put(page, 10.0)
-        passed, moved = page.evaluate(
-            """() => new Promise(done => {
-            const play = document.getElementById('play'), begun = performance.now();
-            play.click();
-            setTimeout(() => { play.click(); done([performance.now() - begun,
-              Number(document.documentElement.dataset.time) - 10]); }, 600); })"""
-        )
-        assert moved == pytest.approx(0.05 * passed, rel=0.5)
-        stopped = page.evaluate(time)
-        page.wait_for_timeout(100)
-        assert page.evaluate(time) == stopped
+    put(page, 10.0)
+    passed, moved = page.evaluate(
+        """() => new Promise(done => {
+        const play = document.getElementById('play'), begun = performance.now();
+        play.click();
+        setTimeout(() => { play.click(); done([performance.now() - begun,
+          Number(document.documentElement.dataset.time) - 10]); }, 600); })"""
+    )
+    assert moved == pytest.approx(0.05 * passed, rel=0.5)
+    stopped = page.evaluate(time)
+    page.wait_for_timeout(100)
+    assert page.evaluate(time) == stopped
 
 
 def test_crank_angle_and_logarithm(report, press, browser):

@@ -91,7 +91,7 @@ def test_the_command(tmp_path, capsys):
     study = tmp_path / "speed.toml"
     study.write_text(
         'scene = "film.toml"\n[keys]\nspeed_rpm = [240.0]\n'
-        '[bifurcation]\nway = "from the start"\nskip = 1\nrevolutions = 6\nlongest = 2\n'
+        '[bifurcation]\nway = "from the start"\nskip = 1\nrevolutions = 20\nlongest = 2\n'
     )
     assert main(["bifurcation", str(study), "--out", str(tmp_path / "out"), "--workers", "1"]) == 0
     assert "1 revolution" in capsys.readouterr().out

@@ -30,6 +30,13 @@ from exu_press.integrate.settings import Task
 
 __all__ = ["StepError"]
 
+VANISHING = 8.0
+"""Power of the step with which no error of a motion shrinks."""
+
+DOUBTED = 2.0
+"""Largest error of a step whose motion may be rounding: one a little shorter tells, and stirs less.
+"""
+
 TURNS_BY_ROUNDING = 10.0
 """Over the smallest step: in shorter ones rounding turns the forces of films."""
 
@@ -73,7 +80,8 @@ class StepError:
         self._noise = (
             0.0  # what rounded positions make of accelerations, times the step's square, m
         )
-        self._doubted = 0.0  # error of a repeated step, in a motion that may be rounding
+        # error and size of a repeated step, in a motion that may be rounding
+        self._doubted = 0.0, 0.0
         self._jumped = False  # whether accelerations have, in a step of the smallest size
         self._first_order: FirstOrderError | None = None
         self._joints: list[JointError] = []
@@ -106,13 +114,17 @@ class StepError:
             if error > 1.0 and self._joints:
                 left = self._matrix.left_in_constraints()
                 error = bodies.error(change, step, left)
-        if small and error > 1.0 and self._is_rounded(error):
-            still, error = True, 0.0
         if not (still or self._joints):  # whose impacts and films need finer steps, by far
             offset = self._relative(bodies.offset(step))
             if self._curvature is not None:
                 offset = max(offset, self._curvature.error(step))
             error = max(error, math.pow(offset, 1.5))  # as the step's cube
+        if small and not still:
+            first = self._doubted[0] == 0.0
+            if self._is_rounded(error, step):
+                error = 0.0
+            elif first and not self._joints:
+                error = min(error, DOUBTED)
         if self._first_order is not None:
             error = max(error, self._first_order.error(step))
         if self._switching:
@@ -133,14 +145,18 @@ class StepError:
             self.limiting[largest] += 1
         return error
 
-    def _is_rounded(self, error: float) -> bool:
+    def _is_rounded(self, error: float, step: float) -> bool:
         """Return whether what moves by no more than rounding does is rounding, by its error.
 
-        That of a motion shrinks where a step is repeated with a smaller size, that of rounding
-        grows.
+        That of a motion shrinks with its order where a step is repeated with a smaller size. That
+        of rounding grows, or is gone as Newton's method has nothing to balance by chance.
         """
-        self._scales.rounded = 0.0 < self._doubted <= error
-        self._doubted = error
+        before, longer = self._doubted
+        if before > 0.0:
+            gone = before * math.pow(step / longer, VANISHING)
+            self._scales.rounded = error >= before or (error < gone and not self._joints)
+        if error > 1.0:
+            self._doubted = error, step
         return self._scales.rounded
 
     def of_switch(self, step: float) -> float:
@@ -178,7 +194,7 @@ class StepError:
         if self._jumped or (self._switching and self._solver.it.discontinuousIteration):
             self._bodies.jumped()
         self._jumped = False
-        self._doubted = 0.0
+        self._doubted = 0.0, 0.0
         if self._turning is not None:
             self._bodies.turning = self._turning.stepped(self._step)
         if not self._scales.fixed:

@@ -9,6 +9,7 @@ import numpy as np
 
 from exu_press.integrate.constraints import Constraints
 from exu_press.integrate.settings import Task
+from exu_press.integrate.start import start_rates
 
 __all__ = ["Event", "Sampling"]
 
@@ -32,7 +33,7 @@ class Sampling:
     def __init__(self, task: Task, constraints: Constraints, period: float) -> None:
         """Sample with a period, s; 0.0 calls the function before every step."""
         self._start, self._end, self._period = task.start, task.end, period
-        self._constraints = constraints
+        self._task, self._constraints = task, constraints
         self._called = -math.inf  # the end of the interval that was last called for, s
         self._looks = LOOKS if constraints.count else 0
 
@@ -50,13 +51,14 @@ class Sampling:
             if end == self._called:
                 return True
             self._called = end
-        if not self._looks or self._period <= 0.0:
-            return bool(function(mbs, end))
-        self._looks -= 1
-        before = self._constraints.violated()
+        looks = self._looks and self._period > 0.0
+        before = self._constraints.violated() if looks else None
         go_on = bool(function(mbs, end))
-        if not np.array_equal(before, self._constraints.violated()):
-            self._period = 0.0
+        if looks:
+            self._looks -= 1
+            if not np.array_equal(before, self._constraints.violated()):
+                self._period = 0.0
+        start_rates(self._task)
         return go_on
 
 

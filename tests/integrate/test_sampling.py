@@ -56,6 +56,33 @@ def test_a_controller_is_sampled_on_its_grid_and_its_output_is_held():
     assert velocity(mbs) == pytest.approx(expected, rel=1e-3)
 
 
+def test_a_pressure_whose_valve_is_set_on_the_grid_starts_with_its_new_rate():
+    """y' = u_k - y with u_k = +-1: with the old rate, each jump took steps by the dozen."""
+    mbs = exu.SystemContainer().AddSystem()
+    node = mbs.AddNode(
+        items.NodeGenericODE1(
+            referenceCoordinates=[0.0], initialCoordinates=[0.0], numberOfODE1Coordinates=1
+        )
+    )
+    tank = mbs.AddObject(
+        items.ObjectGenericODE1(nodeNumbers=[node], systemMatrix=[[-1.0]], rhsVector=[1.0])
+    )
+
+    def switch(mbs, time):
+        mbs.SetObjectParameter(tank, "rhsVector", [1.0 if round(time / PERIOD) % 2 else -1.0])
+        return True
+
+    mbs.SetPreStepUserFunction(switch)
+    mbs.Assemble()
+    outcome = solve_dynamic(mbs, settings(1.0), tolerance=1e-3, sample=PERIOD)
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
+    expected, part = 0.0, np.exp(-PERIOD)
+    for number in range(50):
+        expected = expected * part + (1.0 - part) * (-1.0 if number % 2 else 1.0)
+    assert mbs.systemData.GetODE1Coordinates()[0] == pytest.approx(expected, abs=1e-6)
+    assert outcome.steps + outcome.rejected_steps < 300
+
+
 def test_without_a_period_the_largest_step_is_one():
     """A switch that is on within a thousandth of a step of the grid's middle is not missed."""
     times = []

@@ -274,7 +274,10 @@ def test_constraints_that_a_pre_step_function_moves_are_named():
 
 
 def test_a_prescribed_motion_that_jumps_is_thought_of():
-    """Steps become too many, or too small, for a cable whose end is given another speed at once."""
+    """No step is short enough for a cable whose end is given another speed at once.
+
+    Until then it rests, in steps that rounding does not shorten.
+    """
     mbs = exu.SystemContainer().AddSystem()
     nodes, _ = cables(mbs, 2.1e8)
     hold(mbs, nodes[0], (0,))
@@ -284,14 +287,14 @@ def test_a_prescribed_motion_that_jumps_is_thought_of():
     ]
 
     def push(mbs, time, item, offset):
-        return max(0.0, time - 2e-4)
+        return max(0.0, time - 0.01)
 
     mbs.AddObject(items.ObjectConnectorCoordinate(markerNumbers=ends, offsetUserFunction=push))
     mbs.Assemble()
-    outcome = solve_dynamic(mbs, settings(4e-4), tolerance=1e-4, max_steps=3000)
-    stopped = SolverStatus.STEP_TOO_SMALL, SolverStatus.TOO_MANY_STEPS
-    assert outcome.status in stopped, outcome.reason
-    assert outcome.end_time == pytest.approx(2e-4, rel=0.05) and "without jumps" in outcome.reason
+    outcome = solve_dynamic(mbs, settings(0.02), tolerance=1e-4, max_steps=3000)
+    assert outcome.status is SolverStatus.STEP_TOO_SMALL, outcome.reason
+    assert outcome.end_time == pytest.approx(0.01) and "without jumps" in outcome.reason
+    assert outcome.steps < 150
 
 
 def test_a_start_that_does_not_fit_is_named_with_its_jump():
@@ -359,7 +362,7 @@ def test_an_equilibrium_is_at_rest(system, tolerance):
     system(mbs)
     outcome = solve_dynamic(mbs, settings(1.0), tolerance=tolerance)
     assert outcome.status is SolverStatus.COMPLETED, outcome.reason
-    assert outcome.steps < 600 and outcome.rejected_steps < 5
+    assert outcome.steps < 200 and outcome.rejected_steps < 5
     assert np.abs(mbs.systemData.GetODE2Coordinates_t()).max() < 1e-9
 
 

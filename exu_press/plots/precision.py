@@ -11,8 +11,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
+from exu_press.plots.file import save_figures
 from exu_press.plots.headed import headed_figure
-from exu_press.plots.save import save_figures
 from exu_press.plots.style import COLOURS, GREY, SHADE, colour_of, styled
 from exu_press.studies.precision import Report, Row
 from exu_press.studies.precision.measured import FIXED, TOLERANCE

@@ -3,10 +3,8 @@
 from collections.abc import Mapping
 from pathlib import Path
 
-from matplotlib.figure import Figure
-
 from exu_press.plots.energy import energy_figure
-from exu_press.plots.file import save_figure
+from exu_press.plots.file import save_figures
 from exu_press.plots.force import force_figure
 from exu_press.plots.orbit import orbit_figure
 from exu_press.plots.press import press_figure
@@ -14,7 +12,7 @@ from exu_press.plots.slider import slider_figure
 from exu_press.quantities.energy import has_balance
 from exu_press.result import Result
 
-__all__ = ["save_comparison", "save_figures", "save_pictures"]
+__all__ = ["save_comparison", "save_pictures"]
 
 
 def save_pictures(result: Result, directory: str | Path) -> list[Path]:
@@ -45,8 +43,3 @@ def save_comparison(results: Mapping[str, Result], directory: str | Path) -> lis
     """
     figures = {"compare_slider": slider_figure(results), "compare_force": force_figure(results)}
     return save_figures(figures, directory)
-
-
-def save_figures(figures: Mapping[str, Figure], directory: str | Path) -> list[Path]:
-    """Write figures by their names; return the files, NAME.png."""
-    return [save_figure(drawn, Path(directory) / f"{name}.png") for name, drawn in figures.items()]

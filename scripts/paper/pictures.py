@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from exu_press.plots import orbit_figure, slider_figure
-from exu_press.plots.save import save_figures
+from exu_press.plots.file import save_figures
 from exu_press.plots.style import COLOURS, RUN, styled
 from exu_press.result import Result
 from exu_press.scene import Scene

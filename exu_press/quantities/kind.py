@@ -8,7 +8,6 @@ __all__ = [
     "DIFFERENCE",
     "ENERGY",
     "FLOW",
-    "INSTANT",
     "LOAD",
     "MEASURE",
     "MOMENT",
@@ -76,9 +75,6 @@ allowed in all runs."""
 
 COUNT = Kind("count")
 """Is a whole number."""
-
-INSTANT = Kind("instant", has_error=False)
-"""Is an instant of a peak: two that are nearly as high may change places."""
 
 MEASURE = Kind("measure of error", has_error=False)
 """Says itself how good a run is."""

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from exu_press.errors import InputError
-from exu_press.schema.checks import Table, key, table_from
+from exu_press.schema.checks import Table, key
 
 __all__ = ["Measured", "under_of"]
 
@@ -56,8 +56,3 @@ def under_of(table: str, given: Any) -> dict[str, Any]:
         else:
             found[name] = value
     return found
-
-
-def measured_from(given: Any) -> Measured:
-    """Return one entry of [[measured]]."""
-    return table_from(Measured, "measured", given)

@@ -41,7 +41,9 @@ def _curves(told: dict[str, Any]) -> list[tuple[str, str, list[float | None]]]:
         (f"{name}, largest clearance", "m", joint["clearance"])
         for name, joint in told["joints"].items()
     ]
-    found += [(f"ways of {body}, depth", "m", depths) for body, depths in told["guides"].items()]
+    found += [
+        (f"guideways of {body}, depth", "m", depths) for body, depths in told["guides"].items()
+    ]
     for name, values in told["quantities"].items():
         known = declared(name)
         found.append((name, known.quantity.unit if known else "", values))

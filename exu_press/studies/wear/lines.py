@@ -41,6 +41,7 @@ def report_lines(report: Report) -> list[str]:
         f"halves differ by {1e6 * last.error:.2g} um in all"
     )
     lines += [
-        f"worn off the ways of {body}: {1e6 * depth:.3g} um" for body, depth in last.ways.items()
+        f"worn off the guideways of {body}: {1e6 * depth:.3g} um"
+        for body, depth in last.ways.items()
     ]
     return lines

@@ -66,6 +66,7 @@ def test_without_save_the_page_opens_in_the_browser(run, monkeypatch, capsys):
 
 def test_without_a_browser_the_page_is_named(run, monkeypatch, capsys):
     monkeypatch.setattr("webbrowser.open", lambda address: False)
+    monkeypatch.setattr("exu_press.cli.view.report_of", lambda *_: "a page")
     assert main(["view", str(run), "--quiet"]) == 2
     assert f"no browser can be opened here; open {run.parent}" in capsys.readouterr().err
 

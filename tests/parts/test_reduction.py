@@ -69,14 +69,14 @@ def test_static_bending_under_an_interface_load_is_exact(crank, crank_model):
 
 def test_static_error_falls_with_the_number_of_modes(crank, crank_model):
     load = middle_load(crank_model)
-    found = errors(crank, crank_model, load, "craig_bampton", (4, 8, 13, 20, 40))
+    found = errors(crank, crank_model, load, "craig_bampton", (4, 13, 40))
     assert all(a >= b >= 0.0 for a, b in itertools.pairwise(found)), found
-    assert found[-1] < 0.01 < found[2], found
+    assert found[-1] < 0.01 < found[1], found
 
 
 def test_free_modes_are_the_slower_way(crank, crank_model):
     load = bending_load(crank_model)
-    found = errors(crank, crank_model, load, "free", (2, 8, 20, 40))
+    found = errors(crank, crank_model, load, "free", (2, 8, 40))
     assert all(a > b > 0.0 for a, b in itertools.pairwise(found)), found
     assert found[-1] > 0.002, "static modes would not be worth having"
 

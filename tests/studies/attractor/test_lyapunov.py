@@ -15,6 +15,7 @@ FILM = Scene(
     mechanism="slider_crank",
     joints={"crank_pin": {"kind": "lubricated", "clearance": 1e-4, "radius": 0.03}},
     film={"length": 0.05, "viscosity": 0.1},
+    solver={"tolerance": 1e-2},
 )
 
 

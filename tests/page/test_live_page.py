@@ -176,12 +176,12 @@ def test_nothing_scrolls_sideways(report, browser):
             assert page.is_visible("#play") and page.is_visible("#figure-0")
 
 
-def test_paper_has_pictures(report, browser):
-    with opened(browser, report) as page:
-        assert not page.is_visible(".stills img")
-        page.emulate_media(media="print")
-        assert page.locator(".stills img").first.is_visible()
-        assert not page.is_visible("#viewer")
+def test_paper_has_pictures(page):
+    assert not page.is_visible(".stills img")
+    page.emulate_media(media="print")
+    assert page.locator(".stills img").first.is_visible()
+    assert not page.is_visible("#viewer")
+    page.emulate_media(media="screen")
 
 
 def test_it_runs_in_the_frame_of_a_notebook(report, tmp_path, browser):

@@ -27,10 +27,10 @@ SCENES = {
     "ideal": {"joints": {"crank_pin": "ideal"}, "revolutions": 0.5},
     "film": {
         "joints": {"crank_pin": {"kind": "lubricated", "clearance": 2e-5}},
-        "revolutions": 0.5,
+        "revolutions": 0.3,
     },
-    "dry": {"joints": {"crank_pin": "dry"}, "revolutions": 0.4},
-    "steps": {"revolutions": 0.2, "solver": {"step": 2e-5}},
+    "dry": {"joints": {"crank_pin": "dry"}, "revolutions": 0.3},
+    "steps": {"revolutions": 0.1, "solver": {"step": 2e-5}},
     "flexible": {
         "mechanism": "press",
         "joints": {"crank_pin": "dry"},

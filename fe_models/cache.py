@@ -68,7 +68,7 @@ def reduced_part(
     """Return a part reduced: from the cache if it is there and sound, made and stored otherwise.
 
     Args:
-        part: what is to be reduced.
+        part: to be reduced.
         reduction: how; 20 Craig-Bampton modes unless told.
         folder: of the cache; `default_folder()` unless told.
         report: called with (what is being done, share done) while it is made.

@@ -51,7 +51,7 @@ class Part:
 
     Attributes:
         name: in messages, and part of the cache's file name.
-        geometry: what the solid is.
+        geometry: of the solid.
         material: linear elastic.
         interfaces: the faces that joints and loads hold on to.
         mesh_size: largest edge of a tetrahedron, m.

@@ -34,7 +34,7 @@ def name_patches(
         shape: in m.
         patches: name -> which faces.
         held: names of faces that are held by others already.
-        where: what messages begin with.
+        where: begin of messages.
 
     Raises:
         InputError: a patch has no faces, or one that something else holds.

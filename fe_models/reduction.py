@@ -90,7 +90,7 @@ def reduce_part(part: Part, reduction: Reduction, report: Report | None = None) 
     """Mesh, assemble and reduce a part, whatever the cache holds.
 
     Args:
-        part: what is to be reduced.
+        part: to be reduced.
         reduction: how.
         report: called with (what is being done, share done).
 

@@ -43,7 +43,7 @@ def name_round_faces(shape: Any, axes: Mapping[str, Axis], where: str) -> None:
     Args:
         shape: in m.
         axes: name -> where the axis is, and what distinguishes the face.
-        where: what messages begin with.
+        where: begin of messages.
 
     Raises:
         InputError: an axis has no such face, several, or one that another axis has taken.

@@ -45,7 +45,7 @@ def study_command(
             runs a study and returns a report; its module `lines` has `report_lines`.
         kind: the class of its studies.
         figures: module and function of `exu_press.plots` that returns a report's figures by name.
-        written: what it writes beside pictures.
+        written: files that it writes beside pictures.
         example: of a call.
         add: adds arguments of its own.
         asked: checks these against the study, and returns them as keywords of lines and figures.

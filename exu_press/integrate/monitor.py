@@ -74,7 +74,7 @@ class Monitor:
         """Watch a run.
 
         Args:
-            task: what is solved.
+            task: to be solved.
             next_corner: time -> the next instant at which a load has a corner, s, or infinity.
             watch: is asked after every step why the run is to end there, or nothing.
             progress: is shown ten times a second.

@@ -72,7 +72,7 @@ class Node:
         name: in messages.
         start: index of the first of its coordinates among the system's.
         size: how many they are.
-        mass: what turns their kinetic energy into the square of a speed, kg; None where they are
+        mass: ratio of kinetic energy to the square of a speed, kg; None where they are
             not displacements: their own largest kinetic energy is the scale then. Infinite for what
             has no say.
         displacements: how many of its first coordinates are displacements.

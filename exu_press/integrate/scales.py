@@ -62,10 +62,10 @@ class FoundScales:
 
         Args:
             given: scales.
-            problem: what is solved.
+            problem: to be solved.
             longest: step, s.
             first: step, s.
-            stir: what rounded positions make of accelerations, times the step's square, over the
+            stir: accelerations due to rounded positions, times the step's square, over the
                 length.
             floor: the least scale of speeds, m/s.
         """

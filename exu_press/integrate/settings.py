@@ -87,16 +87,16 @@ class SolverTuning:
             spectral radius)^2, over the step's square, it is what alternates in accelerations.
             Measured at radii of 0.8 and 0.9 and steps of 2 and 10 us on a governor of rods and
             springs.
-        beside_joints: what a body's velocity may be off by in a step of a system with clearance
+        beside_joints: allowed error of a body's velocity in a step of a system with clearance
             joints, over what an eccentricity may.
-        penetration: what a penetration may be off by, over itself, as a part of what an
+        penetration: allowed error of a penetration, over itself, as a part of what an
             eccentricity in free flight may be off by over the clearance. The impact that ends a
             damped contact hands the error on a thousandfold.
         vibrating: of the tolerance, what a body's velocity may be off by in a step where impacts
             leave flexible bodies vibrating at their own frequencies, which the estimate takes for
             an error.
         vibrating_penetration: instead of `penetration` there.
-        modal_mass: what the modes' mass is changed by, over what keeps their frequencies
+        modal_mass: change of the modes' mass, over that which keeps their frequencies
             (`exu_press.integrate.modal_mass`).
         kept_steps: within so many of the usual longest steps, 45 degrees of the crank, errors that
             a film keeps may add up to the tolerance.
@@ -126,7 +126,7 @@ class Task:
     """A run as it is asked for.
 
     Attributes:
-        problem: what is solved.
+        problem: to be solved.
         solver: an exu.MainSolverImplicitSecondOrder, which is about to solve it.
         scales: of the motion.
         tuning: numbers.

@@ -224,7 +224,7 @@ def solve_dynamic(
             clearances; from 1e-8 to 0.1. None takes fixed steps of the settings' size.
         absolute: velocity, m/s: errors below it do not count, however small the largest speed. A
             vibration of a twentieth of it costs no steps.
-        scales: what errors are relative to, where they are not to be found from the motion.
+        scales: of errors, where they are not to be found from the motion.
         tuning: the numbers of step control, to vary them.
         controller: changes steps for their errors instead of `LimitedGrowth`, which has `safety`
             and `factor_max` of the tuning.
@@ -345,11 +345,11 @@ def _how_it_ended(
     """Return status and reason of a run.
 
     Args:
-        task: what was to be solved.
+        task: that was solved.
         monitor: of the run.
         advice: words for what to try.
         time: reached, s.
-        failure: what Exudyn said, if it failed.
+        failure: message of Exudyn, if it failed.
     """
     problem, smallest = task.problem, task.smallest
     gone = (time - task.start) / (task.end - task.start)

@@ -85,7 +85,7 @@ class StepChange:
 
         Args:
             accelerations: at the start.
-            rate: what constraints prescribe of their rate of change.
+            rate: prescribed rate of change of constraints.
         """
         self._given = accelerations, rate
 

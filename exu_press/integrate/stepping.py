@@ -32,7 +32,7 @@ class StepControl:
         """Control the steps of a task.
 
         Args:
-            task: what is solved.
+            task: to be solved.
             estimate: of the error of a step.
             next_corner: time -> the next instant at which a load has a corner, s, or infinity.
             controller: changes steps for their errors; `LimitedGrowth` unless given.

@@ -25,10 +25,10 @@ class State(TypedDict):
         accelerations: of the second-order coordinates.
         reference: place at which the second-order coordinates are zero; it goes with the start
             angle and, of flexible bodies, with the speed.
-        joints: what clearance joints and guideways remember: bristles, approach speeds, paths.
+        joints: memory of clearance joints and guideways: bristles, approach speeds, paths.
         clocks: memory of pulses and sheets of loads.
         films: temperature, deg C, and pressure, Pa, of films whose oil warms.
-        start_stop: what clutch, brake and their schedule remember; of a drive with a clutch.
+        start_stop: memory of clutch, brake and their schedule; of a drive with a clutch.
     """
 
     time: float

@@ -50,7 +50,7 @@ def study_viewer(
     """Return the live part of a study's page.
 
     Args:
-        keys: what varied.
+        keys: that varied.
         quantities: numbers of the runs.
         told: of each run, the text that opens with its point: how it is run again.
         first: columns of the picture at first, across and up; None: the first key and quantity.

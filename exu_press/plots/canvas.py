@@ -32,7 +32,7 @@ def new_figure(heading: str, results: Mapping[str, Result], size: tuple[float, f
 
     Args:
         heading: of the picture.
-        results: of what, by label.
+        results: by label.
         size: width and height, inch.
     """
     letters = int(12.5 * size[0])

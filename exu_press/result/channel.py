@@ -27,7 +27,7 @@ class Channel:
     Attributes:
         values: (n,), or (n, k) with one of AXES as columns, or (n, bodies, 3) for "pose".
         unit: SI.
-        long_name: what it is, in words.
+        long_name: its meaning in words.
         axis: name of the columns: in AXES, or BODY_mode for a flexible body's modes.
 
     Raises:

@@ -37,7 +37,7 @@ class Declared:
         name: in braces what it belongs to, one of PLACES; nothing in braces is the whole run's.
         unit: SI.
         meaning: in words; in braces its place, and which `way` is positive.
-        axis: what its columns are, see `exu_press.result.channel.AXES`, or VECTOR.
+        axis: meaning of its columns, see `exu_press.result.channel.AXES`, or VECTOR.
         always: whether all runs with such a place have it.
         unless: which runs do not have it.
     """

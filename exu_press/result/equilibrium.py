@@ -32,7 +32,7 @@ def equilibrium(
         motions: of every body.
         channels: with the loads and the forces of all joints that hold a coordinate or have
             clearance.
-        states: what each clearance joint did; ideal ones have no moment.
+        states: motion and force of each clearance joint; ideal ones have no moment.
     """
     found: dict[str, Channel] = {}
     guides = {guide.body: guide for guide in model.mechanism.guides}

@@ -26,7 +26,7 @@ class Compared:
         name: dotted.
         value: of the run, in the figure's unit.
         true: of the more accurate one.
-        reading: what reading it leaves open of `true`.
+        reading: error of `true` by its reading.
         told: what the run states.
     """
 

@@ -50,7 +50,7 @@ def refined(
     """Run a scene, and run it again at finer tolerances while that helps and the budget lasts.
 
     Args:
-        scene: what to simulate.
+        scene: to be simulated.
         start: state of another run, from which it goes on.
         unfinished: directory in which the run is while it goes on, see `simulate`.
         quiet: False shows the progress.

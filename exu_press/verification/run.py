@@ -58,7 +58,7 @@ def simulate_with_errors(
     """Simulate, with refinement runs.
 
     Args:
-        scene: what to simulate.
+        scene: to be simulated.
         start: state of another run, from which this one and its refinements go on.
         unfinished: directory in which the run is while it goes on, see `simulate`.
         quiet: False shows the progress.

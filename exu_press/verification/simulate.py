@@ -22,7 +22,7 @@ def simulate(
     """Build a scene's model, advance it to its end or an early stop, and return what came out.
 
     Args:
-        scene: what is asked.
+        scene: to be simulated.
         errors: whether every quantity gets its error, by refinement runs: runs of the scene at
             other tolerances, which take about as long as the run itself.
         start: `info["state"]` of another run, from whose end this one goes on, for as long as the

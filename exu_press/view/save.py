@@ -70,7 +70,7 @@ def save_animation(
     """Write all frames; return the files. An existing one is replaced only when complete.
 
     Args:
-        animation: what to draw.
+        animation: to be drawn.
         path: .mp4 (needs ffmpeg), .gif, or .png with the frame's number, as in frame_%04d.png.
         report: called with the number of frames done.
 

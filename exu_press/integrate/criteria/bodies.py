@@ -19,7 +19,7 @@ class BodyError:
     Attributes:
         change: of the accelerations' rate, by the step last tried, in SI over seconds.
         rate: of the accelerations' change, in the step last tried.
-        noise: what rounded positions make of accelerations, times the step's square, m.
+        noise: accelerations due to rounded positions, times the step's square, m.
         turning: angle by which velocities are to turn yet, rad: `Turning`.
         velocities: of all coordinates, where they are to turn by more than a radian.
     """
@@ -37,10 +37,10 @@ class BodyError:
 
         Args:
             accelerations: of all coordinates, at the beginning of the first step.
-            per_step: what a velocity may be off by in one step, over the scale of speeds.
+            per_step: allowed error of a velocity in one step, over the scale of speeds.
             scales: of the motion, which knows the bodies.
             tuning: numbers.
-            noise: what rounded positions make of accelerations, times the step's square, m.
+            noise: accelerations due to rounded positions, times the step's square, m.
             tolerance: of the run.
         """
         self._scales, self._per_step, self._tolerance = scales, per_step, tolerance
@@ -85,7 +85,7 @@ class BodyError:
         Args:
             change: in SI over seconds.
             step: s.
-            left: what its constraints leave open of positions, m.
+            left: position error that its constraints leave, m.
         """
         noise = max(self.noise, left)
         missed = self._constant * step * step

@@ -30,7 +30,7 @@ class Curvature:
         Args:
             bodies: whose accelerations they are.
             scales: of the motion.
-            noise: what rounded positions make of accelerations, times the step's square, m.
+            noise: accelerations due to rounded positions, times the step's square, m.
             tolerance: of the run.
             absolute: errors of velocities below it do not count, m/s.
         """

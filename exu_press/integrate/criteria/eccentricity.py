@@ -33,7 +33,7 @@ class JointError:
             drift: the same over the step, m/s, where a film alone lies between the surfaces: it
                 keeps what each step leaves, always on the same side, so that errors add up.
             rounding: of positions, as it alternates, m; no error below it counts as 1.
-            penetration: what that may be off by, over itself, as a part of the same of an
+            penetration: its allowed error, over itself, as a part of the same of an
                 eccentricity, over the clearance.
         """
         self._joint = joint
@@ -47,7 +47,7 @@ class JointError:
 
         Args:
             step: s.
-            left: what its constraints leave open of positions, m.
+            left: position error that its constraints leave, m.
         """
         joint, rounding = self._joint, max(self._rounding, left)
         place = joint.eccentricity

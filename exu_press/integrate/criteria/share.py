@@ -20,7 +20,7 @@ class ErrorPerStep:
     is usual. First-order coordinates relax, and their errors are of either sign: the root of that.
 
     Attributes:
-        whole: what a step may have in a run of a usual number of steps.
+        whole: error that a step may have in a run of a usual number of steps.
         shortest: step of such a run, s; 0.0 lets all steps have the whole.
     """
 

@@ -38,7 +38,7 @@ class Turning:
         """Follow the bodies of a system.
 
         Args:
-            problem: what is solved.
+            problem: to be solved.
             scales: of the motion.
             duration: of the run, s.
             foreseen: over the time so far, for how long the motion is believed to go on likewise.

@@ -35,7 +35,7 @@ class Period:
         revolutions: the least number; None where there is none up to `most`, or it is not told.
         told: whether the points tell it: False where the error is too large, or the motion has not
             settled.
-        why: what keeps it from being told, or nothing.
+        why: reason why it cannot be told, or nothing.
         most: up to which number was looked.
         distances: (most,) largest distance of points 1, 2, ... revolutions apart.
         error: of a point, by which they were judged.

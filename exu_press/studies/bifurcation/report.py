@@ -41,7 +41,7 @@ class Report:
     """The result.
 
     Attributes:
-        study: what was asked.
+        study: whose report this is.
         branches: one or two, for each value of the second key.
     """
 

@@ -32,7 +32,7 @@ def bifurcation(
     key. After a value whose run failed, the next one starts as the scene does.
 
     Args:
-        study: what is asked.
+        study: to be run.
         directory: of this study alone.
         workers: number of processes; all cores unless told.
         dask: address of a Dask scheduler instead.

@@ -33,7 +33,7 @@ class Curve(Table):
         low_cut, high_cut: corner frequencies of the sensor's band, Hz: a number, or two between
             which it is unknown; both filters are of second order (Butterworth).
         under: keys of the scene that differ where it was measured -> their values.
-        measured: what the file has.
+        measured: data of the file.
 
     Raises:
         InputError: not allowed.
@@ -140,7 +140,7 @@ def matched(curve: Curve, wanted: Array, at: Array, computed: Array) -> Matched 
     projection: G. Golub, V. Pereyra, Inverse Problems 19 (2003) R1-R26).
 
     Args:
-        curve: what was measured, and what is unknown of the sensor.
+        curve: measured data, and unknowns of the sensor.
         wanted: measured values, SI, (m,).
         at: where the run has values, (n,), increasing.
         computed: there, (n,).

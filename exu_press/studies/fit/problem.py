@@ -28,7 +28,7 @@ class Problem:
     """The residuals of a fit.
 
     Attributes:
-        study: what is asked.
+        study: to be run.
         evaluation: its runs.
     """
 

@@ -34,13 +34,13 @@ class Report:
     """The result of a fit; keys in the study's order.
 
     Attributes:
-        study: what was asked.
+        study: whose report this is.
         values: key -> best value.
         low, high: key -> ends of its interval.
         open: key -> whether its low and its high end are those of its range.
         minima: other minima too, best first.
         lost: starts that led nowhere.
-        determined: what the measurement tells.
+        determined: identifiability of the keys.
         effect: change of all residuals over a key's whole range, (keys,).
         profiles: key -> its values and chi-square above the least, (points, 2).
         count: independent numbers less the sensors' parameters.
@@ -142,7 +142,7 @@ def fit(study: Fit, directory: str | Path, **how: Any) -> Report:
     Called again after a kill or Ctrl-C, it goes on.
 
     Args:
-        study: what is asked.
+        study: to be run.
         directory: of this study alone.
         how: workers, dask, quiet of `exu_press.studies.base.Runs`.
 
@@ -171,7 +171,7 @@ def fitted(problem: Problem, checked: Any) -> Report:
     """Search, look for the intervals, and search again where these met a better point.
 
     Args:
-        problem: what is fitted.
+        problem: to be fitted.
         checked: returns the rows with errors at a scaled point, one for each place of measuring.
 
     Raises:

@@ -87,7 +87,7 @@ class Report:
     """The result of an optimisation.
 
     Attributes:
-        study: what was asked.
+        study: whose report this is.
         method: of the search.
         why: it was taken.
         trials: all points.
@@ -151,7 +151,7 @@ def optimise(study: Optimise, directory: str | Path, **how: Any) -> Report:
     Called again after a kill or Ctrl-C, it goes on.
 
     Args:
-        study: what is asked.
+        study: to be run.
         directory: of this study alone.
         how: workers, dask, quiet of `exu_press.studies.base.Runs`.
 

@@ -82,8 +82,8 @@ class Optimise(Study):
     """An optimum's file, complete.
 
     Attributes:
-        objective: what is wanted.
-        limit: what must be kept.
+        objective: quantities to be made small or large.
+        limit: limits of quantities.
         optimise: how it is searched.
 
     Raises:

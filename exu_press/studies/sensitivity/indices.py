@@ -44,9 +44,9 @@ class Indices:
     """Shares of one quantity's variance by key, (k,), each with the bounds of its interval (k, 2).
 
     Attributes:
-        first: what a key explains alone.
+        first: share that a key explains alone.
         first_bounds: of it.
-        total: what a key explains with all its interactions.
+        total: share that it explains with all its interactions.
         total_bounds: of it.
     """
 

@@ -27,7 +27,7 @@ class Report:
     """The result of a sensitivity study; quantities and keys in the study's order.
 
     Attributes:
-        study: what was asked.
+        study: whose report this is.
         sample: values at the sampled points.
         indices: of each quantity; None of one that does not move.
         spreads: of each quantity.
@@ -97,7 +97,7 @@ def sensitivity(study: Sensitivity, directory: str | Path, **how: Any) -> Report
     Called again after a kill or Ctrl-C, it goes on.
 
     Args:
-        study: what is asked.
+        study: to be run.
         directory: of this study alone.
         how: workers, dask, quiet of `exu_press.studies.base.Runs`.
 

@@ -49,7 +49,7 @@ class Sensitivity(Study):
     """A sensitivity study's file, complete.
 
     Attributes:
-        sensitivity: what is asked.
+        sensitivity: its settings.
     """
 
     tables = MappingProxyType({"sensitivity": Asked})

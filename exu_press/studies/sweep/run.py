@@ -26,7 +26,7 @@ def sweep(
     Called again after a kill or Ctrl-C, it goes on; see `exu_press.parallel.Batch`.
 
     Args:
-        study: what to run.
+        study: to be run.
         directory: of this study alone.
         workers: number of processes; all cores unless told.
         dask: address of a Dask scheduler instead.

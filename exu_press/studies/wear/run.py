@@ -60,7 +60,7 @@ class Report:
     """The course of wear, and how it ended.
 
     Attributes:
-        study: what was asked.
+        study: whose report this is.
         points: from the start on.
         reason: why it ended before all strokes were done; empty where they are.
     """
@@ -135,7 +135,7 @@ def wear(
     tolerance; the next jump follows from it.
 
     Args:
-        study: what is asked.
+        study: to be run.
         directory: of this study alone.
         workers: number of processes; a run needs the one before, so that more than one is idle.
         dask: address of a Dask scheduler instead.

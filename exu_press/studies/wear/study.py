@@ -53,7 +53,7 @@ class WearStudy(Study):
     """A wear study's file, complete: a scene with [wear], and how many strokes.
 
     Attributes:
-        wear: what is asked.
+        wear: its settings.
 
     Raises:
         InputError: nothing in the scene wears, its runs are shorter than a revolution, or keys are

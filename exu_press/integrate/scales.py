@@ -111,6 +111,20 @@ class FoundScales:
                 weighed = math.hypot(*(mass for mass in masses if mass < math.inf))
                 self.force = max(self.force, weighed * self._stir * known / self._longest**2)
 
+    def lightest(self) -> float:
+        """Return how much less a force moves the lightest coordinate as much as the heaviest.
+
+        By sqrt(J m) of each, as a force F on it gives the body F / sqrt(J m) in the kinetic norm.
+        """
+        found = [
+            math.sqrt(inertia * mass)
+            for node, mass, own in zip(self._problem.nodes, self.masses, self._own, strict=True)
+            if not own and mass < math.inf
+            for inertia in self.inertias[node.start : node.start + node.size]
+            if inertia > 0.0
+        ]
+        return min(found) / max(found) if found else 1.0
+
     @property
     def resting(self) -> bool:
         """Return whether it moves by less than a billionth of its length in the longest step."""

@@ -25,6 +25,9 @@ PATIENCE = 4
 LONGEST_PAUSE = 64
 """Steps without another try to keep a Jacobian."""
 
+FEW = 12
+"""Coordinates up to which floats are faster than NumPy's arrays."""
+
 REACH = 2.0
 """Over the last step, how far ahead its rate of change is believed by the predictor."""
 
@@ -37,6 +40,9 @@ class Newton:
     and lasting contacts start from the force that held them. So do constraints.
 
     A thin film answers the last digit of a speed with newtons: no iteration balances forces better.
+    And what is left of a force moves light coordinates most, as the slopes of a cable's ends: their
+    accelerations, carried on from step to step, drifted until steps were too small by a thousand.
+    So forces are balanced to as much less as the lightest inertia is below the heaviest.
 
     Euler parameters must have unit length, and the constraints' directions that Exudyn gives
     Newton's method are right on the unit sphere only: where the expected state leaves it, an
@@ -51,6 +57,7 @@ class Newton:
         self._solver, self._joints, self._scales = task.solver, problem.joints, task.scales
         self._mbs, self._reference = problem.mbs, problem.reference
         self._part = BALANCE * task.tolerance
+        self._smooth = problem.joints is None and not task.fixed
         self._rounding = task.tuning.rounding
         self._jacobian: FlexibleJacobian | LastingJacobian | None = None
         if problem.modal_stiffness:
@@ -62,6 +69,12 @@ class Newton:
         self._accelerations, self._multipliers = current.accelerations, current.multipliers
         self._multipliers_before = problem.start.multipliers
         size = len(current.positions)
+        self._few = size if size <= FEW else 0
+        self._state: tuple[Any, Any, Any] = (
+            current.positions.data,
+            current.velocities.data,
+            current.accelerations.data,
+        )
         self._expected, self._change = np.zeros(size), np.zeros(size)
         self._floats: Any = self._expected.data  # to get or set one takes a third of the time
         self._by = np.zeros(())  # arrays are multiplied by it in a third of a float's time
@@ -75,6 +88,7 @@ class Newton:
                 self._quaternions.append((first, reference, current.positions[four]))
         self._ratio = self._beta = self._gamma = 0.0
         self._now, self._rate = np.zeros(size), np.zeros(size)  # at the last step's end, over it
+        self._in_floats: tuple[Any, Any] = self._now.data, self._rate.data
         self._last = 0.0  # size of the last step, s
         self._given = 0.0  # Newton's absolute tolerance of the settings, N
         self._accepted = 0.0  # now, N
@@ -85,10 +99,19 @@ class Newton:
         self._ratio = (1.0 - solver.alphaF) / (1.0 - solver.alphaM)
         self._beta, self._gamma = solver.newmarkBeta, solver.newmarkGamma
         self._given = self._accepted = solver.newton.absoluteTolerance
+        if self._smooth:
+            self._part *= self._scales.lightest()
         self._now[:] = self._accelerations
 
     def stepped(self, step: float) -> None:
         """Be told that the current state is the end of an accepted step (s)."""
+        if self._few:
+            (now, rate), accelerations = self._in_floats, self._state[2]
+            for i in range(self._few):
+                value: float = accelerations[i]
+                rate[i], now[i] = (value - now[i]) / step, value
+            self._last = step
+            return
         np.subtract(self._accelerations, self._now, self._rate)
         self._by.fill(step)
         np.divide(self._rate, self._by, self._rate)
@@ -137,6 +160,9 @@ class Newton:
 
         As Newton's method adds an increment of them.
         """
+        if self._few:
+            self._advance_few(step)
+            return
         expected, change, by = self._expected, self._change, self._by
         by.fill(min(step, REACH * self._last))
         np.multiply(self._rate, by, expected)
@@ -151,6 +177,23 @@ class Newton:
         self._velocities += change
         self._accelerations[:] = expected
         self._multipliers[:] = self._multipliers_before
+
+    def _advance_few(self, step: float) -> None:
+        """Do the same for few coordinates: floats take a part of what it takes to call NumPy."""
+        (now, rate), expected = self._in_floats, self._floats
+        ahead = min(step, REACH * self._last)
+        for i in range(self._few):
+            expected[i] = rate[i] * ahead + now[i]
+        by_q, by_v = step * step * self._ratio * self._beta, step * self._ratio * self._gamma
+        self._put_on_the_sphere(by_q)
+        positions, velocities, accelerations = self._state
+        for i in range(self._few):
+            value: float = expected[i]
+            positions[i] += value * by_q
+            velocities[i] += value * by_v
+            accelerations[i] = value
+        if len(self._multipliers):
+            self._multipliers[:] = self._multipliers_before
 
     def _put_on_the_sphere(self, by_q: float) -> None:
         """Change expected accelerations to those with which Euler parameters have unit length."""

@@ -85,3 +85,11 @@ def test_rounding_alternates_by_the_spectral_radius():
     found = scales(bodies(None), [2.0, 2.0, 0.5], [0.0] * 3)
     assert found.alternating(1e-15, 0.8 / 1.8) == pytest.approx(1e-15 * 2.0 * 25.0)
     assert found.alternating(1e-15, 0.5) == pytest.approx(1e-15 * 2.0 * 400.0)
+
+
+def test_forces_count_by_what_they_move_a_body():
+    """A node of 2 kg, 2 kg and 0.5 kg m2, beside one of 8 kg and one without a say."""
+    nodes = [*bodies(None), Node(3, "pin", 3, 1, mass=None, displacements=1)]
+    nodes.append(Node(4, "frame", 4, 1, mass=np.inf))
+    found = scales(nodes, [2.0, 2.0, 0.5, 8.0, 1e-6], [0.0] * 5)
+    assert found.lightest() == pytest.approx(np.sqrt(0.5 * 2.0) / 8.0)

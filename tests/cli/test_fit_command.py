@@ -44,6 +44,7 @@ def test_lines_and_pictures(tmp_path, capsys):
         assert (tmp_path / "out" / name).stat().st_size > 10_000
 
 
+@pytest.mark.long
 def test_a_number_that_no_values_give_is_told(tmp_path, capsys):
     """As many keys as numbers: chi-square has no degree of freedom, and is not small."""
     of_rod, of_shaft = STUDY.index("slider_crank.rod_inertia"), STUDY.rindex("[[measured]]")

@@ -137,6 +137,7 @@ def test_the_figures_are_printed_before_the_pictures_are_drawn(tmp_path, capsys,
     assert capsys.readouterr().out.startswith("written: ")
 
 
+@pytest.mark.long
 def test_a_run_that_is_not_known_goes_on_unless_it_is_to_run_once(tmp_path, capsys):
     """A dry press at a coarse tolerance: the first run's figures are not within 5 %."""
     coarse = ["joints.crank_pin=dry", "solver.tolerance=5e-2", "revolutions=0.3"]

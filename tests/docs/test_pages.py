@@ -14,6 +14,8 @@ import exu_press
 ONE_BY_ONE = pages.blocks_of(pages.ROOT / "README.md")
 README_BLOCKS = [b for b in ONE_BY_ONE if b.language in ("sh", "python", "toml")]
 
+SLOW = ("built_press", "own_part", "pandas", "press_builders", "see")
+"""Pages whose short blocks take more than six seconds together."""
 
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)? *")
 
@@ -29,7 +31,11 @@ def test_both_setup_commands_stand_in_the_readme():
     assert any(line.endswith("pytest") for line in starts)
 
 
-@pytest.mark.parametrize("page", pages.PAGES, ids=name)
+@pytest.mark.parametrize(
+    "page",
+    [pytest.param(p, marks=pytest.mark.long) if p.stem in SLOW else p for p in pages.PAGES],
+    ids=name,
+)
 def test_page(page, tmp_path):
     for block in pages.blocks_of(page):
         if not block.long:

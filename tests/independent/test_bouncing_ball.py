@@ -133,6 +133,7 @@ def bounces_once_a_period(gamma, e, periods):
     return np.abs(points - [middle, 0.0]).max() < 0.1  # of the table's; a contact takes time
 
 
+@pytest.mark.long
 def test_period_one_begins_within_a_hundredth():
     """Below, the ball comes to rest on the table in every period, and is thrown off again."""
     begins, _ = starts_at(0.5)

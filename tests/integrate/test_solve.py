@@ -432,7 +432,11 @@ def pushed(force, mass=1.0):
     ("build", "reason"),
     [
         (triangle, "at t = 0 s: 1 constraint says the same as others"),
-        (bricard, "1 constraint says the same as others.*ignoreSingularJacobian"),
+        pytest.param(
+            bricard,
+            "1 constraint says the same as others.*ignoreSingularJacobian",
+            marks=pytest.mark.long,
+        ),
         (pushed(lambda mbs, time, load: np.nan if time > 0.1 else 1.0), "t = 0.1 s.* on ram"),
         (pushed(lambda mbs, time, load: 1.0, mass=0.0), r"without mass \(ram\)"),
     ],

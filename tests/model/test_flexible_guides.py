@@ -197,6 +197,7 @@ def load_of(force, length=LENGTH):
 STILL = {"gravity": 0.0, "speed_rpm": 1e-3, "start_angle_deg": 1.0}
 
 
+@pytest.mark.long
 def test_a_force_compresses_it_as_all_finite_elements(slider):
     """With the pin's mean motion held upright and the guide's across and about z."""
     asked = slider(load=load_of(1e4), **STILL)

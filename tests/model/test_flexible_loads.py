@@ -85,6 +85,7 @@ def deflection(rocker):
     return bent(rocker)
 
 
+@pytest.mark.long
 def test_the_tip_bends_as_all_finite_elements_and_as_a_beam(rocker, deflection):
     bores = {"pivot": 0.0, "knuckle": LENGTH}
     ends = {name: Axis((AT, y), radius=0.2 * SIDE) for name, y in bores.items()}

@@ -53,6 +53,7 @@ def test_thinning_keeps_extremes_and_vectors():
     assert (np.diff(thinned.kept) >= 0).all() and thinned.kept[-1] == 1002
 
 
+@pytest.mark.long
 def test_a_part_of_a_long_run_has_every_step(press, tmp_path, browser):
     run = repeated(press, 50)
     begin, end = 7.0, 7.25

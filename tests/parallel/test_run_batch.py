@@ -167,6 +167,7 @@ print(before, peak(), *(row["megabytes"] for row in rows))
 """
 
 
+@pytest.mark.long
 def test_a_thousand_runs_hold_memory_flat(tmp_path):
     code = f"import sys; sys.path[:] = {sys.path!r}\n" + THOUSAND.format(tmp_path)
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120)

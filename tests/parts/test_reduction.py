@@ -74,6 +74,7 @@ def test_static_error_falls_with_the_number_of_modes(crank, crank_model):
     assert found[-1] < 0.01 < found[1], found
 
 
+@pytest.mark.long
 def test_free_modes_are_the_slower_way(crank, crank_model):
     load = bending_load(crank_model)
     found = errors(crank, crank_model, load, "free", (2, 8, 40))

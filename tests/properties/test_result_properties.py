@@ -150,6 +150,7 @@ def test_a_mutated_file_is_a_result_or_an_input_error(data, files, tmp_path):
     json.dumps(result.summary(), allow_nan=False)
 
 
+@pytest.mark.long
 @settings(max_examples=4, phases=[Phase.generate], **RUNS)
 @given(data=st.data(), command=st.sampled_from(["view", "report"]))
 def test_a_mutated_file_is_shown_or_refused(data, command, files, tmp_path, capsys):

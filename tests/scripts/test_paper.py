@@ -26,6 +26,7 @@ def read(directory):
     return json.loads((directory / "paper.json").read_text())
 
 
+@pytest.mark.long
 def test_every_published_number_has_ours_with_its_error_and_a_verdict(directory):
     report = read(directory)
     head, *rows = report["tables"]["numbers"]
@@ -41,6 +42,7 @@ def test_every_published_number_has_ours_with_its_error_and_a_verdict(directory)
         assert all(row["status"] == "completed" for row in runs.values())
 
 
+@pytest.mark.long
 def test_the_almost_undamped_contact_hides_no_peaks_between_samples(directory):
     tables = read(directory)["tables"]
     damped, undamped = (
@@ -54,6 +56,7 @@ def test_the_almost_undamped_contact_hides_no_peaks_between_samples(directory):
         assert hidden[0] > 3.0 * hidden[1] and seen[0] < 1.1 * seen[1]
 
 
+@pytest.mark.long
 def test_what_moves_the_numbers_and_the_clearance_to_choose(directory):
     tables = read(directory)["tables"]
     changes = {row[0]: row for row in tables["peak acceleration, m/s², rigid bodies, one change"]}

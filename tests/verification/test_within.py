@@ -24,6 +24,7 @@ def test_the_tolerance_delivers_and_is_no_finer():
     assert found.tolerance > COARSE * 1e-5
 
 
+@pytest.mark.long
 def test_where_no_tolerance_delivers_the_distribution_is_told(monkeypatch):
     few = functools.partial(distributions, least=7, most=7)
     monkeypatch.setattr(within, "distributions", few)

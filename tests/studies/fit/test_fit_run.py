@@ -50,6 +50,7 @@ def test_masses_are_found_from_forces(tmp_path):
     assert again.to_dict() == report.to_dict()
 
 
+@pytest.mark.long
 def test_differential_evolution_comes_near_too(tmp_path):
     given = {"method": "differential_evolution", "generations": 6}
     report = fit(study(fit=given), tmp_path, workers=1)
@@ -57,6 +58,7 @@ def test_differential_evolution_comes_near_too(tmp_path):
     assert report.low[SLIDER] < 1250.0 < report.high[SLIDER]
 
 
+@pytest.mark.long
 def test_a_key_without_effect_is_named(tmp_path):
     keys = {
         SLIDER: KEYS[SLIDER],
@@ -91,6 +93,7 @@ def test_two_keys_that_act_as_one_are_named(tmp_path):
     assert product == pytest.approx(1250.0 * 9.81, rel=0.01)
 
 
+@pytest.mark.long
 def test_a_curve_through_a_sensor(tmp_path):
     """The sensor's zero, clock and upper corner are unknown; the spring's force is found."""
     time = np.linspace(0.01, 0.11, 60)

@@ -21,6 +21,7 @@ def study(**changes):
     return Sensitivity(scene=SCENE, keys=KEYS, sensitivity=asked)
 
 
+@pytest.mark.long
 def test_the_stroke_is_twice_the_crank(tmp_path):
     report = sensitivity(study(), tmp_path, workers=1)
     spread, found = report.spreads[0], report.indices[0]

@@ -52,7 +52,7 @@ class Sampling:
                 return True
             self._called = end
         looks = self._looks and self._period > 0.0
-        before = self._constraints.violated() if looks else None
+        before = self._constraints.violated() if looks else np.empty(0)
         go_on = bool(function(mbs, end))
         if looks:
             self._looks -= 1

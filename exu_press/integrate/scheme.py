@@ -19,6 +19,9 @@ __all__ = ["FlexibleJacobian", "LastingJacobian", "Newton"]
 BALANCE = 0.2
 """Part of the usual forces, over the tolerance, to which Newton's method balances them."""
 
+LIGHTER = 10.0
+"""Ratio of inertias up to which the same balance of forces does for all coordinates."""
+
 PATIENCE = 4
 """Newton iterations after which rounding is thought of; most steps take one or two."""
 
@@ -42,7 +45,7 @@ class Newton:
     A thin film answers the last digit of a speed with newtons: no iteration balances forces better.
     And what is left of a force moves light coordinates most, as the slopes of a cable's ends: their
     accelerations, carried on from step to step, drifted until steps were too small by a thousand.
-    So forces are balanced to as much less as the lightest inertia is below the heaviest.
+    So forces are balanced to as much less as the lightest inertia is below a tenth of the heaviest.
 
     Euler parameters must have unit length, and the constraints' directions that Exudyn gives
     Newton's method are right on the unit sphere only: where the expected state leaves it, an
@@ -100,7 +103,7 @@ class Newton:
         self._beta, self._gamma = solver.newmarkBeta, solver.newmarkGamma
         self._given = self._accepted = solver.newton.absoluteTolerance
         if self._smooth:
-            self._part *= self._scales.lightest()
+            self._part *= min(1.0, LIGHTER * self._scales.lightest())
         self._now[:] = self._accelerations
 
     def stepped(self, step: float) -> None:

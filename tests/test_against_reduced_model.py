@@ -91,7 +91,9 @@ def test_reference_is_converged_where_dry():
     assert radau("none", 1e-8) == pytest.approx(radau("none", 1e-7), abs=1e-8)
 
 
-@pytest.mark.parametrize("law", ["none", "lugre_steady", "lugre"])
+@pytest.mark.parametrize(
+    "law", ["none", pytest.param("lugre_steady", marks=pytest.mark.long), "lugre"]
+)
 def test_slider_position_where_dry(law):
     """Within 5e-6 m; 1e-6 m is attained throughout (1e-7 .. 3e-7).
 
@@ -103,6 +105,7 @@ def test_slider_position_where_dry(law):
     assert np.abs(error).max() < 1e-6
 
 
+@pytest.mark.long
 def test_slider_position_where_dry_with_strong_friction_and_a_soft_bristle():
     """Ten times the friction and a bristle as slow as the step (6e-5 s)."""
     friction = tuple(STRONG_FRICTION.items())

@@ -57,6 +57,7 @@ def test_the_balance_knows_that_the_frame_of_a_bending_crank_tilts():
     assert simulate(scene).quantity("energy.residual").value < 3e-5
 
 
+@pytest.mark.long
 def test_ten_thousand_times_stiffer_it_approaches_the_rigid_press():
     """After the start has died away the ideal press bends with 1/E."""
     scene = Scene(joints={}, revolutions=0.1, start_angle_deg=60.0, solver={"step": 1e-4})

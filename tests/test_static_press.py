@@ -80,6 +80,7 @@ def test_pin_deflection_is_that_of_the_solid(crank_model, force):
     assert moved == pytest.approx(pin_moves(crank_model, force), rel=1e-4, abs=1e-9)
 
 
+@pytest.mark.long
 def test_a_force_at_the_slider_moves_it_as_the_solids_give_way(crank_model):
     scene = Scene(
         joints={}, bodies=flexible_press(mesh_size=MESH), gravity=0.0,

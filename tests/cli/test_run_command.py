@@ -114,6 +114,7 @@ def test_compare_shows_the_variants_side_by_side(tmp_path, capsys):
         assert (tmp_path / label / "run.nc").exists()
 
 
+@pytest.mark.long
 def test_compare_of_a_flexible_scene_has_rigid_ones_beside(tmp_path):
     arguments = ["--set", "bodies.linkage=linkage", "--set", "revolutions=0.005"]
     quick = ["--no-pictures", "--no-error", "--quiet", "--out", str(tmp_path)]

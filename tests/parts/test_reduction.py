@@ -92,6 +92,7 @@ def test_modes_are_mass_normal_and_free_of_rigid_motion(linkage, linkage_model, 
     assert modes.T @ (mass @ rigid) == pytest.approx(np.zeros((20, 6)), abs=1e-10)
 
 
+@pytest.mark.long
 def test_frequencies_fall_towards_those_of_the_free_body(crank, crank_model):
     free = reduce_model(crank, crank_model, Reduction(10, "free", stress=False)).frequencies[:3]
     found = [

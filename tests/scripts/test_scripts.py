@@ -22,7 +22,7 @@ def test_help_is_all_that_help_does(script, tmp_path, monkeypatch, capsys):
 @pytest.mark.parametrize(
     ("script", "options", "expected"),
     [
-        ("benchmark_modes.py", [], "ratio"),
+        pytest.param("benchmark_modes.py", [], "ratio", marks=pytest.mark.long),
         pytest.param(
             "flexible_convergence.py",
             ["--out", "convergence"],

@@ -19,6 +19,7 @@ def test_sweep(name, runs, tmp_path):
     assert (tmp_path / lines[-1]).stat().st_size > 10_000
 
 
+@pytest.mark.long
 def test_benchmark(tmp_path):
     lines = run("benchmark_sweep.py", tmp_path).splitlines()
     assert [line[:18].strip() for line in lines[2:]] == [

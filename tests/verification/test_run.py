@@ -41,7 +41,9 @@ SCENES = {
 }
 
 
-@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize(
+    "name", [pytest.param(n, marks=pytest.mark.long) if n == "flexible" else n for n in SCENES]
+)
 def test_stated_errors_cover_the_true_ones(name):
     """Of at least nineteen in twenty figures, against a hundredth of the tolerance."""
     scene = Scene.from_dict({"mechanism": "slider_crank", **SCENES[name]})

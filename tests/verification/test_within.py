@@ -13,6 +13,7 @@ from exu_press.verification.within import COARSE, deliver
 NAME = "peak_acceleration.resolved"
 
 
+@pytest.mark.long
 def test_the_tolerance_delivers_and_is_no_finer():
     scene = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=0.03)
     fine = scene.replace("solver.tolerance", 1e-5)

@@ -92,6 +92,7 @@ def lubricated():
     return attractor(FILM, revolutions=20, skip=2, most=4)
 
 
+@pytest.mark.long
 def test_a_lubricated_press_is_regular_and_comes_back(lubricated):
     assert lubricated.period.revolutions == 1
     assert lubricated.exponent.high < 0.0

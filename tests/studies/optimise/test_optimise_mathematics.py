@@ -44,7 +44,8 @@ class Zdt1:
 
 
 @pytest.mark.parametrize(
-    ("method", "trials", "wide", "off"), [(TPE, 240, 0.4, 0.15), (NSGA, 1600, 0.8, 0.15)]
+    ("method", "trials", "wide", "off"),
+    [(TPE, 240, 0.4, 0.15), pytest.param(NSGA, 1600, 0.8, 0.15, marks=pytest.mark.long)],
 )
 def test_zdt1(method, trials, wide, off):
     problem = Zdt1()

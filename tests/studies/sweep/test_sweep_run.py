@@ -145,7 +145,8 @@ def test_tables_may_vary(tmp_path):
     assert (tmp_path / "table.nc").exists()
 
 
-@pytest.mark.parametrize("runs", [80, pytest.param(1000, marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("runs", [80, 1000])
 def test_real_runs_hold_a_workers_memory_flat(runs):
     """What Exudyn kept of every model would be half a megabyte a run."""
     code = MEMORY.format(scene=IDEAL.to_dict(), runs=runs)

@@ -65,6 +65,7 @@ def test_the_pin_sinks_into_its_bearing_as_it_bores_it(coarse):
     assert (speed > 0.0).all() and speed[-1] < speed[0]
 
 
+@pytest.mark.long
 def test_jumps_of_other_lengths_lead_to_the_same_clearance(coarse, tmp_path):
     report, _ = coarse
     finer = wear(study(tolerance=0.02), tmp_path)

@@ -36,6 +36,7 @@ def run(tmp_path, text=STUDY, *more):
     return main(["optimise", str(tmp_path / "study.toml"), *out, *more])
 
 
+@pytest.mark.long
 def test_several_objectives(tmp_path, capsys):
     assert run(tmp_path) == 0
     printed = capsys.readouterr().out

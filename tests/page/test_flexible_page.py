@@ -40,6 +40,7 @@ def with_surface(result):
     )
 
 
+@pytest.mark.long
 def test_stress_and_displacement_are_those_of_the_file(tmp_path, browser):
     run = with_surface(
         simulate(Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=0.05))

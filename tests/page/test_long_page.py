@@ -23,6 +23,7 @@ def repeated(result, times):
     return result.with_values(values)
 
 
+@pytest.mark.long
 def test_a_hundred_revolutions_are_thinned(press, tmp_path, browser):
     run = repeated(press, 50)
     assert len(run.time) > 200_000

@@ -140,6 +140,7 @@ def test_a_mixed_joint_wears_where_its_surfaces_touch(weight):
     assert volume == pytest.approx(1e-4 / 2e9 * carried * 2.0 * np.pi * 0.05, rel=0.05)
 
 
+@pytest.mark.long
 def test_guides_with_clearance_wear_and_places_are_ranked():
     guided = simulate(
         Scene(

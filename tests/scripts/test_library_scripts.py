@@ -44,6 +44,7 @@ def test_my_own_part(tmp_path):
     assert (tmp_path / "out" / "my_own_part" / "modes.png").exists()
 
 
+@pytest.mark.long
 def test_joint_in_your_model(tmp_path):
     """A rod that falls from the horizontal swings through with 5/2 of its weight."""
     printed = run("joint_in_your_model.py", tmp_path, quick=False)

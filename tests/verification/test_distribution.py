@@ -14,6 +14,7 @@ from exu_press.verification.distribution import (
 NAME = "peak_acceleration.resolved"
 
 
+@pytest.mark.long
 def test_distribution_of_revolutions(monkeypatch):
     """The dry slider-crank's peaks scatter from revolution to revolution; what adds up has none."""
     scene = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, solver={"tolerance": 2e-2})

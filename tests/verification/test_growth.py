@@ -16,6 +16,7 @@ def lorenz(_time, state):
     return np.concatenate([10.0 * (y - x), x * (28.0 - z) - y, x * y - 8.0 / 3.0 * z])
 
 
+@pytest.mark.long
 def test_lorenz_system():
     """Sixty pairs that start 1e-9 apart on the attractor."""
     pairs, time = 60, np.linspace(0.0, 20.0, 2001)

@@ -19,6 +19,7 @@ def rows(report, case, solver):
     return [row for row in report.rows if (row.case, row.solver) == (case, solver)]
 
 
+@pytest.mark.long
 def test_fixed_steps_are_of_second_order_where_lubricated(report):
     order = next(
         o

@@ -86,6 +86,7 @@ def test_a_run_from_the_start_is_the_attractor():
     assert len(run_point(arguments)["points"]) == 20
 
 
+@pytest.mark.long
 def test_the_command(tmp_path, capsys):
     FILM.replace("solver.tolerance", 1e-2).save(tmp_path / "film.toml")
     study = tmp_path / "speed.toml"

@@ -36,6 +36,7 @@ def study(**changes):
     return Fit(**{**given, "measured": measured(), "fit": {"starts": 2}, **changes})
 
 
+@pytest.mark.long
 def test_masses_are_found_from_forces(tmp_path):
     report = fit(study(start={SLIDER: 1000.0}), tmp_path, workers=1)
     assert report.values == pytest.approx({SLIDER: 1250.0, ROD: 200.0}, rel=2e-3)

@@ -139,7 +139,7 @@ def errors_of(
     diverged = divergence(result, complete)
     horizon = end if diverged.growth.horizon is None else diverged.growth.horizon
     runs = {1.0: result, **complete}
-    by_end = {at: {r: read(until(run, at)) for r, run in runs.items()} for at in (end, horizon)}
+    by_end = {at: {r: read(until(run, at)) for r, run in runs.items()} for at in {end, horizon}}
     parted = horizon < end
     after = {r: read(window(run, horizon, end)) for r, run in runs.items()} if parted else {}
     ways = (

@@ -302,28 +302,43 @@ def test_a_jump_beside_a_vibration_does_not_hide_it(told):
     scales = FoundScales(ErrorScales(1.0, 1.0), problem_at(nodes, np.zeros(1)), 1.0)
     scales.begin(np.eye(1))
     quiet, omega, step = Quiet(scales), 2.0 * math.pi, 1.0 / 40.0
+    before = step
     for i in range(60):
         bend = 3.0 * omega**3 * math.sin(omega * i * step)
         size, jump = (1e-3, 0.3 / 1e-3) if i in (30, 31) else (step, 0.0)
-        found = quiet.amplitude([bend * size + (jump if i == 30 else -jump)], size)
+        change = 0.5 * bend * (size + before) + (jump if i == 30 else -jump)
+        found = quiet.amplitude([change], size)
         quiet.accept()
+        before = size
         if told and i == 30:
             quiet.forget()
     assert (found > 2.0) is told
 
 
-def test_the_amplitude_of_a_vibration_is_told_by_its_accelerations():
-    """v = V cos(omega t), sampled forty times a period; and where a step is too long to tell."""
+@pytest.mark.parametrize("longest", [1.0, 1.5, 3.0])
+def test_the_amplitude_of_a_vibration_is_told_by_its_accelerations(longest):
+    """v = V cos(omega t), sampled forty times a period, by steps that grow and shrink at once."""
     nodes = (Node(0, "a", 0, 1, 1.0, 1),)
     scales = FoundScales(ErrorScales(1.0, 1.0), problem_at(nodes, np.zeros(1)), 1.0)
     scales.begin(np.eye(1))
-    quiet, omega, step = Quiet(scales), 2.0 * math.pi, 1.0 / 40.0
-    assert quiet.amplitude([1.0], step) == math.inf
-    for i in range(60):
-        bend = 3.0 * omega**3 * math.sin(omega * i * step)  # of V = 3 m/s
-        found = quiet.amplitude([bend * step], step)
-        quiet.accept()
-    assert found == pytest.approx(3.0, rel=0.3)
+    quiet, omega = Quiet(scales), 2.0 * math.pi
+    accelerations, rates, time, step = [0.0], [], 0.0, 1.0 / 40.0
+    for i in range(100):
+        size = step * longest ** (0.25 * min(i % 8, 4))
+        time += size
+        accelerations.append(-3.0 * omega * math.sin(omega * time))  # of V = 3 m/s
+        rates.append((accelerations[-1] - accelerations[-2]) / size)
+        if i:
+            found = quiet.amplitude([rates[-1] - rates[-2]], size)
+            assert i > 2 or found == math.inf
+            quiet.accept()
+    assert found == pytest.approx(3.0, rel=0.4)
+
+
+def test_what_alternates_from_step_to_step_has_the_frequency_of_a_step():
+    nodes = (Node(0, "a", 0, 1, 1.0, 1),)
+    scales = FoundScales(ErrorScales(1.0, 1.0), problem_at(nodes, np.zeros(1)), 1.0)
+    scales.begin(np.eye(1))
     quiet = Quiet(scales)
     for i in range(60):
         found = quiet.amplitude([(-1.0) ** i * 8.0], 1.0)

@@ -43,25 +43,8 @@ def test_a_wheel_at_the_origin_is_no_metre_large():
     assert error(done, fine("balance wheel", 1e-7, example.short)) < 4e-6
 
 
-WORSE = {
-    "Bricard": "stops at 0.94 of 1 s since accelerations between two instants count",
-    "rotor run-up": "28 to 37 tolerances off since vibrations below the tolerance are not followed",
-    "cantilever": "25 and 28 tolerances off at 1e-3 and 1e-4",
-}
-"""Known faults of the integration, to be mended: these tests are to pass again."""
-
-
-def known(name, tolerance):
-    if name not in WORSE or (name == "cantilever" and tolerance > 1e-3):
-        return name, tolerance
-    fault = pytest.mark.xfail(reason=WORSE[name], strict=True)
-    return pytest.param(name, tolerance, marks=fault)
-
-
 @pytest.mark.long
-@pytest.mark.parametrize(
-    ("name", "tolerance"), [known(*case) for case in cases(1e-2, 1e-3, 1e-4, 1e-5, 1e-6)]
-)
+@pytest.mark.parametrize(("name", "tolerance"), cases(1e-2, 1e-3, 1e-4, 1e-5, 1e-6))
 def test_the_error_follows_the_tolerance_over_the_whole_run(name, tolerance):
     follows(name, tolerance, 1e-6, EXAMPLES[name].end, EXAMPLES[name].most)
 

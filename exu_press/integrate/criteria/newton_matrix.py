@@ -52,13 +52,15 @@ class NewtonMatrix:
         right[:size] = inertia * inertia_factor(solver)
         try:
             filtered = Equations(jacobian).solve(right)[:size]
+            # masses and springs make nothing larger, but constraints that nearly say the same
             if self._joints is None:
                 energy = np.vdot(filtered, np.dot(mass, filtered))
-                allowed = LARGER * np.vdot(before, inertia)
-                # masses and springs make nothing larger, but constraints that nearly say the same
-                if not energy <= allowed:
-                    filtered = np.linalg.lstsq(jacobian, right, rcond=None)[0][:size]
+                same = not energy <= LARGER * np.vdot(before, inertia)
+            else:
+                same = False
         except np.linalg.LinAlgError:  # constraints that say the same
-            return list(changes)
+            same = True
+        if same:
+            filtered = np.linalg.lstsq(jacobian, right, rcond=None)[0][:size]
         found: list[list[float]] = filtered.T.tolist()
         return found

@@ -11,7 +11,7 @@ from exu_press.integrate.criteria.newton_matrix import NewtonMatrix
 @pytest.mark.parametrize("joints", [None, object()])
 @pytest.mark.parametrize("twice", [False, True])
 def test_a_constraint_that_says_the_same_twice_filters_like_one(twice, joints):
-    """Of two equal masses the first one is held: Newton's matrix lets the second's error through."""
+    """Of two equal masses the first one is held, and the second one keeps its error."""
     constraints = np.array([[1.0, 0.0]] * (2 if twice else 1))
     count = len(constraints)
     jacobian = np.block([[np.eye(2), constraints.T], [constraints, np.zeros((count, count))]])

@@ -68,7 +68,7 @@ class BodyError:
         if last and step < self._per_step.shortest:
             allowed = self._tolerance * self._scales.speed
             if allowed > 0.0:
-                self._share = self._quiet.amplitude(self.change, step) / allowed
+                self._share = self._quiet.amplitude(rate, self.change, step) / allowed
         return self.error(self.change, step)
 
     def _part_changed(self, rate: list[float]) -> float:

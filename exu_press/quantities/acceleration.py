@@ -4,6 +4,7 @@ An impact lasts about 75 us, so that the peak that is read depends on who looks:
 program that prints one value a millisecond, or an instrument that differentiates a displacement.
 """
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -19,6 +20,10 @@ AT_ONCE = 200_000
 
 MOST_SAMPLES = 10_000_000
 """Most samples of a displacement; they take 80 MB a copy."""
+
+ON_A_SAMPLE = 1e-6
+"""Part of the interval within which a record begins or ends on a sample, as instants are rounded.
+"""
 
 
 def peak(values: Array) -> float:
@@ -98,6 +103,9 @@ def differentiated_peak(
 ) -> float | None:
     """Return the largest second difference of the displacement sampled at a rate, m/s^2.
 
+    Samples are at multiples of the interval, in every part of a record and in every run alike: an
+    impact reads half or all of itself, depending on where it falls between them.
+
     Args:
         time: (n,), s, increasing.
         position: (n,), m; interpolated between steps by cubic Hermite polynomials.
@@ -107,9 +115,10 @@ def differentiated_peak(
     Returns:
         None where the record holds fewer than three samples, or more than MOST_SAMPLES.
     """
-    count = int((time[-1] - time[0]) * rate * (1 + 1e-12)) + 1
-    if not 3 <= count <= MOST_SAMPLES:
+    first = math.ceil(time[0] * rate - ON_A_SAMPLE)
+    last = math.floor(time[-1] * rate + ON_A_SAMPLE)
+    if not 3 <= last - first + 1 <= MOST_SAMPLES:
         return None
-    instants = time[0] + np.arange(count) / rate
+    instants = np.arange(first, last + 1) / rate
     samples = evaluate(time, hermite(time, position, velocity), instants)
     return peak(np.diff(samples, 2) * rate**2)

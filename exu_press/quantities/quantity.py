@@ -57,6 +57,7 @@ class Quantity:
         under: whether its line is a detail of the line above.
         signed: whether it may be below zero.
         extreme: whether it is the largest or the least value.
+        at_most: name of the quantity at the same place that is never below it, or "".
         headline: whether it is among those that everybody looks at first.
         cumulative: whether it adds up over a run.
         curve: whose extreme it is: a channel, CHANNEL:x of one of its columns, or, at a place, what
@@ -76,6 +77,7 @@ class Quantity:
     under: bool = False
     signed: bool = False
     extreme: Extreme = Extreme.NONE
+    at_most: str = ""
     headline: bool = False
     cumulative: bool = False
     curve: str = ""

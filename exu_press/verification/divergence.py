@@ -8,7 +8,7 @@ import numpy as np
 from exu_press.numerics.arrays import Array
 from exu_press.result import Result
 from exu_press.scene import mechanism_of
-from exu_press.verification.estimate import of_one
+from exu_press.verification.estimate import ROUNDING, of_one
 from exu_press.verification.growth import Growth, growth
 
 __all__ = ["Divergence", "divergence"]
@@ -23,37 +23,46 @@ class Divergence:
 
     Attributes:
         growth: of the distance from the truth.
-        alone: whether only the nearest refinement still followed the run up to the horizon.
+        nearest: error up to the horizon over the difference from the nearest refinement, where only
+            this one still follows the run then; else 0, as all of them tell it.
         distances: the largest ones from the refinements, in clearances; none without clearances.
     """
 
     growth: Growth
-    alone: bool
+    nearest: float
     distances: Mapping[float, float]
 
 
 def divergence(result: Result, others: Mapping[float, Result]) -> Divergence:
     """Return how fast a run parts from the truth, in clearances, and from when on it has diverged.
 
-    The nearest one is none: at half the tolerance it is half of the way from the run to the truth,
-    as errors go with the tolerance until motions have diverged. Where the coarser ones have, this
-    distance is the only one, which may be small by chance.
+    Errors go with the tolerance until motions have diverged: a run at half of it is half of the way
+    from the run to the truth. The largest estimate of all refinements counts, as one may be beside
+    the run by chance. Where only the nearest one still follows the run, the distance from the truth
+    is as many times the distance from it as before, or as one difference tells if that is more.
 
     Args:
         result: whose instants count.
         others: at other tolerances or steps, by their ratio to the run's; the nearest one is first.
     """
     distances = {ratio: _distance(result, other) for ratio, other in others.items()}
-    nearest, *coarser = distances
-    share = min(abs(1.0 - nearest), 1.0)
-    apart = np.full_like(result.time, APART)
-    if coarser and nearest < 1.0:
-        alone = np.max([distances[ratio] for ratio in coarser], axis=0) >= APART
-        apart[alone] = APART / (share * of_one(nearest))
-    found = growth(result.time, distances[nearest] / share, apart)
-    known = len(apart) if found.horizon is None else np.searchsorted(result.time, found.horizon)
+    (ratio, near), *coarser = distances.items()
+    share = min(abs(1.0 - ratio), 1.0)
+    error = near / share
+    alone = 0  # from this step on
+    for other, distance in coarser:
+        follows = int(np.searchsorted(distance, APART))
+        error[:follows] = np.maximum(error[:follows], distance[:follows] / abs(1.0 - other))
+        alone = max(alone, follows)
+    times = of_one(ratio) if ratio < 1.0 else 1.0 / share
+    if alone:
+        times = max(times, error[alone - 1] / max(near[alone - 1], ROUNDING))
+        error[alone:] = times * near[alone:]
+    found = growth(result.time, error, APART)
+    end = result.time[-1] if found.horizon is None else found.horizon
+    only = 0 < alone <= np.searchsorted(result.time, end)
     largest = {ratio: float(distance[-1]) for ratio, distance in distances.items() if distance[-1]}
-    return Divergence(found, bool(np.any(apart[: known + 1] < APART)), largest)
+    return Divergence(found, float(times) if only else 0.0, largest)
 
 
 def _distance(result: Result, other: Result) -> Array:

@@ -44,8 +44,7 @@ def converging(
     ratios: Sequence[float],
     least: float = 0.0,
     safety: float = SAFETY,
-    *,
-    alone: bool = False,
+    nearest: float = 0.0,
 ) -> Error:
     """Return the error of a figure whose error goes with the tolerance (or the step).
 
@@ -57,17 +56,15 @@ def converging(
         ratios: of these tolerances to the first.
         least: error, in the figure's unit.
         safety: factor on what the differences say.
-        alone: whether only the second run still has the first one's motion, so that the others'
-            differences, which do not go with the tolerance any more, may hide its error.
+        nearest: error over the difference from the second run at least, where only this one still
+            has the first one's motion; the others' differences do not go with the tolerance then.
 
     >>> round(converging([1.01, 1.04, 1.08], [1.0, 4.0, 8.0])["error"], 6)  # SAFETY times 1.01 - 1
     0.015
     """
     pairs = combinations(zip(values, ratios, strict=True), 2)
     largest = max(abs(a - b) / abs(i - j) for (a, i), (b, j) in pairs)
-    error = safety * largest
-    if alone:
-        error = max(error, of_one(ratios[1]) * abs(values[1] - values[0]))
+    error = max(safety * largest, nearest * abs(values[1] - values[0]))
     return _about(values[0], error + least, determined=True)
 
 

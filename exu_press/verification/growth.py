@@ -32,7 +32,7 @@ class Growth:
     horizon: float | None
 
 
-def growth(time: Array, distance: Array, apart: float | Array) -> Growth:
+def growth(time: Array, distance: Array, apart: float) -> Growth:
     """Return how fast a distance grows until motions have diverged.
 
     The rate is the least-squares slope of the logarithm of the largest distance so far, from where
@@ -42,8 +42,7 @@ def growth(time: Array, distance: Array, apart: float | Array) -> Growth:
         time: (n,), s, increasing.
         distance: (n,) of two motions that start beside each other; of several pairs (pairs, n),
             whose logarithms are averaged.
-        apart: the distance from which on they have diverged, in the unit of `distance`; it may
-            change with time.
+        apart: the distance from which on they have diverged, in the unit of `distance`.
 
     >>> time = np.linspace(0.0, 10.0, 1001)
     >>> found = growth(time, np.minimum(1e-6 * np.exp(2.0 * time), 1.0), apart=0.1)
@@ -53,12 +52,12 @@ def growth(time: Array, distance: Array, apart: float | Array) -> Growth:
     with np.errstate(divide="ignore"):
         logarithm = np.log(np.atleast_2d(distance)).mean(axis=0)
     largest = np.maximum.accumulate(logarithm)
-    limit = np.broadcast_to(np.log(apart), time.shape)
+    limit = math.log(apart)
     diverged = np.flatnonzero(largest >= limit)
     end = int(diverged[0]) if len(diverged) else len(time)
     horizon = float(time[end]) if len(diverged) else None
     begun = np.flatnonzero(np.isfinite(largest[:end]))
-    near = largest[end - 1] < math.log(LEAST_DISTANCE) + limit[end - 1]
+    near = largest[end - 1] < math.log(LEAST_DISTANCE) + limit
     if near or len(begun) < 3 or largest[end - 1] - largest[begun[0]] < math.log(LEAST_SPAN):
         return Growth(None, horizon)
     instants = np.linspace(time[begun[0]], time[end - 1], 1000)  # steps are no measure of time

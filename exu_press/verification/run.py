@@ -167,6 +167,12 @@ def errors_of(
             known = error["error"] <= max(value, OF_FLOOR * least)
             error["determined"] &= known or quantity.kind.may_vanish
         errors[name] = error
+    for name, error in errors.items():
+        above = errors.get(told[name].quantity.at_most)
+        if above is not None:
+            value = by_end[end][1.0][name]
+            error["high"] = max(min(error["high"], above["high"]), value)
+            error["error"] = max(error["high"] - value, value - error["low"])
     return {
         "errors": errors,
         "horizon": diverged.growth.horizon,
@@ -204,7 +210,7 @@ def _error(
         return scattered([values[1.0], 0.0])
     begun = {r: before[r].get(name, np.nan) for r in values}
     later = {r: found.get(name, np.nan) for r, found in after.items() if r in values}
-    known = converging(list(begun.values()), list(values), least, safety, alone=diverged.alone)
+    known = converging(list(begun.values()), list(values), least, safety, diverged.nearest)
     shares = [diverged.distances.get(r, 1.0) for r in values if r != 1.0]
     if later and _is_of_both(extreme, values, begun, later):
         beyond = scattered(list(later.values()), least, shares)

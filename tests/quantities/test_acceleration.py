@@ -74,6 +74,15 @@ def test_second_difference_of_an_impact_between_samples_is_half():
     assert read == pytest.approx(50.0, rel=0.03)
 
 
+def test_samples_of_a_part_are_those_of_the_whole():
+    """Wherever the part begins: the same impact reads the same."""
+    velocity, position = pulse(1000.0, 0.0305 - 5e-5, 1e-4)
+    for begin in (0.0123, 0.01254, 0.02, 0.0278):
+        part = slice(int(np.searchsorted(TIME, begin)), None)
+        read = differentiated_peak(TIME[part], position[part], velocity[part])
+        assert read == pytest.approx(differentiated_peak(TIME, position, velocity), rel=1e-9)
+
+
 def test_second_difference_of_a_sine():
     """(2 sin(w T / 2) / T)^2 times the amplitude, for samples T apart."""
     omega, rate = 2 * np.pi * 100.0, 1e3

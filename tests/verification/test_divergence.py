@@ -64,8 +64,18 @@ def test_a_run_at_half_the_tolerance_vouches_for_less_where_a_coarser_one_has_di
     beside, away = (moved(run, across, part * APART * PLAY) for part in (0.6, 1.5))
     found = divergence(run, {0.5: near, 8.0: beside})
     assert found.growth.horizon is None
-    assert not found.alone
+    assert found.nearest == 0.0
     found = divergence(run, {0.5: near, 8.0: away})
     assert 0.9 * run.time[-1] < found.growth.horizon <= run.time[-1]
-    assert found.alone
+    assert found.nearest == of_one(0.5)
     assert found.distances[8.0] > found.distances[0.5] > 0.0
+
+
+def test_a_run_that_was_beside_by_chance_vouches_for_less_still(run):
+    """When the coarser one diverged, its distance told an error twelve times the other's."""
+    across = int(np.argmax(np.abs(mechanism_of(LOOSE).guides[0].across)))
+    near, away = (moved(run, across, part * PLAY) for part in (0.035, 10.0 * APART))
+    found = divergence(run, {0.5: near, 8.0: away})
+    part = 0.035 / (10.0 * APART)  # of the coarser one's distance, at all times
+    assert found.nearest == pytest.approx(1.0 / (7.0 * part), rel=0.1)
+    assert found.growth.horizon is not None

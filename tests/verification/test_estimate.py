@@ -42,8 +42,8 @@ def test_one_difference_covers_nineteen_errors_in_twenty(ratio):
 def test_a_run_that_has_no_motion_in_common_any_more_does_not_hide_the_error():
     values, ratios = [5.0, 5.01, 5.011], [1.0, 0.5, 8.0]
     error = converging(values, ratios)["error"]
-    assert converging(values, ratios, alone=True)["error"] == pytest.approx(of_one(0.5) * 0.01)
-    assert error < of_one(0.5) * 0.01
+    assert converging(values, ratios, nearest=5.2)["error"] == pytest.approx(5.2 * 0.01)
+    assert error < 5.2 * 0.01
 
 
 def test_motions_that_have_half_parted_show_half_of_the_scatter():

@@ -122,6 +122,26 @@ def test_what_refinements_did_before_the_horizon_widens_no_bounds():
     assert force["high"] > 1e7
 
 
+def test_samples_are_not_expected_above_means():
+    """Their second difference is the mean over 1 ms of means over 1 ms."""
+    result = simulate(Scene(**DRY, revolutions=0.1))
+    late = result.time > 0.5 * result.time[-1]
+    beside = {
+        "crank_pin_eccentricity": np.where(late[:, None], [2e-4, 0.0], 0.0),
+        "slider_position": np.where(late, 1e-3 * np.sin(1e3 * result.time), 0.0),
+    }
+    other = result.with_values({name: result[name] + more for name, more in beside.items()})
+    errors = errors_of(result, [(4.0, other), (8.0, other)])["errors"]
+    samples, means = (
+        errors[f"peak_acceleration.{name}"] for name in ("differentiated_1khz", "mean_1ms")
+    )
+    assert samples["high"] == means["high"]
+    assert (
+        samples["error"]
+        >= samples["high"] - result.quantity("peak_acceleration.differentiated_1khz").value
+    )
+
+
 def test_a_peak_may_be_exceeded_after_the_horizon_although_it_was_in_no_run():
     """Later forces scatter by half of the peak, beneath it."""
     scene = Scene(**DRY, revolutions=0.1)

@@ -15,6 +15,5 @@ class UnusedKeyError(InputError):
     """
 
     def __init__(self, name: str, shown: str, reason: str) -> None:
-        """Say which and why."""
         super().__init__(f"{shown}: not used by this scene ({reason}); remove it")
         self.name = name

@@ -36,7 +36,6 @@ class Interface:
     motions: tuple[str, ...] = MOTIONS
 
     def __post_init__(self) -> None:
-        """Refuse unknown and repeated motions."""
         wrong = [motion for motion in self.motions if motion not in MOTIONS]
         if wrong or len(set(self.motions)) != len(self.motions):
             raise InputError(
@@ -67,7 +66,6 @@ class Part:
     mesh_size: float
 
     def __post_init__(self) -> None:
-        """Refuse a mesh size that is none, and an interface named twice."""
         if not 0.0 < self.mesh_size < float("inf"):
             raise InputError(f"{self.name}: mesh_size = {self.mesh_size!r}: must be positive, in m")
         faces = [interface.face for interface in self.interfaces]

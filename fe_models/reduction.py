@@ -64,7 +64,6 @@ class Reduction:
     loads: tuple[str, ...] = MOTIONS
 
     def __post_init__(self) -> None:
-        """Refuse a number of modes or an error that is none, and unknown methods."""
         error = self.flexibility_error
         if error is not None:
             if self.modes is not None:

@@ -33,7 +33,6 @@ class _Round:
     high: float
 
     def __str__(self) -> str:
-        """Return how a scene would name it."""
         return f"radius = {self.radius:.6g}, z = [{self.low:.5g}, {self.high:.5g}]"
 
 

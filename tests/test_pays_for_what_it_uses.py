@@ -9,7 +9,7 @@ import pytest
 
 from exu_press import Scene
 from exu_press.joints import user_force_of
-from exu_press.parallel.sources import FOR_READERS
+from exu_press.parallel.task import FOR_READERS
 
 
 def imported_after(code):

@@ -1,12 +1,14 @@
-"""Arguments that several commands share."""
+"""Arguments that several commands share, and the end of those on one scene."""
 
 import argparse
 import sys
 import textwrap
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
+from typing import Any
 
 from exu_press.errors import InputError
+from exu_press.files.output_directory import write_json
 from exu_press.mechanism import SHIPPED as MECHANISMS
 from exu_press.scene import Scene
 from exu_press.schema.checks import nearest
@@ -20,6 +22,7 @@ __all__ = [
     "add_study_arguments",
     "check_format",
     "directory_of",
+    "finish",
     "scene_of",
     "scene_path",
     "shipped_names",
@@ -148,3 +151,21 @@ def scene_path(given: str) -> Path:
             f"{given}: no such scene{nearest(given, names)}; allowed are a file, {', '.join(names)}"
         )
     return SHIPPED / f"{given}.toml"
+
+
+def finish(
+    report: Any, file: Path, draw: Callable[[], Iterable[Path]], options: argparse.Namespace
+) -> None:
+    """Write, draw and print a report.
+
+    Args:
+        report: of a study, with `to_dict` and `lines`.
+        file: where it is written.
+        draw: its pictures, and returns their files.
+        options: with `no_pictures` and `quiet`.
+    """
+    write_json(file, report.to_dict())
+    written = [file] if options.no_pictures else [file, *draw()]
+    if not options.quiet:
+        print("\n".join(report.lines()))
+        print("written:", ", ".join(path.name for path in written), f"in {file.parent}")

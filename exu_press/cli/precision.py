@@ -4,8 +4,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from exu_press.cli.finish import finish
-from exu_press.cli.options import add_scene_arguments, directory_of, scene_of
+from exu_press.cli.options import add_scene_arguments, directory_of, finish, scene_of
 from exu_press.files.output_directory import output_directory
 
 if TYPE_CHECKING:

@@ -5,8 +5,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from exu_press.cli.finish import finish
-from exu_press.cli.options import add_scene_arguments, directory_of, scene_of
+from exu_press.cli.options import add_scene_arguments, directory_of, finish, scene_of
 from exu_press.errors import InputError
 from exu_press.files.output_directory import output_directory
 

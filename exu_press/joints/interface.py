@@ -63,7 +63,6 @@ class InterfaceLaw:
     """
 
     def __init__(self, clearance: float, stateful: bool, needs_secant: bool) -> None:
-        """Set the properties that do not change."""
         self.drift = 0.0
         self.clearance = clearance
         self.stateful = stateful
@@ -381,7 +380,6 @@ class InterfaceJoint:
     """
 
     def __init__(self, interfaces: Sequence[InterfaceLaw]) -> None:
-        """Let the interfaces act in parallel."""
         self.interfaces = list(interfaces)
         self.clearance = self.interfaces[0].clearance
         dry = [interface for interface in self.interfaces if isinstance(interface, DryInterface)]

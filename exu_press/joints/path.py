@@ -39,7 +39,6 @@ class Path:
     """
 
     def __init__(self) -> None:
-        """Start without a step."""
         self.drift = 0.0
         self.eccentricity: Vector = ()
         self.velocity: Vector = ()

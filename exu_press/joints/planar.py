@@ -37,7 +37,6 @@ class PlanarJoint(InterfaceJoint):
     def __init__(
         self, journal: PlanarEnd, bearing: PlanarEnd, interfaces: Sequence[InterfaceLaw]
     ) -> None:
-        """Join the two ends by the interfaces."""
         super().__init__(interfaces)
         self.journal = journal
         self.bearing = bearing

@@ -45,7 +45,6 @@ class UserForceElement:
     """
 
     def __init__(self, mbs: exu.MainSystem) -> None:
-        """Start without joints; the item is made with the first one."""
         self.joints: list[ClearanceJoint] = []
         self.evaluations = 0
         self.item: int | None = None

@@ -112,7 +112,6 @@ class Approach:
     """
 
     def __init__(self) -> None:
-        """Start apart and at rest."""
         self.reset()
 
     def reset(self) -> None:

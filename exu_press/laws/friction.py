@@ -255,7 +255,6 @@ class LuGre:
     stribeck_exponent: float
 
     def __post_init__(self) -> None:
-        """Check the parameters."""
         _demand_curve(
             self.mu_static, self.mu_kinetic, self.stribeck_velocity, self.stribeck_exponent
         )

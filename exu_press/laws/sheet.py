@@ -113,7 +113,6 @@ class Cut:
     """
 
     def __init__(self, sheet: Sheet) -> None:
-        """Start with a whole sheet."""
         self._sheet = sheet
         self._deepest = 0.0
         self._fractured: float | None = None

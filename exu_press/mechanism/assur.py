@@ -63,7 +63,6 @@ class Pose:
     def __init__(
         self, z: Number, angle: Number, partials: Sequence[Number] = (), column: int | None = None
     ) -> None:
-        """Stand still at a position."""
         self.z, self.angle, self.e = z, angle, np.exp(1j * angle)
         self.partials, self.column = partials, column
         self.z1: Number = 0.0

@@ -1,7 +1,10 @@
-"""Put a scene's model together, one room after the other."""
+"""Put a scene's model together, one room after the other, with its sensors."""
 
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
+
+import exudyn as exu
+from exudyn.itemInterface import SensorNode, SensorObject
 
 from exu_press.integrate.modal_mass import follow_modes
 from exu_press.mechanism import Motion
@@ -12,7 +15,6 @@ from exu_press.model.joints import add_clearance_joint, add_ideal_joint
 from exu_press.model.loaded_start import moved_start
 from exu_press.model.loads import add_loads, torque_wanted
 from exu_press.model.model import Model, count_items
-from exu_press.model.sensors import add_sensors
 from exu_press.model.stall import Stall
 from exu_press.model.start import deformed_start
 from exu_press.model.start_stop import StartStop, add_flywheel, add_start_stop
@@ -115,7 +117,7 @@ def _assembled(
     loads = add_loads(system)
     if system.flexible:
         follow_modes(system.mbs)
-    add_sensors(system, ideal | {"drive": drive}, guides)
+    _add_sensors(system, ideal | {"drive": drive}, guides)
     system.mbs.Assemble()
     if start_stop is not None:
         forces = dict.fromkeys(system.loads, 0.0)
@@ -150,3 +152,26 @@ def _stall(scene: Scene) -> Stall:
     motor, speed = scene.drive, scene.angular_speed
     slower = speed if motor is None else min(speed, motor.fastest(scene.speed_rpm))
     return Stall(slower, 60.0 / scene.speed_rpm)
+
+
+def _add_sensors(
+    system: System, joints: Mapping[str, int], guides: Mapping[str, Mapping[str, int]]
+) -> None:
+    """Record bodies' coordinates and the constraints' forces."""
+    levels = {
+        "position": exu.OutputVariableType.Coordinates,
+        "velocity": exu.OutputVariableType.Coordinates_t,
+        "acceleration": exu.OutputVariableType.Coordinates_tt,
+    }
+    for name, node in system.nodes.items():
+        for level, output in levels.items():
+            sensor = SensorNode(nodeNumber=node, storeInternal=True, outputVariableType=output)
+            system.sensors[name, level] = system.mbs.AddSensor(sensor)
+    forces = {(name, "force"): number for name, number in joints.items()}
+    for body, numbers in guides.items():
+        forces |= {(f"{body}_guide", kind): number for kind, number in numbers.items()}
+    for key, number in forces.items():
+        local = number in system.local_forces
+        kind = exu.OutputVariableType.ForceLocal if local else exu.OutputVariableType.Force
+        load = SensorObject(objectNumber=number, storeInternal=True, outputVariableType=kind)
+        system.sensors[key] = system.mbs.AddSensor(load)

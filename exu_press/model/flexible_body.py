@@ -337,11 +337,6 @@ def guided_motion(mbs: exu.MainSystem, body: FlexibleBody, part: PlacedPart) -> 
     It is the mean motion of the faces that lie in the guide, where the body has its centre of mass.
     In a guide a body hardly turns: the error goes with the square of its tilt.
 
-    Args:
-        mbs: the system.
-        body: flexible.
-        part: of the body.
-
     Returns:
         Its values where the coordinates have their reference values, (3,), and what displacements
         of the frame's coordinates and of the modes change them by, (3, coordinates).

@@ -56,7 +56,6 @@ class System:
     """
 
     def __init__(self, scene: Scene, parts: Mapping[str, "PlacedPart"]) -> None:
-        """Make a system with nothing but the frame in it."""
         self.scene, self.parts = scene, parts
         solids = {name: (part.reduced.mass, part.inertia) for name, part in parts.items()}
         self.mechanism = with_elastic_guides(mechanism_of(scene), scene.guide, solids)

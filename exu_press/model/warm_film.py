@@ -111,9 +111,6 @@ class WarmFilm:
 
         The motion of the last revolution is held. In the first revolutions a secant through the
         last two of them foretells how it will change with the temperature.
-
-        Args:
-            last: its last revolution.
         """
         self.before.append(last)
         recent = self.before[-max(1, len(self.before) // AVERAGED) :]

@@ -65,13 +65,7 @@ class Thinning:
 
 
 def thinning(counts: list[int], widths: list[int], most: int = MOST_VALUES) -> list[Thinning]:
-    """Return how runs are thinned for one page: each gets the same room.
-
-    Args:
-        counts: steps of the runs.
-        widths: values of each a step.
-        most: values of all.
-    """
+    """Return how runs are thinned for one page: each gets the same room."""
     room = most / len(counts)
     return [
         Thinning(count, 1 if count * width <= room else int(np.ceil(2.0 * count * width / room)))

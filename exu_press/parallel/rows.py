@@ -97,5 +97,4 @@ class RowFile(AbstractContextManager["RowFile", None]):
         self._found[key] = row, time_limit
 
     def __exit__(self, *_: object) -> None:
-        """Close the file."""
         self._file.close()

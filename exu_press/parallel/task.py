@@ -1,14 +1,16 @@
-"""One run of a batch: which function, with which arguments, under which versions."""
+"""One run of a batch: function, arguments, versions, and a digest of its sources."""
 
 import hashlib
 import importlib
 import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cache
+from importlib.util import find_spec
+from pathlib import Path
 from typing import Any
 
 from exu_press.installation.versions import version_of
-from exu_press.parallel.sources import source_digest
 
 __all__ = [
     "COMPLETED",
@@ -20,6 +22,7 @@ __all__ = [
     "Task",
     "function_of",
     "name_of",
+    "source_digest",
     "task_of",
     "versions",
 ]
@@ -105,3 +108,38 @@ def function_of(name: str) -> Function:
 def _canonical(data: Any) -> str:
     """Return JSON that is the same for equal data: sorted keys, no spaces, no NaN."""
     return json.dumps(data, sort_keys=True, separators=(",", ":"), allow_nan=False)
+
+
+OURS = ("exu_press", "fe_models")
+SUFFIXES = (".py", ".npz", ".toml")
+
+FOR_READERS = ("cli", "page", "plots", "report", "view")
+"""Folders of a package that no row comes from: they show results."""
+
+
+@cache
+def source_digest(*packages: str) -> str:
+    """Return a digest of this package's sources and of those of other packages or modules."""
+    digest = hashlib.sha256()
+    for name in dict.fromkeys((*OURS, *packages)):
+        for file, known_as in _files(name):
+            digest.update(f"{known_as} {file.stat().st_size};".encode())
+            digest.update(file.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def _files(name: str) -> list[tuple[Path, str]]:
+    """Return a package's files, or a module's one, with names that are the same on any machine."""
+    spec = find_spec(name)
+    if spec is None:
+        return []
+    folders = [Path(folder) for folder in spec.submodule_search_locations or ()]
+    if not folders:
+        return [] if spec.origin is None else [(Path(spec.origin), name)]
+    found = [
+        (file, f"{name}/{file.relative_to(folder).as_posix()}")
+        for folder in folders
+        for file in folder.rglob("*")
+        if file.suffix in SUFFIXES and file.relative_to(folder).parts[0] not in FOR_READERS
+    ]
+    return sorted(found, key=lambda each: each[1])

@@ -16,7 +16,7 @@ from exu_press.mechanism.shapes import shapes_of
 from exu_press.mechanism.transmission import alike
 from exu_press.numerics.arrays import Array
 from exu_press.plots.headed import headed_figure
-from exu_press.plots.labels import spread
+from exu_press.plots.scales import spread
 from exu_press.plots.style import GREY, RUN, colour_of, styled
 from exu_press.plots.typesetting import plain
 

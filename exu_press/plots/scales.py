@@ -10,7 +10,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 from exu_press.numerics.arrays import Array
 from exu_press.plots.style import GREY, SHADE
 
-__all__ = ["angle_ticks", "crank_angle_axis", "impact_scale", "log_axis", "note", "widen"]
+__all__ = ["angle_ticks", "crank_angle_axis", "impact_scale", "log_axis", "note", "spread", "widen"]
 
 TICK_STEPS = (0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 45, 90, 180, 360)  # deg
 MOST_CENTRES = 100
@@ -174,3 +174,22 @@ def log_axis(panel: Axes, which: str, values: Array) -> None:
     axis.set_minor_locator(NullLocator())
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     (panel.set_xlim if which == "x" else panel.set_ylim)(low / 1.08, high * 1.08)
+
+
+def spread(heights: Iterable[float], least: float) -> list[float]:
+    """Return heights moved apart so that neighbours keep a distance, in the given order."""
+    wanted = np.array(list(heights))
+    order = np.argsort(wanted)
+    placed = wanted[order].copy()
+    for _ in range(200):
+        gaps = np.diff(placed)
+        short = np.flatnonzero(gaps < least * (1 - 1e-6))
+        if not len(short):
+            break
+        for index in short:
+            push = 0.5 * (least - (placed[index + 1] - placed[index]))
+            placed[index] -= push
+            placed[index + 1] += push
+    found = np.empty_like(placed)
+    found[order] = placed
+    return [float(value) for value in found]

@@ -29,7 +29,7 @@ def sensitivity_figure(report: Report) -> Figure:
     panels = figure.subplots(len(names), 3, squeeze=False, width_ratios=(1.0, 1.0, 1.0))
     for place, (name, row) in enumerate(zip(names, panels, strict=True)):
         quantity = quantity_of(study.scene, name).quantity
-        unit = typeset(quantity.shown or quantity.unit)
+        unit = typeset(quantity.shown)
         _spread(row[0], report.sample.values[place] * quantity.scale, report, place)
         found = report.indices[place]
         if found is None:

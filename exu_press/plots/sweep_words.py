@@ -63,7 +63,7 @@ def headed(name: str) -> str:
     'peak acceleration, m/s^2'
     """
     placed = declared(name)
-    unit = "" if placed is None else placed.quantity.shown or placed.quantity.unit
+    unit = "" if placed is None else placed.quantity.shown
     return words(name) + (f", {unit}" if unit else "")
 
 

@@ -82,6 +82,9 @@ class Quantity:
     cumulative: bool = False
     curve: str = ""
 
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "shown", self.shown or self.unit)
+
     def at(self, place: str) -> str:
         """Return the full name at a place.
 
@@ -96,12 +99,11 @@ class Quantity:
     @property
     def scale(self) -> float:
         """Factor from the SI unit to the one that tables show."""
-        if not self.shown or self.shown == self.unit:
+        if self.shown == self.unit:
             return 1.0
         return PREFIXES[self.shown.removesuffix(self.unit)]
 
     @property
     def head(self) -> str:
         """Its title with the unit that is shown."""
-        unit = self.shown or self.unit
-        return f"{self.title}, {unit}" if unit else self.title
+        return f"{self.title}, {self.shown}" if self.shown else self.title

@@ -36,7 +36,6 @@ class Reading:
         self._load = "", np.zeros(0)
 
     def __getitem__(self, channel: str) -> Array:
-        """Return the values of a channel."""
         return self.result[channel]
 
     def channel(self, name: str) -> Array | None:

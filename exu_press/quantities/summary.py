@@ -1,18 +1,25 @@
-"""The dictionary of summary.json."""
+"""The dictionary of summary.json, with its warnings."""
 
+import math
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
 
+from exu_press.mechanism.holding import holding_of
 from exu_press.quantities.catalogue import quantities_of
+from exu_press.quantities.energy import energy_residual
 from exu_press.quantities.kind import COST
+from exu_press.quantities.oil import oil_warnings
 from exu_press.quantities.reading import Reading
+from exu_press.quantities.start_stop import still_turns
 from exu_press.quantities.value import values_of
-from exu_press.quantities.warnings import run_warnings
 from exu_press.result import Result
+from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.assumptions import assumed
+from exu_press.scene.warnings import scene_warnings
 
-__all__ = ["summary"]
+__all__ = ["run_warnings", "summary"]
 
 
 def summary(result: Result) -> dict[str, Any]:
@@ -58,3 +65,81 @@ def _strokes(result: Result, run: Reading) -> list[dict[str, float]]:
         }
         for centre in run.dead_centres
     ]
+
+
+RESIDUAL = 0.01
+"""Residual over the energy exchanged, beyond which the balance casts doubt on the integration."""
+
+ALIKE = 0.01
+"""Difference of a solid, over mass, inertia and the mechanism's size, without a warning."""
+
+NEARLY_TOUCHING = 0.95
+"""Eccentricity ratio from which a film is thinner than its law is good for."""
+
+
+def run_warnings(result: Result) -> list[str]:
+    """Return the warnings of summary.json: about the run's quantities, then about its scene."""
+    found, scene = [], result.scene
+    residual = energy_residual(result)
+    if result.info["own_items"]:
+        found.append("no energy balance: the energy of your own items is not known")
+    if residual is not None and residual > RESIDUAL:
+        found.append(
+            f"the energy balance misses {residual:.2g} of the energy: try a smaller "
+            "solver.tolerance or solver.step"
+        )
+    for name, joint in result.joints.items():
+        if joint.kind == "lubricated":
+            ratio = float(joint.distance.max() / joint.clearance)
+            if ratio > NEARLY_TOUCHING:
+                found.append(
+                    f"{name.replace('_', ' ')}: eccentricity ratio up to {ratio:.3f}; film laws "
+                    "for smooth surfaces are hardly valid there"
+                )
+    if scene.drive is not None and scene.drive.stops and still_turns(Reading(result)):
+        speed = float(result["crank_speed"][-1]) * 30.0 / math.pi
+        found.append(
+            f"the press does not stand behind its last stop: the crank turns at {speed:.3g} rpm at "
+            "the end; try a larger drive.brake_torque, or more revolutions"
+        )
+    return [
+        *found,
+        *oil_warnings(result),
+        *_held_twice(scene),
+        *_solids(result),
+        *scene_warnings(scene),
+    ]
+
+
+def _held_twice(scene: Scene) -> Iterator[str]:
+    """Yield the ideal joints between which forces cannot be told apart."""
+    holding = holding_of(mechanism_of(scene), scene.joints.ideal)
+    if holding.twice:
+        names = ", ".join(name.replace("_", " ") for name in holding.redundant)
+        yield (
+            f"{names}: other ideal joints hold the same at most crank angles; the motion is right, "
+            "but how joints divide the forces among them is not determined; give one of them "
+            "clearance"
+        )
+
+
+def _solids(result: Result) -> Iterator[str]:
+    """Yield differences of a flexible body's solid from the mechanism's body."""
+    scene = result.scene
+    mechanism = mechanism_of(scene)
+    solids: Mapping[str, Mapping[str, Any]] = result.info.get("solids", {})
+    for name, solid in solids.items():
+        body, away = mechanism.body(name), math.hypot(*solid["centre_of_mass"])
+        flywheel = 0.0 if scene.drive is None or name != mechanism.crank else scene.drive.on_crank
+        said = [
+            f"{what} {solid[what]:.4g} {unit} for {meant:.4g}"
+            for what, unit, meant in (
+                ("mass", "kg", body.mass),
+                ("inertia", "kg m^2", body.inertia - flywheel),
+            )
+            if abs(solid[what] - meant) > ALIKE * meant
+        ]
+        if away > ALIKE * mechanism.size:
+            said.append(f"a centre of mass {1e3 * away:.3g} mm from the mechanism's")
+        if said:
+            yield f"bodies.{name}: the solid's own values are taken: {', '.join(said)}"

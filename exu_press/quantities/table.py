@@ -47,7 +47,7 @@ def comparison_cells(results: Mapping[str, Result]) -> list[list[str]]:
             cell = _at_places if quantity.place is not Place.RUN else _of_run
             texts = [cell(quantity, results[label], values) for label, values in runs.items()]
             cells.append([_head(quantity, unit), *texts])
-            unit = quantity.shown or quantity.unit
+            unit = quantity.shown
     return [line for line in cells if set(line[1:]) != {"-"}]
 
 
@@ -68,13 +68,8 @@ def _span(result: Result) -> str:
 
 
 def _head(quantity: Quantity, unit: str) -> str:
-    """Return the head of a line; the unit of a detail is that of the line above unless it differs.
-
-    Args:
-        quantity: of the line.
-        unit: shown in the line above.
-    """
-    own = quantity.shown or quantity.unit
+    """Return the head of a line; a detail has its unit where the line above has another."""
+    own = quantity.shown
     words = quantity.title + f", {own}" * bool(own and not (quantity.under and own == unit))
     return f"  {words}" if quantity.under else words
 

@@ -69,12 +69,7 @@ def values_of(result: Result, run: Reading | None = None) -> dict[str, Value]:
 
 
 def numbers_of(result: Result, declared: Mapping[str, Placed]) -> dict[str, float]:
-    """Return the values of quantities of a run by name; those that it is too short for left out.
-
-    Args:
-        result: of the run.
-        declared: quantities of its scene, by name.
-    """
+    """Return the values of quantities of a run by name; those that it is too short for left out."""
     run = Reading(result)
     found = {name: _read(result, placed, run) for name, placed in declared.items()}
     return {name: float(value) for name, value in found.items() if value is not None}

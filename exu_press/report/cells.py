@@ -40,7 +40,6 @@ class Comparison:
         return Page(comparison_page(self.results, "comparison"))
 
     def __str__(self) -> str:
-        """Return their quantities as a table."""
         return "\n".join(comparison_lines(self.results))
 
     def _repr_html_(self) -> str:

@@ -176,7 +176,7 @@ def _listed(
     """Return a table of quantities in words, those that the run does not have left out."""
     values = [(quantity, value_of(result, quantity.name)) for quantity in quantities]
     rows = [
-        [quantity.meaning, f"{shown_value(quantity, value)} {quantity.shown or quantity.unit}"]
+        [quantity.meaning, f"{shown_value(quantity, value)} {quantity.shown}"]
         for quantity, value in values
         if value.value is not None
     ]

@@ -48,7 +48,7 @@ def sensitivity_report(file: Path) -> str:
 def _spread(name: str, one: dict[str, Any]) -> list[str]:
     """Return a quantity as a line of the table, in the unit that is shown."""
     placed = declared(name)
-    unit = "" if placed is None else placed.quantity.shown or placed.quantity.unit
+    unit = "" if placed is None else placed.quantity.shown
     scale = 1.0 if placed is None else placed.quantity.scale
     ends = [one["percentiles"][part] for part in ("5", "50", "95")]
     numbers = [*ends, one["deviation"], one["half_width"], one["error_of_a_run"]]

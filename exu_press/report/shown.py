@@ -43,7 +43,6 @@ class Page:
         )
 
     def __repr__(self) -> str:
-        """Return how large it is, not all of it."""
         return f"Page({len(self.text) / 1e6:.1f} MB; save(path) writes it)"
 
 

@@ -19,12 +19,7 @@ WRONG = (ValueError, KeyError, IndexError, TypeError, AttributeError)
 
 @contextmanager
 def reading(file: Path, wanted: str) -> Iterator[None]:
-    """Turn whatever is wrong with a study's files into an InputError.
-
-    Args:
-        file: of the study.
-        wanted: its kind, as "a fit of exu_press".
-    """
+    """Turn whatever is wrong with a study's files into an InputError."""
     try:
         yield
     except OSError as error:

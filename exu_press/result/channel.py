@@ -40,7 +40,6 @@ class Channel:
     axis: str = ""
 
     def __post_init__(self) -> None:
-        """Check the values."""
         shape, columns = self.values.shape, AXES.get(self.axis)
         axes = {"": 1, "pose": 3}.get(self.axis, 2)
         if len(shape) != axes or (columns and shape[-1] != len(columns)):

@@ -54,7 +54,6 @@ class OnDisk(Mapping[str, Channel]):
         self.count += len(channels["time"].values)
 
     def __getitem__(self, name: str) -> Channel:
-        """Return a channel, read from its file."""
         begun = self.begun[name]
         shape = self.count, *begun.values.shape[1:]
         values = np.memmap(
@@ -81,11 +80,9 @@ class OnDisk(Mapping[str, Channel]):
         return np.array(self[name].values[-1])
 
     def __iter__(self) -> Iterator[str]:
-        """Iterate over the channels' names."""
         return iter(self.begun)
 
     def __len__(self) -> int:
-        """Return the number of channels."""
         return len(self.begun)
 
     def __reduce__(self) -> Any:
@@ -114,7 +111,6 @@ class Changed(Mapping[str, Channel]):
         self._found: dict[str, Channel] | None = None if on_disk(channels) else {}
 
     def __getitem__(self, name: str) -> Channel:
-        """Return a channel with its changed values."""
         if self._found is not None and name in self._found:
             return self._found[name]
         channel = self.channels[name]
@@ -124,11 +120,9 @@ class Changed(Mapping[str, Channel]):
         return channel
 
     def __iter__(self) -> Iterator[str]:
-        """Iterate over the channels' names."""
         return iter(self.channels)
 
     def __len__(self) -> int:
-        """Return the number of channels."""
         return len(self.channels)
 
     def __reduce__(self) -> Any:

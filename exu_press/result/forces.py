@@ -1,6 +1,6 @@
-"""Forces that hold and drive the mechanism: those of drive, guides and ideal joints."""
+"""Forces that hold and drive the mechanism, press its frame, and shake it."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
 import numpy as np
 
@@ -9,9 +9,9 @@ from exu_press.model import Model
 from exu_press.numerics.arrays import Array
 from exu_press.result.channel import Channel, guide_channel, positive
 from exu_press.result.declared import channel
-from exu_press.result.motion import body_motion, sensor
+from exu_press.result.motion import body_motion, point_acceleration, sensor
 
-__all__ = ["frame_force", "guide_channels", "held_forces", "vectors"]
+__all__ = ["frame_force", "guide_channels", "held_forces", "shaking_forces", "vectors"]
 
 
 def held_forces(model: Model) -> dict[str, Channel]:
@@ -105,3 +105,35 @@ def vectors(values: Array, spherical: bool) -> Array:
     in_space = np.zeros((len(values), 3))
     in_space[:, : values.shape[1]] = values
     return in_space
+
+
+def shaking_forces(model: Model, acceleration: Array) -> dict[str, Channel]:
+    """Return the shaking force, minus the rate of the mechanism's momentum, (n, 2), N.
+
+    That is what shaft, pivots and guides press the frame with, less weight and blanking force; the
+    latter closes within the press, from the slider through tool and bed.
+
+    Where the mechanism says which of its bodies are a counterweight, that of the others too: of the
+    same press built without it, if it hangs on the crank and not on the slider's branch.
+
+    Args:
+        model: integrated.
+        acceleration: (n, bodies, 3) of every body's frame.
+    """
+    forces = {}
+    for index, body in enumerate(model.mechanism.bodies):
+        mass, centre = body.mass, acceleration[:, index]
+        if body.name in model.parts:
+            # modes are orthogonal to rigid motions: they have no momentum of their own
+            part = model.parts[body.name].reduced
+            mass, centre = part.mass, point_acceleration(model, body.name, part.centre_of_mass)
+        forces[body.name] = -mass * centre[:, :2]
+    channels = channel("shaking_force", _sum(forces, forces))
+    if counterweight := model.mechanism.counterweight:
+        others = [name for name in forces if name not in counterweight]
+        channels |= channel("shaking_force_without_counterweight", _sum(forces, others))
+    return channels
+
+
+def _sum(forces: dict[str, Array], names: Collection[str]) -> Array:
+    return np.asarray(np.sum([forces[name] for name in names], axis=0))

@@ -1,5 +1,6 @@
-"""A result as a NetCDF file: units and names as attributes, the complete scene inside."""
+"""A result as a NetCDF file, or as a dataset of xarray: units and names, and the scene."""
 
+import importlib
 import json
 from collections.abc import Mapping
 from pathlib import Path
@@ -21,7 +22,7 @@ from exu_press.schema.stored import from_json, shown
 if TYPE_CHECKING:
     from scipy.io import netcdf_file
 
-__all__ = ["is_whole", "read", "write"]
+__all__ = ["dataset", "is_whole", "read", "write"]
 
 Kind = TypeVar("Kind", bound=Contents)
 Number = TypeVar("Number", bound=np.generic)
@@ -173,3 +174,30 @@ def _surface(file: Classic, body: str) -> Surface:
         return Surface(stored("nodes", np.float32), stored("triangles", np.int32), modes, stress)
     except InputError as error:
         raise InputError(f"surface of {shown(body)}: {error}") from None
+
+
+def dataset(result: Contents) -> Any:
+    """Return the channels of a result as an `xarray.Dataset` over time.
+
+    Raises:
+        InputError: xarray is not installed.
+    """
+    try:
+        xarray: Any = importlib.import_module("xarray")
+    except ModuleNotFoundError:
+        raise InputError(
+            "to_xarray: needs the package xarray; install it by pip install xarray"
+        ) from None
+    variables, used = {}, set()
+    for name, channel in result.channels.items():
+        inner = ("body",) if channel.values.ndim == 3 else ()
+        outer = (channel.axis,) if channel.axis else ()
+        used |= {*inner, *outer}
+        words = {"units": channel.unit, "long_name": channel.long_name}
+        variables[name] = (("time", *inner, *outer), channel.values, words)
+    columns = {"body": result.bodies, **AXES}
+    return xarray.Dataset(
+        variables,
+        coords={axis: list(columns[axis]) for axis in used if axis in columns},
+        attrs={"scene": json.dumps(result.scene.to_dict()), "info": json.dumps(result.info)},
+    )

@@ -16,12 +16,11 @@ from exu_press.result.declared import channel
 from exu_press.result.energy import mechanical_energy, work
 from exu_press.result.equilibrium import equilibrium
 from exu_press.result.flexible import record_parts
-from exu_press.result.forces import frame_force, held_forces
+from exu_press.result.forces import frame_force, held_forces, shaking_forces
 from exu_press.result.guides import record_friction, record_guides, record_guideways
 from exu_press.result.info import Info, Stress
 from exu_press.result.joints import joint_states, record_joints
 from exu_press.result.loads import record_loads
-from exu_press.result.momentum import shaking_forces
 from exu_press.result.motion import body_motion, sensor
 from exu_press.result.result import Result
 from exu_press.result.start_stop import record_start_stop

@@ -51,7 +51,6 @@ class Result(Contents):
     """
 
     def __getitem__(self, name: str) -> Array:
-        """Return the values of a channel."""
         if name not in self.channels:
             cure = ""
             if "figures" in self.info:
@@ -66,11 +65,9 @@ class Result(Contents):
         return part_of(self.channels, "body_position", lambda values: values[:, index, :2])
 
     def __iter__(self) -> Iterator[str]:
-        """Iterate over the channels' names."""
         return iter(self.channels)
 
     def __contains__(self, name: object) -> bool:
-        """Return whether the run has a channel."""
         return name in self.channels
 
     @property
@@ -185,7 +182,7 @@ class Result(Contents):
         Raises:
             InputError: xarray is not installed.
         """
-        from exu_press.result.dataset import dataset
+        from exu_press.result.netcdf import dataset
 
         return dataset(self)
 

@@ -38,7 +38,6 @@ class Samples:
         return at_rows(self._channels, name, self.rows)
 
     def __len__(self) -> int:
-        """Return the number of samples."""
         return len(self.rows)
 
     def at(self, angle_deg: float) -> "Samples":

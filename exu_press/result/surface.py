@@ -47,7 +47,6 @@ class Surface:
     stress: Array
 
     def __post_init__(self) -> None:
-        """Check the arrays."""
         count, modes = len(self.nodes), self.modes.shape[-1]
         shapes: dict[str, tuple[int, ...]] = {
             "nodes": (count, 3),

@@ -186,7 +186,7 @@ def applied_loads(scene: Scene) -> dict[str, AppliedLoad]:
             clock=pulse.clock if pulse else None,
             damping=load.damping if isinstance(load, SpringLoad) else 0.0,
             sheet=load.sheet(fade) if isinstance(load, SheetLoad) and fade else None,
-            top=load.top if isinstance(load, SheetLoad) else 0.0,
+            top=load.height if isinstance(load, SheetLoad) else 0.0,
         )
         if applied.curve.peak > 0.0:
             found[name] = applied

@@ -119,7 +119,6 @@ class Key:
         return bool(self.value == self.default)
 
     def __str__(self) -> str:
-        """Return name, value and unit."""
         return f"{self.name} = {_text(self.value)} {self.unit}".rstrip()
 
 

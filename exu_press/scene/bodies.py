@@ -2,14 +2,13 @@
 
 import dataclasses
 import importlib
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 from exu_press.errors import InputError
-from exu_press.schema.checks import Table, key, nearest, refuse_unknown, table_from
+from exu_press.schema.checks import Table, key, nearest, plain, refuse_unknown, table_from
 
 __all__ = [
     "DRIVE_FACE",
@@ -37,33 +36,45 @@ USUAL_MODES = 20
 OF_TWO = ("modes", "flexibility_error")
 """Keys of which one decides about the modes."""
 
-OLD = "is bodies.NAME now, a table for each flexible body, as in bodies.linkage = 'linkage'"
-
 
 @dataclass(frozen=True)
-class Face:
+class Face(Table):
     """The faces of a solid that a joint, a guide or a load holds.
 
     By name; or, of a joint, cylinders and spheres about its axis; of a guide or a load, all that
     lie wholly within ranges.
-
-    Attributes:
-        name: of the faces, as the STEP file or the shipped part has it; empty: by their place.
-        radius: of a joint's cylinder or sphere, m, where several have the same axis.
-        z: lowest and highest place along the joints' axes, m; of a joint, where several cylinders
-            have the same radius.
-        eccentric: the joint's axis may lie beside the face's, as that of an eccentric ring on it,
-            and the face may carry another joint.
-        x: lowest and highest place of a guide's or a load's faces, m, as the STEP file has it.
-        y: likewise.
     """
 
-    name: str = ""
-    radius: float | None = None
-    z: tuple[float, float] | None = None
-    eccentric: bool = False
-    x: tuple[float, float] | None = None
-    y: tuple[float, float] | None = None
+    name: str = key("", "as the STEP file or the shipped part has it; empty: by their place")
+    radius: float | None = key(
+        None, "of a joint's cylinder or sphere, where several have the same axis", "m", above=0
+    )
+    z: tuple[float, float] | None = key(
+        None,
+        "[lowest, highest] along the joints' axes; of a joint, where several cylinders have the "
+        "same radius",
+        "m",
+        numbers=2,
+    )
+    eccentric: bool = key(
+        False,
+        "whether the joint's axis may lie beside the face's, as that of an eccentric ring on it, "
+        "and the face may carry another joint",
+    )
+    x: tuple[float, float] | None = key(
+        None,
+        "[lowest, highest] of a guide's or a load's faces, as the STEP file has it",
+        "m",
+        numbers=2,
+    )
+    y: tuple[float, float] | None = key(None, "[lowest, highest], likewise", "m", numbers=2)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        for axis in ("x", "y", "z"):
+            ends = getattr(self, axis)
+            if ends is not None and not ends[0] < ends[1]:
+                raise InputError(f"{axis} = {list(ends)!r}: allowed is [lowest, highest], m")
 
     @property
     def ranges(self) -> tuple[tuple[float, float] | None, ...]:
@@ -80,7 +91,8 @@ OF_A_PATCH = ("name", "x", "y", "z")
 class Flexible(Table):
     """A flexible body: a shipped part or a STEP file, its material, mesh and modes."""
 
-    flexible: str = key("", "a shipped part, or the path of a STEP file")
+    required: ClassVar[tuple[str, ...]] = ("flexible",)
+    flexible: str = key(None, "a shipped part, or the path of a STEP file")
     modes: int | None = key(
         None, "number of modal coordinates, 20 unless given", at_least=0, at_most=500
     )
@@ -106,6 +118,7 @@ class Flexible(Table):
         None,
         "place of the solid's origin in the drawing; [0, 0], or fitted if all faces have names",
         "m",
+        numbers=2,
     )
     angle_deg: float | None = key(
         None, "direction of the solid's x axis in the drawing; 0, or fitted likewise", "deg"
@@ -121,12 +134,6 @@ class Flexible(Table):
     faces: Mapping[str, tuple[Face, ...]] = dataclasses.field(default_factory=dict, hash=False)
 
     def __post_init__(self) -> None:
-        """Check the keys; origin and faces are checked here, the others by their declaration."""
-        if not self.flexible:
-            raise InputError("flexible: missing; allowed is a shipped part or a STEP file's path")
-        origin = self.origin
-        if origin is not None:
-            object.__setattr__(self, "origin", None)
         super().__post_init__()
         if self.flexibility_error is None:
             object.__setattr__(self, "modes", USUAL_MODES if self.modes is None else self.modes)
@@ -135,8 +142,6 @@ class Flexible(Table):
                 f"modes = {self.modes}, flexibility_error = {self.flexibility_error:g}: allowed is "
                 "one of the two"
             )
-        if origin is not None:
-            object.__setattr__(self, "origin", _pair("origin", origin))
         object.__setattr__(self, "faces", faces_given(self.faces))
 
     @property
@@ -165,7 +170,7 @@ def bodies_of(
         InputError: there is no such body or joint, or a key is not allowed.
     """
     if not isinstance(given, Mapping):
-        raise InputError(f"bodies = {given!r}: {OLD}")
+        raise InputError(f"bodies = {given!r}: allowed is a table for each flexible body")
     found = {}
     for name, value in given.items():
         if name not in joints:
@@ -205,15 +210,9 @@ def flexible_press(**keys: Any) -> dict[str, dict[str, Any]]:
 
 def body_dict(body: Flexible) -> dict[str, Any]:
     """Return a flexible body as a nested mapping of the keys it gives."""
-    found: dict[str, Any] = {}
-    for field in dataclasses.fields(body):
-        value = getattr(body, field.name)
-        if field.name == "faces":
-            faces = {joint: [face_dict(face) for face in faces] for joint, faces in value.items()}
-            found |= {"faces": faces} if faces else {}
-        elif value is not None:
-            found[field.name] = list(value) if isinstance(value, tuple) else value
-    return found
+    faces = {joint: [face_dict(face) for face in faces] for joint, faces in body.faces.items()}
+    found = {name: value for name, value in plain(body).items() if name != "faces"}
+    return {**found, "faces": faces} if faces else found
 
 
 def changed_bodies(
@@ -320,20 +319,10 @@ def _face(where: str, given: Any, known: tuple[str, ...]) -> Face:
             f"{where} = {given!r}: allowed is a face's name, or a table of {', '.join(known)}"
         )
     refuse_unknown(where, given, known)
-    keys = dict(given)
-    for axis in ("x", "y", "z"):
-        if (ends := keys.get(axis)) is not None:
-            keys[axis] = low, high = _pair(f"{where}.{axis}", ends)
-            if not low < high:
-                raise InputError(f"{where}.{axis} = {ends!r}: allowed is [lowest, highest], m")
-    radius = keys.get("radius")
-    if radius is not None and not (_number(radius) and radius > 0):
-        raise InputError(f"{where}.radius = {radius!r}: allowed is a number > 0, m")
-    if not isinstance(keys.get("name", ""), str):
-        raise InputError(f"{where}.name = {keys['name']!r}: allowed is a text")
-    if not isinstance(keys.get("eccentric", False), bool):
-        raise InputError(f"{where}.eccentric = {keys['eccentric']!r}: allowed is true or false")
-    return Face(**keys)
+    try:
+        return Face(**given)
+    except InputError as error:
+        raise InputError(f"{where}.{error}") from None
 
 
 def face_dict(face: Face) -> Any:
@@ -342,13 +331,3 @@ def face_dict(face: Face) -> Any:
     if list(given) == ["name"]:
         return face.name
     return {k: list(v) if isinstance(v, tuple) else v for k, v in given.items()}
-
-
-def _pair(where: str, given: Any) -> tuple[float, float]:
-    if not isinstance(given, (list, tuple)) or len(given) != 2 or not all(map(_number, given)):
-        raise InputError(f"{where} = {given!r}: allowed are two numbers, m")
-    return float(given[0]), float(given[1])
-
-
-def _number(value: Any) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)

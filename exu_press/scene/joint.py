@@ -56,7 +56,6 @@ class DryJoint(Table):
     worn: Worn | None = None
 
     def __post_init__(self) -> None:
-        """Check the keys and that the journal is larger than its clearance."""
         super().__post_init__()
         _check_clearance(self)
 
@@ -83,7 +82,6 @@ class LubricatedJoint(Table):
     worn: Worn | None = None
 
     def __post_init__(self) -> None:
-        """Check the keys and that the journal is larger than its clearance."""
         super().__post_init__()
         _check_clearance(self)
 

@@ -45,36 +45,29 @@ class Joints(Mapping[str, Joint]):
         groups: Mapping[str, tuple[str, ...]],
         spherical: Iterable[str] = (),
     ) -> None:
-        """Keep joints that have been checked; `joints_of` makes them from a scene's table."""
         self.spherical = frozenset(spherical)
         self._joints = dict(joints)
         self.mechanism = mechanism
         self.groups = dict(groups)
 
     def __getitem__(self, name: str) -> Joint:
-        """Return a joint by its name."""
         if name not in self._joints:
             raise InputError(_unknown(name, self.mechanism, self._joints, {}))
         return self._joints[name]
 
     def __iter__(self) -> Iterator[str]:
-        """Iterate over the names."""
         return iter(self._joints)
 
     def __len__(self) -> int:
-        """Return how many there are."""
         return len(self._joints)
 
     def __contains__(self, name: object) -> bool:
-        """Return whether the mechanism has a joint."""
         return name in self._joints
 
     def __hash__(self) -> int:
-        """Return the hash of all joints."""
         return hash(tuple(self._joints.items()))
 
     def __repr__(self) -> str:
-        """Return the joints that are not ideal."""
         return f"Joints({self.with_clearance!r})"
 
     @property

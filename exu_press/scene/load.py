@@ -1,6 +1,5 @@
 """One load: a blanking pulse, a table of forces, a sheet or a spring."""
 
-import dataclasses
 import math
 from dataclasses import dataclass
 from typing import Any, ClassVar, Literal
@@ -47,7 +46,6 @@ class _Placed(Table):
     )
 
     def __post_init__(self) -> None:
-        """Check the keys, that the direction is one, and that there is one place."""
         given: Any = self.face
         if given is not None:
             object.__setattr__(self, "face", patch_given("face", given))
@@ -67,7 +65,8 @@ class BlankingLoad(_Placed):
     kind: ClassVar[Literal["blanking"]] = "blanking"
     over: ClassVar = "crank_angle_deg"
     closing: ClassVar = False
-    force: float | None = key(None, "peak force", "N", at_least=0)
+    required: ClassVar[tuple[str, ...]] = ("force",)
+    force: float = key(None, "peak force", "N", at_least=0)
     rise: float = key(1e-3, "time from zero to the peak (2 tau)", "s", above=0)
     fall: float = key(5e-4, "time from the peak to zero (tau)", "s", above=0)
     end_angle_deg: float = key(
@@ -78,16 +77,12 @@ class BlankingLoad(_Placed):
     )
 
     def __post_init__(self) -> None:
-        """Check the keys; there is a force, and one place."""
         super().__post_init__()
-        if self.force is None:
-            raise InputError("force: missing; allowed is a number >= 0 (peak force, N)")
         if self.start_angle_deg is not None and self.end_angle_deg != LOWEST:
             raise InputError("start_angle_deg and end_angle_deg: allowed is one of the two")
 
     def curve(self, angular_speed: float) -> LoadCurve:
         """Return the force over the crank angle, rad, at a speed of the crank, rad/s."""
-        assert self.force is not None
         times, forces = blanking_pulse(self.force, self.rise, self.fall)
         if self.start_angle_deg is not None:
             begin = math.radians(self.start_angle_deg)
@@ -97,7 +92,6 @@ class BlankingLoad(_Placed):
 
     def timed(self) -> LoadCurve:
         """Return the force over the time since the pulse's beginning, s."""
-        assert self.force is not None
         return LoadCurve(*blanking_pulse(self.force, self.rise, self.fall))
 
     def clock(self, now: float, speed: float) -> PulseClock:
@@ -135,7 +129,6 @@ class TableLoad(_Placed):
     )
 
     def __post_init__(self) -> None:
-        """Check the keys; one column of increasing places, and a force at each."""
         super().__post_init__()
         given = [name for name in COLUMNS if getattr(self, name) is not None]
         if len(given) != 1 or self.force is None:
@@ -185,18 +178,19 @@ class SheetLoad(_Placed):
     kind: ClassVar[Literal["sheet"]] = "sheet"
     over: ClassVar = "penetration"
     closing: ClassVar = True
-    height: float | None = key(
-        None, "of the sheet's upper face above bottom dead centre", "m", above=0
+    required: ClassVar[tuple[str, ...]] = (
+        *("height", "thickness", "shear_strength", "cut_length", "penetration", "crack_time"),
     )
-    thickness: float | None = key(None, "of the sheet", "m", above=0)
-    shear_strength: float | None = key(
+    height: float = key(None, "of the sheet's upper face above bottom dead centre", "m", above=0)
+    thickness: float = key(None, "of the sheet", "m", above=0)
+    shear_strength: float = key(
         None, "of the sheet, about 0.8 of its tensile strength", "Pa", above=0
     )
-    cut_length: float | None = key(None, "of the line that is cut", "m", above=0)
-    penetration: float | None = key(
+    cut_length: float = key(None, "of the line that is cut", "m", above=0)
+    penetration: float = key(
         None, "of the punch at fracture over the thickness", above=0, at_most=1
     )
-    crack_time: float | None = key(None, "from fracture to no force", "s", above=0)
+    crack_time: float = key(None, "from fracture to no force", "s", above=0)
     stripping: float = key(0.0, "force on the way up over the largest force", at_least=0, at_most=1)
     over_fracture: tuple[float, ...] = key(
         SHAPE[0], "penetrations of the curve over that at fracture, from 0 to 1", numbers=0
@@ -206,13 +200,7 @@ class SheetLoad(_Placed):
     )
 
     def __post_init__(self) -> None:
-        """Check the keys; the sheet is given, and its curve is one."""
         super().__post_init__()
-        for field in dataclasses.fields(self):
-            if field.name in _OF_A_SHEET and getattr(self, field.name) is None:
-                unit = field.metadata["unit"]
-                words = ", ".join(filter(None, (field.metadata["meaning"], unit)))
-                raise InputError(f"{field.name}: missing; allowed is a number > 0 ({words})")
         check_columns(("over_fracture", "over_peak"), self.over_fracture, self.over_peak)
         if (self.over_fracture[0], self.over_fracture[-1], self.over_peak[0]) != (0.0, 1.0, 0.0):
             raise InputError(
@@ -225,15 +213,8 @@ class SheetLoad(_Placed):
                 f"over_peak = {min(self.over_peak[1:])!r}: allowed is > 0 after the first"
             )
 
-    @property
-    def top(self) -> float:
-        """Height of the upper face, m."""
-        assert self.height is not None
-        return self.height
-
     def curve(self, angular_speed: float) -> LoadCurve:
         """Return the force over the penetration up to fracture, m."""
-        assert self.shear_strength and self.cut_length and self.thickness and self.penetration
         peak = shear_force(self.shear_strength, self.cut_length, self.thickness)
         depth = self.penetration * self.thickness
         return LoadCurve(
@@ -242,7 +223,6 @@ class SheetLoad(_Placed):
 
     def sheet(self, fade: float) -> Sheet:
         """Return the sheet, with the speed from which stripping acts in full, m/s."""
-        assert self.thickness and self.crack_time
         curve = self.curve(0.0)
         return Sheet(curve, self.thickness, self.crack_time, self.stripping * curve.peak, fade)
 
@@ -257,21 +237,16 @@ class SpringLoad(_Placed):
     kind: ClassVar[Literal["spring"]] = "spring"
     over: ClassVar = "height"
     closing: ClassVar = False
-    height: float | None = key(
+    required: ClassVar[tuple[str, ...]] = ("height", "travel", "force")
+    height: float = key(
         None, "of the output above bottom dead centre where it meets the spring", "m", above=0
     )
-    travel: tuple[float, ...] | None = key(None, "of the forces, from 0", "m", numbers=0)
-    force: tuple[float, ...] | None = key(None, "over the travel, from 0", "N", numbers=0)
+    travel: tuple[float, ...] = key(None, "of the forces, from 0", "m", numbers=0)
+    force: tuple[float, ...] = key(None, "over the travel, from 0", "N", numbers=0)
     damping: float = key(0.0, "d, of the force per speed over the force", "s/m", at_least=0)
 
     def __post_init__(self) -> None:
-        """Check the keys; it has a place and a curve without a jump."""
         super().__post_init__()
-        for name in ("height", "travel", "force"):
-            if getattr(self, name) is None:
-                raise InputError(f"{name}: missing; allowed are height, travel and force together")
-        assert self.travel is not None
-        assert self.force is not None
         check_columns(("travel", "force"), self.travel, self.force)
         if self.travel[0] != 0.0 or self.force[0] != 0.0 or min(self.force) < 0.0:
             raise InputError(
@@ -282,14 +257,8 @@ class SpringLoad(_Placed):
 
     def curve(self, angular_speed: float) -> LoadCurve:
         """Return the force over the output's height, m."""
-        assert self.height is not None
-        assert self.travel is not None
-        assert self.force is not None
         places = [self.height - x for x in reversed(self.travel)]
         return LoadCurve(places, tuple(reversed(self.force)))
-
-
-_OF_A_SHEET = ("height", "thickness", "shear_strength", "cut_length", "penetration", "crack_time")
 
 
 Load = BlankingLoad | TableLoad | SheetLoad | SpringLoad

@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 
 from exu_press.errors import InputError
+from exu_press.files.two_columns import read_two_columns
 from exu_press.mechanism import Mechanism
 from exu_press.scene.bodies import face_dict
 from exu_press.scene.load import COLUMNS, LOAD_KINDS, BlankingLoad, Load, SheetLoad, SpringLoad
-from exu_press.scene.load_file import MOVED, read_load_table
-from exu_press.schema.checks import nearest
+from exu_press.schema.checks import nearest, plain
 
 __all__ = ["changed_loads", "load_dict", "loads_of", "with_files_beside"]
 
@@ -59,14 +59,10 @@ def loads_of(
 
 def load_dict(load: Load) -> dict[str, Any]:
     """Return a load as a mapping; a table with its numbers, not its file."""
-    keys: dict[str, Any] = {"kind": load.kind}
-    for field in dataclasses.fields(load):
-        value = getattr(load, field.name)
-        if field.name == "face" and value is not None:
-            faces = [face_dict(face) for face in value]
-            keys["face"] = faces[0] if len(faces) == 1 else faces
-        elif value is not None:
-            keys[field.name] = list(value) if isinstance(value, tuple) else value
+    keys = {"kind": load.kind, **plain(load)}
+    if load.face is not None:
+        faces = [face_dict(face) for face in load.face]
+        keys["face"] = faces[0] if len(faces) == 1 else faces
     return keys
 
 
@@ -127,8 +123,6 @@ def _load(where: str, given: Any) -> Load:
         known.append("file")
     for name in keys:
         if name not in known:
-            if kind == "table" and name == "slider_position":
-                raise InputError(f"slider_position: {MOVED}")
             raise InputError(
                 f"{name} = {keys[name]!r}: unknown key of kind {kind!r}{nearest(name, known)}; "
                 f"allowed are {', '.join(['kind', *known])}"
@@ -141,24 +135,33 @@ def _load(where: str, given: Any) -> Load:
         if both:
             raise InputError(f"file and {both[0]}: allowed is one of the two")
         try:
-            keys |= read_load_table(path)
+            keys |= _read_table(Path(path))
         except InputError as error:
             raise InputError(f"file: {error}") from None
     return LOAD_KINDS[kind](**keys)
+
+
+def _read_table(path: Path) -> dict[str, list[float]]:
+    """Return the two columns of a CSV file by their names."""
+    read = read_two_columns(path)
+    if read.head[0] not in COLUMNS or read.head[1] != "force":
+        allowed = " or ".join(f"'{name},force'" for name in COLUMNS)
+        raise InputError(f"{path}: header {','.join(read.head)[:80]!r}; allowed is {allowed}")
+    if len(read.places) < 2:
+        raise InputError(f"{path}: {len(read.places)} lines of numbers; allowed are at least two")
+    return {read.head[0]: read.places, "force": read.values}
 
 
 def _check_height(where: str, load: SheetLoad | SpringLoad, mechanism: Mechanism) -> None:
     """Check that the output leaves sheet or spring, and that it cuts a sheet through."""
     angle = np.linspace(0.0, 2.0 * math.pi, 721)
     stroke = float(mechanism.ideal_slider(angle, 1.0)[0].max()) - mechanism.bottom
-    assert load.height is not None
     if load.height >= stroke:
         raise InputError(
             f"{where}.height = {load.height!r}: the output rises {stroke:.4g} m above bottom dead "
             "centre and never leaves it; allowed is less than that"
         )
     if isinstance(load, SheetLoad):
-        assert load.thickness and load.penetration
         depth = load.thickness * load.penetration
         if depth >= load.height:
             raise InputError(
@@ -166,7 +169,7 @@ def _check_height(where: str, load: SheetLoad | SpringLoad, mechanism: Mechanism
                 f"output goes {load.height!r} m into it; allowed is a larger height, or a thinner "
                 "sheet"
             )
-    elif load.travel and load.travel[-1] < load.height:
+    elif load.travel[-1] < load.height:
         raise InputError(
             f"{where}.travel to {load.travel[-1]!r}: the output compresses it by {load.height!r} "
             "m; allowed is a travel as long as that"

@@ -53,7 +53,6 @@ class Motor(StartStop):
     inertia: float = key(None, "of flywheel, gear and motor", "kg m^2", above=0, example=50.0)
 
     def __post_init__(self) -> None:
-        """Check the keys, the breakdown torque and the table."""
         super().__post_init__()
         demand_keys("[drive]", self, ("inertia",), "drive", "[drive]")
         speeds, torques = self.table_speed_rpm or (), self.table_torque or ()

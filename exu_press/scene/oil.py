@@ -63,7 +63,6 @@ class Oil(Table):
     )
 
     def __post_init__(self) -> None:
-        """Check the keys, and that the two points are those of an oil, the colder one first."""
         super().__post_init__()
         cold, warm = self.at_celsius
         if not -50.0 <= cold < warm <= 300.0:

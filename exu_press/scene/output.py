@@ -40,7 +40,6 @@ class Output(Table):
     every: int = key(1, "of so many steps the file keeps one", at_least=1)
 
     def __post_init__(self) -> None:
-        """Check angles and channels."""
         if isinstance(self.channels, list):
             object.__setattr__(self, "channels", tuple(self.channels))
         super().__post_init__()

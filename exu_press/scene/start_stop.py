@@ -106,7 +106,6 @@ class StartStop(Table):
     )
 
     def __post_init__(self) -> None:
-        """Check the keys, and that clutch and brake do not act against each other."""
         super().__post_init__()
         if self.clutch_torque is None:
             if self.begins == "standing":

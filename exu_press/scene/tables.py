@@ -108,7 +108,6 @@ class Contact(Table):
     tension: bool = key(False, "let the damping pull, as the printed law does (A-10)")
 
     def __post_init__(self) -> None:
-        """Check the keys, and that a stiffness is given where it cannot be Hertz's."""
         super().__post_init__()
         if self.stiffness is None and self.exponent != HERTZ:
             raise InputError(
@@ -156,7 +155,6 @@ class Friction(Table):
     )
 
     def __post_init__(self) -> None:
-        """Check the keys, and that friction does not grow as sliding begins."""
         super().__post_init__()
         if "mu_static" not in self.unused():
             _demand_static_friction(self.table, self.mu_static, self.mu_kinetic)
@@ -193,7 +191,6 @@ class Film(Table):
     oil: Oil | None = inner(Oil)
 
     def __post_init__(self) -> None:
-        """Check the keys; the viscosity is given or an oil's."""
         super().__post_init__()
         if self.viscosity is not None and self.oil is not None:
             raise InputError(
@@ -287,7 +284,6 @@ class ElasticGuide(Table):
     )
 
     def __post_init__(self) -> None:
-        """Check the keys, that they ask for something, and that sliding has less friction."""
         super().__post_init__()
         if self.clearance is not None and self.lateral_stiffness is None:
             object.__setattr__(self, "lateral_stiffness", USUAL_STIFFNESS)
@@ -379,7 +375,6 @@ class Solver(Table):
     )
 
     def __post_init__(self) -> None:
-        """Check the keys; exactly one of tolerance and step decides."""
         super().__post_init__()
         if self.tolerance is not None and self.step is not None:
             raise InputError(

@@ -49,7 +49,6 @@ class Wear(WearAt):
     )
 
     def __post_init__(self) -> None:
-        """Check the keys, and those of single joints and guides."""
         for kind in ("joints", "guides"):
             tables = getattr(self, kind)
             if tables is None:

@@ -27,7 +27,6 @@ class Worn(Table):
     journal_depth: tuple[float, ...] | None = key(None, "worn off the journal", "m", numbers=0)
 
     def __post_init__(self) -> None:
-        """Check the keys, and that depths and angles belong together."""
         super().__post_init__()
         given = {
             name: depths

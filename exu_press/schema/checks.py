@@ -14,7 +14,6 @@ from typing import Any, ClassVar, Self, TypeVar
 from exu_press.errors import InputError, UnusedKeyError
 
 __all__ = [
-    "RENAMED",
     "Table",
     "Uses",
     "changed_table",
@@ -37,23 +36,6 @@ SMALLEST, LARGEST = 1e-30, 1e30
 """Magnitudes of a number other than 0: sums and squares within them are numbers, too."""
 
 Uses = Mapping[str, Mapping[Any, tuple[str, ...]]]
-
-RENAMED = {
-    "crank_pin": "joints.crank_pin",
-    "balls": "joints.balls",
-    "clearance": "joints.NAME.clearance",
-    "contact.radius": "joints.NAME.radius",
-    "flexible": "bodies.NAME",
-    "blanking": "load.NAME with kind = 'blanking'",
-    "guide.damping_depth": "contact.damping_depth",
-    "woehler_stress": "sn_stress, of the S-N curve",
-    "woehler_cycles": "sn_cycles, of the S-N curve",
-    "woehler_slope": "sn_slope, of the S-N curve",
-    "guide.slider_inertia": "a key of [press] or [slider_crank]",
-    "guide.slide_inertia": "press.slide_inertia",
-    "guide.counterweight_inertia": "press.counterweight_inertia",
-}
-"""Old keys -> new ones, in words."""
 
 
 def key(
@@ -122,6 +104,9 @@ class Table:
     instead: ClassVar[Mapping[str, str]] = {}
     """Key -> the key that it stands instead of."""
 
+    required: ClassVar[tuple[str, ...]] = ()
+    """Keys without a default."""
+
     def __new__(cls, *values: Any, **keys: Any) -> Self:
         """Remember which keys are given, so that a default gives way to a mechanism's own."""
         made = super().__new__(cls)
@@ -168,6 +153,8 @@ class Table:
             if "meaning" in field.metadata:
                 name = f"{self.table}.{field.name}" if self.table else field.name
                 value = _checked(field, name, getattr(self, field.name))
+                if value is None and field.name in self.required:
+                    raise InputError(f"{name}: missing; allowed is {_allowed(field)}")
                 object.__setattr__(self, field.name, value)
 
 
@@ -283,23 +270,12 @@ def table_from(table: type[T], name: str, data: Any) -> T:
     if not isinstance(data, Mapping):
         raise InputError(f"{name} = {data!r:.200}: allowed is a table of keys")
     known = [field.name for field in dataclasses.fields(table)]  # type: ignore[arg-type]
-    for given in data:
-        path = f"{name}.{given}" if name else given
-        if given not in known and {path, given} & RENAMED.keys():
-            now = RENAMED.get(path) or RENAMED[given]
-            raise InputError(f"{path} = {data[given]!r:.200}: is {now} now")
     refuse_unknown(name, data, known)
     return table(**data)
 
 
 def refuse_unknown(where: str, given: Mapping[str, Any], known: Collection[str]) -> None:
-    """Raise InputError for the first key of a table that is not known.
-
-    Args:
-        where: the table's name, "" at the top.
-        given: the table.
-        known: its keys.
-    """
+    """Raise InputError for the first key of a table that is not known."""
     for name, value in given.items():
         if name not in known:
             raise InputError(
@@ -353,13 +329,15 @@ def changed_table(
 
 
 def plain(table: Table) -> dict[str, Any]:
-    """Return the keys of a table that are not None as a nested mapping."""
-    values = {field.name: getattr(table, field.name) for field in dataclasses.fields(table)}
-    return {
-        name: plain(value) if isinstance(value, Table) else value
-        for name, value in values.items()
-        if value is not None
-    }
+    """Return the keys of a table that are not None as a nested mapping, as a file has them."""
+    found: dict[str, Any] = {}
+    for field in dataclasses.fields(table):
+        value = getattr(table, field.name)
+        if isinstance(value, Table):
+            found[field.name] = plain(value)
+        elif value is not None:
+            found[field.name] = list(value) if isinstance(value, tuple) else value
+    return found
 
 
 def given_in(table: Any) -> dict[str, Any]:

@@ -4,11 +4,13 @@ import csv
 import io
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
+from exu_press.errors import InputError
 from exu_press.files.output_directory import replacing
 from exu_press.schema.stored import LARGEST
 
-__all__ = ["Value", "read_csv", "write_csv"]
+__all__ = ["Value", "flat", "read_csv", "write_csv"]
 
 Value = str | float | bool | None
 
@@ -37,6 +39,22 @@ def read_csv(path: Path) -> dict[str, tuple[Value, ...]]:
         raise ValueError(f"{path.name}: {error}") from None
     columns = zip(*lines, strict=True) if lines else [()] * len(head)
     return {n: tuple(map(_value, each)) for n, each in zip(head, columns, strict=True)}
+
+
+def flat(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
+    """Return nested tables as one, names joined by a dot; raise InputError for one given twice.
+
+    >>> flat({"film": {"viscosity": 0.1}, "revolutions": 2.0})
+    {'film.viscosity': 0.1, 'revolutions': 2.0}
+    """
+    found: dict[str, Any] = {}
+    for name, value in table.items():
+        nested = isinstance(value, Mapping)
+        inner = flat(value, f"{prefix}{name}.") if nested else {prefix + name: value}
+        if both := found.keys() & inner.keys():
+            raise InputError(f"{both.pop()}: given twice")
+        found |= inner
+    return found
 
 
 def _text(value: Value) -> str:

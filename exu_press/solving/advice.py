@@ -29,7 +29,6 @@ class SceneAdvice(Advice):
     """The scene's words: crank angles, and the keys to change."""
 
     def __init__(self, model: Assembled, problem: Problem, by_tolerance: bool) -> None:
-        """Speak of a scene's model."""
         super().__init__(problem, by_tolerance)
         self._model, self._scene = model, model.scene
 

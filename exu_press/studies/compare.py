@@ -1,10 +1,11 @@
 """The variants of one scene, and the keys in which scenes differ."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from exu_press.errors import InputError
 from exu_press.scene import LubricatedJoint, Scene, mechanism_of
+from exu_press.schema.csv_table import flat
 
 __all__ = ["different_keys", "variants"]
 
@@ -66,17 +67,14 @@ def different_keys(scenes: Mapping[str, Scene]) -> list[list[str]]:
     A table that only some scenes have is one line. Laws and dimensions that a scene does not use
     follow from its joints and its mechanism, and have none.
 
-    Args:
-        scenes: by label.
-
     Returns:
         the head alone where the scenes are the same.
     """
-    flat = [dict(_flat("", scene.to_dict())) for scene in scenes.values()]
+    every = [_keys(scene) for scene in scenes.values()]
     rows: dict[str, list[str]] = {}
-    for key in sorted(dict.fromkeys(key for keys in flat for key in keys)):
+    for key in sorted(dict.fromkeys(key for keys in every for key in keys)):
         usual = IDEAL if key.startswith("joints.") and key.endswith(".kind") else ABSENT
-        values = [_shown(keys[key]) if key in keys else usual for keys in flat]
+        values = [_shown(keys[key]) if key in keys else usual for keys in every]
         if len({value for value in values if value != ABSENT}) > 1:
             rows[key] = values
         elif ABSENT in values and key.startswith(OPTIONAL):
@@ -84,19 +82,16 @@ def different_keys(scenes: Mapping[str, Scene]) -> list[list[str]]:
             rows[f"[{'.'.join(parts)}]"] = [ABSENT if v == ABSENT else "given" for v in values]
     told = [[key, *values] for key, values in rows.items()]
     if (more := len(told) - MOST_KEYS) > 0:
-        told = [*told[:MOST_KEYS], [f"{more} more keys", *["..."] * len(flat)]]
+        told = [*told[:MOST_KEYS], [f"{more} more keys", *["..."] * len(every)]]
     return [["differences", *scenes], *told]
 
 
-def _flat(name: str, value: Any) -> Iterator[tuple[str, Any]]:
-    """Yield the keys of nested tables by their dotted names; a mechanism by its name alone."""
-    if not isinstance(value, Mapping):
-        yield name, value
-    elif name == "mechanism":
-        yield name, value["name"]
-    else:
-        for key, inner in value.items():
-            yield from _flat(f"{name}.{key}" if name else key, inner)
+def _keys(scene: Scene) -> dict[str, Any]:
+    """Return the keys of a scene by their dotted names; a mechanism by its name alone."""
+    data = scene.to_dict()
+    if isinstance(data["mechanism"], Mapping):
+        data["mechanism"] = data["mechanism"]["name"]
+    return flat(data)
 
 
 def _shown(value: Any) -> str:

@@ -32,7 +32,6 @@ class Progress(AbstractContextManager["Progress", None]):
         whole: bool = False,
         stream: TextIO | None = None,
     ) -> None:
-        """Start at zero; `total` in `unit`."""
         self._part_of, self._done = None if quiet else Progress._whole, 0.0
         self._begun = 0.0 if self._part_of is None else self._part_of._done
         if whole:
@@ -94,7 +93,6 @@ class Progress(AbstractContextManager["Progress", None]):
             print(line, file=self._stream, flush=True)
 
     def __exit__(self, *_: object) -> None:
-        """Close the bar where it stands."""
         if Progress._whole is self:
             Progress._whole = None
         if self._bar is not None:

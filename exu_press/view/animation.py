@@ -21,12 +21,11 @@ from exu_press.plots.style import GREY, look
 from exu_press.plots.typesetting import plain
 from exu_press.plots.words import describe, early_stops
 from exu_press.result import Result
-from exu_press.view.curve_panel import CurvePanel
 from exu_press.view.flexible_panel import FlexiblePanel, Look
 from exu_press.view.instants import Instants
 from exu_press.view.joint_panel import JointPanel
 from exu_press.view.mechanism_panel import MechanismPanel
-from exu_press.view.panel import Panel, animated
+from exu_press.view.panel import CurvePanel, Panel, animated
 
 __all__ = ["SIZE", "Animation", "Look"]
 
@@ -157,7 +156,6 @@ class Painter:
     dpi: float
 
     def __post_init__(self) -> None:
-        """Draw the background."""
         from matplotlib.backends.backend_agg import FigureCanvasAgg
 
         self.animation.figure.set_dpi(self.dpi)

@@ -49,7 +49,6 @@ class Look:
     exaggerate: float | None = None
 
     def __post_init__(self) -> None:
-        """Refuse what cannot be shown."""
         if self.colour not in KINDS:
             raise InputError(f"--colour {self.colour}: allowed is one of {', '.join(KINDS)}")
         if self.exaggerate is not None and not 0.0 <= self.exaggerate <= 1e9:

@@ -36,7 +36,6 @@ class Instants:
     still: bool = False
 
     def __len__(self) -> int:
-        """Return the number of frames."""
         return len(self.time)
 
     def steps_since_last(self, frame: int) -> slice:

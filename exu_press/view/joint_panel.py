@@ -41,7 +41,6 @@ class JointPanel:
     def __init__(
         self, axes: Axes, result: Result, name: str, title: str, instants: Instants
     ) -> None:
-        """Draw bearing and clearance circle."""
         joint = result.joints[name]
         ball, radial = joint.spherical, joint.clearance
         self._clearance, self._ball, self._instants = radial, ball, instants
@@ -163,9 +162,6 @@ def drawn_clearance(reach: float) -> float:
 
     A journal that sinks deep into its bearing is drawn with less of it, so that it stays inside the
     bearing's rim.
-
-    Args:
-        reach: largest eccentricity ratio that is shown.
 
     >>> drawn_clearance(1.1), round(drawn_clearance(1.9), 6)
     (0.45, 0.2)

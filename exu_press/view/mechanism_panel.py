@@ -11,7 +11,7 @@ from exu_press.mechanism import Mechanism
 from exu_press.mechanism.parts import Point
 from exu_press.mechanism.shapes import moved, shapes_of, swept_outlines
 from exu_press.numerics.arrays import Array
-from exu_press.plots.labels import spread
+from exu_press.plots.scales import spread
 from exu_press.plots.style import COLOURS, GREY
 from exu_press.plots.words import joint_in_words
 from exu_press.result import Result
@@ -38,7 +38,6 @@ class MechanismPanel:
     """Draws every body at its pose; the ideal mechanism's dead centres stand beside the slider."""
 
     def __init__(self, axes: Axes, result: Result, instants: Instants) -> None:
-        """Draw the frame, and every body once."""
         self._mechanism = mechanism = mechanism_of(result.scene)
         self._poses = poses(result, mechanism, instants)
         self._shapes = shapes_of(mechanism)

@@ -1,11 +1,19 @@
-"""A part of the picture: axes, and artists that change from frame to frame."""
+"""Parts of the picture: axes with artists that change from frame to frame; a curve."""
 
 from collections.abc import Sequence
 from typing import Protocol
 
+import numpy as np
 from matplotlib.artist import Artist
+from matplotlib.axes import Axes
 
-__all__ = ["Panel", "animated"]
+from exu_press.numerics.arrays import Array
+from exu_press.plots.decimate import decimate
+from exu_press.plots.style import RUN
+from exu_press.result import Result
+from exu_press.view.instants import Instants
+
+__all__ = ["CurvePanel", "Panel", "animated"]
 
 
 class Panel(Protocol):
@@ -24,3 +32,31 @@ def animated(*artists: Artist) -> list[Artist]:
     for artist in artists:
         artist.set_animated(True)
     return list(artists)
+
+
+PALE = "#B5CDE0"
+
+
+class CurvePanel:
+    """One channel over the crank angle."""
+
+    def __init__(self, axes: Axes, result: Result, values: Array, instants: Instants) -> None:
+        shown = slice(int(instants.step[0]), int(instants.step[-1]) + 1)
+        degrees = np.degrees(result["crank_angle"])
+        self._instants, self._degrees, self._values = instants, degrees, values
+        kept = shown.start + decimate(degrees[shown], values[shown])
+        self._x, self._y = degrees[kept], values[kept]
+        axes.plot(self._x, self._y, color=PALE, linewidth=0.9)
+        (self._line,) = axes.plot([], [], color=RUN, linewidth=1.2)
+        (self._dot,) = axes.plot([], [], "o", markersize=5, color=RUN, markeredgecolor="white")
+        self._cursor = axes.axvline(degrees[shown.start], color="black", linewidth=0.8)
+        self.artists = animated(self._cursor, self._line, self._dot)
+
+    def show(self, frame: int) -> None:
+        """Draw the curve up to a frame."""
+        step = int(self._instants.step[frame])
+        now = self._degrees[step]
+        past = int(np.searchsorted(self._x, now, side="right"))
+        self._line.set_data(self._x[:past], self._y[:past])
+        self._dot.set_data([now], [self._values[step]])
+        self._cursor.set_xdata([now, now])

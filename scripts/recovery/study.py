@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from exu_press.studies.base import Runs, Study
-from exu_press.studies.base.checked import with_errors_of
+from exu_press.studies.base.evaluation import with_errors_of
 from exu_press.studies.fit import Fit, Report
 from exu_press.studies.fit.problem import Problem
 from exu_press.studies.fit.run import fitted

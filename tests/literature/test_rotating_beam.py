@@ -26,7 +26,7 @@ from exudyn.itemInterface import (
 )
 from scipy.integrate import solve_ivp
 
-from exu_press.model.quasi_static import quasi_static_motion
+from exu_press.model.start import quasi_static_motion
 from fe_models import (
     CRANK_STEEL,
     Interface,

@@ -8,7 +8,7 @@ from independent.solid import displaced
 from exu_press import InputError, Scene, simulate
 from exu_press.model import build
 from exu_press.model.placed_part import placed_parts
-from exu_press.model.quasi_static import quasi_static_motion
+from exu_press.model.start import quasi_static_motion
 from exu_press.model.system import System
 from exu_press.result.flexible import guided_motion
 from exu_press.result.joints import states_of

@@ -9,7 +9,7 @@ from independent.solid import displaced
 
 from exu_press import InputError, Scene, simulate
 from exu_press.model import build
-from exu_press.model.quasi_static import quasi_static_motion
+from exu_press.model.start import quasi_static_motion
 from exu_press.scene import mechanism_of
 
 pytest.importorskip("ngsolve")

@@ -2,7 +2,7 @@
 
 import pytest
 
-from exu_press.parallel.sources import source_digest
+from exu_press.parallel.task import source_digest
 
 
 @pytest.fixture
@@ -31,7 +31,7 @@ def test_what_a_row_comes_from_and_what_only_shows_it(digest):
 
 
 def test_our_own_are_always_among_them(monkeypatch):
-    import exu_press.parallel.sources as sources
+    import exu_press.parallel.task as sources
 
     digests = {source_digest("exu_press"), source_digest("json")}
     monkeypatch.setattr(sources, "OURS", ("exu_press",))

@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 
 from fe_models import Interface
+from fe_models.elasticity import generate_mesh
 from fe_models.errors import InputError
-from fe_models.mesh import generate_mesh
 
 
 def points(part):

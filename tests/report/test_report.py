@@ -11,7 +11,7 @@ from PIL import Image
 from exu_press.cli import main
 from exu_press.errors import InputError
 from exu_press.plots.words import joint_in_words
-from exu_press.quantities.warnings import run_warnings
+from exu_press.quantities.summary import run_warnings
 from exu_press.report import Kind, find_output
 from exu_press.report.run import joint_table
 from exu_press.result import Result

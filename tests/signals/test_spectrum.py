@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from exu_press import InputError
-from exu_press.signals.cells import cell_means
-from exu_press.signals.spectrum import amplitude_spectrum, spectrogram
+from exu_press.signals.spectrum import amplitude_spectrum, cell_means, spectrogram
 
 
 def uneven(span, number, seed=1):

@@ -9,7 +9,6 @@ from exu_press.mechanism import GROUND
 from exu_press.mechanism.shapes import moved
 from exu_press.scene import mechanism_of
 from exu_press.view import instants
-from exu_press.view.curve_panel import CurvePanel
 from exu_press.view.joint_panel import (
     CLEARANCE,
     RIM,
@@ -18,6 +17,7 @@ from exu_press.view.joint_panel import (
     drawn_clearance,
 )
 from exu_press.view.mechanism_panel import MechanismPanel, poses
+from exu_press.view.panel import CurvePanel
 
 
 def panels(animation, kind):

@@ -51,7 +51,6 @@ class Period:
     finer: float = 1.0
 
     def __str__(self) -> str:
-        """Return it in words."""
         if not self.told:
             return f"not told apart ({self.why})"
         if self.revolutions is None:

@@ -1,7 +1,9 @@
-"""Quantities at points of a study's keys; a run that did not get there gives no number."""
+"""Quantities at points of a study's keys, and their errors; a run that failed gives no number."""
 
+import dataclasses
 from collections import defaultdict
 from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,9 +14,10 @@ from exu_press.parallel.task import COMPLETED, Row
 from exu_press.quantities import quantity_of
 from exu_press.scene import Scene
 from exu_press.studies.base.keys import Normal, Range, Values
+from exu_press.studies.base.runs import Runs
 from exu_press.studies.base.study import Study
 
-__all__ = ["Evaluation", "Point", "numbers_in", "ranged"]
+__all__ = ["Evaluation", "Point", "error_in", "numbers_in", "ranged", "with_errors_of"]
 
 Point = Mapping[str, Any]
 
@@ -52,12 +55,23 @@ class Evaluation:
         self.quantities = tuple(quantities)
         self.failures: defaultdict[str, list[str]] = defaultdict(list)
         self.rows: dict[tuple[Any, ...], Row] = {}
+        self._points: dict[tuple[Any, ...], Point] = {}
         self._study, self._run = study, run
 
     @property
     def asked(self) -> int:
         """Number of different points that were evaluated."""
         return len(self.rows)
+
+    @property
+    def points(self) -> list[Point]:
+        """The different points, in the order of asking."""
+        return list(self._points.values())
+
+    @property
+    def numbers(self) -> Array:
+        """Their quantities, (points, quantities), as a call returns them."""
+        return np.array([numbers_in(self.rows[key], self.quantities) for key in self._points])
 
     def __call__(self, points: Sequence[Point]) -> Array:
         """Return quantities, (points, quantities); NaN in all of a row whose run failed."""
@@ -69,8 +83,9 @@ class Evaluation:
         new: dict[tuple[Any, ...], Scene] = {}
         for point in points:
             key = _key(point)
-            if key in self.rows or key in new:
+            if key in self._points:
                 continue
+            self._points[key] = dict(point)
             try:
                 new[key] = self._study.scene_at(point)
             except InputError as error:
@@ -129,3 +144,29 @@ def ranged(study: Study, command: str, kinds: tuple[type, ...] = (Range,)) -> tu
                 f"{allowed}"
             )
     return tuple(study.keys)
+
+
+CHECKED = "checked"
+"""Directory inside the study's own."""
+
+
+def with_errors_of(
+    study: Study, directory: str | Path, scenes: Sequence[Scene], **how: Any
+) -> list[Row]:
+    """Return the rows of scenes with their errors."""
+    plain = dataclasses.replace(study, errors=True, save_runs=False)
+    with Runs(plain, Path(directory) / CHECKED, label="errors", **how) as runs:
+        return runs.of(scenes)
+
+
+def error_in(row: Row, quantity: str) -> float | None:
+    """Return the absolute error of a quantity in such a row.
+
+    Half the width of its bounds where the scene does not determine it; None where nothing is known.
+    """
+    told = (row.get("errors") or {}).get(quantity)
+    if told is None:
+        return None
+    if not told["determined"]:
+        return float(told["high"] - told["low"]) / 2.0
+    return float(told["error"])

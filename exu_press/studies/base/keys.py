@@ -52,7 +52,6 @@ class Range(Table):
     log: bool = key(False, "equally likely by its logarithm")
 
     def __post_init__(self) -> None:
-        """Check the bounds."""
         super().__post_init__()
         if not self.low < self.high or (self.log and not self.low > 0.0):
             allowed = "0 < low < high" if self.log else "low < high"
@@ -98,7 +97,6 @@ class Normal(Table):
     high: float | None = key(None, "upper bound")
 
     def __post_init__(self) -> None:
-        """Check the bounds."""
         super().__post_init__()
         low, high = self._bounds
         if not low < self.mean < high:

@@ -1,17 +1,19 @@
 """Runs of scenes for a study: side by side, resumable, each with the part of it that is kept."""
 
+import json
 from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from typing import Any, Self
 
-from exu_press.files.output_directory import output_directory
-from exu_press.parallel import Batch, Chain, Row, locked
+from exu_press.errors import InputError
+from exu_press.files.output_directory import output_directory, write_json
+from exu_press.parallel import FILE, Batch, Chain, Row, locked
 from exu_press.parallel.task import Function
 from exu_press.quantities import own_modules, values_of
 from exu_press.result import Result
 from exu_press.scene import Scene
-from exu_press.studies.base.claim import claim
+from exu_press.schema.stored import from_json
 from exu_press.studies.base.study import Study
 
 __all__ = ["Row", "Runs", "row_of", "run_scene"]
@@ -73,7 +75,7 @@ class Runs(ExitStack):
             modules = own_modules()
             output_directory(self.directory)
             self.enter_context(locked(self.directory))
-            claim(self.directory, self._study.to_dict(), self._written)
+            _claim(self.directory, self._study.to_dict(), self._written)
             self._batch = self.enter_context(
                 Batch(
                     self._function,
@@ -141,3 +143,44 @@ def _file_is_whole(arguments: Mapping[str, Any]) -> bool:
     from exu_press.result.netcdf import is_whole
 
     return "save" not in arguments or is_whole(Path(arguments["save"]))
+
+
+STUDY_FILE = "study.json"
+
+
+def _claim(directory: Path, study: Mapping[str, Any], written: Sequence[str]) -> None:
+    """Write down whose directory this is.
+
+    Raises:
+        InputError: it is another study's, or its files are there without its study.json.
+    """
+    path = directory / STUDY_FILE
+    wanted = json.loads(json.dumps(study))
+    if not path.exists():
+        taken = [name for name in written if (directory / name).exists()]
+        if taken:
+            raise InputError(
+                f"{directory}: has {taken[0]} and no {path.name}, so that it may belong to another "
+                f"study; allowed is a directory of the study's own, or to delete "
+                f"{' and '.join(taken)}; runs of this study in {FILE} are kept"
+            )
+        write_json(path, wanted)
+        return
+    try:
+        found = from_json(dict[str, Any], path.read_bytes(), path.name)
+    except (OSError, InputError):
+        found = None
+    if found != wanted:
+        raise InputError(
+            f"{directory}: belongs to another study ({path.name} differs{_where(found, wanted)}); "
+            "allowed is another directory, or to remove this one"
+        )
+
+
+def _where(found: Any, wanted: dict[str, Any]) -> str:
+    """Return the first key in which two studies differ, in words."""
+    if isinstance(found, dict):
+        for name in {**wanted, **found}:
+            if found.get(name) != wanted.get(name):
+                return f" in {name}"
+    return ""

@@ -48,7 +48,6 @@ class Study(Table):
     time_limit: float | None = key(None, "for one run", "s", above=0)
 
     def __post_init__(self) -> None:
-        """Check the tables, and the keys, each in the scene."""
         super().__post_init__()
         if (self.errors or self.save_runs) and not self.plain_runs:
             command = next(iter(self.tables))
@@ -136,17 +135,10 @@ def load_study(path: str | Path, kind: type[S]) -> S:
     data = read_toml(path)
     for name, example in (("scene", '"FILE.toml" or a [scene] table'), ("keys", "a [keys] table")):
         if name not in data and (name == "scene" or kind.with_keys):
-            told = _before(data) if name == "keys" else ""
-            raise InputError(f"{path}: no {name}; allowed is {name} = {example}{told}")
+            raise InputError(f"{path}: no {name}; allowed is {name} = {example}")
     if isinstance(data["scene"], str):
         data["scene"] = Scene.load(path.parent / data["scene"])
     try:
         return table_from(kind, "", kind.located(data, path.parent))
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
-
-
-def _before(data: Mapping[str, Any]) -> str:
-    """Return what to write for a file of the form before."""
-    old = [name for name in ("grid", "list", "sample") if name in data]
-    return f'; [{old[0]}] is [keys] now, with [sweep] way = "{old[0]}"' if old else ""

@@ -32,7 +32,6 @@ class Branch:
     second: float | None = None
 
     def __iter__(self) -> Iterator[tuple[float, Row]]:
-        """Give each value with its row."""
         return zip(self.values, self.rows, strict=True)
 
 

@@ -1,30 +1,27 @@
 """Run the study: the first key goes up and down, from state to state, or every run starts anew."""
 
+import math
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from exu_press.files.output_directory import write_json
+from exu_press.model.state import State
 from exu_press.parallel import Chain
 from exu_press.scene import Scene
+from exu_press.studies.attractor import attractor
 from exu_press.studies.base import Row, Runs
-from exu_press.studies.bifurcation.point import run_point
 from exu_press.studies.bifurcation.report import Branch, Report
 from exu_press.studies.bifurcation.study import FROM_THE_START, Bifurcation
 
-__all__ = ["bifurcation"]
+__all__ = ["bifurcation", "carried", "run_point"]
 
 FILE = "bifurcation.json"
 
 
-def bifurcation(
-    study: Bifurcation,
-    directory: str | Path,
-    *,
-    workers: int | None = None,
-    dask: str | None = None,
-    quiet: bool = True,
-) -> Report:
+def bifurcation(study: Bifurcation, directory: str | Path, **how: Any) -> Report:
     """Run the study, going on where its directory was left, and write bifurcation.json.
 
     On the ways up and down each run starts in the state in which the run at the last value ended,
@@ -34,15 +31,12 @@ def bifurcation(
     Args:
         study: to be run.
         directory: of this study alone.
-        workers: number of processes; all cores unless told.
-        dask: address of a Dask scheduler instead.
-        quiet: False shows the progress.
+        how: workers, dask, quiet of `exu_press.studies.base.Runs`.
     """
     values = study.values
     with Runs(
-        study, directory, written=[FILE], label="bifurcation", function=run_point,
-        workers=workers, dask=dask, quiet=quiet,
-    ) as runs:  # fmt: skip
+        study, directory, written=[FILE], label="bifurcation", function=run_point, **how
+    ) as runs:
         if study.bifurcation.way == FROM_THE_START:
             points = [(value, second) for second in study.seconds for value in values]
             rows = iter(runs.rows([_arguments(study, *point, None) for point in points]))
@@ -94,3 +88,66 @@ def _arguments(
         found["start"] = last[1]["state"]
         found["speed"] = study.scene_at(study.at(last[0], second)).speed_rpm
     return found
+
+
+def carried(state: State, before: float, now: float) -> State:
+    """Return a state on the section at another speed of the crank.
+
+    The crank's angle is its speed times the time; all speeds go with it, so that they still fit
+    the constraints.
+
+    Args:
+        state: on the section.
+        before: speed at which it was found, in any unit.
+        now: likewise.
+    """
+    ratio = now / before
+    q, q_t, *others = state["coordinates"]
+    return {
+        **state,
+        "time": state["time"] / ratio,
+        "step": state["step"] / ratio,
+        "coordinates": [q, (ratio * np.array(q_t)).tolist(), *others],
+        "accelerations": (ratio**2 * np.array(state["accelerations"])).tolist(),
+    }
+
+
+def run_point(arguments: dict[str, Any]) -> dict[str, Any]:
+    """Return what one value of the key leads to.
+
+    Args:
+        arguments: "scene", "skip", "revolutions", "longest", and "start": a state on the section,
+            and "speed", the one at which it was found; or None.
+
+    Returns:
+        status, reason, points (n, k), period (None where there is none), told, in_words, error,
+        exponent: [value, low or None, high] per revolution, motion, state.
+    """
+    scene, start = Scene.from_dict(arguments["scene"]), arguments["start"]
+    if start is not None:
+        start = carried(start, arguments["speed"], scene.speed_rpm)
+    found = attractor(
+        scene,
+        revolutions=arguments["revolutions"],
+        skip=arguments["skip"],
+        most=arguments["longest"],
+        start=start,
+    )
+    low = found.exponent.low
+    return {
+        "status": "completed",
+        "reason": "",
+        "points": found.points.tolist(),
+        "period": found.period.revolutions,
+        "told": found.period.told,
+        "in_words": str(found.period),
+        "finer": found.period.finer,
+        "error": found.error,
+        "exponent": [
+            found.exponent.value,
+            low if math.isfinite(low) else None,
+            found.exponent.high,
+        ],
+        "motion": found.exponent.sign,
+        "state": found.state,
+    }

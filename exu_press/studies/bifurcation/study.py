@@ -49,7 +49,6 @@ class Bifurcation(Study):
     bifurcation: LongRun = LongRun()
 
     def __post_init__(self) -> None:
-        """Check the keys and the lengths."""
         super().__post_init__()
         if len(self.keys) > 2:
             raise InputError(

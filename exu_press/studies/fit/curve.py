@@ -12,9 +12,8 @@ from scipy.signal import butter, sosfilt, sosfilt_zi
 from exu_press.errors import InputError
 from exu_press.numerics.arrays import Array
 from exu_press.schema.checks import Table, key
-from exu_press.studies.fit.curve_file import CurveFile, read_curve
+from exu_press.studies.fit.curve_file import CurveFile, factor_to, read_curve
 from exu_press.studies.fit.measured import under_of
-from exu_press.studies.fit.units import factor_to
 
 __all__ = ["Curve", "Matched", "matched"]
 
@@ -41,8 +40,10 @@ class Curve(Table):
 
     table = "curve"
 
-    file: str = key("", "a CSV file, beside the study")
-    uncertainty: float | None = key(None, "standard deviation of a sample, SI", above=0)
+    required = ("file", "uncertainty")
+
+    file: str = key(None, "a CSV file, beside the study")
+    uncertainty: float = key(None, "standard deviation of a sample, SI", above=0)
     correlation: float = key(0.0, "time or angle over which samples are one, SI or deg", at_least=0)
     weight: float = key(1.0, "how often it counts", above=0)
     offset: bool = key(False, "whether the sensor's zero is unknown")
@@ -53,11 +54,7 @@ class Curve(Table):
     measured: CurveFile | None = dataclasses.field(default=None, compare=False, repr=False)
 
     def __post_init__(self) -> None:
-        """Check the keys, and read the file."""
         super().__post_init__()
-        for name in ("file", "uncertainty"):
-            if getattr(self, name) in (None, ""):
-                raise InputError(f"curve.{name}: not given; each [[curve]] needs one")
         if not self.shift[0] <= self.shift[1]:
             raise InputError(f"curve.shift = {list(self.shift)}: allowed is [low, high]")
         for name in ("low_cut", "high_cut"):

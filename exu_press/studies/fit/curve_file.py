@@ -1,6 +1,6 @@
 """A measured curve as a CSV file that states its units and its length."""
 
-import csv
+import math
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -8,11 +8,10 @@ from pathlib import Path
 import numpy as np
 
 from exu_press.errors import InputError
-from exu_press.files.input_file import read_text
+from exu_press.files.two_columns import read_two_columns
 from exu_press.numerics.arrays import Array
-from exu_press.studies.fit.units import factor_to, head_of
 
-__all__ = ["OVER", "CurveFile", "read_curve"]
+__all__ = ["OVER", "CurveFile", "factor_to", "read_curve"]
 
 OVER = {"time": "s", "crank_angle": "deg"}
 """First column -> the unit that it is converted to."""
@@ -50,43 +49,61 @@ def read_curve(path: Path) -> CurveFile:
         InputError: it cannot be read, states another length than it has, has another head, a line
             without two finite numbers, or places that do not increase.
     """
-    lines = [
-        (number, line.strip())
-        for number, line in enumerate(read_text(path).splitlines(), 1)
-        if line.strip()
-    ]
-    stated = [found[1] for _, line in lines if (found := STATED.fullmatch(line))]
-    lines = [(number, line) for number, line in lines if not line.startswith("#")]
-    if not lines:
-        raise InputError(f"{path}: empty; allowed is a head and two numbers a line")
-    heads = lines[0][1].split(",")
-    if len(heads) != 2:
-        raise InputError(
-            f"{path}: {len(heads)} columns; allowed are two, as time (s),slider_velocity (m/s)"
-        )
-    (over, over_unit), (name, unit) = (head_of(str(path), head) for head in heads)
+    read = read_two_columns(path)
+    (over, over_unit), (name, unit) = (head_of(str(path), head) for head in read.head)
     if over not in OVER:
         raise InputError(f"{path}: first column {over!r}; allowed are {', '.join(OVER)}")
     factor = factor_to(f"{path}: {over}", over_unit, OVER[over])
-    rows = np.array([_numbers(f"{path}, line {number}", line) for number, line in lines[1:]])
-    if len(rows) < FEWEST:
-        raise InputError(f"{path}: {len(rows)} samples; allowed are at least {FEWEST}")
-    if stated and stated[0].lstrip("0") != str(len(rows)):
+    count = len(read.places)
+    if count < FEWEST:
+        raise InputError(f"{path}: {count} samples; allowed are at least {FEWEST}")
+    stated = [found[1] for line in read.comments if (found := STATED.fullmatch(line))]
+    if stated and stated[0].lstrip("0") != str(count):
         raise InputError(
-            f"{path}: states {stated[0]} samples and has {len(rows)}; allowed is the same number"
+            f"{path}: states {stated[0]} samples and has {count}; allowed is the same number"
         )
-    falls = np.flatnonzero(np.diff(rows[:, 0]) <= 0.0)
-    if len(falls):
-        line = lines[int(falls[0]) + 2][0]
-        raise InputError(f"{path}, line {line}: {over} does not increase; allowed is increasing")
-    return CurveFile(over, rows[:, 0] * factor, name, unit, rows[:, 1])
+    return CurveFile(over, factor * np.array(read.places), name, unit, np.array(read.values))
 
 
-def _numbers(where: str, line: str) -> tuple[float, float]:
-    try:
-        at, value = map(float, next(csv.reader([line])))
-    except (ValueError, csv.Error):
-        raise InputError(f"{where}: {line[:80]!r}; allowed are two numbers") from None
-    if not np.isfinite([at, value]).all():
-        raise InputError(f"{where}: {line[:80]!r}; allowed are finite numbers")
-    return at, value
+PREFIXES = {"n": 1e-9, "u": 1e-6, "\N{MICRO SIGN}": 1e-6, "m": 1e-3, "k": 1e3, "M": 1e6}
+HEAD = re.compile(r"(?P<name>[\w.]+)\s*[\[(](?P<unit>[^\])]*)[\])]")
+
+
+def factor_to(where: str, unit: str, wanted: str) -> float:
+    """Return what a number in a unit is to be multiplied by.
+
+    Args:
+        where: said of a fault.
+        unit: that the file states.
+        wanted: SI unit of the column; "deg" of a crank angle.
+
+    Raises:
+        InputError: the two units are not of one kind.
+
+    >>> factor_to("a.csv", "mm/s", "m/s"), factor_to("a.csv", "kN", "N")
+    (0.001, 1000.0)
+    """
+    unit = unit.strip().replace("\N{SUPERSCRIPT TWO}", "^2")
+    if unit == wanted:
+        return 1.0
+    if (unit, wanted) == ("rad", "deg"):
+        return 180.0 / math.pi
+    for prefix, factor in PREFIXES.items():
+        if unit == prefix + wanted:
+            return factor
+    raise InputError(
+        f"{where} in {unit or 'no unit'}: allowed is {wanted or '1'}, also with a prefix as in "
+        f"m{wanted} or k{wanted}"
+    )
+
+
+def head_of(where: str, text: str) -> tuple[str, str]:
+    """Return name and unit of a column's head, as in "time (s)".
+
+    Raises:
+        InputError: it has another form.
+    """
+    found = HEAD.fullmatch(text.strip())
+    if found is None:
+        raise InputError(f"{where}: column {text.strip()!r}; allowed is NAME (UNIT), as time (s)")
+    return found["name"], found["unit"].strip()

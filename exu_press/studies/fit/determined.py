@@ -58,12 +58,7 @@ class Determined:
 
 
 def determined(jacobian: Array, level: float) -> Determined:
-    """Return what a Jacobian (numbers, keys) in units of uncertainties and ranges tells.
-
-    Args:
-        jacobian: at the best point.
-        level: of the intervals.
-    """
+    """Return what a Jacobian (numbers, keys) in units of uncertainties and ranges tells."""
     keys = jacobian.shape[1]
     _, singular, vectors = np.linalg.svd(jacobian)
     singular = np.concatenate([singular, np.zeros(keys - len(singular))])

@@ -135,8 +135,6 @@ def _residuals(report: Report) -> list[str]:
     for one, computed, error in zip(
         report.study.measured, report.numbers, report.errors[:number], strict=True
     ):
-        assert one.value is not None
-        assert one.uncertainty is not None
         unit = unit_of(one.quantity)
         rows.append(
             (
@@ -150,7 +148,6 @@ def _residuals(report: Report) -> list[str]:
         )
     lines = columns(rows) if number else []
     for curve, (wanted, told) in zip(report.study.curve, report.curves, strict=True):
-        assert curve.uncertainty is not None
         size = float(np.sqrt(np.mean((told.values - wanted) ** 2))) / curve.uncertainty
         sensor = ", ".join(f"{name} {value:.4g}" for name, value in told.plain().items())
         lines.append(

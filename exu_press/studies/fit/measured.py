@@ -6,13 +6,14 @@ from typing import Any
 
 from exu_press.errors import InputError
 from exu_press.schema.checks import Table, key
+from exu_press.schema.csv_table import flat
 
 __all__ = ["Measured", "under_of"]
 
 
 @dataclasses.dataclass(frozen=True)
 class Measured(Table):
-    """A table [[measured]]: what an instrument read.
+    """A table [[measured]]: the reading of an instrument.
 
     Attributes:
         quantity: full name, with its kind of observation, as a peak averaged over 1 ms.
@@ -24,18 +25,16 @@ class Measured(Table):
 
     table = "measured"
 
-    quantity: str = key("", "name of a quantity")
-    value: float | None = key(None, "what was read, SI")
-    uncertainty: float | None = key(None, "its standard deviation, SI", above=0)
+    required = ("quantity", "value", "uncertainty")
+
+    quantity: str = key(None, "name of a quantity")
+    value: float = key(None, "reading, SI")
+    uncertainty: float = key(None, "its standard deviation, SI", above=0)
     weight: float = key(1.0, "how often it counts", above=0)
     under: Mapping[str, Any] = dataclasses.field(default_factory=dict, hash=False)
 
     def __post_init__(self) -> None:
-        """Check the keys; all but the weight and where it was measured are needed."""
         super().__post_init__()
-        for name in ("quantity", "value", "uncertainty"):
-            if getattr(self, name) in (None, ""):
-                raise InputError(f"measured.{name}: not given; each [[measured]] needs one")
         object.__setattr__(self, "under", under_of("measured", self.under))
 
     @property
@@ -49,10 +48,4 @@ def under_of(table: str, given: Any) -> dict[str, Any]:
     """Return keys by dotted names, from what a file has: TOML's a.b is its "a.b"."""
     if not isinstance(given, Mapping):
         raise InputError(f"{table}.under = {given!r:.80}: allowed is a table of keys of the scene")
-    found: dict[str, Any] = {}
-    for name, value in given.items():
-        if isinstance(value, Mapping):
-            found |= {f"{name}.{inner}": each for inner, each in under_of(table, value).items()}
-        else:
-            found[name] = value
-    return found
+    return flat(given)

@@ -129,12 +129,6 @@ def evolved(evaluate: Evaluate, keys: int, generations: int, seed: int) -> Minim
     """Return the best point of differential evolution; None where all runs failed.
 
     For numbers that are so rough that differences say nothing. A failed run is worse than any.
-
-    Args:
-        evaluate: see Evaluate.
-        keys: number of them.
-        generations: at most.
-        seed: of its random numbers.
     """
     best: list[Minimum] = []
 

@@ -16,8 +16,7 @@ from exu_press.result import Result
 from exu_press.scene import Scene
 from exu_press.schema.checks import nearest
 from exu_press.studies.base import Range
-from exu_press.studies.base.checked import error_in
-from exu_press.studies.base.evaluation import Evaluation, Point, numbers_in
+from exu_press.studies.base.evaluation import Evaluation, Point, error_in, numbers_in
 from exu_press.studies.fit.curve import Curve, Matched, matched
 from exu_press.studies.fit.study import Fit
 
@@ -97,7 +96,6 @@ class Problem:
         found = []
         for one in self.study.measured:
             error = error_in(rows[self._under.index(one.under)], one.quantity)
-            assert one.uncertainty is not None
             found.append((error or 0.0) / one.uncertainty * one.weight**0.5)
         return np.array(found + [0.0] * sum(len(one.read.at) for one in self.study.curve))
 
@@ -139,8 +137,6 @@ class Problem:
         """Return the residuals of one point's runs."""
         found: list[Any] = []
         for one in self.study.measured:
-            assert one.value is not None
-            assert one.uncertainty is not None
             (value,) = numbers_in(rows[self._under.index(one.under)], [one.quantity])
             found.append(np.array([(value - one.value) / one.uncertainty * one.weight**0.5]))
         for curve in self.study.curve:
@@ -150,7 +146,6 @@ class Problem:
                 found.append(np.full(size, np.nan))
                 continue
             wanted, told = self._matched(curve, self.study.scene_at(asked[place]))
-            assert curve.uncertainty is not None
             scale = (curve.weight * curve.count / size) ** 0.5 / curve.uncertainty
             found.append(np.full(size, np.nan) if told is None else (told.values - wanted) * scale)
         every = np.concatenate(found)

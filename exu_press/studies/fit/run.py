@@ -12,7 +12,7 @@ from exu_press.files.output_directory import write_json
 from exu_press.numerics.arrays import Array
 from exu_press.scene import Scene
 from exu_press.studies.base import Runs
-from exu_press.studies.base.checked import with_errors_of
+from exu_press.studies.base.evaluation import with_errors_of
 from exu_press.studies.fit.curve import Matched
 from exu_press.studies.fit.determined import Determined, determined
 from exu_press.studies.fit.jacobian import Failed, jacobian, steps

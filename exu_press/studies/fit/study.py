@@ -59,7 +59,6 @@ class Fit(Study):
     fit: Search = Search()
 
     def __post_init__(self) -> None:
-        """Check keys, measurements and the start."""
         super().__post_init__()
         names = ranged(self, "fit")
         unders = [*(m.under for m in self.measured), *(c.under for c in self.curve)]

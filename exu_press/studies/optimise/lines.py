@@ -46,14 +46,14 @@ def report_lines(report: Report) -> list[str]:
         change = "the same" if value == before else f"{100 * (value / before - 1):+.2g} %"
         lines.append(
             f"chosen, at a tenth of the tolerance: {name} "
-            f"{significant(value * quantity.scale, 5)} {quantity.shown or quantity.unit} ({change})"
+            f"{significant(value * quantity.scale, 5)} {quantity.shown} ({change})"
         )
     return lines
 
 
 def _title(report: Report, name: str) -> str:
     quantity = quantity_of(report.study.scene, name).quantity
-    return with_unit(name, quantity.shown or quantity.unit)
+    return with_unit(name, quantity.shown)
 
 
 def _number(report: Report, name: str, place: int) -> str:

@@ -14,14 +14,19 @@ from exu_press.parallel.task import Row
 from exu_press.scene import Scene
 from exu_press.schema.csv_table import write_csv
 from exu_press.studies.base import Range, Runs
-from exu_press.studies.base.checked import error_in, with_errors_of
-from exu_press.studies.base.evaluation import Evaluation, Point, numbers_in
+from exu_press.studies.base.evaluation import (
+    Evaluation,
+    Point,
+    error_in,
+    numbers_in,
+    with_errors_of,
+)
 from exu_press.studies.optimise.front import chosen, front
 from exu_press.studies.optimise.several import advised, searched
 from exu_press.studies.optimise.single import evolved, judged, simplex, spread_points
 from exu_press.studies.optimise.study import AUTO, EVOLUTION, NELDER_MEAD, NSGA, TPE, Optimise
 
-__all__ = ["Report", "Trials", "optimise"]
+__all__ = ["Report", "optimise"]
 
 WRITTEN = ("optimise.json", "trials.csv", "chosen.toml")
 
@@ -38,50 +43,6 @@ SCREEN = 4
 """Part of the trials of one objective that is spread over the ranges first, as 1 / SCREEN."""
 
 
-class Trials:
-    """Every point that was asked for, with its objectives and violations.
-
-    Attributes:
-        points: in the order of asking, each once.
-        numbers: objectives and limited quantities in SI, (points, quantities).
-    """
-
-    def __init__(self, study: Optimise, evaluation: Evaluation) -> None:
-        """Take what is evaluated."""
-        self._study, self._evaluation = study, evaluation
-        self.points: list[Point] = []
-        self._numbers: list[Array] = []
-        self._known: set[str] = set()
-
-    def ask(self, points: Sequence[Point]) -> tuple[Array, Array]:
-        """Return objectives (m, s), less is better, and violations (m,) of points."""
-        numbers = self._evaluation(points)
-        for point, row in zip(points, numbers, strict=True):
-            if repr(point) not in self._known:
-                self._known.add(repr(point))
-                self.points.append(dict(point))
-                self._numbers.append(row)
-        return self.judged(numbers)
-
-    def judged(self, numbers: Array) -> tuple[Array, Array]:
-        """Return objectives and violations of numbers."""
-        objectives, limits = self._study.objective, self._study.limit
-        signs = np.array([one.sign for one in objectives])
-        beyond = [
-            sum(
-                limit.violation(value)
-                for limit, value in zip(limits, row[len(objectives) :], strict=True)
-            )
-            for row in numbers
-        ]
-        return numbers[:, : len(objectives)] * signs, np.array(beyond)
-
-    @property
-    def numbers(self) -> Array:
-        """Return what was found, (points, quantities)."""
-        return np.array(self._numbers)
-
-
 @dataclass(frozen=True)
 class Report:
     """The result of an optimisation.
@@ -90,7 +51,7 @@ class Report:
         study: whose report this is.
         method: of the search.
         why: it was taken.
-        trials: all points.
+        trials: all points, with their objectives and limited quantities.
         places: of the front among them, by the first objective; of one objective the best point.
         chosen: place of the chosen one among these.
         errors: quantity -> errors of the front's points, NaN where not looked for or unknown.
@@ -101,7 +62,7 @@ class Report:
     study: Optimise
     method: str
     why: str
-    trials: Trials
+    trials: Evaluation
     places: list[int]
     chosen: int
     errors: Mapping[str, Array]
@@ -162,17 +123,16 @@ def optimise(study: Optimise, directory: str | Path, **how: Any) -> Report:
     """
     directory = Path(directory)
     with Runs(study, directory, written=WRITTEN, label="optimise", **how) as runs:
-        evaluation = Evaluation(study, study.quantities, runs.of)
-        trials = Trials(study, evaluation)
+        trials = Evaluation(study, study.quantities, runs.of)
 
         def checked(points: Sequence[Point]) -> list[Row]:
             return with_errors_of(study, directory, [study.scene_at(p) for p in points], **how)
 
         method, why = _search(study, trials, checked)
-        values, violations = trials.judged(trials.numbers)
+        values, violations = _compared(study, trials.numbers)
         places = list(map(int, front(values, violations)))
         if not places:
-            raise InputError(_none_within(trials, violations, evaluation))
+            raise InputError(_none_within(trials, violations))
         best = chosen(values[places], [one.weight for one in study.objective])
         (row,) = runs.of([_finer(study.scene_at(trials.points[places[best]]))])
     names = list(dict.fromkeys(study.quantities))
@@ -186,21 +146,36 @@ def optimise(study: Optimise, directory: str | Path, **how: Any) -> Report:
     finer = dict(zip(names, numbers_in(row, names), strict=True))
     report = Report(
         study, method, why, trials, places, best, errors,
-        {name: value for name, value in finer.items() if np.isfinite(value)}, evaluation.told(),
+        {name: value for name, value in finer.items() if np.isfinite(value)}, trials.told(),
     )  # fmt: skip
     _save(report, directory)
     return report
 
 
-def _search(study: Optimise, trials: Trials, checked: Any) -> tuple[str, str]:
+def _compared(study: Optimise, numbers: Array) -> tuple[Array, Array]:
+    """Return objectives (m, s), less is better, and violations of limits (m,) of numbers."""
+    count = len(study.objective)
+    signs = np.array([one.sign for one in study.objective])
+    beyond = [
+        sum(limit.violation(x) for limit, x in zip(study.limit, row[count:], strict=True))
+        for row in numbers
+    ]
+    return numbers[:, :count] * signs, np.array(beyond)
+
+
+def _search(study: Optimise, trials: Evaluation, checked: Any) -> tuple[str, str]:
     """Ask for all trials; return the method, and why it was taken."""
     asked, keys = study.optimise, study.keys
     method, number = asked.method, len(study.objective)
+
+    def ask(points: Sequence[Point]) -> tuple[Array, Array]:
+        return _compared(study, trials(points))
+
     if number > 1 or study.has_values or method in (TPE, NSGA):
         why = "asked for"
         if method == AUTO:
             method, why = advised(asked.trials), f"advised for {asked.trials} trials"
-        searched(trials.ask, keys, number, asked.trials, method, asked.seed)
+        searched(ask, keys, number, asked.trials, method, asked.seed)
         _demand_movement(study, trials)
         return method, why
     names, ranges = list(keys), [each for each in keys.values() if isinstance(each, Range)]
@@ -210,14 +185,14 @@ def _search(study: Optimise, trials: Trials, checked: Any) -> tuple[str, str]:
         return {n: float(r.at(s)) for n, r, s in zip(names, ranges, shares, strict=True)}
 
     first = spread_points(len(names), asked.trials // SCREEN, asked.seed)
-    values, violations = trials.ask([point(x) for x in first])
+    values, violations = ask([point(x) for x in first])
     if not np.isfinite(values).any():
         return NELDER_MEAD if method == AUTO else method, "no run gave numbers"
     _demand_movement(study, trials)
     spread = float(np.nanmax(values) - np.nanmin(values))
 
     def judge(points: Array) -> Array:
-        found, beyond = trials.ask([point(x) for x in points])
+        found, beyond = ask([point(x) for x in points])
         return judged(found[:, 0], beyond, spread)
 
     why = "asked for"
@@ -234,7 +209,7 @@ def _search(study: Optimise, trials: Trials, checked: Any) -> tuple[str, str]:
     return method, why
 
 
-def _demand_movement(study: Optimise, trials: Trials) -> None:
+def _demand_movement(study: Optimise, trials: Evaluation) -> None:
     """Raise InputError for an objective that is the same in all runs."""
     for place, one in enumerate(study.objective):
         found = trials.numbers[:, place]
@@ -246,9 +221,9 @@ def _demand_movement(study: Optimise, trials: Trials) -> None:
             )
 
 
-def _none_within(trials: Trials, violations: Array, evaluation: Evaluation) -> str:
+def _none_within(trials: Evaluation, violations: Array) -> str:
     """Say that no run keeps the limits, and which comes nearest."""
-    told = "; ".join(line.strip() for line in evaluation.told())
+    told = "; ".join(line.strip() for line in trials.told())
     if not np.isfinite(trials.numbers).all(axis=1).any():
         return f"{told}: nothing to choose from"
     nearest = int(np.nanargmin(violations))

@@ -20,8 +20,9 @@ class Objective(Table):
     """A table [[objective]]: a quantity that is to be as small, or as large, as possible."""
 
     table = "objective"
+    required = ("quantity",)
 
-    quantity: str = key("", "name of a quantity")
+    quantity: str = key(None, "name of a quantity")
     sense: str = key("least", "what is wanted", choices=("least", "largest"))
     weight: float = key(1.0, "where one point of a front is chosen", above=0)
 
@@ -40,13 +41,13 @@ class Limit(Table):
     """
 
     table = "limit"
+    required = ("quantity",)
 
-    quantity: str = key("", "name of a quantity")
+    quantity: str = key(None, "name of a quantity")
     below: float | None = key(None, "what it must not exceed, SI")
     above: float | None = key(None, "what it must not fall short of, SI")
 
     def __post_init__(self) -> None:
-        """Check the bounds."""
         super().__post_init__()
         low, high = self.above, self.below
         if (low is None and high is None) or (low is not None and high is not None and low >= high):
@@ -98,7 +99,6 @@ class Optimise(Study):
     optimise: Search = Search()
 
     def __post_init__(self) -> None:
-        """Check keys, objectives and limits."""
         super().__post_init__()
         if not self.objective:
             raise InputError('no objective; allowed is [[objective]] quantity = "NAME"')

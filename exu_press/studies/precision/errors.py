@@ -7,6 +7,7 @@ and how far apart the graphs of the velocity lie.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline
@@ -57,14 +58,10 @@ class Trajectory:
     def until(self, end: float) -> "Trajectory":
         """Return the part before an instant, s."""
         kept = self.time <= end * (1.0 + 1e-12)
-        return Trajectory(
-            self.time[kept],
-            self.position[kept],
-            self.velocity[kept],
-            self.acceleration[kept],
-            None if self.force is None else self.force[kept],
-            None if self.penetration is None else self.penetration[kept],
-        )
+        parts: dict[str, Any] = {
+            name: each if each is None else each[kept] for name, each in vars(self).items()
+        }
+        return Trajectory(**parts)
 
 
 def trajectory_of(result: Result) -> Trajectory:

@@ -38,14 +38,7 @@ class Stated:
 def stated_errors(
     case: str, scene: Scene, tolerances: Sequence[float], reference: float
 ) -> list[Stated]:
-    """Return the stated errors of runs, against a run at the reference's tolerance.
-
-    Args:
-        case: name.
-        scene: until the horizon.
-        tolerances: of the runs.
-        reference: much smaller.
-    """
+    """Return the stated errors of runs, against a run at the reference's tolerance."""
     true = simulate(scene.replace("solver.tolerance", reference))
     if not true.completed:
         return []

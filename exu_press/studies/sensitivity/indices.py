@@ -100,12 +100,7 @@ def _design(a: Array, b: Array) -> Array:
 
 
 def indices(found: Sample, level: float = 0.95) -> list[Indices | None]:
-    """Return the indices of each quantity; None of one that does not move.
-
-    Args:
-        found: values.
-        level: of the bootstrap intervals.
-    """
+    """Return the indices of each quantity; None of one that does not move."""
     every: list[Indices | None] = []
     for place, (a, b) in enumerate(zip(found.a, found.b, strict=True)):
         both = np.concatenate([a, b])

@@ -82,7 +82,7 @@ def to_resolution(value: float, resolution: float) -> str:
 
 
 def _unit(quantity: Quantity) -> str:
-    unit = quantity.shown or quantity.unit
+    unit = quantity.shown
     return f" {unit}" if unit else ""
 
 

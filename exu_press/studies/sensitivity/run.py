@@ -11,8 +11,7 @@ from exu_press.files.output_directory import write_json
 from exu_press.numerics.arrays import Array
 from exu_press.schema.csv_table import write_csv
 from exu_press.studies.base import Runs
-from exu_press.studies.base.checked import error_in, with_errors_of
-from exu_press.studies.base.evaluation import Evaluation
+from exu_press.studies.base.evaluation import Evaluation, error_in, with_errors_of
 from exu_press.studies.sensitivity.indices import Indices, Sample, indices, sample
 from exu_press.studies.sensitivity.spread import Spread, spread, tornado
 from exu_press.studies.sensitivity.study import Sensitivity

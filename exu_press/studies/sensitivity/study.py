@@ -34,7 +34,6 @@ class Asked(Table):
     share: float = key(0.95, "of the presses built, between whose bounds", above=0, at_most=0.999)
 
     def __post_init__(self) -> None:
-        """Check the names and the number."""
         super().__post_init__()
         names = names_in("sensitivity.quantities", self.quantities)
         object.__setattr__(self, "quantities", names)
@@ -57,7 +56,6 @@ class Sensitivity(Study):
     sensitivity: Asked = dataclasses.field(default=cast(Any, None))
 
     def __post_init__(self) -> None:
-        """Check the keys and the quantities."""
         super().__post_init__()
         ranged(self, "sensitivity", (Range, Normal))
         for name in self.sensitivity.quantities:

@@ -1,11 +1,10 @@
 """The scenes that are judged: a table's, or a user's one pushed to its extremes key by key."""
 
-from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any
 
 from exu_press.errors import InputError
 from exu_press.scene import Scene
+from exu_press.schema.csv_table import flat
 
 __all__ = ["FACTORS", "PAIRS", "Case", "extremes"]
 
@@ -15,11 +14,11 @@ PAIRS = "pairs of extremes"
 FACTORS = (1e-3, 1e-2, 0.1, 10.0, 100.0, 1e3)
 """Times the scene's value; one that a scene refuses is left out."""
 
-NOT_PUSHED = (
+NOT_PUSHED = {
     *("mechanism", "revolutions", "start_angle_deg", "gravity", "press", "slider_crank"),
     *("solver.min_step", "solver.max_step_deg"),
-)
-"""Keys that make another mechanism or task, and bounds of the step control."""
+}
+"""Keys and tables that make another mechanism or task, and bounds of the step control."""
 
 AS_IT_IS = "as it is"
 
@@ -45,16 +44,14 @@ class Case:
 
 
 def extremes(scene: Scene, name: str) -> tuple[Case, ...]:
-    """Return the scene as it is, then with every number that it uses times each of FACTORS.
-
-    Args:
-        scene: of the user.
-        name: of the scene, for the cases' names.
-    """
+    """Return the scene as it is, then with every number that it uses times each of FACTORS."""
     allowed = BUDGET if scene.solver is None else min(scene.solver.max_steps, BUDGET)
     scene = scene.replace("solver.max_steps", allowed)
     found = [Case(f"{AS_IT_IS}, {name}", AS_IT_IS, AS_IT_IS, scene)]
-    for key, value in _numbers(scene.to_dict()):
+    for key, value in flat(scene.to_dict()).items():
+        kept = {key, key.partition(".")[0]} & NOT_PUSHED
+        if kept or not isinstance(value, float) or value == 0.0:
+            continue
         for factor in FACTORS:
             try:
                 pushed = scene.replace(key, factor * value)
@@ -63,14 +60,3 @@ def extremes(scene: Scene, name: str) -> tuple[Case, ...]:
             label = f"{factor * value:.3g}"
             found.append(Case(f"{key} = {label}, {name}", key, label, pushed))
     return tuple(found)
-
-
-def _numbers(data: Mapping[str, Any], table: str = "") -> Iterator[tuple[str, float]]:
-    """Yield the keys with a number that is not zero, with their tables' names before them."""
-    for name, value in data.items():
-        if f"{table}{name}" in NOT_PUSHED:
-            continue
-        if isinstance(value, Mapping):
-            yield from _numbers(value, f"{table}{name}.")
-        elif isinstance(value, float) and value != 0.0:
-            yield f"{table}{name}", value

@@ -1,6 +1,7 @@
 """Run a sweep: its runs, and the table of their quantities."""
 
 from pathlib import Path
+from typing import Any
 
 from exu_press.errors import InputError
 from exu_press.parallel import FILE
@@ -13,14 +14,7 @@ __all__ = ["sweep"]
 TABLES = ("table.csv", "table.nc")
 
 
-def sweep(
-    study: Sweep,
-    directory: str | Path,
-    *,
-    workers: int | None = None,
-    dask: str | None = None,
-    quiet: bool = True,
-) -> Table:
+def sweep(study: Sweep, directory: str | Path, **how: Any) -> Table:
     """Run the points that are missing, write table.csv and table.nc, and return the table.
 
     Called again after a kill or Ctrl-C, it goes on; see `exu_press.parallel.Batch`.
@@ -28,18 +22,14 @@ def sweep(
     Args:
         study: to be run.
         directory: of this study alone.
-        workers: number of processes; all cores unless told.
-        dask: address of a Dask scheduler instead.
-        quiet: False shows the progress on standard error.
+        how: workers, dask, quiet of `exu_press.studies.base.Runs`.
 
     Raises:
         InputError: the directory cannot be used or belongs to another study, or no scheduler
             answers.
     """
     directory = Path(directory)
-    with Runs(
-        study, directory, written=TABLES, label="sweep", workers=workers, dask=dask, quiet=quiet
-    ) as runs:
+    with Runs(study, directory, written=TABLES, label="sweep", **how) as runs:
         digits = len(str(len(study.points)))
         numbers = range(1, len(study.points) + 1)
         files = [f"runs/{n:0{digits}}.nc" for n in numbers] if study.save_runs else []
@@ -48,8 +38,6 @@ def sweep(
             table = table_of(study, rows, files)
         except InputError as error:
             raise InputError(f"{directory / FILE}: not rows of a sweep: {error}") from None
-        from exu_press.studies.sweep.netcdf import save_netcdf
-
         table.save_csv(directory / "table.csv")
-        save_netcdf(table, directory / "table.nc")
+        table.save_netcdf(directory / "table.nc")
     return table

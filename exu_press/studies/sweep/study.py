@@ -1,17 +1,101 @@
 """A sweep: every combination of keys' values, lists side by side, or a Latin hypercube."""
 
 import dataclasses
+import itertools
+import math
+from collections.abc import Mapping
 from functools import cached_property
 from types import MappingProxyType
 from typing import Any
+
+import numpy as np
 
 from exu_press.errors import InputError
 from exu_press.scene import Scene
 from exu_press.schema.checks import Table, key
 from exu_press.studies.base import Study
-from exu_press.studies.sweep.points import Points, grid, listed, sample
+from exu_press.studies.base.keys import Key, Values
 
-__all__ = ["Sweep", "Way"]
+__all__ = ["Sweep", "Way", "grid", "listed", "sample"]
+
+Points = tuple[dict[str, Any], ...]
+
+MOST_RUNS = 100_000
+"""Runs of one study."""
+
+
+def grid(keys: Mapping[str, Key]) -> Points:
+    """Return every combination; the last key runs fastest.
+
+    >>> grid({"speed_rpm": Values((200, 300)), "crank_pin": Values(("dry",))})
+    ({'speed_rpm': 200, 'crank_pin': 'dry'}, {'speed_rpm': 300, 'crank_pin': 'dry'})
+    """
+    values = _values(keys, "grid")
+    _check_number(math.prod(len(each) for each in values.values()))
+    return _points(values, itertools.product(*values.values()))
+
+
+def listed(keys: Mapping[str, Key]) -> Points:
+    """Return the first values of all keys, the second ones, and so on.
+
+    >>> listed({"speed_rpm": Values((200, 300)), "crank_pin": Values(("dry", "ideal"))})
+    ({'speed_rpm': 200, 'crank_pin': 'dry'}, {'speed_rpm': 300, 'crank_pin': 'ideal'})
+    """
+    values = _values(keys, "list")
+    lengths = {name: len(each) for name, each in values.items()}
+    if len(set(lengths.values())) > 1:
+        told = ", ".join(f"{name} has {length}" for name, length in lengths.items())
+        raise InputError(f'[keys]: {told}; allowed with way = "list" are lists of one length')
+    _check_number(next(iter(lengths.values())))
+    return _points(values, zip(*values.values(), strict=True))
+
+
+def sample(keys: Mapping[str, Key], n: int, seed: int) -> Points:
+    """Return a Latin hypercube of the keys' distributions, of n points, the same for one seed.
+
+    Source: McKay, Beckman, Conover, Technometrics 21 (1979) 239-245; made by SciPy.
+    """
+    for name, each in keys.items():
+        if isinstance(each, Values):
+            raise InputError(
+                f'keys.{name} = {each.plain()!r:.200}: allowed with way = "sample" is '
+                "{low = a, high = b} or {mean = m, deviation = s}"
+            )
+    _check_number(n)
+    from scipy.stats import qmc
+
+    shares = np.asarray(qmc.LatinHypercube(len(keys), rng=seed).random(n))
+    columns = [
+        each.at(column)
+        for each, column in zip(keys.values(), shares.T, strict=True)
+        if not isinstance(each, Values)
+    ]
+    return tuple(
+        dict(zip(keys, map(float, row), strict=True)) for row in zip(*columns, strict=True)
+    )
+
+
+def _values(keys: Mapping[str, Key], way: str) -> dict[str, tuple[Any, ...]]:
+    """Return the keys' values; raise InputError for a key that has none."""
+    found = {}
+    for name, each in keys.items():
+        if not isinstance(each, Values):
+            raise InputError(
+                f'keys.{name} = {each.plain()}: allowed with way = "{way}" is a list of values; '
+                '[sweep] way = "sample" takes ranges and distributions'
+            )
+        found[name] = each.values
+    return found
+
+
+def _points(values: Mapping[str, Any], each: Any) -> Points:
+    return tuple(dict(zip(values, point, strict=True)) for point in each)
+
+
+def _check_number(number: int) -> None:
+    if number > MOST_RUNS:
+        raise InputError(f"{number} runs; allowed are at most {MOST_RUNS}")
+
 
 GRID, LIST, SAMPLE = "grid", "list", "sample"
 
@@ -31,7 +115,6 @@ class Way(Table):
     seed: int | None = key(None, "of a sample's random numbers", at_least=0)
 
     def __post_init__(self) -> None:
-        """Check that n and seed are given where they are used, and there alone."""
         super().__post_init__()
         for name in ("n", "seed"):
             if (getattr(self, name) is None) == (self.way == SAMPLE):

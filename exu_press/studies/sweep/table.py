@@ -1,5 +1,6 @@
 """The table of a sweep: one row a run, whatever became of it."""
 
+import json
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -10,14 +11,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.errors import InputError
+from exu_press.files.output_directory import replacing
 from exu_press.quantities.cost import COSTS
 from exu_press.quantities.uncertain import uncertain
-from exu_press.schema.csv_table import Value, write_csv
+from exu_press.schema.csv_table import Value, flat, write_csv
 from exu_press.schema.stored import shown
 from exu_press.schema.toml import toml_text
 from exu_press.studies.sweep.study import Sweep
+from exu_press.studies.sweep.units import meaning_of, unit_of
 
 __all__ = ["RUN_TIMES", "Table", "cell", "table_of"]
+
+FORMAT = "exu_press sweep 1"
 
 COLUMN_NAME = re.compile(r"[\w.-]+", re.ASCII)
 """Name of a column that NetCDF takes."""
@@ -40,11 +45,9 @@ class Table:
     columns: Mapping[str, tuple[Value, ...]]
 
     def __getitem__(self, name: str) -> tuple[Value, ...]:
-        """Return a column."""
         return self.columns[name]
 
     def __len__(self) -> int:
-        """Return the number of runs."""
         return len(self.study.points)
 
     def numbers(self, name: str) -> NDArray[np.float64]:
@@ -75,6 +78,31 @@ class Table:
     def save_csv(self, path: Path) -> None:
         """Write the table; numbers with all their digits, nothing where a run has none."""
         write_csv(path, self.columns)
+
+    def save_netcdf(self, path: Path) -> None:
+        """Write one dimension, numbers as numbers (NaN where a run has none), others as text."""
+        from scipy.io import netcdf_file  # takes longer to load than a short run
+
+        with replacing(path) as partial, netcdf_file(partial, "w", version=2) as file:
+            file.format = FORMAT
+            file.study = json.dumps(self.study.to_dict())
+            file.createDimension("run", len(self))
+            for name, values in self.columns.items():
+                if self.is_numeric(name):
+                    variable = file.createVariable(name, "d", ("run",))
+                    variable[:] = self.numbers(name)
+                else:
+                    letters = _letters(["" if value is None else str(value) for value in values])
+                    dimension = f"letters_{letters.shape[1]}"
+                    if dimension not in file.dimensions:
+                        file.createDimension(dimension, letters.shape[1])
+                    variable = file.createVariable(name, "c", ("run", dimension))
+                    variable[:] = letters
+                    variable._Encoding = "utf-8"
+                if unit_of(name):
+                    variable.units = unit_of(name)
+                if meaning_of(name):
+                    variable.long_name = meaning_of(name)
 
 
 def table_of(study: Sweep, rows: Sequence[Mapping[str, Any]], files: Sequence[str]) -> Table:
@@ -117,17 +145,9 @@ def _scalars(row: Mapping[str, Any]) -> dict[str, Any]:
     return scalars
 
 
-def flat(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
-    """Return nested tables as one, names joined by a dot; raise InputError for one given twice."""
-    found: dict[str, Any] = {}
-    for name, value in table.items():
-        inner = (
-            flat(value, f"{prefix}{name}.")
-            if isinstance(value, Mapping)
-            else {prefix + name: value}
-        )
-        for each in inner:
-            if each in found:
-                raise InputError(f"{each}: given twice")
-        found |= inner
-    return found
+def _letters(texts: list[str]) -> "np.ndarray[tuple[int, int], np.dtype[np.bytes_]]":
+    """Return texts as single bytes, (texts, longest)."""
+    encoded = [text.encode() for text in texts]
+    longest = max(1, *(len(text) for text in encoded))
+    padded = np.array([text.ljust(longest, b"\0") for text in encoded], dtype=f"S{longest}")
+    return padded.view("S1").reshape(len(texts), longest)

@@ -20,7 +20,7 @@ def report_lines(report: Report) -> list[str]:
         bodies.append([f"{1e6 * value:.5g}" for value in report.clearances(joint)])
     for name in study.names:
         quantity = quantity_of(study.scene, name).quantity
-        unit = quantity.shown or quantity.unit
+        unit = quantity.shown
         heads.append(f"{name}, {unit}" if unit else name)
         digits = 7 if quantity.unit == "m" else 4
         bodies.append(

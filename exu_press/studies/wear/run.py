@@ -118,14 +118,7 @@ class Report:
         return float(self.study.scene.joints[joint].clearance)
 
 
-def wear(
-    study: WearStudy,
-    directory: str | Path,
-    *,
-    workers: int | None = None,
-    dask: str | None = None,
-    quiet: bool = True,
-) -> Report:
+def wear(study: WearStudy, directory: str | Path, **how: Any) -> Report:
     """Run the study, going on where its directory was left; write wear.json and worn.toml.
 
     A jump takes the depths on by the midpoint rule: a run at the start of the jump tells what a
@@ -137,16 +130,16 @@ def wear(
     Args:
         study: to be run.
         directory: of this study alone.
-        workers: number of processes; a run needs the one before, so that more than one is idle.
-        dask: address of a Dask scheduler instead.
-        quiet: False shows the progress.
+        how: workers, dask, quiet of `exu_press.studies.base.Runs`; a run needs the one before, so
+            that more workers than one are idle.
     """
     points: list[Point] = []
     ended: list[str] = []
+    if how.get("dask") is None:
+        how["workers"] = how.get("workers") or 1
     with Runs(
-        study, directory, written=[FILE, SCENE], label="wear, at most", function=run_worn,
-        workers=workers or (None if dask else 1), dask=dask, quiet=quiet,
-    ) as runs:  # fmt: skip
+        study, directory, written=[FILE, SCENE], label="wear, at most", function=run_worn, **how
+    ) as runs:
         runs.follow([_course(study, points, ended)], 2 * study.wear.most_jumps + 1)
     report = Report(study, points, "".join(ended))
     write_json(Path(directory) / FILE, report.to_dict())
@@ -177,11 +170,14 @@ def _course(study: WearStudy, points: list[Point], ended: list[str]) -> Chain:
     def arguments(worn: Mapping[str, Depths]) -> dict[str, Any]:
         return {"scene": worn_scene(scene, worn).to_dict()}
 
+    def failed(row: Row) -> str:
+        return f"run {row['status']}: {row['reason']}" if row["status"] != COMPLETED else ""
+
     row = yield arguments(depths)
     ways = dict.fromkeys(row.get("guideways", {}), 0.0)
     points.append(Point(0.0, 0.0, 0.0, depths, ways, row))
-    if row["status"] != COMPLETED:
-        ended.append(f"the first run {row['status']}: {row['reason']}")
+    if why := failed(row):
+        ended.append(f"the first {why}")
         return
     rate = _rates(row, study)
     fastest = max(rate[n].deepest / clearance[n] for n in study.joints)
@@ -195,13 +191,13 @@ def _course(study: WearStudy, points: list[Point], ended: list[str]) -> Chain:
         jump = min(jump, own.strokes - done)
         half = {n: depths[n].after(0.5 * jump, rate[n]) for n in depths}
         row = yield arguments(half)
-        if row["status"] != COMPLETED:
+        if failed(row) and tries < TRIES:
             tries += 1
-            if tries > TRIES:
-                ended.append(f"after {done:.4g} strokes a run {row['status']}: {row['reason']}")
-                return
             jump *= SHORTEST
             continue
+        if why := failed(row):
+            ended.append(f"after {done:.4g} strokes a {why}")
+            return
         middle = _rates(row, study)
         after = {n: depths[n].after(jump, middle[n]) for n in depths}
         apart = {
@@ -216,16 +212,16 @@ def _course(study: WearStudy, points: list[Point], ended: list[str]) -> Chain:
         jump *= min(LONGEST, max(SHORTEST, CAUTION / math.sqrt(max(off, 1e-12))))
         if off > 1.0:
             continue
-        ways = {body: ways[body] + step * row["guideways"][body] for body in ways}
+        worn_ways = {body: ways[body] + step * row["guideways"][body] for body in ways}
         row = yield arguments(after)
-        if row["status"] != COMPLETED:
+        if failed(row) and tries < TRIES:
             tries += 1
-            if tries > TRIES:
-                ended.append(f"after {done:.4g} strokes a run {row['status']}: {row['reason']}")
-                return
-            ways = dict(points[-1].ways)
             jump = SHORTEST * step
             continue
+        if why := failed(row):
+            ended.append(f"after {done:.4g} strokes a {why}")
+            return
+        ways = worn_ways
         tries, jumps, done, depths = 0, jumps + 1, done + step, after
         error += max(apart.values())
         rate = _rates(row, study)

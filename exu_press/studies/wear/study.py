@@ -28,7 +28,9 @@ class Strokes(Table):
 
     table = "wear"
 
-    strokes: float = key(None, "revolutions of the crank", above=0, example=1e6)
+    required = ("strokes",)
+
+    strokes: float = key(None, "revolutions of the crank", above=0)
     tolerance: float = key(
         0.01,
         "depths of a jump and of its two halves may differ by that, over the clearance",
@@ -39,10 +41,7 @@ class Strokes(Table):
     quantities: tuple[str, ...] | None = None
 
     def __post_init__(self) -> None:
-        """Check the keys and the names."""
         super().__post_init__()
-        if self.strokes is None:
-            raise InputError("wear.strokes: missing; allowed is a number > 0, as in strokes = 1e6")
         if self.quantities is not None:
             names = names_in("wear.quantities", self.quantities)
             object.__setattr__(self, "quantities", names)
@@ -67,7 +66,6 @@ class WearStudy(Study):
     wear: Strokes = dataclasses.field(default=cast(Any, None))
 
     def __post_init__(self) -> None:
-        """Check the scene and the quantities."""
         if self.keys:
             raise InputError("[keys]: not used by exu-press wear; remove them")
         super().__post_init__()

@@ -5,8 +5,7 @@ import pytest
 
 from exu_press import InputError, Scene
 from exu_press.studies.base import Normal, Range, Study, Values
-from exu_press.studies.base.checked import error_in
-from exu_press.studies.base.evaluation import Evaluation, ranged
+from exu_press.studies.base.evaluation import Evaluation, error_in, ranged
 
 SCENE = Scene(mechanism="slider_crank", joints={"crank_pin": "ideal"}, revolutions=0.01, settle=0.0)
 ROD, SPEED = "slider_crank.rod_length", "speed_rpm"

@@ -11,7 +11,7 @@ from exu_press.model.state import State
 from exu_press.plots.bifurcation import bifurcation_figure
 from exu_press.studies.attractor.orbit import Orbit
 from exu_press.studies.bifurcation import Bifurcation, bifurcation
-from exu_press.studies.bifurcation.point import carried, run_point
+from exu_press.studies.bifurcation.run import carried, run_point
 
 FILM = Scene(
     mechanism="slider_crank",

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from exu_press import InputError, Scene
-from exu_press.plots.period_map import period_map_figure
+from exu_press.plots.bifurcation import period_map_figure
 from exu_press.studies.bifurcation import Bifurcation, Branch, Report, bifurcation
 from exu_press.studies.bifurcation.lines import report_lines
 

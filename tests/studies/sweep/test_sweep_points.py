@@ -5,7 +5,7 @@ import pytest
 
 from exu_press import InputError
 from exu_press.studies.base.keys import keys_from
-from exu_press.studies.sweep.points import grid, listed, sample
+from exu_press.studies.sweep.study import grid, listed, sample
 from exu_press.studies.sweep.table import flat
 
 

@@ -65,7 +65,6 @@ def test_a_time_limit_does_not_make_another_study():
         ("[keys]\nspeed_rpm = [1]\n", "no scene; allowed is scene = "),
         ("scene = 3\n[keys]\nspeed_rpm = [1]\n", "scene = 3: allowed is a table"),
         (SCENE, r"no keys; allowed is keys = a \[keys\] table"),
-        (SCENE + "[grid]\nspeed_rpm = [1]\n", r"\[grid\] is \[keys\] now, with \[sweep\] way"),
         ("keys = 3\n" + SCENE, "keys = 3: allowed is a table"),
         (SCENE + "[keys]\n", r"\[keys\]: empty"),
         (SCENE + "[keys]\nspeed_rpm = []\n", r"keys.speed_rpm = \[\]: allowed is \[value"),

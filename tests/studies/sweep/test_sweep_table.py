@@ -10,7 +10,6 @@ from scipy.io import netcdf_file
 from exu_press import InputError, Scene
 from exu_press.studies.sweep import Sweep
 from exu_press.studies.sweep.lines import report_lines, shown
-from exu_press.studies.sweep.netcdf import save_netcdf
 from exu_press.studies.sweep.table import table_of
 
 ROWS = [
@@ -65,7 +64,7 @@ def test_csv_reads_back_bit_by_bit(table, tmp_path):
 
 
 def test_netcdf_reads_back(table, tmp_path):
-    save_netcdf(table, tmp_path / "table.nc")
+    table.save_netcdf(tmp_path / "table.nc")
     with netcdf_file(tmp_path / "table.nc", mmap=False) as file:
         assert file.dimensions["run"] == 3
         assert file.variables["bottom_dead_centre"][:].tolist()[::2] == [0.1 + 0.2, math.pi]

@@ -137,7 +137,7 @@ def save(part: ReducedPart, file: Path) -> None:
 
 
 def load(file: Path) -> ReducedPart | None:
-    """Return what `save` wrote to this file, or None if it is missing, damaged or foreign."""
+    """Return the part in a file of `save`, or None if it is missing, damaged or foreign."""
     try:
         with np.load(file, allow_pickle=False) as stored:
             arrays = {key: stored[key] for key in stored.files}

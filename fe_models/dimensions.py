@@ -1,4 +1,4 @@
-"""Dimensions of a crank shaft and a linkage, and places on a solid: what OCC's shapes are made of.
+"""Dimensions of a crank shaft and a linkage, and places on a solid, for OCC's shapes.
 
 Plain data, checked; `fe_models.geometry` makes solids of it.
 """
@@ -73,7 +73,7 @@ class CrankDimensions:
     eccentricity: float = 0.03
 
     def __post_init__(self) -> None:
-        """Refuse what is not one solid with a whole pin and whole journals."""
+        """Refuse dimensions that do not make one solid with a whole pin and whole journals."""
         _positive(self, exempt=("web_offset", "eccentricity"))
         reach = self.eccentricity + self.pin_radius - self.web_offset
         if self.web_radius < max(reach, self.journal_radius + self.web_offset):

@@ -2,7 +2,7 @@
 
 A body is free: its own inertia balances what loads its interfaces, as where a joint pulls it along.
 Modes that are mass-normalised and free of rigid motion sum this flexibility up from below,
-G = sum over modes of (C psi) (C psi)^T / omega^2: each one adds what it carries. Held against the
+G = sum over modes of (C psi) (C psi)^T / omega^2: each one adds its part. Held against the
 statics of all finite elements this says how far any of them can be spared.
 """
 
@@ -26,7 +26,7 @@ class Statics:
     """Full statics of a free body under loads on its interfaces.
 
     Attributes:
-        flexibility: (m, m) what unit forces and moments move the interfaces, m/N to 1/(N m).
+        flexibility: (m, m) motion of the interfaces by unit forces and moments, m/N to 1/(N m).
     """
 
     def __init__(self, model: Any, rows: Any, cholesky: Any) -> None:
@@ -48,10 +48,10 @@ class Statics:
         self.flexibility: Array = 0.5 * (flexibility + flexibility.T)
 
     def carried(self, moved: Array, frequencies: Array, loaded: Array) -> Array:
-        """Return what each mode carries of the work of loads, (k, modes), in rows of at most 1.
+        """Return each mode's share of the work of loads, (k, modes), in rows of at most 1.
 
         Args:
-            moved: (m, modes) what a unit of each modal coordinate moves the interfaces.
+            moved: (m, modes) motion of the interfaces by a unit of each modal coordinate.
             frequencies: (modes,) Hz.
             loaded: (m,) which of the motions are loaded.
         """
@@ -100,7 +100,7 @@ def moved_in_plane(carried: Array, frequencies: Array, centrifugal: Array) -> li
     is symmetric to the last digit, they carry some 1e-6.
 
     Args:
-        carried: (k, modes) what each mode carries of the work of loads in the plane.
+        carried: (k, modes) each mode's share of the work of loads in the plane.
         frequencies: (modes,) Hz.
         centrifugal: (modes,) force on each mode by rotation in the plane, over the angular
             velocity's square.
@@ -113,11 +113,11 @@ def moved_in_plane(carried: Array, frequencies: Array, centrifugal: Array) -> li
 
 
 def shares(moved: Array, frequencies: Array, exact: Array) -> Array:
-    """Return what share (m, modes) each mode has in how an interface's motion gives way.
+    """Return the share (m, modes) of each mode in the flexibility of an interface's motion.
 
     Args:
-        moved: (m, modes) what a unit of each modal coordinate moves the interfaces.
+        moved: (m, modes) motion of the interfaces by a unit of each modal coordinate.
         frequencies: (modes,) Hz.
-        exact: (m,) what they give way in all, the diagonal of `Statics.flexibility`.
+        exact: (m,) their flexibility in all, the diagonal of `Statics.flexibility`.
     """
     return np.asarray((moved / (2.0 * np.pi * frequencies)) ** 2 / exact[:, None])

@@ -31,7 +31,7 @@ class Geometry(Protocol):
     """Anything that can be meshed."""
 
     def key(self) -> dict[str, Any]:
-        """Return what determines the solid, as data that JSON can hold."""
+        """Return the data that determine the solid, for JSON."""
 
     def build(self) -> Any:
         """Return a fresh netgen.occ shape whose interface faces carry names."""

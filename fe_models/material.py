@@ -16,7 +16,7 @@ class Material:
     density: float
 
     def __post_init__(self) -> None:
-        """Refuse what no stable elastic solid has."""
+        """Refuse constants that no stable elastic solid has."""
         for key in ("youngs_modulus", "density"):
             value = getattr(self, key)
             if not 0.0 < value < float("inf"):

@@ -94,7 +94,7 @@ class ReducedPart:
         )
 
     def participation(self) -> Array:
-        """Return what share (m, n) of each loaded motion's static flexibility each mode carries.
+        """Return each mode's share (m, n) of the static flexibility of each loaded motion.
 
         The motions are those of meta["motions"], (face, motion). What a row lacks to 1 is left out.
         """

@@ -41,7 +41,7 @@ def name_round_faces(shape: Any, axes: Mapping[str, Axis], where: str) -> None:
 
     Args:
         shape: in m.
-        axes: name -> where the axis is, and what distinguishes the face.
+        axes: name -> place of the axis, and marks of the face.
         where: begin of messages.
 
     Raises:
@@ -161,7 +161,7 @@ def _is_hole(shape: Any, one: _Round) -> bool:
 
 
 def _nothing(found: Iterable[_Round], axis: Axis, name: str) -> str:
-    """Return what is wrong where no face suits an axis, with the distance of the nearest one."""
+    """Return a message where no face suits an axis, with the distance of the nearest one."""
     kind = "sphere" if axis.sphere else "cylinder along z"
     asked = "" if axis.radius is None else f" of radius {axis.radius:g} m"
     asked += "" if axis.z is None else f" within z = {list(axis.z)}"

@@ -95,7 +95,7 @@ def freeze(shape: Any) -> tuple[str, tuple[str | None, ...]]:
 
 
 def thaw(text: str, names: tuple[str | None, ...]) -> Any:
-    """Return a fresh shape from what `freeze` gave."""
+    """Return a fresh shape from the data of `freeze`."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "shape.brep"
         path.write_text(text)

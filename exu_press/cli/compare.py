@@ -15,8 +15,7 @@ from exu_press.cli.options import (
 from exu_press.errors import InputError
 from exu_press.files.output_directory import output_directory, remove_pictures, write_json
 from exu_press.integrate import SolverStatus
-from exu_press.quantities.differences import difference_lines
-from exu_press.quantities.table import comparison_lines
+from exu_press.quantities.table import comparison_lines, difference_lines
 from exu_press.result import Result
 from exu_press.scene import Scene
 from exu_press.studies.compare import different_keys, variants

@@ -110,7 +110,7 @@ class GuidewayFilm:
             end.add_forces((x, y, 0.0), (0.0, 0.0, turn), out)
 
     def jacobian(self, by_q: float, by_q_t: float) -> Array:
-        """Return -(by_q dQ/dq + by_q_t dQ/dq_t), but for what only turns arms, by rows."""
+        """Return -(by_q dQ/dq + by_q_t dQ/dq_t), less the terms of turning arms, by rows."""
         # both ends' forces across, the force along and the moment, by the gaps, rates and U
         partials = [[0.0] * 4 for _ in range(4)]
         for side, film in self._films:

@@ -91,7 +91,7 @@ def histories(
     """Return the records of joints over recorded steps.
 
     Args:
-        joints: go through the steps again; afterwards they remember what they did before.
+        joints: go through the steps again; afterwards their memory is that of before.
         time: (n,), s.
         q: (n, m) coordinates of the user force element's item.
         q_t: (n, m) their rates.

@@ -108,7 +108,7 @@ class InterfaceLaw:
         return []
 
     def recall(self, memory: list[Any]) -> None:
-        """Take over what another interface of its kind remembers."""
+        """Take over the memory of another interface of its kind."""
 
 
 class DryInterface(InterfaceLaw):
@@ -249,7 +249,7 @@ class DryInterface(InterfaceLaw):
         return [self.bristle, self._next_bristle, *sliding, self.approach.memory()]
 
     def recall(self, memory: list[Any]) -> None:
-        """Take over what another interface remembers."""
+        """Take over the memory of another interface."""
         self.bristle, self._next_bristle = memory[0], memory[1]
         self._sliding, self._sliding_before = memory[2], memory[3]
         self.approach.recall(memory[4])
@@ -494,7 +494,7 @@ class InterfaceJoint:
         return [self._step, self.path.memory(), interfaces]
 
     def recall(self, memory: list[Any]) -> None:
-        """Take over what another joint of its kind remembers, in the state of the last forces."""
+        """Take over the memory of another joint of its kind, in the state of the last forces."""
         self._step = memory[0]
         self.path.recall(memory[1])
         for interface, each in zip(self.interfaces, memory[2], strict=True):

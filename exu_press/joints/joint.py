@@ -108,4 +108,4 @@ class ClearanceJoint(Protocol):
         """Return the memory of the steps before, numbers in lists."""
 
     def recall(self, memory: list[Any]) -> None:
-        """Take over what another joint of its kind remembers, in the state of the last forces."""
+        """Take over the memory of another joint of its kind, in the state of the last forces."""

@@ -70,7 +70,7 @@ class SpatialRevolute(InterfaceJoint):
                 bearing.add_forces((-force[0], -force[1], -force[2]), moment, out)
 
     def jacobian(self, by_q: float, by_q_t: float) -> Array | None:
-        """Return -(by_q dQ/dq + by_q_t dQ/dq_t), but for what only turns arms and axes."""
+        """Return -(by_q dQ/dq + by_q_t dQ/dq_t), less the terms of turning arms and axes."""
         e, e_dot, v_t, w_j, w_b = self._motion
         turn = 1.0 / e if self._turns and e > 0.0 else 0.0
         # (F_n, F_t, M_J, M_B) by motions along n and t and rotations of journal and bearing

@@ -95,7 +95,7 @@ class SpatialSpherical:
         return [self._step, self.path.memory(), told, self._approach.memory()]
 
     def recall(self, memory: list[Any]) -> None:
-        """Take over what another joint of its kind remembers, in the state of the last forces."""
+        """Take over the memory of another joint of its kind, in the state of the last forces."""
         self._step = memory[0]
         self.path.recall(memory[1])
         bristle, following, *sliding = memory[2]
@@ -119,7 +119,7 @@ class SpatialSpherical:
             self.socket.add_forces(_vector(-force), _vector(on_socket), out)
 
     def jacobian(self, by_q: float, by_q_t: float) -> Array | None:
-        """Return -(by_q dQ/dq + by_q_t dQ/dq_t), but for what only turns arms."""
+        """Return -(by_q dQ/dq + by_q_t dQ/dq_t), less the terms of turning arms."""
         if self._film is None:
             return self._of_contact(by_q, by_q_t) if self._touching else None
         ball, ball_omega = self.ball.rates()

@@ -164,7 +164,7 @@ class UserForceElement:
     def _check_start(self, q: list[float], called: Callable[[ClearanceJoint], str]) -> None:
         """Raise InputError for a joint that is further out in a state than its laws hold."""
         self._started = True
-        going_on = self._last[0] == q  # where the last run ended: joints keep what they remember
+        going_on = self._last[0] == q  # where the last run ended: joints keep their memory
         q_t = self._last[1] if going_on else [0.0] * self.size
         for joint in self.joints:
             e = joint.clearance - joint.state([*q, *GROUND], [*q_t, *GROUND]).gap

@@ -272,5 +272,5 @@ class WornJoint(PlanarJoint):
 
     @property
     def rubbing(self) -> tuple[float, float]:
-        """Return what `InterfaceJoint.rubbing` does, where the surfaces touch."""
+        """Normal force, N, and sliding velocity, m/s, where the surfaces touch."""
         return self._rubbing(self._touch)

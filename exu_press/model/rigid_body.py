@@ -140,7 +140,7 @@ class SlidingBody(RigidBody):
         return point
 
     def motion(self, q: Array, q_t: Array, q_tt: Array) -> Motion:
-        """Return what `RigidBody.motion` returns."""
+        """Return the motion as `RigidBody.motion`."""
         return Motion(self.reference + q * self._along, q_t * self._along, q_tt * self._along)
 
 
@@ -191,7 +191,7 @@ class PivotedBody(RigidBody):
         return point[0] - self._point[0], point[1] - self._point[1]
 
     def motion(self, q: Array, q_t: Array, q_tt: Array) -> Motion:
-        """Return what `RigidBody.motion` returns."""
+        """Return the motion as `RigidBody.motion`."""
         still = np.zeros((len(q), 2))
         places = np.column_stack([still + self._pivot, self.reference[2] + q])
         turned = Motion(places, np.column_stack([still, q_t]), np.column_stack([still, q_tt]))

@@ -37,7 +37,7 @@ class System:
         scene: of the system.
         parts: name -> flexible body's part; empty for rigid bodies.
         mechanism: bodies, joints and guides.
-        holding: which ideal joints and guides hold what.
+        holding: constraints of ideal joints and guides.
         ideal: name -> motion of the ideal mechanism at the start.
         loads: name -> load.
         clocks: of pulses and sheets, each with the reader of its state, told at the end of

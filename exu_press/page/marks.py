@@ -8,8 +8,8 @@ import numpy as np
 from exu_press.numerics.arrays import Array
 from exu_press.page.curves import Curve
 from exu_press.quantities.alternating import LOADS, steady
-from exu_press.quantities.contact_time import TOUCH
 from exu_press.quantities.dead_centre import bottom_dead_centres
+from exu_press.quantities.joints import TOUCH
 from exu_press.quantities.value import values_of
 from exu_press.result import Result
 from exu_press.scene import IdealJoint, mechanism_of

@@ -1,4 +1,4 @@
-"""Many joints in one picture: the busiest few are drawn, the rest stand in a table."""
+"""Many joints in one picture: of two like sides one, the busiest few, the rest in a table."""
 
 from collections.abc import Collection, Iterable, Mapping
 
@@ -6,13 +6,12 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from exu_press.plots.peaks import with_error
-from exu_press.plots.sides import joint_titles
+from exu_press.plots.words import joint_in_words
 from exu_press.quantities.catalogue import ECCENTRICITY_RATIO, JOINT_FORCE
 from exu_press.result import Result
 from exu_press.terminal.columns import columns
 
-__all__ = ["busiest", "draw_rest", "rest_lines"]
-
+__all__ = ["busiest", "draw_rest", "joint_titles", "mirror", "rest_lines", "sides_alike"]
 
 LETTER = 0.61
 """Width of a monospaced letter over its size."""
@@ -98,3 +97,55 @@ def _peak(result: Result, name: str) -> float:
         return 0.0
     force = result[f"{name}_force"]
     return float(np.linalg.norm(force.reshape(len(force), -1), axis=1).max())
+
+
+SIDES = ("left", "right")
+ALIKE = 1e-3
+"""Largest difference of the two sides, relative to the peak, that a picture does not show."""
+
+
+def mirror(channel: str) -> str:
+    """Return the name of the other side's channel, or the name itself where there is none.
+
+    >>> mirror("ball_left_force"), mirror("crank_pin_force")
+    ('ball_right_force', 'crank_pin_force')
+    """
+    left, right = (f"_{side}_" for side in SIDES)
+    return channel.replace(left, right) if left in channel else channel.replace(right, left)
+
+
+def sides_alike(results: Iterable[Result], channel: str) -> bool:
+    """Return whether a channel, (n,) or vectors (n, k), is the same on both sides.
+
+    They are mirror images: the sideways component has the opposite sign.
+    """
+    other = mirror(channel)
+    for result in results:
+        if channel in result and other in result:
+            one, two = result[channel], result[other]
+            if one.ndim == 2:
+                two = two * np.where(np.arange(two.shape[1]) == 0, -1.0, 1.0)
+            if np.abs(one - two).max() > ALIKE * np.abs(one).max():
+                return False
+    return True
+
+
+def joint_titles(
+    results: Collection[Result], names: Iterable[str], quantity: str = "force"
+) -> dict[str, str]:
+    """Return joints with their titles; one of two sides that do the same.
+
+    Args:
+        results: in which the sides are looked at.
+        names: of the joints, the one to show of two sides first.
+        quantity: end of the name of the joint's channel.
+    """
+    shown: dict[str, str] = {}
+    for name in names:
+        channel, title = f"{name}_{quantity}", joint_in_words(name)
+        if mirror(channel) != channel and sides_alike(results, channel):
+            if mirror(channel).removesuffix(f"_{quantity}") in shown:
+                continue
+            title = f"{title.partition(',')[0]}, each side"
+        shown[name] = title
+    return shown

@@ -96,7 +96,7 @@ def draw_path(axes: Axes, path: Path) -> LineCollection | None:
     """Draw a path in its circle (um), magnified if it is small.
 
     Returns:
-        What the crank angle's colours are of; None for a vertical path, which runs over itself.
+        The lines that crank angles colour; None for a vertical path, which runs over itself.
     """
     axes.set(title=textwrap.fill(path.title, LETTERS), xlabel="x, µm", ylabel="y, µm")
     limit = path.clearance

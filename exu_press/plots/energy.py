@@ -6,9 +6,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from exu_press.plots.busiest import joint_titles
 from exu_press.plots.canvas import angle_axis, curve, legend_above, new_figure
 from exu_press.plots.scales import note
-from exu_press.plots.sides import joint_titles
 from exu_press.plots.style import COLOURS, GREY, colour_of, styled
 from exu_press.quantities.energy import energy_residual
 from exu_press.result import Result
@@ -31,8 +31,8 @@ BALANCE_LINES: dict[str, dict[str, Any]] = {
 def energy_figure(result: Result) -> Figure:
     """Return the energy balance of a run since its start, J.
 
-    What drive and load put in, the change of what is stored, and what is dissipated; what each
-    joint dissipates (not where none can); and what is left over, the error of the integration.
+    Work of drive and loads, change of the stored energy and dissipated energy; the losses of each
+    joint (not where none can dissipate); and the residual, the error of the integration.
     """
     figure = new_figure("Energy balance since the start", {"": result}, (13.0, 6.4))
     dissipates = any(name.endswith("_loss") for name in result)

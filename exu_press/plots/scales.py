@@ -23,7 +23,7 @@ SLACK = 1e-4
 """Distance over an axis' length by which a tick may lie beyond its ends."""
 
 DWARFED = 6.0
-"""An axis is logarithmic where its peak is more than this times what most of the run shows."""
+"""An axis is logarithmic where its peak is more than this times the 90th percentile of values."""
 
 
 def crank_angle_axis(
@@ -79,7 +79,7 @@ def angle_ticks(low: float, high: float, most: int = 9) -> Array:
 def impact_scale(axes: Axes, curves: Iterable[tuple[Array, Array]], *, signed: bool) -> str:
     """Scale the values' axis so that both impacts and ordinary values can be read.
 
-    Linear as long as that does it, else linear for what most of the run shows and logarithmic
+    Linear as long as that does it, else linear up to the 90th percentile and logarithmic
     beyond (symlog).
 
     Args:
@@ -117,7 +117,7 @@ def widen(axes: Axes, least: float) -> None:
 
 
 def note(axes: Axes, *texts: str) -> None:
-    """Say over a panel's right end what to know about its scale; empty texts are left out."""
+    """Write notes on the scale over a panel's right end; empty texts are left out."""
     axes.set_title(
         "; ".join(filter(None, texts)), loc="right", fontsize=8.5, fontweight="normal", color=GREY
     )

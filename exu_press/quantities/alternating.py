@@ -27,8 +27,8 @@ def steady(time: Array, values: Array) -> Array:
     O. Bruels, BIT 47, 2007). Peaks read from such samples are too high by it, at all tolerances.
 
     Values beside the line of their neighbours have one sign where a curve is smooth, up to a point
-    of inflection. Where three of them alternate, their second difference has of what alternates all
-    of it, and of a smooth curve its fourth derivative. A peak of a single sample makes three
+    of inflection. Where three of them alternate, their second difference has all of the alternating
+    part, and of a smooth curve its fourth derivative. A peak of a single sample makes three
     alternate, too: more than a LITTLE alternates where five of them do, and are as large.
     """
     if len(time) < 7:

@@ -49,7 +49,7 @@ def _balance(result: Result) -> dict[str, Array]:
 def _end(part: str) -> Callable[[Reading, str], float | None]:
     """Return a reader of the end of a balance's channel, None where the user's own items have part.
 
-    What those put in, store and dissipate is not known.
+    The energies of those items are not known.
     """
     return lambda run, _: float(run[f"energy_{part}"][-1]) if has_balance(run.result) else None
 

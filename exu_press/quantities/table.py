@@ -1,6 +1,8 @@
-"""Runs as a table, for a terminal or a report."""
+"""Runs as a table, for a terminal or a report, and the differences between them."""
 
-from collections.abc import Mapping, Sequence
+import textwrap
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import combinations
 from typing import Any
 
 from exu_press.quantities.catalogue import CATALOGUE
@@ -10,10 +12,11 @@ from exu_press.quantities.reading import Reading
 from exu_press.quantities.uncertain import uncertain
 from exu_press.quantities.value import Value, values_of
 from exu_press.result import Result
+from exu_press.result.info import Error
 from exu_press.scene import mechanism_of
 from exu_press.terminal.columns import columns
 
-__all__ = ["comparison_cells", "comparison_lines", "run_lines", "shown_value"]
+__all__ = ["comparison_cells", "comparison_lines", "difference_lines", "run_lines", "shown_value"]
 
 MOST_PLACES = 3
 """Joints, guides or bodies that a line names: those with the largest loads."""
@@ -125,3 +128,36 @@ def _alike(values: Sequence[Value]) -> bool:
     """Return whether values are the same to a hundredth."""
     numbers = [value.value or 0.0 for value in values]
     return max(numbers) - min(numbers) <= ALIKE * max(map(abs, numbers), default=0.0)
+
+
+WIDTH = 100
+
+
+def difference_lines(results: Mapping[str, Result]) -> list[str]:
+    """Return in which quantities two runs may be the same, pair by pair, where errors are known."""
+    lines = []
+    for (name, one), (other_name, other) in combinations(results.items(), 2):
+        told = [run.info.get("errors", {}) for run in (one, other)]
+        unknown = [
+            label for label, errors in zip((name, other_name), told, strict=True) if not errors
+        ]
+        if len(unknown) == 2:
+            continue
+        if unknown:
+            said = f"{unknown[0]} has no errors, so that no difference is sure"
+        else:
+            unsure = list(_unsure(*told))
+            said = "all differences exceed their errors"
+            said += f", except in {', '.join(unsure)}" * bool(unsure)
+        lines += textwrap.wrap(f"{name}, {other_name}: {said}", WIDTH, subsequent_indent="  ")
+    return lines
+
+
+def _unsure(one: Mapping[str, Error], other: Mapping[str, Error]) -> Iterator[str]:
+    """Yield the quantities whose bounds overlap, but are not exactly the same."""
+    for name, a in one.items():
+        b = other.get(name)
+        if b is None or a == b:
+            continue
+        if a["low"] <= b["high"] and b["low"] <= a["high"]:
+            yield name

@@ -129,7 +129,7 @@ def scene_parts(scene: Scene) -> list[tuple[str, str]]:
         (
             "Assumptions",
             paragraph(
-                "What this scene does not give and rests on: engineering values with their source, "
+                "Assumptions of this scene: engineering values with their source, "
                 "and numbered gaps and misprints of the paper. "
                 "Each key can be set in the scene."
             )

@@ -79,7 +79,7 @@ def _shares(name: str, one: dict[str, Any]) -> list[list[str]]:
 def _live(
     samples: dict[str, tuple[Value, ...]], keys: list[str], quantities: dict[str, Any]
 ) -> Live:
-    """Return the presses of the sample as points, the first quantity over what decides it."""
+    """Return the presses of the sample as points, a quantity over the key that decides it."""
     from exu_press.page.study import Column, study_viewer
 
     def column(name: str) -> Column:

@@ -50,7 +50,7 @@ class Channel:
 
 
 def guide_channel(mechanism: Mechanism, body: str) -> str:
-    """Return what the channels of a body's guide begin with; the slider's is the guide."""
+    """Return the beginning of the names of a guide's channels; the slider's is the guide."""
     return "guide" if body == mechanism.slider else f"{body}_guide"
 
 

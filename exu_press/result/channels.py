@@ -22,7 +22,7 @@ AT_ONCE = 100_000
 
 
 class OnDisk(Mapping[str, Channel]):
-    """Channels on disk; of what is asked for, pages are read.
+    """Channels on disk, read by pages.
 
     Attributes:
         count: number of instants.
@@ -58,7 +58,7 @@ class OnDisk(Mapping[str, Channel]):
         shape = self.count, *begun.values.shape[1:]
         values = np.memmap(
             self._file(name), np.float64, "r", shape=shape
-        )  # what is not looked at is not read
+        )  # pages are read when they are used
         found = copy.copy(begun)
         object.__setattr__(found, "values", values.view(np.ndarray))  # checked block by block
         return found
@@ -66,7 +66,7 @@ class OnDisk(Mapping[str, Channel]):
     def parts(self, name: str) -> Iterator[Array]:
         """Yield the values of a channel AT_ONCE by AT_ONCE.
 
-        What was read of a map stays in memory as long as the map does.
+        The pages of a map stay in memory as long as the map does.
         """
         for first in range(0, self.count, AT_ONCE):
             yield self[name].values[first : first + AT_ONCE]
@@ -96,7 +96,7 @@ class OnDisk(Mapping[str, Channel]):
 class Changed(Mapping[str, Channel]):
     """Other channels with changed values, each worked out when it is asked for.
 
-    What is worked out of channels in memory stays there; of those on disk it is done each time.
+    Changed channels in memory stay there; those on disk are worked out each time.
 
     Attributes:
         channels: that are changed.
@@ -145,7 +145,7 @@ def described(channels: Mapping[str, Channel]) -> Mapping[str, Channel]:
 def part_of(channels: Mapping[str, Channel], name: str, pick: Callable[[Array], Array]) -> Array:
     """Return some columns of a channel, as pick(values (n, ...)) of those on disk or in memory.
 
-    What changes channels along the time does so to a part alone.
+    A change along the time applies to a part alone.
     """
     if isinstance(channels, Changed) and channels.on_disk:
         return channels.change(name, part_of(channels.channels, name, pick))

@@ -57,7 +57,7 @@ class Classic:
 
 
 def open_classic(path: Path) -> Classic:
-    """Return what a file holds; the values are read when they are used.
+    """Return the contents of a file; the values are read when they are used.
 
     Raises:
         InputError: this is no whole file of the classic format.

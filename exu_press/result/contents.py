@@ -34,7 +34,7 @@ class Contents:
     sampled: Mapping[str, Channel] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        """Check what whoever reads a result relies on."""
+        """Check everything that readers rely on."""
         _check(self)
 
 
@@ -64,7 +64,7 @@ def _check_channels(
     *,
     whole: bool,
 ) -> None:
-    """Check which channels there are, and what their columns are."""
+    """Check the channels and their columns."""
     required = [name for name, (_, always) in known.items() if always]
     for name in required if whole else ALWAYS:
         if name not in channels:

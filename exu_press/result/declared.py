@@ -34,7 +34,7 @@ class Declared:
     """A channel.
 
     Attributes:
-        name: in braces what it belongs to, one of PLACES; nothing in braces is the whole run's.
+        name: in braces its owner, one of PLACES; nothing in braces is the whole run's.
         unit: SI.
         meaning: in words; in braces its place, and which `way` is positive.
         axis: meaning of its columns, see `exu_press.result.channel.AXES`, or VECTOR.
@@ -50,7 +50,7 @@ class Declared:
     unless: str = ""
 
     def axis_at(self, place: str, *, spherical: bool) -> str:
-        """Return what its columns are at a place."""
+        """Return the meaning of its columns at a place."""
         if self.axis == VECTOR:
             return "space" if spherical else "plane"
         return self.axis.format(**{self.of: place}) if self.of else self.axis

@@ -1,4 +1,4 @@
-"""The energy balance of a run: what the drive and the load put in, what is stored, what is lost."""
+"""The energy balance of a run: mechanical energy, and work of loads."""
 
 from collections.abc import Sequence
 
@@ -25,7 +25,7 @@ def mechanical_energy(
 def work(time: Array, load: Array, rate: Array) -> Array:
     """Return the work of loads since the start, (n,), J.
 
-    Each step adds h times mean load times mean rate: what Newmark's formulas make of it, while the
+    Each step adds h times mean load times mean rate, as Newmark's formulas do, while the
     mean of the powers differs by h (change of load) (change of rate) / 4, a lot in an impact.
 
     Args:

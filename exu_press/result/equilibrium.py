@@ -39,7 +39,7 @@ def equilibrium(
     masses = {body.name: body.mass for body in model.mechanism.bodies}
 
     def held(name: str) -> tuple[Array, Array]:
-        """Return what holds a body against all that acts on it: force (n, 2) and moment (n,)."""
+        """Return the reaction to all that acts on a body: force (n, 2) and moment (n,)."""
         applied, moment = _applied(model, name, motions[name], channels, states)
         weight = np.array([0.0, -masses[name] * model.scene.gravity])
         return masses[name] * motions[name].acceleration[:, :2] - applied - weight, -moment

@@ -23,7 +23,7 @@ def record_parts(model: Model, time: Array) -> tuple[dict[str, Channel], Array, 
     """Return the channels of the flexible bodies, their stored and their dissipated energy, J.
 
     Modes are orthogonal to rigid motions, so that kinetic energy is that of the undeformed body
-    plus half of every modal velocity's square and what deformation adds to the moment of inertia,
+    plus half of every modal velocity's square and deformation's part of the moment of inertia,
     to the square of deformation over length.
     """
     channels: dict[str, Channel] = {}
@@ -69,9 +69,9 @@ def _between(placed: "PlacedPart", name: str, q: Array) -> dict[str, Channel]:
 
 
 def deflection(placed: "PlacedPart", joint: str, pivot: str) -> Array:
-    """Return what each mode moves a joint, against the body's pivot in the frame, (2, modes).
+    """Return the displacement of a joint by each mode, against the body's pivot, (2, modes).
 
-    In the solid's frame: less what a rigid body moves on the line between the faces of the pivot,
+    In the solid's frame: less a rigid body's motion on the line between the faces of the pivot,
     and as the driven face turns, or else that of the pivot. The mean-axis frame itself moves with
     the modes, so that a force across the press's throw seems to bend it by 14 % less, one along it
     by 5 % more.
@@ -131,7 +131,7 @@ def modal(model: Model, name: str, part: "ReducedPart", count: int) -> tuple[Arr
 
 
 def _stretch(part: "ReducedPart") -> Array:
-    """Return what each mode adds to the moment of inertia about the frame's z axis, (modes,)."""
+    """Return each mode's part of the moment of inertia about the frame's z axis, (modes,)."""
     products = part.couplings["mXRefTildePsiTilde"][2, 2::3]  # integrals of x u_x + y u_y over mass
     return np.asarray(2.0 * products)
 

@@ -51,7 +51,7 @@ def _of_several_faces(channels: Mapping[str, Channel], model: Model) -> dict[str
 
 
 def frame_force(model: Model, channels: Mapping[str, Channel]) -> dict[str, Channel]:
-    """Return what shaft, pivots and guides together press the frame with, (n, 2), N."""
+    """Return the force of shaft, pivots and guides together on the frame, (n, 2), N."""
     on_bodies = np.zeros((len(channels["time"].values), 2))
     signs = {joint.name: 1.0 for joint in model.mechanism.joints if joint.bearing == GROUND}
     signs |= {joint.name: -1.0 for joint in model.mechanism.joints if joint.journal == GROUND}
@@ -82,7 +82,7 @@ def _single_axis(model: Model, joint: str, force: Array) -> Array:
 
 
 def guide_channels(model: Model, body: str, loads: Mapping[str, Array]) -> dict[str, Channel]:
-    """Return the channels of what a guide does to its body.
+    """Return the channels of a guide's action on its body.
 
     Args:
         model: integrated.
@@ -110,7 +110,7 @@ def vectors(values: Array, spherical: bool) -> Array:
 def shaking_forces(model: Model, acceleration: Array) -> dict[str, Channel]:
     """Return the shaking force, minus the rate of the mechanism's momentum, (n, 2), N.
 
-    That is what shaft, pivots and guides press the frame with, less weight and blanking force; the
+    That is the force of shaft, pivots and guides on the frame, less weight and blanking force; the
     latter closes within the press, from the slider through tool and bed.
 
     Where the mechanism says which of its bodies are a counterweight, that of the others too: of the

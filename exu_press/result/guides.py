@@ -95,7 +95,7 @@ def _relaxed(model: Model, name: str) -> Array:
 def record_guideways(
     model: Model, time: Array, position: Array
 ) -> tuple[dict[str, Channel], Array, Array]:
-    """Return what guideways do to their bodies, their stored and their lost energy, J.
+    """Return the action of guideways on their bodies, their stored and their lost energy, J.
 
     Args:
         model: integrated.

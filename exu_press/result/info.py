@@ -93,7 +93,7 @@ class Info(TypedDict):
 
     Attributes:
         status: value of an `exu_press.integrate.SolverStatus`.
-        reason: when, where, why it stopped, and what to try; empty when completed.
+        reason: when, where and why it stopped, and the cure; empty when completed.
         end_time: the time reached, s.
         wall_time: the integration alone, s.
         total_time: with building the model and recording, s.

@@ -13,7 +13,7 @@ __all__ = ["JointRecord"]
 
 @dataclass(frozen=True)
 class JointRecord:
-    """One joint over time; an ideal one has its force, and zeros for what only clearance allows.
+    """One joint over time; an ideal one has its force, and zeros elsewhere.
 
     Attributes:
         name: of the joint.

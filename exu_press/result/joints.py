@@ -19,7 +19,7 @@ __all__ = ["joint_states", "record_joints", "states_of", "stored_and_lost"]
 
 
 def joint_states(model: Model, time: Array) -> dict[str, JointHistory]:
-    """Return what every clearance joint did at the recorded instants."""
+    """Return the states of every clearance joint at the recorded instants."""
     return states_of(model, time, model.clearance_joints, wearing_joints(model.scene))
 
 
@@ -29,7 +29,7 @@ def states_of(
     joints: Mapping[str, ClearanceJoint],
     rubbing: Collection[str] = (),
 ) -> dict[str, JointHistory]:
-    """Return what some of the user force element's joints did at the recorded instants."""
+    """Return the states of some of the user force element's joints at the recorded instants."""
     if not joints:
         return {}
     names = {number: name for name, number in model.nodes.items()}
@@ -42,10 +42,10 @@ def states_of(
 
 
 def stored_and_lost(states: JointHistory, time: Array) -> tuple[Array, Array]:
-    """Return what a joint stores and what it has dissipated since the start, (n,), J.
+    """Return the energy that a joint stores, and its losses since the start, (n,), J.
 
-    What is dissipated is the integral of a power that is nowhere negative. As the difference of
-    two larger energies, work and what is stored, it would fall where an impact gives back.
+    The losses are the integral of a power that is nowhere negative. As the difference of
+    two larger energies, work and stored energy, they would fall where an impact gives back.
     """
     return states.stored_energy, integral(time, states.dissipated_power)
 

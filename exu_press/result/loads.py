@@ -27,7 +27,7 @@ def record_loads(
     Args:
         model: integrated.
         time: (n,), s.
-        crank: angle of what the drive turns, (n,), rad, and angular velocity, rad/s.
+        crank: angle of the body that the drive turns, (n,), rad, and angular velocity, rad/s.
         slider: its position, (n,), m, and velocity, m/s.
         motions: of every body.
 

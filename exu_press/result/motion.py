@@ -18,7 +18,7 @@ __all__ = [
 
 
 def sensor(model: Model, name: str, quantity: str, *, with_time: bool = False) -> Array:
-    """Return what a sensor recorded, (n, k)."""
+    """Return the record of a sensor, (n, k)."""
     data = np.asarray(model.mbs.GetSensorStoredData(model.sensors[name, quantity]))
     return data if with_time else data[:, 1:]
 
@@ -121,5 +121,5 @@ def _turned(e_0: Array, e: Array, vectors: Array) -> Array:
 
 
 def _angular_velocity(e_0: Array, e: Array, rates: Array) -> Array:
-    """Return what rates (n, 4) of the Euler parameters turn the frame by, global axes, (n, 3)."""
+    """Return the angular velocity of rates (n, 4) of the Euler parameters, global axes, (n, 3)."""
     return np.asarray(2.0 * (e_0 * rates[:, 1:] - rates[:, :1] * e + np.cross(e, rates[:, 1:])))

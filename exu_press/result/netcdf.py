@@ -30,7 +30,7 @@ Number = TypeVar("Number", bound=np.generic)
 FORMAT = "exu_press result 1"
 
 SAMPLE, AT_SAMPLES = "sample", "_at_samples"
-"""Dimension of the samples, and what ends the names of channels over it."""
+"""Dimension of the samples, and the end of the names of channels over it."""
 
 
 def write(result: Contents, path: Path) -> None:
@@ -112,7 +112,7 @@ def _channels(file: Classic, along: str) -> dict[str, Channel]:
 
 
 def _channel(name: str, variable: Variable) -> Channel:
-    """Return a channel; its last dimension says what its columns are."""
+    """Return a channel; its last dimension names its columns."""
     _, *inner = variable.dimensions
     try:
         return Channel(

@@ -112,7 +112,7 @@ def record(model: Model, outcome: Outcome) -> Result:
     channels |= channel("drive_power", torque * speed)
     channels |= channel("crank_torque", on_crank)
     channels |= channel("body_position", position)
-    if not model.own_items:  # what those put in, store and dissipate is not known
+    if not model.own_items:  # their energies are not known
         channels |= channel("energy_input", driven)
         channels |= channel("energy_stored", stored - stored[0])
         channels |= channel("energy_dissipated", dissipated)

@@ -163,7 +163,7 @@ class Result(Contents):
         return cell(self)
 
     def save(self, path: str | Path) -> None:
-        """Write what [output] keeps, all unless it says, to a NetCDF file.
+        """Write the channels that [output] keeps, all unless it says, to a NetCDF file.
 
         An existing one is replaced only when complete.
         """
@@ -188,7 +188,7 @@ class Result(Contents):
 
     @staticmethod
     def load(path: str | Path) -> "Result":
-        """Read what `save` wrote, or, with a warning, what a run left whose process was killed.
+        """Read a file of `save`, or, with a warning, the blocks of a run whose process was killed.
 
         Raises:
             InputError: the file cannot be read or is not a result.

@@ -41,7 +41,7 @@ def run_once(
     unfinished: Path | None = None,
     quiet: bool = True,
 ) -> Result:
-    """Do what `exu_press.simulate` does without errors.
+    """Simulate a scene as `exu_press.simulate` does without errors.
 
     Channels that [output] names are looked for in a shorter run first: the record alone knows what
     a scene has.
@@ -124,7 +124,7 @@ def _going_on(block: Result, channels: OnDisk) -> dict[str, Channel]:
 
 
 def _of_all(infos: Sequence[Info]) -> Info:
-    """Return what the last block says, with what all of them took, and the worst of them."""
+    """Return the last block's metadata, with the cost of all and the worst status."""
     whole = infos[-1]
     worst = next((one for one in infos if one["status"] != COMPLETED), whole)
     found: Info = {

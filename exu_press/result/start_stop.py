@@ -16,9 +16,9 @@ __all__ = ["record_start_stop"]
 def record_start_stop(
     model: Model, time: Array, crank_speed: Array
 ) -> tuple[dict[str, Channel], Array, Array]:
-    """Return the channels, what is stored, (n,), J, and what has been dissipated, (n,), J.
+    """Return the channels, the stored and the dissipated energy, (n,) each, J.
 
-    What goes into a clutch or brake is dissipated, but for the twist of its shafts.
+    The work on a clutch or brake is dissipated, but for the twist of its shafts.
 
     Args:
         model: integrated.

@@ -1,4 +1,4 @@
-"""The surface of a flexible body with its modes: what it takes to draw it from the file alone."""
+"""The surface of a flexible body with its modes, to draw it from the file alone."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

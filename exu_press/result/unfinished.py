@@ -36,7 +36,7 @@ def begin(directory: Path | None) -> OnDisk:
 
 
 def keep(directory: Path, run: Contents, revolutions: float) -> None:
-    """Write what makes a run of the channels that are in a directory."""
+    """Write the head that makes a run of the channels in a directory."""
     settle = run.scene.settle
     if settle is not None and settle >= revolutions:
         settle = 0.0

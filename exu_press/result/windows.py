@@ -16,7 +16,7 @@ def window(run: Result, begin: float, end: float) -> Result:
 
 
 def settled(run: Result) -> Result:
-    """Return what quantities are read from: whole revolutions after those of `settle`.
+    """Return the part that quantities are read from: whole revolutions after those of `settle`.
 
     All of it where the scene has nothing to settle, or where the run has not got so far; energies
     count from where it begins. Of a part of a revolution at the end nothing is read, unless it is

@@ -33,7 +33,7 @@ class AppliedLoad:
         over: "time", "crank_angle_deg", "height", "penetration" or "pulse".
         curve: the force over time, s, crank angle, rad, the output's height, m, or the time since
             the beginning of a pulse, s.
-        clock: of a pulse, with the crank's angle and speed at the start -> what tells its
+        clock: of a pulse, with the crank's angle and speed at the start -> the clock of its
             beginning.
         fade: of a force that acts while the output closes, the speed from which it acts in full,
             m/s; None where it acts both ways.

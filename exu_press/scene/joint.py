@@ -45,7 +45,7 @@ class IdealJoint(Table):
 class DryJoint(Table):
     """A joint whose journal or ball lies loose in its bearing or socket.
 
-    What is not given is None until the scene fills it in.
+    Keys that are not given are None until the scene fills them in.
     """
 
     kind: ClassVar[Literal["dry"]] = "dry"
@@ -69,8 +69,8 @@ class DryJoint(Table):
 class LubricatedJoint(Table):
     """A journal or ball in its bearing or socket, full of oil; they touch with a mixed film alone.
 
-    What is not given is None until the scene fills it in; contact and friction stay None where
-    the film alone carries.
+    Keys that are not given are None until the scene fills them in; contact and friction stay None
+    where the film alone carries.
     """
 
     kind: ClassVar[Literal["lubricated"]] = "lubricated"

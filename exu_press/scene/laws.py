@@ -99,7 +99,7 @@ def guide_contact_law(contact: Contact, stiffness: float) -> NormalContact:
 
 
 def guide_friction_law(guide: ElasticGuide, friction: Friction | None) -> FrictionLaw | LuGre:
-    """Return the friction law of the guides; what [guide] does not have is as in [friction]."""
+    """Return the friction law of the guides; keys that [guide] lacks are those of [friction]."""
     friction = friction or Friction()
     keys = Friction.uses["law"][guide.friction]
     own = {key: getattr(guide, key) for key in keys if key in OF_FRICTION}

@@ -66,7 +66,7 @@ class Worn(Table):
         return sum(self._profile(depths).mean for depths in self._depths)
 
     def profiles(self) -> tuple[Profile, Profile] | None:
-        """Return what journal and bearing are worn beyond their means; None where that is none."""
+        """Return the wear of journal and bearing beyond their means; None where there is none."""
         journal, bearing = (self._profile(depths) for depths in self._depths)
         if all(min(depths) == max(depths) for depths in self._depths):
             return None
@@ -75,7 +75,7 @@ class Worn(Table):
         )
 
     def whole(self) -> tuple[Profile, Profile]:
-        """Return all that journal and bearing are worn."""
+        """Return the whole wear of journal and bearing."""
         journal, bearing = (self._profile(depths) for depths in self._depths)
         return journal, bearing
 

@@ -99,7 +99,7 @@ class Table:
     table: ClassVar[str] = ""
 
     uses: ClassVar[Uses] = {}
-    """Key that is a choice -> what is chosen -> the keys that only some choices use."""
+    """Key that is a choice -> the choice -> the keys that only some choices use."""
 
     instead: ClassVar[Mapping[str, str]] = {}
     """Key -> the key that it stands instead of."""
@@ -285,7 +285,7 @@ def refuse_unknown(where: str, given: Mapping[str, Any], known: Collection[str])
 
 
 def table_with(table: type[T], name: str, data: Any, usual: Mapping[str, Any]) -> T:
-    """Return the table `name` of a scene; what `data` does not give is as in `usual`."""
+    """Return the table `name` of a scene; keys that `data` lacks are as in `usual`."""
     if isinstance(data, table):
         data = typing.cast(Table, data).given
     if isinstance(data, Mapping):

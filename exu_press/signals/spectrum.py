@@ -25,7 +25,7 @@ class Spectrum:
         frequency: (m,), in 1 over the unit of x: Hz, or orders where x is in revolutions.
         amplitude: of a sine of that frequency, (m,), in the unit of the values.
         error: largest change of an amplitude with cells of half the width, or with every other
-            value of the curve left out: what the resampling and the steps leave open.
+            value of the curve left out: the error of resampling and steps.
         window: its name.
         resolution: width of the window's main lobe at half its power, as frequency is.
         cells: number of even cells, each of which has the curve's mean in it.

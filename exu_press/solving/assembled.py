@@ -21,7 +21,7 @@ class Assembled(ABC):
     Attributes:
         scene: of the model.
         mechanism: bodies, joints and guides.
-        holding: which ideal joints and guides hold what.
+        holding: constraints of ideal joints and guides.
         mbs: Exudyn's main system, assembled.
         nodes: name -> node number.
         clearance_joints: name -> joint.

@@ -22,7 +22,7 @@ STEPS_IN_A_RISE = 3.0
 def impact_steps(model: Assembled) -> Iterator[float]:
     """Yield the steps that resolve the fastest impact of every joint whose surfaces may touch, s.
 
-    The impact of the lighter body alone: what hangs on it makes the true one slower.
+    The impact of the lighter body alone: bodies that hang on it make the true one slower.
     """
     scene = model.scene
     if not any(joint.contact_onset < math.inf for joint in model.clearance_joints.values()):

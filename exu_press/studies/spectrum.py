@@ -37,7 +37,7 @@ class Mark:
     """A natural frequency.
 
     Attributes:
-        name: of what.
+        name: of its owner.
         frequency: Hz.
     """
 
@@ -69,7 +69,7 @@ class Spectra:
     revolutions: int
 
     def lines(self) -> list[str]:
-        """Return what stands on the terminal."""
+        """Return the lines of the terminal."""
         found = [f"{self.name}, amplitudes in {self.unit}"]
         for spectrum, unit in ((self.over_time, "Hz"), (self.over_angle, "orders")):
             if spectrum is None:
@@ -126,7 +126,7 @@ def column_of(result: Result, name: str) -> tuple[Array, str]:
 def spectra(
     run: Result, names: Sequence[str] = (DEFAULT,), *, window: str = "flattop"
 ) -> list[Spectra]:
-    """Return the spectra of channels, of what quantities are read from (after `settle`).
+    """Return the spectra of channels, of the part that quantities are read from (after `settle`).
 
     Args:
         run: with channels.

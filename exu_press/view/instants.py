@@ -26,7 +26,7 @@ class Instants:
         step: (m,) the last step of the integrator that is not later.
         slow: seconds of the animation for a second of the machine.
         fps: frames a second.
-        still: only one of the frames is shown: it holds the instant, not what happened before.
+        still: only one of the frames is shown: it holds the instant, not the time before.
     """
 
     time: Array
@@ -39,7 +39,7 @@ class Instants:
         return len(self.time)
 
     def steps_since_last(self, frame: int) -> slice:
-        """Return the steps after the frame before, at least one: what happened in between."""
+        """Return the steps after the frame before, at least one."""
         last = int(self.step[frame])
         first = last if self.still or not frame else int(self.step[frame - 1]) + 1
         return slice(min(first, last), last + 1)

@@ -6,7 +6,7 @@ from scipy.interpolate import CubicHermiteSpline
 
 from exu_press.numerics.arrays import Array
 from exu_press.quantities import Placed, Quantity, differentiated_peak, mean_peak, peak
-from exu_press.quantities.contact_time import TOUCH
+from exu_press.quantities.joints import TOUCH
 from exu_press.quantities.kind import LOAD, MOTION, SHARE
 from exu_press.result import Result
 from exu_press.scene import IdealJoint, Scene, mechanism_of

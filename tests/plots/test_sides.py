@@ -1,4 +1,4 @@
-from exu_press.plots.sides import mirror, sides_alike
+from exu_press.plots.busiest import mirror, sides_alike
 
 
 def test_the_other_side():

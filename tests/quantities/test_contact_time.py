@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from exu_press.quantities.contact_time import contacts, share_of_contact
+from exu_press.quantities.joints import contacts, share_of_contact
 
 TIME = np.linspace(0.0, 1.0, 1001)
 APART = np.full(1001, -5e-5)

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from exu_press import Scene, simulate
-from exu_press.quantities.differences import difference_lines
+from exu_press.quantities.table import difference_lines
 
 
 @pytest.fixture(scope="module")

@@ -34,7 +34,7 @@ def attractor_lines(found: Attractor) -> list[str]:
         told += (
             "neighbours come together within the error of a revolution"
             if high < 0.0
-            else "what neighbours part by is not more than the error of a revolution"
+            else "neighbours diverge by no more than the error of a revolution"
         )
     lines += [f"largest Lyapunov exponent: {told}", f"  motion: {exponent.sign}"]
     return [*lines, *columns(_figures(found))]

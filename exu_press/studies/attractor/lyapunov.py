@@ -6,10 +6,9 @@ Giorgilli, Strelcyn, Meccanica 15 (1980) 9-20; Wolf, Swift, Swinney, Vastano, Ph
 
 .. math:: \lambda = \frac{1}{n T} \sum_{i=1}^n \ln\frac{d_i}{d_0}
 
-Where contacts begin and end the tangent jumps, and it is distances that count: several d_0 are
-taken, and what differs between them belongs to the interval. A distance that the integration's own
-error makes is none of the motion's: d_0 is to be well above it, and a motion that comes back
-together faster than to that error has an exponent of which only an upper bound is known.
+Where contacts begin and end the tangent jumps, and distances count: several d_0 are taken, and
+their difference belongs to the interval. d_0 is to be well above the error of the integration; a
+motion that comes back together faster than to that error has only an upper bound of its exponent.
 """
 
 import math

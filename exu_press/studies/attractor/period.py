@@ -20,7 +20,7 @@ APART = 10.0
 
 LARGEST = 0.1
 """Error of a point, over the clearance, up to which points that lie within it are the same one. A
-larger error hides most of what a journal can do in its clearance."""
+larger error hides most motions of a journal in its clearance."""
 
 SETTLED = 0.5
 """A distance that falls below this part of itself from one half of the points to the next is that

@@ -137,7 +137,7 @@ def attractor(
     start: State | None = None,
     quiet: bool = True,
 ) -> Attractor:
-    """Run a press for long, and return what it does.
+    """Run a press for long, and return its motion in the long run.
 
     Args:
         scene: with clearance somewhere, or a motor; its own length does not count. The section is
@@ -268,7 +268,7 @@ def _error(orbit: Orbit, finer: Orbit) -> float:
 
 
 def _amplified(exponent: Exponent) -> float:
-    """Return what the errors of all revolutions before add up to, over one revolution's."""
+    """Return the sum of the errors of all revolutions before, over one revolution's."""
     rate = min(exponent.high, -0.05)  # a motion that does not come together has no period
     return 1.0 / (1.0 - math.exp(rate))
 

@@ -10,7 +10,7 @@ WORDS = 60
 
 
 def report_lines(report: Report) -> list[str]:
-    """Return what stands on the terminal."""
+    """Return the table of the terminal."""
     names = [report.study.name, *([] if report.study.second is None else [report.study.second])]
     rows = [(*names, "way", "period", "exponent per revolution", "motion")]
     for branch in report.branches:

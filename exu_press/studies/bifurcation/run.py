@@ -113,7 +113,7 @@ def carried(state: State, before: float, now: float) -> State:
 
 
 def run_point(arguments: dict[str, Any]) -> dict[str, Any]:
-    """Return what one value of the key leads to.
+    """Return the motion in the long run at one value of the key.
 
     Args:
         arguments: "scene", "skip", "revolutions", "longest", and "start": a state on the section,

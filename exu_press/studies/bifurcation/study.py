@@ -90,7 +90,7 @@ class Bifurcation(Study):
         return (None,) if self.second is None else self._numbers(self.second)
 
     def at(self, value: float, second: float | None) -> dict[str, float]:
-        """Return what the keys are at a point."""
+        """Return the keys at a point."""
         found = {self.name: value}
         if self.second is not None and second is not None:
             found[self.second] = second

@@ -48,8 +48,8 @@ class Curve(Table):
     weight: float = key(1.0, "how often it counts", above=0)
     offset: bool = key(False, "whether the sensor's zero is unknown")
     shift: tuple[float, ...] = key((0.0, 0.0), "added to its time or angle", "s or deg", numbers=2)
-    low_cut: tuple[float, ...] = key((), "removes what is slower", "Hz", numbers=0)
-    high_cut: tuple[float, ...] = key((), "removes what is faster", "Hz", numbers=0)
+    low_cut: tuple[float, ...] = key((), "lower corner frequency of the sensor", "Hz", numbers=0)
+    high_cut: tuple[float, ...] = key((), "upper corner frequency of the sensor", "Hz", numbers=0)
     under: Mapping[str, Any] = dataclasses.field(default_factory=dict, hash=False)
     measured: CurveFile | None = dataclasses.field(default=None, compare=False, repr=False)
 
@@ -94,7 +94,7 @@ class Curve(Table):
         return Path(self.file).stem
 
     def values(self, unit: str) -> Array:
-        """Return what was measured in a channel's SI unit, (m,)."""
+        """Return the measured values in a channel's SI unit, (m,)."""
         factor = factor_to(f"{self.file}: {self.read.name}", self.read.unit, unit)
         return self.read.values * factor
 

@@ -70,7 +70,7 @@ HEAD = re.compile(r"(?P<name>[\w.]+)\s*[\[(](?P<unit>[^\])]*)[\])]")
 
 
 def factor_to(where: str, unit: str, wanted: str) -> float:
-    """Return what a number in a unit is to be multiplied by.
+    """Return the factor from a unit to another one.
 
     Args:
         where: said of a fault.

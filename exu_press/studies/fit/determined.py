@@ -58,7 +58,7 @@ class Determined:
 
 
 def determined(jacobian: Array, level: float) -> Determined:
-    """Return what a Jacobian (numbers, keys) in units of uncertainties and ranges tells."""
+    """Return the identifiability by a Jacobian (numbers, keys), over uncertainties and ranges."""
     keys = jacobian.shape[1]
     _, singular, vectors = np.linalg.svd(jacobian)
     singular = np.concatenate([singular, np.zeros(keys - len(singular))])

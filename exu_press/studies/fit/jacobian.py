@@ -19,7 +19,7 @@ LARGEST = 0.25
 """Largest step over a key's range."""
 
 VISIBLE = 10.0
-"""Change of the residuals by a step over what evaluations' errors leave in them."""
+"""Change of the residuals by a step over the part of evaluations' errors in them."""
 
 
 class Failed(Exception):  # noqa: N818  a start that leads nowhere, no fault of the user

@@ -32,7 +32,7 @@ NEARLY = 0.05
 
 
 def report_lines(report: Report) -> list[str]:
-    """Return best values with intervals, what is not determined, the misfit and residuals."""
+    """Return best values with intervals, undetermined keys, the misfit and residuals."""
     lines = [*report.told, *_searches(report), "", *_keys(report), *_open(report)]
     return [*lines, *_correlation(report), "", *_misfit(report), "", *_residuals(report)]
 

@@ -45,7 +45,7 @@ class Measured(Table):
 
 
 def under_of(table: str, given: Any) -> dict[str, Any]:
-    """Return keys by dotted names, from what a file has: TOML's a.b is its "a.b"."""
+    """Return the keys of a file's table by dotted names: TOML's a.b is its "a.b"."""
     if not isinstance(given, Mapping):
         raise InputError(f"{table}.under = {given!r:.80}: allowed is a table of keys of the scene")
     return flat(given)

@@ -34,7 +34,7 @@ class Problem:
     def __init__(
         self, study: Fit, directory: Path, run: Callable[[Sequence[Scene]], Sequence[Row]]
     ) -> None:
-        """Take what is fitted; `run` keeps the files of runs where there are curves."""
+        """Take the study; `run` keeps the files of runs where there are curves."""
         self.study = study
         self.evaluation = Evaluation(study, (), run)
         self._directory = directory

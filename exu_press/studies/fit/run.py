@@ -137,7 +137,7 @@ class Report:
 
 
 def fit(study: Fit, directory: str | Path, **how: Any) -> Report:
-    """Run what is not run yet, write fit.json and fitted.toml, and return what came out.
+    """Do the runs that are missing, write fit.json and fitted.toml, and return the result.
 
     Called again after a kill or Ctrl-C, it goes on.
 

@@ -108,7 +108,7 @@ class Fit(Study):
         object.__setattr__(self, "start", given)
 
     def to_dict(self) -> dict[str, Any]:
-        """Return what makes this fit another one than others; a curve's samples do."""
+        """Return the data that tell this fit from others; a curve's samples are among them."""
         curves = []
         for one in self.curve:
             table = {f.name: getattr(one, f.name) for f in dataclasses.fields(one)}

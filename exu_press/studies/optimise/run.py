@@ -21,8 +21,7 @@ from exu_press.studies.base.evaluation import (
     numbers_in,
     with_errors_of,
 )
-from exu_press.studies.optimise.front import chosen, front
-from exu_press.studies.optimise.several import advised, searched
+from exu_press.studies.optimise.several import advised, chosen, front, searched
 from exu_press.studies.optimise.single import evolved, judged, simplex, spread_points
 from exu_press.studies.optimise.study import AUTO, EVOLUTION, NELDER_MEAD, NSGA, TPE, Optimise
 
@@ -107,7 +106,7 @@ class Report:
 
 
 def optimise(study: Optimise, directory: str | Path, **how: Any) -> Report:
-    """Run what is not run yet, write optimise.json, trials.csv and scenes; return what came out.
+    """Do the runs that are missing, write optimise.json, trials.csv and scenes; return the result.
 
     Called again after a kill or Ctrl-C, it goes on.
 

@@ -12,7 +12,7 @@ __all__ = ["Judge", "evolved", "simplex", "spread_points"]
 
 Judge = Callable[[Array], Array]
 """From scaled points (m, keys) to one number each, less is better: the objective of points within
-limits; beyond any of these what limits are violated by, and above that points without numbers."""
+limits; beyond any of these their violation, and above that points without numbers."""
 
 BEYOND = 1e9
 """Penalty over the objective's scale: added to a violation, so that every point within limits is
@@ -32,7 +32,7 @@ def spread_points(keys: int, number: int, seed: int) -> Array:
 
 
 def judged(values: Array, violations: Array, scale: float) -> Array:
-    """Return what a solver compares, (points,).
+    """Return the numbers that a solver compares, (points,).
 
     Args:
         values: objective, less is better; NaN without.
@@ -47,7 +47,7 @@ def simplex(judge: Judge, start: Array, trials: int) -> None:
     """Search downhill from a point by Nelder and Mead's simplex: smooth objectives.
 
     Args:
-        judge: see Judge; it remembers what it was asked.
+        judge: see Judge; it remembers its points.
         start: scaled, within the limits if any such is known.
         trials: at most.
     """
@@ -68,7 +68,7 @@ def evolved(judge: Judge, keys: int, trials: int, seed: int) -> None:
     """Search by differential evolution: rough objectives.
 
     Args:
-        judge: see Judge; it remembers what it was asked.
+        judge: see Judge; it remembers its points.
         keys: number of them.
         trials: at most, about.
         seed: of the random numbers.

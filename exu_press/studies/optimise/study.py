@@ -23,7 +23,9 @@ class Objective(Table):
     required = ("quantity",)
 
     quantity: str = key(None, "name of a quantity")
-    sense: str = key("least", "what is wanted", choices=("least", "largest"))
+    sense: str = key(
+        "least", "whether the least or the largest value is best", choices=("least", "largest")
+    )
     weight: float = key(1.0, "where one point of a front is chosen", above=0)
 
     @property
@@ -44,8 +46,8 @@ class Limit(Table):
     required = ("quantity",)
 
     quantity: str = key(None, "name of a quantity")
-    below: float | None = key(None, "what it must not exceed, SI")
-    above: float | None = key(None, "what it must not fall short of, SI")
+    below: float | None = key(None, "upper limit, SI")
+    above: float | None = key(None, "lower limit, SI")
 
     def __post_init__(self) -> None:
         super().__post_init__()

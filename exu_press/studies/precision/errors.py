@@ -14,7 +14,7 @@ from scipy.interpolate import CubicHermiteSpline
 from scipy.spatial.distance import directed_hausdorff
 
 from exu_press.numerics.arrays import Array
-from exu_press.quantities.contact_time import TOUCH
+from exu_press.quantities.joints import TOUCH
 from exu_press.result import Result
 
 __all__ = [
@@ -165,7 +165,7 @@ def late_of(
     Args:
         run: to be judged.
         reference: the truth until trajectories diverge.
-        starts: more of the run, from starts that differ by what nobody knows.
+        starts: more of the run, from starts that differ by less than is known.
         others: the same of the reference.
     """
     if run.force is None or reference.force is None or run.penetration is None:

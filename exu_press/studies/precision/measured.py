@@ -46,7 +46,7 @@ class Measured:
 
     Attributes:
         trajectory: None if it failed.
-        starts: of repetitions from starts that differ by what nobody knows.
+        starts: of repetitions from starts that differ by less than is known.
         wall_times: of the integration alone, of every repetition, s.
         cpu_times: processor time of the same, s.
         status: as in summary.json.

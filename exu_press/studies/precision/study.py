@@ -85,7 +85,7 @@ def _run(
 def _describe(
     case: Case, reference: Reference, horizon: float, rows: Sequence[Row]
 ) -> dict[str, Any]:
-    """Return what precision.json says of a case."""
+    """Return the entry of a case in precision.json."""
     told = any(row.resolved(error) is not None for row in rows for error in ERRORS)
     return {
         "title": case.title,

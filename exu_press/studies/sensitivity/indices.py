@@ -35,7 +35,7 @@ class Sample:
 
     @property
     def values(self) -> Array:
-        """Return what the keys' distributions make of the quantities, (s, 2 n)."""
+        """The quantities over the keys' distributions, (s, 2 n)."""
         return np.concatenate([self.a, self.b], axis=1)
 
 

@@ -15,11 +15,11 @@ NO_EFFECT = 0.01
 """Part of the variance: a key whose total index surely lies below has no effect."""
 
 NOISE = 0.1
-"""Error of the runs over the deviation: a larger one is part of what was found."""
+"""Error of the runs over the deviation: a larger one is part of the result."""
 
 
 def report_lines(report: Report) -> list[str]:
-    """Return what the tolerances make, and which of them does it."""
+    """Return the effect of the tolerances, and the share of each."""
     lines = list(report.told)
     for place in range(len(report.study.sensitivity.quantities)):
         lines += ["", *_of_quantity(report, place)]

@@ -91,7 +91,7 @@ def _told(values: Array, bounds: Array, place: int) -> dict[str, float]:
 
 
 def sensitivity(study: Sensitivity, directory: str | Path, **how: Any) -> Report:
-    """Run what is not run yet, write sensitivity.json and samples.csv, and return what came out.
+    """Do the runs that are missing, write sensitivity.json and samples.csv; return the result.
 
     Called again after a kill or Ctrl-C, it goes on.
 

@@ -20,7 +20,7 @@ class Asked(Table):
     """The table [sensitivity].
 
     Attributes:
-        quantities: full names of what is looked at.
+        quantities: full names.
 
     Raises:
         InputError: no quantity, or samples that are no power of two.
@@ -62,7 +62,7 @@ class Sensitivity(Study):
             quantity_of(self.scene, name)
 
     def point_at(self, shares: Array) -> dict[str, float]:
-        """Return what the keys are below which these shares of their distributions lie, (keys,)."""
+        """Return the keys' quantiles at these shares of their distributions, (keys,)."""
         found = {}
         for (name, each), share in zip(self.keys.items(), shares, strict=True):
             assert not isinstance(each, Values)

@@ -35,7 +35,7 @@ LITTLE = 0.01
 """Over a figure (of an eccentricity over the clearance): differences that are no matter."""
 
 NOTHING = 1e-12
-"""The same in the figure's unit: what rounding leaves of tilts and means that are zero."""
+"""The same in the figure's unit: rounding of tilts and means that are zero."""
 
 OF_BOTH = 1.25
 """Difference from a finer run over the error that a run states: at a tenth of the tolerance that

@@ -41,7 +41,7 @@ class Point:
     Attributes:
         strokes: since the start.
         jump: that led here, strokes.
-        error: sum of what jumps and their halves differed by so far, m; the largest of all joints.
+        error: sum of the differences of jumps and their halves, m; the largest of all joints.
         depths: joint -> worn off since the joint was new.
         ways: guided body -> worn off its ways so far, m.
         row: of the run with these depths.
@@ -148,7 +148,7 @@ def wear(study: WearStudy, directory: str | Path, **how: Any) -> Report:
 
 
 def run_worn(arguments: dict[str, Any]) -> dict[str, Any]:
-    """Run {"scene": ...}; return its row, and what a stroke wears off every joint and way, m.
+    """Run {"scene": ...}; return its row, and the wear of every joint and guideway in a stroke, m.
 
     Returns:
         as `row_of`, and "journal", "bearing": joint -> (72,), "guideways": guided body -> largest.
@@ -162,7 +162,7 @@ def run_worn(arguments: dict[str, Any]) -> dict[str, Any]:
 
 
 def _course(study: WearStudy, points: list[Point], ended: list[str]) -> Chain:
-    """Yield the arguments of one run after another, and add what they lead to."""
+    """Yield the arguments of one run after another, and add the points."""
     scene, own = study.scene, study.wear
     clearance = {name: float(scene.joints[name].clearance) for name in study.joints}
     depths = {name: begun(scene, name) for name in study.joints}
@@ -229,7 +229,7 @@ def _course(study: WearStudy, points: list[Point], ended: list[str]) -> Chain:
 
 
 def _rates(row: Row, study: WearStudy) -> dict[str, Depths]:
-    """Return what a stroke wears off every joint."""
+    """Return the wear of every joint in a stroke."""
     return {
         n: Depths(np.array(row["journal"][n]), np.array(row["bearing"][n])) for n in study.joints
     }

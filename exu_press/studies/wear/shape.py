@@ -17,7 +17,7 @@ ANGLES = 2.0 * np.pi * (np.arange(SECTORS) + 0.5) / SECTORS
 """Middles of the sectors, rad."""
 
 LEAST = 1e-15
-"""m: what is worn less is rounding of the smoothing, and none."""
+"""m: a smaller depth is rounding of the smoothing, and none."""
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,7 @@ class Depths:
 
 
 def begun(scene: Scene, joint: str) -> Depths:
-    """Return what a scene's joint is worn from the start."""
+    """Return the wear of a scene's joint at the start."""
     worn = _rubbing(scene, joint).worn
     if worn is None:
         return Depths.even(0.0)

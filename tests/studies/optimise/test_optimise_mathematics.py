@@ -7,8 +7,7 @@ import pytest
 
 from exu_press import InputError
 from exu_press.studies.base import Range, Values
-from exu_press.studies.optimise.front import chosen, front
-from exu_press.studies.optimise.several import advised, searched
+from exu_press.studies.optimise.several import advised, chosen, front, searched
 from exu_press.studies.optimise.single import evolved, judged, simplex, spread_points
 from exu_press.studies.optimise.study import NSGA, TPE
 

@@ -32,7 +32,6 @@ SOURCES = (
     "round_faces",
     "patches",
     "flexibility",
-    "mesh",
     "elasticity",
     "saddle",
     "reduction",

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
-import ngsolve as ngs  # type: ignore[import-untyped]  # type: ignore[import-untyped]
+import ngsolve as ngs  # type: ignore[import-untyped]
 import numpy as np
 import scipy.sparse as sp
 from netgen.occ import OCCGeometry  # type: ignore[import-untyped]

@@ -8,7 +8,7 @@ from exu_press.scene.bodies import changed_bodies
 from exu_press.scene.joint_changes import changed_joints
 from exu_press.scene.loads import changed_loads
 from exu_press.scene.usage import TABLES
-from exu_press.schema.checks import changed_table, given_in
+from exu_press.schema.checks import RENAMED, changed_table, given_in
 
 __all__ = ["changed_keys", "drop", "named"]
 
@@ -36,8 +36,10 @@ def changed_keys(
     for table, keys in inner.items():
         before = data.get(table, {})
         if table not in TABLES or not isinstance(before, Mapping):
+            why = RENAMED.get(table, "")
+            why = f"is {why} now" if why else f"{table} is no table of a scene"
             key, value = next(iter(keys.items()))
-            raise InputError(f"{table}.{key} = {value!r}: {table} is no table of a scene")
+            raise InputError(f"{table}.{key} = {value!r}: {why}")
         data[table] = changed_table(TABLES[table], before, keys)
     if bodies and isinstance(data.get("bodies", {}), Mapping):
         data["bodies"] = changed_bodies(data.get("bodies", {}), bodies)

@@ -14,6 +14,7 @@ from typing import Any, ClassVar, Self, TypeVar
 from exu_press.errors import InputError, UnusedKeyError
 
 __all__ = [
+    "RENAMED",
     "Table",
     "Uses",
     "changed_table",
@@ -36,6 +37,23 @@ SMALLEST, LARGEST = 1e-30, 1e30
 """Magnitudes of a number other than 0: sums and squares within them are numbers, too."""
 
 Uses = Mapping[str, Mapping[Any, tuple[str, ...]]]
+
+RENAMED = {
+    "crank_pin": "joints.crank_pin",
+    "balls": "joints.balls",
+    "clearance": "joints.NAME.clearance",
+    "contact.radius": "joints.NAME.radius",
+    "flexible": "bodies.NAME",
+    "blanking": "load.NAME with kind = 'blanking'",
+    "guide.damping_depth": "contact.damping_depth",
+    "woehler_stress": "sn_stress, of the S-N curve",
+    "woehler_cycles": "sn_cycles, of the S-N curve",
+    "woehler_slope": "sn_slope, of the S-N curve",
+    "guide.slider_inertia": "a key of [press] or [slider_crank]",
+    "guide.slide_inertia": "press.slide_inertia",
+    "guide.counterweight_inertia": "press.counterweight_inertia",
+}
+"""Old keys -> new ones, in words."""
 
 
 def key(
@@ -270,6 +288,11 @@ def table_from(table: type[T], name: str, data: Any) -> T:
     if not isinstance(data, Mapping):
         raise InputError(f"{name} = {data!r:.200}: allowed is a table of keys")
     known = [field.name for field in dataclasses.fields(table)]  # type: ignore[arg-type]
+    for given in data:
+        path = f"{name}.{given}" if name else given
+        if given not in known and {path, given} & RENAMED.keys():
+            now = RENAMED.get(path) or RENAMED[given]
+            raise InputError(f"{path} = {data[given]!r:.200}: is {now} now")
     refuse_unknown(name, data, known)
     return table(**data)
 

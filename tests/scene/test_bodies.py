@@ -71,6 +71,13 @@ def test_what_is_refused_in_one_line(bodies, message):
     assert "\n" not in str(refused.value)
 
 
+def test_the_table_of_before_is_named():
+    with pytest.raises(InputError, match=r"flexible = .*: is bodies\.NAME now"):
+        Scene.from_dict({"flexible": {"modes": 4}})
+    with pytest.raises(InputError, match=r"flexible\.modes = 4: is bodies\.NAME now"):
+        Scene().replace("flexible.modes", 4)
+
+
 def test_one_key_a_part_or_all_bodies_are_replaced():
     scene = Scene().replace("bodies.linkage", "linkage").replace("bodies.linkage.modes", 6)
     assert scene.bodies == {"linkage": Flexible("linkage", modes=6)}

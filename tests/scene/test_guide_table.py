@@ -97,6 +97,10 @@ def test_what_friction_and_damping_of_guides_need_is_in_the_scenes_tables():
         ({"guide": {"damping_ratio": -0.1}}, r"guide\.damping_ratio = -0\.1: allowed .* >= 0"),
         ({"guide": 1e9}, r"guide = 1000000000\.0: allowed is a table"),
         (
+            {"mechanism": "slider_crank", "guide": {"slide_inertia": 1.0}},
+            r"guide\.slide_inertia = 1\.0: is press\.slide_inertia now",
+        ),
+        (
             {"press": {"counterweight": False, "counterweight_mass": 900.0}},
             r"press\.counterweight_mass = 900\.0: not used .* \(press\.counterweight is false\)",
         ),

@@ -220,3 +220,12 @@ def test_what_is_hardly_meant(load, message):
     assert any(message in told for told in scene_warnings(scene))
     usual = Scene(mechanism="eccentric_press", load={"a": HEIGHT})
     assert not any("load.a" in told for told in scene_warnings(usual))
+
+
+def test_the_old_spelling_is_refused_and_the_new_one_named():
+    with pytest.raises(
+        InputError, match=r"blanking = .*: is load\.NAME with kind = 'blanking' now"
+    ):
+        Scene.from_dict({"blanking": {"force": 1e4}})
+    with pytest.raises(InputError, match=r"blanking\.force = 1.0: is load\.NAME with kind"):
+        Scene().replace("blanking.force", 1.0)

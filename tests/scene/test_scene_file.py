@@ -54,8 +54,10 @@ def test_empty_file_is_the_default_scene(tmp_path):
         ("speed_rpm = nan", "speed_rpm = nan: allowed is a number"),
         ("speed_rpm = 2020-01-01", "speed_rpm = "),
         ('joints.crank_pin = "wet"', "joints.crank_pin.kind = 'wet': allowed is one of"),
-        ('crank_pin = "dry"', "crank_pin = 'dry': unknown key"),
-        ("[contact]\nradius = 0.1", "contact.radius = 0.1: unknown key"),
+        ('crank_pin = "dry"', "crank_pin = 'dry': is joints.crank_pin now"),
+        ('balls = "dry"', "balls = 'dry': is joints.balls now"),
+        ("[clearance]\ncrank_pin = 1e-4", "clearance = {'crank_pin': 0.0001}: is joints.NAME.cl"),
+        ("[contact]\nradius = 0.1", "contact.radius = 0.1: is joints.NAME.radius now"),
         ("[[film]]\nviscosity = 1", "film = "),
         ("[press]\nlinkage_length = 0.01", "press: slide and linkage lock"),
         (

@@ -53,7 +53,7 @@ def timoshenko_free_free(length, side, material, count):
         transfer = scipy.linalg.expm(a)
         return np.linalg.det(transfer[2:, :2])
 
-    grid = np.linspace(50.0, 12000.0, 4000)
+    grid = np.linspace(50.0, 1200.0, 60)
     values = np.array([determinant(f) for f in grid])
     brackets = np.flatnonzero(values[:-1] * values[1:] < 0.0)[:count]
     return [scipy.optimize.brentq(determinant, grid[i], grid[i + 1]) for i in brackets]

@@ -88,11 +88,11 @@ def test_shares_sum_up_to_what_there_is(linkage, linkage_model, reduced_linkage)
     assert all_of_it.participation().sum(axis=1) == pytest.approx(np.ones(12), abs=1e-8)
 
 
-def test_what_no_modes_reach_is_refused(linkage, linkage_model, monkeypatch):
+def test_what_no_modes_reach_is_refused(bar, bar_model, monkeypatch):
     monkeypatch.setattr("fe_models.reduction.MOST_MODES", 8)
     wanted = Reduction(flexibility_error=1e-4, method="free")
     with pytest.raises(InputError, match=r"flexibility_error = 0\.0001: 8 modes leave"):
-        reduce_model(linkage, linkage_model, wanted)
+        reduce_model(bar, bar_model, wanted)
 
 
 @pytest.mark.parametrize("keys", [{"modes": 3, "flexibility_error": 0.1}, {"flexibility_error": 2}])

@@ -69,9 +69,8 @@ def test_static_bending_under_an_interface_load_is_exact(crank, crank_model):
 
 def test_static_error_falls_with_the_number_of_modes(crank, crank_model):
     load = middle_load(crank_model)
-    found = errors(crank, crank_model, load, "craig_bampton", (4, 13, 40))
-    assert all(a >= b >= 0.0 for a, b in itertools.pairwise(found)), found
-    assert found[-1] < 0.01 < found[1], found
+    found = errors(crank, crank_model, load, "craig_bampton", (13, 40))
+    assert 0.0 <= found[1] < 0.01 < found[0], found
 
 
 @pytest.mark.long
@@ -82,13 +81,13 @@ def test_free_modes_are_the_slower_way(crank, crank_model):
     assert found[-1] > 0.002, "static modes would not be worth having"
 
 
-def test_modes_are_mass_normal_and_free_of_rigid_motion(linkage, linkage_model, reduced_linkage):
-    _, modes = full_modes(linkage, linkage_model, "craig_bampton", 20)
-    mass, stiffness = linkage_model.mass, linkage_model.stiffness
+def test_modes_are_mass_normal_and_free_of_rigid_motion(bar, bar_model, reduced_bar):
+    _, modes = full_modes(bar, bar_model, "craig_bampton", 20)
+    mass, stiffness = bar_model.mass, bar_model.stiffness
     assert modes.T @ (mass @ modes) == pytest.approx(np.eye(20), abs=1e-10)
-    squares = np.diag((2 * np.pi * reduced_linkage.frequencies) ** 2)
+    squares = np.diag((2 * np.pi * reduced_bar.frequencies) ** 2)
     assert modes.T @ (stiffness @ modes) == pytest.approx(squares, abs=1e-8 * squares.max())
-    rigid = rigid_motions(linkage_model.nodes, np.zeros(3))
+    rigid = rigid_motions(bar_model.nodes, np.zeros(3))
     assert modes.T @ (mass @ rigid) == pytest.approx(np.zeros((20, 6)), abs=1e-10)
 
 
@@ -105,20 +104,20 @@ def test_frequencies_fall_towards_those_of_the_free_body(crank, crank_model):
     assert np.all(found[-1] >= free * (1 - 1e-9))
 
 
-def test_fixed_interface_modes_hold_the_mean_motion(linkage, linkage_model):
+def test_fixed_interface_modes_hold_the_mean_motion(bar, bar_model):
     from fe_models.reduction import _craig_bampton_basis, interface_rows
 
-    basis, frequencies, _ = _craig_bampton_basis(linkage, linkage_model, 12)
+    basis, frequencies, _ = _craig_bampton_basis(bar, bar_model, 12)
     assert len(frequencies) == 6
-    motion = interface_rows(linkage, linkage_model) @ basis[:, 6:]
+    motion = interface_rows(bar, bar_model) @ basis[:, 6:]
     assert np.abs(motion).max() < 1e-9 * np.abs(basis[:, 6:]).max()
 
 
 @pytest.mark.parametrize("method", ["craig_bampton", "free"])
-def test_bit_for_bit_reproducible(linkage, linkage_model, method):
+def test_bit_for_bit_reproducible(bar, bar_model, method):
     """The second one has a mesh and matrices of its own."""
-    first = reduce_model(linkage, linkage_model, Reduction(8, method))
-    second = reduce_part(linkage, Reduction(8, method))
+    first = reduce_model(bar, bar_model, Reduction(8, method))
+    second = reduce_part(bar, Reduction(8, method))
     for key in ("frequencies", "modes", "stress", "inertia"):
         assert np.array_equal(getattr(first, key), getattr(second, key)), key
 

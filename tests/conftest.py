@@ -1,5 +1,7 @@
 """What tests of more than one folder need."""
 
+import os
+
 import pytest
 from browser import launched
 
@@ -8,6 +10,13 @@ from browser import launched
 def browser():
     """A real browser; a test that asks for it is skipped where there is none."""
     yield from launched()
+
+
+def pytest_configure(config):
+    """Let processes that tests start keep bytecode: compiling takes half of their start."""
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+    kept = config.rootpath / ".pytest_cache" / "bytecode"
+    os.environ.setdefault("PYTHONPYCACHEPREFIX", str(kept))
 
 
 SHARES = 20

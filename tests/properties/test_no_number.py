@@ -4,11 +4,10 @@ Newton's method may try any state on its way. Whatever a law says then, the step
 an exception ends the run.
 """
 
+import itertools
 import math
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from exu_press.laws.contact import DAMPING_LAWS, cylindrical, hertz
 from exu_press.laws.film import FILM_LAWS, with_asperities
@@ -86,16 +85,18 @@ def test_a_contact_that_is_open_tells_a_rate_that_is_none():
         assert math.isnan(law.dissipated_power(-1e-6, math.nan, 0.2))
 
 
+ANYTHING = [0.0, 5e-324, 1e-20, 0.9, 1.0, 20.0, 1e20, 1e60, 1e154, 1e308, math.inf]
+ANYTHING = [*ANYTHING, *(-value for value in ANYTHING), math.nan]
+
+
 @pytest.mark.parametrize("name", LAWS)
-@settings(max_examples=60, deadline=None)
-@given(data=st.data())
-def test_no_state_is_an_error(name, data):
+def test_no_state_is_an_error(name):
     law, usual = LAWS[name]
-    anything = st.one_of(st.floats(), st.sampled_from([1e20, 1e60, 1e154, 1e308, -1e308]))
-    state = data.draw(st.tuples(*[anything for _ in usual]))
-    if name == "friction, lugre":
-        state = (*state[:2], abs(state[2]))  # a step is not negative
-    if name == "load, closing":
-        state = (state[0], 1e-3)  # a parameter
-    answer = law(*state)
-    assert all(isinstance(x, float) for x in (answer if isinstance(answer, tuple) else [answer]))
+    for state in itertools.product(ANYTHING, repeat=len(usual)):
+        if name == "friction, lugre":
+            state = (*state[:2], abs(state[2]))  # a step is not negative
+        if name == "load, closing":
+            state = (state[0], 1e-3)  # a parameter
+        answer = law(*state)
+        numbers = answer if isinstance(answer, tuple) else [answer]
+        assert all(isinstance(x, float) for x in numbers), state

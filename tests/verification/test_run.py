@@ -24,13 +24,13 @@ DRY = {
 """Whose impacts part motions within a tenth of a revolution."""
 
 SCENES = {
-    "ideal": {"joints": {"crank_pin": "ideal"}, "revolutions": 0.5},
+    "ideal": {"joints": {"crank_pin": "ideal"}, "revolutions": 0.3},
     "film": {
         "joints": {"crank_pin": {"kind": "lubricated", "clearance": 2e-5}},
-        "revolutions": 0.3,
+        "revolutions": 0.2,
     },
-    "dry": {"joints": {"crank_pin": "dry"}, "revolutions": 0.3},
-    "steps": {"revolutions": 0.1, "solver": {"step": 2e-5}},
+    "dry": {"joints": {"crank_pin": "dry"}, "revolutions": 0.2},
+    "steps": {"revolutions": 0.03, "solver": {"step": 2e-5}},
     "flexible": {
         "mechanism": "press",
         "joints": {"crank_pin": "dry"},

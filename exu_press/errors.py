@@ -1,8 +1,13 @@
 """The one kind of error that a user's input can raise; the package below this one raises it too."""
 
+import importlib
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
 from fe_models.errors import InputError
 
-__all__ = ["InputError", "UnusedKeyError"]
+__all__ = ["InputError", "UnusedKeyError", "prefixed", "required_package"]
 
 InputError.__module__ = __name__  # as tracebacks and the reference name it
 
@@ -17,3 +22,31 @@ class UnusedKeyError(InputError):
     def __init__(self, name: str, shown: str, reason: str) -> None:
         super().__init__(f"{shown}: not used by this scene ({reason}); remove it")
         self.name = name
+
+
+@contextmanager
+def prefixed(place: str) -> Iterator[None]:
+    """Begin the message of an InputError with the place that it is about."""
+    try:
+        yield
+    except InputError as error:
+        raise InputError(f"{place}{error}") from None
+
+
+def required_package(name: str, use: str, install: str) -> Any:
+    """Return a package that not every installation has.
+
+    Args:
+        name: of the package.
+        use: beginning of the message, the key or method that needs it.
+        install: its name for pip.
+
+    Raises:
+        InputError: it is not installed.
+    """
+    try:
+        return importlib.import_module(name)
+    except ModuleNotFoundError:
+        raise InputError(
+            f"{use}: needs the package {name}; install it by pip install {install}"
+        ) from None

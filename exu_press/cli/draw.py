@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from exu_press.cli.options import SHIPPED, add_set_argument, shipped_names
-from exu_press.errors import InputError
+from exu_press.errors import InputError, prefixed
 from exu_press.mechanism import SHIPPED as MECHANISMS
 from exu_press.mechanism import (
     Mechanism,
@@ -121,12 +121,10 @@ def _asked(given: str, changes: Mapping[str, Any]) -> tuple[Mechanism, float | N
     scene = not ("bodies" in data and "joints" in data and "crank" in data)
     if changes:
         data = _changed(data, changes)
-    try:
+    with prefixed(f"{path}: "):
         if scene:
             return _of_scene(data, path.parent), _speed(data)
         return mechanism_from(data), None
-    except InputError as error:
-        raise InputError(f"{path}: {error}") from None
 
 
 def _changed(data: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:

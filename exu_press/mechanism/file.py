@@ -27,7 +27,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from exu_press.errors import InputError
+from exu_press.errors import InputError, prefixed
 from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.parts import Body, Guide, Joint, Output
 from exu_press.schema.checks import refuse_unknown
@@ -70,10 +70,8 @@ def load_mechanism(path: str | Path) -> Mechanism:
     """
     path = Path(path)
     data = read_toml(path)
-    try:
+    with prefixed(f"{path}: "):
         return mechanism_from(data)
-    except InputError as error:
-        raise InputError(f"{path}: {error}") from None
 
 
 @lru_cache

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.errors import InputError
+from exu_press.errors import InputError, prefixed
 from exu_press.mechanism import Body, Joint, Mechanism, Motion, Point
 from exu_press.numerics.arrays import Array
 from exu_press.scene import Face, Flexible, Scene, mechanism_of
@@ -133,7 +133,7 @@ def placed_parts(scene: Scene, *, quiet: bool = True) -> dict[str, PlacedPart]:
     mechanism = mechanism_of(scene)
     placed = {}
     for name, table in scene.bodies.items():
-        try:
+        with prefixed(f"bodies.{name}: "):
             if table.sn_stress is not None:
                 require_rainflow()
             loads = {
@@ -142,8 +142,6 @@ def placed_parts(scene: Scene, *, quiet: bool = True) -> dict[str, PlacedPart]:
                 if (load.body or mechanism.slider) == name
             }
             placed[name] = _placed(mechanism, mechanism.body(name), table, loads, quiet)
-        except InputError as error:
-            raise InputError(f"bodies.{name}: {error}") from None
     return placed
 
 

@@ -5,7 +5,7 @@ from concurrent.futures import CancelledError, Future
 from contextlib import AbstractContextManager
 from urllib.parse import urlsplit
 
-from exu_press.errors import InputError
+from exu_press.errors import InputError, required_package
 from exu_press.parallel.child import Child, perform, worker_died
 from exu_press.parallel.task import Row, Task
 
@@ -32,14 +32,11 @@ class Cluster(AbstractContextManager["Cluster", None]):
         """
         self._address, self._time_limit = address, time_limit
         _check(address)
+        distributed = required_package("distributed", f"dask = {address}", "'exu-press[dask]'")
         try:
-            from distributed import Client
-        except ImportError:
-            raise InputError(
-                f"dask = {address}: distributed is not installed; pip install 'exu-press[dask]'"
-            ) from None
-        try:
-            self._client = Client(address, timeout=SECONDS_TO_ANSWER, set_as_default=False)
+            self._client = distributed.Client(
+                address, timeout=SECONDS_TO_ANSWER, set_as_default=False
+            )
         except OSError as error:
             raise InputError(
                 f"dask = {address}: no scheduler answers ({_in_a_line(error)})"

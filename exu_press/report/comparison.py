@@ -12,6 +12,7 @@ from exu_press.quantities.table import comparison_cells
 from exu_press.report.html import page, picture, stills, table, warnings
 from exu_press.report.run import live_part, scene_parts, warnings_of
 from exu_press.report.shown import ALL, Span
+from exu_press.report.study import reading
 from exu_press.result import Result
 from exu_press.schema.stored import from_json, shown
 from exu_press.studies.compare import different_keys
@@ -69,14 +70,10 @@ def comparison_page(results: Mapping[str, Result], source: str, span: Span = ALL
 
 def _runs(file: Path) -> dict[str, Path]:
     """Return the variants' results, beside the file, by label."""
-    try:
+    with reading(file, "a comparison of exu_press"):
         labels = from_json(dict[str, Any], file.read_bytes(), "its text")
         if not labels:
             raise InputError("it is empty")
-    except OSError as error:
-        raise InputError(f"{file}: cannot be read ({error.strerror})") from None
-    except InputError as error:
-        raise InputError(f"{file}: not a comparison of exu_press: {error}") from None
     names = {label: label.replace(" ", "_") for label in labels}
     for label, name in names.items():
         if Path(name).name != name or not name.isprintable():

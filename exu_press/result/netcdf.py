@@ -1,6 +1,5 @@
 """A result as a NetCDF file, or as a dataset of xarray: units and names, and the scene."""
 
-import importlib
 import json
 from collections.abc import Mapping
 from pathlib import Path
@@ -9,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.errors import InputError
+from exu_press.errors import InputError, prefixed, required_package
 from exu_press.files.output_directory import replacing
 from exu_press.result.channel import AXES, Channel
 from exu_press.result.classic import Classic, Variable, open_classic
@@ -114,15 +113,13 @@ def _channels(file: Classic, along: str) -> dict[str, Channel]:
 def _channel(name: str, variable: Variable) -> Channel:
     """Return a channel; its last dimension names its columns."""
     _, *inner = variable.dimensions
-    try:
+    with prefixed(f"channel {shown(name)}: "):
         return Channel(
             variable.values(np.float64),
             _text(variable.attributes, "units"),
             _text(variable.attributes, "long_name"),
             inner[-1] if inner else "",
         )
-    except InputError as error:
-        raise InputError(f"channel {shown(name)}: {error}") from None
 
 
 def is_whole(path: Path) -> bool:
@@ -166,14 +163,12 @@ def _surface(file: Classic, body: str) -> Surface:
             raise InputError(f"has no {array}")
         return file.variables[f"{body}_surface_{array}"].values(dtype)
 
-    try:
+    with prefixed(f"surface of {shown(body)}: "):
         modes = stored("modes", np.float32)
         stress = np.zeros((0, 6, modes.shape[-1]), np.float32)
         if f"{body}_surface_stress" in file.variables:
             stress = stored("stress", np.float32)
         return Surface(stored("nodes", np.float32), stored("triangles", np.int32), modes, stress)
-    except InputError as error:
-        raise InputError(f"surface of {shown(body)}: {error}") from None
 
 
 def dataset(result: Contents) -> Any:
@@ -182,12 +177,7 @@ def dataset(result: Contents) -> Any:
     Raises:
         InputError: xarray is not installed.
     """
-    try:
-        xarray: Any = importlib.import_module("xarray")
-    except ModuleNotFoundError:
-        raise InputError(
-            "to_xarray: needs the package xarray; install it by pip install xarray"
-        ) from None
+    xarray = required_package("xarray", "to_xarray", "xarray")
     variables, used = {}, set()
     for name, channel in result.channels.items():
         inner = ("body",) if channel.values.ndim == 3 else ()

@@ -1,13 +1,12 @@
 """Flexible bodies of a mechanism, and their solids."""
 
 import dataclasses
-import importlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar
 
-from exu_press.errors import InputError
+from exu_press.errors import InputError, prefixed, required_package
 from exu_press.schema.checks import Table, key, nearest, plain, refuse_unknown, table_from
 
 __all__ = [
@@ -183,10 +182,8 @@ def bodies_of(
                 f"bodies.{name} = {value!r}: allowed is a shipped part, a STEP file's path, or a "
                 "table of keys"
             )
-        try:
+        with prefixed(f"bodies.{name}."):
             body = found[name] = table_from(Flexible, "", _keys(value))
-        except InputError as error:
-            raise InputError(f"bodies.{name}.{error}") from None
         for joint in body.faces:
             if joint not in joints[name]:
                 raise InputError(
@@ -240,17 +237,8 @@ def changed_bodies(
 
 
 def require_rainflow() -> Any:
-    """Return the package that counts cycles.
-
-    Raises:
-        InputError: it is not installed.
-    """
-    try:
-        return importlib.import_module("rainflow")
-    except ModuleNotFoundError:
-        raise InputError(
-            "sn_stress: needs the package rainflow; install it by pip install 'exu-press[fatigue]'"
-        ) from None
+    """Return the package that counts cycles; raise InputError if it is not installed."""
+    return required_package("rainflow", "sn_stress", "'exu-press[fatigue]'")
 
 
 def _keys(given: Any) -> Any:
@@ -319,10 +307,8 @@ def _face(where: str, given: Any, known: tuple[str, ...]) -> Face:
             f"{where} = {given!r}: allowed is a face's name, or a table of {', '.join(known)}"
         )
     refuse_unknown(where, given, known)
-    try:
+    with prefixed(f"{where}."):
         return Face(**given)
-    except InputError as error:
-        raise InputError(f"{where}.{error}") from None
 
 
 def face_dict(face: Face) -> Any:

@@ -4,7 +4,7 @@ import dataclasses
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
-from exu_press.errors import InputError, UnusedKeyError
+from exu_press.errors import InputError, UnusedKeyError, prefixed
 from exu_press.laws.film import FILM_LAWS
 from exu_press.scene.joint import (
     JOINT_KINDS,
@@ -205,10 +205,8 @@ def _joint(
 ) -> Joint:
     place = f"joints.{name}"
     kind = given.get("kind")
-    try:
+    with prefixed(f"{place}."):
         own_class = own_kind(kind)
-    except InputError as error:
-        raise InputError(f"{place}.{error}") from None
     if kind not in JOINT_KINDS and own_class is None:
         what = f"{place}.kind = {kind!r}" if "kind" in given else f"{place} has no kind"
         raise InputError(f"{what}: allowed is one of {', '.join(map(repr, JOINT_KINDS))}")
@@ -230,15 +228,11 @@ def _joint(
     if given.get("worn") is not None:
         if spherical:
             raise UnusedKeyError(f"{place}.worn", f"{place}.worn", f"{place} is a ball")
-        try:
+        with prefixed(f"{place}."):
             values["worn"] = table_from(Worn, "worn", given["worn"])
-        except InputError as error:
-            raise InputError(f"{place}.{error}") from None
     chosen: type[Any] = own_class or JOINT_KINDS[str(kind)]
-    try:
+    with prefixed(f"{place}."):
         joint: Joint = chosen(**{key: values[key] for key in used if key in values})
-    except InputError as error:
-        raise InputError(f"{place}.{error}") from None
     refuse_missing(place, joint, revolute=not spherical)
     _check_laws(place, joint, spherical)
     return joint
@@ -255,10 +249,8 @@ def unused_in(law: Table, *, spherical: bool) -> dict[str, str]:
 def _law(place: str, law: str, given: Any, usual: Table) -> Table:
     """Return a joint's law: the scene's, but for its own keys."""
     complete = {field.name: getattr(usual, field.name) for field in dataclasses.fields(usual)}
-    try:
+    with prefixed(f"{place}."):
         return table_with(LAW_TABLES[law], law, {} if given is None else given, complete)
-    except InputError as error:
-        raise InputError(f"{place}.{error}") from None
 
 
 def _check_laws(place: str, joint: Joint, spherical: bool) -> None:

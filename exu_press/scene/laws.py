@@ -2,9 +2,8 @@
 
 import math
 from collections.abc import Callable
-from typing import TypeVar
 
-from exu_press.errors import InputError
+from exu_press.errors import InputError, prefixed
 from exu_press.laws.contact import (
     DAMPING_LAWS,
     NormalContact,
@@ -35,8 +34,6 @@ __all__ = [
     "guide_contact_law",
     "guide_friction_law",
 ]
-
-T = TypeVar("T")
 
 
 def contact_law(joint: DryJoint | LubricatedJoint, *, revolute: bool) -> NormalContact:
@@ -70,7 +67,8 @@ def _damped(table: Contact, stiffness: Stiffness) -> NormalContact:
     else:
         parameters = {"restitution": table.restitution}
     law = DAMPING_LAWS[table.damping]
-    return _named("contact", lambda: law(stiffness, tension=table.tension, **parameters))
+    with prefixed("contact."):
+        return law(stiffness, tension=table.tension, **parameters)
 
 
 def friction_law(table: Friction) -> FrictionLaw | LuGre:
@@ -85,7 +83,8 @@ def friction_law(table: Friction) -> FrictionLaw | LuGre:
         "lugre_steady": lambda: lugre_steady(*coefficients, table.sigma_2, *curve, soft),
         "lugre": lambda: LuGre(*coefficients, table.sigma_0, table.sigma_1, table.sigma_2, *curve),
     }
-    return _named("friction", laws[table.law])
+    with prefixed("friction."):
+        return laws[table.law]()
 
 
 def guide_contact_law(contact: Contact, stiffness: float) -> NormalContact:
@@ -118,7 +117,8 @@ def film_law(table: Film, radius: float, clearance: float) -> FilmLaw:
     if table.length is None:
         return ball_film(table, clearance).law
     ratio = table.length / (2.0 * radius)
-    law = _named("film", lambda: FILM_LAWS[table.law].factory(ratio))
+    with prefixed("film."):
+        law = FILM_LAWS[table.law].factory(ratio)
     onset = _onset_ratio(table, clearance)
     return law if onset is None else with_asperities(law, onset)
 
@@ -126,7 +126,8 @@ def film_law(table: Film, radius: float, clearance: float) -> FilmLaw:
 def ball_film(table: Film, clearance: float) -> BallFilm:
     """Return the film of a ball in its socket; arguments as those of `film_law`."""
     onset = _onset_ratio(table, clearance)
-    return _named("film", lambda: ball(math.radians(table.socket_angle_deg), onset))
+    with prefixed("film."):
+        return ball(math.radians(table.socket_angle_deg), onset)
 
 
 def film_scale_of(joint: LubricatedJoint) -> float:
@@ -144,11 +145,3 @@ def _onset_ratio(table: Film, clearance: float) -> float | None:
             f"clearance = {clearance:g}"
         )
     return None if onset is None else onset / clearance
-
-
-def _named(table: str, make: Callable[[], T]) -> T:
-    """Return the law that is made; an error names the scene's table too."""
-    try:
-        return make()
-    except InputError as error:
-        raise InputError(f"{table}.{error}") from None

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.errors import InputError
+from exu_press.errors import InputError, prefixed
 from exu_press.files.two_columns import read_two_columns
 from exu_press.mechanism import Mechanism
 from exu_press.scene.bodies import face_dict
@@ -134,10 +134,8 @@ def _load(where: str, given: Any) -> Load:
         both = [name for name in ("force", *COLUMNS) if name in keys]
         if both:
             raise InputError(f"file and {both[0]}: allowed is one of the two")
-        try:
+        with prefixed("file: "):
             keys |= _read_table(Path(path))
-        except InputError as error:
-            raise InputError(f"file: {error}") from None
     return LOAD_KINDS[kind](**keys)
 
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, cast, overload
 
-from exu_press.errors import InputError, UnusedKeyError
+from exu_press.errors import InputError, UnusedKeyError, prefixed
 from exu_press.mechanism import (
     SHIPPED,
     Mechanism,
@@ -438,10 +438,8 @@ def _load(path: str | Path, assignments: Iterable[str] = ()) -> Scene:
     """
     path = Path(path)
     data = scene_tables(path)
-    try:
+    with prefixed(f"{path}: "):
         scene = Scene.from_dict(data)
-    except InputError as error:
-        raise InputError(f"{path}: {error}") from None
     changes = dict(map(parse_assignment, assignments))
     return scene.replace(changes) if changes else scene
 
@@ -482,10 +480,8 @@ def _with_flywheel(drawn: Mechanism, inertia: float) -> Mechanism:
 def _asked(mechanism: Any) -> Any:
     """Return a mechanism that is given as data or as the path of a file; others as they are."""
     if isinstance(mechanism, Mapping):
-        try:
+        with prefixed("mechanism."):
             return mechanism_from(mechanism)
-        except InputError as error:
-            raise InputError(f"mechanism.{error}") from None
     if isinstance(mechanism, str) and mechanism.endswith(".toml"):
         return load_mechanism(mechanism)
     return mechanism

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.errors import InputError
+from exu_press.errors import InputError, prefixed
 from exu_press.schema.checks import Table, key, table_from
 
 __all__ = ["Key", "Normal", "Range", "Values", "key_from", "keys_from"]
@@ -180,13 +180,11 @@ def key_from(name: str, value: Any) -> Key:
     """
     if isinstance(value, (Values, Range, Normal)):
         return value
-    try:
+    with prefixed(f"keys.{name}: "):
         if isinstance(value, Mapping) and NAMES[0] <= set(value) <= NAMES[0] | {"log"}:
             return table_from(Range, "", value)
         if isinstance(value, Mapping) and NAMES[1] <= set(value):
             return table_from(Normal, "", value)
-    except InputError as error:
-        raise InputError(f"keys.{name}: {error}") from None
     if isinstance(value, Sequence) and not isinstance(value, str) and value:
         return Values(tuple(value))
     raise InputError(f"keys.{name} = {value!r:.200}: allowed is {FORMS}")

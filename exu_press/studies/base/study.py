@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
-from exu_press.errors import InputError
+from exu_press.errors import InputError, prefixed
 from exu_press.scene import Scene
 from exu_press.schema.checks import Table, key, table_from
 from exu_press.schema.toml import read_toml
@@ -138,7 +138,5 @@ def load_study(path: str | Path, kind: type[S]) -> S:
             raise InputError(f"{path}: no {name}; allowed is {name} = {example}")
     if isinstance(data["scene"], str):
         data["scene"] = Scene.load(path.parent / data["scene"])
-    try:
+    with prefixed(f"{path}: "):
         return table_from(kind, "", kind.located(data, path.parent))
-    except InputError as error:
-        raise InputError(f"{path}: {error}") from None

@@ -1,13 +1,12 @@
 """The result of a bifurcation study, as a file and as a dataset."""
 
 import dataclasses
-import importlib
 from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
 
-from exu_press.errors import InputError
+from exu_press.errors import required_package
 from exu_press.studies.base import Row
 from exu_press.studies.bifurcation.study import Bifurcation
 from exu_press.studies.sweep.units import meaning_of, unit_of
@@ -73,12 +72,7 @@ class Report:
         Raises:
             InputError: xarray is not installed.
         """
-        try:
-            xarray: Any = importlib.import_module("xarray")
-        except ModuleNotFoundError:
-            raise InputError(
-                "to_xarray: needs the package xarray; install it by pip install xarray"
-            ) from None
+        xarray = required_package("xarray", "to_xarray", "xarray")
         study = self.study
         done = [row for branch in self.branches for row in branch.rows if "points" in row]
         section = np.shape(done[0]["points"]) if done else (study.bifurcation.revolutions, 0)

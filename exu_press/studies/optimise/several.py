@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.errors import InputError
+from exu_press.errors import required_package
 from exu_press.numerics.arrays import Array
 from exu_press.studies.base import Key, Range, Values
 from exu_press.studies.optimise.study import NSGA, TPE
@@ -48,13 +48,8 @@ def searched(
     Raises:
         InputError: optuna is not installed.
     """
-    try:
-        import optuna
-    except ModuleNotFoundError:
-        raise InputError(
-            "several objectives, or keys with [value, ...], need optuna; the cure is: "
-            "pip install 'exu-press[optimise]'"
-        ) from None
+    use = "several objectives, or keys with [value, ...]"
+    optuna = required_package("optuna", use, "'exu-press[optimise]'")
     optuna.logging.set_verbosity(optuna.logging.WARNING)
 
     sampler: Any

@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import Any
 
-from exu_press.errors import InputError
+from exu_press.errors import prefixed
 from exu_press.parallel import FILE
 from exu_press.studies.base import Runs
 from exu_press.studies.sweep.study import Sweep
@@ -34,10 +34,8 @@ def sweep(study: Sweep, directory: str | Path, **how: Any) -> Table:
         numbers = range(1, len(study.points) + 1)
         files = [f"runs/{n:0{digits}}.nc" for n in numbers] if study.save_runs else []
         rows = runs.of(study.scenes, files)
-        try:
+        with prefixed(f"{directory / FILE}: not rows of a sweep: "):
             table = table_of(study, rows, files)
-        except InputError as error:
-            raise InputError(f"{directory / FILE}: not rows of a sweep: {error}") from None
         table.save_csv(directory / "table.csv")
         table.save_netcdf(directory / "table.nc")
     return table

@@ -12,7 +12,7 @@ from exu_press.numerics.arrays import Array
 from exu_press.plots.headed import headed_figure
 from exu_press.plots.scales import log_axis
 from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, SHADE, colour_of, styled
-from exu_press.plots.sweep_words import in_unit, words
+from exu_press.plots.sweep_words import in_unit, labelled
 from exu_press.plots.typesetting import plain
 from exu_press.plots.words import describe
 from exu_press.studies.base import Row
@@ -64,8 +64,7 @@ def bifurcation_figure(report: Report) -> Figure:
     points.set_ylabel("eccentricity x / clearance, first joint")
     points.legend(handles=handles, loc="best")
     points.margins(y=0.1)
-    label = words(study.name)
-    exponent.set_xlabel(plain(f"{label}, {unit}" if unit else label))
+    exponent.set_xlabel(plain(labelled(study.name, unit)))
     if len(values) > 2 and values[0] > 0.0 and values[-1] > 10.0 * values[0]:
         log_axis(exponent, "x", shown)
     else:
@@ -166,6 +165,6 @@ def _axis(panel: Axes, which: str, name: str, values: Array) -> None:
     numbers, unit = in_unit(name, values)
     every = -(-len(numbers) // MOST_TICKS)
     ticks = np.arange(0, len(numbers), every)
-    label = plain(f"{words(name)}, {unit}" if unit else words(name))
+    label = plain(labelled(name, unit))
     panel.set(**{f"{which}ticks": ticks, f"{which}label": label})
     panel.set(**{f"{which}ticklabels": [f"{numbers[k]:.4g}" for k in ticks]})

@@ -11,7 +11,7 @@ from exu_press.numerics.arrays import Array
 from exu_press.plots.headed import headed_figure
 from exu_press.plots.scales import log_axis
 from exu_press.plots.style import COLOURS, GREY, styled
-from exu_press.plots.sweep_words import headed, in_unit, words
+from exu_press.plots.sweep_words import headed, in_unit, labelled
 from exu_press.plots.typesetting import wrapped
 from exu_press.plots.words import describe
 from exu_press.quantities import quantity_of
@@ -50,7 +50,7 @@ def front_figure(report: Report) -> Figure:
         values = np.array([float(point[name]) for point in report.trials.points])
         shown, unit = in_unit(name, values)
         _points(panel, report, shown, _all(report, objectives[0]), ("", objectives[0]))
-        panel.set_xlabel(wrapped(words(name) + (f", {unit}" if unit else "")))
+        panel.set_xlabel(wrapped(labelled(name, unit)))
         each = study.keys[name]
         if isinstance(each, Range) and each.log:
             log_axis(panel, "x", shown)

@@ -13,7 +13,7 @@ from exu_press.errors import InputError
 from exu_press.numerics.arrays import Array
 from exu_press.plots.headed import headed_figure
 from exu_press.plots.style import GREY, PATH_COLOURS, colour_of, styled
-from exu_press.plots.sweep_words import in_unit, setting, words
+from exu_press.plots.sweep_words import in_unit, labelled, setting, words
 from exu_press.plots.typesetting import plain
 from exu_press.plots.words import describe
 from exu_press.studies.sweep import Table
@@ -139,7 +139,7 @@ def _draw_curves(
     if x.min() > 0.0 and x.max() > LOGARITHMIC_FROM * x.min():
         panel.set_xscale("log")
     panel.margins(0.04, 0.08)
-    panel.set(xlabel=_labelled(axis, across), title=_headed(quantity, up))
+    panel.set(xlabel=labelled(axis, across), title=_headed(quantity, up))
 
 
 def _draw_errors(
@@ -176,17 +176,13 @@ def _draw_map(
     if missing.any():
         panel.plot(x[missing], y[missing], "x", color=GREY)
         _count(panel, missing)
-    panel.set(xlabel=_labelled(axes[0], across), ylabel=_labelled(axes[1], up))
+    panel.set(xlabel=labelled(axes[0], across), ylabel=labelled(axes[1], up))
     panel.set_title(_headed(quantity, unit))
     figure.colorbar(shown, ax=panel, pad=0.02).outline.set_visible(False)
 
 
-def _labelled(name: str, unit: str) -> str:
-    return f"{words(name)}, {unit}" if unit else words(name)
-
-
 def _headed(name: str, unit: str) -> str:
-    text = _labelled(name, unit)
+    text = labelled(name, unit)
     return text[0].upper() + text[1:]
 
 

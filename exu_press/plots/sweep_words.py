@@ -11,7 +11,7 @@ from exu_press.plots.typesetting import typeset
 from exu_press.quantities.catalogue import declared
 from exu_press.studies.sweep.units import meaning_of, unit_of
 
-__all__ = ["headed", "in_unit", "setting", "words"]
+__all__ = ["headed", "in_unit", "labelled", "setting", "words"]
 
 PREFIXES = {-9: "n", -6: "u", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 PREFIXED = ("m", "s", "N", "N m", "J", "W", "Pa")
@@ -63,8 +63,12 @@ def headed(name: str) -> str:
     'peak acceleration, m/s^2'
     """
     placed = declared(name)
-    unit = "" if placed is None else placed.quantity.shown
-    return words(name) + (f", {unit}" if unit else "")
+    return labelled(name, "" if placed is None else placed.quantity.shown)
+
+
+def labelled(name: str, unit: str) -> str:
+    """Return a column in words, with the unit of its numbers if they have any."""
+    return f"{words(name)}, {unit}" if unit else words(name)
 
 
 def setting(name: str, value: Any) -> str:

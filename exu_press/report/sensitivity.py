@@ -11,7 +11,7 @@ from exu_press.report.study import command_of, reading, study_page
 from exu_press.scene import Scene
 from exu_press.schema.csv_table import Value, read_csv
 from exu_press.schema.stored import from_json
-from exu_press.studies.sweep.units import unit_of
+from exu_press.studies.sweep.units import unit_of, with_unit
 
 __all__ = ["sensitivity_report"]
 
@@ -57,7 +57,7 @@ def _spread(name: str, one: dict[str, Any]) -> list[str]:
         "" if value is None else f"{value * scale:.{n}g}"
         for value, n in zip(numbers, digits, strict=True)
     ]
-    return [f"{name}, {unit}" if unit else name, *cells]
+    return [with_unit(name, unit), *cells]
 
 
 def _shares(name: str, one: dict[str, Any]) -> list[list[str]]:

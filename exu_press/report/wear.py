@@ -9,6 +9,7 @@ from exu_press.quantities.uncertain import significant
 from exu_press.report.html import table
 from exu_press.report.study import reading, study_page
 from exu_press.schema.stored import from_json
+from exu_press.studies.sweep.units import with_unit
 
 __all__ = ["wear_report"]
 
@@ -25,7 +26,7 @@ def wear_report(file: Path) -> str:
         ]
         live = _live(strokes, curves) if has_library() and len(strokes) > 1 else None
         ended = f"; {told['reason']}" if told["reason"] else ""
-    head = ("strokes", "jump", *(f"{name}, {unit}" if unit else name for name, unit, _ in curves))
+    head = ("strokes", "jump", *(with_unit(name, unit) for name, unit, _ in curves))
     return study_page(
         file,
         f"Wear over {significant(strokes[-1], 4)} strokes",

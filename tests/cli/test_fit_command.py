@@ -62,7 +62,7 @@ def test_a_number_that_no_values_give_is_told(tmp_path, capsys):
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
-        ("uncertainty = 300.0", "", "measured.uncertainty: not given"),
+        ("uncertainty = 300.0", "", "measured.uncertainty: missing"),
         ("starts = 1", "starts = 0", "fit.starts = 0"),
         ("joints.wrist_pin.peak_force", "joints.wrist.peak_force", "did you mean"),
         ("low = 800.0, high = 2000.0", "low = 0.0, high = 2000.0", "allowed is 0 < low < high"),

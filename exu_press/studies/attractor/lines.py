@@ -3,6 +3,7 @@
 import math
 
 from exu_press.studies.attractor.study import Attractor
+from exu_press.studies.sweep.units import with_unit
 from exu_press.terminal.columns import columns
 
 __all__ = ["attractor_lines"]
@@ -44,7 +45,7 @@ def _figures(found: Attractor) -> list[list[str]]:
     """Return a table of the figures over revolutions."""
     rows = [["quantity", "mean", "scatter", "5 %", "50 %", "95 %"]]
     for name, unit in found.units.items():
-        head = f"{name}, {unit}" if unit else name
+        head = with_unit(name, unit)
         one = found.distributions.get(name)
         if one is None:
             rows.append([head, *["-"] * 5])

@@ -2,6 +2,7 @@
 
 from exu_press.quantities import quantity_of
 from exu_press.quantities.uncertain import significant
+from exu_press.studies.sweep.units import with_unit
 from exu_press.studies.wear.run import Report
 from exu_press.terminal.columns import columns
 
@@ -20,8 +21,7 @@ def report_lines(report: Report) -> list[str]:
         bodies.append([f"{1e6 * value:.5g}" for value in report.clearances(joint)])
     for name in study.names:
         quantity = quantity_of(study.scene, name).quantity
-        unit = quantity.shown
-        heads.append(f"{name}, {unit}" if unit else name)
+        heads.append(with_unit(name, quantity.shown))
         digits = 7 if quantity.unit == "m" else 4
         bodies.append(
             [

@@ -347,12 +347,10 @@ class Scene(Table):
         while True:
             try:
                 return Scene.from_dict(data)
-            except UnusedKeyError as error:
-                if named(error.name, groups, changes):
+            except InputError as error:
+                if not isinstance(error, UnusedKeyError) or named(error.name, groups, changes):
                     raise InputError(by_group(str(error), groups, changes)) from None
                 drop(data, error.name)
-            except InputError as error:
-                raise InputError(by_group(str(error), groups, changes)) from None
 
     def _repr_html_(self) -> str:
         """Return the scene in words and the keys it gives, for notebooks."""

@@ -60,9 +60,7 @@ def screened(
     points = np.concatenate([first[None], points])
     values = evaluate(points)
     fine = [Minimum(x, r) for x, r in zip(points, values, strict=True) if np.isfinite(r).all()]
-    found = [one for one in fine[:1] if start is not None and one.x is points[0]]
-    if start is not None and fine and np.array_equal(fine[0].x, start):
-        found = fine[:1]
+    found = fine[:1] if start is not None and np.isfinite(values[0]).all() else []
     for one in sorted(fine, key=lambda m: m.chi_square):
         if len(found) < wanted and all(_apart(one, other, 4 * ALIKE) for other in found):
             found.append(one)

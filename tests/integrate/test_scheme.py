@@ -142,7 +142,7 @@ def test_one_serves_several_steps_and_changes_no_answer(monkeypatch):
     runs = []
     for same in (-1.0, scheme.SAME):
         monkeypatch.setattr(scheme, "SAME", same)
-        scene = Scene(bodies=flexible_press(modes=4), revolutions=0.15, solver={"tolerance": 3e-4})
+        scene = Scene(bodies=flexible_press(modes=4), revolutions=0.06, solver={"tolerance": 3e-4})
         model = scene.build()
         made.append(0)
         runs.append(record(model, model.solve()))

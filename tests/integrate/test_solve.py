@@ -105,7 +105,7 @@ SIZES = [(1e-6, 1e-18, 1e-3), (1e3, 1e9, 30.0), (1.0, 1e6, 1e-2), (1.0, 1e-6, 1e
 def steps_of(joint, length, mass, time):
     unit = length / time**2
     mbs, _ = pendulum(length, mass, joint, gravity=9.81 * unit, force=mass * unit)
-    chosen = settings((3.0 if joint == "ideal" else 0.3) * time)
+    chosen = settings((1.0 if joint == "ideal" else 0.1) * time)
     chosen.timeIntegration.minimumStepSize *= time
     outcome = solve_dynamic(mbs, chosen)
     assert outcome.status is SolverStatus.COMPLETED, outcome.reason

@@ -41,7 +41,7 @@ def test_no_clearance_is_the_ideal_joint(pin):
     """A dry joint gives way by (F / K)^(2/3) besides, here less than 1e-6 m."""
     laws = {"contact": {**POINT["contact"], "stiffness": 2.5545e14}, "friction": POINT["friction"]}
     stiff = laws if pin == "dry" else {}
-    clearances = (1e-3, 1e-4, 1e-6)
+    clearances = (1e-3, 1e-6)
     apart = [
         from_ideal(run(joints={"crank_pin": {"kind": pin, "clearance": c}}, **stiff))
         for c in clearances
@@ -80,7 +80,7 @@ def test_no_viscosity_under_asperities_is_the_dry_joint():
 )
 def test_infinite_stiffness_does_not_blow_up(contact):
     depths = []
-    for factor in (1e-2, 1e2, 1e6):
+    for factor in (1e-2, 1e6):
         result = run(
             joints={"crank_pin": "dry"},
             contact={**contact, "stiffness": 2.5545e10 * factor},

@@ -16,13 +16,15 @@ from exu_press.parallel import run_batch
 distributed = pytest.importorskip("distributed")
 
 
-@pytest.fixture
-def cluster(monkeypatch):
-    monkeypatch.setenv("PYTHONPATH", str(Path(__file__).parent))
-    with distributed.LocalCluster(
-        n_workers=2, threads_per_worker=1, host="127.0.0.1", dashboard_address=None
-    ) as made:
-        yield made
+@pytest.fixture(scope="module")
+def cluster():
+    """One for all tests: a worker that is killed is started again, and the last test closes it."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("PYTHONPATH", str(Path(__file__).parent))
+        with distributed.LocalCluster(
+            n_workers=2, threads_per_worker=1, host="127.0.0.1", dashboard_address=None
+        ) as made:
+            yield made
 
 
 def test_one_of_two_workers_killed_midway(cluster, tmp_path):

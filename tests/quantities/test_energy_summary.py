@@ -32,7 +32,7 @@ def test_where_nothing_moves_it_is_not_defined():
 
 def test_the_user_s_own_load_leaves_no_balance(tmp_path):
     """A kilonewton against the slider did 26 J of work that the balance missed."""
-    scene = Scene(joints={"crank_pin": "ideal", "balls": "ideal"}, revolutions=0.5)
+    scene = Scene(joints={"crank_pin": "ideal", "balls": "ideal"}, revolutions=0.1)
     model = scene.build()
     marker = MarkerBodyRigid(bodyNumber=model.bodies["slider"])
     load = LoadForceVector(markerNumber=model.mbs.AddMarker(marker), loadVector=[0.0, 1e3, 0.0])

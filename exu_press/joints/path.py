@@ -20,9 +20,9 @@ __all__ = ["Path"]
 
 Vector = tuple[float, ...]
 
-KEPT = 0.999
-"""Part of the drift that is kept from step to step: errors always to one side would add up, in a
-contact that lasts a hundred revolutions, to a tenth of the penetration."""
+FADING = 0.1
+"""s, in which a drift falls to 1/e: contacts of the press last 60 ms, and errors always to one side
+would add up, in one that lasts a hundred revolutions, to a tenth of the penetration."""
 
 SMALL_DRIFT = 0.1
 """Part of a penetration up to which a step's error is known well enough to be taken out."""
@@ -75,7 +75,8 @@ class Path:
         if depth <= 0.0:
             self.drift = 0.0
         elif self.acceleration:
-            drift = KEPT * self.drift + self.missed(eccentricity, velocity, step)[1]
+            drift = math.exp(-step / FADING) * self.drift
+            drift += self.missed(eccentricity, velocity, step)[1]
             if abs(drift) < SMALL_DRIFT * depth:
                 self.drift = drift
         if self.eccentricity and step > 0.0:

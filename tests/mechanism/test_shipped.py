@@ -35,7 +35,7 @@ def run(name, kind, **given):
         joints = dict.fromkeys(joints, kind)
     law = {"dry": "contact", "lubricated": "film"}.get(kind)
     laws = {law: LAWS[name][law]} if law in LAWS.get(name, {}) else {}
-    scene = Scene(mechanism=name, joints=joints, revolutions=0.2, **laws, **given)
+    scene = Scene(mechanism=name, joints=joints, revolutions=0.1, **laws, **given)
     return simulate(scene)
 
 

@@ -95,7 +95,7 @@ def likely_scenes(draw):
     return data
 
 
-@settings(max_examples=300, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(data=scenes)
 def test_a_dictionary_is_a_scene_or_an_input_error(data):
     try:

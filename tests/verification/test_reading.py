@@ -87,6 +87,7 @@ def test_what_the_balance_misses_is_stated():
         {
             "mechanism": "slider_crank",
             "speed_rpm": 60.0,
+            "revolutions": 1.0,
             "joints": {"crank_pin": "ideal"},
             "guide": {"clearance": 2e-5, "width": 0.1},
         }

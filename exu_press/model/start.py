@@ -29,6 +29,19 @@ __all__ = ["deformed_start", "quasi_static_motion"]
 SMALL = 0.1
 """Deformation over a body's size, up to which it is small, and so linear in the modes."""
 
+CURRENT = exu.ConfigurationType.Current
+ANGLES = np.radians(np.arange(-3.0, 4.0))
+"""Angles of the drive about the start's, rad: a polynomial of sixth degree differentiates there.
+From half to twice this spacing the result is the same to 1e-6."""
+
+ITERATIONS = 4
+"""Turns of the iteration: the first one at rest, the last one changes modes by 1e-4 of themselves.
+More would let rounding grow, which differentiating multiplies."""
+
+CORRECTIONS = 4
+"""Steps of Newton's method in the first turn, from the undeformed start's position up to 3 degrees
+away; later ones start where the last one ended and take half as many."""
+
 
 def deformed_start(
     ideal: System, drive: int, speed: float
@@ -77,21 +90,6 @@ def _refuse_too_compliant(scene: Scene, name: str, body: "FlexibleBody", modes: 
             f"bodies.{name}: its ideal motion would bend it by {share:.2g} of its size; allowed is "
             f"{SMALL:g}, of a larger youngs_modulus{than} or at a lower speed_rpm"
         )
-
-
-CURRENT = exu.ConfigurationType.Current
-
-ANGLES = np.radians(np.arange(-3.0, 4.0))
-"""Angles of the drive about the start's, rad: a polynomial of sixth degree differentiates there.
-From half to twice this spacing the result is the same to 1e-6."""
-
-ITERATIONS = 4
-"""Turns of the iteration: the first one at rest, the last one changes modes by 1e-4 of themselves.
-More would let rounding grow, which differentiating multiplies."""
-
-CORRECTIONS = 4
-"""Steps of Newton's method in the first turn, from the undeformed start's position up to 3 degrees
-away; later ones start where the last one ended and take half as many."""
 
 
 def quasi_static_motion(

@@ -38,6 +38,11 @@ WORKER_DIED = "worker died"
 PACKAGES = ("exu-press", "exudyn", "ngsolve")
 """Packages whose version changes a run's results."""
 
+OURS = ("exu_press", "fe_models")
+SUFFIXES = (".py", ".npz", ".toml")
+FOR_READERS = ("cli", "page", "plots", "report", "view")
+"""Folders of a package that no row comes from: they show results."""
+
 
 @dataclass(frozen=True)
 class Task:
@@ -108,13 +113,6 @@ def function_of(name: str) -> Function:
 def _canonical(data: Any) -> str:
     """Return JSON that is the same for equal data: sorted keys, no spaces, no NaN."""
     return json.dumps(data, sort_keys=True, separators=(",", ":"), allow_nan=False)
-
-
-OURS = ("exu_press", "fe_models")
-SUFFIXES = (".py", ".npz", ".toml")
-
-FOR_READERS = ("cli", "page", "plots", "report", "view")
-"""Folders of a package that no row comes from: they show results."""
 
 
 @cache

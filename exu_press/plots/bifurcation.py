@@ -22,6 +22,8 @@ __all__ = ["bifurcation_figure", "bifurcation_figures", "period_map_figure"]
 
 MARKERS = {"up": "^", "down": "v", "from the start": "o"}
 
+MOST_TICKS = 9
+
 
 @styled
 def bifurcation_figure(report: Report) -> Figure:
@@ -77,9 +79,6 @@ def bifurcation_figures(report: Report) -> dict[str, Figure]:
     """Return the diagram over one key, or the map over two, by its name."""
     figure = bifurcation_figure if report.study.second is None else period_map_figure
     return {"bifurcation": figure(report)}
-
-
-MOST_TICKS = 9
 
 
 @styled

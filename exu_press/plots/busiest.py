@@ -19,6 +19,10 @@ LETTER = 0.61
 SMALLEST = 6.0
 """Points; a longer table goes beyond its panel."""
 
+SIDES = ("left", "right")
+ALIKE = 1e-3
+"""Largest difference of the two sides, relative to the peak, that a picture does not show."""
+
 
 def busiest(
     results: Collection[Result], names: Iterable[str], quantity: str, most: int
@@ -97,11 +101,6 @@ def _peak(result: Result, name: str) -> float:
         return 0.0
     force = result[f"{name}_force"]
     return float(np.linalg.norm(force.reshape(len(force), -1), axis=1).max())
-
-
-SIDES = ("left", "right")
-ALIKE = 1e-3
-"""Largest difference of the two sides, relative to the peak, that a picture does not show."""
 
 
 def mirror(channel: str) -> str:

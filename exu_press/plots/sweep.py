@@ -23,6 +23,9 @@ __all__ = ["axes_of", "sweep_figure", "sweep_figures"]
 
 MOST_CURVES = 6
 
+LOGARITHMIC_FROM = 50.0
+"""Ratio of an axis' ends."""
+
 
 def axes_of(table: Table, wanted: Sequence[str] = ()) -> tuple[str, ...]:
     """Return the one or two keys to draw over: those wanted, or the first numbers that vary.
@@ -109,10 +112,6 @@ def _words(table: Table, width: int) -> str:
     ends = Counter(table["status"])
     told = ", ".join(f"{number} {status}" for status, number in ends.items())
     return f"{describe(table.study.scenes, width)}\n{told}"
-
-
-LOGARITHMIC_FROM = 50.0
-"""Ratio of an axis' ends."""
 
 
 def _draw_curves(

@@ -21,6 +21,15 @@ from exu_press.scene.warnings import scene_warnings
 
 __all__ = ["run_warnings", "summary"]
 
+RESIDUAL = 0.01
+"""Residual over the energy exchanged, beyond which the balance casts doubt on the integration."""
+
+ALIKE = 0.01
+"""Difference of a solid, over mass, inertia and the mechanism's size, without a warning."""
+
+NEARLY_TOUCHING = 0.95
+"""Eccentricity ratio from which a film is thinner than its law is good for."""
+
 
 def summary(result: Result) -> dict[str, Any]:
     """Return a run's end, assumptions, quantities with their errors, cost and scene.
@@ -65,16 +74,6 @@ def _strokes(result: Result, run: Reading) -> list[dict[str, float]]:
         }
         for centre in run.dead_centres
     ]
-
-
-RESIDUAL = 0.01
-"""Residual over the energy exchanged, beyond which the balance casts doubt on the integration."""
-
-ALIKE = 0.01
-"""Difference of a solid, over mass, inertia and the mechanism's size, without a warning."""
-
-NEARLY_TOUCHING = 0.95
-"""Eccentricity ratio from which a film is thinner than its law is good for."""
 
 
 def run_warnings(result: Result) -> list[str]:

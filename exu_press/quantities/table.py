@@ -28,6 +28,8 @@ HORIZON = "predictability horizon, ms"
 
 Row = tuple[str, list[str]]
 
+WIDTH = 100
+
 
 def shown_value(quantity: Quantity, value: Value) -> str:
     """Return a value in the unit that tables show, with its error where that is known."""
@@ -128,9 +130,6 @@ def _alike(values: Sequence[Value]) -> bool:
     """Return whether values are the same to a hundredth."""
     numbers = [value.value or 0.0 for value in values]
     return max(numbers) - min(numbers) <= ALIKE * max(map(abs, numbers), default=0.0)
-
-
-WIDTH = 100
 
 
 def difference_lines(results: Mapping[str, Result]) -> list[str]:

@@ -15,6 +15,8 @@ from exu_press.view.instants import Instants
 
 __all__ = ["CurvePanel", "Panel", "animated"]
 
+PALE = "#B5CDE0"
+
 
 class Panel(Protocol):
     """A part of the picture."""
@@ -32,9 +34,6 @@ def animated(*artists: Artist) -> list[Artist]:
     for artist in artists:
         artist.set_animated(True)
     return list(artists)
-
-
-PALE = "#B5CDE0"
 
 
 class CurvePanel:

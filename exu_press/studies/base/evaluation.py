@@ -23,6 +23,9 @@ Point = Mapping[str, Any]
 
 NO_SCENE = "not a scene"
 
+CHECKED = "checked"
+"""Directory inside the study's own."""
+
 
 class Evaluation:
     """Evaluation of points for a solver or a sample: points in, quantities out.
@@ -144,10 +147,6 @@ def ranged(study: Study, command: str, kinds: tuple[type, ...] = (Range,)) -> tu
                 f"{allowed}"
             )
     return tuple(study.keys)
-
-
-CHECKED = "checked"
-"""Directory inside the study's own."""
 
 
 def with_errors_of(

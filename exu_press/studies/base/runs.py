@@ -18,6 +18,8 @@ from exu_press.studies.base.study import Study
 
 __all__ = ["Row", "Runs", "row_of", "run_scene"]
 
+STUDY_FILE = "study.json"
+
 
 class Runs(ExitStack):
     """The runs of a study in its directory; a context manager.
@@ -143,9 +145,6 @@ def _file_is_whole(arguments: Mapping[str, Any]) -> bool:
     from exu_press.result.netcdf import is_whole
 
     return "save" not in arguments or is_whole(Path(arguments["save"]))
-
-
-STUDY_FILE = "study.json"
 
 
 def _claim(directory: Path, study: Mapping[str, Any], written: Sequence[str]) -> None:

@@ -19,6 +19,9 @@ OVER = {"time": "s", "crank_angle": "deg"}
 STATED = re.compile(r"#\s*samples\s*[=:]\s*(\d+)\s*")
 FEWEST = 4
 
+PREFIXES = {"n": 1e-9, "u": 1e-6, "\N{MICRO SIGN}": 1e-6, "m": 1e-3, "k": 1e3, "M": 1e6}
+HEAD = re.compile(r"(?P<name>[\w.]+)\s*[\[(](?P<unit>[^\])]*)[\])]")
+
 
 @dataclass(frozen=True)
 class CurveFile:
@@ -63,10 +66,6 @@ def read_curve(path: Path) -> CurveFile:
             f"{path}: states {stated[0]} samples and has {count}; allowed is the same number"
         )
     return CurveFile(over, factor * np.array(read.places), name, unit, np.array(read.values))
-
-
-PREFIXES = {"n": 1e-9, "u": 1e-6, "\N{MICRO SIGN}": 1e-6, "m": 1e-3, "k": 1e3, "M": 1e6}
-HEAD = re.compile(r"(?P<name>[\w.]+)\s*[\[(](?P<unit>[^\])]*)[\])]")
 
 
 def factor_to(where: str, unit: str, wanted: str) -> float:

@@ -130,7 +130,7 @@ def test_a_start_that_cannot_be_is_refused():
     assert Scene(start="loaded").replace({"joints.crank_pin": "ideal", "joints.balls": "ideal"})
 
 
-@pytest.mark.parametrize("angle", [0.0, 90.0, 180.0, 270.0])
+@pytest.mark.parametrize("angle", [0.0, 90.0, 180.0])
 @pytest.mark.parametrize("kind", ["dry", "lubricated"])
 @pytest.mark.parametrize("flexible", [False, True], ids=["rigid", "flexible"])
 def test_the_press_of_the_paper_starts_loaded_at_any_angle(kind, angle, flexible):
@@ -138,7 +138,7 @@ def test_the_press_of_the_paper_starts_loaded_at_any_angle(kind, angle, flexible
     joints = {"crank_pin": kind, **({"balls": "dry"} if kind == "dry" else {})}
     scene = Scene(
         joints=joints,
-        bodies=flexible_press(modes=8) if flexible else {},
+        bodies=flexible_press(modes=4) if flexible else {},
         start="loaded",
         start_angle_deg=angle,
         revolutions=0.01,
@@ -156,7 +156,7 @@ def test_the_press_of_the_paper_starts_loaded_at_any_angle(kind, angle, flexible
 def test_a_strong_film_starts_with_its_force_and_rings_in_no_constraint(angle, flexible):
     """Its damper is of 1e10 N s/m, and steps begin with 0.1 us."""
     scene = Scene(
-        bodies=flexible_press(modes=8) if flexible else {},
+        bodies=flexible_press(modes=4) if flexible else {},
         start="loaded",
         start_angle_deg=angle,
         revolutions=5e-4,

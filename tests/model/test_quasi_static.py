@@ -22,7 +22,7 @@ def _over(result, channel, begin, end):
 
 @pytest.fixture(scope="module")
 def result():
-    scene = Scene(**IDEAL, revolutions=1.1, bodies=flexible_press(modes=8), solver={"step": 2e-4})
+    scene = Scene(**IDEAL, revolutions=1.1, bodies=flexible_press(), solver={"step": 2e-4})
     found = simulate(scene)
     assert found.completed
     return found
@@ -46,7 +46,7 @@ def test_the_first_30_degrees_are_those_of_the_second_revolution(result, channel
 
 def test_undeformed_bodies_would_ring(monkeypatch):
     monkeypatch.setattr("exu_press.model.assemble.deformed_start", lambda *_: ({}, {}))
-    scene = Scene(**IDEAL, revolutions=0.02, bodies=flexible_press(modes=8))
+    scene = Scene(**IDEAL, revolutions=0.02, bodies=flexible_press(modes=4))
     rung = np.linalg.norm(simulate(scene)["crank_pin_force"], axis=1)
     monkeypatch.undo()
     quiet = np.linalg.norm(simulate(scene)["crank_pin_force"], axis=1)

@@ -23,7 +23,7 @@ SCENES = {
         "revolutions": 0.005,
     },
     "flexible": {
-        "bodies": flexible_press(modes=2, mesh_size=0.1),
+        "bodies": flexible_press(modes=4),
         "revolutions": 0.002,
     },
 }

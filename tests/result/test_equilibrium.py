@@ -27,7 +27,7 @@ SCENES = {
     },
     "dry pin": {"joints": {"crank_pin": "dry", "balls": "dry"}},
     "slider-crank": {"mechanism": "slider_crank", "joints": {}},
-    "flexible": {"bodies": flexible_press(modes=4, mesh_size=0.05), "joints": {}},
+    "flexible": {"bodies": flexible_press(modes=4), "joints": {}},
 }
 STEPS = {"step": 2e-5}
 

@@ -20,7 +20,7 @@ SCENES = {
 
 @functools.cache
 def run(name):
-    result = simulate(Scene(joints=SCENES[name], revolutions=0.1))
+    result = simulate(Scene(joints=SCENES[name], revolutions=0.05))
     assert result.completed, result.info["reason"]
     return result
 

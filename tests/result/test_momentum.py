@@ -27,7 +27,7 @@ BLANKING = {"kind": "blanking", "force": 1e4, "end_angle_deg": 30.0, "offset": [
 
 
 def run(**scene):
-    result = simulate(Scene.from_dict({"revolutions": 0.1, **scene}))
+    result = simulate(Scene.from_dict({"revolutions": 0.05, **scene}))
     assert result.completed, result.info["reason"]
     return result
 

@@ -113,7 +113,6 @@ def test_a_point_beside_the_face_adds_a_couple(rocker, deflection):
 
 ON = {
     "a joint": {"joint": "knuckle"},
-    "the middle of a face": {"face": TIP},
     "a face, its point elsewhere": {"face": TIP, "offset": [0.0, -0.05]},
 }
 RAMP = {"kind": "table", "crank_angle_deg": [10, 25, 40], "force": [0.0, 2e3, 0.0],

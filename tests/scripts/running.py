@@ -1,8 +1,12 @@
 """Runs a script as a user does, in its reduced form."""
 
+import contextlib
+import io
+import runpy
 import subprocess
 import sys
 from pathlib import Path
+from unittest.mock import patch
 
 SCRIPTS = Path(__file__).parents[2] / "scripts"
 
@@ -28,7 +32,17 @@ def run(name, place, *options, quick=True):
 
 def assert_refused(name, place, *options, named):
     """A script refuses its options in one line that names what is wrong, and runs nothing."""
-    refused = process(name, place, *options)
-    assert refused.returncode == 2
-    assert named in refused.stderr and refused.stderr.count("\n") == 1
+    told, script = io.StringIO(), str(SCRIPTS / name)
+    with (
+        patch("sys.argv", [script, "--quick", *options]),
+        contextlib.chdir(place),
+        contextlib.redirect_stderr(told),
+    ):
+        try:
+            runpy.run_path(script, run_name="__main__")
+        except SystemExit as ended:
+            assert ended.code == 2
+        else:
+            raise AssertionError(f"{name} ended without a status")
+    assert named in told.getvalue() and told.getvalue().count("\n") == 1
     assert not list(place.rglob("*.json*"))

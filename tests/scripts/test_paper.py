@@ -4,7 +4,7 @@ import json
 import re
 
 import pytest
-from running import process, run
+from running import assert_refused, process, run
 
 from paper.inverse import CAP, distance
 from paper.open_keys import OURS, as_read
@@ -88,9 +88,7 @@ def test_it_goes_on_where_it_was_stopped(directory):
     [(["--workers", "0"], "workers = 0"), (["--out", "/dev/null/paper"], "/dev/null/paper")],
 )
 def test_wrong_input_is_refused_in_one_line(arguments, named, tmp_path):
-    refused = process("paper.py", tmp_path, *arguments)
-    assert refused.returncode == 2
-    assert named in refused.stderr and refused.stderr.count("\n") == 1
+    assert_refused("paper.py", tmp_path, *arguments, named=named)
 
 
 @pytest.mark.long

@@ -344,6 +344,12 @@ def test_what_alternates_from_step_to_step_has_the_frequency_of_a_step():
     assert found == pytest.approx(1.0)
 
 
+def test_accelerations_that_become_constant_have_no_frequency():
+    vibration = quiet()
+    assert vibration.amplitude([0.0], [-8.0], 1.0) == pytest.approx(1.0)
+    assert vibration.amplitude([0.0], [1e-200], 1.0) == math.inf
+
+
 def test_a_slow_motion_beside_it_makes_a_vibration_no_smaller():
     """At a hundredth of the frequency and with a hundred times the velocity: a hundredth in j."""
     vibration = quiet()

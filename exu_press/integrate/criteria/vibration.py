@@ -48,10 +48,11 @@ class Quiet:
         jerk = max(self._scales.norm(rate), LATE * self._rate)
         bend = max(self._scales.norm(change) / centred, LATE * self._bend)
         self._tried = step, jerk, bend
-        if bend == 0.0:
+        square = bend * bend
+        if square == 0.0:
             return math.inf
-        omega = min(bend / jerk, 2.0 / step)
-        return bend / (omega * omega * omega)
+        shortest = 0.5 * step  # 1 / omega
+        return max(jerk * jerk * jerk / square, bend * shortest * shortest * shortest)
 
     def accept(self) -> None:
         """Remember the step last tried."""

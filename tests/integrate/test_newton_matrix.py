@@ -4,10 +4,12 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from patched import PATCHED
 
 from exu_press.integrate.criteria.newton_matrix import NewtonMatrix
 
 
+@PATCHED
 @pytest.mark.parametrize("joints", [None, object()])
 @pytest.mark.parametrize("twice", [False, True])
 def test_a_constraint_that_says_the_same_twice_filters_like_one(twice, joints):

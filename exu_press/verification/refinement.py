@@ -53,6 +53,8 @@ SAID = "said_{}.txt"
 def plan(scene: Scene) -> dict[float, Scene]:
     """Return the refinements of a scene, by the ratio of their tolerance (or step) to its own.
 
+    Finer ones may take as many more steps: one that stops early tells no error.
+
     One that ends when its press stands goes on to the end of its revolutions in all of them: each
     stands at another instant.
     """
@@ -69,7 +71,11 @@ def plan(scene: Scene) -> dict[float, Scene]:
     for ratio in PLANS[room]:
         longest = min(math.sqrt(ratio) * solver.max_step_deg, LARGEST_STEP)
         found[ratio] = scene.replace(
-            {"solver.tolerance": ratio * tolerance, "solver.max_step_deg": longest}
+            {
+                "solver.tolerance": ratio * tolerance,
+                "solver.max_step_deg": longest,
+                "solver.max_steps": math.ceil(solver.max_steps / min(ratio, 1.0)),
+            }
         )
     return found
 

@@ -55,7 +55,7 @@ class StepChange:
     def __init__(self, task: Task, constraints: Constraints) -> None:
         """Watch the steps of a system that has these constraints."""
         problem = task.problem
-        self._smooth = problem.joints is None
+        self._smooth = problem.joints is None and not problem.switching
         self._film_waits = problem.lubricated
         self._refit = task.tuning.refit
         self._solver, self._constraints = task.solver, constraints

@@ -27,17 +27,31 @@ class NewtonMatrix:
         self._solver, self._scales = task.solver, task.scales
         self._joints = task.problem.joints
         self._size = len(task.problem.current.accelerations)
+        self._made = -1  # Jacobians before the one at hand
+        self._jacobian, self._equations = np.zeros((0, 0)), Equations(np.zeros((0, 0)))
+
+    def _renew(self) -> None:
+        """Take the Jacobian from the solver, if it is another one than before.
+
+        Of 1300 unknowns that takes as long as three steps.
+        """
+        made = self._solver.it.newtonJacobiCount
+        if made != self._made:
+            self._jacobian = np.asarray(self._solver.GetSystemJacobian())
+            self._equations = Equations(self._jacobian)
+            self._made = made
 
     def left_in_constraints(self) -> float:
         """Return how far the last digits of constraints move a body, m.
 
         By far where a mechanism passes a position in which two of them nearly say the same.
         """
-        jacobian = np.asarray(self._solver.GetSystemJacobian())
         size, count = self._size, self._solver.GetAEsize()
-        of_constraints = np.eye(len(jacobian), count, count - len(jacobian))
         try:
-            moved = np.abs(Equations(jacobian).solve(of_constraints)[:size]).sum(axis=1)
+            self._renew()
+            unknowns = len(self._jacobian)
+            of_constraints = np.eye(unknowns, count, count - unknowns)
+            moved = np.abs(self._equations.solve(of_constraints)[:size]).sum(axis=1)
         except np.linalg.LinAlgError:  # constraints that say the same
             return 0.0
         return EPSILON * self._scales.length * self._scales.norm(moved.tolist())
@@ -46,12 +60,13 @@ class NewtonMatrix:
         """Return what Newton's matrix, M (1 - alpha_m)/(1 - alpha_f) + ..., leaves of changes."""
         solver = self._solver
         before, mass = np.array(changes).T, solver.GetSystemMassMatrix()
-        jacobian, size = np.asarray(solver.GetSystemJacobian()), len(before)
-        right = np.zeros((len(jacobian), len(changes)))
+        size = len(before)
+        right = np.zeros((size + solver.GetODE1size() + solver.GetAEsize(), len(changes)))
         inertia = np.dot(mass, before)
         right[:size] = inertia * inertia_factor(solver)
         try:
-            filtered = Equations(jacobian).solve(right)[:size]
+            self._renew()
+            filtered = self._equations.solve(right)[:size]
             # masses and springs make nothing larger, but constraints that nearly say the same
             if self._joints is None:
                 energy = np.vdot(filtered, np.dot(mass, filtered))
@@ -61,6 +76,6 @@ class NewtonMatrix:
         except np.linalg.LinAlgError:  # constraints that say the same
             same = True
         if same:
-            filtered = np.linalg.lstsq(jacobian, right, rcond=None)[0][:size]
+            filtered = np.linalg.lstsq(self._jacobian, right, rcond=None)[0][:size]
         found: list[list[float]] = filtered.T.tolist()
         return found

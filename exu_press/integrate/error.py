@@ -72,6 +72,7 @@ class StepError:
         self._tolerance, self._switching = tolerance, problem.switching
         duration, impacts = task.end - task.start, problem.joints is not None
         self._per_step = ErrorPerStep.of(tolerance, duration, tuning.many_steps, impacts)
+        self._per_body = self._per_step
         self.start: list[float] = []
         self._bodies: BodyError | None = None
         self._curvature: Curvature | None = None
@@ -204,6 +205,11 @@ class StepError:
         for _, film in self._films:
             film.accept()
 
+    def start_again(self, accelerations: list[float]) -> None:
+        """Be told of the accelerations with which the step under way begins anew, as the first."""
+        self.start = accelerations
+        self._bodies = self._from(accelerations)
+
     def _relative(self, speed: float) -> float:
         """Return an error of a speed (m/s) over what the run may have of it."""
         allowed = self._tolerance * self._scales.speed
@@ -212,7 +218,7 @@ class StepError:
     def _first_look(self) -> BodyError:
         """Return the bodies' errors from the first step's beginning on; look at the rest too."""
         task, problem, tuning = self._task, self._task.problem, self._task.tuning
-        self._noise = noise = self._scales.alternating(tuning.rounding, self._solver.alphaF)
+        self._noise = self._scales.alternating(tuning.rounding, self._solver.alphaF)
         if len(problem.start.rates):
             self._first_order = FirstOrderError(problem, self._per_step)
         per_step = self._per_step
@@ -230,7 +236,7 @@ class StepError:
             per_step = ErrorPerStep(of_bodies)
             per_time = task.tolerance / (tuning.kept_steps * task.usual)
             self._joints = [
-                JointError(j, whole * j.clearance, per_time * j.clearance, noise, penetration)
+                JointError(j, whole * j.clearance, per_time * j.clearance, self._noise, penetration)
                 for j in problem.joints.joints
             ]
             self._films = [
@@ -239,8 +245,13 @@ class StepError:
                 if joint.lubricated
             ]
             self.limiting = [0] * len(self._joints)
-        start = self.start or problem.start.accelerations.tolist()
-        bodies = BodyError(start, per_step, self._scales, tuning, noise, self._tolerance)
+        self._per_body = per_step
+        return self._from(self.start or problem.start.accelerations.tolist())
+
+    def _from(self, accelerations: list[float]) -> BodyError:
+        """Return the bodies' errors from these accelerations on."""
+        task, scales, noise, tolerance = self._task, self._scales, self._noise, self._tolerance
+        bodies = BodyError(accelerations, self._per_body, scales, task.tuning, noise, tolerance)
         if not (self._joints or self._switching):  # whose accelerations jump
-            self._curvature = Curvature(bodies, self._scales, noise, self._tolerance, task.absolute)
+            self._curvature = Curvature(bodies, scales, noise, tolerance, task.absolute)
         return bodies

@@ -20,10 +20,11 @@ from exu_press.integrate.output import OutputGrid
 from exu_press.integrate.sampling import Event, Sampling
 from exu_press.integrate.scheme import Newton
 from exu_press.integrate.settings import Task
-from exu_press.integrate.start import fit_start, start_rates, start_without_mass
+from exu_press.integrate.start import fit_jump, fit_start, start_rates, start_without_mass
 from exu_press.integrate.step_change import StepChange
 from exu_press.integrate.stepping import FixedSteps, Resolution, StepControl
 from exu_press.joints import ClearanceJoint
+from exu_press.numerics.arrays import Array
 from exu_press.terminal.progress import Progress
 
 __all__ = ["Monitor", "most_limiting"]
@@ -88,6 +89,10 @@ class Monitor:
         self.tries = self.steps = 0
         self.interrupted = self.over_budget = False
         self.go_on, self.without_mass = True, False
+        # velocities, accelerations and their rate, which have jumped in the step last tried
+        self._jump: tuple[Array, Array, Array] | None = None
+        self._jumped = False  # in the last accepted step
+        self._joints = task.problem.joints is not None
         self.stalled, self._watch = "", watch
         self.max_steps = max_steps
         self._task, self._progress = task, progress
@@ -230,8 +235,41 @@ class Monitor:
             return ACCEPTED
         if self._step_change.start_over(step):
             return [2.0, step]
-        shorter = self.control.shorter(step) or self._event.shorter(step, self._time + step)
+        shorter = self.control.shorter(step)
+        self._jump = None
+        if self.control.at_smallest and (self._jumped or self._jumps(step)):
+            self.control.error = 1.0
+            return ACCEPTED
+        shorter = shorter or self._event.shorter(step, self._time + step)
         return [2.0, shorter] if shorter > 0.0 else ACCEPTED
+
+    def _jumps(self, step: float) -> bool:
+        """Return whether the velocity of a prescribed motion jumps in the step (s) just tried.
+
+        As where the offset of a user function turns a corner: no step is small enough there, nor
+        may be the next one, in which dampers without mass answer. An offset that jumps itself moves
+        bodies by more than their velocities do.
+        """
+        if self._joints or not (self.steps and self.constraints.count):
+            return False
+        problem, scales = self._task.problem, self._task.scales
+        before, after = problem.start, problem.current
+        jump = fit_jump(self._task, self.constraints, self._time + step)
+        speeds = scales.norm(jump[0].tolist()) + scales.norm(before.velocities.tolist())
+        changed = scales.norm((jump[0] - before.velocities).tolist())
+        moved = scales.norm((after.positions - before.positions).tolist())
+        if changed > self._task.tolerance * scales.speed and moved <= step * speeds:
+            self._jump = jump
+        return self._jump is not None
+
+    def _start_again(self, velocities: Array, accelerations: Array, rate: Array) -> None:
+        """Go on from velocities that have jumped, as from a start."""
+        current = self._task.problem.current
+        current.velocities[:], current.accelerations[:] = velocities, accelerations
+        self.control.start_again()
+        self._step_change.start_from(accelerations, rate)
+        self._newton.start_again()
+        self._estimate.start_again(accelerations.tolist())
 
     def _after_step(self, mbs: exu.MainSystem, end: float) -> bool:
         if self._output.writing:
@@ -252,6 +290,9 @@ class Monitor:
             if self._event.passed:
                 self.control.restart()
             self._newton.stepped(step)
+            self._jumped = self._jump is not None
+            if self._jump is not None:
+                self._start_again(*self._jump)
             if self.resolution is not None:
                 self.resolution.stepped(end, step, self._accelerations.tolist())
         self.stalled = self._watch(end)

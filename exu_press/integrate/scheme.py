@@ -106,6 +106,11 @@ class Newton:
             self._part *= min(1.0, LIGHTER * self._scales.lightest())
         self._now[:] = self._accelerations
 
+    def start_again(self) -> None:
+        """Extrapolate from the current accelerations alone, as they have jumped."""
+        self._now[:] = self._accelerations
+        self._rate.fill(0.0)
+
     def stepped(self, step: float) -> None:
         """Be told that the current state is the end of an accepted step (s)."""
         if self._few:

@@ -164,7 +164,7 @@ class Advice:
         function: Any = self.problem.mbs.GetPreStepUserFunction()
         if function != 0:
             return " (a pre-step function that changes constraints: offsetUserFunction instead)"
-        return " (or a prescribed motion without jumps)" if self.problem.untold_rates else ""
+        return " (or no offset that jumps)" if self.problem.untold_rates else ""
 
     def resolution(self, worst: Unresolved) -> str:
         """Return what resolves a run that leapt over its impacts."""

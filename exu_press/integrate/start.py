@@ -7,7 +7,7 @@ from exu_press.integrate.settings import Task
 from exu_press.numerics.arrays import Array
 from exu_press.numerics.linear import Equations
 
-__all__ = ["fit_start", "start_rates", "start_without_mass"]
+__all__ = ["fit_jump", "fit_start", "start_rates", "start_without_mass"]
 
 LOOK_AHEAD = 0.01
 """Time ahead of the start at which constraints are evaluated, over the largest step; motions are
@@ -26,13 +26,13 @@ MASSLESS = 1e-12
 
 
 class _Start:
-    """The state at the start, and its constraints there and soon after."""
+    """The current state at a time, s, and its constraints there and soon after."""
 
-    def __init__(self, task: Task, constraints: Constraints) -> None:
+    def __init__(self, task: Task, constraints: Constraints, time: float) -> None:
         self._data, self._current = task.problem.data, task.problem.current
         self._constraints = constraints
         self._solver, self._mbs = task.solver, task.problem.mbs
-        self._start, self._ahead = task.start, LOOK_AHEAD * task.largest
+        self._start, self._ahead = time, LOOK_AHEAD * task.largest
         self.q = np.array(self._current.positions)
         self.v = np.array(self._current.velocities)
         self.a = np.array(self._current.accelerations)
@@ -75,6 +75,22 @@ class _Start:
         forces = np.array(self._solver.GetSystemResidual())[: len(self.q)]
         return self._solved(forces, np.zeros(len(self.held)))
 
+    def fit_rates(self, *, moved: bool) -> Array:
+        """Let velocities and accelerations fit; return what of their rate constraints prescribe.
+
+        Args:
+            moved: whether springs and contacts push otherwise than by the given accelerations.
+        """
+        held, accelerations, self.a = self.held, self.a, np.zeros_like(self.a)
+        self.v = self.projected(self.v, np.where(held, self.rates()[0], self.violated()), FITS[1])
+        self.a = self.pushed() if moved else accelerations
+        first, second, _ = self.rates()
+        self.a = self.projected(self.a, np.where(held, second, first), FITS[2])
+        _, second, third = self.rates()
+        rate = self.projected(np.zeros_like(self.a), np.where(held, third, second), 0.0)
+        self.put()
+        return rate
+
     def _solved(self, forces: Array, violated: Array) -> Array:
         """Return the change that forces and violations ask for."""
         right = np.concatenate([forces, violated])
@@ -107,23 +123,38 @@ def fit_start(task: Task, constraints: Constraints) -> tuple[Array, Array] | Non
     """
     if not constraints.count or not task.problem.nodes:
         return None
-    start = _Start(task, constraints)
-    held, length, moved = start.held, task.problem.length or 1.0, False
+    start = _Start(task, constraints, task.start)
+    length, moved = task.problem.length or 1.0, False
     for _ in range(START_ITERATIONS):
-        violated = np.where(held, start.violated(), 0.0)
+        violated = np.where(start.held, start.violated(), 0.0)
         if np.abs(violated).max() <= FITS[0] * length:
             break
         start.q, moved = start.projected(start.q, violated, 0.0), True
-    accelerations, start.a = start.a, np.zeros_like(start.a)
-    start.v = start.projected(start.v, np.where(held, start.rates()[0], start.violated()), FITS[1])
-    # springs and contacts push otherwise in another place
-    start.a = start.pushed() if moved else accelerations
-    first, second, _ = start.rates()
-    start.a = start.projected(start.a, np.where(held, second, first), FITS[2])
-    _, second, third = start.rates()
-    rate = start.projected(np.zeros_like(start.a), np.where(held, third, second), 0.0)
-    start.put()
-    return start.a, rate
+    return start.a, start.fit_rates(moved=moved)
+
+
+def fit_jump(task: Task, constraints: Constraints, end: float) -> tuple[Array, Array, Array]:
+    """Return the motion after a step within which the velocity of a prescribed motion jumps.
+
+    The constraints' impulses change velocities by the least, in the kinetic norm: all else acts for
+    no time.
+
+    Args:
+        task: to be solved; its current state ends the step.
+        constraints: of the system.
+        end: of the step, s.
+
+    Returns:
+        Velocities and accelerations, and the prescribed rate of these.
+
+    Source: F. Pfeiffer and C. Glocker, Multibody Dynamics with Unilateral Contacts, 1996: M times
+    the jump of velocities is the constraints' directions times their impulses.
+    """
+    start = _Start(task, constraints, end)
+    tried, start.v = start.v, np.array(task.problem.start.velocities)
+    rate = start.fit_rates(moved=True)
+    task.problem.current.velocities[:] = tried
+    return start.v, start.a, rate
 
 
 def start_rates(task: Task) -> None:

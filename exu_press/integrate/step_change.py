@@ -81,13 +81,14 @@ class StepChange:
         return True
 
     def start_from(self, accelerations: Array, rate: Array) -> None:
-        """Let the first step start with the offsets on which further ones would settle.
+        """Let the next step, as the first one, start with the offsets on which further ones settle.
 
         Args:
-            accelerations: at the start.
+            accelerations: where it starts.
             rate: prescribed rate of change of constraints.
         """
         self._given = accelerations, rate
+        self._start, self._leaves = None, 0.0
 
     def before_try(self, start: float, step: float) -> None:
         """Shift the state from which Exudyn is about to try a step (s) from a start (s)."""

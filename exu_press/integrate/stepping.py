@@ -20,6 +20,7 @@ class StepControl:
 
     Attributes:
         error: of the last try.
+        at_smallest: whether it was too large in a step that cannot be shorter.
     """
 
     def __init__(
@@ -37,7 +38,7 @@ class StepControl:
             next_corner: time -> the next instant at which a load has a corner, s, or infinity.
             controller: changes steps for their errors; `LimitedGrowth` unless given.
         """
-        self.error = 0.0
+        self.error, self.at_smallest = 0.0, False
         self._controller = controller or LimitedGrowth(task.tuning)
         self._estimate, self._next_corner = estimate, next_corner
         self._end, self._smallest, self._largest = task.end, task.smallest, task.largest
@@ -51,12 +52,17 @@ class StepControl:
         """Go on as at the start, where the motion is about to change."""
         self._step = min(self._step, self._first)
 
+    def start_again(self) -> None:
+        """Go on with the first step's size, as the motion begins anew."""
+        self._step = self._first
+
     def shorter(self, step: float) -> float:
         """Return with which step to repeat one just tried, s, or 0.0 where it is good enough."""
         error = self._estimate(step)
         if error > 1.0 and step <= self._no_shorter:
             error = min(error, self._estimate.of_jump(step))
         self.error = error
+        self.at_smallest = error > 1.0 and step <= self._no_shorter
         if error <= 1.0:
             return 0.0
         self._step = self._asked = step * self._controller.repeated(error)
@@ -96,15 +102,19 @@ class FixedSteps:
 
     Attributes:
         error: none that is known.
+        at_smallest: never: no step is too long.
     """
 
     def __init__(self, task: Task) -> None:
         """Take the steps of a task."""
-        self.error = 0.0
+        self.error, self.at_smallest = 0.0, False
         self._step, self._start = task.largest, task.start
         self._size = self._next = task.first
 
     def restart(self) -> None:
+        """Keep the grid."""
+
+    def start_again(self) -> None:
         """Keep the grid."""
 
     def shorter(self, step: float) -> float:

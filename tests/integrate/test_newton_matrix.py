@@ -20,6 +20,9 @@ def test_a_constraint_that_says_the_same_twice_filters_like_one(twice, joints):
     solver = SimpleNamespace(
         GetSystemMassMatrix=lambda: np.eye(2),
         GetSystemJacobian=lambda: jacobian,
+        GetODE1size=lambda: 0,
+        GetAEsize=lambda: count,
+        it=SimpleNamespace(newtonJacobiCount=1),
         alphaM=0.0,
         alphaF=0.0,
     )

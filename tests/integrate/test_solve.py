@@ -273,11 +273,8 @@ def test_constraints_that_a_pre_step_function_moves_are_named():
     assert "offsetUserFunction" in outcome.reason
 
 
-def test_a_prescribed_motion_that_jumps_is_thought_of():
-    """No step is short enough for a cable whose end is given another speed at once.
-
-    Until then it rests, in steps that rounding does not shorten.
-    """
+def test_a_cable_goes_on_after_the_velocity_of_its_end_jumps():
+    """A cable's end is given another speed at once; until then it rests."""
     mbs = exu.SystemContainer().AddSystem()
     nodes, _ = cables(mbs, 2.1e8)
     hold(mbs, nodes[0], (0,))
@@ -291,9 +288,57 @@ def test_a_prescribed_motion_that_jumps_is_thought_of():
 
     mbs.AddObject(items.ObjectConnectorCoordinate(markerNumbers=ends, offsetUserFunction=push))
     mbs.Assemble()
+    outcome = solve_dynamic(mbs, settings(0.0101), tolerance=1e-2, max_steps=5000)
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
+    assert mbs.GetNodeOutput(nodes[0], exu.OutputVariableType.Velocity)[1] == pytest.approx(1.0)
+
+
+def pulled(offset):
+    """A mass of 2 kg on a spring of 400 N/m, whose other end a function of time moves."""
+    mbs = exu.SystemContainer().AddSystem()
+    nodes = [
+        mbs.AddNode(items.NodePointGround()),
+        mbs.AddNode(items.NodePoint2D()),
+        mbs.AddNode(items.NodePoint2D(referenceCoordinates=[1.0, 0.0])),
+    ]
+    for node, mass in zip(nodes[1:], (1.0, 2.0), strict=True):
+        mbs.AddObject(items.ObjectMassPoint2D(nodeNumber=node, mass=mass))
+        hold(mbs, node, (1,))
+    fixed, end, body = (
+        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=0)) for node in nodes
+    )
+    spring = items.ObjectConnectorCoordinateSpringDamper
+    mbs.AddObject(spring(markerNumbers=[end, body], stiffness=400.0))
+    mbs.AddObject(
+        items.ObjectConnectorCoordinate(
+            markerNumbers=[fixed, end],
+            offsetUserFunction=lambda mbs, time, item, given: offset(time),
+        )
+    )
+    mbs.Assemble()
+    return mbs, nodes[1:]
+
+
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-5])
+def test_the_velocity_of_a_prescribed_motion_may_jump(tolerance):
+    """A ramp from 0.3 to 0.7 s; its corners are no load's, and steps end on them.
+
+    Each corner is an impulse on what is prescribed, and none on the mass behind the spring.
+    """
+    mbs, (end, body) = pulled(lambda time: min(max(0.0, time - 0.3), 0.4))
+    outcome = solve_dynamic(mbs, settings(1.0), tolerance=tolerance)
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
+    rate = np.sqrt(400.0 / 2.0)  # rad/s; u(t) = ramp(t) - ramp(t - 0.4), ramp = t - sin(wt) / w
+    speed = np.cos(0.3 * rate) - np.cos(0.7 * rate)
+    found = [mbs.GetNodeOutput(node, exu.OutputVariableType.Velocity)[0] for node in (end, body)]
+    assert found == pytest.approx([0.0, speed], abs=3.0 * tolerance)
+
+
+def test_a_prescribed_place_that_jumps_is_thought_of():
+    mbs, _ = pulled(lambda time: 0.1 if time > 0.01 else 0.0)
     outcome = solve_dynamic(mbs, settings(0.02), tolerance=1e-4, max_steps=3000)
     assert outcome.status is SolverStatus.STEP_TOO_SMALL, outcome.reason
-    assert outcome.end_time == pytest.approx(0.01) and "without jumps" in outcome.reason
+    assert outcome.end_time == pytest.approx(0.01) and "offset that jumps" in outcome.reason
     assert outcome.steps < 150
 
 

@@ -76,6 +76,6 @@ class NewtonMatrix:
         except np.linalg.LinAlgError:  # constraints that say the same
             same = True
         if same:
-            filtered = np.linalg.lstsq(self._jacobian, right, rcond=None)[0][:size]
+            filtered = np.asarray(np.linalg.lstsq(self._jacobian, right, rcond=None)[0][:size])
         found: list[list[float]] = filtered.T.tolist()
         return found

@@ -10,7 +10,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-__all__ = ["Live", "data_element", "has_library", "scripts", "styles"]
+__all__ = ["Live", "data_element", "document_of", "has_library", "scripts", "styles"]
 
 HERE = Path(__file__).parent / "static"
 
@@ -43,6 +43,21 @@ class Live:
 def has_library() -> bool:
     """Return whether the extra `page` is installed."""
     return find_spec("bokeh") is not None
+
+
+def document_of(figures: Sequence[Any]) -> dict[str, Any]:
+    """Return figures of Bokeh as the page's data have them: their document, ids and names."""
+    from bokeh.document import Document
+
+    document = Document()
+    with document.models.freeze():  # models are collected once, not once a figure
+        for figure in figures:
+            document.add_root(figure)
+    return {
+        "documents": {"page": document.to_json(deferred=False)},
+        "roots": [figure.id for figure in figures],
+        "names": [figure.name for figure in figures],
+    }
 
 
 @cache

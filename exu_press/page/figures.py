@@ -1,5 +1,6 @@
 """Empty figures of Bokeh, which the script fills: curves over one axis, and their marks."""
 
+from functools import cache
 from typing import Any
 
 from bokeh.models import (
@@ -10,7 +11,6 @@ from bokeh.models import (
     InlineStyleSheet,
     LogAxis,
     LogScale,
-    Model,
     PanTool,
     Range1d,
     TapTool,
@@ -19,7 +19,9 @@ from bokeh.models import (
 from bokeh.models.annotations import BoxAnnotation, Whisker
 from bokeh.plotting import figure
 
-__all__ = ["DASHES", "PANELS", "curve_panels", "marks_strip"]
+from exu_press.page.document import document_of
+
+__all__ = ["DASHES", "PANELS", "curve_panels"]
 
 PANELS = 6
 """Panels of curves, one below the other; those that are not in use are hidden."""
@@ -34,16 +36,18 @@ SCROLLING = ".bk-events { touch-action: pan-y !important; }"
 """A finger that moves up or down scrolls the page."""
 
 
-def curve_panels(runs: list[str]) -> list[Model]:
-    """Return the panels for runs of these colours; they share the range of their x axis.
+@cache
+def curve_panels(runs: tuple[str, ...]) -> dict[str, Any]:
+    """Return the panels for runs of these colours, which share the range of their x axis.
 
     The models that the script looks for are called KIND-PANEL-RUN.
     """
     shared = Range1d(start=0.0, end=1.0, name="x-range")
-    return [_panel(number, runs, shared) for number in range(PANELS)] + [marks_strip(shared)]
+    panels = [_panel(number, runs, shared) for number in range(PANELS)]
+    return document_of([*panels, _marks_strip(shared)])
 
 
-def _panel(number: int, colours: list[str], shared: Range1d) -> Any:
+def _panel(number: int, colours: tuple[str, ...], shared: Range1d) -> Any:
     linear = Range1d(start=0.0, end=1.0, name=f"linear-{number}")
     log = Range1d(start=1.0, end=10.0, name=f"log-{number}")
     panel = _figure(f"panel-{number}", shared, linear, HEIGHT)
@@ -105,7 +109,7 @@ def _panel(number: int, colours: list[str], shared: Range1d) -> Any:
     return panel
 
 
-def marks_strip(shared: Range1d) -> Any:
+def _marks_strip(shared: Range1d) -> Any:
     """Return the strip with the marks that can be clicked, in the same x range."""
     strip = _figure("marks", shared, Range1d(start=-0.7, end=1.7, name="marks-y"), 64)
     strip.add_tools(TapTool())

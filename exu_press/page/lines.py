@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from exu_press.page.document import Live, data_element, scripts, styles
+from exu_press.page.document import Live, data_element, document_of, scripts, styles
 from exu_press.plots.style import colour_of
 from exu_press.plots.typesetting import typeset
 
@@ -52,13 +52,7 @@ class Panel:
 
 def lines_viewer(panels: Sequence[Panel]) -> Live:
     """Return the live part of a page of curves."""
-    from bokeh.document import Document
-
-    document, roots = Document(), []
-    for panel in panels:
-        document.add_root(made := _figure(panel))
-        roots.append(made.id)
-    data = {"documents": {"page": document.to_json(deferred=False)}, "roots": roots}
+    data = document_of([_figure(panel) for panel in panels])
     parts = [_head(panel, number) for number, panel in enumerate(panels)]
     body = (
         '<div id="viewer" class="live" hidden>\n'

@@ -56,17 +56,11 @@ def study_viewer(
         first: columns of the picture at first, across and up; None: the first key and quantity.
         colour: column that the colours show at first; "": the first key that is not across.
     """
-    from bokeh.document import Document
-
-    from exu_press.page.study_figures import parallel, points
+    from exu_press.page.study_figures import points_and_lines
 
     blocks = Blocks()
     columns = [*keys, *quantities]
     across, up = first or (columns[0].name, (quantities or keys)[0].name)
-    document = Document()
-    figures = [points(), parallel()]
-    for figure in figures:
-        document.add_root(figure)
     data = {
         "columns": [_column(column, blocks) for column in columns],
         "keys": [key.name for key in keys],
@@ -75,8 +69,7 @@ def study_viewer(
         "up": up,
         "colour": colour or next((key.name for key in keys if key.name != across), ""),
         "told": list(told),
-        "documents": {"page": document.to_json(deferred=False)},
-        "roots": [figure.id for figure in figures],
+        **points_and_lines(),
     }
     body = "\n".join([LAYOUT, blocks.html(), data_element("page-data", data)])
     return Live(body, scripts("data", "theme", "study"), styles())

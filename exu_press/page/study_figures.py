@@ -1,5 +1,6 @@
 """Empty figures of Bokeh for studies, which the script fills."""
 
+from functools import cache
 from typing import Any
 
 from bokeh.models import (
@@ -13,12 +14,20 @@ from bokeh.models import (
 from bokeh.models.annotations import Whisker
 from bokeh.plotting import figure
 
-__all__ = ["parallel", "points"]
+from exu_press.page.document import document_of
+
+__all__ = ["points_and_lines"]
 
 RUN, CHOSEN, FAINT = "#0072B2", "#D55E00", "#9aa3ab"
 
 
-def points() -> Any:
+@cache
+def points_and_lines() -> dict[str, Any]:
+    """Return both figures of a study."""
+    return document_of([_points(), _parallel()])
+
+
+def _points() -> Any:
     """Return the figure with a point for every run."""
     made = figure(
         name="points",
@@ -60,7 +69,7 @@ def points() -> Any:
     return made
 
 
-def parallel() -> Any:
+def _parallel() -> Any:
     """Return the figure of parallel coordinates: a line for every run over an axis for each key."""
     made = figure(
         name="parallel",

@@ -37,8 +37,6 @@ def viewer(
         results: by label.
         spans: begin and end of each run's curves, s; None: all of them.
     """
-    from bokeh.document import Document
-
     from exu_press.page.figures import curve_panels
 
     blocks = Blocks()
@@ -59,17 +57,11 @@ def viewer(
         }
         for index, (label, result) in enumerate(results.items())
     ]
-    panels = curve_panels([run["colour"] for run in runs])
-    document = Document()
-    for panel in panels:
-        document.add_root(panel)
     data = {
         "runs": runs,
         "groups": _groups(shown, curves),
         "first": _first(results, curves),
-        "documents": {"page": document.to_json(deferred=False)},
-        "roots": [panel.id for panel in panels],
-        "names": [panel.name for panel in panels],
+        **curve_panels(tuple(run["colour"] for run in runs)),
     }
     body = "\n".join([LAYOUT, blocks.html(), data_element("page-data", data)])
     return Live(body, scripts(*SCRIPTS), styles())

@@ -35,7 +35,7 @@ SCENES = {
 
 
 def at_angle(given, **more):
-    return Scene(**{"start_angle_deg": 40.0, "revolutions": 0.03, **given, **more})
+    return Scene(**{"start_angle_deg": 40.0, "revolutions": 0.02, **given, **more})
 
 
 def ideal(scene):
@@ -93,16 +93,6 @@ def test_a_journal_lies_at_its_static_penetration():
     depth = ((184.5 + 1347.0) * 9.81 / 2.5545e10) ** (2.0 / 3.0)
     lower = result["slider_position"][0] - scene.slider_crank.crank_radius
     assert lower == pytest.approx(-scene.slider_crank.rod_length - 1e-4 - depth, abs=1e-9)
-
-
-def test_a_press_of_several_clearances_rings_less():
-    """The first 20 degrees against the rest of the turn."""
-    joints = {name: {"kind": "dry", **PIN} for name in ("crank_pin", "knuckle")}
-    peaks = {}
-    for start in ("loaded", "centred"):
-        result = simulate(Scene(**FOUR_BAR, joints=joints, start=start, revolutions=0.06))
-        peaks[start] = np.linalg.norm(result["knuckle_force"], axis=1).max()
-    assert peaks["loaded"] < 0.3 * peaks["centred"]
 
 
 def test_a_film_whose_journal_hardly_turns_starts_centred():

@@ -49,10 +49,15 @@ LOADS = {
 }
 
 
+@pytest.fixture(scope="module")
+def free():
+    return simulate(Scene(**IDEAL))
+
+
 @pytest.mark.parametrize("name", LOADS)
-def test_the_drive_takes_out_what_a_load_puts_in(name):
+def test_the_drive_takes_out_what_a_load_puts_in(name, free):
     scene = Scene(**IDEAL, load={"one": LOADS[name]})
-    result, free = simulate(scene), simulate(scene.replace("load", {}))
+    result = simulate(scene)
     assert result.completed and free.completed
     load, speed = applied_loads(scene)["one"], scene.angular_speed
     angle = speed * result.time
@@ -73,24 +78,16 @@ def test_the_drive_takes_out_what_a_load_puts_in(name):
     assert ("load_one_moment" in result) == (name == "on a link, off its middle")
 
 
-@pytest.mark.parametrize(
-    "name", ["over the crank angle", "a forming force", "on a link, off its middle"]
-)
-def test_the_balance_closes_with_clearance_and_guides_that_give_way(name):
-    scene = Scene(
-        revolutions=0.5,
-        guide={"lateral_stiffness": 1e9},
-        load={"one": LOADS[name], "two": LOADS["over time"]},
-    )
+def test_the_balance_closes_with_clearance_and_guides_that_give_way():
+    loads = {name.replace(" ", "_").replace(",", ""): load for name, load in LOADS.items()}
+    scene = Scene(revolutions=0.5, guide={"lateral_stiffness": 1e9}, load=loads)
     result = simulate(scene)
     assert result.completed
-    summary = result.summary()
-    assert summary["quantities"]["energy.residual"]["value"] < 1e-3
-    assert {name.split(".")[1] for name in summary["quantities"] if name.startswith("loads.")} == {
-        "one",
-        "two",
-    }
-    assert summary["quantities"]["loads.one.work"]["value"] == result["load_one_work"][-1]
+    told = result.summary()["quantities"]
+    assert told["energy.residual"]["value"] < 1e-3
+    assert {name.split(".")[1] for name in told if name.startswith("loads.")} == set(loads)
+    for name in loads:
+        assert told[f"loads.{name}.work"]["value"] == result[f"load_{name}_work"][-1]
 
 
 @pytest.mark.parametrize("name", ["over time", "over the crank angle"])
@@ -169,7 +166,8 @@ def test_a_forming_force_takes_out_its_area_and_gives_nothing_back(joints):
     scene = Scene(
         mechanism="eccentric_press",
         speed_rpm=60.0,
-        revolutions=1.0,
+        start_angle_deg=60.0,
+        revolutions=0.68,
         joints=joints,
         load={"draw": FORMING},
         **film,
@@ -183,5 +181,6 @@ def test_a_forming_force_takes_out_its_area_and_gives_nothing_back(joints):
     assert (force[result["slider_velocity"] >= 0.0] == 0.0).all()
     assert force.max() == pytest.approx(260e3, rel=1e-3)
     assert result.quantity("energy.residual").value < 1e-3
-    spring = simulate(scene.replace("load.draw.acts", "both"))
-    assert abs(spring["load_draw_work"][-1]) < 0.01 * work_of(FORMING)
+    if not joints:
+        spring = simulate(scene.replace("load.draw.acts", "both"))
+        assert abs(spring["load_draw_work"][-1]) < 0.01 * work_of(FORMING)

@@ -13,11 +13,12 @@ from exu_press.laws.film import ball, dissipated, socket_drag
 from exu_press.laws.film.reynolds_sphere import solve_cap
 
 CAPS = [math.pi / 4, 1.2, math.pi / 2]
+GAUSS = np.polynomial.legendre.leggauss(200)
 
 
 def closed_form(eps, cap_angle):
     """f_r of pure squeeze, integrated; a negative eps is an opening film's."""
-    x, weights = np.polynomial.legendre.leggauss(200)
+    x, weights = GAUSS
     low = math.cos(cap_angle)
     t = 0.5 * (x + 1.0)
     x = 1.0 - (1.0 - low) * t * t  # dense at the narrow gap
@@ -166,7 +167,7 @@ def test_derivatives_against_differences(cap_angle, onset):
 @pytest.mark.parametrize("eps", [0.0, 0.02, 0.0499, 0.0501, 0.4, 0.9, 0.999])
 def test_drag_against_its_integral(eps, cap_angle):
     low = math.cos(cap_angle)
-    t, weights = np.polynomial.legendre.leggauss(400)
+    t, weights = GAUSS
     x = low + (1.0 - low) * 0.5 * (t + 1.0)
     weights = weights * 0.5 * (1.0 - low)
     both = 1.0 / (1.0 - eps * x) + 1.0 / (1.0 + eps * x)

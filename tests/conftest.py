@@ -1,9 +1,13 @@
 """What tests of more than one folder need."""
 
+import gc
 import os
 
 import pytest
 from browser import launched
+
+for library in ("OMP", "OPENBLAS", "MKL"):  # threads of both workers would wait for each other
+    os.environ.setdefault(f"{library}_NUM_THREADS", "1")
 
 
 @pytest.fixture(scope="session")
@@ -17,6 +21,12 @@ def pytest_configure(config):
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     kept = config.rootpath / ".pytest_cache" / "bytecode"
     os.environ.setdefault("PYTHONPYCACHEPREFIX", str(kept))
+
+
+def pytest_collection_finish(session):
+    """Let the garbage collector look at what tests make, not at all tests each time."""
+    gc.collect()
+    gc.freeze()
 
 
 SHARES = 20

@@ -76,11 +76,8 @@ def shapes_of(mechanism: Mechanism, height: float | None = None) -> dict[str, Sh
 def swept(mechanism: Mechanism) -> Array:
     """Return every position that a joint passes through in a revolution of the ideal mechanism."""
     motion = mechanism.motion(np.linspace(0.0, 2.0 * np.pi, 73), 1.0)
-    positions = [
-        moved(np.array(mechanism.points(body.name)), pose)
-        for body in mechanism.bodies
-        for pose in motion[body.name].position
-    ]
+    points = {body.name: np.array(mechanism.points(body.name)) for body in mechanism.bodies}
+    positions = [moved(at, pose) for name, at in points.items() for pose in motion[name].position]
     return np.vstack(positions)
 
 

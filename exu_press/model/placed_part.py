@@ -16,6 +16,7 @@ import numpy as np
 from exu_press.errors import InputError, prefixed
 from exu_press.mechanism import Body, Joint, Mechanism, Motion, Point
 from exu_press.numerics.arrays import Array
+from exu_press.numerics.threads import one_thread
 from exu_press.scene import Face, Flexible, Scene, mechanism_of
 from exu_press.scene.bodies import DRIVE_FACE, GUIDE_FACE, faces_given, require_rainflow
 from exu_press.scene.load import Load
@@ -312,7 +313,7 @@ def _material(table: Flexible, usual: Any) -> Any:
 
 
 def _reduced(part: Part, reduction: Reduction, name: str, quiet: bool) -> ReducedPart:
-    with Progress(f"modes of {name}", 1.0, "", quiet=quiet) as progress:
+    with one_thread(), Progress(f"modes of {name}", 1.0, "", quiet=quiet) as progress:
         return reduced_part(part, reduction, report=lambda what, share: progress.update(share))
 
 

@@ -165,10 +165,11 @@ def joints_of(
             own[joint] = {**own.get(joint, {}), **keys_given(joint, value)}
         elif joint not in groups:
             raise InputError(_unknown(joint, mechanism, spherical, groups, value))
-    found = {}
+    found, complete = {}, {law: _law("joints", law, {}, laws[law]) for law in LAW_TABLES}
     for joint, ball in spherical.items():
-        shown = joint if joint in given else by_group.get(joint, joint)
-        found[joint] = _joint(shown, own.get(joint, {"kind": "ideal"}), laws, sizes, spherical=ball)
+        shown, keys = by_group.get(joint, joint), own.get(joint, {"kind": "ideal"})
+        shown = joint if joint in given else shown
+        found[joint] = _joint(shown, keys, complete, sizes, spherical=ball)
     joints = Joints(found, mechanism, groups, [name for name, ball in spherical.items() if ball])
     for name, value in given.items():
         for law in LAW_TABLES:
@@ -214,7 +215,10 @@ def _joint(
     if own_class is not None:
         known = ("kind", *keys_used(kind, None))
     refuse_unknown(place, given, known)
-    own = {law: _law(place, law, given.get(law), laws[law]) for law in LAW_TABLES}
+    own = {
+        law: usual if given.get(law) is None else _law(place, law, given[law], usual)
+        for law, usual in laws.items()
+    }
     film = own["film"]
     assert isinstance(film, Film)
     used = keys_used(kind, film.at_contact)
@@ -250,7 +254,7 @@ def _law(place: str, law: str, given: Any, usual: Table) -> Table:
     """Return a joint's law: the scene's, but for its own keys."""
     complete = {field.name: getattr(usual, field.name) for field in dataclasses.fields(usual)}
     with prefixed(f"{place}."):
-        return table_with(LAW_TABLES[law], law, {} if given is None else given, complete)
+        return table_with(LAW_TABLES[law], law, given, complete)
 
 
 def _check_laws(place: str, joint: Joint, spherical: bool) -> None:

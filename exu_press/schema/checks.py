@@ -3,12 +3,13 @@
 import copy
 import dataclasses
 import difflib
+import functools
 import itertools
 import math
 import numbers
 import types
 import typing
-from collections.abc import Collection, Iterable, Mapping, Sized
+from collections.abc import Callable, Collection, Iterable, Mapping, Sized
 from typing import Any, ClassVar, Self, TypeVar
 
 from exu_press.errors import InputError, UnusedKeyError
@@ -32,6 +33,8 @@ __all__ = [
 ]
 
 T = TypeVar("T")
+
+_fields: Callable[[Any], tuple[dataclasses.Field[Any], ...]] = functools.cache(dataclasses.fields)
 
 SMALLEST, LARGEST = 1e-30, 1e30
 """Magnitudes of a number other than 0: sums and squares within them are numbers, too."""
@@ -128,7 +131,7 @@ class Table:
     def __new__(cls, *values: Any, **keys: Any) -> Self:
         """Remember which keys are given, so that a default gives way to a mechanism's own."""
         made = super().__new__(cls)
-        names = [field.name for field in dataclasses.fields(cls)][: len(values)]
+        names = [field.name for field in _fields(cls)][: len(values)]
         object.__setattr__(made, "_given", frozenset([*names, *keys]))
         return made
 
@@ -136,7 +139,7 @@ class Table:
     def given(self) -> dict[str, Any]:
         """The keys that were given, with their values."""
         names: frozenset[str] = self._given  # type: ignore[attr-defined]
-        values = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
+        values = {f.name: getattr(self, f.name) for f in _fields(type(self))}
         return {name: v for name, v in values.items() if name in names and v is not None}
 
     def unused(self, **instead: str) -> dict[str, str]:
@@ -164,7 +167,7 @@ class Table:
 
     def __post_init__(self) -> None:
         """Check every key; raise InputError for the first one that is not allowed."""
-        for field in dataclasses.fields(self):
+        for field in _fields(type(self)):
             if "inner" in field.metadata and (given := getattr(self, field.name)) is not None:
                 name = f"{self.table}.{field.name}"
                 object.__setattr__(self, field.name, _inner(field.metadata["inner"], name, given))
@@ -287,7 +290,7 @@ def table_from(table: type[T], name: str, data: Any) -> T:
         return data
     if not isinstance(data, Mapping):
         raise InputError(f"{name} = {data!r:.200}: allowed is a table of keys")
-    known = [field.name for field in dataclasses.fields(table)]  # type: ignore[arg-type]
+    known = [field.name for field in _fields(table)]
     for given in data:
         path = f"{name}.{given}" if name else given
         if given not in known and {path, given} & RENAMED.keys():
@@ -328,10 +331,8 @@ def changed_table(
             key has a table for each of several places.
     """
     found = dict(before)
-    inners = {
-        f.name: f.metadata["inner"] for f in dataclasses.fields(kind) if "inner" in f.metadata
-    }
-    by_place = {f.name for f in dataclasses.fields(kind) if f.metadata.get("by_place")}
+    inners = {f.name: f.metadata["inner"] for f in _fields(kind) if "inner" in f.metadata}
+    by_place = {f.name for f in _fields(kind) if f.metadata.get("by_place")}
     for path, value in changes.items():
         name, dot, rest = path.partition(".")
         change: Any = {rest: value} if dot else value
@@ -354,7 +355,7 @@ def changed_table(
 def plain(table: Table) -> dict[str, Any]:
     """Return the keys of a table that are not None as a nested mapping, as a file has them."""
     found: dict[str, Any] = {}
-    for field in dataclasses.fields(table):
+    for field in _fields(type(table)):
         value = getattr(table, field.name)
         if isinstance(value, Table):
             found[field.name] = plain(value)
@@ -395,6 +396,7 @@ def nearest(name: Any, known: Iterable[str]) -> str:
     return f" (did you mean {found[0]!r}?)" if found else ""
 
 
+@functools.cache
 def _kind(field: dataclasses.Field[Any]) -> type:
     kinds = typing.get_args(field.type) or (field.type,)
     return next(kind for kind in kinds if isinstance(kind, type) and kind is not types.NoneType)

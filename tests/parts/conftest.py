@@ -1,9 +1,5 @@
 """Parts that several tests share: small shapes, coarse meshes."""
 
-import os
-
-os.environ.setdefault("OMP_NUM_THREADS", "1")
-
 import pytest
 
 from fe_models import Interface, Material, OwnShape, Reduction, shipped_part

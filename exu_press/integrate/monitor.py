@@ -262,10 +262,8 @@ class Monitor:
             self._jump = jump
         return self._jump is not None
 
-    def _start_again(self, velocities: Array, accelerations: Array, rate: Array) -> None:
-        """Go on from velocities that have jumped, as from a start."""
-        current = self._task.problem.current
-        current.velocities[:], current.accelerations[:] = velocities, accelerations
+    def _start_again(self, accelerations: Array, rate: Array) -> None:
+        """Go on as from a start, with these accelerations and the rate prescribed to them."""
         self.control.start_again()
         self._step_change.start_from(accelerations, rate)
         self._newton.start_again()
@@ -282,6 +280,10 @@ class Monitor:
         else:
             self.steps += 1
             step = end - self._time
+            self._jumped = self._jump is not None
+            if self._jump is not None:
+                current = self._task.problem.current
+                current.velocities[:], current.accelerations[:], _ = self._jump
             self._output.stepped(self._time, end)
             self._time = end
             self._gaps.close()
@@ -290,9 +292,8 @@ class Monitor:
             if self._event.passed:
                 self.control.restart()
             self._newton.stepped(step)
-            self._jumped = self._jump is not None
             if self._jump is not None:
-                self._start_again(*self._jump)
+                self._start_again(*self._jump[1:])
             if self.resolution is not None:
                 self.resolution.stepped(end, step, self._accelerations.tolist())
         self.stalled = self._watch(end)

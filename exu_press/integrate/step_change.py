@@ -34,9 +34,10 @@ class StepChange:
     beside a long step but a jolt beside a short one: it is taken away.
 
     Without films and contacts motion is smooth, steps change seldom, and each change is worth this.
-    With them steps change all the time: velocities are fitted once steps have shrunk to a third,
-    and a longer step, which has little to make of either, is left alone: scaling up would blow up
-    whatever an impact or a film's start left ringing.
+    With them, and with Exudyn's contacts, steps change all the time: velocities are fitted once
+    steps have shrunk to a third. With clearance joints a longer step, which has little to make of
+    either, is left alone: scaling up would blow up whatever an impact or a film's start left
+    ringing.
 
     Exudyn's algorithmic acceleration can be read but not written, and when a step is repeated it
     keeps the value of the failed try. But positions, velocities and accelerations at the step's
@@ -55,7 +56,8 @@ class StepChange:
     def __init__(self, task: Task, constraints: Constraints) -> None:
         """Watch the steps of a system that has these constraints."""
         problem = task.problem
-        self._smooth = problem.joints is None and not problem.switching
+        self._smooth = problem.joints is None
+        self._seldom = self._smooth and not problem.switching  # do steps change
         self._film_waits = problem.lubricated
         self._refit = task.tuning.refit
         self._solver, self._constraints = task.solver, constraints
@@ -119,7 +121,7 @@ class StepChange:
         q, v, a = self._state
         if abs(ratio - 1.0) > SAME:
             part = step / self._fits
-            if part < self._refit or self._smooth:
+            if part < self._refit or self._seldom:
                 if self._offsets is None:
                     self._offsets = self._violations()
                 q = q - self._offsets[0]

@@ -1,12 +1,16 @@
 """What a reader does with a page: its code blocks, in order, in one directory."""
 
+import io
 import re
 import shlex
 import subprocess
 import sys
+from contextlib import chdir, redirect_stderr, redirect_stdout
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
+
+from exu_press.cli import main
 
 ROOT = Path(__file__).parents[2]
 BIN = Path(sys.executable).parent
@@ -87,12 +91,15 @@ def run_block(block: Block, place: Path, *, short: bool = False) -> None:
         read(block, place)
     elif block.language == "sh":
         for command in block.commands:
-            written = run_command(command, place, block.shortened if short else [])
+            written = run_command(command, place, block.shortened if short else None)
             assert all(path.exists() for path in written), (command, written)
 
 
-def run_command(command: str, place: Path, shortened: list[str]) -> list[Path]:
-    """Run a shell command of ours; return the files and directories that it was to write."""
+def run_command(command: str, place: Path, shortened: list[str] | None) -> list[Path]:
+    """Run a shell command of ours; return the files and directories that it was to write.
+
+    Shortened, it runs in this process, which has imported everything already.
+    """
     words = shlex.split(command)
     name = Path(words[0]).name
     if name == "python":
@@ -104,8 +111,11 @@ def run_command(command: str, place: Path, shortened: list[str]) -> list[Path]:
             words.append("--no-pictures")  # longer than the run; tests/plots has them
         if words[1] in ("run", "compare") and "--within" not in words:
             words.append("--no-error")  # as long as the run; tests/confidence has them
-            words += shortened if "revolutions=0.0" not in command else []
-    run(words, place)
+            words += (shortened or []) if "revolutions=0.0" not in command else []
+    if shortened is None or name == "python":
+        run(words, place)
+    else:
+        run_here(words[1:], place)
     return [place / value for option, value in pairwise(words) if option in ("--out", "--save")]
 
 
@@ -116,6 +126,14 @@ def run(words: list[str], place: Path) -> str:
     )
     assert done.returncode == 0, f"{words}\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}"
     return done.stdout
+
+
+def run_here(words: list[str], place: Path) -> None:
+    """Run the command in a directory."""
+    said = io.StringIO()
+    with chdir(place), redirect_stdout(said), redirect_stderr(said):
+        code = main(words)
+    assert code == 0, f"{words}\n{said.getvalue()[-4000:]}"
 
 
 def read(block: Block, place: Path) -> None:

@@ -40,7 +40,7 @@ def test_scenes_and_a_result(mine, tmp_path, capsys):
 
 
 def test_variants_of_the_joints_that_a_scene_has(mine, tmp_path):
-    assert main(["compare", str(mine), "--no-pictures", "--quiet", "--out", str(tmp_path)]) == 0
+    assert main(["compare", str(mine), *QUICK, "--quiet", "--out", str(tmp_path)]) == 0
     comparison = json.loads((tmp_path / "comparison.json").read_text())
     kinds = {
         label: {name: joint["kind"] for name, joint in run["scene"]["joints"].items()}
@@ -60,7 +60,7 @@ def test_pictures_of_two_mechanisms(mine, tmp_path):
 def test_wrong_input_is_refused_before_anything_is_run(mine, tmp_path, capsys):
     out = tmp_path / "out"
     result = tmp_path / "one"
-    assert main(["run", str(mine), "--no-pictures", "--quiet", "--out", str(result)]) == 0
+    assert main(["run", str(mine), *QUICK, "--quiet", "--out", str(result)]) == 0
     ideal = tmp_path / "ideal.toml"
     ideal.write_text('mechanism = "four_bar"\n')
     for arguments, message in (

@@ -106,7 +106,7 @@ def test_a_stiff_table_is_a_spring():
     scene = Scene(
         mechanism="slider_crank",
         joints={"crank_pin": "dry"},
-        revolutions=0.1,
+        revolutions=0.05,
         solver={"tolerance": 1e-4},
     )
     start = mechanism_of(scene).ideal_slider(np.zeros(1), 1.0)[0][0]

@@ -169,7 +169,7 @@ def run_or_be_refused(data):
 RUNS = {"deadline": None, "suppress_health_check": list(HealthCheck)}
 
 
-@settings(max_examples=40, **RUNS)
+@settings(max_examples=25, **RUNS)
 @given(data=likely_scenes())
 def test_an_accepted_scene_runs_or_stops_with_a_status(data):
     run_or_be_refused(data)

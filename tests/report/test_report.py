@@ -257,7 +257,7 @@ def test_many_joints_have_a_table_of_all():
 
 def test_without_the_library_the_page_has_pictures(outputs, tmp_path, monkeypatch, capsys):
     monkeypatch.setattr("exu_press.page.document.find_spec", lambda name: None)
-    for name in ("run", "sweep"):
+    for name in ("compare", "sweep"):
         target = tmp_path / f"{name}.html"
         assert main(["report", str(outputs[name]), "--out", str(target)]) == 0
         page = Page(target.read_text(encoding="utf-8"))

@@ -11,6 +11,7 @@ SCENE = Scene(
     joints={"crank_pin": {"kind": "dry", "clearance": 1e-4, "radius": 0.03}},
     contact={"length": 0.05},
     revolutions=1.25,
+    solver={"tolerance": 1e-2},
 )
 
 

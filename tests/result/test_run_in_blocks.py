@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from exu_press import InputError, Result, Scene, simulate
-from exu_press.report import Kind, find_output, report_of
+from exu_press.cli import main
+from exu_press.report import Kind, find_output
 from exu_press.result import channels, run
 from exu_press.result.channel import Channel
 from exu_press.result.channels import Changed, OnDisk, at_rows, described, on_disk, part_of
@@ -147,10 +148,11 @@ def test_a_killed_run_is_gone_on_with(whole, killed):
     assert rest["slider_position"][-1] == pytest.approx(whole["slider_position"][-1], abs=1e-7)
 
 
-def test_commands_read_what_a_killed_run_left(killed, capsys):
+def test_commands_read_what_a_killed_run_left(killed, tmp_path):
     assert find_output(killed) == (Kind.RUN, killed / "run.nc")
+    given = ["compare", str(killed), str(killed), "--no-pictures", "--quiet"]
     with pytest.warns(UserWarning, match="was killed"):
-        assert "revolution" in report_of(*find_output(killed))
+        assert main([*given, "--out", str(tmp_path / "out")]) == 0
 
 
 def test_a_killed_run_is_not_taken_for_the_one_before(whole, killed, tmp_path):

@@ -13,6 +13,7 @@ DRY = Scene(
     revolutions=2.25,
     start_angle_deg=30.0,
     output={"samples": ANGLES},
+    solver={"tolerance": 1e-2},
 )
 MOTOR = {"drive": {"rated_torque": 200.0, "inertia": 2.0}}
 

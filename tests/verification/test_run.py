@@ -23,6 +23,12 @@ DRY = {
 }
 """Whose impacts part motions within a tenth of a revolution."""
 
+
+@pytest.fixture(scope="module")
+def result():
+    return simulate(Scene(**DRY, revolutions=0.1))
+
+
 SCENES = {
     "ideal": {"joints": {"crank_pin": "ideal"}, "revolutions": 0.3},
     "film": {
@@ -65,7 +71,7 @@ def test_stated_errors_cover_the_true_ones(name):
 
 
 def test_errors_stand_in_the_summary_and_in_the_file(tmp_path):
-    scene = Scene(**DRY, revolutions=0.05)
+    scene = Scene(**DRY, revolutions=0.02)
     result = simulate(scene, errors=True)
     told = result.info["errors"]["peak_acceleration.resolved"]
     assert set(told) == {"error", "determined", "low", "high"}
@@ -75,21 +81,17 @@ def test_errors_stand_in_the_summary_and_in_the_file(tmp_path):
     assert again["stroke"]["error"] == pytest.approx(result.quantity("stroke").error)
 
 
-def test_motions_that_part_leave_bounds():
+def test_motions_that_part_leave_bounds(result):
     """RefinementRuns whose journal is elsewhere: what happens later is not determined."""
-    scene = Scene(**DRY, revolutions=0.1)
-    result = simulate(scene)
-    other = simulate(scene.replace("joints.crank_pin.clearance", 2e-4))
+    other = simulate(result.scene.replace("joints.crank_pin.clearance", 2e-4))
     told = errors_of(result, [(4.0, other)])
     assert told["horizon"] is not None
     assert not told["errors"]["joints.crank_pin.peak_force"]["determined"]
 
 
-def test_errors_go_with_the_tolerance_until_journals_are_apart():
+def test_errors_go_with_the_tolerance_until_journals_are_apart(result):
     """The same forces count otherwise once their journals have nothing in common."""
-    scene = Scene(**DRY, revolutions=0.1)
-    result = simulate(scene)
-    clearance = scene.joints["crank_pin"].clearance
+    clearance = result.scene.joints["crank_pin"].clearance
     late = (result.time > 0.5 * result.time[-1])[:, None]
     force = result["crank_pin_force"] * np.where(late, 1e3, 1.0)
     found = []
@@ -102,10 +104,8 @@ def test_errors_go_with_the_tolerance_until_journals_are_apart():
     assert apart > 3.0 * near
 
 
-def test_what_refinements_did_before_the_horizon_widens_no_bounds():
+def test_what_refinements_did_before_the_horizon_widens_no_bounds(result):
     """A peak does not fall below the one until then."""
-    scene = Scene(**DRY, revolutions=0.1)
-    result = simulate(scene)
     part = result.time / result.time[-1]
     beside = {
         name: result[name] + np.where(part > begin, more, 0.0)[:, None] * [1.0, 0.0]
@@ -122,9 +122,8 @@ def test_what_refinements_did_before_the_horizon_widens_no_bounds():
     assert force["high"] > 1e7
 
 
-def test_samples_are_not_expected_above_means():
+def test_samples_are_not_expected_above_means(result):
     """Their second difference is the mean over 1 ms of means over 1 ms."""
-    result = simulate(Scene(**DRY, revolutions=0.1))
     late = result.time > 0.5 * result.time[-1]
     beside = {
         "crank_pin_eccentricity": np.where(late[:, None], [2e-4, 0.0], 0.0),
@@ -142,10 +141,8 @@ def test_samples_are_not_expected_above_means():
     )
 
 
-def test_a_peak_may_be_exceeded_after_the_horizon_although_it_was_in_no_run():
+def test_a_peak_may_be_exceeded_after_the_horizon_although_it_was_in_no_run(result):
     """Later forces scatter by half of the peak, beneath it."""
-    scene = Scene(**DRY, revolutions=0.1)
-    result = simulate(scene)
     peak = result.quantity("joints.crank_pin.peak_force").value
     part = (result.time / result.time[-1])[:, None]
     away = np.where(part > 0.9, 2e-4, 0.0) * [1.0, 0.0]
@@ -168,11 +165,10 @@ def test_a_peak_may_be_exceeded_after_the_horizon_although_it_was_in_no_run():
     assert not force["determined"]
 
 
-def test_magnitudes_are_not_below_zero_and_energies_may_be():
+def test_magnitudes_are_not_below_zero_and_energies_may_be(result):
     """The bounds of two runs that have nothing in common are wide."""
-    scene = Scene(**DRY, revolutions=0.1)
-    other = simulate(scene.replace("joints.crank_pin.clearance", 4e-4))
-    errors = errors_of(simulate(scene), [(4.0, other)])["errors"]
+    other = simulate(result.scene.replace("joints.crank_pin.clearance", 4e-4))
+    errors = errors_of(result, [(4.0, other)])["errors"]
     assert errors["peak_acceleration.mean_1ms"]["low"] == 0.0
     assert errors["energy.stored"]["low"] < 0.0
 

@@ -1,6 +1,7 @@
 """Sweeps of real scenes: left alone, taken up again, in another's directory."""
 
 import json
+import shutil
 import subprocess
 import sys
 
@@ -14,7 +15,16 @@ from exu_press.studies.sweep.table import RUN_TIMES
 
 LIST = {"way": "list"}
 IDEAL = Scene(joints={"crank_pin": "ideal", "balls": "ideal"}, revolutions=0.01)
+ONE = Sweep(scene=IDEAL, keys={"speed_rpm": [200.0]})
 LUBRICATED = Scene(joints={"crank_pin": "lubricated", "balls": "ideal"}, revolutions=0.05)
+
+
+@pytest.fixture(scope="module")
+def done(tmp_path_factory):
+    """The directory of a study that is done."""
+    directory = tmp_path_factory.mktemp("done")
+    sweep(ONE, directory, workers=1)
+    return directory
 
 
 def without_times(table):
@@ -79,22 +89,20 @@ def test_runs_that_stop_early_or_fail_are_rows(tmp_path):
         ({"energy": {"input": 1.0}, "energy.input": 2.0}, "energy.input: given twice"),
     ],
 )
-def test_foreign_rows_of_a_resumed_directory_are_refused(tmp_path, row, message):
-    study = Sweep(scene=IDEAL, keys={"speed_rpm": [200.0]})
-    sweep(study, tmp_path, workers=1)
+def test_foreign_rows_of_a_resumed_directory_are_refused(done, tmp_path, row, message):
+    shutil.copytree(done, tmp_path, dirs_exist_ok=True)
     record = json.loads((tmp_path / "runs.jsonl").read_text())
     record["row"] |= row
     (tmp_path / "runs.jsonl").write_text(json.dumps(record) + "\n")
     with pytest.raises(InputError, match=message) as caught:
-        sweep(study, tmp_path, workers=1)
+        sweep(ONE, tmp_path, workers=1)
     assert "runs.jsonl" in str(caught.value)
 
 
 def test_a_damaged_study_beside_the_rows_is_another_one(tmp_path):
-    study = Sweep(scene=IDEAL, keys={"speed_rpm": [200.0]})
     (tmp_path / "study.json").write_text("[" * 100_000)
     with pytest.raises(InputError, match="belongs to another study"):
-        sweep(study, tmp_path)
+        sweep(ONE, tmp_path)
 
 
 def test_a_worker_does_not_share_memory_of_runs(tmp_path):
@@ -108,9 +116,8 @@ def test_a_worker_does_not_share_memory_of_runs(tmp_path):
     assert rows[-1] == fresh
 
 
-def test_a_directory_of_another_study_is_refused(tmp_path):
-    study = Sweep(scene=IDEAL, keys={"speed_rpm": [200.0]})
-    sweep(study, tmp_path, workers=1)
+def test_a_directory_of_another_study_is_refused(done, tmp_path):
+    shutil.copytree(done, tmp_path, dirs_exist_ok=True)
     before = {path: path.read_bytes() for path in tmp_path.iterdir() if path.is_file()}
     other = Sweep(scene=IDEAL, keys={"speed_rpm": [300.0]})
     with pytest.raises(InputError, match=r"another study \(study.json differs in keys\)"):
@@ -124,16 +131,16 @@ def test_a_directory_of_another_study_is_refused(tmp_path):
 def test_a_directory_with_files_of_something_else_is_refused(name, tmp_path):
     (tmp_path / name).write_text("mine")
     with pytest.raises(InputError, match=rf"{name}.*(delete|belong)"):
-        sweep(Sweep(scene=IDEAL, keys={"speed_rpm": [200.0]}), tmp_path, workers=1)
+        sweep(ONE, tmp_path, workers=1)
     assert (tmp_path / name).read_text() == "mine"
 
 
-def test_a_lost_study_json_is_written_again_and_its_runs_are_kept(tmp_path):
-    study = Sweep(scene=IDEAL, keys={"speed_rpm": [200.0]})
-    before = sweep(study, tmp_path, workers=1)
+def test_a_lost_study_json_is_written_again_and_its_runs_are_kept(done, tmp_path):
+    shutil.copytree(done, tmp_path, dirs_exist_ok=True)
+    before = sweep(ONE, tmp_path, workers=1)
     for name in ("study.json", "table.csv", "table.nc"):
         (tmp_path / name).unlink()
-    assert sweep(study, tmp_path, workers=1).columns == before.columns  # the times too
+    assert sweep(ONE, tmp_path, workers=1).columns == before.columns  # the times too
 
 
 def test_tables_may_vary(tmp_path):

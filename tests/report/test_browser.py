@@ -4,7 +4,7 @@ import pytest
 from browser import opened
 
 SHOW = "() => document.querySelectorAll('.turned').forEach(box => { box.checked = true; })"
-NAMES = ["run", "compare", "stopped", "sweep"]
+NAMES = ["run", "compare", "sweep"]
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -58,7 +58,7 @@ def main(arguments: list[str]) -> None:
     print(f"{os.cpu_count()} cores, load {load:.1f}; wall time's ratio is aimed at {AIM}")
     print(f"{'':38}  alone: wall, processor, s  with errors   ratios: wall, processor")
     for name, scene in SCENES.items():
-        simulate(scene.replace(revolutions=0.01))  # what is imported and compiled once
+        simulate(scene.replace({"revolutions": 0.01}))  # what is imported and compiled once
         pairs = [(taken(simulate, scene), taken(with_errors, scene))
                  for _ in range(options.repeats)]  # fmt: skip
         alone, told = (

@@ -45,7 +45,9 @@ def flexible(scene, counts):
     chosen = {str(count): {"modes": count} for count in counts}
     chosen[f"error {ERROR:g}"] = {"flexibility_error": ERROR}
     bodies = {name: flexible_press(**keys) for name, keys in chosen.items()}
-    return {"rigid": scene} | {name: scene.replace(bodies=each) for name, each in bodies.items()}
+    return {"rigid": scene} | {
+        name: scene.replace({"bodies": each}) for name, each in bodies.items()
+    }
 
 
 def main():

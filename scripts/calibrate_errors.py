@@ -89,7 +89,7 @@ def references(run: Result, cost: float, *, chaotic: bool) -> tuple[str, list[Re
         assert solver.tolerance is not None
         parted = run.info["horizon"] is not None
         wanted = [
-            run.scene.replace("solver.tolerance", part * solver.tolerance)
+            run.scene.replace({"solver.tolerance": part * solver.tolerance})
             for part in (CHAOTIC if parted else CHAOTIC[:1])
         ]
         words = f"finer runs, {'with' if parted else 'without'} horizon"
@@ -104,7 +104,9 @@ def references(run: Result, cost: float, *, chaotic: bool) -> tuple[str, list[Re
         fine = {"solver.tolerance": finest, "solver.max_step_deg": FINE_STEP}
         return f"{finest:.0e}", [simulate(as_tolerance.replace(fine))]
     members = [
-        simulate(as_tolerance.replace("solver.tolerance", 0.1 * tolerance * (1.0 + APART * number)))
+        simulate(
+            as_tolerance.replace({"solver.tolerance": 0.1 * tolerance * (1.0 + APART * number)})
+        )
         for number in range(MEMBERS)
     ]
     return f"{MEMBERS} runs", members

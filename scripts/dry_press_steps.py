@@ -87,7 +87,7 @@ radius = DRY.solver.spectral_radius
 rows = [("", "steps", "in lasting contact", "a period there", "processor time, s")]
 for setting, value in SETTINGS.items():
     start = time.process_time()
-    run = simulate(DRY.replace(f"solver.{setting}", value))
+    run = simulate(DRY.replace({f"solver.{setting}": value}))
     seconds, steps = time.process_time() - start, len(run.time) - 1
     force = np.linalg.norm(run.joints["crank_pin"].force, axis=1)
     lasting = contacts(run)

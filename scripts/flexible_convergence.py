@@ -36,7 +36,7 @@ if options.scene:
 else:
     scene = Scene(bodies=flexible_press(), revolutions=0.1)
 if options.quick:
-    scene = scene.replace(revolutions=0.005)
+    scene = scene.replace({"revolutions": 0.005})
 
 
 def with_bodies(**keys):

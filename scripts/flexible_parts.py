@@ -64,8 +64,8 @@ COLUMNS = {
 }
 rows = [("lubricated press, 240 rpm", "m/s^2", "over 1 ms", "um", "MPa")]
 scene = Scene(revolutions=0.01 if quick else 0.2)
-flexible = scene.replace(bodies=flexible_press())
-second = scene.replace(bodies={"crank": "crank_2", "linkage": "linkage_2"})
+flexible = scene.replace({"bodies": flexible_press()})
+second = scene.replace({"bodies": {"crank": "crank_2", "linkage": "linkage_2"}})
 for label, case in (("rigid", scene), ("flexible", flexible), ("flexible, second shapes", second)):
     result, beside = simulate(case), plan(case).items()
     told = errors_of(result, ((r, simulate(one)) for r, one in beside), COLUMNS)["errors"]

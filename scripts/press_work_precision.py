@@ -91,7 +91,7 @@ def rows(pin: str) -> list[Row]:
     """Return what each solver does on a press."""
     scene = Scene(joints={"crank_pin": pin, "balls": "dry"})
     if pin == "lubricated":
-        scene = scene.replace("film.law", CASES[pin])
+        scene = scene.replace({"film.law": CASES[pin]})
     true = independent(scene, pin, "LSODA", 1e-8 if OPTIONS.quick else TRUE)[0]
     print(f"\n{pin} press: true peaks {' '.join(f'{peak:.1f}' for peak in true)} m/s^2", flush=True)
     found: list[Row] = []

@@ -109,7 +109,7 @@ def test_the_guide_loses_mu_times_its_force_times_the_way(pressed):
 def of_ideal_pins():
     """Return the tutorial's run."""
     guide = {"friction": "coulomb", "mu_kinetic": 0.08}
-    scene = Scene.load(SCENE, ["joints.drag_pins=ideal"]).replace("guide", guide)
+    scene = Scene.load(SCENE, ["joints.drag_pins=ideal"]).replace({"guide": guide})
     result = simulate(scene)
     assert result.completed, result.info["reason"]
     return result

@@ -29,7 +29,7 @@ def test_without_modes_it_is_the_rigid_press(crank_pin, balls, linkage_as_solid)
     )
     twin = {k: v for k, v in linkage_as_solid.items() if k != "linkage_mass"}
     rigid = simulate(scene.replace({f"press.{key}": value for key, value in twin.items()}))
-    flexible = simulate(scene.replace(bodies=flexible_press(modes=0)))
+    flexible = simulate(scene.replace({"bodies": flexible_press(modes=0)}))
     assert np.abs(rigid["slider_position"] - flexible["slider_position"]).max() < 1e-8
     assert flexible.completed
 
@@ -66,7 +66,7 @@ def test_ten_thousand_times_stiffer_it_approaches_the_rigid_press():
         bodies = flexible_press(
             modes=8, mesh_size=0.06, damping_ratio=0.5, youngs_modulus=factor * 2e11
         )
-        result = simulate(scene.replace(bodies=bodies))
+        result = simulate(scene.replace({"bodies": bodies}))
         late = result.time > 0.5 * scene.duration
         ideal = scene.build().mechanism.ideal_slider(
             scene.start_angle + scene.angular_speed * result.time, scene.angular_speed
@@ -82,7 +82,7 @@ def test_blanking_bends_the_crank():
         revolutions=0.03,
         load={"blanking": {"kind": "blanking", "force": 1e6, "end_angle_deg": 150.0}},
     )  # fmt: skip
-    pressed, free = simulate(scene), simulate(scene.replace("load.blanking.force", 0.0))
+    pressed, free = simulate(scene), simulate(scene.replace({"load.blanking.force": 0.0}))
     pulse = np.radians(147.5)
     bent, straight = (
         np.abs(run["crank_pin_deflection"][run["crank_angle"] > pulse]).max()

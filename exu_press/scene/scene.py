@@ -314,16 +314,15 @@ class Scene(Table):
         """
         save_scene(self, self.laws, path, comments=comments, overwrite=overwrite)
 
-    def replace(self, *change: Any, **changes: Any) -> "Scene":
-        """Return the scene with other values: replace("film.viscosity", 0.1) or replace({...}).
+    def replace(self, changes: Mapping[str, Any]) -> "Scene":
+        """Return the scene with other values: replace({"film.viscosity": 0.1}).
 
-        Top-level keys may be keyword arguments. The keys that the changed scene does not use are
-        dropped (a scene made dry loses its film), but for those that the change itself names.
+        The keys that the changed scene does not use are dropped (a scene made dry loses its film),
+        but for those that the change itself names.
+
+        Args:
+            changes: dotted name of a key or table -> its value; None leaves it out.
         """
-        if len(change) == 2:
-            changes[change[0]] = change[1]
-        elif change:
-            changes.update(change[0])
         data, groups = self.to_dict(), self.joints.groups
         if (mechanism := changes.get("mechanism", self.mechanism)) != self.mechanism:
             other = Scene.from_dict({"mechanism": mechanism})

@@ -47,7 +47,7 @@ def variants(scene: Scene) -> dict[str, Scene]:
     }
     kinds: dict[str, Scene] = {"": scene}
     if scene.bodies:
-        kinds = {"rigid ": scene.replace(bodies={}), "flexible ": scene}
+        kinds = {"rigid ": scene.replace({"bodies": {}}), "flexible ": scene}
     found = {}
     for bodies, base in kinds.items():
         for label, change in joints.items():

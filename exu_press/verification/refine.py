@@ -81,7 +81,7 @@ def refined(
             break
         told(f"{which}: not known within {ENOUGH:.0%}; goes on at a tolerance of {finer:.2g}")
         before = time.perf_counter()
-        result = run(scene.replace("solver.tolerance", finer))
+        result = run(scene.replace({"solver.tolerance": finer}))
         took = time.perf_counter() - before
         spent += took
     return result

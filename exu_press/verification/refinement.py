@@ -59,11 +59,11 @@ def plan(scene: Scene) -> dict[float, Scene]:
     stands at another instant.
     """
     if scene.drive is not None and scene.drive.ends_after is not None:
-        scene = scene.replace("drive.ends_after", None)
+        scene = scene.replace({"drive.ends_after": None})
     solver = scene.solver
     assert solver is not None
     if solver.step is not None:
-        return {ratio: scene.replace("solver.step", ratio * solver.step) for ratio in OF_STEPS}
+        return {ratio: scene.replace({"solver.step": ratio * solver.step}) for ratio in OF_STEPS}
     tolerance = solver.tolerance
     assert tolerance is not None
     room = next(least for least in PLANS if least * tolerance <= LOOSEST)

@@ -87,7 +87,7 @@ def deliver(
     tolerance, best = solver.tolerance, None
     fails = math.inf
     for _ in range(ROUNDS):
-        result = simulate_with_errors(scene.replace("solver.tolerance", tolerance), quiet=quiet)
+        result = simulate_with_errors(scene.replace({"solver.tolerance": tolerance}), quiet=quiet)
         names = headline(result, name)
         if not result.completed:
             return Delivered(result, tolerance, dict.fromkeys(names))

@@ -304,7 +304,7 @@ def inverse(
             fine = _Judge(batch, numbers, scenes, RIGID)
             report.ours, report.from_rigid = fine.of([OURS, report.from_rigid.reading])
             report.count(fine)
-    bodies = {name: scene.replace(bodies=flexible_press()) for name, scene in scenes.items()}
+    bodies = {name: scene.replace({"bodies": flexible_press()}) for name, scene in scenes.items()}
     with Batch(read, directory, time_limit=TIME_LIMIT_FLEXIBLE, **told) as batch:
         judge = _Judge(batch, numbers, {n: s.replace(coarse) for n, s in bodies.items()}, FLEXIBLE)
         (report.ours_flexible,) = judge.of([OURS])

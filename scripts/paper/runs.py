@@ -68,9 +68,9 @@ def paper_runs(
             fall from where they start.
     """
     scene = Scene(film=Film(law="pinkus"), revolutions=revolutions)
-    scene = scene.replace("contact.damping_max", DAMPINGS[damping])
+    scene = scene.replace({"contact.damping_max": DAMPINGS[damping]})
     if flexible:
-        scene = scene.replace(bodies=flexible_press())
+        scene = scene.replace({"bodies": flexible_press()})
     stated = clearance(scene, STATED)
     runs = {
         f"{load}, {joints}": clearance(scene, BASELINE).replace(LOADS[load] | change)
@@ -79,7 +79,7 @@ def paper_runs(
     }
     sweeps = [
         *(clearance(scene, radial) for radial in CLEARANCES),
-        *(stated.replace(speed_rpm=rpm) for rpm in SPEEDS),
+        *(stated.replace({"speed_rpm": rpm}) for rpm in SPEEDS),
         *(stated.replace(blanking(force)) for force in FORCES),
     ]
     runs |= zip((name for names in SWEEPS.values() for name in names), sweeps, strict=True)
@@ -93,4 +93,4 @@ def clearance(scene: Scene, radial: float) -> Scene:
 
 def rigid_twin(scene: Scene) -> Scene:
     """Return the scene with rigid bodies."""
-    return scene.replace(bodies={})
+    return scene.replace({"bodies": {}})

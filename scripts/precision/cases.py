@@ -110,7 +110,7 @@ def chosen(names: list[str]) -> tuple[Case, ...]:
 def _slider_crank(pin: str, clearance: float | None = None) -> Scene:
     scene = Scene(mechanism="slider_crank", start="centred", film=PAPERS, revolutions=1.0)
     scene = scene.replace({"joints.crank_pin": pin, **(DRY if pin == "dry" else {})})
-    return scene if clearance is None else scene.replace("joints.crank_pin.clearance", clearance)
+    return scene if clearance is None else scene.replace({"joints.crank_pin.clearance": clearance})
 
 
 def _press(pin: str, balls: str, **given: Any) -> Scene:

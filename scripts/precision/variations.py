@@ -71,7 +71,7 @@ def spectral_radii(scene: Scene, amount: Amount) -> list[Attempt]:
     return [
         attempt(
             f"{TOLERANCE}, radius {radius:g}",
-            scene.replace("solver.spectral_radius", radius),
+            scene.replace({"solver.spectral_radius": radius}),
             "tolerance",
             value,
         )
@@ -93,7 +93,7 @@ def newton_modes(scene: Scene, amount: Amount) -> list[Attempt]:
 
 def _with_newton(scene: Scene, mode: str, step: float) -> Measured:
     """Run fixed steps with another Newton mode, which is no key of a scene."""
-    scene = scene.replace("solver.step", step)
+    scene = scene.replace({"solver.step": step})
     model = build(scene)
     settings = settings_for(scene)
     newton = settings.timeIntegration.newton

@@ -232,7 +232,7 @@ def test_films_take_up_their_load_in_short_steps():
     """At rest the film carries nothing; a long first step would make the accelerations ring."""
     scene = Scene(mechanism="slider_crank", joints={"crank_pin": "lubricated"}, revolutions=0.05)
     peaks = [
-        np.abs(simulate(scene.replace(f"solver.{key}", value))["slider_acceleration"]).max()
+        np.abs(simulate(scene.replace({f"solver.{key}": value}))["slider_acceleration"]).max()
         for key, value in (("step", 1e-3), ("step", 1e-5), ("tolerance", 1e-2), ("tolerance", 1e-4))
     ]
     assert peaks == pytest.approx([peaks[1]] * 4, rel=5e-3)
@@ -248,7 +248,7 @@ def test_a_change_of_step_leaves_journals_where_they_are_in_their_films():
         joints={"wrist_pin": pin},
         film={"viscosity": 0.4, "length": 0.1},
     )
-    loose, tight = (simulate(scene.replace("solver.tolerance", part)) for part in (1e-2, 1e-4))
+    loose, tight = (simulate(scene.replace({"solver.tolerance": part})) for part in (1e-2, 1e-4))
     forces = [run.quantity("joints.wrist_pin.peak_force").value for run in (loose, tight)]
     assert forces[1] == pytest.approx(forces[0], rel=4e-3)  # 16 % too large
 

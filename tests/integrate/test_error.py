@@ -188,7 +188,7 @@ def test_vibrating_bodies_follow_the_tolerance():
     scene = Scene(revolutions=0.2, bodies=flexible_press(modes=4))
     peaks = {}
     for tolerance in (1e-1, 1e-3):
-        run = simulate(scene.replace("solver.tolerance", tolerance))
+        run = simulate(scene.replace({"solver.tolerance": tolerance}))
         late = run.time > 0.04
         peaks[tolerance] = np.abs(run["slider_acceleration"][late]).max()
     assert peaks[1e-1] == pytest.approx(peaks[1e-3], rel=0.3)  # 51 % too high

@@ -29,7 +29,7 @@ def test_it_says_how_long_and_why(monkeypatch, capsys) -> None:
 
 @pytest.mark.parametrize("quiet", [False, True])
 def test_a_short_run_says_nothing(quiet: bool, capsys) -> None:
-    simulate(SCENE.replace("revolutions", 0.02), quiet=quiet)
+    simulate(SCENE.replace({"revolutions": 0.02}), quiet=quiet)
     assert "s left: steps of" not in capsys.readouterr().err
 
 

@@ -158,7 +158,7 @@ def test_from_his_start_the_end_is_his(scene, mean_axes, relative):
 def test_our_own_start_is_his(scene):
     """He starts on the motion without vibrations, to another order; so do we."""
     rod = placed(his_rod(True))
-    result = run(scene.replace("revolutions", 1e-3), rod)
+    result = run(scene.replace({"revolutions": 1e-3}), rod)
     _, half, fourth, *along = simeons(result, rod, 0)
     assert (half, fourth) == pytest.approx((0.0, 0.0), abs=1e-9)
     assert along == pytest.approx(START_ALONG, rel=1e-2)

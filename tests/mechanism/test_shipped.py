@@ -135,7 +135,7 @@ def test_a_blanking_force_acts_in_the_outputs_direction(name, force):
     result = simulate(scene)
     assert result.completed
     assert result["load_blanking_force"].max() == pytest.approx(force, rel=1e-3)
-    free = simulate(scene.replace("load.blanking.force", 0.0))
+    free = simulate(scene.replace({"load.blanking.force": 0.0}))
     changed = result["energy_input"][-1] - free["energy_input"][-1]
     assert abs(changed) < 1e-3 * np.abs(result["energy_input"]).max(), "nothing else takes energy"
     assert np.abs(result["drive_torque"]).max() > 1.2 * np.abs(free["drive_torque"]).max()

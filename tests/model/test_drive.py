@@ -264,7 +264,7 @@ def test_a_flexible_crank_has_its_flywheel():
         revolutions=0.1,
     )
     result = simulate(scene)
-    rigid = simulate(scene.replace("bodies", {}))
+    rigid = simulate(scene.replace({"bodies": {}}))
     assert result.quantity("energy.residual").value < 1e-2
     assert result["crank_speed"][-1] == pytest.approx(rigid["crank_speed"][-1], rel=2e-3)
 
@@ -275,7 +275,7 @@ def test_what_a_scene_says():
     assert scene.drive == motor.without(motor.unused())
     assert "drive.slip = 0.05 (the least of design D, NEMA MG 10, Table 2-1)" in assumed(scene)
     assert Scene().drive is None
-    assert scene.replace("drive", None) == Scene()
+    assert scene.replace({"drive": None}) == Scene()
     with pytest.raises(InputError, match=r"drive\.slip = 0\.0: allowed is a number > 0"):
         Scene(drive={"slip": 0.0})
     with pytest.raises(InputError, match=r"\[drive\] needs drive\.inertia \(of flywheel, gear and"):

@@ -55,7 +55,7 @@ def with_rigid(asked):
     """Return the scene with the solid's centre of mass in its drawing, and the same one rigid."""
     part = placed_parts(asked)["slider"]
     y = part.centre_of_mass[1]
-    data = Scene(mechanism=mechanism_of(asked.replace("guide", None))).to_dict()["mechanism"]
+    data = Scene(mechanism=mechanism_of(asked.replace({"guide": None}))).to_dict()["mechanism"]
     data["bodies"]["slider"] |= {
         "mass": part.reduced.mass,
         "inertia": part.inertia,
@@ -287,7 +287,7 @@ def test_balls_carry_a_flexible_ram(tmp_path, kind):
     if kind == "ideal":
         assert sign * carried == pytest.approx(lifted, rel=1e-2)
     else:  # pressed from the start, nothing hits
-        loaded = simulate(scene.replace("start", "loaded"))
+        loaded = simulate(scene.replace({"start": "loaded"}))
         pressed = np.linalg.norm(loaded[f"{balls[0].name}_force"], axis=1)
         assert pressed.max() < 1.01 * pressed[0]
 

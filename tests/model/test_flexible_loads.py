@@ -125,7 +125,7 @@ def test_stiff_the_drive_takes_out_what_the_load_puts_in(rocker, place):
     stiff = {"youngs_modulus": 1e16}
     asked = scene(rocker, {"one": {**RAMP, **ON[place]}}, body=stiff, revolutions=0.12)
     asked = asked.replace({"solver.step": 4e-4, "speed_rpm": 100.0})
-    result, free = simulate(asked), simulate(asked.replace("load", {}))
+    result, free = simulate(asked), simulate(asked.replace({"load": {}}))
     power = result["load_one_force"] * (
         mechanism_of(asked)
         .motion(result["crank_angle"], asked.angular_speed)["rocker"]
@@ -152,7 +152,7 @@ def test_the_balance_closes_only_with_the_bodys_own_motion(rocker):
     soft = {"youngs_modulus": 2e10}
     load = {**RAMP, "force": [0.0, 200.0, 0.0], "face": TIP}
     asked = scene(rocker, {"one": load}, body=soft, revolutions=0.15, speed_rpm=200.0)
-    result = simulate(asked.replace("solver.tolerance", 1e-4))
+    result = simulate(asked.replace({"solver.tolerance": 1e-4}))
     assert result.completed
     assert result.quantity("energy.residual").value < 2e-3
     motion = result["body_position"][:, result.bodies.index("rocker")]

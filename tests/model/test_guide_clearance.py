@@ -121,5 +121,5 @@ def test_what_is_refused_and_dropped():
         Scene(guide={"clearance": 1e-5, "friction": "dry"})
     loose = Scene(guide={"clearance": 1e-5, "friction": "coulomb"})
     elastic = Scene(guide={"lateral_stiffness": 1e9, "friction": "coulomb"})
-    assert loose.replace("guide.clearance", None) == elastic
+    assert loose.replace({"guide.clearance": None}) == elastic
     assert Scene.from_dict(loose.to_dict()) == loose

@@ -106,7 +106,7 @@ def test_what_is_refused_and_dropped():
         Scene(guide={**OILED, "viscosity": 0.0})
     scene = Scene(guide=OILED)
     assert Scene.from_dict(scene.to_dict()) == scene
-    assert scene.replace("guide.viscosity", None) == Scene(guide=DRY)
+    assert scene.replace({"guide.viscosity": None}) == Scene(guide=DRY)
 
 
 def test_a_viscosity_of_no_oil_is_warned_about():

@@ -47,7 +47,7 @@ def ideal(scene):
 def test_joints_begin_with_the_force_of_the_ideal_motion(name):
     scene = at_angle(SCENES[name])
     expected = ideal(scene)
-    loaded, centred = (simulate(scene.replace("start", start)) for start in ("loaded", "centred"))
+    loaded, centred = (simulate(scene.replace({"start": start})) for start in ("loaded", "centred"))
     assert scene.start == "loaded"
     for joint in scene.joints.with_clearance:
         force = loaded[f"{joint}_force"]
@@ -105,8 +105,8 @@ def test_a_film_whose_journal_hardly_turns_starts_centred():
 
 def test_the_papers_press_starts_centred():
     assert Scene().start == "centred"
-    assert Scene().replace("mechanism", "slider_crank").start == "loaded"
-    assert Scene(mechanism="slider_crank").replace("mechanism", "press").start == "centred"
+    assert Scene().replace({"mechanism": "slider_crank"}).start == "loaded"
+    assert Scene(mechanism="slider_crank").replace({"mechanism": "press"}).start == "centred"
     assert Scene(joints={}).start is None
     model = build(Scene(mechanism="slider_crank", start="centred"))
     assert model.scene.start == "centred"
@@ -133,7 +133,7 @@ def test_the_press_of_the_paper_starts_loaded_at_any_angle(kind, angle, flexible
         start_angle_deg=angle,
         revolutions=0.01,
     )
-    wanted = ideal(scene.replace("bodies", {}))["crank_pin_force"][0, :2]
+    wanted = ideal(scene.replace({"bodies": {}}))["crank_pin_force"][0, :2]
     result = simulate(scene)
     assert result.completed
     begun = result["crank_pin_force"][:, :2]

@@ -119,7 +119,7 @@ def test_a_stiff_table_is_a_spring():
     }
     from exu_press.result import record
 
-    loaded = simulate(scene.replace("load.spring", table))
+    loaded = simulate(scene.replace({"load.spring": table}))
     model = scene.build()
     still = model.mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=0, coordinate=0))
     slider = model.mbs.AddMarker(
@@ -182,5 +182,5 @@ def test_a_forming_force_takes_out_its_area_and_gives_nothing_back(joints):
     assert force.max() == pytest.approx(260e3, rel=1e-3)
     assert result.quantity("energy.residual").value < 1e-3
     if not joints:
-        spring = simulate(scene.replace("load.draw.acts", "both"))
+        spring = simulate(scene.replace({"load.draw.acts": "both"}))
         assert abs(spring["load_draw_work"][-1]) < 0.01 * work_of(FORMING)

@@ -97,8 +97,8 @@ def test_a_run_goes_on_in_the_sheet():
     position = mechanism_of(whole).ideal_slider(np.linspace(0, 2 * np.pi, 3601) + angle, speed)[0]
     height = position - mechanism_of(whole).bottom
     inside = int(np.flatnonzero(height < 2.6e-3)[0])  # before the fracture
-    first = simulate(whole.replace("revolutions", inside / 3600))
-    rest = whole.replace("revolutions", 1.0 - inside / 3600)
+    first = simulate(whole.replace({"revolutions": inside / 3600}))
+    rest = whole.replace({"revolutions": 1.0 - inside / 3600})
     second = simulate(rest, start=first.info["state"])
     together = first.quantity("loads.part.work").value + second.quantity("loads.part.work").value
     assert second.quantity("loads.part.peak_force").value > 1.1e5

@@ -21,7 +21,7 @@ def press(revolutions=0.4, **changes):
 def test_a_press_that_its_brake_holds_stays(angle):
     """Against its weight, for as long as it stands, and to the last digits."""
     scene = press(start_time=[9.0], stop_time=None, clutch_off=None, brake_on=None)
-    result = simulate(scene.replace("start_angle_deg", angle))
+    result = simulate(scene.replace({"start_angle_deg": angle}))
     assert result.completed
     assert np.ptp(result["crank_angle"]) < 1e-7
     assert np.abs(result["crank_speed"][result.time > 0.2]).max() < 1e-9
@@ -91,7 +91,7 @@ def test_a_run_goes_on_behind_its_stop():
 
 def test_a_clutch_that_slips_for_good_is_a_stall_of_the_clutch():
     load = {"hold": {"kind": "table", "height": [0.0, 0.07], "force": [3e5, 3e5]}}
-    result = simulate(press(1.0, stop_time=[0.9]).replace("load", load))
+    result = simulate(press(1.0, stop_time=[0.9]).replace({"load": load}))
     assert result.info["status"] == "stalled"
     told = re.search(
         r"want (\S+) N m there, and the clutch, which slips, has 3000 N m", result.info["reason"]
@@ -125,7 +125,7 @@ def test_what_does_not_go_with_a_schedule():
 def test_fixed_steps_stop_as_those_of_a_tolerance_do():
     scene = press(0.35)
     found = [
-        simulate(scene.replace("solver", solver)).quantity("drive.stopping_time").value
+        simulate(scene.replace({"solver": solver})).quantity("drive.stopping_time").value
         for solver in ({"step": 1e-4}, {"tolerance": 1e-3})
     ]
     assert found[0] == pytest.approx(found[1], rel=2e-3)

@@ -81,7 +81,7 @@ def test_free_rotors_are_engaged_and_stopped_as_closed_forms_say():
 def test_steps_end_where_it_sticks_whatever_the_tolerance():
     found = []
     for tolerance in (1e-2, 1e-4):
-        scene = rotors().replace("solver.tolerance", tolerance)
+        scene = rotors().replace({"solver.tolerance": tolerance})
         result = simulate(scene)
         found.append(
             [result.quantity(f"drive.{name}").value for name in ("starting_time", "stopping_time")]

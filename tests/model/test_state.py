@@ -27,7 +27,7 @@ FILM = Scene(
 )
 SCENES = {
     "restitution": DRY,
-    "bristle": DRY.replace("friction.law", "lugre"),
+    "bristle": DRY.replace({"friction.law": "lugre"}),
     "film": FILM,
     "motor": DRY.replace({"drive": {"rated_torque": 200.0, "inertia": 2.0}}),
     "pulse by a motor": DRY.replace(
@@ -56,7 +56,7 @@ def first_piece(name):
 @pytest.mark.parametrize("name", SCENES)
 def test_two_pieces_are_one_run(name):
     scene, first = SCENES[name], first_piece(name)
-    whole = simulate(scene.replace("revolutions", 2.0 * scene.revolutions))
+    whole = simulate(scene.replace({"revolutions": 2.0 * scene.revolutions}))
     state = json.loads(json.dumps(first.info["state"]))  # as its file has it
     second = simulate(scene, start=state)
     assert second.completed
@@ -97,8 +97,8 @@ def test_joints_remember_all_that_they_are_told(name):
 
 
 def test_fixed_steps_go_on_nearly_to_the_last_digit():
-    scene = DRY.replace("solver.step", 2e-5)
-    whole = simulate(scene.replace("revolutions", 0.2))
+    scene = DRY.replace({"solver.step": 2e-5})
+    whole = simulate(scene.replace({"revolutions": 0.2}))
     second = simulate(scene, start=simulate(scene).info["state"])
     assert difference(whole, second, "slider_position") < 1e-10
 
@@ -106,10 +106,10 @@ def test_fixed_steps_go_on_nearly_to_the_last_digit():
 @pytest.mark.long
 def test_after_ten_revolutions_two_pieces_are_the_longer_run_to_the_last_digit():
     """A longer run goes on from such a state itself, in each tenth revolution."""
-    scene = DRY.replace("revolutions", 10.0)
+    scene = DRY.replace({"revolutions": 10.0})
     state = json.loads(json.dumps(simulate(scene).info["state"]))
     second = simulate(scene, start=state)
-    whole = simulate(scene.replace("revolutions", 20.0))
+    whole = simulate(scene.replace({"revolutions": 20.0}))
     last = len(second.time) - 1  # the first instant is the last one of the first piece
     for name in ("slider_position", "slider_velocity", "crank_pin_force"):
         assert np.array_equal(whole[name][-last:], second[name][1:])
@@ -118,7 +118,7 @@ def test_after_ten_revolutions_two_pieces_are_the_longer_run_to_the_last_digit()
 
 def test_keys_may_change_and_errors_are_found():
     state = first_piece("film").info["state"]
-    run = simulate(FILM.replace("film.viscosity", 0.2), errors=True, start=state)
+    run = simulate(FILM.replace({"film.viscosity": 0.2}), errors=True, start=state)
     value = run.quantity("joints.crank_pin.peak_force")
     assert value.error < 0.05 * value.value
 
@@ -126,14 +126,14 @@ def test_keys_may_change_and_errors_are_found():
 def test_the_start_angle_of_a_scene_moves_no_state():
     """Coordinates count from places that go with the start angle."""
     state = first_piece("film").info["state"]
-    one, other = (simulate(FILM.replace("start_angle_deg", a), start=state) for a in (0.0, 90.0))
+    one, other = (simulate(FILM.replace({"start_angle_deg": a}), start=state) for a in (0.0, 90.0))
     assert other["crank_angle"][0] == pytest.approx(one["crank_angle"][0], abs=1e-12)
     assert other["slider_position"][-1] == pytest.approx(one["slider_position"][-1], abs=1e-8)
 
 
 def test_a_bearing_too_small_for_its_journal_is_refused():
     state = first_piece("film").info["state"]
-    small = FILM.replace("joints.crank_pin.clearance", 0.01 * PIN["clearance"])
+    small = FILM.replace({"joints.crank_pin.clearance": 0.01 * PIN["clearance"]})
     with pytest.raises(InputError, match=r"crank_pin starts with an eccentricity of"):
         simulate(small, start=state)
 

@@ -25,7 +25,7 @@ def test_with_clearance_in_the_guides_they_start_in_the_deformation_between_idea
     scene = Scene(bodies=flexible_press(**SMALL), start_angle_deg=60.0)
     modes = []
     for guide in (None, {"clearance": 5e-5}):
-        model = scene.replace("guide", guide).build()
+        model = scene.replace({"guide": guide}).build()
         index = model.mbs.systemData.GetNodeLTGODE2(model.nodes["crank_modes"])
         start = model.mbs.systemData.GetODE2Coordinates(ConfigurationType.Initial)
         modes.append(np.asarray(start)[index])

@@ -46,7 +46,7 @@ def test_the_peak_of_a_finer_run_is_not_worse():
         mechanism="slider_crank", speed_rpm=60.0, guide={"clearance": 1e-4}, revolutions=0.5
     )
     peak = {"peak": quantity_of(scene, "joints.wrist_pin.peak_force")}
-    runs = [simulate(scene.replace("solver.tolerance", 10.0**-n)) for n in (4, 5, 6)]
+    runs = [simulate(scene.replace({"solver.tolerance": 10.0**-n})) for n in (4, 5, 6)]
     found = [numbers_of(run, peak)["peak"] for run in runs]
     assert found == pytest.approx([found[-1]] * 3, rel=3e-6)
     raw = [np.linalg.norm(run["wrist_pin_force"], axis=1).max() for run in runs]

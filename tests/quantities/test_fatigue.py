@@ -35,7 +35,7 @@ def test_one_cycle_a_revolution():
     amplitude = 5e7
     changed = dataclasses.replace(
         result,
-        scene=scene.replace(bodies={"rod": dataclasses.replace(LINE)}),
+        scene=scene.replace({"bodies": {"rod": dataclasses.replace(LINE)}}),
         channels=dict(result.channels)
         | {
             "rod_stress": dataclasses.replace(

@@ -13,7 +13,7 @@ def test_guides_without_friction_say_what_friction_would_take():
 
 def test_guides_with_friction_say_what_it_takes():
     rubbing = Scene(mechanism="slider_crank", joints={}, revolutions=0.1).replace(
-        "guide", {"friction": "coulomb"}
+        {"guide": {"friction": "coulomb"}}
     )
     result = simulate(rubbing)
     lost = result.quantity("guides.slider.dissipated").value

@@ -54,7 +54,7 @@ def test_depths_hold_the_volume(result):
 
 
 def test_wear_changes_nothing_in_the_run_and_is_in_proportion(result):
-    other = simulate(result.scene.replace("wear.coefficient", 2e-4))
+    other = simulate(result.scene.replace({"wear.coefficient": 2e-4}))
     assert (other["slider_position"] == result["slider_position"]).all()
     for name in ("volume", "bearing_depth", "journal_depth", "pressure_velocity"):
         full = f"joints.crank_pin.wear.{name}"
@@ -82,9 +82,9 @@ def test_what_is_refused(keys, words):
 
 def test_a_coefficient_of_a_thousand_times_steel_is_warned_of(result):
     assert not [words for words in scene_warnings(result.scene) if "wear" in words]
-    doubtful = scene_warnings(result.scene.replace("wear.coefficient", 0.5))
+    doubtful = scene_warnings(result.scene.replace({"wear.coefficient": 0.5}))
     assert any("wear.coefficient" in words for words in doubtful)
-    there = scene_warnings(result.scene.replace("wear.joints.crank_pin.coefficient", 0.5))
+    there = scene_warnings(result.scene.replace({"wear.joints.crank_pin.coefficient": 0.5}))
     assert any("wear.joints.crank_pin.coefficient" in words for words in there)
 
 
@@ -122,7 +122,7 @@ def test_that_journal_stays_round_and_its_bearing_wears_below(weight):
 
 
 def test_one_joint_has_its_own_hardness(weight):
-    other = simulate(weight.scene.replace("wear.joints.shaft.hardness", 1e9))
+    other = simulate(weight.scene.replace({"wear.joints.shaft.hardness": 1e9}))
     ratio = [run.quantity("joints.shaft.wear.volume").value for run in (other, weight)]
     assert ratio[0] == pytest.approx(2.0 * ratio[1], rel=1e-12)
     assert Scene.from_dict(other.scene.to_dict()) == other.scene

@@ -33,7 +33,7 @@ def test_a_result_shows_its_quantities(result):
 
 
 def test_a_comparison_shows_what_differs(result):
-    other = simulate(result.scene.replace("joints.crank_pin.clearance", 3e-4))
+    other = simulate(result.scene.replace({"joints.crank_pin.clearance": 3e-4}))
     both = Comparison({"narrow": result, "<b>wide": other})
     shown = both._repr_html_()
     assert "joints.crank_pin.clearance" in shown and "&lt;b&gt;wide" in shown

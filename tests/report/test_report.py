@@ -142,7 +142,7 @@ def test_a_sweep_shows_every_run(parsed):
 
 def test_warnings_of_doubtful_runs(outputs):
     result = Result.load(outputs["run"] / "run.nc")
-    given = result.scene.replace("film.law", "finite")
+    given = result.scene.replace({"film.law": "finite"})
     assert run_warnings(replace(result, scene=given)) == []
     pin = result["crank_pin_eccentricity"]
     pin = pin * (0.99e-4 / np.linalg.norm(pin, axis=1).max())

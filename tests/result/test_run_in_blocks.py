@@ -58,7 +58,7 @@ def test_blocks_are_one_run(whole, short_blocks):
 
 
 def test_a_long_run_is_saved_and_sent_whole(short_blocks, tmp_path):
-    blocks = simulate(SCENE.replace("revolutions", 1.5))
+    blocks = simulate(SCENE.replace({"revolutions": 1.5}))
     blocks.save(tmp_path / "run.nc")
     for again in (Result.load(tmp_path / "run.nc"), pickle.loads(pickle.dumps(blocks))):
         assert again.scene == blocks.scene
@@ -67,7 +67,7 @@ def test_a_long_run_is_saved_and_sent_whole(short_blocks, tmp_path):
 
 
 def test_what_is_changed_of_the_disk_stays_there(short_blocks):
-    blocks = simulate(SCENE.replace("revolutions", 1.5))
+    blocks = simulate(SCENE.replace({"revolutions": 1.5}))
     twice = blocks.with_values({"drive_torque": 2.0 * blocks["drive_torque"]})
     assert isinstance(twice.channels, Changed)
     assert on_disk(twice.channels)
@@ -79,9 +79,9 @@ def test_what_is_changed_of_the_disk_stays_there(short_blocks):
 
 def test_steps_are_counted_over_blocks(short_blocks):
     """A run that stops in a later block keeps the ones before."""
-    first = simulate(SCENE.replace("revolutions", 0.7))
+    first = simulate(SCENE.replace({"revolutions": 0.7}))
     most = first.info["steps"] + first.info["rejected_steps"] + 50
-    stopped = simulate(SCENE.replace("solver.max_steps", most))
+    stopped = simulate(SCENE.replace({"solver.max_steps": most}))
     assert stopped.info["status"] == "too many steps"
     assert first.info["steps"] < stopped.info["steps"] <= most
     assert first.time[-1] < stopped.time[-1] < SCENE.duration
@@ -89,7 +89,7 @@ def test_steps_are_counted_over_blocks(short_blocks):
 
 
 def test_files_go_with_the_run(short_blocks):
-    blocks = simulate(SCENE.replace("revolutions", 1.5))
+    blocks = simulate(SCENE.replace({"revolutions": 1.5}))
     folder = blocks.channels._file("time").parent
     assert folder.exists()
     del blocks
@@ -130,7 +130,7 @@ def test_a_killed_run_leaves_what_it_had(whole, killed, tmp_path):
     with pytest.warns(UserWarning, match=r"was killed; it has 1\.4 revolutions"):
         left = Result.load(killed / "run.nc")
     assert left.completed
-    assert left.scene == SCENE.replace("revolutions", 1.4)
+    assert left.scene == SCENE.replace({"revolutions": 1.4})
     assert left.time[-1] == pytest.approx(0.56 * SCENE.duration, rel=1e-12)
     before = whole.time <= left.time[-1]
     there = np.interp(whole.time[before], left.time, left["crank_angle"])
@@ -143,7 +143,7 @@ def test_a_killed_run_leaves_what_it_had(whole, killed, tmp_path):
 def test_a_killed_run_is_gone_on_with(whole, killed):
     with pytest.warns(UserWarning, match="was killed"):
         left = Result.load(killed / "run.nc")
-    rest = simulate(SCENE.replace("revolutions", 1.1), start=left.info["state"])
+    rest = simulate(SCENE.replace({"revolutions": 1.1}), start=left.info["state"])
     assert rest.time[-1] == pytest.approx(SCENE.duration, rel=1e-9)
     assert rest["slider_position"][-1] == pytest.approx(whole["slider_position"][-1], abs=1e-7)
 
@@ -167,7 +167,7 @@ def test_a_killed_run_is_not_taken_for_the_one_before(whole, killed, tmp_path):
 def test_another_directory_is_not_removed(tmp_path):
     (tmp_path / "notes.txt").write_text("mine")
     with pytest.raises(InputError, match="cannot be made"):
-        simulate(SCENE.replace("revolutions", 11.0), unfinished=tmp_path)
+        simulate(SCENE.replace({"revolutions": 11.0}), unfinished=tmp_path)
     assert (tmp_path / "notes.txt").read_text() == "mine"
 
 

@@ -154,14 +154,14 @@ def test_friction_of_a_mixed_film_heats_it_too():
     assert of_pin(run, "share_contact") > 0.01
     lost = of_pin(run, "mean_power")
     assert of_pin(run, "film.carried_off") == pytest.approx(lost, rel=0.03)
-    other = simulate(run.scene.replace("friction.mu_kinetic", 0.02))
+    other = simulate(run.scene.replace({"friction.mu_kinetic": 0.02}))
     assert of_pin(other, "film.temperature") < of_pin(run, "film.temperature")
 
 
 def test_errors_are_those_of_the_whole_run(result):
     run = simulate(result.scene, errors=True, beside=False)
     told = run.quantity("joints.crank_pin.film.temperature")
-    finer = simulate(result.scene.replace("solver.tolerance", 1e-3))
+    finer = simulate(result.scene.replace({"solver.tolerance": 1e-3}))
     assert told.determined
     assert 0.0 < told.error < 0.1
     assert told.value == of_pin(result, "film.temperature")
@@ -173,7 +173,7 @@ def test_a_run_goes_on_warm(result, tmp_path):
     loaded = Result.load(tmp_path / "run.nc")
     assert loaded.scene == result.scene
     assert of_pin(loaded, "film.change") == of_pin(result, "film.change")
-    further = simulate(loaded.scene.replace("revolutions", 1.0), start=loaded.info["state"])
+    further = simulate(loaded.scene.replace({"revolutions": 1.0}), start=loaded.info["state"])
     change = of_pin(result, "film.change")
     now = further["crank_pin_temperature"][0]
     assert now == result["crank_pin_temperature"][-1] + change
@@ -195,7 +195,7 @@ def test_with_a_motor_films_warm_by_revolutions_of_the_crank():
 def test_a_motor_goes_on_by_the_same_revolutions_of_the_crank():
     drive = {"rated_torque": 300.0, "inertia": 20.0}
     run = simulate(scene_of(drive=drive, revolutions=1.3))
-    further = simulate(run.scene.replace("revolutions", 2.0), start=run.info["state"])
+    further = simulate(run.scene.replace({"revolutions": 2.0}), start=run.info["state"])
     (changed,) = np.flatnonzero(np.diff(further["crank_pin_temperature"]))
     turns = (further["crank_angle"][changed] - run.scene.start_angle) / (2.0 * math.pi)
     assert turns == pytest.approx(3.0, abs=1e-5)  # of part of a revolution nothing is known

@@ -75,23 +75,23 @@ def test_the_table_of_before_is_named():
     with pytest.raises(InputError, match=r"flexible = .*: is bodies\.NAME now"):
         Scene.from_dict({"flexible": {"modes": 4}})
     with pytest.raises(InputError, match=r"flexible\.modes = 4: is bodies\.NAME now"):
-        Scene().replace("flexible.modes", 4)
+        Scene().replace({"flexible.modes": 4})
 
 
 def test_one_key_a_part_or_all_bodies_are_replaced():
-    scene = Scene().replace("bodies.linkage", "linkage").replace("bodies.linkage.modes", 6)
+    scene = Scene().replace({"bodies.linkage": "linkage"}).replace({"bodies.linkage.modes": 6})
     assert scene.bodies == {"linkage": Flexible("linkage", modes=6)}
     assert scene.replace({"bodies.linkage": "linkage_2"}).bodies["linkage"].modes == 20
-    assert scene.replace(bodies={}).bodies == {}
-    assert scene.replace(mechanism="slider_crank").bodies == {}
+    assert scene.replace({"bodies": {}}).bodies == {}
+    assert scene.replace({"mechanism": "slider_crank"}).bodies == {}
     both = scene.replace({"bodies.linkage": "linkage_2", "bodies.linkage.modes": 3})
     assert both.bodies["linkage"] == Flexible("linkage_2", modes=3)
 
 
 def test_a_flexibility_error_takes_the_place_of_the_modes_and_back():
-    scene = Scene(bodies=flexible_press()).replace("bodies.crank.flexibility_error", 0.01)
+    scene = Scene(bodies=flexible_press()).replace({"bodies.crank.flexibility_error": 0.01})
     assert (scene.bodies["crank"].modes, scene.bodies["linkage"].modes) == (None, 20)
-    back = scene.replace("bodies.crank.modes", 6).bodies["crank"]
+    back = scene.replace({"bodies.crank.modes": 6}).bodies["crank"]
     assert (back.modes, back.flexibility_error) == (6, None)
 
 

@@ -25,10 +25,10 @@ def test_an_empty_table_means_defaults():
 
 
 def test_on_and_off_by_replace():
-    scene = Scene().replace("guide.lateral_stiffness", 2e8)
+    scene = Scene().replace({"guide.lateral_stiffness": 2e8})
     assert scene.guide.lateral_stiffness == 2e8
     assert scene.guide.length == 0.5
-    assert scene.replace("guide", None) == Scene()
+    assert scene.replace({"guide": None}) == Scene()
     other = scene.replace({"guide": None, "mechanism": "slider_crank"})
     assert other == Scene(mechanism="slider_crank")
 
@@ -119,7 +119,7 @@ def test_what_is_refused(scene, message):
 
 def test_a_press_that_loses_its_counterweight_loses_its_keys():
     scene = Scene(press={"counterweight_mass": 900.0, "counterweight_inertia": 9.0})
-    bare = scene.replace("press.counterweight", False)
+    bare = scene.replace({"press.counterweight": False})
     assert bare == Scene(press={"counterweight": False})
     with pytest.raises(InputError, match="counterweight_mass"):
-        bare.replace("press.counterweight_mass", 900.0)
+        bare.replace({"press.counterweight_mass": 900.0})

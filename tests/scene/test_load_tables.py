@@ -59,12 +59,12 @@ def test_an_offset_is_as_drawn():
 def test_keys_on_the_command_line_and_in_sweeps():
     scene = Scene().replace({"load.a.force": 2e4, "load.a.kind": "blanking"})
     assert scene.load["a"] == BlankingLoad(force=2e4)
-    changed = scene.replace("load.a.force", 3e4).replace("load.a.offset", [0.1, 0.0])
+    changed = scene.replace({"load.a.force": 3e4}).replace({"load.a.offset": [0.1, 0.0]})
     assert changed.load["a"] == BlankingLoad(force=3e4, offset=(0.1, 0.0))
     table = changed.replace({"load.a.kind": "table", "load.a.time": [0, 1], "load.a.force": [0, 1]})
     assert table.load["a"] == TableLoad(time=(0.0, 1.0), force=(0.0, 1.0), offset=(0.1, 0.0))
-    assert not table.replace("load", {}).load
-    assert changed.replace("mechanism", "slider_crank").load == changed.load
+    assert not table.replace({"load": {}}).load
+    assert changed.replace({"mechanism": "slider_crank"}).load == changed.load
 
 
 def test_a_csv_file_lies_beside_the_scene(tmp_path):
@@ -182,7 +182,7 @@ def test_a_load_on_a_joint_or_a_face_is_saved_and_read_back(tmp_path):
     assert Scene.from_dict(scene.to_dict()) == scene
     scene.save(tmp_path / "scene.toml")
     assert Scene.load(tmp_path / "scene.toml") == scene
-    moved = scene.replace("load.pin.joint", "crank_pin")
+    moved = scene.replace({"load.pin.joint": "crank_pin"})
     assert moved.load["pin"].joint == "crank_pin"
 
 
@@ -228,4 +228,4 @@ def test_the_old_spelling_is_refused_and_the_new_one_named():
     ):
         Scene.from_dict({"blanking": {"force": 1e4}})
     with pytest.raises(InputError, match=r"blanking\.force = 1.0: is load\.NAME with kind"):
-        Scene().replace("blanking.force", 1.0)
+        Scene().replace({"blanking.force": 1.0})

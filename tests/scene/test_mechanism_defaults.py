@@ -55,7 +55,9 @@ def test_the_paper_rules_its_press():
 
 def test_another_mechanism_does_not_take_the_papers_laws_over():
     flores = {"damping": "flores", "restitution": 0.7}
-    other = Scene(joints={"crank_pin": "dry"}, contact=flores).replace("mechanism", "slider_crank")
+    other = Scene(joints={"crank_pin": "dry"}, contact=flores).replace(
+        {"mechanism": "slider_crank"}
+    )
     assert other.contact.damping == "flores" and other.contact.stiffness is None
     assert other.contact.restitution == 0.7, "what the scene gave stays"
     assert other.friction == Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}).friction
@@ -85,7 +87,7 @@ def test_a_film_needs_its_oil_and_its_length():
         with pytest.raises(InputError, match=rf"joints.knuckle needs film.{name} "):
             scene(joints=film, contact=None, film={k: v for k, v in OIL.items() if k != name})
     whole = scene(joints=film, contact=None, film=Film(**OIL))
-    mixed = whole.replace("film.at_contact", "mixed")
+    mixed = whole.replace({"film.at_contact": "mixed"})
     law = contact_law(mixed.joints["knuckle"], revolute=True)
     given = contact_law(scene().joints["knuckle"], revolute=True)
     assert law.stiffness.force(1e-6) == given.stiffness.force(1e-6), "of the film's length"

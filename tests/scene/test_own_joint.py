@@ -64,7 +64,7 @@ def test_it_balances_energy_and_comes_near_the_ideal_joint_as_it_gets_stiff():
 def test_a_scene_file_names_it_and_reads_back_equal(tmp_path):
     crank().save(tmp_path / "scene.toml")
     assert Scene.load(tmp_path / "scene.toml") == crank()
-    changed = crank().replace("joints.crank_pin.stiffness", 1e9)
+    changed = crank().replace({"joints.crank_pin.stiffness": 1e9})
     assert changed.joints["crank_pin"].stiffness == 1e9
 
 

@@ -73,7 +73,7 @@ def test_a_schedule_that_is_refused(changes, message):
 
 def test_what_a_scene_refuses_beside_a_schedule():
     with pytest.raises(InputError, match=r"settle = 1: allowed is 0 with a .drive. that starts"):
-        scene().replace("settle", 1.0)
+        scene().replace({"settle": 1.0})
     with pytest.raises(InputError, match="stop_angle_deg = 90: allowed is a number > start_angle"):
         Scene(
             mechanism="eccentric_press",

@@ -51,7 +51,7 @@ def test_a_table_that_is_not_in_use_is_right_when_it_is_put_to_use(table, value,
         lines.append(line.removeprefix("# ") if inside and given else line)
     path = tmp_path / "scene.toml"
     path.write_text("\n".join(lines))
-    assert Scene.load(path) == Scene().replace(table, value)
+    assert Scene.load(path) == Scene().replace({table: value})
 
 
 def test_an_unknown_mechanism_is_refused():

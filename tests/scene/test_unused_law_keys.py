@@ -76,9 +76,9 @@ def test_a_key_that_one_joint_uses_is_not_refused():
 
 def test_a_change_drops_what_is_no_longer_used_but_not_what_it_names():
     scene = Scene.from_dict({**BASE, "friction": {"law": "lugre", "sigma_0": 2e5}})
-    coulomb = scene.replace("friction.law", "coulomb")
+    coulomb = scene.replace({"friction.law": "coulomb"})
     assert coulomb.friction.sigma_0 is None
-    assert scene.replace("joints.crank_pin", "ideal").friction is None
+    assert scene.replace({"joints.crank_pin": "ideal"}).friction is None
     with pytest.raises(InputError, match=r"friction\.sigma_0 = 300000\.0: not used"):
         scene.replace({"friction.law": "coulomb", "friction.sigma_0": 3e5})
     with pytest.raises(InputError, match=r"friction\.sigma_0 = 300000\.0: not used"):

@@ -232,7 +232,7 @@ def test_defaults():
     assert (scene.contact.stiffness, scene.contact.exponent) == (2.5545e10, 1.5)
     assert (scene.contact.damping_max, scene.contact.damping_depth) == (2.5545e8, 1e-5)
     assert scene.contact.tension is False
-    bristle = scene.replace("friction.law", "lugre").friction
+    bristle = scene.replace({"friction.law": "lugre"}).friction
     assert (bristle.sigma_0, bristle.sigma_1, bristle.sigma_2) == (1e5, 400, 0)
     assert (scene.friction.sigma_0, scene.friction.sigma_1, scene.friction.sigma_2) == (
         None,

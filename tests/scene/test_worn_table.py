@@ -26,7 +26,7 @@ def test_a_worn_joint_is_saved_and_read(worn, tmp_path):
     one = scene(worn)
     one.save(tmp_path / "worn.toml")
     assert Scene.load(tmp_path / "worn.toml") == one
-    assert one.replace("joints.crank_pin", "ideal").joints["crank_pin"].kind == "ideal"
+    assert one.replace({"joints.crank_pin": "ideal"}).joints["crank_pin"].kind == "ideal"
 
 
 def test_angles_that_are_left_out_are_even():
@@ -57,7 +57,9 @@ def test_a_film_between_worn_surfaces_closes_its_energy_and_is_thinner(at_contac
         mechanism="slider_crank", joints={"crank_pin": joint}, film=film, revolutions=0.3
     )
     worn = {"bearing_depth": DENT, "journal_depth": DENT[::-1]}
-    runs = [simulate(one) for one in (round_one, round_one.replace("joints.crank_pin.worn", worn))]
+    runs = [
+        simulate(one) for one in (round_one, round_one.replace({"joints.crank_pin.worn": worn}))
+    ]
     forces = [run.quantity("joints.crank_pin.peak_force").value for run in runs]
     assert forces[1] == pytest.approx(forces[0], rel=1e-2)
     assert abs(runs[1].quantity("energy.residual").value) < 1e-4

@@ -30,7 +30,7 @@ def test_a_changed_number_and_a_table_that_one_scene_has():
             "guide": {"lateral_stiffness": 1e9},
         }
     )
-    loaded = other.replace("load.punch", {"kind": "blanking", "force": 1e4})
+    loaded = other.replace({"load.punch": {"kind": "blanking", "force": 1e4}})
     found = rows({"a": base, "b": loaded})
     assert found["speed_rpm"] == ["240", "300"]
     assert found["joints.crank_pin.clearance"] == ["0.0001", "5e-05"]

@@ -56,7 +56,7 @@ def test_a_part_of_a_revolution_has_no_orders(run):
 def test_a_journal_on_a_linear_contact_has_its_frequency():
     stiff = DRY.replace({"contact": {"shape": "point", "stiffness": 1e8, "exponent": 1.0}})
     mark = marks_of(simulate(stiff))[0]
-    bodies = simulate(stiff.replace("revolutions", 0.01)).scene
+    bodies = simulate(stiff.replace({"revolutions": 0.01})).scene
     from exu_press.scene import mechanism_of
 
     rod = next(b.mass for b in mechanism_of(bodies).bodies if b.name == "rod")

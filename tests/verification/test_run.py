@@ -83,7 +83,7 @@ def test_errors_stand_in_the_summary_and_in_the_file(tmp_path):
 
 def test_motions_that_part_leave_bounds(result):
     """RefinementRuns whose journal is elsewhere: what happens later is not determined."""
-    other = simulate(result.scene.replace("joints.crank_pin.clearance", 2e-4))
+    other = simulate(result.scene.replace({"joints.crank_pin.clearance": 2e-4}))
     told = errors_of(result, [(4.0, other)])
     assert told["horizon"] is not None
     assert not told["errors"]["joints.crank_pin.peak_force"]["determined"]
@@ -167,7 +167,7 @@ def test_a_peak_may_be_exceeded_after_the_horizon_although_it_was_in_no_run(resu
 
 def test_magnitudes_are_not_below_zero_and_energies_may_be(result):
     """The bounds of two runs that have nothing in common are wide."""
-    other = simulate(result.scene.replace("joints.crank_pin.clearance", 4e-4))
+    other = simulate(result.scene.replace({"joints.crank_pin.clearance": 4e-4}))
     errors = errors_of(result, [(4.0, other)])["errors"]
     assert errors["peak_acceleration.mean_1ms"]["low"] == 0.0
     assert errors["energy.stored"]["low"] < 0.0
@@ -206,7 +206,7 @@ def test_a_shaking_force_that_cancels_is_known_to_rounding():
     film = {"law": "pinkus"}
     scene = Scene(mechanism="slider_crank", speed_rpm=1.0, revolutions=4e-4, film=film)
     told = with_errors(simulate(scene), beside=False).info["errors"]
-    finer = simulate(scene.replace("solver.tolerance", 0.3 * scene.solver.tolerance))
+    finer = simulate(scene.replace({"solver.tolerance": 0.3 * scene.solver.tolerance}))
     name = "shaking.frame.horizontal_mean_1ms"
     assert told[name]["low"] <= finer.quantity(name).value <= told[name]["high"]
 

@@ -16,7 +16,7 @@ NAME = "peak_acceleration.resolved"
 @pytest.mark.long
 def test_the_tolerance_delivers_and_is_no_finer():
     scene = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=0.03)
-    fine = scene.replace("solver.tolerance", 1e-5)
+    fine = scene.replace({"solver.tolerance": 1e-5})
     found = deliver(fine, 1e-2, NAME)
     told = found.result.info["errors"][NAME]
     value = found.result.quantity("peak_acceleration.resolved").value
@@ -31,7 +31,7 @@ def test_where_no_tolerance_delivers_the_distribution_is_told(monkeypatch):
     monkeypatch.setattr(within, "distributions", few)
     monkeypatch.setattr(within, "FINEST", 1e-2)
     scene = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=0.05)
-    found = deliver(scene.replace("solver.tolerance", 2e-2), 1e-5)
+    found = deliver(scene.replace({"solver.tolerance": 2e-2}), 1e-5)
     assert found.tolerance == 1e-2
     assert found.missed[NAME].revolutions == 7
     assert found.missed["energy.dissipated"] is None
@@ -39,7 +39,7 @@ def test_where_no_tolerance_delivers_the_distribution_is_told(monkeypatch):
 
 def test_a_run_that_stops_early_ends_the_search():
     scene = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=0.1)
-    found = deliver(scene.replace("solver.max_steps", 20), 1e-6, NAME)
+    found = deliver(scene.replace({"solver.max_steps": 20}), 1e-6, NAME)
     assert not found.result.completed
     assert found.missed == {NAME: None}
 

@@ -252,8 +252,8 @@ def _finer(scene: Scene) -> Orbit:
     assert solver is not None
     if solver.tolerance is None:
         assert solver.step is not None
-        return Orbit(scene.replace("solver.step", FINER_STEP * solver.step))
-    return Orbit(scene.replace("solver.tolerance", max(FINER * solver.tolerance, 1e-8)))
+        return Orbit(scene.replace({"solver.step": FINER_STEP * solver.step}))
+    return Orbit(scene.replace({"solver.tolerance": max(FINER * solver.tolerance, 1e-8)}))
 
 
 def _error(orbit: Orbit, finer: Orbit) -> float:

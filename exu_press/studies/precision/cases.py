@@ -95,7 +95,7 @@ class Case:
         scene = self.scene
         if scene is not None:
             longest = amount.flexible_revolutions if scene.bodies else amount.revolutions
-            scene = scene.replace(revolutions=min(scene.revolutions, longest))
+            scene = scene.replace({"revolutions": min(scene.revolutions, longest)})
         return replace(
             self,
             scene=scene,
@@ -131,7 +131,7 @@ class Case:
         """Return the stated errors of runs until the horizon."""
         if self.scene is None:
             return []
-        part = self.scene.replace(revolutions=self.scene.revolutions * horizon / self.duration)
+        part = self.scene.replace({"revolutions": self.scene.revolutions * horizon / self.duration})
         finest = amount.loosen * (self.reference_tolerance or FINEST)
         return stated_errors(self.name, part, amount.stated, finest)
 

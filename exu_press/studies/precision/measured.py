@@ -137,7 +137,7 @@ def measured_of(result: Result, cpu_time: float) -> Measured:
 
 def run_scene(scene: Scene, setting: str, value: float) -> Measured:
     """Run a scene with `setting` ("step" or "tolerance") at a value."""
-    return run(scene.replace(f"solver.{setting}", value))
+    return run(scene.replace({f"solver.{setting}": value}))
 
 
 def run(scene: Scene) -> Measured:
@@ -174,4 +174,4 @@ def attempt(solver: str, scene: Scene, setting: str, value: float) -> Attempt:
 
 def moved(scene: Scene, number: int) -> Scene:
     """Return a scene whose start differs by next to nothing: so many times MOVED."""
-    return scene.replace(start_angle_deg=scene.start_angle_deg + number * MOVED)
+    return scene.replace({"start_angle_deg": scene.start_angle_deg + number * MOVED})

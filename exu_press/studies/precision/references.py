@@ -99,7 +99,7 @@ def from_own(scene: Scene, tolerance: float, step: float, starts: int) -> Refere
     if diverged.horizon is not None:  # of whole milliseconds, as steps are
         horizon = INSTANTS_APART * max(1.0, np.floor(diverged.horizon / INSTANTS_APART))
         diverged = replace(diverged, horizon=horizon)
-    until_horizon = scene.replace(revolutions=scene.revolutions * horizon / scene.duration)
+    until_horizon = scene.replace({"revolutions": scene.revolutions * horizon / scene.duration})
     coarse = run_scene(until_horizon, "step", 2.0 * step).trajectory
     fine = run_scene(until_horizon, "step", step).trajectory
     if coarse is None or fine is None:

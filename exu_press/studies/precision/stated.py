@@ -39,12 +39,12 @@ def stated_errors(
     case: str, scene: Scene, tolerances: Sequence[float], reference: float
 ) -> list[Stated]:
     """Return the stated errors of runs, against a run at the reference's tolerance."""
-    true = simulate(scene.replace("solver.tolerance", reference))
+    true = simulate(scene.replace({"solver.tolerance": reference}))
     if not true.completed:
         return []
     found = []
     for tolerance in tolerances:
-        run = simulate(scene.replace("solver.tolerance", tolerance), errors=True, beside=False)
+        run = simulate(scene.replace({"solver.tolerance": tolerance}), errors=True, beside=False)
         if not run.completed:
             continue
         every = list(compared(run, true))

@@ -46,7 +46,7 @@ class Case:
 def extremes(scene: Scene, name: str) -> tuple[Case, ...]:
     """Return the scene as it is, then with every number that it uses times each of FACTORS."""
     allowed = BUDGET if scene.solver is None else min(scene.solver.max_steps, BUDGET)
-    scene = scene.replace("solver.max_steps", allowed)
+    scene = scene.replace({"solver.max_steps": allowed})
     found = [Case(f"{AS_IT_IS}, {name}", AS_IT_IS, AS_IT_IS, scene)]
     for key, value in flat(scene.to_dict()).items():
         kept = {key, key.partition(".")[0]} & NOT_PUSHED
@@ -54,7 +54,7 @@ def extremes(scene: Scene, name: str) -> tuple[Case, ...]:
             continue
         for factor in FACTORS:
             try:
-                pushed = scene.replace(key, factor * value)
+                pushed = scene.replace({key: factor * value})
             except InputError:
                 continue
             label = f"{factor * value:.3g}"

@@ -13,7 +13,7 @@ from paper.readings import permanent_contact, readings, span_of
 @pytest.fixture(scope="module")
 def ideal():
     scene = Scene(joints={"crank_pin": "ideal", "balls": "ideal"}, revolutions=2.0)
-    return simulate(scene.replace("solver.step", 5e-4))
+    return simulate(scene.replace({"solver.step": 5e-4}))
 
 
 def with_motion(result, time, position, velocity, acceleration):
@@ -45,7 +45,7 @@ def test_the_ideal_press_is_the_closed_form_under_every_model(ideal):
 
 def test_the_last_revolution_is_observed(ideal):
     assert span_of(ideal.scene) == pytest.approx((0.25, 0.5))
-    assert span_of(ideal.scene.replace(revolutions=0.4)) == pytest.approx((0.0, 0.1))
+    assert span_of(ideal.scene.replace({"revolutions": 0.4})) == pytest.approx((0.0, 0.1))
     time = np.linspace(0.0, 0.5, 20001)
     spike = np.where(time < 0.1, 1000.0, 1.0)
     run = with_motion(ideal, time, 0.5 * time**2, time, spike)

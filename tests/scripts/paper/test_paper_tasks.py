@@ -13,7 +13,7 @@ def test_errors_of_readings_hold_those_of_a_finer_run():
     scene = Scene(joints={"crank_pin": "dry"}, revolutions=0.05)
     row = observe({"scene": scene.to_dict()})
     assert row["status"] == "completed" and abs(row["residual"]) < 1e-2
-    finer = readings(simulate(scene.replace("solver.tolerance", 1e-6)))
+    finer = readings(simulate(scene.replace({"solver.tolerance": 1e-6})))
     found = {name: Value(**value) for name, value in row["values"].items()}
     assert found.keys() == finer.keys()
     held = [value.low <= finer[name] <= value.high for name, value in found.items()]

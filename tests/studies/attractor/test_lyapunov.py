@@ -137,7 +137,7 @@ def test_the_command_writes_what_it_found(lubricated, tmp_path, capsys, monkeypa
         (FILM, {"revolutions": 10}, "--revolutions 10: allowed are at least 48"),
         (FILM, {"skip": 0}, "--skip 0: allowed is a whole number >= 1"),
         (FILM, {"names": ["nothing"]}, "--quantity nothing: no quantity"),
-        (FILM.replace("joints.crank_pin", "ideal"), {}, "joints: none has clearance"),
+        (FILM.replace({"joints.crank_pin": "ideal"}), {}, "joints: none has clearance"),
     ],
 )
 def test_what_is_refused(scene, options, message):

@@ -33,7 +33,7 @@ def test_a_motors_sections_lie_where_a_run_is_sampled():
 
 
 def test_fixed_steps_end_on_the_section():
-    orbit = Orbit(FILM.replace("solver.step", 4.1e-4))
+    orbit = Orbit(FILM.replace({"solver.step": 4.1e-4}))
     orbit.advance()
     result = orbit.advance(recorded=True)
     assert result.time[-1] == pytest.approx(0.5, rel=1e-12)
@@ -72,7 +72,7 @@ def test_channels_are_kept_on_the_section_with_their_units(turned):
 
 @pytest.fixture(scope="module")
 def fixed():
-    return attractor(FILM.replace("solver.step", 4e-4), skip=3, **SHORT)
+    return attractor(FILM.replace({"solver.step": 4e-4}), skip=3, **SHORT)
 
 
 @pytest.mark.long
@@ -107,7 +107,7 @@ def test_fixed_steps_end_on_the_section_and_have_an_error(fixed):
 def test_no_section(changes, words):
     scene = FILM
     for name, value in changes.items():
-        scene = scene.replace(name, value)
+        scene = scene.replace({name: value})
     with pytest.raises(InputError, match=words) as raised:
         attractor(scene, skip=1, **SHORT)
     assert "\n" not in str(raised.value)

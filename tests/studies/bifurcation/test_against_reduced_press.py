@@ -16,7 +16,7 @@ PRESS = Scene(joints={"crank_pin": "dry", "balls": {"kind": "dry", "clearance": 
 
 def by_the_press(clearance):
     """Eccentricities of crank pin and ball in the section, (REVOLUTIONS, 3), over clearances."""
-    orbit = Orbit(PRESS.replace("joints.crank_pin.clearance", clearance))
+    orbit = Orbit(PRESS.replace({"joints.crank_pin.clearance": clearance}))
     points = []
     for _ in range(REVOLUTIONS):
         orbit.advance()

@@ -28,8 +28,8 @@ def section(scene, revolutions):
 @pytest.mark.parametrize(("clearance", "error"), [(4e-5, 9.4e-4), (7e-5, 7.5e-4)])
 def test_the_period_and_the_point_stay(clearance, error):
     """The diagram's own error is what its point may be off."""
-    scene = DRY.replace("joints.crank_pin.clearance", clearance)
-    coarse, fine = (section(scene.replace("solver.tolerance", one), 9) for one in (1e-3, 1e-4))
+    scene = DRY.replace({"joints.crank_pin.clearance": clearance})
+    coarse, fine = (section(scene.replace({"solver.tolerance": one}), 9) for one in (1e-3, 1e-4))
     for each in (coarse, fine):
         assert period_of(each[-3:], error, 1).revolutions == 1
     assert np.linalg.norm(coarse[-1] - fine[-1]) < error

@@ -69,7 +69,7 @@ def test_a_state_fits_another_speed():
     state: State = orbit.state
     orbit.close()
     now = carried(state, FILM.speed_rpm, 1.01 * FILM.speed_rpm)
-    faster = Orbit(FILM.replace("speed_rpm", 1.01 * FILM.speed_rpm), now)
+    faster = Orbit(FILM.replace({"speed_rpm": 1.01 * FILM.speed_rpm}), now)
     before = faster.point() if faster.revolutions else None
     result = faster.advance(recorded=True)
     faster.close()
@@ -88,7 +88,7 @@ def test_a_run_from_the_start_is_the_attractor():
 
 @pytest.mark.long
 def test_the_command(tmp_path, capsys):
-    FILM.replace("solver.tolerance", 1e-2).save(tmp_path / "film.toml")
+    FILM.replace({"solver.tolerance": 1e-2}).save(tmp_path / "film.toml")
     study = tmp_path / "speed.toml"
     study.write_text(
         'scene = "film.toml"\n[keys]\nspeed_rpm = [240.0]\n'

@@ -19,7 +19,7 @@ def report():
     """A lubricated slider-crank, against the package's own references."""
     scene = Scene(mechanism="slider_crank", revolutions=0.1)
     return precision(
-        (case_of("mine", scene.replace("joints.crank_pin", "lubricated")),), quick=True
+        (case_of("mine", scene.replace({"joints.crank_pin": "lubricated"})),), quick=True
     )
 
 

@@ -53,7 +53,9 @@ def test_the_same_run_without_a_word_would_be_wrong(monkeypatch):
 
 
 def test_a_finer_run_that_stops_leaves_a_case_unchecked_which_is_wrong(monkeypatch):
-    monkeypatch.setattr(judging, "finer", lambda scene: finer(scene).replace("solver.max_steps", 5))
+    monkeypatch.setattr(
+        judging, "finer", lambda scene: finer(scene).replace({"solver.max_steps": 5})
+    )
     row = judged()
     assert row["verdict"] == "wrong"
     assert row["reason"].startswith("the finer run: 5 steps were used up")
@@ -150,7 +152,7 @@ def test_every_number_that_a_scene_uses_is_pushed_both_ways():
     scene = Scene.from_dict({**SHORT, "film": {"law": "pinkus", "viscosity": 0.3}})
     table = extremes(scene, "mine")
     assert len({case.name for case in table}) == len(table)
-    assert table[0].scene.replace("solver.max_steps", scene.solver.max_steps) == scene
+    assert table[0].scene.replace({"solver.max_steps": scene.solver.max_steps}) == scene
     reached = [case.scene.film.viscosity for case in table if case.axis == "film.viscosity"]
     assert min(reached) == pytest.approx(3e-4) and max(reached) == pytest.approx(300.0)
     assert all(case.scene.to_dict() != table[0].scene.to_dict() for case in table[1:])

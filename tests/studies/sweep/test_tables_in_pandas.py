@@ -28,7 +28,7 @@ def test_sweep_as_csv_and_as_netcdf(tmp_path):
         same = data["peak_velocity"].values
     assert frame["peak_velocity"].tolist() == pytest.approx(same.tolist())
     for speed, peak in zip(speeds, frame["peak_velocity"], strict=True):
-        summary = simulate(SCENE.replace(speed_rpm=speed)).summary()
+        summary = simulate(SCENE.replace({"speed_rpm": speed})).summary()
         assert peak == pytest.approx(summary["quantities"]["peak_velocity"]["value"])
 
 

@@ -91,7 +91,7 @@ def test_it_is_read_where_it_was_done_and_the_worn_scene_runs(coarse):
 def test_even_wear_is_a_larger_clearance_to_the_last_digits():
     """Of the run, and of what it wears: nothing but the clearance's mean is left."""
     even = run_worn({"scene": worn_scene(scene(), {"shaft": Depths.even(1e-5)}).to_dict()})
-    larger = run_worn({"scene": scene().replace("joints.shaft.clearance", 6e-5).to_dict()})
+    larger = run_worn({"scene": scene().replace({"joints.shaft.clearance": 6e-5}).to_dict()})
     for name in ("joints.shaft.peak_force", "bottom_dead_centre", "energy.residual"):
         assert even[name] == pytest.approx(larger[name], rel=1e-12, abs=1e-15)
     assert even["bearing"]["shaft"] == pytest.approx(

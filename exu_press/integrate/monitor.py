@@ -92,7 +92,7 @@ class Monitor:
         # velocities, accelerations and their rate, which have jumped in the step last tried
         self._jump: tuple[Array, Array, Array] | None = None
         self._jumped = False  # in the last accepted step
-        self._joints = task.problem.joints is not None
+        self._remembers = task.problem.joints is not None  # do forces remember the motion
         self.stalled, self._watch = "", watch
         self.max_steps = max_steps
         self._task, self._progress = task, progress
@@ -238,7 +238,7 @@ class Monitor:
         shorter = self.control.shorter(step)
         self._jump = None
         if self.control.at_smallest and (self._jumped or self._jumps(step)):
-            self.control.error = 1.0
+            self.control.error = 1.0  # as much as a step may have
             return ACCEPTED
         shorter = shorter or self._event.shorter(step, self._time + step)
         return [2.0, shorter] if shorter > 0.0 else ACCEPTED
@@ -250,7 +250,7 @@ class Monitor:
         may be the next one, in which dampers without mass answer. An offset that jumps itself moves
         bodies by more than their velocities do.
         """
-        if self._joints or not (self.steps and self.constraints.count):
+        if self._remembers or not (self.steps and self.constraints.count):
             return False
         problem, scales = self._task.problem, self._task.scales
         before, after = problem.start, problem.current

@@ -207,7 +207,6 @@ class StepError:
 
     def start_again(self, accelerations: list[float]) -> None:
         """Be told of the accelerations with which the step under way begins anew, as the first."""
-        self.start = accelerations
         self._bodies = self._from(accelerations)
 
     def _relative(self, speed: float) -> float:

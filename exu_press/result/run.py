@@ -80,8 +80,8 @@ def _block_by_block(model: Model, unfinished: Path | None, *, quiet: bool) -> Re
             length = min(left, BLOCK)
             if model.warm:
                 model, length = to_next_revolution(model, left)
-            one = scene.replace({"revolutions": length, "settle": 0.0})
-            model = replace(model, scene=one.replace({"solver.max_steps": steps}))
+            block_of = {"revolutions": length, "settle": 0.0, "solver.max_steps": steps}
+            model = replace(model, scene=scene.replace(block_of))
             block = record(model, model.solve(quiet=quiet))
             if model.warm and block.info["status"] in ON:
                 block = warmed(model, block)

@@ -105,9 +105,7 @@ def test_fixed_steps_end_on_the_section_and_have_an_error(fixed):
     ids=["stalls", "never there", "fixed steps with a motor"],
 )
 def test_no_section(changes, words):
-    scene = FILM
-    for name, value in changes.items():
-        scene = scene.replace({name: value})
+    scene = FILM.replace(changes)
     with pytest.raises(InputError, match=words) as raised:
         attractor(scene, skip=1, **SHORT)
     assert "\n" not in str(raised.value)

@@ -6,7 +6,13 @@ another one gives the rate, it need not be exact (in Exudyn's contactCurveExampl
 pi, and each change of a step shook the system); and at flexible bodies' rigid markers velocities
 are off the rates of the positions by a millionth of a metre a second. The rates of such systems are
 found from positions, a little ahead and behind.
+
+Where joints slide along cables, their places are unknowns beside the forces: a body that is off its
+cable across it violates them, and one that is off along it has another place.
 """
+
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +31,9 @@ a hundredth of it made 5e-11 m of the last digits of positions, which contacts t
 REDUNDANT = 1e-8
 """Singular value of constraints' directions of length 1, below which one repeats others."""
 
+NEARBY = 1e-6
+"""Change of a place along a cable that tells what constraints make of it, over the length."""
+
 
 class Constraints:
     """The constraints of a system."""
@@ -33,8 +42,10 @@ class Constraints:
         """Take the problem."""
         problem = task.problem
         self._mbs, self._solver, self._data = problem.mbs, task.solver, problem.data
-        self._current, self._untold = problem.current, problem.untold_rates
-        self._start = problem.start
+        self._current, self._start = problem.current, problem.start
+        self._places = list(problem.places)
+        self._untold = problem.untold_rates or bool(self._places)  # Exudyn has none for these
+        self._nearby = NEARBY * problem.length
         self._of_velocities: Flags | None = None
 
     @property
@@ -49,8 +60,13 @@ class Constraints:
         return self._of_velocities
 
     def directions(self) -> Array:
-        """Return the rate of each one's violation with the coordinates it holds, (count, n)."""
-        return self._jacobian(1.0, 0.0) + self._jacobian(0.0, 1.0)
+        """Return the rate of each one's violation with the coordinates it holds, (count, n + p).
+
+        Behind the n coordinates are the p places along cables: what these take is no violation.
+        """
+        with self._without_multipliers():
+            of_coordinates = self._jacobian(1.0, 0.0) + self._jacobian(0.0, 1.0)
+            return np.hstack([of_coordinates, self._of_places()])
 
     def redundant(self) -> int:
         """Return how many of them say the same as others, where the step under way begins."""
@@ -74,10 +90,38 @@ class Constraints:
         solver.SetSystemJacobian(before)
         return found
 
-    def violated(self, *, velocities: bool = False) -> Array:
-        """Return by how much each is violated in the current state; or its rate, if it has one."""
+    def violated(self) -> Array:
+        """Return by how much each is violated in the current state."""
+        with self._without_multipliers():
+            return self._evaluated()
+
+    def _evaluated(self, *, velocities: bool = False) -> Array:
+        """Return what Exudyn tells of the current state; or its rate, if it has one."""
         self._solver.ComputeAlgebraicEquations(self._mbs, velocityLevel=velocities)
         return np.array(self._solver.GetSystemResidual())[-self.count :]
+
+    def _of_places(self) -> Array:
+        """Return the rate of each one's violation with the places, (count, p).
+
+        Exudyn's own Jacobian has something else for one of these where a cable is bent.
+        """
+        multipliers, columns = self._current.multipliers, np.zeros((self.count, len(self._places)))
+        for column, place in enumerate(self._places):
+            here = multipliers[place]
+            for side in (1.0, -1.0):
+                multipliers[place] = here + side * self._nearby
+                columns[:, column] += side * self._evaluated() / (2.0 * self._nearby)
+            multipliers[place] = here
+        return columns
+
+    @contextmanager
+    def _without_multipliers(self) -> Iterator[None]:
+        """Let no force act along cables, where joints slide, as their balance is no constraint."""
+        before = np.array(self._current.multipliers)
+        if self._places:
+            self._current.multipliers[:] = 0.0
+        yield
+        self._current.multipliers[:] = before
 
     def violated_rates(self, ahead: float) -> Array:
         """Return by how much velocities of the current state violate each constraint.
@@ -86,7 +130,7 @@ class Constraints:
             ahead: time within which positions tell it where velocities do not, s.
         """
         if not self._untold:
-            return self.violated(velocities=True)
+            return self._evaluated(velocities=True)
         time, positions = self._data.GetTime(), self._current.positions
         now, here = np.array(positions), self.violated()
         beside = []
@@ -100,7 +144,7 @@ class Constraints:
         return np.where(self.of_velocities(), here, rates)
 
     def matrix(self, mass: Array, directions: Array) -> Array:
-        """Return [[M, C^T], [C, -give]].
+        """Return [[M, C^T, 0], [C, -give, S], [0, S^T, 0]], the last of them for places.
 
         Euler parameters have no mass along themselves, where a constraint holds them: the masses
         alone cannot be inverted, with the constraints they can. The little give allows for
@@ -108,13 +152,15 @@ class Constraints:
 
         Args:
             mass: (n, n).
-            directions: C, (count, n).
+            directions: [C, S], (count, n + p).
         """
-        size, count = len(mass), len(directions)
-        matrix = np.zeros((size + count, size + count))
+        size, (count, unknowns) = len(mass), directions.shape
+        matrix = np.zeros((unknowns + count, unknowns + count))
         matrix[:size, :size] = mass
-        matrix[size:, :size] = directions
-        matrix[:size, size:] = directions.T
+        held = slice(size, size + count)
+        others = [*range(size), *range(size + count, unknowns + count)]
+        matrix[held, others] = directions
+        matrix[others, held] = directions.T
         give = GIVE * np.square(directions).max() / np.diag(mass).max()
         own = range(size, size + count)
         matrix[own, own] = -give or -1.0

@@ -70,6 +70,7 @@ class StepError:
         self._velocities = problem.current.velocities
         self._accelerations = problem.current.accelerations
         self._tolerance, self._switching = tolerance, problem.switching
+        self._forces_jump = problem.switching_forces
         duration, impacts = task.end - task.start, problem.joints is not None
         self._per_step = ErrorPerStep.of(tolerance, duration, tuning.many_steps, impacts)
         self._per_body = self._per_step
@@ -192,7 +193,7 @@ class StepError:
         if self._curvature is not None:
             self._curvature.accept()
         self._bodies.accept()
-        if self._jumped or (self._switching and self._solver.it.discontinuousIteration):
+        if self._jumped or (self._forces_jump and self._solver.it.discontinuousIteration):
             self._bodies.jumped()
         self._jumped = False
         self._doubted = 0.0, 0.0

@@ -17,6 +17,7 @@ from exu_press.integrate.controller import Controller
 from exu_press.integrate.error import StepError
 from exu_press.integrate.modal_mass import ModalMass
 from exu_press.integrate.output import OutputGrid
+from exu_press.integrate.places import Places
 from exu_press.integrate.sampling import Event, Sampling
 from exu_press.integrate.scheme import Newton
 from exu_press.integrate.settings import Task
@@ -104,6 +105,7 @@ class Monitor:
         self._modal_mass = ModalMass(task.problem.mbs, task.solver, modal_mass)
         self._newton = Newton(task)
         self._gaps = Gaps(task.problem)
+        self._places = Places(task.problem)
         self._output = OutputGrid(task)
         self._estimate = StepError(task)
         samples = bool(_function(task.problem.mbs.GetPreStepUserFunction())) and not task.fixed
@@ -162,6 +164,7 @@ class Monitor:
     def _begin(self) -> None:
         """Look at the state from which the run starts, whose accelerations Exudyn has computed."""
         task = self._task
+        self._places.begin()
         start_rates(task)
         task.solver.ComputeMassMatrix(task.problem.mbs)
         if not task.fixed:  # within a fixed step, motions may change by less than rounding
@@ -193,7 +196,9 @@ class Monitor:
             if self._why_long is not None and self._next_update - self._begun > SOON:
                 self._say_if_long(self._why_long)
         self._modal_mass.fit(end - self._time)
+        self._places.before_try(0.0)
         self._step_change.before_try(self._time, end - self._time)
+        self._places.before_try(end - self._time)
         self.over_budget = self.tries >= self.max_steps
         if self._users[0] and not self._sampling.call(self._users[0], mbs, self._time, end):
             self.go_on = False
@@ -287,6 +292,7 @@ class Monitor:
             self._output.stepped(self._time, end)
             self._time = end
             self._gaps.close()
+            self._places.stepped(step)
             self.control.accept(step)
             self._event.accept()
             if self._event.passed:

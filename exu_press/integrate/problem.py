@@ -45,8 +45,11 @@ MATERIAL_POINTS = {
 
 LIE_GROUP = "RigidBodyRotVecLG"
 
-ALONG_CABLES = "JointSliding", "JointSliding2D"
-"""Joints one of whose algebraic unknowns is a place along a cable, m."""
+ALONG_CABLES = {"JointSliding": 0, "JointSliding2D": 2}
+"""Joints that slide along cables -> which of their algebraic unknowns is no force, but a place."""
+
+PLACE_DATA = 2
+"""Data variables of each of these joints: the element it is on, and its place, m."""
 
 RIGID_OR_MODAL = (
     "Ground",
@@ -132,10 +135,12 @@ class Problem:
         modal_stiffness: whether all stiffness is that of flexible bodies' modes.
         switching: whether there are data variables or general contacts, which Exudyn iterates on
             after Newton's method.
+        switching_forces: whether these are more than places along cables, as of contacts.
         untold_rates: whether Exudyn does not tell how fast some constraints are violated: where
             user functions prescribe offsets, whose rates they give not at all or only nearly, or
             whole constraints, and at flexible bodies' rigid markers, whose velocities are no rates
             of their positions.
+        places: indices of the algebraic unknowns that are places along cables, m.
         length: largest displacement coordinate at the start, m; their last digits are rounded.
     """
 
@@ -150,7 +155,9 @@ class Problem:
     modes: bool
     modal_stiffness: bool
     switching: bool
+    switching_forces: bool
     untold_rates: bool
+    places: tuple[int, ...]
     length: float
 
     @classmethod
@@ -184,7 +191,12 @@ class Problem:
         modal = FLEXIBLE in kinds and all(
             kind.startswith("ConnectorCoordinate") and "Spring" not in kind for kind in others
         )
-        _refuse_places(objects)
+        places = tuple(
+            int(data.GetObjectLTGAE(number)[ALONG_CABLES[kind]])
+            for number, kind in enumerate(kinds)
+            if kind in ALONG_CABLES
+        )
+        contacts = mbs.NumberOfGeneralContacts() > 0
         nodes = _nodes(mbs, objects, bodies)
         reference = np.array(data.GetODE2Coordinates(exu.ConfigurationType.Reference))
         return cls(
@@ -198,8 +210,10 @@ class Problem:
             joints=joints if joints.joints else None,
             modes=modes is not None,
             modal_stiffness=modal,
-            switching=data.DataSize() > 0 or mbs.NumberOfGeneralContacts() > 0,
+            switching=data.DataSize() > 0 or contacts,
+            switching_forces=data.DataSize() > PLACE_DATA * len(places) or contacts,
             untold_rates=_untold_rates(mbs, objects),
+            places=places,
             length=_length(data, reference, nodes),
         )
 
@@ -213,21 +227,6 @@ def modal_item(mbs: exu.MainSystem) -> int | None:
     """Return the number of the item that `follow_modes` has added."""
     found: int | None = mbs.variables.get(MODES)
     return found
-
-
-def _refuse_places(objects: list[dict[str, Any]]) -> None:
-    """Refuse joints that slide along cables.
-
-    One of their unknowns is a place, which no step change mends; and where it passes from one
-    element to the next, steps shrank to nothing.
-    """
-    for number, item in enumerate(objects):
-        kind = item["objectType"]
-        if kind in ALONG_CABLES:
-            raise InputError(
-                f"object {number} ({item['name']}) is a {kind}: allowed with a tolerance are "
-                "joints whose unknowns are forces, as JointALEMoving2D"
-            )
 
 
 def _untold_rates(mbs: exu.MainSystem, objects: list[dict[str, Any]]) -> bool:

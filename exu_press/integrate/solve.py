@@ -212,10 +212,10 @@ def solve_dynamic(
     settings, whose output, sensors, linear solver and spectral radius count. The largest step is
     the time over `numberOfSteps`, the first one `initialStepSize` if that is set, the smallest one
     `minimumStepSize`. The system may have rigid and flexible bodies in the plane and in space,
-    constraints, springs, loads, user functions, first-order coordinates, data variables, and the
-    clearance joints of this package; user functions of the system (pre-step, post-step,
-    post-Newton, residual) are called as ever. Settings and user functions are put back afterwards;
-    the solver is left in `mbs.sys["dynamicSolver"]`.
+    constraints, joints that slide along cables, springs, loads, user functions, first-order
+    coordinates, data variables, and the clearance joints of this package; user functions of the
+    system (pre-step, post-step, post-Newton, residual) are called as ever. Settings and user
+    functions are put back afterwards; the solver is left in `mbs.sys["dynamicSolver"]`.
 
     Args:
         mbs: the system, assembled.

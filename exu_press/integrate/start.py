@@ -93,7 +93,8 @@ class _Start:
 
     def _solved(self, forces: Array, violated: Array) -> Array:
         """Return the change that forces and violations ask for."""
-        right = np.concatenate([forces, violated])
+        right = np.zeros(len(self._matrix))
+        right[: len(forces) + len(violated)] = np.concatenate([forces, violated])
         try:
             return np.asarray(Equations(self._matrix).solve(right)[: len(forces)])
         except np.linalg.LinAlgError:  # coordinates without mass, as of a beam's cross-sections
@@ -181,10 +182,13 @@ class _WithoutMass:
         """Find coordinates without mass; the solver has computed the mass matrix of the state."""
         self._solver, self._mbs, self._current = task.solver, task.problem.mbs, task.problem.current
         self._mass = mass = np.array(task.solver.GetSystemMassMatrix())
-        held = [constraints.directions()] if constraints.count else []
-        scaled = mass / (np.abs(mass).max(initial=0.0) or 1.0)
-        _, found, directions = np.linalg.svd(np.vstack([scaled, *held]))
-        self.free = directions[np.count_nonzero(found > MASSLESS * found.max(initial=0.0)) :]
+        size = len(mass)
+        held = constraints.directions() if constraints.count else np.zeros((0, size))
+        scaled = np.zeros((size, held.shape[1]))  # places along cables have none
+        scaled[:, :size] = mass / (np.abs(mass).max(initial=0.0) or 1.0)
+        _, found, directions = np.linalg.svd(np.vstack([scaled, held]))
+        rank = np.count_nonzero(found > MASSLESS * found.max(initial=0.0))
+        self.free = directions[rank:, :size]
 
     def balance(self) -> Array:
         """Change the velocities of the current state so; return the others' accelerations."""

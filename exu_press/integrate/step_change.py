@@ -57,6 +57,7 @@ class StepChange:
         """Watch the steps of a system that has these constraints."""
         problem = task.problem
         self._smooth = problem.joints is None
+        self._slides = bool(problem.places)
         self._seldom = self._smooth and not problem.switching  # do steps change
         self._film_waits = problem.lubricated
         self._refit = task.tuning.refit
@@ -161,6 +162,8 @@ class StepChange:
         solver = self._solver
         jacobian = np.asarray(solver.GetSystemJacobian())
         directions, forces = jacobian[-count:, :size], jacobian[:size, :size]
+        if self._slides:
+            directions = self._constraints.directions()
         inertia = inertia_factor(solver) * solver.GetSystemMassMatrix()
         found = self._projection(0.5 * (forces + forces.T), directions)
         for change in found:
@@ -176,9 +179,10 @@ class StepChange:
 
         Args:
             norm: (n, n), in which they are the least.
-            directions: of the constraints, (count, n).
+            directions: of the constraints, (count, n + p).
         """
         size = len(norm)
+        held = slice(size, size + len(directions))
         # Newton's matrix has those of velocities over the step
         lengths = np.sqrt(np.square(directions).sum(axis=1))
         lengths[lengths == 0.0] = 1.0
@@ -191,9 +195,9 @@ class StepChange:
         for _ in range(CHANGE_ITERATIONS):
             position[:] = self._state[0] - found[:, 0]
             velocity[:] = self._state[1] - found[:, 1]
-            violated[size:, 0] = self._constraints.violated()
-            violated[size:, 1] = self._constraints.violated_rates(AHEAD * self._fits)
-            violated[size:] /= lengths[:, None]
+            violated[held, 0] = self._constraints.violated()
+            violated[held, 1] = self._constraints.violated_rates(AHEAD * self._fits)
+            violated[held] /= lengths[:, None]
             same = violated[:, 0] == violated[:, 1]
             violated[same] = 0.0  # prescribed speeds are no places, and are met as they are
             try:

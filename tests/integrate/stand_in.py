@@ -35,6 +35,8 @@ def problem_at(nodes, velocities, accelerations=None, joints=None, length=1.0):
         modes=False,
         modal_stiffness=False,
         switching=False,
+        switching_forces=False,
         untold_rates=False,
+        places=(),
         length=length,
     )

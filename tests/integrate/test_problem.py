@@ -92,32 +92,3 @@ def test_lie_group_nodes_are_refused():
     mbs.Assemble()
     with pytest.raises(InputError, match=r"node 0 .* is a RigidBodyRotVecLG: allowed"):
         Problem.of(mbs)
-
-
-def test_joints_along_cables_are_refused():
-    """A place is among their unknowns; at elements' ends steps shrank to nothing."""
-    mbs = exu.SystemContainer().AddSystem()
-    nodes = [
-        mbs.AddNode(items.NodePoint2DSlope1(referenceCoordinates=[x, 0.0, 1.0, 0.0]))
-        for x in (0.0, 1.0)
-    ]
-    cable = mbs.AddObject(
-        items.ObjectANCFCable2D(
-            nodeNumbers=nodes, length=1.0, massPerLength=1.0, axialStiffness=1e3
-        )
-    )
-    along = mbs.AddMarker(items.MarkerBodyCable2DCoordinates(bodyNumber=cable))
-    mass = mbs.AddNode(items.NodePoint2D(referenceCoordinates=[0.5, 0.0]))
-    mbs.AddObject(items.ObjectMassPoint2D(nodeNumber=mass, mass=1.0))
-    place = items.NodeGenericData(initialCoordinates=[0.0, 0.5], numberOfDataCoordinates=2)
-    mbs.AddObject(
-        items.ObjectJointSliding2D(
-            markerNumbers=[mbs.AddMarker(items.MarkerNodePosition(nodeNumber=mass)), along],
-            slidingMarkerNumbers=[along],
-            slidingMarkerOffsets=[0.0],
-            nodeNumber=mbs.AddNode(place),
-        )
-    )
-    mbs.Assemble()
-    with pytest.raises(InputError, match=r"object 2 .* is a JointSliding2D: allowed"):
-        Problem.of(mbs)

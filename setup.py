@@ -37,6 +37,7 @@ MODULES = [
     "integrate/error",
     "integrate/modal_mass",
     "integrate/monitor",
+    "integrate/output",
     "integrate/problem",
     "integrate/sampling",
     "integrate/scales",

@@ -73,21 +73,21 @@ def lowest_of_strokes(
     for stroke in np.split(np.flatnonzero(near), np.flatnonzero(np.diff(strokes[near])) + 1):
         if len(stroke):
             lowest = int(stroke[np.argmin(position[stroke])])
-            instant, height = _minimum(time, position, velocity, lowest)
-            angle = float(np.interp(instant, time, crank_angle))
+            first_row = max(0, lowest - 1)
+            time_there, angle_there, *curve = (
+                values[first_row : lowest + 2] for values in (time, crank_angle, position, velocity)
+            )
+            instant, height = _minimum(time_there, *curve, lowest=lowest - first_row)
+            angle = float(np.interp(instant, time_there, angle_there))
             found.append(DeadCentre(instant, angle, height))
     return found
 
 
-def _minimum(time: Array, position: Array, velocity: Array, lowest: int) -> tuple[float, float]:
-    """Return instant and position of the minimum about the lowest sample."""
-    about = slice(max(0, lowest - 1), lowest + 2)
+def _minimum(time: Array, position: Array, velocity: Array, *, lowest: int) -> tuple[float, float]:
+    """Return instant and position of the minimum about the lowest of two or three samples."""
     found = [(float(position[lowest]), float(time[lowest]))]
     for start, length, (c0, c1, c2, c3) in zip(
-        time[about],
-        np.diff(time[about]),
-        hermite(time[about], position[about], velocity[about]).T,
-        strict=False,
+        time[:-1], np.diff(time), hermite(time, position, velocity).T, strict=True
     ):
         turns = np.roots([3.0 * c3, 2.0 * c2, c1])
         for turn in turns[np.isreal(turns)].real:

@@ -66,13 +66,15 @@ def summary(result: Result) -> dict[str, Any]:
 
 
 def _strokes(result: Result, run: Reading) -> list[dict[str, float]]:
+    instants = [centre.time for centre in run.dead_centres]
+    tilts = np.interp(instants, result.time, result["slider_tilt"]).tolist()
     return [
         {
             "position": centre.position,
             "crank_angle_deg": float(np.degrees(centre.crank_angle)),
-            "tilt": float(np.interp(centre.time, result.time, result["slider_tilt"])),
+            "tilt": tilt,
         }
-        for centre in run.dead_centres
+        for centre, tilt in zip(run.dead_centres, tilts, strict=True)
     ]
 
 

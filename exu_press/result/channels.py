@@ -56,9 +56,8 @@ class OnDisk(Mapping[str, Channel]):
     def __getitem__(self, name: str) -> Channel:
         begun = self.begun[name]
         shape = self.count, *begun.values.shape[1:]
-        values = np.memmap(
-            self._file(name), np.float64, "r", shape=shape
-        )  # pages are read when they are used
+        # pages are read when they are used; a path of its own type takes as long as the map
+        values = np.memmap(str(self._file(name)), np.float64, "r", shape=shape)
         found = copy.copy(begun)
         object.__setattr__(found, "values", values.view(np.ndarray))  # checked block by block
         return found
@@ -78,6 +77,9 @@ class OnDisk(Mapping[str, Channel]):
     def last(self, name: str) -> Array:
         """Return the last value of a channel."""
         return np.array(self[name].values[-1])
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.begun
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.begun)
@@ -118,6 +120,9 @@ class Changed(Mapping[str, Channel]):
         if self._found is not None:
             self._found[name] = channel
         return channel
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.channels
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.channels)

@@ -1,25 +1,26 @@
 """The energy balance of a run: mechanical energy, and work of loads."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 
-from exu_press.mechanism import Body
+from exu_press.mechanism import Body, Motion
 from exu_press.numerics.arrays import Array
 
 __all__ = ["mechanical_energy", "work"]
 
 
 def mechanical_energy(
-    bodies: Sequence[Body], position: Array, velocity: Array, gravity: float
+    bodies: Iterable[Body], motions: Mapping[str, Motion], gravity: float
 ) -> Array:
-    """Return kinetic plus potential energy over time, (n,), J, from (n, bodies, 3) arrays."""
-    mass = np.array([body.mass for body in bodies])
-    inertia = np.array([body.inertia for body in bodies])
-    speed_2, spin_2 = (velocity[:, :, :2] ** 2).sum(axis=2), velocity[:, :, 2] ** 2
-    return np.asarray(
-        0.5 * (speed_2 @ mass + spin_2 @ inertia) + gravity * (position[:, :, 1] @ mass)
-    )
+    """Return kinetic plus potential energy of bodies over time, (n,), J, by all bodies' motions."""
+    energy = np.zeros(len(next(iter(motions.values())).position))
+    for body in bodies:
+        motion = motions[body.name]
+        v_x, v_y, omega = motion.velocity.T
+        energy += 0.5 * body.mass * (v_x * v_x + v_y * v_y) + 0.5 * body.inertia * omega * omega
+        energy += body.mass * gravity * motion.position[:, 1]
+    return energy
 
 
 def work(time: Array, load: Array, rate: Array) -> Array:

@@ -64,14 +64,14 @@ def _applied(
 ) -> tuple[Array, Array]:
     """Return force, (n, 2), and moment about its centre, (n,), of joints and loads on a body."""
     angle = motion.position[:, 2]
+    cos, sin = np.cos(angle), np.sin(angle)
     force, moment = np.zeros((len(angle), 2)), np.zeros(len(angle))
     for joint in model.mechanism.joints:
         key = f"{joint.name}_force"
         for end, (body, (x, y)) in enumerate(model.mechanism.ends(joint)):
             if body == name and key in channels:
                 on_body = (1.0, -1.0)[end] * channels[key].values[:, :2]
-                arm_x = x * np.cos(angle) - y * np.sin(angle)
-                arm_y = x * np.sin(angle) + y * np.cos(angle)
+                arm_x, arm_y = x * cos - y * sin, x * sin + y * cos
                 force += on_body
                 moment += arm_x * on_body[:, 1] - arm_y * on_body[:, 0]
                 if joint.name in states:

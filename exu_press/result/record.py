@@ -36,8 +36,9 @@ def record(model: Model, outcome: Outcome) -> Result:
     time = sensor(model, mechanism.slider, "position", with_time=True)[:, 0]
     motions = {body.name: body_motion(model, body.name) for body in mechanism.bodies}
     names = list(motions)
+    # (n, bodies, 3), but body by body in memory, as they are read
     position, velocity, acceleration = (
-        np.stack([getattr(motion, level) for motion in motions.values()], axis=1)
+        np.stack([getattr(motion, level) for motion in motions.values()]).swapaxes(0, 1)
         for level in ("position", "velocity", "acceleration")
     )
     slider, crank = names.index(mechanism.slider), names.index(mechanism.crank)
@@ -76,13 +77,8 @@ def record(model: Model, outcome: Outcome) -> Result:
     channels |= rubbed
     channels |= frame_force(model, channels | in_joints)
     channels |= shaking_forces(model, acceleration)
-    rigid = [index for index, name in enumerate(names) if name not in model.parts]
-    stored = mechanical_energy(
-        [mechanism.bodies[index] for index in rigid],
-        position[:, rigid],
-        velocity[:, rigid],
-        scene.gravity,
-    )
+    rigid = [body for body in mechanism.bodies if body.name not in model.parts]
+    stored = mechanical_energy(rigid, motions, scene.gravity)
     flywheel = 0.0 if scene.drive is None else scene.drive.on_crank
     if DRIVE in model.nodes:  # its flywheel is on no body
         stored += 0.5 * flywheel * turned.velocity[:, 2] ** 2

@@ -4,12 +4,9 @@ from bisect import bisect
 
 import exudyn as exu
 
-from exu_press.integrate.problem import ALONG_CABLES, Problem
+from exu_press.integrate.problem import ON_CABLES, Problem
 
 __all__ = ["Places"]
-
-ON_CABLES = *ALONG_CABLES, "JointALEMoving2D"
-"""Joints that Exudyn moves from element to element."""
 
 
 class _Joint:

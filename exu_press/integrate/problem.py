@@ -48,8 +48,8 @@ LIE_GROUP = "RigidBodyRotVecLG"
 ALONG_CABLES = {"JointSliding": 0, "JointSliding2D": 2}
 """Joints that slide along cables -> which of their algebraic unknowns is no force, but a place."""
 
-PLACE_DATA = 2
-"""Data variables of each of these joints: the element it is on, and its place, m."""
+ON_CABLES = *ALONG_CABLES, "JointALEMoving2D"
+"""Joints on cables: their data variables are the element they are on and their place, m."""
 
 RIGID_OR_MODAL = (
     "Ground",
@@ -135,7 +135,7 @@ class Problem:
         modal_stiffness: whether all stiffness is that of flexible bodies' modes.
         switching: whether there are data variables or general contacts, which Exudyn iterates on
             after Newton's method.
-        switching_forces: whether these are more than places along cables, as of contacts.
+        switching_forces: whether these are more than those of joints on cables, as of contacts.
         untold_rates: whether Exudyn does not tell how fast some constraints are violated: where
             user functions prescribe offsets, whose rates they give not at all or only nearly, or
             whole constraints, and at flexible bodies' rigid markers, whose velocities are no rates
@@ -197,6 +197,11 @@ class Problem:
             if kind in ALONG_CABLES
         )
         contacts = mbs.NumberOfGeneralContacts() > 0
+        of_joints = sum(
+            len(data.GetObjectLTGData(number))
+            for number, kind in enumerate(kinds)
+            if kind in ON_CABLES
+        )
         nodes = _nodes(mbs, objects, bodies)
         reference = np.array(data.GetODE2Coordinates(exu.ConfigurationType.Reference))
         return cls(
@@ -211,7 +216,7 @@ class Problem:
             modes=modes is not None,
             modal_stiffness=modal,
             switching=data.DataSize() > 0 or contacts,
-            switching_forces=data.DataSize() > PLACE_DATA * len(places) or contacts,
+            switching_forces=data.DataSize() > of_joints or contacts,
             untold_rates=_untold_rates(mbs, objects),
             places=places,
             length=_length(data, reference, nodes),

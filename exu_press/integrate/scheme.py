@@ -14,7 +14,7 @@ import numpy as np
 from exu_press.integrate.settings import SAME, Task, inertia_factor
 from exu_press.numerics.arrays import Array
 
-__all__ = ["FlexibleJacobian", "LastingJacobian", "Newton"]
+__all__ = ["FEW", "FlexibleJacobian", "LastingJacobian", "Newton"]
 
 BALANCE = 0.2
 """Part of the usual forces, over the tolerance, to which Newton's method balances them."""

@@ -8,7 +8,7 @@ import math
 import time as clock
 import warnings
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from enum import Enum
 from typing import Any
@@ -21,6 +21,7 @@ from exu_press.integrate.controller import Controller
 from exu_press.integrate.monitor import Monitor
 from exu_press.integrate.problem import Node, Problem
 from exu_press.integrate.scales import ErrorScales
+from exu_press.integrate.scheme import FEW
 from exu_press.integrate.settings import SolverTuning, Task, prepared, refuse_unusable
 from exu_press.integrate.stepping import Unresolved
 from exu_press.joints.joint import ClearanceJoint
@@ -275,12 +276,13 @@ def solve_dynamic(
         )
         mbs.sys["dynamicSolver"], mbs.sys["simulationSettings"] = solver, settings
         begun = clock.perf_counter()
-        # matrices of a hundred rows: further threads only wait for each other
+        # matrices of a hundred rows: further threads only wait for each other; a few rows get none,
+        # and to look for NumPy's libraries takes as long as a hundred steps
         with (
             monitor.attached(),
             prepared(settings, task),
             _silent_console(),
-            one_thread(),
+            one_thread() if len(problem.reference) > FEW else nullcontext(),
         ):
             try:
                 solved = solver.SolveSystem(mbs, settings)

@@ -12,8 +12,8 @@ user's steps, as it is a part of the system.
 With --equal-error, processor time is also compared with that of the fixed step of the same error,
 between a 64th of the user's steps and the references.
 
-Error: of velocities in the kinetic norm over the largest speed, the worst of 20 instants; the
-references' own error is what they differ by.
+Error: of velocities in the kinetic norm over the motion's largest speed, the worst of 20 instants;
+the references' own error is what they differ by.
 Run with: python scripts/exudyn_models.py CHECKOUT OUT [--only NAME ...] [--tolerance 1e-3]
 """
 

@@ -43,6 +43,8 @@ EXPORTED = (
     exudyn.itemInterface,
 )
 SAMPLES = 20
+MOST_KEPT = 2000, 4_000_000
+"""Rows, and numbers in them, of which a motion's largest speeds are found."""
 MEMORY = 6 << 30  # bytes
 CURRENT = exu.ConfigurationType.Current
 IMPLICIT = exu.DynamicSolverType.GeneralizedAlpha, exu.DynamicSolverType.TrapezoidalIndex2
@@ -55,6 +57,7 @@ class Record:
         self.data, self.steps = mbs.systemData, -1
         self.times = np.linspace(start, end, SAMPLES + 1)[1:]
         self.rows, self.before = [], None
+        self.kept, self.apart = [], 1  # rows of every so many steps
         self.close = 1e-9 * (end - start)
         own = mbs.GetPostStepUserFunction()
         self.own = own["function"] if isinstance(own, dict) else None
@@ -70,6 +73,10 @@ class Record:
     def __call__(self, mbs, time):
         self.steps += 1
         value, slope = self.state()
+        if self.steps % self.apart == 0:
+            self.kept.append(value)
+            if len(self.kept) > min(MOST_KEPT[0], max(SAMPLES, MOST_KEPT[1] // (len(value) + 1))):
+                self.kept, self.apart = self.kept[::2], 2 * self.apart
         while len(self.rows) < SAMPLES and time >= self.times[len(self.rows)] - self.close:
             at = self.times[len(self.rows)]
             if self.before is None or time - at < self.close:
@@ -179,14 +186,26 @@ def replace(variant, file):
             found["reason"] = f"{type(error).__name__}: {str(error).strip()[:300]}"
         found["seconds"] = clock.process_time() - begun
         found["steps"], found["reached"] = record.steps, mbs.systemData.GetTime()
-        finish(file, found, mbs, record.rows)
+        finish(file, found, mbs, record.rows, record.kept)
 
     exu.SolveDynamic = exudyn.solver.SolveDynamic = exu.MainSystem.SolveDynamic = solve
     if hasattr(exudyn.utilities, "SolveDynamic"):
         exudyn.utilities.SolveDynamic = solve
 
 
-def finish(file, found, mbs=None, rows=()):
+def fastest(rows, weight, body):
+    """Return the row in which a body is fastest; what belongs to none has its largest values."""
+    found = np.abs(rows).max(axis=0)
+    owned = ~np.isnan(weight)
+    if owned.any():
+        squares = np.where(owned, weight * rows[:, : len(weight)], 0.0) ** 2
+        first = np.unique(body, return_index=True)[1]
+        here = np.add.reduceat(squares, first, axis=1).max(axis=1).argmax()
+        found[: len(weight)][owned] = rows[here, : len(weight)][owned]
+    return found
+
+
+def finish(file, found, mbs=None, rows=(), kept=()):
     arrays = {"rows": np.array(rows)}
     if mbs is not None:
         try:
@@ -198,6 +217,7 @@ def finish(file, found, mbs=None, rows=()):
             mass = np.array(masses)[arrays["body"]] if sizes else np.zeros(0)
             mass[mass == 0.0] = np.nan  # no displacements: its own largest velocity is the scale
             arrays["weight"] = np.sqrt(np.array(inertias) / mass)
+            arrays["fastest"] = fastest(np.array(kept), arrays["weight"], arrays["body"])
         except Exception as error:  # then no tolerance run is possible either
             found["no_weights"] = str(error)
     np.savez(file, found=json.dumps(found), **arrays)

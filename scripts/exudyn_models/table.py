@@ -34,19 +34,19 @@ def error(one, fine):
         return np.nan
     weight, body = fine["weight"], fine["body"]
     size = len(weight)
-    missed = rows - exact
+    missed, moved = rows - exact, np.vstack([exact, fine["fastest"]])
     found = 0.0
     owned = ~np.isnan(weight)
     if owned.any():
         square = np.where(owned, weight, 0.0) ** 2
         parts = np.unique(body, return_index=True)[1]
         norms = [
-            np.add.reduceat(square * part[:, :size] ** 2, parts, axis=1) for part in (missed, exact)
+            np.add.reduceat(square * part[:, :size] ** 2, parts, axis=1) for part in (missed, moved)
         ]
         scale = norms[1].max()
         found = np.sqrt(norms[0].max() / scale) if scale > 0.0 else 0.0
     for i in (*np.flatnonzero(~owned), *range(size, rows.shape[1])):
-        scale = np.abs(exact[:, i]).max()
+        scale = np.abs(moved[:, i]).max()
         if scale > 0.0:
             found = max(found, np.abs(missed[:, i]).max() / scale)
     return float(found)

@@ -106,7 +106,7 @@ class Monitor:
         self._newton = Newton(task)
         self._gaps = Gaps(task.problem)
         self._places = Places(task.problem)
-        self._output = OutputGrid(task)
+        self._output = OutputGrid(task, self._places)
         self._estimate = StepError(task)
         samples = bool(_function(task.problem.mbs.GetPreStepUserFunction())) and not task.fixed
         period = (task.largest if sample is None else sample) if samples else 0.0
@@ -289,10 +289,10 @@ class Monitor:
             if self._jump is not None:
                 current = self._task.problem.current
                 current.velocities[:], current.accelerations[:], _ = self._jump
+            self._places.stepped(step)
             self._output.stepped(self._time, end)
             self._time = end
             self._gaps.close()
-            self._places.stepped(step)
             self.control.accept(step)
             self._event.accept()
             if self._event.passed:

@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 
+from exu_press.integrate.places import Places
 from exu_press.integrate.settings import Task
 from exu_press.numerics.arrays import Array
 
@@ -55,9 +56,9 @@ class OutputGrid:
     Not with clearance joints, whose forces remember where they were last asked.
     """
 
-    def __init__(self, task: Task) -> None:
-        """Look at a task."""
-        self._task, problem = task, task.problem
+    def __init__(self, task: Task, places: Places) -> None:
+        """Look at a task, and at the places of its joints on cables."""
+        self._task, self._places, problem = task, places, task.problem
         self._active = not task.fixed and problem.joints is None
         now = problem.current
         self._state: list[list[Array]] = [
@@ -99,10 +100,13 @@ class OutputGrid:
         if times:
             self.writing = True
             for time in times:
-                weights = within((time - begin) / (end - begin), end - begin)
+                part = (time - begin) / (end - begin)
+                weights = within(part, end - begin)
+                self._places.within(part)
                 self._put(time, [np.dot(weights[i], self._ends[i]) for i in self._filled])
                 self._task.solver.FinishStep(self._task.problem.mbs, self._settings)
             self.writing = False
+            self._places.within(1.0)
             self._put(end, [self._ends[i][len(self._state[i]) :] for i in self._filled])
         for i in self._filled:
             ends, count = self._ends[i], len(self._state[i])

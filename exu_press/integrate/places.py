@@ -16,7 +16,7 @@ class _Joint:
         element: index of its element's number, among the data variables.
         place: index of its place along the cable, m, among them; None where that is a coordinate.
         starts: of the elements along the cable, m.
-        rate: of the place, in the last step, m/s.
+        slid: by how much the place has changed in the last step, m.
     """
 
     def __init__(self, problem: Problem, number: int) -> None:
@@ -28,7 +28,7 @@ class _Joint:
         self.starts: list[float] = list(item["slidingMarkerOffsets"])
         self.element, *places = problem.data.GetObjectLTGData(number)
         self.place: int | None = places[0] if places else None
-        self.rate = 0.0
+        self.slid = 0.0
 
     def put(self, element: int) -> None:
         """Put it on an element."""
@@ -65,6 +65,7 @@ class Places:
             problem.data.GetDataCoordinates(state, False)
             for state in (where.Current, where.StartOfStep)
         )
+        self._last = 1.0  # step, s
 
     def begin(self) -> None:
         """Start at the places that are given; Exudyn's unknowns are their accelerations there."""
@@ -75,14 +76,21 @@ class Places:
         for joint in self._joints:
             element = int(self._start[joint.element])
             if joint.place is not None:
-                place = self._start[joint.place] + step * joint.rate
+                place = self._start[joint.place] + step / self._last * joint.slid
                 element = max(bisect(joint.starts, place), 1) - 1
                 self._now[joint.place], self._now[joint.element] = place, element
             joint.put(element)
 
     def stepped(self, step: float) -> None:
         """Be told of an accepted step (s), which leads to the current state."""
+        self._last = step
         for joint in self._joints:
             if joint.place is not None:
-                joint.rate = (self._now[joint.place] - self._start[joint.place]) / step
+                joint.slid = self._now[joint.place] - self._start[joint.place]
         self._multipliers[self._unknowns] = 0.0
+
+    def within(self, part: float) -> None:
+        """Go to a part of the accepted step, from 0.0 to its end at 1.0, with an even speed."""
+        for joint in self._joints:
+            if joint.place is not None:
+                self._now[joint.place] = self._start[joint.place] + part * joint.slid

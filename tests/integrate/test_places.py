@@ -132,6 +132,20 @@ def test_a_mass_slides_down_a_bent_wire(dimensions, keys):
         assert found == pytest.approx(speed_by_height(mbs, node), rel=tolerance)
 
 
+def test_rows_between_steps_tell_the_place_there():
+    """Not that at the end of the step."""
+    mbs, node, number = sliding()
+    keys = {"storeInternal": True, "writeToFile": False}
+    along, kind = exu.OutputVariableType.SlidingCoordinate, items.SensorObject
+    place = mbs.AddSensor(kind(objectNumber=number, outputVariableType=along, **keys))
+    of_node = items.SensorNode(nodeNumber=node, outputVariableType=POSITION, **keys)
+    position = mbs.AddSensor(of_node)
+    mbs.Assemble()
+    run(mbs, 1e-3)
+    found = np.array([on_the_wire(row[1])[0] for row in mbs.GetSensorStoredData(place)])
+    assert found == pytest.approx(mbs.GetSensorStoredData(position)[:, 1:3], abs=1e-4)
+
+
 def test_a_step_over_the_end_of_an_element_is_repeated():
     """For an event soon behind it: Exudyn leaves the joint on the next element."""
     start, behind = LENGTH - 3e-5, LENGTH + 1e-6

@@ -64,7 +64,7 @@ def test_four_bar(pin, step):
     ("crank_pin", "wrist_pin", "bound"),
     [
         ("pinkus", "pinkus", 1e-9),
-        ("pinkus", "lugre_steady", 2e-7),
+        pytest.param("pinkus", "lugre_steady", 2e-7, marks=pytest.mark.long),
         ("lugre_steady", "lugre_steady", 2e-6),
     ],
 )
@@ -137,7 +137,7 @@ def peaks_of(result, rpm):
     ]
 
 
-@pytest.mark.parametrize("pin", KINDS)
+@pytest.mark.parametrize("pin", ["pinkus", pytest.param("lugre_steady", marks=pytest.mark.long)])
 def test_press_through_its_first_impacts(pin):
     """0.1 mm, 240 rpm: the largest peak lies at 36.8 ms."""
     times, states, expected = press(pin, 1e-4, 240, 0.2, 1e-9)

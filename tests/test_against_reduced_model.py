@@ -87,12 +87,14 @@ def test_second_order_where_lubricated(pin):
     assert orders == pytest.approx(2.0, abs=0.05), errors
 
 
+@pytest.mark.long
 def test_reference_is_converged_where_dry():
     assert radau("none", 1e-8) == pytest.approx(radau("none", 1e-7), abs=1e-8)
 
 
 @pytest.mark.parametrize(
-    "law", ["none", pytest.param("lugre_steady", marks=pytest.mark.long), "lugre"]
+    "law",
+    ["none", *(pytest.param(law, marks=pytest.mark.long) for law in ("lugre_steady", "lugre"))],
 )
 def test_slider_position_where_dry(law):
     """Within 5e-6 m; 1e-6 m is attained throughout (1e-7 .. 3e-7).
@@ -113,6 +115,7 @@ def test_slider_position_where_dry_with_strong_friction_and_a_soft_bristle():
     assert np.abs(error).max() < 1e-6
 
 
+@pytest.mark.long
 def test_friction_is_seen_at_the_slider():
     """The bounds above mean something: leaving friction out is an error twenty times as large."""
     assert np.abs(radau("none", 1e-8) - radau("lugre_steady", 1e-8)).max() > 2e-5

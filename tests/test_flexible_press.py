@@ -34,7 +34,13 @@ def test_without_modes_it_is_the_rigid_press(crank_pin, balls, linkage_as_solid)
     assert flexible.completed
 
 
-@pytest.mark.parametrize(("crank_pin", "balls"), VARIANTS)
+@pytest.mark.parametrize(
+    ("crank_pin", "balls"),
+    [
+        VARIANTS[2],
+        *(pytest.param(*v, marks=pytest.mark.long) for v in (VARIANTS[:2] + VARIANTS[3:])),
+    ],
+)
 def test_every_pin_variant_runs(crank_pin, balls):
     result = simulate(
         Scene(bodies=flexible_press(), joints={"crank_pin": crank_pin, "balls": balls}, **SHORT)

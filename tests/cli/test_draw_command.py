@@ -23,7 +23,7 @@ def test_a_mechanism_file_is_described(drawn, capsys):
         assert part in out
 
 
-@pytest.mark.parametrize("kind", ["png", "svg", "pdf"])
+@pytest.mark.parametrize("kind", ["svg", "pdf"])
 def test_a_picture_is_written(drawn, kind, capsys):
     target = drawn.with_suffix(f".{kind}")
     assert main(["draw", str(drawn), "--save", str(target)]) == 0

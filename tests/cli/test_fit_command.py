@@ -8,7 +8,7 @@ STUDY = """
 [scene]
 mechanism = "slider_crank"
 joints.crank_pin = "ideal"
-revolutions = 0.3
+revolutions = 0.05
 [keys]
 slider_crank.slider_mass = {low = 800.0, high = 2000.0, log = true}
 slider_crank.rod_inertia = {low = 2.0, high = 3.0}

@@ -54,7 +54,7 @@ def test_several_objectives(tmp_path, capsys):
 
 def test_one_objective_that_a_solver_of_scipy_finds(tmp_path, capsys):
     """The lightest slider loads the wrist pin least; the limit keeps the rod from its shortest."""
-    assert run(tmp_path, ONE.replace("trials = 16", "trials = 60"), "--no-pictures") == 0
+    assert run(tmp_path, ONE.replace("trials = 16", "trials = 40"), "--no-pictures") == 0
     assert "method: nelder_mead (a run's error is" in capsys.readouterr().out
     keys = Scene.load(tmp_path / "out" / "chosen.toml").slider_crank
     assert keys.slider_mass == pytest.approx(800.0, rel=0.02)

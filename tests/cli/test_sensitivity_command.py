@@ -9,7 +9,7 @@ STUDY = """
 [scene]
 mechanism = "slider_crank"
 joints.crank_pin = "ideal"
-revolutions = 0.3
+revolutions = 0.05
 [keys]
 slider_crank.crank_radius = {mean = 0.03, deviation = 1e-5}
 slider_crank.slider_mass = {low = 1300.0, high = 1400.0}

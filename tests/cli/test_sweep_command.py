@@ -94,6 +94,7 @@ def test_a_printed_column_can_be_asked_for(tmp_path, capsys):
     path = tmp_path / "study.toml"
     path.write_text("[scene]\nrevolutions = 0.01\n[keys]\nspeed_rpm = [200.0, 300.0]\n")
     arguments = ["sweep", str(path), "--workers", "1", "--out", str(tmp_path / "o")]
+    arguments.append("--no-pictures")
     assert main(arguments) == 0
     head, *_ = capsys.readouterr().out.splitlines()
     printed = [column.partition(",")[0].strip() for column in head.split("  ") if column]
@@ -103,6 +104,7 @@ def test_a_printed_column_can_be_asked_for(tmp_path, capsys):
         assert column in capsys.readouterr().out.splitlines()[0]
 
 
+@pytest.mark.long
 def test_ctrl_c_keeps_what_is_finished(tmp_path):
     speeds = [100.0 + n for n in range(200)]
     command = [str(Path(sys.executable).with_name("exu-press")), "sweep"]

@@ -57,6 +57,7 @@ def test_a_directory_of_many_runs(tmp_path, capsys):
 def test_without_save_the_page_opens_in_the_browser(run, monkeypatch, capsys):
     opened = []
     monkeypatch.setattr("webbrowser.open", lambda address: opened.append(address) or True)
+    monkeypatch.setattr("exu_press.report.run.save_pictures", lambda *_: [])
     assert main(["view", str(run)]) == 0
     page = run.parent / "report.html"
     assert opened == [page.resolve().as_uri()]

@@ -23,6 +23,8 @@ from netgen.occ import Box, Cylinder, Pnt, Sphere, Vec, Z
 from fe_models import CRANK_STEEL, Axis, Interface, Part, Patch, Sides, StepFile
 from fe_models.elasticity import full_model
 
+pytestmark = pytest.mark.usefixtures("sound_files")
+
 WRIST = -0.353  # m, of the shipped slider-crank at top dead centre
 WIDTH, BORE, LENGTH, MESH = 0.08, 0.02, 0.3, 0.08
 STEEL = 2.1e11
@@ -256,7 +258,7 @@ def test_the_balance_closes_and_the_solid_may_be_drawn_on_its_own(slider):
         )
 
 
-@pytest.mark.parametrize("kind", ["ideal", "dry"])
+@pytest.mark.parametrize("kind", ["ideal", pytest.param("dry", marks=pytest.mark.long)])
 def test_balls_carry_a_flexible_ram(tmp_path, kind):
     """Of the eccentric press; ideal balls hold half, along the parallel guides.
 
@@ -342,7 +344,7 @@ def test_the_start_fits_what_a_guide_holds(tmp_path):
     for name, solid in {"plunger_right": plunger, "slider": slider}.items():
         solid.WriteStep(str(tmp_path / f"{name}.step"))
         path = str(tmp_path / f"{name}.step")
-        bodies[name] = {"flexible": path, "mesh_size": 0.1, "modes": 6}
+        bodies[name] = {"flexible": path, "mesh_size": 0.1, "modes": 2}
         result = simulate(Scene(joints={"balls": "dry"}, bodies=bodies, revolutions=0.001))
         assert np.abs(result["slider_tilt"][0]) < 1e-9  # the mean of the whole body's
         # what was left of the tilt, 7e-6 rad, made 1e5 N m of steps of 2e-8 s; now it hangs free

@@ -80,7 +80,7 @@ def test_the_drive_takes_out_what_a_load_puts_in(name, free):
 
 def test_the_balance_closes_with_clearance_and_guides_that_give_way():
     loads = {name.replace(" ", "_").replace(",", ""): load for name, load in LOADS.items()}
-    scene = Scene(revolutions=0.5, guide={"lateral_stiffness": 1e9}, load=loads)
+    scene = Scene(revolutions=0.25, guide={"lateral_stiffness": 1e9}, load=loads)
     result = simulate(scene)
     assert result.completed
     told = result.summary()["quantities"]

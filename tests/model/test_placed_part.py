@@ -15,6 +15,8 @@ pytest.importorskip("ngsolve")
 
 from netgen.occ import Axis, Box, Cylinder, Pnt, Vec, Z
 
+pytestmark = pytest.mark.usefixtures("sound_files")
+
 ROD_PIN, WRIST_PIN = (0.015, 0.232), (0.043, -0.595)  # of the six-bar press's rod
 LENGTH = 1e3 * math.dist(ROD_PIN, WRIST_PIN)  # mm
 ALONG = math.degrees(math.atan2(WRIST_PIN[1] - ROD_PIN[1], WRIST_PIN[0] - ROD_PIN[0]))

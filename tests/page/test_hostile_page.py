@@ -10,7 +10,10 @@ from exu_press import Scene, simulate
 
 pytest.importorskip("bokeh")
 
-HOSTILE = "</script><script>window.hacked = 1</script><img src=x onerror='window.hacked = 2'>$$x$$"
+HOSTILE = (
+    "</script><script>window.hacked = 1</script><img src=x onerror='window.hacked = 2'>"
+    r"$$x$$ $\frac{$"
+)
 
 
 def test_hostile_texts_of_a_run_run_nothing(tmp_path, browser):

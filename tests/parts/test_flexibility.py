@@ -47,7 +47,10 @@ def by_modes(reduced, parts):
     return float(((forces / (2.0 * np.pi * reduced.frequencies)) ** 2).sum())
 
 
-@pytest.mark.parametrize("wanted", [0.2, 1e-2, 1e-6])
+@pytest.mark.parametrize(
+    "wanted",
+    [pytest.param(0.2, marks=pytest.mark.long), 1e-2, pytest.param(1e-6, marks=pytest.mark.long)],
+)
 def test_the_error_is_kept_under_every_load_in_the_plane(linkage, linkage_model, exact, wanted):
     reduction = Reduction(flexibility_error=wanted, loads=PLANE)
     reduced = reduce_model(linkage, linkage_model, reduction)

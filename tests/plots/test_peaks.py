@@ -38,10 +38,10 @@ def bars(figure):
 
 
 def test_peaks_have_error_bars_and_say_how_large(told, results):
-    assert bars(slider_figure({"": told})) == 2
-    assert sum("±" in note for note in notes(slider_figure({"": told}))) == 2
-    assert bars(force_figure({"": told})) == 2
-    assert sum("±" in note for note in notes(force_figure({"": told}))) == 2
+    for draw in (slider_figure, force_figure):
+        figure = draw({"": told})
+        assert bars(figure) == 2
+        assert sum("±" in note for note in notes(figure)) == 2
     assert any("±" in note for note in notes(press_figure(told)))
 
 

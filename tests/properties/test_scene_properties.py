@@ -95,7 +95,7 @@ def likely_scenes(draw):
     return data
 
 
-@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=75, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(data=scenes)
 def test_a_dictionary_is_a_scene_or_an_input_error(data):
     try:
@@ -129,7 +129,7 @@ def toml(data):
 
 
 @settings(
-    max_examples=60,
+    max_examples=30,
     deadline=None,
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture],
 )
@@ -169,7 +169,7 @@ def run_or_be_refused(data):
 RUNS = {"deadline": None, "suppress_health_check": list(HealthCheck)}
 
 
-@settings(max_examples=25, **RUNS)
+@settings(max_examples=12, **RUNS)
 @given(data=likely_scenes())
 def test_an_accepted_scene_runs_or_stops_with_a_status(data):
     run_or_be_refused(data)

@@ -21,7 +21,7 @@ def outputs(tmp_path_factory) -> dict[str, Path]:
     """Directories of `run`, `compare` and `sweep`, and an early stop."""
     folder = tmp_path_factory.mktemp("outputs")
     quiet = ["--no-pictures", "--quiet"]
-    short = ["--set", "revolutions=0.1"]
+    short = ["--set", "revolutions=0.05"]
     (folder / "study.toml").write_text(STUDY)
     (folder / "study").mkdir()
     assert main(["run", "press", *short, *quiet, "--out", str(folder / "run")]) == 0

@@ -124,6 +124,7 @@ def test_channels(original, changed, name, change, message):
         Result.load(changed(None, {name: change}))
 
 
+@pytest.mark.long
 def test_hostile_text_is_text_in_a_report(original, changed, tmp_path):
     """Formulas that cannot be set and a script in the reason of a stop."""
     why = r"$\frac{$ or $x_$ <script>alert(1)</script>"

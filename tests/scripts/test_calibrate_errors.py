@@ -11,7 +11,7 @@ from calibration.scenes import groups_of, random_scene
 
 def test_scenes_are_of_all_kinds():
     random = np.random.default_rng(3)
-    found = {group for _ in range(150) for group in groups_of(random_scene(random, 0.35))}
+    found = {group for _ in range(100) for group in groups_of(random_scene(random, 0.35))}
     for kind in ("blanking", "table", "sheet", "spring"):
         assert f"load: {kind}" in found
     for kind in ("clearance", "elastic", "rubbing"):

@@ -11,6 +11,7 @@ from exu_press import Result
 FOUR_BAR = 87.8798  # N
 
 
+@pytest.mark.long
 def test_run_press(tmp_path):
     printed = run("run_press.py", tmp_path)
     out = tmp_path / "out" / "run_press"
@@ -36,6 +37,7 @@ def test_error_vs_runtime(tmp_path):
     assert list((tmp_path / "out" / "error_vs_runtime").glob("*.png"))
 
 
+@pytest.mark.long
 def test_my_own_part(tmp_path):
     printed = run("my_own_part.py", tmp_path)
     tip, beam = map(float, re.findall(r"([\d.]+) um", printed))

@@ -2,9 +2,11 @@
 
 import json
 
+import pytest
 from running import assert_refused, run
 
 
+@pytest.mark.long
 def test_one_case_of_the_table(tmp_path):
     options = ["--quiet", "--case", "slider_crank_ideal", "--out", str(tmp_path)]
     assert run("precision.py", tmp_path, *options) == ""

@@ -9,7 +9,7 @@ from running import run
     [
         pytest.param("sweep_clearance", 4, marks=pytest.mark.long),
         pytest.param("sweep_speed", 2, marks=pytest.mark.long),
-        ("sweep_blanking_force", 2),
+        pytest.param("sweep_blanking_force", 2, marks=pytest.mark.long),
     ],
 )
 def test_sweep(name, runs, tmp_path):

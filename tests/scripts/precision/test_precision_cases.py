@@ -11,7 +11,7 @@ from precision.peers import left_out
 
 @pytest.fixture(scope="module")
 def report():
-    some = chosen(["slider_crank_ideal", "slider_crank_lubricated_0.1mm"])
+    some = chosen(["slider_crank_lubricated_0.1mm"])
     return precision(some, quick=True, left_out=left_out())
 
 

@@ -77,6 +77,7 @@ def test_a_key_without_effect_is_named(tmp_path):
     assert report.open["slider_crank.rod_inertia"] == (True, True)
 
 
+@pytest.mark.long
 def test_two_keys_that_act_as_one_are_named(tmp_path):
     """The force that holds the rod's weight and the slider's tells their sum alone."""
     keys = {SLIDER: KEYS[SLIDER], "gravity": {"low": 5.0, "high": 20.0}}

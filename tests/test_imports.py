@@ -1,6 +1,7 @@
 """Rooms know what lies below them alone: nothing imports backwards, lazily or for types."""
 
 import ast
+import functools
 from collections import defaultdict
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
@@ -25,8 +26,13 @@ MODULES = {name_of(path) for path in FILES}
 PARTS = {name for name in MODULES if name.split(".")[0] == "fe_models"}
 
 
+@functools.cache
 def imported(path):
-    """Yield the modules of the package that a file imports anywhere in its text."""
+    """Return the modules of the package that a file imports anywhere in its text."""
+    return [*found_in(path)]
+
+
+def found_in(path):
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names if alias.name in MODULES)

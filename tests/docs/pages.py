@@ -1,6 +1,7 @@
 """What a reader does with a page: its code blocks, in order, in one directory."""
 
 import io
+import os
 import re
 import shlex
 import subprocess
@@ -8,6 +9,7 @@ import sys
 from contextlib import chdir, redirect_stderr, redirect_stdout
 from dataclasses import dataclass
 from itertools import pairwise
+from multiprocessing import get_context
 from pathlib import Path
 
 from exu_press.cli import main
@@ -86,7 +88,7 @@ def run_block(block: Block, place: Path, *, short: bool = False) -> None:
     if block.file:
         (place / block.file).write_text(block.text, encoding="utf-8")
     if block.language == "python":
-        run([sys.executable, "-c", block.text], place)
+        run_python(block.text, place, short=short)
     elif block.language == "toml":
         read(block, place)
     elif block.language == "sh":
@@ -126,6 +128,23 @@ def run(words: list[str], place: Path) -> str:
     )
     assert done.returncode == 0, f"{words}\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}"
     return done.stdout
+
+
+def run_python(text: str, place: Path, *, short: bool) -> None:
+    """Run a block as a script; shortened, in a copy of this process, which has imported a lot."""
+    if not short:
+        run([sys.executable, "-c", text], place)
+        return
+    process = get_context("fork").Process(target=as_script, args=(text, place))
+    process.start()
+    process.join(900)
+    assert process.exitcode == 0, text
+
+
+def as_script(text: str, place: Path) -> None:
+    os.chdir(place)
+    sys.path.insert(0, "")
+    exec(compile(text, "block", "exec"), {"__name__": "__main__"})
 
 
 def run_here(words: list[str], place: Path) -> None:

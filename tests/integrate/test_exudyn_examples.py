@@ -36,6 +36,7 @@ def test_the_error_follows_the_tolerance(name, tolerance):
     follows(name, tolerance, 1e-3, EXAMPLES[name].short)
 
 
+@pytest.mark.long
 def test_a_wheel_at_the_origin_is_no_metre_large():
     """Its rounding was, so that its steps at 1e-6 were those of 1e-5."""
     example = EXAMPLES["balance wheel"]

@@ -154,6 +154,7 @@ def test_spin_up_of_kanes_beam(long_beam):
     assert errors[1] == pytest.approx(4.0 * errors[0], rel=0.1)
 
 
+@pytest.mark.long
 def test_the_mean_axes_take_most_of_what_is_missed_at_the_root(long_beam):
     """A frame at the root leaves four times the error, and bends without limit beyond."""
     times, found = spun_up(long_beam, 0.4 * FIRST)
@@ -161,6 +162,7 @@ def test_the_mean_axes_take_most_of_what_is_missed_at_the_root(long_beam):
     assert np.abs(found - true).max() < 0.3 * np.abs(root - true).max()
 
 
+@pytest.mark.long
 def test_twice_the_first_frequency_is_too_fast(long_beam):
     """At 6 rad/s the beam bends 0.75 m; here it is a third more, at the root without limit."""
     times, found = spun_up(long_beam, 6.0)

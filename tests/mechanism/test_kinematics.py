@@ -82,10 +82,12 @@ def test_velocities_and_accelerations_are_derivatives(mechanism):
 def test_angles_of_any_order_and_revolution(mechanism):
     """Positions repeat; angles of bodies that go round go on."""
     shuffled = np.array([3.0, -1.0, 100.0, 0.2])
-    for name, body in mechanism.motion(shuffled, SPEED).items():
-        for index, angle in enumerate(shuffled):
-            alone = mechanism.motion(np.array([angle]), SPEED)[name]
-            within = mechanism.motion(np.array([angle % (2 * np.pi)]), SPEED)[name]
+    motion = mechanism.motion(shuffled, SPEED)
+    for index, angle in enumerate(shuffled):
+        by_itself = mechanism.motion(np.array([angle]), SPEED)
+        in_a_turn = mechanism.motion(np.array([angle % (2 * np.pi)]), SPEED)
+        for name, body in motion.items():
+            alone, within = by_itself[name], in_a_turn[name]
             assert body.position[index] == pytest.approx(alone.position[0], abs=1e-13)
             assert body.position[index, :2] == pytest.approx(within.position[0, :2], abs=1e-12)
             turns = (body.position[index, 2] - within.position[0, 2]) / (2 * np.pi)

@@ -11,7 +11,7 @@ from exu_press.studies.fit import Fit, fit
 from exu_press.studies.optimise import Optimise, optimise
 from exu_press.studies.sensitivity import Sensitivity, sensitivity
 
-SCENE = Scene(mechanism="slider_crank", joints={"crank_pin": "ideal"}, revolutions=0.1, settle=0.0)
+SCENE = Scene(mechanism="slider_crank", joints={"crank_pin": "ideal"}, revolutions=0.02, settle=0.0)
 MASS, ROD = "slider_crank.slider_mass", "slider_crank.rod_length"
 KEYS = {MASS: {"low": 800.0, "high": 2000.0, "log": True}, ROD: {"low": 0.3, "high": 0.5}}
 FORCES = ("joints.wrist_pin.peak_force", "joints.shaft.peak_force")

@@ -1,5 +1,6 @@
 """The benchmark of the joints' cost runs and prints its table; times are not tested."""
 
+import pytest
 from running import run
 
 ROWS = [
@@ -12,6 +13,7 @@ ROWS = [
 ]
 
 
+@pytest.mark.long
 def test_quick_table(tmp_path):
     head, *lines = run("benchmark_joint_cost.py", tmp_path).splitlines()
     assert head[:34].strip() in ("joints compiled", "joints in Python")

@@ -120,7 +120,7 @@ def test_beside_another_thread_the_process_is_a_new_one():
 @linux
 def test_ctrl_c_ends_both_at_once(tmp_path):
     """As a terminal does it: to the whole group of processes."""
-    changes = ["--set", "joints.crank_pin=dry", "--set", "revolutions=100"]
+    changes = ["--set", "joints.crank_pin=dry", "--set", "revolutions=100", "--no-pictures"]
     run = subprocess.Popen(
         [sys.executable, "-m", "exu_press", "run", "press", *changes, "--out", str(tmp_path)],
         stdout=subprocess.PIPE,

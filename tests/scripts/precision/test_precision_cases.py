@@ -29,18 +29,21 @@ def test_fixed_steps_are_of_second_order_where_lubricated(report):
     assert order["error_position"] == pytest.approx(2.0, abs=0.1)
 
 
+@pytest.mark.long
 def test_peers_are_there_or_left_out_with_a_reason(report):
     for peer in ("SciPy Radau", "SciPy BDF", "SciPy LSODA", "CVODE", "IDA", "numbalsoda LSODA"):
         shown = rows(report, "slider_crank_lubricated_0.1mm", peer)
         assert shown or any(why.startswith(peer) for why in report.left_out)
 
 
+@pytest.mark.long
 def test_failed_runs_are_shown_with_their_reason(report):
     for row in report.rows:
         if row.status != "completed":
             assert row.reason and row.error_position is None
 
 
+@pytest.mark.long
 def test_references_are_known_ten_times_better_than_what_is_told(report):
     for row in report.rows:
         difference = report.cases[row.case]["reference"]["difference"]

@@ -44,6 +44,7 @@ def test_the_error_follows_the_tolerance():
         assert error < 30.0 * attempt.value, "rad, of 15.8"
 
 
+@pytest.mark.long
 def test_steps_that_change_do_not_ring():
     """Each repeated step that is none of the motion's own would cost a try and bring the next."""
     run = squeezer_attempts((), (1e-5,))[0].run()

@@ -175,8 +175,15 @@ def test_a_curve_s_file(tmp_path, text, said):
     ("head", "last", "said"),
     [
         ("time (s),slider_velocity (kg)", 0.1, "slider_velocity in kg: allowed is m/s"),
-        ("time (s),slider_speed (m/s)", 0.1, "column 'slider_speed'.*allowed are channels"),
-        ("time (s),slider_velocity (m/s)", 9.0, "and beyond the run"),
+        pytest.param(
+            "time (s),slider_speed (m/s)",
+            0.1,
+            "column 'slider_speed'.*allowed are channels",
+            marks=pytest.mark.long,
+        ),
+        pytest.param(
+            "time (s),slider_velocity (m/s)", 9.0, "and beyond the run", marks=pytest.mark.long
+        ),
     ],
 )
 def test_a_curve_that_is_not_of_this_scene(tmp_path, head, last, said):

@@ -65,7 +65,7 @@ def test_four_bar(pin, step):
     [
         ("pinkus", "pinkus", 1e-9),
         pytest.param("pinkus", "lugre_steady", 2e-7, marks=pytest.mark.long),
-        ("lugre_steady", "lugre_steady", 2e-6),
+        pytest.param("lugre_steady", "lugre_steady", 2e-6, marks=pytest.mark.long),
     ],
 )
 def test_eccentric_press_with_two_clearance_joints(crank_pin, wrist_pin, bound):

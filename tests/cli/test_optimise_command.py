@@ -78,7 +78,9 @@ def test_runs_too_short_for_the_objective_end_the_search(tmp_path, capsys):
         ("trials = 16", 'method = "nelder_mead"', "with 2 objectives allowed are"),
         ('sense = "largest"', 'sense = "most"', "allowed is one of"),
         ("low = 0.2, high = 0.6", "mean = 0.4, deviation = 0.01", "file for exu-press optimise"),
-        ("energy.stored", "energy.dissipated", "in each of 16 runs"),
+        pytest.param(
+            "energy.stored", "energy.dissipated", "in each of 16 runs", marks=pytest.mark.long
+        ),
     ],
 )
 def test_what_is_refused(tmp_path, capsys, old, new, said):

@@ -14,8 +14,11 @@ import exu_press
 ONE_BY_ONE = pages.blocks_of(pages.ROOT / "README.md")
 README_BLOCKS = [b for b in ONE_BY_ONE if b.language in ("sh", "python", "toml")]
 
-SLOW = ("built_press", "own_mechanism", "own_part", "pandas", "press_builders", "scene", "see")
-"""Pages whose short blocks take more than six seconds together."""
+SLOW = (
+    *("built_press", "cluster", "extending", "own_mechanism", "own_part", "pandas"),
+    *("press_builders", "scene", "see", "tutorial", "wear"),
+)
+"""Pages whose short blocks take more than three seconds together."""
 
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)? *")
 

@@ -183,6 +183,7 @@ def test_thin_films_follow_the_tolerance():
         assert abs(ratios[tolerance] - ratios[1e-4]) < 2.0 * tolerance
 
 
+@pytest.mark.long
 def test_vibrating_bodies_follow_the_tolerance():
     """The impact at 44 ms follows from how the bodies vibrate after the one at 34 ms."""
     scene = Scene(revolutions=0.2, bodies=flexible_press(modes=4))

@@ -50,7 +50,9 @@ def test_the_error_follows_the_tolerance_over_the_whole_run(name, tolerance):
     follows(name, tolerance, 1e-6, EXAMPLES[name].end, EXAMPLES[name].most)
 
 
-@pytest.mark.parametrize("name", ["heavy top", "rotor run-up"])
+@pytest.mark.parametrize(
+    "name", ["heavy top", pytest.param("rotor run-up", marks=pytest.mark.long)]
+)
 def test_what_turns_many_times_is_no_phase_ahead(name):
     """9 and 38 tolerances off, while errors along the circle of Euler parameters were not seen."""
     end = 0.5 * EXAMPLES[name].end

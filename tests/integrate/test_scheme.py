@@ -26,7 +26,9 @@ def tuned(scene, **numbers):
 @PATCHED
 @pytest.mark.parametrize("pin", ["lubricated", "dry"])
 def test_expected_accelerations_save_iterations(pin, monkeypatch):
-    scene = Scene(joints={"crank_pin": pin, "balls": "dry"}, revolutions=0.1, solver={"step": 5e-5})
+    scene = Scene(
+        joints={"crank_pin": pin, "balls": "dry"}, revolutions=0.05, solver={"step": 5e-5}
+    )
     guided = simulate(scene)
     monkeypatch.setattr(Newton, "_advance", lambda guide, step: None)
     plain = simulate(scene)
@@ -142,7 +144,7 @@ def test_one_serves_several_steps_and_changes_no_answer(monkeypatch):
     runs = []
     for same in (-1.0, scheme.SAME):
         monkeypatch.setattr(scheme, "SAME", same)
-        scene = Scene(bodies=flexible_press(modes=4), revolutions=0.06, solver={"tolerance": 3e-4})
+        scene = Scene(bodies=flexible_press(modes=4), revolutions=0.03, solver={"tolerance": 3e-4})
         model = scene.build()
         made.append(0)
         runs.append(record(model, model.solve()))

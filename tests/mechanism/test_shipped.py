@@ -35,7 +35,8 @@ def run(name, kind, **given):
         joints = dict.fromkeys(joints, kind)
     law = {"dry": "contact", "lubricated": "film"}.get(kind)
     laws = {law: LAWS[name][law]} if law in LAWS.get(name, {}) else {}
-    scene = Scene(mechanism=name, joints=joints, revolutions=0.1, **laws, **given)
+    short = 0.1 if kind == "ideal" else 0.05
+    scene = Scene(mechanism=name, joints=joints, revolutions=short, **laws, **given)
     return simulate(scene)
 
 

@@ -15,7 +15,7 @@ from exu_press.scene.assumptions import assumed
 MOTOR = {"rated_torque": 300.0, "slip": 0.1, "no_load_speed_rpm": 250.0, "inertia": 12.0}
 
 
-@pytest.mark.parametrize("begins", ["turning", "rest"])
+@pytest.mark.parametrize("begins", ["turning", pytest.param("rest", marks=pytest.mark.long)])
 def test_a_free_flywheel_runs_up_as_kloss_says(begins):
     """I dw/dt = T(s): s^2 / 2 + s_b^2 ln s falls by 2 T_b s_b t / (I w_0); from 60 or 0 rpm.
 

@@ -121,7 +121,8 @@ RAMP = {"kind": "table", "crank_angle_deg": [10, 25, 40], "force": [0.0, 2e3, 0.
         "direction": [1.0, 0.4]}  # fmt: skip
 
 
-@pytest.mark.parametrize("place", [pytest.param("a joint", marks=pytest.mark.long), [*ON][1]])
+@pytest.mark.long
+@pytest.mark.parametrize("place", ON)
 def test_stiff_the_drive_takes_out_what_the_load_puts_in(rocker, place):
     """As of a rigid rocker, by virtual work."""
     stiff = {"youngs_modulus": 1e16}

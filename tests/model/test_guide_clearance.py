@@ -72,7 +72,7 @@ def test_the_slider_has_its_clearance_and_the_give_of_its_guideway(pressed):
 
 @pytest.mark.parametrize(
     "friction",
-    [*(pytest.param(law, marks=pytest.mark.long) for law in ("none", "stribeck")), "lugre"],
+    ["stribeck", *(pytest.param(law, marks=pytest.mark.long) for law in ("none", "lugre"))],
 )
 def test_the_balance_of_the_press_closes(friction):
     guide = {"clearance": 5e-5, "friction": friction, "width": 0.2}

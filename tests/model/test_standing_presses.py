@@ -74,6 +74,7 @@ def test_a_jog_and_another_one():
     assert result.quantity("energy.residual").value < 1e-3
 
 
+@pytest.mark.long
 def test_errors_of_a_run_that_ends_when_the_press_stands():
     result = simulate(press(0.5, ends_after=0.02), errors=True)
     for name in ("stopping_time", "stopping_angle_deg", "starting_time", "brake_energy"):

@@ -87,7 +87,9 @@ def energy_and_momenta(mbs, body, model, modes):
     return energy, momenta.sum(axis=0), np.cross(positions, momenta).sum(axis=0)
 
 
-@pytest.mark.parametrize("rotation", ["euler_parameters", "rotation_vector"])
+@pytest.mark.parametrize(
+    "rotation", ["euler_parameters", pytest.param("rotation_vector", marks=pytest.mark.long)]
+)
 def test_free_spinning_body_keeps_energy_and_momentum(crank, crank_model, reduced_crank, rotation):
     basis, *_ = _craig_bampton_basis(crank, crank_model, 20)
     _, modes = _orthogonalise(crank_model, basis, 20)

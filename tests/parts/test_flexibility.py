@@ -61,6 +61,7 @@ def test_the_error_is_kept_under_every_load_in_the_plane(linkage, linkage_model,
         assert -1e-6 < left <= wanted + 1e-6, name
 
 
+@pytest.mark.long
 def test_modes_out_of_the_plane_are_spared(crank, crank_model):
     plane = reduce_model(crank, crank_model, Reduction(flexibility_error=1e-2, loads=PLANE))
     space = reduce_model(crank, crank_model, Reduction(flexibility_error=1e-2))

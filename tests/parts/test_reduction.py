@@ -67,6 +67,7 @@ def test_static_bending_under_an_interface_load_is_exact(crank, crank_model):
     assert abs(error) < 2e-5  # not 0: the balancing inertia load is spread over the body
 
 
+@pytest.mark.long
 def test_static_error_falls_with_the_number_of_modes(crank, crank_model):
     load = middle_load(crank_model)
     found = errors(crank, crank_model, load, "craig_bampton", (13, 40))

@@ -27,7 +27,7 @@ def test_with_and_without_counterweight(results):
     assert names == ["vertical", "vertical, without counterweight", "horizontal"]
 
 
-@pytest.mark.parametrize("name", ["ideal", "elastic"])
+@pytest.mark.parametrize("name", ["ideal", pytest.param("elastic", marks=pytest.mark.long)])
 def test_legends_stand_beside_their_titles(results, name):
     shown = panels(results[name])
     shown["Guides"].figure.draw_without_rendering()

@@ -32,6 +32,7 @@ def test_ideal_joints_have_no_orbits(results, tmp_path, monkeypatch):
     assert save_pictures(results["ideal"], tmp_path) == wanted
 
 
+@pytest.mark.long
 def test_pictures_of_a_comparison(results, tmp_path):
     paths = save_comparison({name: results[name] for name in ("ideal", "dry")}, tmp_path)
     assert [path.name for path in paths] == [f"{name}.png" for name in PICTURES["compare"]]

@@ -21,6 +21,7 @@ def titled(figure):
     return {axes.get_title(loc="left"): axes for axes in figure.axes}
 
 
+@pytest.mark.long
 def test_a_fit(tmp_path):
     measured = [{"quantity": n, "value": 2e4, "uncertainty": 300.0} for n in FORCES]
     given = {"keys": {MASS: KEYS[MASS]}, "measured": measured, "fit": {"starts": 1}}
@@ -35,6 +36,7 @@ def test_a_fit(tmp_path):
     assert points.get_ydata() == pytest.approx(report.profiles[MASS][:, 1])
 
 
+@pytest.mark.long
 def test_a_sensitivity_study(tmp_path):
     given = {"keys": KEYS, "sensitivity": {"quantities": list(FORCES), "samples": 8}}
     report = sensitivity(Sensitivity(scene=SCENE, **given), tmp_path, workers=1)

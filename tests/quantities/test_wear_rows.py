@@ -22,6 +22,7 @@ def result():
             revolutions=2.0,
             settle=1.0,
             wear=WEAR,
+            solver={"tolerance": 1e-2},
         )
     )
 

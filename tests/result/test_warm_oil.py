@@ -158,6 +158,7 @@ def test_friction_of_a_mixed_film_heats_it_too():
     assert of_pin(other, "film.temperature") < of_pin(run, "film.temperature")
 
 
+@pytest.mark.long
 def test_errors_are_those_of_the_whole_run(result):
     run = simulate(result.scene, errors=True, beside=False)
     told = run.quantity("joints.crank_pin.film.temperature")

@@ -99,6 +99,7 @@ def test_even_wear_is_a_larger_clearance_to_the_last_digits():
     )
 
 
+@pytest.mark.long
 def test_too_few_jumps_end_it_with_their_reason(tmp_path):
     report = wear(study(most_jumps=1), tmp_path)
     assert "1 jumps were not enough" in report.reason

@@ -103,7 +103,10 @@ def two_bodies(kind, joint, velocity, spin, duration=0.02, step=1e-5):
     return records, np.asarray(mbs.GetSensorStoredData(sensor))
 
 
-@pytest.mark.parametrize(("kind", "joint"), PAIRS)
+@pytest.mark.parametrize(
+    ("kind", "joint"),
+    [pytest.param(*p, marks=[pytest.mark.long] * p[1].endswith("ball")) for p in PAIRS],
+)
 def test_motion_in_the_plane_is_that_of_planar_bodies(kind, joint):
     motion = ((0.3, 0.2, 0.0), (0.0, 0.0, 5.0))
     (flat, _), record = two_bodies("2D", joint, *motion, step=5e-5)

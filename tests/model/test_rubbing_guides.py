@@ -57,8 +57,20 @@ def test_the_losses_are_mu_times_the_side_force_times_the_way(pressed):
     assert "drive.guide_friction_power" not in pressed.summary()["quantities"]
 
 
-@pytest.mark.parametrize("law", ["stribeck", "lugre_steady", "lugre"])
-@pytest.mark.parametrize("joints", [{}, {"crank_pin": "lubricated", "balls": "dry"}])
+LAWS, CLEARANCES = (
+    ("stribeck", "lugre_steady", "lugre"),
+    {"crank_pin": "lubricated", "balls": "dry"},
+)
+
+
+@pytest.mark.parametrize(
+    ("law", "joints"),
+    [
+        *((law, {}) for law in LAWS),
+        (LAWS[0], CLEARANCES),
+        *(pytest.param(law, CLEARANCES, marks=pytest.mark.long) for law in LAWS[1:]),
+    ],
+)
 def test_the_balance_of_the_press_closes(law, joints):
     result = simulate(Scene(joints=joints, revolutions=0.3, guide={"friction": law}))
     assert result.completed

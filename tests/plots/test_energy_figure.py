@@ -5,7 +5,13 @@ from exu_press.plots import energy_figure
 LABELS = ["dry", "lubricated", "slider_crank", "stopped"]
 
 
-@pytest.mark.parametrize("label", LABELS)
+@pytest.mark.parametrize(
+    "label",
+    [
+        pytest.param(n, marks=[pytest.mark.long] * (n not in ("dry", "slider_crank")))
+        for n in LABELS
+    ],
+)
 def test_balance_losses_and_residual_with_units(results, label):
     panels = {axes.get_title("left"): axes for axes in energy_figure(results[label]).axes}
     assert set(panels) == {"Balance", "Dissipated in", "Residual"}

@@ -7,7 +7,13 @@ PRESS = ["Crank pin", "Ball, each side", "Pivot, each side", "Drive torque"]
 SLIDER_CRANK = ["Crank pin", "Wrist pin", "Guide", "Drive torque"]
 
 
-@pytest.mark.parametrize("label", LABELS)
+@pytest.mark.parametrize(
+    "label",
+    [
+        pytest.param(n, marks=[pytest.mark.long] * (n not in ("lubricated", "slider_crank")))
+        for n in LABELS
+    ],
+)
 def test_joints_and_drive_with_units(results, label):
     figure = force_figure({label: results[label]})
     titles = [axes.get_title("left") for axes in figure.axes]

@@ -11,7 +11,9 @@ def titled(figure):
     return {axes.get_title("left"): axes for axes in figure.axes if axes.get_title("left")}
 
 
-@pytest.mark.parametrize("label", ["dry", "lubricated", "stopped"])
+@pytest.mark.parametrize(
+    "label", ["dry", *(pytest.param(n, marks=pytest.mark.long) for n in ("lubricated", "stopped"))]
+)
 def test_pin_and_ball_in_their_circles_with_units(results, label):
     panels = titled(orbit_figure(results[label]))
     assert list(panels) == [

@@ -13,7 +13,14 @@ def panels(result):
     return {axes.get_title("left"): axes for axes in press_figure(result).axes}
 
 
-@pytest.mark.parametrize("label", ["ideal", "dry", "lubricated", "stopped", "stopped at once"])
+@pytest.mark.parametrize(
+    "label",
+    [
+        "ideal",
+        "stopped at once",
+        *(pytest.param(n, marks=pytest.mark.long) for n in ("dry", "lubricated", "stopped")),
+    ],
+)
 def test_less_than_a_stroke_on_ideal_guides(results, label):
     shown = panels(results[label])
     loads = ["Loads"] if results[label].scene.load else []

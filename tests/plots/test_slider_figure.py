@@ -7,7 +7,15 @@ from exu_press.plots.slider import averaged
 LABELS = ["ideal", "dry", "lubricated", "slider_crank", "stopped"]
 
 
-@pytest.mark.parametrize("label", LABELS)
+@pytest.mark.parametrize(
+    "label",
+    [
+        pytest.param(
+            n, marks=[pytest.mark.long] * (n not in ("lubricated", "slider_crank", "stopped"))
+        )
+        for n in LABELS
+    ],
+)
 def test_six_panels_with_units(results, label):
     figure = slider_figure({label: results[label]})
     units = [axes.get_ylabel().partition(", ")[2] for axes in figure.axes]

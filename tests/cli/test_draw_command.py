@@ -101,16 +101,18 @@ def test_wrong_input_is_told_in_one_line(drawn, capsys):
         assert err.count("\n") == 1
 
 
-def test_neither_exudyn_nor_matplotlib_is_loaded_for_the_text(tmp_path):
+@pytest.mark.parametrize(
+    ("save", "loaded"),
+    [(False, ""), pytest.param(True, "matplotlib", marks=pytest.mark.long)],
+)
+def test_neither_exudyn_nor_matplotlib_is_loaded_for_the_text(tmp_path, save, loaded):
     code = (
         "import sys\nfrom exu_press.cli import main\n"
         "assert main(sys.argv[1:]) == 0\n"
         "print(*(n for n in ('exudyn', 'matplotlib') if n in sys.modules), sep=',')"
     )
 
-    def loaded(*more):
-        words = [sys.executable, "-c", code, "draw", "press", "--quiet", *more]
-        return subprocess.run(words, capture_output=True, text=True, check=True).stdout.strip()
-
-    assert loaded() == ""
-    assert loaded("--save", str(tmp_path / "press.png")) == "matplotlib"
+    words = [sys.executable, "-c", code, "draw", "press", "--quiet"]
+    words += ["--save", str(tmp_path / "press.png")] * save
+    done = subprocess.run(words, capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == loaded

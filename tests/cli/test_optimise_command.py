@@ -71,7 +71,9 @@ def test_runs_too_short_for_the_objective_end_the_search(tmp_path, capsys):
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
-        ("below = 20.0", "below = 1.0", "no run keeps the limits"),
+        pytest.param(
+            "below = 20.0", "below = 1.0", "no run keeps the limits", marks=pytest.mark.long
+        ),
         ("below = 20.0", "", "allowed are one of them, or above < below"),
         ("energy.stored", "energy.store", "did you mean"),
         ("energy.stored", "joints.wrist_pin.peak_force", "two are of one quantity"),

@@ -23,6 +23,7 @@ COLUMNS = {
 }
 
 
+@pytest.mark.long
 def test_a_scene_of_the_users_own(tmp_path, capsys):
     scene = tmp_path / "mine.toml"
     scene.write_text('mechanism = "slider_crank"\njoints = {}\nrevolutions = 0.05\n')

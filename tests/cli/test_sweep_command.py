@@ -90,6 +90,7 @@ def test_a_column_that_is_not_there(tmp_path, capsys):
     assert not (tmp_path / "o").exists()  # nothing is run for a wrong name
 
 
+@pytest.mark.long
 def test_a_printed_column_can_be_asked_for(tmp_path, capsys):
     path = tmp_path / "study.toml"
     path.write_text("[scene]\nrevolutions = 0.01\n[keys]\nspeed_rpm = [200.0, 300.0]\n")

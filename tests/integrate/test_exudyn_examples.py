@@ -31,7 +31,13 @@ def cases(*tolerances):
     return [(name, t) for name in EXAMPLES for t in tolerances if t >= EXAMPLES[name].finest]
 
 
-@pytest.mark.parametrize(("name", "tolerance"), cases(1e-3))
+SLOW = ("FFRF pendulum", "cantilever")
+
+
+@pytest.mark.parametrize(
+    ("name", "tolerance"),
+    [pytest.param(*c, marks=[pytest.mark.long] * (c[0] in SLOW)) for c in cases(1e-3)],
+)
 def test_the_error_follows_the_tolerance(name, tolerance):
     follows(name, tolerance, 1e-3, EXAMPLES[name].short)
 

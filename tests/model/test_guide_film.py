@@ -76,6 +76,7 @@ def test_any_mechanisms_guides_have_it(mechanism):
         assert 0.0 < result.quantity(f"guides.{guide.body}.min_film").value < 2e-5
 
 
+@pytest.mark.long
 def test_flexible_bodies_have_it():
     pytest.importorskip("ngsolve")
     scene = {"joints": {}, "revolutions": 0.01, "guide": OILED}

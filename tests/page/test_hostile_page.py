@@ -16,7 +16,8 @@ HOSTILE = (
 )
 
 
-def test_hostile_texts_of_a_run_run_nothing(tmp_path, browser):
+def test_hostile_texts_of_a_run_run_nothing(tmp_path, browser, monkeypatch):
+    monkeypatch.setattr("exu_press.report.run.save_pictures", lambda *_: [])
     result = simulate(
         Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=0.02)
     )

@@ -92,6 +92,7 @@ def test_a_range_on_an_axis_keeps_the_runs_in_it(study, browser):
         assert len(shown.evaluate(SOURCE, "points-runs")[1]) == 5
 
 
+@pytest.mark.long
 def test_it_fits_a_phone(study, browser):
     with opened(browser, study, 390, 844) as shown:
         scroll, width = shown.evaluate(

@@ -1,9 +1,10 @@
-"""A Dask cluster of two worker processes on loopback, one of them killed."""
+"""A Dask cluster of worker processes on loopback, one of them killed."""
 
 import os
 import signal
 import threading
 import time
+from contextlib import contextmanager
 from pathlib import Path
 
 import batch_functions
@@ -16,18 +17,32 @@ from exu_press.parallel import run_batch
 distributed = pytest.importorskip("distributed")
 
 
-@pytest.fixture(scope="module")
-def cluster():
-    """One for all tests: a worker that is killed is started again, and the last test closes it."""
+@contextmanager
+def local(workers):
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("PYTHONPATH", str(Path(__file__).parent))
         with distributed.LocalCluster(
-            n_workers=2, threads_per_worker=1, host="127.0.0.1", dashboard_address=None
+            n_workers=workers, threads_per_worker=1, host="127.0.0.1", dashboard_address=None
         ) as made:
             yield made
 
 
-def test_one_of_two_workers_killed_midway(cluster, tmp_path):
+@pytest.fixture(scope="module")
+def cluster():
+    """One for the tests of one worker, the last of which closes it."""
+    with local(1) as made:
+        yield made
+
+
+@pytest.fixture
+def two():
+    with local(2) as made:
+        yield made
+
+
+@pytest.mark.long
+def test_one_of_two_workers_killed_midway(two, tmp_path):
+    cluster = two
     arguments = [{"x": x, "marks": str(tmp_path / "marks")} for x in range(6)]
     with distributed.Client(cluster.scheduler_address) as client:
         first, _ = client.run(os.getpid).values()

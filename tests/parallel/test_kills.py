@@ -102,6 +102,7 @@ def last_call(directory):
     return batch_functions.marks(directory / "marks")[-1]
 
 
+@pytest.mark.long
 def test_killed_workers_are_replaced(arguments, undisturbed, tmp_path):
     process = parent("slow_digits", arguments, tmp_path)
     tried = set()

@@ -54,6 +54,7 @@ def test_a_sensitivity_study(tmp_path):
     assert left < min(0.0, ends.min()) and max(1.0, ends.max()) < right
 
 
+@pytest.mark.long
 def test_an_optimum(tmp_path):
     given = {"keys": KEYS, "objective": [{"quantity": n} for n in FORCES]}
     report = optimise(Optimise(scene=SCENE, optimise={"trials": 8}, **given), tmp_path, workers=1)

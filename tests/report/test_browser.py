@@ -6,7 +6,14 @@ from browser import opened
 SHOW = "() => document.querySelectorAll('.turned').forEach(box => { box.checked = true; })"
 
 
-@pytest.mark.parametrize("name", ["run", pytest.param("compare", marks=pytest.mark.long), "sweep"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "run",
+        pytest.param("compare", marks=pytest.mark.long),
+        pytest.param("sweep", marks=pytest.mark.long),
+    ],
+)
 def test_a_report_fits_a_laptop_and_a_phone_where_a_tap_enlarges_a_picture(pages, browser, name):
     live = 'id="viewer"' in pages[name].read_text(encoding="utf-8")
     with opened(browser, pages[name], 1280, 800, live) as page:

@@ -95,6 +95,7 @@ def test_what_no_study_wrote_is_refused(tmp_path, capsys, name, content):
     assert name in capsys.readouterr().err
 
 
+@pytest.mark.long
 def test_every_point_of_a_section_is_in_the_diagram(tmp_path, browser):
     pytest.importorskip("bokeh")
     rows = [

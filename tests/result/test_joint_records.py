@@ -37,7 +37,10 @@ def world(result, body, point):
     )
 
 
-@pytest.mark.parametrize("name", SCENES)
+FEW = [pytest.param(n, marks=[pytest.mark.long] * (n == "many")) for n in SCENES]
+
+
+@pytest.mark.parametrize("name", FEW)
 def test_eccentricities_are_where_the_bodies_are(name):
     """Journal centre minus bearing centre, from the bodies' recorded poses; ideal joints meet."""
     result = run(name)
@@ -50,7 +53,7 @@ def test_eccentricities_are_where_the_bodies_are(name):
         assert record.clearance == result.scene.joints[joint.name].clearance
 
 
-@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("name", FEW)
 def test_energy_is_balanced_and_lost_in_the_joints_alone(name):
     result = run(name)
     assert result.quantity("energy.residual").value < 1e-3

@@ -38,5 +38,6 @@ def test_script(script, options, expected, tmp_path):
     assert expected in run(script, tmp_path, *options)
 
 
+@pytest.mark.long
 def test_contact_restitution(tmp_path):
     assert "(Table 2)" in run("contact_restitution.py", tmp_path, quick=False)

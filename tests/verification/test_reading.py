@@ -81,6 +81,7 @@ def test_the_mean_power_is_as_unsure_as_the_energy_put_in(run):
     assert np.trapezoid(more, run.time) == pytest.approx(np.abs(missed).max())
 
 
+@pytest.mark.long
 def test_what_the_balance_misses_is_stated():
     """Of a guide with clearance: dissipated and stored energy are known far better."""
     scene = Scene.from_dict(

@@ -132,7 +132,7 @@ def test_raimondi_and_boyd_1958_at_other_widths():
 def test_reynolds_equation_between_the_knots():
     rng = random.Random(5)
     errors = []
-    for _ in range(60):
+    for _ in range(20):
         ratio, eps = 0.1 * 40.0 ** rng.random(), rng.choice([rng.uniform(0.1, 0.9), 0.985])
         turn = rng.uniform(-0.5, 0.5) * math.pi
         eps_dot, eps_w = math.sin(turn), 2.0 * math.cos(turn)

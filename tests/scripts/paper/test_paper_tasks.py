@@ -9,6 +9,7 @@ from paper.tasks import COARSER, observe, part_frequencies
 from paper.value import Value
 
 
+@pytest.mark.long
 def test_errors_of_readings_hold_those_of_a_finer_run():
     scene = Scene(joints={"crank_pin": "dry"}, revolutions=0.05)
     row = observe({"scene": scene.to_dict()})

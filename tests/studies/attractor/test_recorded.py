@@ -1,6 +1,7 @@
 """What is recorded of a revolution changes nothing of the next one, and a lasting contact stays."""
 
 import numpy as np
+import pytest
 
 from exu_press import Scene
 from exu_press.studies.attractor.orbit import Orbit
@@ -26,6 +27,7 @@ def test_it_goes_on_bit_for_bit_from_what_is_recorded():
     assert np.array_equal(points(coarse, 2, recorded=True), points(coarse, 2, recorded=False))
 
 
+@pytest.mark.long
 def test_a_contact_that_lasts_does_not_creep():
     """By a ten-thousandth of the clearance a revolution, where what steps miss is kept for good."""
     _, first, last = points(PRESSED, 3, recorded=False)

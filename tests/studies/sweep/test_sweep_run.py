@@ -105,6 +105,7 @@ def test_a_damaged_study_beside_the_rows_is_another_one(tmp_path):
         sweep(ONE, tmp_path)
 
 
+@pytest.mark.long
 def test_a_worker_does_not_share_memory_of_runs(tmp_path):
     """One worker after many runs gives what a fresh one gives."""
     scenes = [LUBRICATED.replace({"speed_rpm": speed}) for speed in (200.0, 300.0)]

@@ -134,6 +134,7 @@ def test_a_scene_in_which_no_joint_wears_is_refused():
         WearStudy(guided, wear={"strokes": 10.0})
 
 
+@pytest.mark.long
 def test_the_command_and_its_page(tmp_path, capsys):
     scene().save(tmp_path / "scene.toml")
     text = 'scene = "scene.toml"\n[wear]\nstrokes = 100\ntolerance = 0.1\n'

@@ -161,6 +161,11 @@ class StepError:
             self._doubted = error, step
         return self._scales.rounded
 
+    @property
+    def _has_switched(self) -> bool:
+        """Return whether Exudyn iterated on contacts or friction; once without a switch."""
+        return bool(self._solver.it.discontinuousIteration > 1)
+
     def of_switch(self, step: float) -> float:
         """Return the error of a step in which Exudyn's contacts or friction have switched.
 
@@ -168,7 +173,7 @@ class StepError:
         accelerations show: half of it acted too long. As switches are few, that is held against
         the tolerance itself.
         """
-        if self._bodies is None or not self._solver.it.discontinuousIteration:
+        if self._bodies is None or not self._has_switched:
             return 0.0
         return self._relative(0.5 * step * self._bodies.largest())
 
@@ -193,7 +198,7 @@ class StepError:
         if self._curvature is not None:
             self._curvature.accept()
         self._bodies.accept()
-        if self._jumped or (self._forces_jump and self._solver.it.discontinuousIteration):
+        if self._jumped or (self._forces_jump and self._has_switched):
             self._bodies.jumped()
         self._jumped = False
         self._doubted = 0.0, 0.0

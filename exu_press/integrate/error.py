@@ -192,13 +192,17 @@ class StepError:
         """Return what a jump of accelerations in the step last tried changes a speed by, m/s."""
         return 0.0 if self._bodies is None else self._step * self._bodies.of_jump()
 
-    def accept(self) -> None:
-        """Remember the accepted step's end as the next one's beginning."""
+    def accept(self, shortened: bool = False) -> None:
+        """Remember the accepted step's end as the next one's beginning.
+
+        Args:
+            shortened: whether Exudyn let it end where a contact opens or closes.
+        """
         assert self._bodies is not None
         if self._curvature is not None:
             self._curvature.accept()
         self._bodies.accept()
-        if self._jumped or (self._forces_jump and self._has_switched):
+        if self._jumped or (self._forces_jump and (shortened or self._has_switched)):
             self._bodies.jumped()
         self._jumped = False
         self._doubted = 0.0, 0.0

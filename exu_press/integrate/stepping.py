@@ -70,8 +70,8 @@ class StepControl:
 
     def accept(self, step: float) -> None:
         """Take the step last tried as done; choose the size of those to come."""
-        self._estimate.accept()
         shortened = step < (1.0 - SAME) * self._asked  # by Exudyn
+        self._estimate.accept(shortened)
         if shortened and step >= 0.5 * self._step:  # else by a contact that it ends on
             self._step = step
         part = step / self._step

@@ -307,7 +307,7 @@ def quiet():
     return Quiet(scales)
 
 
-def amplitudes(steps, jump=None, told=True):
+def amplitudes(steps, jump=None, told=None):
     """v = V cos(omega t), at the ends of steps; accelerations may jump in one of them."""
     vibration, found, time, before, last = quiet(), [], 0.0, 0.0, None
     for i, size in enumerate(steps):
@@ -317,17 +317,17 @@ def amplitudes(steps, jump=None, told=True):
         if last is not None:
             found.append(vibration.amplitude([rate], [rate - last], size))
             vibration.accept()
-            if told and i == jump:
+            if told is not None and i == jump + told:
                 vibration.forget()
         before, last = now, rate
     return found
 
 
-@pytest.mark.parametrize("told", [True, False])
+@pytest.mark.parametrize("told", [0, -1, None])
 def test_a_jump_beside_a_vibration_does_not_hide_it(told):
-    """Once a contact switches in a short step."""
+    """Once a contact switches in a short step, or behind one that Exudyn lets end where it does."""
     steps = [1e-3 if i in (30, 31) else SIZE for i in range(60)]
-    assert (amplitudes(steps, 30, told)[-1] > 2.0) is told
+    assert (amplitudes(steps, 30, told)[-1] > 2.0) is (told is not None)
 
 
 @pytest.mark.parametrize("longest", [1.0, 1.5, 3.0])

@@ -153,7 +153,7 @@ class Estimate:
     def __call__(self, step):
         return (step / self.good) ** 3
 
-    def accept(self):
+    def accept(self, shortened):
         pass
 
 

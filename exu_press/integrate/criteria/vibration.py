@@ -31,7 +31,7 @@ class Quiet:
         self._before = 0.0  # step, s
         self._rate = self._bend = 0.0
         self._tried = 0.0, 0.0, 0.0  # step, rate and bend
-        self._jumped = False  # in the last accepted step
+        self._spoilt = 0  # number of steps to come that have a jump in them
 
     def amplitude(self, rate: list[float], change: list[float], step: float) -> float:
         """Return it, or infinity where it is not known yet.
@@ -41,7 +41,7 @@ class Quiet:
             change: of this rate from the step before.
             step: s.
         """
-        if self._jumped:  # both have the jump in them
+        if self._spoilt:
             self._tried = step, 0.0, 0.0
             return math.inf
         centred = 0.5 * (step + (self._before or step))  # between the middles of two steps
@@ -57,8 +57,12 @@ class Quiet:
     def accept(self) -> None:
         """Remember the step last tried."""
         self._before, self._rate, self._bend = self._tried
-        self._jumped = False
+        self._spoilt = max(self._spoilt - 1, 0)
 
     def forget(self) -> None:
-        """Be told that accelerations have jumped in the accepted step."""
-        self._jumped = True
+        """Be told that accelerations have jumped in the accepted step, or will do so behind it.
+
+        Exudyn lets a step end where a contact begins: the next one has the jump, and the change of
+        the rate behind that as well.
+        """
+        self._spoilt = 2

@@ -239,7 +239,7 @@ def test_the_balance_closes_and_the_solid_may_be_drawn_on_its_own(slider):
     """Lying on its side about its pin: the same run, in an ideal and in an elastic guide."""
     side = block().Move(Vec(0, -1e3 * WRIST, 0)).Rotate(Line(Pnt(0, 0, 0), Z), 90.0)
     bottom = {"x": [LENGTH - 1e-3, LENGTH + 1e-3]}
-    run = {**RUN, "solver": {"tolerance": 1e-4}, "revolutions": 0.06}
+    run = {**RUN, "solver": {"tolerance": 1e-5}, "revolutions": 0.06}
     for guide in (None, {"lateral_stiffness": 1e9}):
         drawn = slider(load={"push": {**PUSH, "face": BOTTOM}}, guide=guide, **run)
         place = {"origin": [0.0, WRIST], "angle_deg": -90.0}

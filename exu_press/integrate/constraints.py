@@ -117,9 +117,11 @@ class Constraints:
     @contextmanager
     def _without_multipliers(self) -> Iterator[None]:
         """Let no force act along cables, where joints slide, as their balance is no constraint."""
+        if not self._places:
+            yield
+            return
         before = np.array(self._current.multipliers)
-        if self._places:
-            self._current.multipliers[:] = 0.0
+        self._current.multipliers[:] = 0.0
         yield
         self._current.multipliers[:] = before
 

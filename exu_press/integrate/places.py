@@ -87,7 +87,8 @@ class Places:
         for joint in self._joints:
             if joint.place is not None:
                 joint.slid = self._now[joint.place] - self._start[joint.place]
-        self._multipliers[self._unknowns] = 0.0
+        if self._unknowns:
+            self._multipliers[self._unknowns] = 0.0
 
     def within(self, part: float) -> None:
         """Go to a part of the accepted step, from 0.0 to its end at 1.0, with an even speed."""

@@ -42,9 +42,8 @@ def two():
 
 @pytest.mark.long
 def test_one_of_two_workers_killed_midway(two, tmp_path):
-    cluster = two
     arguments = [{"x": x, "marks": str(tmp_path / "marks")} for x in range(6)]
-    with distributed.Client(cluster.scheduler_address) as client:
+    with distributed.Client(two.scheduler_address) as client:
         first, _ = client.run(os.getpid).values()
 
     def kill():
@@ -59,7 +58,7 @@ def test_one_of_two_workers_killed_midway(two, tmp_path):
         batch_functions.slow_digits,
         arguments,
         tmp_path,
-        dask=cluster.scheduler_address,
+        dask=two.scheduler_address,
         quiet=True,
     )
     assert killed.is_set()

@@ -6,6 +6,7 @@ import sys
 
 import pytest
 from browser import launched
+from in_process import InProcess
 
 for library in ("OMP", "OPENBLAS", "MKL"):  # threads of both workers would wait for each other
     os.environ.setdefault(f"{library}_NUM_THREADS", "1")
@@ -15,6 +16,27 @@ for library in ("OMP", "OPENBLAS", "MKL"):  # threads of both workers would wait
 def browser():
     """A real browser; a test that asks for it is skipped where there is none."""
     yield from launched()
+
+
+@pytest.fixture(scope="session", autouse=True)
+def few_new_processes():
+    """Start no workers, but where a test asks for `processes`; refinements run in copies.
+
+    A new process takes longer to load the package than most runs of tests. The second thread is
+    execnet's, which receives the names of tests: it keeps no lock that a copy waits for.
+    """
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("exu_press.parallel.run.Processes", InProcess)
+        patch.setattr("exu_press.verification.refinement._may_fork", lambda: True)
+        yield
+
+
+@pytest.fixture
+def processes(monkeypatch):
+    """Real worker processes."""
+    from exu_press.parallel.processes import Processes
+
+    monkeypatch.setattr("exu_press.parallel.run.Processes", Processes)
 
 
 def pytest_configure(config):

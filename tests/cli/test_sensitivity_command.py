@@ -62,7 +62,7 @@ def test_what_is_refused(tmp_path, capsys, old, new, said):
 
 
 @pytest.mark.long
-def test_too_many_failed_runs(tmp_path, capsys):
+def test_too_many_failed_runs(tmp_path, capsys, processes):
     text = STUDY.replace("[scene]", "time_limit = 1e-3\n[scene]", 1)
     assert run(tmp_path, text) == 2
     shown = capsys.readouterr().err

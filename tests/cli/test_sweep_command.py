@@ -53,7 +53,7 @@ def test_quiet_prints_nothing_and_the_second_time_runs_nothing(tmp_path, capsys)
     assert not (tmp_path / "o" / "sweep.png").exists()
 
 
-def test_a_study_whose_runs_all_fail_is_a_table(tmp_path, capsys):
+def test_a_study_whose_runs_all_fail_is_a_table(tmp_path, capsys, processes):
     path = study(tmp_path, revolutions=1.0, top="time_limit = 0.02")
     assert main(["sweep", path, "--workers", "2", "--out", str(tmp_path / "o")]) == 3
     shown = capsys.readouterr()

@@ -18,19 +18,18 @@ distributed = pytest.importorskip("distributed")
 
 
 @contextmanager
-def local(workers):
+def local(workers, **more):
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("PYTHONPATH", str(Path(__file__).parent))
-        with distributed.LocalCluster(
-            n_workers=workers, threads_per_worker=1, host="127.0.0.1", dashboard_address=None
-        ) as made:
+        at = {"host": "127.0.0.1", "protocol": "tcp", "dashboard_address": None}
+        with distributed.LocalCluster(workers, 1, **at, **more) as made:
             yield made
 
 
 @pytest.fixture(scope="module")
 def cluster():
-    """One for the tests of one worker, the last of which closes it."""
-    with local(1) as made:
+    """One for the tests of one worker, a thread, which the last of them closes."""
+    with local(1, processes=False) as made:
         yield made
 
 

@@ -3,8 +3,11 @@
 from pathlib import Path
 
 import pytest
+from matplotlib.figure import Figure
 
 from exu_press.cli import main
+from exu_press.files.output_directory import PICTURES
+from exu_press.plots.file import save_figures
 
 STUDY = """
 [scene]
@@ -42,11 +45,20 @@ def outputs(tmp_path_factory) -> dict[str, Path]:
     return {name: folder / name for name in ("run", "compare", "stopped", "sweep")}
 
 
+def blank(command):
+    """Return what writes the pictures of a command, and draws nothing: tests/plots looks at them."""
+    return lambda _, folder: save_figures(
+        {name: Figure(figsize=(13.0, 6.0), dpi=150) for name in PICTURES[command]}, folder
+    )
+
+
 @pytest.fixture(scope="session")
 def pages(outputs) -> dict[str, Path]:
-    """Reports of them, written by the command."""
+    """Reports of them, written by the command; their pictures are blank."""
     for name, directory in outputs.items():
         with pytest.MonkeyPatch.context() as patch:
+            patch.setattr("exu_press.report.run.save_pictures", blank("run"))
+            patch.setattr("exu_press.report.comparison.save_comparison", blank("compare"))
             if name == "stopped":  # pictures and curves of a run are in the page of "run"
                 patch.setattr("exu_press.report.run.save_pictures", lambda *_: [])
                 patch.setattr("exu_press.page.document.find_spec", lambda _: None)

@@ -23,7 +23,7 @@ SCENE = Scene.from_dict(
         "mechanism": "slider_crank",
         "joints": FILM,
         "film": {"viscosity": 0.1, "length": 0.1},
-        "revolutions": 2.5,
+        "revolutions": 1.25,
     }
 )
 
@@ -33,14 +33,20 @@ def whole():
     return simulate(SCENE)
 
 
+@pytest.fixture(scope="module")
+def blocks():
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(run, "BLOCK", 0.35)
+        return simulate(SCENE)
+
+
 @pytest.fixture
 def short_blocks(monkeypatch):
-    monkeypatch.setattr(run, "BLOCK", 0.7)
+    monkeypatch.setattr(run, "BLOCK", 0.35)
 
 
-def test_blocks_are_one_run(whole, short_blocks):
+def test_blocks_are_one_run(whole, blocks):
     """They differ by the steps that end where a block does, within the tolerance."""
-    blocks = simulate(SCENE)
     assert isinstance(blocks.channels, OnDisk)
     assert not isinstance(whole.channels, OnDisk)
     assert blocks.completed
@@ -57,8 +63,7 @@ def test_blocks_are_one_run(whole, short_blocks):
             assert again == pytest.approx(told["value"], rel=1e-3), name
 
 
-def test_a_long_run_is_saved_and_sent_whole(short_blocks, tmp_path):
-    blocks = simulate(SCENE.replace({"revolutions": 1.5}))
+def test_a_long_run_is_saved_and_sent_whole(blocks, tmp_path):
     blocks.save(tmp_path / "run.nc")
     for again in (Result.load(tmp_path / "run.nc"), pickle.loads(pickle.dumps(blocks))):
         assert again.scene == blocks.scene
@@ -66,8 +71,7 @@ def test_a_long_run_is_saved_and_sent_whole(short_blocks, tmp_path):
     assert settled(blocks.changed(lambda _, values: values)).time[0] == blocks.time[0]
 
 
-def test_what_is_changed_of_the_disk_stays_there(short_blocks):
-    blocks = simulate(SCENE.replace({"revolutions": 1.5}))
+def test_what_is_changed_of_the_disk_stays_there(blocks):
     twice = blocks.with_values({"drive_torque": 2.0 * blocks["drive_torque"]})
     assert isinstance(twice.channels, Changed)
     assert on_disk(twice.channels)
@@ -79,7 +83,7 @@ def test_what_is_changed_of_the_disk_stays_there(short_blocks):
 
 def test_steps_are_counted_over_blocks(short_blocks):
     """A run that stops in a later block keeps the ones before."""
-    first = simulate(SCENE.replace({"revolutions": 0.7}))
+    first = simulate(SCENE.replace({"revolutions": 0.35}))
     most = first.info["steps"] + first.info["rejected_steps"] + 50
     stopped = simulate(SCENE.replace({"solver.max_steps": most}))
     assert stopped.info["status"] == "too many steps"
@@ -89,7 +93,7 @@ def test_steps_are_counted_over_blocks(short_blocks):
 
 
 def test_files_go_with_the_run(short_blocks):
-    blocks = simulate(SCENE.replace({"revolutions": 1.5}))
+    blocks = simulate(SCENE.replace({"revolutions": 0.75}))
     folder = blocks.channels._file("time").parent
     assert folder.exists()
     del blocks
@@ -101,7 +105,7 @@ import os, sys
 from exu_press import Scene, simulate
 from exu_press.result import channels, run
 from exu_press.result.channel import Channel
-run.BLOCK = 0.7
+run.BLOCK = 0.35
 kept, count = run.keep, []
 def keep(*arguments):
     kept(*arguments)
@@ -127,10 +131,10 @@ def killed(tmp_path_factory):
 
 
 def test_a_killed_run_leaves_what_it_had(whole, killed, tmp_path):
-    with pytest.warns(UserWarning, match=r"was killed; it has 1\.4 revolutions"):
+    with pytest.warns(UserWarning, match=r"was killed; it has 0\.7 revolutions"):
         left = Result.load(killed / "run.nc")
     assert left.completed
-    assert left.scene == SCENE.replace({"revolutions": 1.4})
+    assert left.scene == SCENE.replace({"revolutions": 0.7})
     assert left.time[-1] == pytest.approx(0.56 * SCENE.duration, rel=1e-12)
     before = whole.time <= left.time[-1]
     there = np.interp(whole.time[before], left.time, left["crank_angle"])
@@ -143,7 +147,7 @@ def test_a_killed_run_leaves_what_it_had(whole, killed, tmp_path):
 def test_a_killed_run_is_gone_on_with(whole, killed):
     with pytest.warns(UserWarning, match="was killed"):
         left = Result.load(killed / "run.nc")
-    rest = simulate(SCENE.replace({"revolutions": 1.1}), start=left.info["state"])
+    rest = simulate(SCENE.replace({"revolutions": 0.55}), start=left.info["state"])
     assert rest.time[-1] == pytest.approx(SCENE.duration, rel=1e-9)
     assert rest["slider_position"][-1] == pytest.approx(whole["slider_position"][-1], abs=1e-7)
 

@@ -31,7 +31,7 @@ def without_times(table):
     return {name: values for name, values in table.columns.items() if name not in RUN_TIMES}
 
 
-def test_the_table_holds_the_summaries(tmp_path):
+def test_the_table_holds_the_summaries(tmp_path, processes):
     study = Sweep(scene=IDEAL, save_runs=True, keys={"speed_rpm": [200.0, 300.0]})
     table = sweep(study, tmp_path, workers=1)
     assert table["file"] == ("runs/1.nc", "runs/2.nc")
@@ -106,7 +106,7 @@ def test_a_damaged_study_beside_the_rows_is_another_one(tmp_path):
 
 
 @pytest.mark.long
-def test_a_worker_does_not_share_memory_of_runs(tmp_path):
+def test_a_worker_does_not_share_memory_of_runs(tmp_path, processes):
     """One worker after many runs gives what a fresh one gives."""
     scenes = [LUBRICATED.replace({"speed_rpm": speed}) for speed in (200.0, 300.0)]
     arguments = [{"scene": scene.to_dict()} for scene in scenes]

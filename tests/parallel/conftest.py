@@ -1,0 +1,6 @@
+import pytest
+
+
+@pytest.fixture(autouse=True)
+def workers(processes):
+    """What is tested here are processes."""

@@ -84,6 +84,9 @@ def _read(result: Result, placed: Placed, run: Reading) -> float | int | None:
     """Return a quantity's value, as it was read before channels were left out."""
     stored = result.info.get("figures", {"quantities": {}})["quantities"]
     if placed.name not in stored:
-        return placed.read(run)
+        if placed not in result.read:
+            result.read[placed] = placed.read(run)
+        found: float | int | None = result.read[placed]
+        return found
     value = stored[placed.name]
     return int(value) if value is not None and placed.quantity.kind is COUNT else value

@@ -115,6 +115,11 @@ class Result(Contents):
         """
         return samples_of(self.scene, self.sampled or self.channels)
 
+    @cached_property
+    def read(self) -> dict[Any, Any]:
+        """Quantities read so far, by their declaration and place: each is worked out once."""
+        return {}
+
     def with_values(self, values: Mapping[str, Array]) -> "Result":
         """Return the run with other values of some of its channels, by their names."""
         if on_disk(self.channels):
@@ -130,7 +135,7 @@ class Result(Contents):
         """
         run = copy.copy(self)
         object.__setattr__(run, "channels", Changed(self.channels, change))
-        for worked_out in ("joints", "samples"):
+        for worked_out in ("joints", "samples", "read"):
             run.__dict__.pop(worked_out, None)
         return run
 

@@ -29,20 +29,29 @@ class LimitedGrowth:
     """The elementary controller h_new = h (safety / error)^(1/3), with a dead zone.
 
     Steps stay as long as they are until they may grow by `factor_max`, and grow by that alone: what
-    an impact leaves decides about the next one, and steps that grew by half passed over it.
+    an impact leaves decides about the next one, and steps that grew by half passed over it. Where
+    there are no impacts, the first steps, short by guess, grow by `factor_max_at_start` until an
+    error limits one (E. Hairer, S. P. Norsett and G. Wanner, Solving Ordinary Differential
+    Equations I, II.4).
     """
 
-    def __init__(self, tuning: SolverTuning) -> None:
-        """Take its numbers `safety` and `factor_max`."""
+    def __init__(self, tuning: SolverTuning, *, impacts: bool = True) -> None:
+        """Take its numbers `safety`, `factor_max` and, without impacts, `factor_max_at_start`."""
         self._safety, self._factor_max = tuning.safety, tuning.factor_max
+        self._limit = self._factor_max if impacts else tuning.factor_max_at_start
 
     def repeated(self, error: float) -> float:
         """Return the factor with which to repeat a step whose error is above 1, or no number."""
+        self._limit = self._factor_max
         return max(SHORTENED, self._factor(error))
 
     def continued(self, error: float) -> float:
         """Return the factor for the steps after one whose error is at most 1."""
-        return self._factor_max if self._factor(error) > self._factor_max else 1.0
+        factor = self._factor(error)
+        if factor > self._factor_max:
+            return min(factor, self._limit)
+        self._limit = self._factor_max
+        return 1.0
 
     def _factor(self, error: float) -> float:
         """Return by how much a step may be changed for its error; to nothing where that is nan."""

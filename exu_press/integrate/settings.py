@@ -73,6 +73,8 @@ class SolverTuning:
         safety: error at which a step is aimed, of what it may be. The reserve saves repeated steps.
         factor_max: by what a step is lengthened at most. Steps that grow by half swing about what
             their errors ask for, and are a third more with a film.
+        factor_max_at_start: the same without impacts, until an error first limits a step: the first
+            one is a guess, and each change of a step takes as long as several steps.
         first_step_of_film: first step over the largest one with a film, which takes up its load
             within a microsecond or so: a longer step leaves an overshoot of 3 % in the first loads.
         many_steps: times tolerance^(-1/2), the number of steps of a run from which on each may
@@ -106,6 +108,7 @@ class SolverTuning:
 
     safety: float = 0.4
     factor_max: float = 1.2
+    factor_max_at_start: float = 5.0
     first_step_of_film: float = 1e-4
     many_steps: float = 10.0
     foreseen: float = 3.0
@@ -139,6 +142,7 @@ class Task:
         usual: size of the longest steps of such a motion, s.
         smallest: step, s.
         first: step, s.
+        impacts: whether bodies may strike each other, in clearance joints or Exudyn's contacts.
         every_jacobian: whether each step gets a fresh one: impacts change it all the time, and in
             small systems it costs little.
         spectral_radius: at infinity, of generalized-alpha.
@@ -173,8 +177,8 @@ class Task:
             usual = of_film if problem.lubricated else FIRST_STEP * largest
             self.first = max(integration.initialStepSize or usual, self.smallest)
         self.first = min(self.first, largest)
-        impacts = problem.joints is not None or problem.switching
-        self.every_jacobian = self.fixed or impacts or len(problem.reference) < LARGE
+        self.impacts = problem.joints is not None or problem.switching
+        self.every_jacobian = self.fixed or self.impacts or len(problem.reference) < LARGE
         stir = tuning.rounding / (1.0 - min(self.spectral_radius, 0.95)) ** 2
         self.absolute = absolute
         floor = absolute / self.tolerance

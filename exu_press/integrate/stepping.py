@@ -39,7 +39,7 @@ class StepControl:
             controller: changes steps for their errors; `LimitedGrowth` unless given.
         """
         self.error, self.at_smallest = 0.0, False
-        self._controller = controller or LimitedGrowth(task.tuning)
+        self._controller = controller or LimitedGrowth(task.tuning, impacts=task.impacts)
         self._estimate, self._next_corner = estimate, next_corner
         self._end, self._smallest, self._largest = task.end, task.smallest, task.largest
         # a step is told as a difference of two times, whose last digits are rounded

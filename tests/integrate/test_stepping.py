@@ -130,7 +130,7 @@ def test_the_command_exits_with_3_and_does_not_speak_of_a_stop(tmp_path, capsys)
 
 def task(**changes):
     usual = {"largest": 1e-3, "smallest": 1e-9, "first": 1e-3, "start": 0.0, "end": 1.0}
-    return SimpleNamespace(**{**usual, "tuning": SolverTuning(), **changes})
+    return SimpleNamespace(**{**usual, "impacts": True, "tuning": SolverTuning(), **changes})
 
 
 def test_fixed_steps_return_to_their_grid_after_a_halved_one():
@@ -180,6 +180,17 @@ def test_steps_grow_slowly_to_what_their_errors_allow():
     aim = SolverTuning().safety ** (1.0 / 3.0) * 1e-3
     assert aim / SolverTuning().factor_max <= sizes[-5] <= aim
     assert repeated == 0
+
+
+@PATCHED
+def test_first_steps_without_impacts_grow_until_an_error_limits_one():
+    sizes, repeated = steps(good=1e-3, first=8e-7, end=0.1, impacts=False)
+    tuning = SolverTuning()
+    growth = np.array(sizes[1:-2]) / sizes[:-3]
+    aim = tuning.safety ** (1.0 / 3.0) * 1e-3
+    assert growth[:4] == pytest.approx(tuning.factor_max_at_start)
+    assert growth[4:].max() < tuning.factor_max_at_start
+    assert sizes[6:-2] == pytest.approx([aim] * len(sizes[6:-2]), rel=1e-6) and repeated == 0
 
 
 @PATCHED

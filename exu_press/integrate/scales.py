@@ -172,10 +172,17 @@ class FoundScales:
 
     def norm(self, vector: list[float]) -> float:
         """Return the largest kinetic norm of a body; what has no say may be no number."""
+        inertias, masses, ends = self.inertias, self.masses, self._ends
         largest = 0.0
-        for square in self.squares(vector):
-            if square > largest:
-                largest = square
+        i = 0
+        for k in range(len(ends)):  # each step asks for five: `squares` takes twice as long
+            total = 0.0
+            while i < ends[k]:
+                total += inertias[i] * vector[i] * vector[i]
+                i += 1
+            mass = masses[k]
+            if mass > 0.0 and total > largest * mass:
+                largest = total / mass
         return math.sqrt(largest)
 
     def squares(self, vector: list[float]) -> list[float]:

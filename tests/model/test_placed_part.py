@@ -167,7 +167,7 @@ def test_a_rod_from_a_step_file_bends_in_the_six_bar_press(rod):
     result = simulate(rod(bar(), density=2e4))
     assert result.completed
     summary = result.summary()
-    assert summary["quantities"]["energy.residual"]["value"] < 1e-3
+    assert summary["quantities"]["energy.residual"]["value"] < 2e-3
     assert 1e-9 < np.abs(result["rod_elongation"]).max() < 1e-4
     assert any("bodies.rod: the solid's own values" in text for text in summary["warnings"])
 

@@ -6,7 +6,7 @@ from typing import Any, TypeVar
 
 from exu_press.errors import InputError
 from exu_press.mechanism.parts import DRIVE, FLYWHEEL, GROUND, Body, Guide, Joint, Output
-from exu_press.schema.checks import nearest, refuse_unknown
+from exu_press.schema.checks import demand_name, demand_number, nearest, refuse_unknown
 
 __all__ = ["all_of", "check", "check_defaults"]
 
@@ -85,8 +85,8 @@ def check(
         where = f"bodies.{body.name}"
         _positive(f"{where}.mass", body.mass, "kg")
         _point(f"{where}.centre_of_mass", body.centre_of_mass)
-        _finite(f"{where}.angle", body.angle)
-        if not math.isnan(body.inertia):
+        demand_number(f"{where}.angle", body.angle)
+        if not _is_rod(body):
             _positive(f"{where}.inertia", body.inertia, "kg m^2")
     for joint in joints:
         _check_joint(joint, names)
@@ -153,7 +153,7 @@ def _check_connections(
         points = {joint.at for joint in joints if body.name in (joint.journal, joint.bearing)}
         if not points and body.name not in guided:
             raise InputError(f"bodies.{body.name}: no joint and no guide holds it")
-        if math.isnan(body.inertia) and len(points) != 2:
+        if _is_rod(body) and len(points) != 2:
             raise InputError(
                 f"bodies.{body.name}.inertia: missing; allowed is a number > 0 (kg m^2): only a "
                 f"body with joints in two places is a uniform rod, this one has {len(points)}"
@@ -184,29 +184,27 @@ def _names(where: str, value: Any, what: str) -> None:
 def _once(where: str, names: Iterable[str]) -> None:
     seen: set[str] = set()
     for name in names:
-        if not isinstance(name, str) or not name.isidentifier():
-            raise InputError(f"{where}: {name!r} is no name; allowed are letters, digits and _")
+        demand_name(where, name)
         if name in seen:
             raise InputError(f"{where}.{name}: given twice")
         seen.add(name)
 
 
+def _is_rod(body: Body) -> bool:
+    return isinstance(body.inertia, float) and math.isnan(body.inertia)
+
+
 def _positive(where: str, value: Any, unit: str) -> None:
-    _finite(where, value)
+    demand_number(where, value)
     if not value > 0.0:
         raise InputError(f"{where} = {value!r}: allowed is a number > 0 ({unit})")
-
-
-def _finite(where: str, value: Any) -> None:
-    if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
-        raise InputError(f"{where} = {value!r}: allowed is a number")
 
 
 def _point(where: str, value: Any) -> None:
     if not isinstance(value, tuple) or len(value) != 2:
         raise InputError(f"{where} = {value!r}: allowed are two numbers, x and y (m)")
     for number in value:
-        _finite(where, number)
+        demand_number(where, number)
 
 
 def _cosine(one: Sequence[float], other: Sequence[float]) -> float:

@@ -30,7 +30,7 @@ from typing import Any
 from exu_press.errors import InputError, prefixed
 from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.parts import Body, Guide, Joint, Output
-from exu_press.schema.checks import refuse_unknown
+from exu_press.schema.checks import as_float, refuse_unknown
 from exu_press.schema.toml import read_toml, toml_text
 
 __all__ = [
@@ -169,7 +169,7 @@ def _value(value: Any) -> Any:
     """Return lists as tuples, and whole numbers as the numbers that they stand for."""
     if isinstance(value, list | tuple):
         return tuple(map(_value, value))
-    return float(value) if type(value) is int else value
+    return as_float(value) if type(value) is int else value
 
 
 def _plain(part: Any, needed: tuple[str, ...], others: tuple[str, ...]) -> dict[str, Any]:

@@ -8,6 +8,8 @@ from matplotlib.axes import Axes
 from exu_press.plots.peaks import with_error
 from exu_press.plots.words import joint_in_words
 from exu_press.quantities.catalogue import ECCENTRICITY_RATIO, JOINT_FORCE
+from exu_press.quantities.reading import Reading
+from exu_press.quantities.value import value_of
 from exu_press.result import Result
 from exu_press.terminal.columns import columns
 
@@ -45,19 +47,16 @@ def busiest(
 
 
 def rest_lines(result: Result, rest: Mapping[str, str]) -> list[str]:
-    """Return a table of joints, a line each: kind, clearance, eccentricity ratio and force."""
-    cells = [("also", "kind", "c, µm", "e/c, max", "F, max, kN")]
+    """Return a table of joints, a line each: clearance, eccentricity ratio and force."""
+    cells, run = [("also", "c, µm", "e/c, max", "F, max, kN")], Reading(result)
     for name, title in rest.items():
-        joint = result.joints[name]
-        loose = joint.clearance > 0.0
+        ratio, force = (
+            value_of(result, quantity.at(name), run)
+            for quantity in (ECCENTRICITY_RATIO, JOINT_FORCE)
+        )
+        clearance = result.joints[name].clearance * 1e6
         cells.append(
-            (
-                title,
-                joint.kind,
-                f"{joint.clearance * 1e6:.4g}" if loose else "-",
-                _eccentricity(result, name) if loose else "-",
-                with_error(result, JOINT_FORCE.at(name), _peak(result, name), 1e-3),
-            )
+            (title, f"{clearance:.4g}", with_error(ratio, 1.0, 3), with_error(force, 1e-3))
         )
     return columns(cells)
 
@@ -87,12 +86,6 @@ def draw_rest(axes: Axes, result: Result, rest: Mapping[str, str], size: float) 
         family="monospace",
     )
     text.set_in_layout(False)  # its length is no reason to move the panels above it
-
-
-def _eccentricity(result: Result, name: str) -> str:
-    joint = result.joints[name]
-    ratio = float(joint.distance.max()) / joint.clearance
-    return with_error(result, ECCENTRICITY_RATIO.at(name), ratio, 1.0, 3)
 
 
 def _peak(result: Result, name: str) -> float:

@@ -1,5 +1,6 @@
 """The energy balance over crank angle."""
 
+import math
 from typing import Any
 
 import numpy as np
@@ -19,6 +20,9 @@ MINUS = " \N{MINUS SIGN} "
 
 MOST_LOSSES = 6
 """Joints whose losses are drawn, the largest ones."""
+
+LEGEND_ROW = 0.11
+"""Share of the panel's height that a row of its legend takes."""
 
 BALANCE_LINES: dict[str, dict[str, Any]] = {
     "energy_input": {"label": "put in", "color": COLOURS["blue"]},
@@ -76,7 +80,10 @@ def _losses(axes: Axes, result: Result) -> None:
     axes.set(title="Dissipated in", ylabel="energy, J")
     if rest:
         note(axes, f"{rest} joints that dissipate less are not drawn")
-    axes.legend(loc="upper left", ncols=2, columnspacing=1.3)  # where all losses begin at nothing
+    legend = axes.legend(loc="upper left", ncols=2, columnspacing=1.3)
+    taken = LEGEND_ROW * math.ceil(len(legend.get_texts()) / 2)
+    low, high = axes.get_ylim()
+    axes.set_ylim(low, low + (high - low) / (1.0 - taken))
 
 
 def _residual(axes: Axes, result: Result) -> None:

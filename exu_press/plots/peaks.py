@@ -9,6 +9,7 @@ from exu_press.numerics.arrays import Array
 from exu_press.plots.canvas import crank_degrees
 from exu_press.plots.style import colour_of
 from exu_press.quantities.uncertain import uncertain
+from exu_press.quantities.value import Value
 from exu_press.result import Result
 from exu_press.result.info import Error
 from exu_press.result.windows import settled
@@ -22,17 +23,16 @@ def error_of(result: Result, name: str) -> Error | None:
     return errors.get(name)
 
 
-def with_error(result: Result, name: str, value: float, scale: float = 1.0, digits: int = 4) -> str:
+def with_error(value: Value, scale: float = 1.0, digits: int = 4) -> str:
     """Return a figure in words, with its error where that is known.
 
     Args:
-        result: of the run.
-        name: dotted, of the figure.
-        value: of the figure, SI.
+        value: of the figure.
         scale: to the unit that is shown.
         digits: of a figure without error.
     """
-    return uncertain(value, error_of(result, name), scale, digits).replace("+-", "±")
+    told = None if value.error is None else value.to_dict()
+    return uncertain(value.value, told, scale, digits).replace("+-", "±")
 
 
 def mark_peak(
@@ -65,7 +65,8 @@ def mark_peak(
         zorder=4,
     )
     # the figure itself: of means over 1 ms, a curve drawn at the run's instants meets it nearly
-    return f"peak {with_error(result, name, error['high'] - error['error'], scale)}"
+    figure = Value(name, error["high"] - error["error"], "", **error)
+    return f"peak {with_error(figure, scale)}"
 
 
 def mark_peaks(axes: Axes, curves: Mapping[str, tuple[Result, Array]], name: str) -> str:

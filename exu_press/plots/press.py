@@ -31,8 +31,10 @@ from exu_press.quantities.catalogue import (
     SHAKING_MEANS,
 )
 from exu_press.quantities.uncertain import significant
+from exu_press.quantities.value import value_of
 from exu_press.result import Result
 from exu_press.result.channel import guide_channel
+from exu_press.result.windows import settled
 from exu_press.scene import mechanism_of
 from exu_press.scene.applied import applied_loads
 
@@ -74,7 +76,7 @@ def press_figure(result: Result) -> Figure:
     _drive(drive, result)
     _guides(guides, result)
     over_angle, free = [shaking, drive, guides, *others], iter(others)
-    centres = bottom_dead_centres(result)
+    centres = bottom_dead_centres(settled(result))
     if centres and dead_centres({"": result}):
         _strokes(strokes, result, centres)
     else:
@@ -111,8 +113,7 @@ def _shaking(axes: Axes, result: Result) -> None:
 def _drive(axes: Axes, result: Result) -> None:
     _draw(axes, result, {"": result["drive_power"]}, ())
     axes.set(title="Power of the drive", ylabel="mean over 1 ms, kW")
-    worst = float(np.abs(result["drive_torque"]).max())
-    told = with_error(result, PEAK_TORQUE.name, worst, 1e-3)
+    told = with_error(value_of(result, PEAK_TORQUE.name), 1e-3)
     note(axes, f"torque, as resolved: at most {told} kN m")
 
 
@@ -199,7 +200,7 @@ def _strokes(axes: Axes, result: Result, centres: list[DeadCentre]) -> None:
     )
     axes.margins(y=0.3)
     axes.legend(loc="upper center", ncols=3)
-    told = with_error(result, DEAD_CENTRE_MEAN.name, mean, 1e3, 6)
+    told = with_error(value_of(result, DEAD_CENTRE_MEAN.name), 1e3, 6)
     note(axes, f"lowest, mm: {told}{_scatter(result, centres)}")
 
 
@@ -218,7 +219,8 @@ def _scatter(result: Result, centres: list[DeadCentre]) -> str:
     spread = float(np.ptp([centre.position for centre in centres]))
     if spread < 1e-11:
         return ", all strokes alike"
-    return f", strokes differ by {with_error(result, DEAD_CENTRE_RANGE.name, spread, 1e9, 2)} nm"
+    told = with_error(value_of(result, DEAD_CENTRE_RANGE.name), 1e9, 2)
+    return f", strokes differ by {told} nm"
 
 
 def _at_dead_centres(

@@ -46,13 +46,19 @@ class Value:
         return {entry: getattr(self, entry) for entry in entries}
 
 
-def value_of(result: Result, name: str) -> Value:
+def value_of(result: Result, name: str, run: Reading | None = None) -> Value:
     """Return one quantity of a run by its full name.
+
+    Args:
+        result: of the run.
+        name: full.
+        run: its reading, where there is one already.
 
     Raises:
         InputError: the run's scene has no such quantity.
     """
-    return _value(result, quantity_of(result.scene, name), Reading(result))
+    run = Reading(result) if run is None else run
+    return _value(result, quantity_of(result.scene, name), run)
 
 
 def values_of(result: Result, run: Reading | None = None) -> dict[str, Value]:

@@ -208,7 +208,7 @@ def _joint(
     kind = given.get("kind")
     with prefixed(f"{place}."):
         own_class = own_kind(kind)
-    if kind not in JOINT_KINDS and own_class is None:
+    if kind not in [*JOINT_KINDS] and own_class is None:
         what = f"{place}.kind = {kind!r}" if "kind" in given else f"{place} has no kind"
         raise InputError(f"{what}: allowed is one of {', '.join(map(repr, JOINT_KINDS))}")
     known = ("kind", "clearance", "radius", *LAW_TABLES, "worn")

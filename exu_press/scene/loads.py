@@ -13,7 +13,7 @@ from exu_press.files.two_columns import read_two_columns
 from exu_press.mechanism import Mechanism
 from exu_press.scene.bodies import face_dict
 from exu_press.scene.load import COLUMNS, LOAD_KINDS, BlankingLoad, Load, SheetLoad, SpringLoad
-from exu_press.schema.checks import nearest, plain
+from exu_press.schema.checks import demand_name, nearest, plain
 
 __all__ = ["changed_loads", "load_dict", "loads_of", "with_files_beside"]
 
@@ -39,8 +39,7 @@ def loads_of(
     found = {}
     for name, value in (given or {}).items():
         where = f"load.{name}"
-        if not isinstance(name, str) or not name.isidentifier():
-            raise InputError(f"load: {name!r} is no name; allowed are letters, digits and _")
+        demand_name("load", name)
         try:
             found[name] = load = _load(where, value)
         except InputError as error:
@@ -116,7 +115,7 @@ def _load(where: str, given: Any) -> Load:
     kinds = ", ".join(map(repr, LOAD_KINDS))
     if "kind" not in keys:
         raise InputError(f"{where} has no kind: allowed is one of {kinds}")
-    if (kind := keys.pop("kind")) not in LOAD_KINDS:
+    if (kind := keys.pop("kind")) not in [*LOAD_KINDS]:
         raise InputError(f"kind = {kind!r}: allowed is one of {kinds}")
     known = [field.name for field in dataclasses.fields(LOAD_KINDS[kind])]
     if kind == "table":

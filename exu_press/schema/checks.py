@@ -18,10 +18,13 @@ __all__ = [
     "RENAMED",
     "Table",
     "Uses",
+    "as_float",
     "changed_table",
     "check_columns",
     "check_increasing",
     "demand_keys",
+    "demand_name",
+    "demand_number",
     "given_in",
     "inner",
     "key",
@@ -208,7 +211,7 @@ def _checked(field: dataclasses.Field[Any], name: str, value: Any) -> Any:
     kind = _kind(field)
     if not isinstance(value, bool):
         if kind is float and isinstance(value, numbers.Real):
-            value = _float(value)
+            value = as_float(value)
         elif kind is int and isinstance(value, numbers.Integral):
             value = int(value)
     meta = field.metadata
@@ -232,7 +235,7 @@ def _numbers(field: dataclasses.Field[Any], name: str, value: Any) -> tuple[floa
     count = field.metadata["numbers"]
     if isinstance(value, list | tuple) and (not count or len(value) == count):
         found = [
-            _float(each)
+            as_float(each)
             if isinstance(each, numbers.Real) and not isinstance(each, bool)
             else math.nan
             for each in value
@@ -240,6 +243,21 @@ def _numbers(field: dataclasses.Field[Any], name: str, value: Any) -> tuple[floa
         if all(map(_within, found)):
             return tuple(found)
     raise InputError(f"{name} = {value!r:.80}: allowed is {_allowed(field)}{_magnitudes(value)}")
+
+
+def demand_name(where: str, name: Any) -> None:
+    """Raise InputError unless files, tables and commands can hold a name as it is."""
+    if not isinstance(name, str) or not (name.isidentifier() and name.isascii()):
+        raise InputError(
+            f"{where}: {name!r:.80} is no name; allowed are digits, _ and letters from a to z, "
+            "large or small"
+        )
+
+
+def demand_number(where: str, value: Any) -> None:
+    """Raise InputError unless a value is a number of an allowed magnitude."""
+    if isinstance(value, bool) or not isinstance(value, int | float) or not _within(value):
+        raise InputError(f"{where} = {value!r:.80}: allowed is a number{_magnitudes(value)}")
 
 
 def _within(value: float) -> bool:
@@ -254,7 +272,8 @@ def _magnitudes(value: Any) -> str:
     return f"; a number is 0, or its magnitude is within {SMALLEST:g} and {LARGEST:g}"
 
 
-def _float(value: Any) -> float:
+def as_float(value: Any) -> float:
+    """Return a number as a float; infinite where it is larger than any."""
     try:
         return float(value)
     except OverflowError:

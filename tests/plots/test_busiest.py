@@ -34,7 +34,6 @@ def test_the_largest_forces_are_drawn_and_every_other_joint_is_in_the_table(twel
     head, *lines = rest_lines(twelve, rest)
     assert head.split()[0] == "also"
     assert len(lines) == len(rest)
-    assert all(any(twelve.joints[name].kind in line for line in lines) for name in rest)
 
 
 def _titles(figure):

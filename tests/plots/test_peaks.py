@@ -4,9 +4,11 @@ import dataclasses
 
 import pytest
 
+from exu_press import Scene, simulate
 from exu_press.plots import force_figure, slider_figure
 from exu_press.plots.busiest import rest_lines
 from exu_press.plots.press import press_figure
+from exu_press.quantities.uncertain import significant
 
 
 @pytest.fixture(scope="module")
@@ -59,3 +61,13 @@ def test_without_errors_nothing_is_said(results):
 def test_joints_that_are_not_drawn_have_errors_too(told):
     (line,) = rest_lines(told, {"crank_pin": "Crank pin"})[1:]
     assert "±" in line
+
+
+def test_a_table_and_a_note_tell_the_summary_s_figures_not_those_of_the_start():
+    scene = {"mechanism": "slider_crank", "joints": {"crank_pin": "dry"}, "start": "centred"}
+    run = simulate(Scene.from_dict({**scene, "revolutions": 0.3, "settle": 0.25}))
+    force, torque = (run.quantity(n) for n in ("joints.crank_pin.peak_force", "drive.peak_torque"))
+    assert abs(run["drive_torque"]).max() > 1.1 * torque.value
+    (line,) = rest_lines(run, {"crank_pin": "Crank pin"})[1:]
+    assert line.split()[-1] == significant(1e-3 * force.value, 4)
+    assert any(significant(1e-3 * torque.value, 4) in note for note in notes(press_figure(run)))

@@ -91,6 +91,7 @@ def test_contact_and_friction_of_a_film_only_where_it_is_mixed():
     ("joints", "message"),
     [
         ({"crank_pn": "dry"}, "joints.crank_pn = 'dry': press has no such joint or group (did you"),
+        ({"crank_pin": {"kind": ["dry"]}}, "joints.crank_pin.kind = ['dry']: allowed is one of"),
         ({"crank_pin": "wet"}, "joints.crank_pin.kind = 'wet': allowed is one of 'ideal', 'dry', "),
         ({"crank_pin": None}, "joints.crank_pin = None: allowed is a table of keys, or one of"),
         ({"crank_pin": ["dry"]}, "joints.crank_pin = ['dry']: allowed is a table of keys, or one"),

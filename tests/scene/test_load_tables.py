@@ -104,6 +104,8 @@ def test_a_csv_file_that_is_none_is_refused_by_line(text, message, tmp_path):
         ({"a b": PULSE}, "load: 'a b' is no name"),
         ({"a": 3}, "load.a = 3: allowed is a table of keys"),
         ({"a": {"force": 1.0}}, "load.a has no kind: allowed is one of 'blanking', 'table'"),
+        ({"ä": PULSE}, "load: 'ä' is no name"),
+        ({"a": {"kind": []}}, "load.a.kind = []: allowed is one of"),
         ({"a": {"kind": "blank"}}, "load.a.kind = 'blank': allowed is one of"),
         ({"a": {"kind": "blanking"}}, "load.a.force: missing"),
         ({"a": {**PULSE, "force": -1}}, "load.a.force = -1.0: allowed is a number >= 0"),

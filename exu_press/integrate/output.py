@@ -14,7 +14,7 @@ AT_ONCE = 1e-10
 """Distance below which two instants are one for Exudyn's output, s."""
 
 
-def within(part: float, step: float) -> tuple[list[list[float]], ...]:
+def within(part: float, step: float) -> tuple[list[float], list[float], list[float]]:
     """Return the weights of a step's ends in the state at an instant within it.
 
     Velocities and first-order coordinates follow the cubic through their values and slopes at both
@@ -26,8 +26,9 @@ def within(part: float, step: float) -> tuple[list[list[float]], ...]:
         step: s.
 
     Returns:
-        of positions, velocities and accelerations at the start, then at the end, in the same three,
-        (3, 6); of forces of constraints, (1, 2); of first-order coordinates and rates, (2, 4).
+        row by row: of positions, velocities and accelerations at the start, then at the end, in the
+        same three, (3, 6); of forces of constraints, (1, 2); of first-order coordinates and rates,
+        (2, 4).
     """
     s, rest = part, 1.0 - part
     smooth = s * s * (3.0 - 2.0 * s)
@@ -36,13 +37,10 @@ def within(part: float, step: float) -> tuple[list[list[float]], ...]:
     of_a1 = step * step * (s * s * s * (0.25 * s - 1.0 / 3.0) + smooth / 12.0)
     way = step * (s - smooth) - of_v1
     slope0, slope1 = step * s * rest * rest, -step * s * s * rest
-    motion = [
-        [1.0 - smooth, way, of_a0, smooth, of_v1, of_a1],
-        [0.0, 1.0 - smooth, slope0, 0.0, smooth, slope1],
-        [0.0, 0.0, rest, 0.0, 0.0, s],
-    ]
-    first_order = [[1.0 - smooth, slope0, smooth, slope1], [0.0, rest, 0.0, s]]
-    return motion, [[rest, s]], first_order
+    motion = [1.0 - smooth, way, of_a0, smooth, of_v1, of_a1]
+    motion += [0.0, 1.0 - smooth, slope0, 0.0, smooth, slope1]
+    motion += [0.0, 0.0, rest, 0.0, 0.0, s]
+    return motion, [rest, s], [1.0 - smooth, slope0, smooth, slope1, 0.0, rest, 0.0, s]
 
 
 class OutputGrid:
@@ -92,25 +90,39 @@ class OutputGrid:
         """Write the rows within an accepted step, s, that ends in the current state."""
         if not self._periods:
             return
-        for i in self._filled:
-            ends, parts = self._ends[i], self._state[i]
-            for k in range(len(parts)):
-                ends[len(parts) + k] = parts[k]
         times = self._times(end)
         if times:
-            self.writing = True
-            for time in times:
-                part = (time - begin) / (end - begin)
-                weights = within(part, end - begin)
-                self._places.within(part)
-                self._put(time, [np.dot(weights[i], self._ends[i]) for i in self._filled])
-                self._task.solver.FinishStep(self._task.problem.mbs, self._settings)
-            self.writing = False
-            self._places.within(1.0)
-            self._put(end, [self._ends[i][len(self._state[i]) :] for i in self._filled])
+            self._fill(at_end=True)
+            self._write(times, begin, end)
+        self._fill(at_end=False)
+
+    def _write(self, times: list[float], begin: float, end: float) -> None:
+        """Write rows at some instants within a step, s."""
+        parts = [(time - begin) / (end - begin) for time in times]
+        weights: tuple[list[float], ...] = [], [], []
+        for part in parts:
+            for flat, more in zip(weights, within(part, end - begin), strict=True):
+                flat += more
+        rows: list[Array] = []  # (instants times quantities, coordinates), for each group
         for i in self._filled:
-            ends, count = self._ends[i], len(self._state[i])
-            ends[:count] = ends[count:]
+            ends = self._ends[i]
+            rows.append(np.dot(np.array(weights[i]).reshape(-1, len(ends)), ends))
+        self.writing = True
+        for number in range(len(times)):
+            self._places.within(parts[number])
+            self._put(times[number], rows, number)
+            self._task.solver.FinishStep(self._task.problem.mbs, self._settings)
+        self.writing = False
+        self._places.within(1.0)
+        self._put(end, [self._ends[i] for i in self._filled], 1)
+
+    def _fill(self, *, at_end: bool) -> None:
+        """Keep the current state as that at the end of a step, or at the start of the next one."""
+        for i in self._filled:
+            ends, parts = self._ends[i], self._state[i]
+            first = len(parts) if at_end else 0
+            for k in range(len(parts)):
+                ends[first + k] = parts[k]
 
     def _times(self, end: float) -> list[float]:
         """Return the multiples before a step's end, which Exudyn writes itself."""
@@ -124,10 +136,11 @@ class OutputGrid:
                 time = self._task.start + self._numbers[i] * period
         return sorted(set(found)) if len(self._periods) > 1 else found
 
-    def _put(self, time: float, rows: list[Array]) -> None:
-        """Set the current state."""
-        for i, values in zip(self._filled, rows, strict=True):
-            parts = self._state[i]
+    def _put(self, time: float, rows: list[Array], number: int) -> None:
+        """Set the current state to one of several, each with as many rows as there are parts."""
+        for j in range(len(self._filled)):
+            parts = self._state[self._filled[j]]
+            first = number * len(parts)
             for k in range(len(parts)):
-                parts[k][:] = values[k]
+                parts[k][:] = rows[j][first + k]
         self._task.problem.data.SetTime(time)

@@ -93,7 +93,8 @@ def test_within_a_step_a_polynomial_of_fourth_degree_is_met(part):
 
     exact, left_out = state(1.0 + 0.5 * part), {0: 2, 2: 1}
     for i, weights in enumerate(within(part, 0.5)):
-        found = np.array(weights) @ np.vstack([state(1.0)[i], state(1.5)[i]])
+        ends = np.vstack([state(1.0)[i], state(1.5)[i]])
+        found = np.reshape(weights, (-1, len(ends))) @ ends
         kept = np.arange(len(found)) != left_out.get(i)
         assert found[kept] == pytest.approx(exact[i][kept], rel=1e-12)
 

@@ -9,13 +9,15 @@ from exu_press.quantities.kind import ENERGY, FLOW, MEASURE
 from exu_press.quantities.quantity import Quantity
 from exu_press.quantities.reading import Reading
 from exu_press.result import Result
+from exu_press.result.energy import mechanical_energy
+from exu_press.scene import Scene, mechanism_of
 
 __all__ = ["BALANCE", "energy_residual", "energy_scale", "has_balance"]
 
 PARTS = ("input", "stored", "dissipated")
 
-NOTHING = 1e-9
-"""J; the last digits of a megajoule of kinetic energy change by as much."""
+LITTLE = 1e-6
+"""Over the kinetic energy with ideal joints: an exchange that its last digits may be."""
 
 
 def has_balance(result: Result) -> bool:
@@ -34,12 +36,20 @@ def energy_scale(result: Result) -> float:
 def energy_residual(result: Result) -> float | None:
     """Return the worst that the balance misses over the run, relative to `energy_scale`.
 
-    None where there is no balance, or next to no energy that it could be relative to.
+    None where there is no balance, or next to no energy that it could be relative to, as in a run
+    of a few degrees in which no surfaces touch.
     """
-    if not has_balance(result) or energy_scale(result) < NOTHING:
+    if not has_balance(result) or energy_scale(result) <= LITTLE * _kinetic(result.scene):
         return None
     given, stored, lost = _balance(result).values()
     return float(np.abs(given - stored - lost).max()) / energy_scale(result)
+
+
+def _kinetic(scene: Scene) -> float:
+    """Return the kinetic energy at the start, J, with ideal joints and the nominal speed."""
+    mechanism = mechanism_of(scene)
+    motions = mechanism.motion(np.array([scene.start_angle]), scene.angular_speed)
+    return float(mechanical_energy(mechanism.bodies, motions, gravity=0.0)[0])
 
 
 def _balance(result: Result) -> dict[str, Array]:

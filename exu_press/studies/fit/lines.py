@@ -140,7 +140,7 @@ def _residuals(report: Report) -> list[str]:
             (
                 f"{one.name}{f', {unit}' if unit else ''}",
                 f"{one.value:.6g}",
-                f"{one.uncertainty:.2g}",
+                significant(one.uncertainty, 2),
                 f"{computed:.6g}",
                 f"{error * one.uncertainty / one.weight**0.5:.1g}",
                 f"{(computed - one.value) / one.uncertainty:+.2f}",

@@ -1,10 +1,11 @@
 """Sobol indices with bootstrap intervals, from an evaluation that may fail at some points."""
 
+import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import bootstrap, qmc
+from scipy.stats import DegenerateDataWarning, bootstrap, qmc
 
 from exu_press.numerics.arrays import Array
 
@@ -112,13 +113,18 @@ def indices(found: Sample, level: float = 0.95) -> list[Indices | None]:
             every.append(ALONE)
             continue
         parts = a - both.mean(), b - both.mean(), ab - both.mean()
-        told = bootstrap(
-            [np.arange(len(a))],
-            lambda kept, parts=parts: _estimates(*(part[..., kept] for part in parts)),
-            confidence_level=level, n_resamples=RESAMPLES, vectorized=False, rng=0,
-        )  # fmt: skip
+        with warnings.catch_warnings(), np.errstate(invalid="ignore"):
+            warnings.simplefilter("ignore", DegenerateDataWarning)
+            told = bootstrap(
+                [np.arange(len(a))],
+                lambda kept, parts=parts: _estimates(*(part[..., kept] for part in parts)),
+                confidence_level=level, n_resamples=RESAMPLES, vectorized=False, rng=0,
+            )  # fmt: skip
         first, total = _estimates(*parts)
         bounds = np.stack(told.confidence_interval, axis=-1)
+        ends = np.array([0.5 - 0.5 * level, 0.5 + 0.5 * level])
+        uncorrected = np.moveaxis(np.quantile(told.bootstrap_distribution, ends, axis=-1), 0, -1)
+        bounds = np.where(np.isnan(bounds), uncorrected, bounds)  # of a key without any effect
         every.append(Indices(first, bounds[0], total, bounds[1]))
     return every
 
@@ -132,4 +138,5 @@ def _estimates(a: Array, b: Array, ab: Array) -> Array:
     """
     first = np.mean(b * (ab - a), axis=-1)
     total = 0.5 * np.mean((a - ab) ** 2, axis=-1)
-    return np.asarray(np.array([first, total]) / np.var([a, b]))
+    variance = np.var([a, b])  # 0 where a resample leaves out what moves
+    return np.asarray(np.array([first, total]) / variance) if variance else np.zeros((2, len(ab)))

@@ -75,3 +75,13 @@ def test_they_are_scipy_s_and_the_bounds_are_the_same_each_time():
     assert np.ptp(found.total_bounds) == pytest.approx(np.ptp(widths), rel=0.1)
     assert (found.total_bounds == again.total_bounds).all()
     assert (found.first_bounds == again.first_bounds).all()
+
+
+def test_bounds_are_numbers_of_a_key_without_effect_and_of_a_count_that_hardly_moves():
+    def of_first_alone(shares):
+        return np.column_stack([shares[:, 0], shares[:, 0] > 0.93])
+
+    moving, count = indices(sample(of_first_alone, 2, 8, 0))
+    assert np.isfinite(moving.first_bounds).all() and np.isfinite(moving.total_bounds).all()
+    assert np.all(moving.first_bounds[1] == 0.0) and np.all(moving.total_bounds[1] == 0.0)
+    assert np.isfinite(count.first_bounds).all() and np.isfinite(count.total_bounds).all()

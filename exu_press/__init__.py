@@ -92,6 +92,11 @@ _ROOMS = ("laws", "quantities")
 """Packages that are used by their own names: `exu_press.quantities`."""
 
 
+def __dir__() -> list[str]:
+    """Return the public names, for those who look for them at a prompt."""
+    return [*__all__, *_ROOMS]
+
+
 def __getattr__(name: str) -> "Any":
     """Load a public name from its home; the version is that of the installed package."""
     if name == "__version__":

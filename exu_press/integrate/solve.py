@@ -468,4 +468,5 @@ def _busiest_joint(problem: Problem, advice: Advice) -> str:
         return ""
     states = [(math.hypot(*problem.joints.state(j).force), j) for j in problem.joints.joints]
     force, joint = max(states, key=lambda s: s[0] if math.isfinite(s[0]) else -1.0)
-    return f", {advice.joint(joint)} carrying {force:.3g} N"
+    carries = f"carrying {force:.3g} N" if math.isfinite(force) else "whose laws give no numbers"
+    return f", {advice.joint(joint)} {carries}"

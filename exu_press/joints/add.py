@@ -162,11 +162,12 @@ def add_lubricated_revolute(
     Raises:
         InputError: as `add_dry_revolute`, or a length, radius, clearance or viscosity not positive.
     """
-    _check(mbs, contact=contact, friction=friction, law=law, radius=radius, clearance=clearance)
+    friction = no_friction() if friction is None else friction
+    laws = {"law": law, "friction": friction, **({} if contact is None else {"contact": contact})}
+    _check(mbs, radius=radius, clearance=clearance, **laws)
     scale = film_scale(viscosity, length, radius, clearance)
     interfaces: list[InterfaceLaw] = [FilmInterface(law, scale, clearance)]
     if contact is not None:
-        friction = no_friction() if friction is None else friction
         interfaces.append(DryInterface(contact, friction, radius, clearance - asperity_onset))
     return add_revolute(mbs, journal, bearing, interfaces, axis=axis)
 
@@ -207,9 +208,10 @@ def add_lubricated_spherical(
     Raises:
         InputError: as `add_dry_revolute`, or a radius, clearance or viscosity not positive.
     """
-    _check(mbs, contact=contact, friction=friction, film=film, radius=radius, clearance=clearance)
-    scale = film_scale(viscosity, radius, radius, clearance)
     friction = no_friction() if friction is None else friction
+    laws = {"film": film, "friction": friction, **({} if contact is None else {"contact": contact})}
+    _check(mbs, radius=radius, clearance=clearance, **laws)
+    scale = film_scale(viscosity, radius, radius, clearance)
     if in_plane(mbs, ball) and in_plane(mbs, socket):
         interfaces: list[InterfaceLaw] = [FilmInterface(film.law, scale, clearance)]
         if contact is not None:
@@ -392,10 +394,10 @@ def _check_laws(mbs: exu.MainSystem, **laws: Any) -> None:
     if mbs.systemIsConsistent:
         raise InputError("the system is assembled: allowed is to add joints before mbs.Assemble()")
     for name, law in laws.items():
-        if isinstance(law, str):
+        if law is None or isinstance(law, str | int | float):
             raise InputError(
                 f"{name} = {law!r}: allowed is a law, as the functions in exu_press.laws return, "
-                "not its name"
+                "not its name or a number"
             )
 
 

@@ -174,7 +174,8 @@ class UserForceElement:
             if not spent and e <= joint.largest_eccentricity:
                 continue
             allowed = (
-                "less, since a film ends where the surfaces touch (one with contact= goes on)"
+                "less, where its film's law gives numbers: a film ends where the surfaces touch "
+                "(one with contact= goes on)"
                 if spent
                 else f"{joint.largest_eccentricity:.4g} m, a penetration of {SHALLOW:.0%} of the "
                 "radius, up to which contact laws hold"

@@ -56,6 +56,9 @@ def system():
         (add_dry_spherical, {**DRY, "clearance": 0.0}, "clearance = 0: allowed is a number > 0"),
         (add_dry_revolute, {**DRY, "radius": -1.0}, "radius = -1: allowed is a number > 0"),
         (add_dry_revolute, {**DRY, "friction": "lugre"}, "friction = 'lugre': allowed is a law"),
+        (add_dry_revolute, {**DRY, "friction": 0.1}, "friction = 0.1: allowed is a law"),
+        (add_dry_revolute, {**DRY, "friction": None}, "friction = None: allowed is a law"),
+        (add_dry_spherical, {**DRY, "contact": None}, "contact = None: allowed is a law"),
         (add_dry_spherical, {**DRY, "contact": "step"}, "contact = 'step': allowed is a law"),
         (add_lubricated_revolute, {**FILM, "law": "finite"}, "law = 'finite': allowed is a law"),
         (add_lubricated_revolute, {**FILM, "clearance": 0.05}, "clearance = 0.05: allowed is"),
@@ -120,12 +123,12 @@ MIXED = FILM | {
     "asperity_onset": 2e-6,
 }
 TOO_FAR = [
-    (add_lubricated_revolute, FILM, 1e-4, "less, since a film ends where the surfaces touch"),
-    (add_lubricated_revolute, FILM, 2e-2, "less, since a film ends where the surfaces touch"),
+    (add_lubricated_revolute, FILM, 1e-4, "less, where its film's law gives numbers"),
+    (add_lubricated_revolute, FILM, 2e-2, "less, where its film's law gives numbers"),
     (add_lubricated_revolute, MIXED, 3.1e-4, "0.0003 m, a penetration of 1% of the radius"),
     (add_dry_revolute, DRY, 3.1e-4, "0.0003 m, a penetration of 1% of the radius"),
     (add_dry_spherical, DRY, 3.1e-4, "0.0003 m, a penetration of 1% of the radius"),
-    (add_lubricated_spherical, OILED_BALL, 1e-4, "less, since a film ends where the surfaces"),
+    (add_lubricated_spherical, OILED_BALL, 1e-4, "less, where its film's law gives numbers"),
 ]
 
 

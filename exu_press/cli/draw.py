@@ -18,7 +18,6 @@ from exu_press.mechanism import (
     Mechanism,
     Press,
     SliderCrank,
-    load_mechanism,
     mechanism_from,
     mechanism_to_dict,
     press,
@@ -105,11 +104,9 @@ def _asked(given: str, changes: Mapping[str, Any]) -> tuple[Mechanism, float | N
     path = Path(given)
     if not path.exists() and not path.suffix:
         if given in MECHANISMS:
-            data = mechanism_to_dict(shipped_mechanism(given))
-            return mechanism_from(_changed(data, changes)), None
+            return _named(given, {}, changes), None
         if given in BY_DIMENSIONS:
-            data = _changed({"mechanism": given}, changes)
-            return _of_scene(data, Path()), _speed(data)
+            return _of_scene({"mechanism": given}, Path(), changes)
         if given not in shipped_names():
             names = sorted({*BY_DIMENSIONS, *MECHANISMS, *shipped_names()})
             raise InputError(
@@ -118,32 +115,50 @@ def _asked(given: str, changes: Mapping[str, Any]) -> tuple[Mechanism, float | N
             )
         path = SHIPPED / f"{given}.toml"
     data = read_toml(path)
-    scene = not ("bodies" in data and "joints" in data and "crank" in data)
-    if changes:
+    if "bodies" in data and "joints" in data and "crank" in data:
         data = _changed(data, changes)
-    with prefixed(f"{path}: "):
-        if scene:
-            return _of_scene(data, path.parent), _speed(data)
-        return mechanism_from(data), None
+        with prefixed(f"{path}: "):
+            return mechanism_from(data), None
+    return _of_scene(data, path, changes)
+
+
+def _of_scene(
+    data: Mapping[str, Any], path: Path, changes: Mapping[str, Any]
+) -> tuple[Mechanism, float | None]:
+    """Return the mechanism that a scene names or holds, and the crank's speed where it says it.
+
+    Args:
+        data: of the scene.
+        path: of its file.
+        changes: of the scene's keys that are drawn, and of the mechanism's.
+    """
+    own = {name: changes[name] for name in DRAWN if name in changes}
+    further = {name: value for name, value in changes.items() if name not in own}
+    scene = {**data, **own}
+    mechanism = scene.get("mechanism", "press")
+    with prefixed(f"{path}: " if path.name else ""):
+        speed = _speed(scene)
+        if isinstance(mechanism, Mapping):
+            return mechanism_from(_changed(mechanism, further)), speed
+        if isinstance(mechanism, str) and mechanism.endswith(".toml"):
+            file = path.parent / mechanism
+            drawing = _changed(read_toml(file), further)
+            with prefixed(f"{file}: "):
+                return mechanism_from(drawing), speed
+        return _named(mechanism, scene, further), speed
 
 
 def _changed(data: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
-    """Return a mechanism or a scene with other values, by dotted names.
+    """Return a mechanism with other values, by dotted names.
 
     Raises:
-        InputError: a key of a scene is not drawn, or a part has another name.
+        InputError: a part has another name.
     """
     found: dict[str, Any] = copy.deepcopy(dict(data))
-    scene = "crank" not in found
     for name, value in changes.items():
         *tables, key = name.split(".")
-        if scene and (tables or [key])[0] not in (*DRAWN, str(found.get("mechanism", "press"))):
-            allowed = ", ".join([*DRAWN, f"{found.get('mechanism', 'press')}.KEY"])
-            raise InputError(f"{name} = {value!r}: is not drawn; allowed are {allowed}")
         inner = found
         for place, table in enumerate(tables):
-            if place == 0 and scene:
-                inner.setdefault(table, {})
             if not isinstance(inner.get(table), dict):
                 why = nearest(table, inner)
                 raise InputError(
@@ -154,21 +169,16 @@ def _changed(data: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, A
     return found
 
 
-def _of_scene(data: Mapping[str, Any], directory: Path) -> Mechanism:
-    """Return the mechanism that a scene names or holds."""
-    mechanism = data.get("mechanism", "press")
-    if isinstance(mechanism, Mapping):
-        return mechanism_from(mechanism)
-    if isinstance(mechanism, str) and mechanism.endswith(".toml"):
-        return load_mechanism(directory / mechanism)
-    return _named(mechanism, data)
-
-
-def _named(name: Any, data: Mapping[str, Any]) -> Mechanism:
-    """Return a shipped mechanism, with the dimensions that a scene gives it."""
+def _named(name: Any, scene: Mapping[str, Any], changes: Mapping[str, Any]) -> Mechanism:
+    """Return a shipped mechanism, with the dimensions that a scene gives it, changed."""
     if name in BY_DIMENSIONS:
+        for change, value in changes.items():
+            if change.split(".")[0] != name:
+                allowed = ", ".join([*DRAWN, f"{name}.KEY"])
+                raise InputError(f"{change} = {value!r}: is not drawn; allowed are {allowed}")
         table, build = BY_DIMENSIONS[name]
-        drawn: Mechanism = build(table_from(table, name, data.get(name, {})))
+        sizes = _changed({name: scene.get(name, {})}, changes)[name]
+        drawn: Mechanism = build(table_from(table, name, sizes))
         return drawn
     if name not in MECHANISMS:
         known = [*BY_DIMENSIONS, *MECHANISMS]
@@ -176,7 +186,7 @@ def _named(name: Any, data: Mapping[str, Any]) -> Mechanism:
             f"mechanism = {name!r}: unknown{nearest(name, known)}; allowed are the path of a "
             f"mechanism file, .toml, {', '.join(known)}"
         )
-    return shipped_mechanism(name)
+    return mechanism_from(_changed(mechanism_to_dict(shipped_mechanism(name)), changes))
 
 
 def _speed(data: Mapping[str, Any]) -> float | None:

@@ -109,7 +109,7 @@ class Scene(Table):
         "three where oil warms in a run of four or more, unless given",
         at_least=0,
     )
-    start_angle_deg: float = key(0.0, "crank angle at the start", "deg")
+    start_angle_deg: float = key(0.0, "crank angle at the start", "deg", at_least=-1e5, at_most=1e5)
     start: str | None = key(
         None,
         "journals lie where the loads press them, or in the middle of their bearings",

@@ -45,12 +45,15 @@ def test_a_scene_has_its_speed_and_its_dimensions(tmp_path, capsys):
 def test_single_keys_are_changed(drawn, tmp_path, capsys):
     scene = tmp_path / "scene.toml"
     scene.write_text('mechanism = "slider_crank"\n')
+    own = tmp_path / "own.toml"
+    own.write_text(f'mechanism = "{drawn.name}"\nspeed_rpm = 60\n')
     for words, part in (
         (["slider_crank", "--set", "slider_crank.crank_radius=0.05"], "100.000 mm"),
         ([str(scene), "--set", "slider_crank.crank_radius=0.05"], "100.000 mm"),
         ([str(scene), "--set", "speed_rpm=60"], "m/s"),
         (["press", "--set", "mechanism=slider_crank"], "wrist_pin"),
         ([str(drawn), "--set", "joints.crank_pin.at=[0.0, 0.05]"], "100.000 mm"),
+        ([str(own), "--set", "joints.crank_pin.at=[0.0, 0.05]"], "100.000 mm"),
         (["four_bar", "--set", "name=mine"], "mine"),
     ):
         assert main(["draw", *words]) == 0

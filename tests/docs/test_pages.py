@@ -92,6 +92,7 @@ def words_of(line):
 
 def test_the_reference_begins_with_every_public_name():
     text = (pages.ROOT / "docs" / "reference" / "public.md").read_text("utf-8")
+    assert set(exu_press.__all__) <= set(dir(exu_press))
     for public in set(exu_press.__all__) - {"__version__"}:
         home = getattr(exu_press, public)
         assert f"`{public} <{home.__module__}.{public}>`" in text

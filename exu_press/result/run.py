@@ -48,7 +48,8 @@ def run_once(
     """
     begun = time.perf_counter()
     if scene.output is not None and not isinstance(scene.output.channels, str):
-        short = run_once(scene.replace({"output": None, "revolutions": SHORT}))
+        turned = max(SHORT, 2.0 * SHORTEST_RUN * scene.speed_rpm / 60.0)
+        short = run_once(scene.replace({"output": None, "revolutions": turned, "settle": 0.0}))
         scene.output.kept(short.channels)
     model = build(scene, quiet=quiet)
     if start is not None:

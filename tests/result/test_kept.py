@@ -87,3 +87,9 @@ def test_an_unknown_channel_is_refused_before_the_run():
     scene = SCENE.replace({"output": {"channels": ["slider_positon"]}, "revolutions": 1e6})
     with pytest.raises(InputError, match="is no channel of this scene"):
         simulate(scene)
+
+
+def test_channels_are_kept_of_a_run_that_settles_and_of_a_fast_one():
+    changes = {"settle": 0.001, "speed_rpm": 9e3, "revolutions": 0.002}
+    run = simulate(SCENE.replace({"output": {"channels": ["slider_position"]}, **changes}))
+    assert run.info["status"] == "completed"

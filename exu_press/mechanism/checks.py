@@ -57,6 +57,26 @@ def check_defaults(defaults: Any) -> None:
             words = {str: "a text", float: "a number"}
             kind = words.get(DEFAULTS[key][-1], "a table of keys")
             raise InputError(f"defaults.{key} = {value!r}: allowed is {kind}")
+        if key in ("clearance", "radius"):
+            _positive(f"defaults.{key}", value, "m")
+        elif key == "settle":
+            demand_number("defaults.settle", value)
+            if value < 0.0:
+                raise InputError(f"defaults.settle = {value!r}: allowed is a number >= 0")
+        else:
+            _check_numbers(f"defaults.{key}", value)
+
+
+def _check_numbers(where: str, value: Any) -> None:
+    """Raise InputError for the first number that none of a scene's keys can be."""
+    if isinstance(value, Mapping):
+        for key, inner in value.items():
+            _check_numbers(f"{where}.{key}", inner)
+    elif isinstance(value, list | tuple):
+        for inner in value:
+            _check_numbers(where, inner)
+    elif isinstance(value, int | float) and not isinstance(value, bool):
+        demand_number(where, value)
 
 
 def check(

@@ -61,7 +61,7 @@ def check_defaults(defaults: Any) -> None:
             _positive(f"defaults.{key}", value, "m")
         elif key == "settle":
             demand_number("defaults.settle", value)
-            if value < 0.0:
+            if isinstance(value, int | float) and value < 0.0:
                 raise InputError(f"defaults.settle = {value!r}: allowed is a number >= 0")
         else:
             _check_numbers(f"defaults.{key}", value)

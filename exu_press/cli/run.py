@@ -3,6 +3,7 @@
 import argparse
 import sys
 import textwrap
+from pathlib import Path
 
 from exu_press.cli.options import (
     add_error_argument,
@@ -50,7 +51,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--from",
         dest="start",
         metavar="RUN.nc",
-        help="go on from the end of another run, for as long as the scene says",
+        help="go on from the end of another run, or of the one in a directory, for as long as the "
+        "scene says",
     )
     parser.add_argument("--figure", metavar="NAME", help="--within is for this figure alone")
 
@@ -73,7 +75,8 @@ def _start_of(options: argparse.Namespace) -> State | None:
         return None
     if options.within is not None:
         raise InputError("--from: not together with --within, which runs as often as it needs")
-    before = Result.load(options.start)
+    path = Path(options.start)
+    before = Result.load(path / RESULT if path.is_dir() else path)
     if not before.completed or "state" not in before.info:
         why = before.info["reason"] or "it was written without the state at its end"
         raise InputError(f"--from {options.start}: allowed is a run that reached its end; {why}")
@@ -82,15 +85,15 @@ def _start_of(options: argparse.Namespace) -> State | None:
 
 def execute(options: argparse.Namespace) -> int:
     """Run the scene; return 0, or 3 if it stopped early or was not resolved."""
-    scene = scene_of(options)
+    scene, start = scene_of(options), _start_of(options)
+    if options.figure is not None and options.within is None:
+        raise InputError(f"--figure {options.figure}: only together with --within")
     directory = output_directory(directory_of(options))
     found: list[str] = []
-    start, unfinished = _start_of(options), unfinished_of(directory / RESULT)
+    unfinished = unfinished_of(directory / RESULT)
     if options.within is not None:
         delivered = deliver(scene, options.within, options.figure, quiet=options.quiet)
         result, found = delivered.result, delivered_lines(delivered, options.within)
-    elif options.figure is not None:
-        raise InputError(f"--figure {options.figure}: only together with --within")
     elif options.no_error or options.once:
         errors = not options.no_error
         result = simulate(

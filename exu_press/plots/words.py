@@ -1,5 +1,6 @@
 """A scene in words, for the title of a picture."""
 
+import math
 import textwrap
 from collections.abc import Collection, Iterable, Mapping
 
@@ -9,7 +10,10 @@ from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.applied import applied_loads
 from exu_press.scene.tables import ElasticGuide
 
-__all__ = ["describe", "early_stops", "joint_in_words"]
+__all__ = ["ONE_LINE", "describe", "early_stops", "joint_in_words"]
+
+ONE_LINE = math.inf
+"""Width where words are wrapped by what shows them, as a page does."""
 
 FEW = 3
 """Joints or groups with clearance that are named one by one."""
@@ -18,7 +22,7 @@ SEPARATOR = "  ·  "
 CROSS = "\N{MULTIPLICATION X}"  # as it marks the end of the curves
 
 
-def describe(scenes: Iterable[Scene], width: int = 130) -> str:
+def describe(scenes: Iterable[Scene], width: float = 130) -> str:
     """Return the common parts of scenes in words, in lines of at most `width` letters.
 
     A joint that only some scenes have with clearance is named with that clearance.
@@ -139,7 +143,7 @@ def _of_many(scene: Scene) -> dict[str, str]:
     }
 
 
-def _wrapped(phrases: Iterable[str], width: int) -> str:
+def _wrapped(phrases: Iterable[str], width: float) -> str:
     """Return phrases in lines that break only between them."""
     lines: list[str] = []
     for phrase in phrases:

@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import Any
 
 from exu_press.page import Live, has_library
-from exu_press.plots.words import describe
+from exu_press.plots.words import ONE_LINE, describe
 from exu_press.report.html import table
 from exu_press.report.study import reading, study_page
 from exu_press.scene import Scene
@@ -29,7 +29,7 @@ def attractor_report(file: Path) -> str:
         section = f"section at crank angle {told['section_deg']:g} deg"
     return study_page(
         file,
-        f"In the long run: {describe([scene], 200)}",
+        f"In the long run: {describe([scene], ONE_LINE)}",
         f"{section}, {length}",
         [
             ("Motion", table(("", "value"), found)),

@@ -10,7 +10,7 @@ from exu_press.mechanism import Mechanism
 from exu_press.mechanism.examine import examine
 from exu_press.plots.drawing import drawing_figure
 from exu_press.plots.file import save_figure
-from exu_press.plots.words import describe
+from exu_press.plots.words import ONE_LINE, describe
 from exu_press.quantities.table import comparison_cells, comparison_lines
 from exu_press.report.comparison import comparison_page
 from exu_press.report.html import paragraph, picture, table, warnings
@@ -57,12 +57,12 @@ def page_of(result: Result) -> Page:
 def cell(thing: Any) -> str:
     """Return the HTML of a scene, a mechanism or a result."""
     if isinstance(thing, Scene):
-        return _framed(paragraph(describe([thing], 200)) + changed_keys(thing))
+        return _framed(paragraph(describe([thing], ONE_LINE)) + changed_keys(thing))
     if isinstance(thing, Mechanism):
         return _drawing(thing)
     assert isinstance(thing, Result)
     told = warnings_of(thing.summary())
-    head = paragraph(describe([thing.scene], 200)) + (warnings(told) if told else "")
+    head = paragraph(describe([thing.scene], ONE_LINE)) + (warnings(told) if told else "")
     numbers = comparison_cells({"": thing})[1:]
     return _framed(head + table(("quantity", "value"), numbers))
 

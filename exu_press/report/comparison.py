@@ -7,7 +7,7 @@ from typing import Any
 
 from exu_press.errors import InputError
 from exu_press.plots import save_comparison
-from exu_press.plots.words import describe
+from exu_press.plots.words import ONE_LINE, describe
 from exu_press.quantities.table import comparison_cells
 from exu_press.report.html import page, picture, stills, table, warnings
 from exu_press.report.run import live_part, scene_parts, warnings_of
@@ -55,7 +55,7 @@ def comparison_page(results: Mapping[str, Result], source: str, span: Span = ALL
     ]
     richest = max(results.values(), key=lambda result: len(str(result.scene.to_dict())))
     return page(
-        f"Comparison: {describe([result.scene for result in results.values()], 200)}",
+        f"Comparison: {describe([result.scene for result in results.values()], ONE_LINE)}",
         f"{', '.join(results)}; {source}",
         [
             ("Differences of the scenes", table(keys, changed)),

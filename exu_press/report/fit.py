@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import Any
 
 from exu_press.page import Live, has_library
-from exu_press.plots.words import describe
+from exu_press.plots.words import ONE_LINE, describe
 from exu_press.report.html import paragraph, table
 from exu_press.report.study import reading, study_page
 from exu_press.scene import Scene
@@ -25,7 +25,7 @@ def fit_report(file: Path) -> str:
     scene = Scene.load(file.parent / "fitted.toml", [])
     return study_page(
         file,
-        f"Fit: {describe([scene], 200)}",
+        f"Fit: {describe([scene], ONE_LINE)}",
         f"chi-square {chi_square} degrees of freedom",
         [
             ("Keys", table(("key", "unit", "value", "low", "high"), keys)),

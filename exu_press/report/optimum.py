@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import Any
 
 from exu_press.page import Live, has_library
-from exu_press.plots.words import describe
+from exu_press.plots.words import ONE_LINE, describe
 from exu_press.report.html import table
 from exu_press.report.study import reading, study_page
 from exu_press.scene import Scene
@@ -37,7 +37,7 @@ def optimum_report(file: Path) -> str:
     names = map(with_unit, head[:-1])
     return study_page(
         file,
-        f"Optimum: {describe([scene], 200)}",
+        f"Optimum: {describe([scene], ONE_LINE)}",
         f"{len(trials)} trials, {len(front)} on the front",
         [("Points", live), ("Trials", table(("run", *names, "front"), rows, name="runs"))],
         "The front: all trials, and those that no other one beats.",

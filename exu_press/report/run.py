@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from exu_press.page import Live, has_library
 from exu_press.plots import save_pictures
-from exu_press.plots.words import describe, joint_in_words
+from exu_press.plots.words import ONE_LINE, describe, joint_in_words
 from exu_press.quantities import Quantity, value_of
 from exu_press.quantities.catalogue import CATALOGUE
 from exu_press.quantities.cost import COSTS
@@ -78,7 +78,7 @@ def run_report(result: Result, source: str, span: Span = ALL) -> str:
     numbers = comparison_cells({"": result})[1:]
     live = live_part({"": result}, span)
     return page(
-        describe([result.scene], 200),
+        describe([result.scene], ONE_LINE),
         f"{source}: {summary['status']} at t = {summary['end_time']:.6g} s, "
         f"crank angle {np.degrees(result['crank_angle'][-1]):.1f}°",
         [

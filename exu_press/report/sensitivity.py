@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import Any
 
 from exu_press.page import Live, has_library
-from exu_press.plots.words import describe
+from exu_press.plots.words import ONE_LINE, describe
 from exu_press.quantities.catalogue import declared
 from exu_press.report.html import table
 from exu_press.report.study import command_of, reading, study_page
@@ -37,7 +37,7 @@ def sensitivity_report(file: Path) -> str:
         runs = str(told["runs"][0])
     return study_page(
         file,
-        f"Sensitivity: {describe([scene], 200)}",
+        f"Sensitivity: {describe([scene], ONE_LINE)}",
         runs,
         [("Presses of the sample", live), ("Spreads", table(SPREADS, spreads)), *shares],
         "Spreads, changes by one key, shares of the variance.",

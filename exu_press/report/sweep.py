@@ -10,7 +10,7 @@ from exu_press.errors import InputError
 from exu_press.page import Live, has_library
 from exu_press.plots.file import save_figures
 from exu_press.plots.sweep import sweep_figures
-from exu_press.plots.words import describe
+from exu_press.plots.words import ONE_LINE, describe
 from exu_press.quantities.catalogue import declared
 from exu_press.quantities.kind import COST
 from exu_press.report.html import page, paragraph, picture, stills, table, warnings
@@ -52,7 +52,7 @@ def sweep_report(file: Path) -> str:
     told = [f"{number} x {reason}" for reason, number in reasons.most_common(10)]
     live = _live(runs)
     return page(
-        f"Sweep: {describe(runs.study.scenes, 200)}",
+        f"Sweep: {describe(runs.study.scenes, ONE_LINE)}",
         f"{len(runs)} runs over {', '.join(runs.study.keys)}: {ends}; "
         f"{file.parent.name}/{file.name}",
         [

@@ -150,9 +150,10 @@ def test_the_command(tmp_path, capsys):
     command = ["run", str(scene), "--no-error", "--no-pictures", "--quiet", "--out"]
     assert main([*command, str(tmp_path / "one")]) == 0
     first = str(tmp_path / "one" / "run.nc")
-    assert main([*command, str(tmp_path / "two"), "--from", first]) == 0
+    assert main([*command, str(tmp_path / "two"), "--from", str(tmp_path / "one")]) == 0
     second = Result.load(tmp_path / "two" / "run.nc")
     assert second.time[0] == Result.load(first).time[-1]
     assert main([*command, str(tmp_path / "two"), "--from", first, "--within", "1%"]) == 2
     assert "--from: not together with --within" in capsys.readouterr().err
-    assert main([*command, str(tmp_path / "two"), "--from", str(tmp_path / "no.nc")]) == 2
+    assert main([*command, str(tmp_path / "three"), "--from", str(tmp_path / "no.nc")]) == 2
+    assert not (tmp_path / "three").exists()

@@ -5,7 +5,7 @@ from matplotlib.figure import Figure
 
 from exu_press import Scene
 from exu_press.plots.typesetting import plain
-from exu_press.plots.words import describe, early_stops, joint_in_words
+from exu_press.plots.words import ONE_LINE, SEPARATOR, describe, early_stops, joint_in_words
 from exu_press.scene import flexible_press
 
 
@@ -95,3 +95,8 @@ def test_no_text_is_a_formula(text):
         return np.asarray(figure.canvas.buffer_rgba())
 
     assert np.array_equal(drawn(plain(text)), drawn(text, parse_math=False))
+
+
+def test_words_in_one_line_keep_every_separator():
+    scenes = [Scene(joints={"knuckles": "dry"}), Scene(joints={"pivots": "dry", "balls": "dry"})]
+    assert describe(scenes, ONE_LINE) == SEPARATOR.join(describe(scenes, 1).splitlines())

@@ -263,7 +263,12 @@ def _check_laws(place: str, joint: Joint, spherical: bool) -> None:
         return
     try:
         if isinstance(joint, OwnJoint):
-            joint.interfaces()
+            laws = joint.interfaces()
+            if not isinstance(laws, list | tuple) or not laws:
+                raise InputError(
+                    f"{joint.kind}.interfaces() returns {laws!r:.80}: allowed is a list of one "
+                    "interface law or more"
+                )
         if joint.contact is not None:
             contact_law(joint, revolute=not spherical)
         if joint.friction is not None:

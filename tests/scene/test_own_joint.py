@@ -29,6 +29,11 @@ class Bushing(OwnJoint):
 class Unfinished(OwnJoint):
     pass
 
+@dataclass(frozen=True)
+class Empty(Bushing):
+    def interfaces(self):
+        return []
+
 class NoJoint:
     pass
 """
@@ -75,6 +80,7 @@ def test_a_scene_file_names_it_and_reads_back_equal(tmp_path):
         ({"kind": "a_bushing:Ring"}, "has no attribute 'Ring'"),
         ({"kind": "a_bushing:NoJoint"}, "derived from OwnJoint"),
         ({"kind": "a_bushing:Unfinished"}, "the class has no interfaces, which OwnJoint asks for"),
+        ({"kind": "a_bushing:Empty"}, r"a_bushing:Empty.interfaces\(\) returns \[\]: allowed is"),
         ({"stifness": 1.0}, "did you mean 'stiffness'"),
         ({"stiffness": -1.0}, "stiffness = -1.0"),
         ({"stiffness": None}, "stiffness"),

@@ -1,5 +1,7 @@
 """Every quantity of the package, and those of the user's own."""
 
+import math
+import numbers
 import sys
 from dataclasses import dataclass
 
@@ -10,7 +12,7 @@ from exu_press.quantities.fatigue import BODIES
 from exu_press.quantities.joints import JOINTS
 from exu_press.quantities.oil import OIL
 from exu_press.quantities.press import DRIVE, GUIDES, LOADS, SHAKING
-from exu_press.quantities.quantity import Place, Quantity
+from exu_press.quantities.quantity import PREFIXES, Place, Quantity
 from exu_press.quantities.reading import Reading
 from exu_press.quantities.sheet import SHEETS
 from exu_press.quantities.slider import SLIDER, STROKES
@@ -18,7 +20,7 @@ from exu_press.quantities.start_stop import START_STOP
 from exu_press.quantities.wear import WEAR
 from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.applied import applied_loads
-from exu_press.schema.checks import nearest
+from exu_press.schema.checks import demand_name, nearest
 
 __all__ = ["CATALOGUE", "Placed", "add", "declared", "own_modules", "quantities_of", "quantity_of"]
 
@@ -82,9 +84,22 @@ class Placed:
         return self.quantity.at(self.at)
 
     def read(self, run: Reading) -> float | int | None:
-        """Return its value, None where the run is too short to have it."""
-        found: float | int | None = self.quantity.read(run, self.at)
-        return found
+        """Return its value, None where the run is too short to have it, or where it is no number.
+
+        Raises:
+            InputError: a quantity of the user's own gives something else.
+        """
+        found = self.quantity.read(run, self.at)
+        if found is None:
+            return None
+        if isinstance(found, numbers.Integral):
+            return int(found)
+        if not isinstance(found, numbers.Real):
+            raise InputError(
+                f"quantity {self.name}: gives {found!r:.80}; allowed is a number, or None where "
+                "the run has none"
+            )
+        return float(found) if math.isfinite(found) else None
 
 
 def add(quantity: Quantity) -> Quantity:
@@ -93,8 +108,17 @@ def add(quantity: Quantity) -> Quantity:
     Workers of studies import the module that does so at its top level.
 
     Raises:
-        InputError: there is one of this name and place.
+        InputError: there is one of this name and place, files cannot hold the name, or the unit
+            that is shown is not that of the quantity with a prefix.
     """
+    for part in str(quantity.name).split("."):
+        demand_name(f"quantity {quantity.name!r}", part)
+    prefixed = [f"{prefix}{quantity.unit}" for prefix in PREFIXES]
+    if quantity.shown not in prefixed:
+        raise InputError(
+            f"quantity {quantity.name}: shown = {quantity.shown!r}; allowed are "
+            f"{', '.join(prefixed)}"
+        )
     for other in CATALOGUE:
         if (other.place, other.name) == (quantity.place, quantity.name):
             raise InputError(

@@ -1,10 +1,12 @@
 """The catalogue: every quantity is declared once, and everything else asks it."""
 
+import dataclasses
 import importlib
 import re
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 from matplotlib.text import Text
 from scipy.io import netcdf_file
@@ -13,7 +15,7 @@ import exu_press
 from exu_press import InputError, Scene, simulate
 from exu_press.plots.sweep import axes_of, sweep_figure
 from exu_press.quantities import CATALOGUE, Place, add, quantities_of, values_of
-from exu_press.quantities.catalogue import declared
+from exu_press.quantities.catalogue import Placed, declared
 from exu_press.quantities.table import run_lines
 from exu_press.report.run import run_report
 from exu_press.studies.sweep import Sweep, sweep
@@ -149,3 +151,32 @@ def test_a_kind_follows_from_the_quantity_and_not_from_a_name(name, kind):
     placed = declared(name)
     assert placed is not None and placed.quantity.kind.name == kind
     assert placed.quantity.place in (Place.JOINT, Place.LOAD)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"name": "my speed"}, "quantity 'my speed': 'my speed' is no name"),
+        ({"name": "mine."}, "quantity 'mine.': '' is no name"),
+        (
+            {"name": "mine", "shown": "km/h"},
+            "quantity mine: shown = 'km/h'; allowed are um/s, mm/s",
+        ),
+    ],
+)
+def test_a_quantity_of_ones_own_that_is_refused(change, message):
+    with pytest.raises(InputError, match=message):
+        add(dataclasses.replace(declared("peak_velocity").quantity, **change))
+
+
+@pytest.mark.parametrize(
+    ("given", "value"), [(np.float64(2.0), 2.0), (np.int64(2), 2), (np.nan, None), (-np.inf, None)]
+)
+def test_what_a_quantity_gives_is_a_plain_number_or_none(given, value):
+    found = Placed(dataclasses.replace(CATALOGUE[0], read=lambda run, at: given)).read(None)
+    assert found == value and type(found) is type(value)
+
+
+def test_a_quantity_that_gives_no_number_is_named():
+    with pytest.raises(InputError, match="quantity stroke: gives 'a'; allowed is a number"):
+        Placed(dataclasses.replace(CATALOGUE[0], read=lambda run, at: "a")).read(None)

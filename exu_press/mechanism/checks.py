@@ -187,6 +187,11 @@ def _check_connections(
             f"crank = {crank!r}: has {len(shafts)} joints with the {GROUND}"
             f"{' and a guide' if crank in guided else ''}; allowed is one joint, its shaft"
         )
+    if all(joint.at == shafts[0].at for joint in joints if crank in (joint.journal, joint.bearing)):
+        raise InputError(
+            f"crank = {crank!r}: all of its joints lie on its shaft, so that it moves nothing; "
+            "allowed is a joint beside the shaft"
+        )
 
 
 def _known(where: str, name: Any, known: Collection[str]) -> None:

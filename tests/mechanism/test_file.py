@@ -121,6 +121,7 @@ def test_frames_that_are_turned_in_the_drawing_come_back_too():
         ([("direction = [0, 2]", "direction = [0, 0]")], "guides.slider.direction = (0.0, 0.0): "),
         ([('crank = "crank"', 'crank = "wheel"')], "crank = 'wheel': unknown"),
         ([('crank = "crank"', 'crank = "rod"')], "crank = 'rod': has 0 joints with the frame"),
+        ([("at = [0.1, 0.0]", "at = [0.0, 0.0]")], "crank = 'crank': all of its joints lie on its"),
         ([('crank = "crank"', "crank = 1")], "crank = 1: unknown; allowed are crank"),
         ([('body = "slider"', 'body = "slide"')], "output.body = 'slide': unknown (did you mean"),
         ([('body = "slider", ', "")], "output.body: missing"),

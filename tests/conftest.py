@@ -27,7 +27,8 @@ def few_new_processes():
     """
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("exu_press.parallel.run.Processes", InProcess)
-        patch.setattr("exu_press.verification.refinement._may_fork", lambda: True)
+        if sys.platform == "linux":
+            patch.setattr("exu_press.verification.refinement._may_fork", lambda: True)
         yield
 
 
@@ -43,6 +44,27 @@ def pytest_configure(config):
     """Keep bytecode, here and in processes that tests start: compiling is half of their start."""
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     sys.dont_write_bytecode = False
+
+
+def _second(config):
+    """Return whether this process is the second worker of xdist."""
+    return getattr(config, "workerinput", {}).get("workerid") == "gw1"
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_make_collect_report(collector):
+    """Let two workers begin at either end: what one has compiled the other one reads."""
+    report = yield
+    if isinstance(collector, pytest.Directory) and _second(collector.config):
+        report.result.reverse()
+    return report
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(config, items):
+    """Put the tests into one order again, which workers agree upon."""
+    if hasattr(config, "workerinput"):
+        items.sort(key=lambda item: item.path)
 
 
 def pytest_collection_finish(session):
@@ -62,8 +84,8 @@ def pytest_addoption(parser):
     )
 
 
-@pytest.hookimpl(trylast=True)
-def pytest_collection_modifyitems(config, items):
+@pytest.hookimpl(trylast=True, specname="pytest_collection_modifyitems")
+def pytest_keep_turn(config, items):
     """Keep the tests whose turn it is."""
     turn = config.getoption("--turn")
     if turn is None:

@@ -42,7 +42,7 @@ VARIANTS = pytest.mark.parametrize(
 def with_steps(variant, **more):
     given = {"revolutions": 0.3, "solver": {"step": 1e-4}}
     if "dry" in str(variant):
-        given = {"revolutions": 0.15, "start_angle_deg": 45.0, "solver": {"step": 1e-5}}
+        given = {"revolutions": 0.13, "start_angle_deg": 45.0, "solver": {"step": 1e-5}}
     return Scene.from_dict({**variant, **given, **more})
 
 

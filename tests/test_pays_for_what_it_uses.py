@@ -11,14 +11,15 @@ from exu_press import Scene
 from exu_press.joints import user_force_of
 from exu_press.parallel.task import FOR_READERS
 
+PRINTED = "\nimport sys, json; print(json.dumps(sorted(sys.modules)))\n"
 
-def imported_after(code):
-    """Return the names of all modules a fresh process has imported after some code."""
-    printed = "import sys, json; print(json.dumps(sorted(sys.modules)))"
-    done = subprocess.run(
-        [sys.executable, "-c", f"{code}\n{printed}"], capture_output=True, text=True, check=True
-    )
-    return set(json.loads(done.stdout.splitlines()[-1]))
+
+def imported_after(*codes):
+    """Return the names of all modules a fresh process has imported after each code."""
+    code = "".join(each + PRINTED for each in codes)
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    found = [set(json.loads(line)) for line in done.stdout.splitlines() if line.startswith("[")]
+    return found if len(codes) > 1 else found[0]
 
 
 def test_importing_the_package_imports_no_package():
@@ -60,8 +61,17 @@ def test_nothing_but_exudyn_and_numpy_is_loaded_before_the_first_step():
     assert not modules & {"scipy", "tqdm", "matplotlib", "ngsolve", "netgen"}
 
 
+COMMAND = """
+from exu_press.cli import main
+assert main(["run", "slider_crank", "--set", "revolutions=0.01", "--set", "solver.step=1e-4",
+             "--out", r"%s", "--quiet", "--no-pictures"]) == 0
+"""
+
+
 def test_a_rigid_run_imports_neither_ngsolve_nor_matplotlib(tmp_path):
-    modules = imported_after(RIGID_RUN % (tmp_path / "run.nc"))
+    """Nor does a command without pictures, after it."""
+    place = tmp_path / "out"
+    modules, of_command = imported_after(RIGID_RUN % (tmp_path / "run.nc"), COMMAND % place)
     assert "exudyn" in modules
     tops = {name.partition(".")[0] for name in modules}
     assert not tops & {"ngsolve", "netgen", "pyngcore", "matplotlib"}
@@ -69,19 +79,8 @@ def test_a_rigid_run_imports_neither_ngsolve_nor_matplotlib(tmp_path):
     shown = tuple(f"exu_press.{name}" for name in FOR_READERS)  # rows of a sweep do not know them
     assert not [name for name in modules if name.startswith(shown)]
     assert "exu_press.joints.worn" not in modules
-
-
-COMMAND = """
-from exu_press.cli import main
-assert main(["run", "slider_crank", "--set", "revolutions=0.01", "--set", "solver.step=1e-4",
-             "--out", r"%s", "--quiet"%s]) == 0
-"""
-
-
-def test_a_command_without_pictures_imports_no_matplotlib(tmp_path):
-    modules = imported_after(COMMAND % (tmp_path, ', "--no-pictures"'))
-    assert not {name.partition(".")[0] for name in modules} & {"matplotlib", "ngsolve", "netgen"}
-    assert not list(tmp_path.glob("*.png"))
+    assert not {name.partition(".")[0] for name in of_command} & {"matplotlib", "ngsolve", "netgen"}
+    assert (place / "run.nc").exists() and not list(place.glob("*.png"))
 
 
 def build(**scene):

@@ -16,7 +16,7 @@ UNDAMPED = {
 
 def test_without_friction_the_press_keeps_all_its_energy():
     """Ten impacts and more; what the contacts damp is nothing beside what they store."""
-    scene = Scene(revolutions=0.25).replace({**UNDAMPED, "friction.law": "none"})
+    scene = Scene(revolutions=0.15).replace({**UNDAMPED, "friction.law": "none"})
     result = simulate(scene)
     assert result.info["status"] == "completed", result.info["reason"]
     summary = result.summary()

@@ -155,7 +155,7 @@ def test_contacts_follow_the_tolerance_too():
     for tolerance in (1e-3, 1e-4):
         scene = Scene(
             joints={"crank_pin": "dry", "balls": "dry"},
-            revolutions=0.05,
+            revolutions=0.025,
             solver={"tolerance": tolerance},
         )
         info = simulate(scene).info
@@ -175,7 +175,7 @@ def test_thin_films_follow_the_tolerance():
     ratios = {}
     for tolerance in (1e-2, 1e-3, 1e-4):
         thin = {"crank_pin": {"kind": "lubricated", "clearance": 1e-5}}
-        given = {"mechanism": "slider_crank", "joints": thin, "revolutions": 0.25}
+        given = {"mechanism": "slider_crank", "joints": thin, "revolutions": 0.12}
         scene = Scene(solver={"tolerance": tolerance}, **given)
         run = simulate(scene)
         ratios[tolerance] = np.linalg.norm(run["crank_pin_eccentricity"], axis=1).max() / 1e-5

@@ -65,7 +65,7 @@ def test_no_viscosity_under_asperities_is_the_dry_joint():
     laws = {**POINT, "revolutions": 0.25}
     dry = run(joints={"crank_pin": DryJoint(clearance=1e-4 - 6e-7)}, **laws)
     apart = []
-    for viscosity in (1e-3, 1e-4, 1e-5, 1e-6, 1e-8):
+    for viscosity in (1e-3, 1e-5, 1e-8):
         film = {"law": "pinkus", "viscosity": viscosity, "at_contact": "mixed"}
         thin = run(film=film, **laws)
         there = np.interp(thin["crank_angle"], dry["crank_angle"], dry["slider_position"])
@@ -135,7 +135,7 @@ def test_the_journal_stays_in_its_film_which_only_takes_energy(viscosity, law):
 
 @pytest.mark.parametrize("pin", ["dry", "lubricated"])
 def test_two_runs_are_the_same_bit_by_bit(pin):
-    scene = Scene.from_dict({"joints": {"crank_pin": pin, "balls": "dry"}, "revolutions": 0.05})
+    scene = Scene.from_dict({"joints": {"crank_pin": pin, "balls": "dry"}, "revolutions": 0.02})
     one, other = simulate(scene), simulate(scene)
     assert set(one) == set(other)
     for name in one:

@@ -31,7 +31,7 @@ def test_a_free_flywheel_runs_up_as_kloss_says(begins):
         gravity=0.0,
         slider_crank={**LIGHT, "crank_inertia": 1.0},
         drive={**motor, "begins": begins},
-        solver={"tolerance": 1e-5},
+        solver={"tolerance": 5e-5},
     )
     result = simulate(scene)
     fastest, breakdown = 10 * math.pi, 0.05 * (2.5 + math.sqrt(2.5**2 - 1.0))
@@ -70,7 +70,7 @@ def reduced_slider_crank(scene, end):
 
 
 def test_the_speed_fluctuates_as_a_model_of_one_coordinate_says():
-    keys = {"drive": MOTOR, "solver": {"tolerance": 1e-5}, "settle": 0.0}
+    keys = {"drive": MOTOR, "solver": {"tolerance": 3e-5}, "settle": 0.0}
     scene = Scene(mechanism="slider_crank", joints={}, **keys)
     result = simulate(scene)
     assert result.completed

@@ -146,7 +146,7 @@ def eccentric(crank_pin, balls):
     joints = {"crank_pin": crank_pin, "balls": balls}
     return run(
         joints=joints,
-        revolutions=0.2,
+        revolutions=0.17,
         load={"blanking": ECCENTRIC},
         guide={"lateral_stiffness": 1e9},
     )

@@ -155,7 +155,7 @@ def test_the_balance_closes_only_with_the_bodys_own_motion(rocker):
     soft = {"youngs_modulus": 2e10}
     load = {**RAMP, "force": [0.0, 200.0, 0.0], "face": TIP}
     asked = scene(rocker, {"one": load}, body=soft, revolutions=0.15, speed_rpm=200.0)
-    result = simulate(asked.replace({"solver.tolerance": 1e-4}))
+    result = simulate(asked.replace({"solver.tolerance": 5e-4}))
     assert result.completed
     assert result.quantity("energy.residual").value < 2e-3
     motion = result["body_position"][:, result.bodies.index("rocker")]

@@ -76,7 +76,7 @@ def test_the_slider_has_its_clearance_and_the_give_of_its_guideway(pressed):
 )
 def test_the_balance_of_the_press_closes(friction):
     guide = {"clearance": 5e-5, "friction": friction, "width": 0.2}
-    result = simulate(Scene(revolutions=0.05, guide=guide))
+    result = simulate(Scene(revolutions=0.025, guide=guide))
     assert result.completed
     summary = result.summary()
     assert summary["quantities"]["energy.residual"]["value"] < 1e-4

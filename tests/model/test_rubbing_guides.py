@@ -72,7 +72,7 @@ LAWS, CLEARANCES = (
     ],
 )
 def test_the_balance_of_the_press_closes(law, joints):
-    result = simulate(Scene(joints=joints, revolutions=0.3, guide={"friction": law}))
+    result = simulate(Scene(joints=joints, revolutions=0.15, guide={"friction": law}))
     assert result.completed
     assert result.quantity("energy.residual").value < 3e-3
     guides = [guide.body for guide in mechanism_of(result.scene).guides]

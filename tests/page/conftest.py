@@ -13,6 +13,7 @@ def press():
             "film": {"law": "finite"},
             "joints": {"crank_pin": "lubricated", "balls": "dry"},
             "revolutions": 2.0,
+            "solver": {"tolerance": 1e-2},
         }
     )
     return simulate(scene)

@@ -56,12 +56,11 @@ def shown(page, panel):
     return float(re.match(r"\S+", text)[0])
 
 
-def test_the_shipped_press_is_small_and_opens_without_a_word(report, browser):
+def test_the_shipped_press_is_small_and_opens_without_a_word(report, page):
     assert report.stat().st_size <= 6e6
-    with opened(browser, report) as page:
-        assert page.locator("canvas").count() >= 2
-        assert page.locator("#mechanism .body").count() == 14
-        assert not page.is_visible("#failed")
+    assert page.locator("canvas").count() >= 2
+    assert page.locator("#mechanism .body").count() == 14
+    assert not page.is_visible("#failed")
 
 
 def test_values_at_the_slider_are_those_of_the_file(page, press):

@@ -27,7 +27,7 @@ SCENES = {
 @pytest.fixture(scope="session")
 def results() -> dict[str, Result]:
     runs = {
-        label: simulate(Scene(**{"revolutions": 0.3, "solver": {"step": 1e-4}} | scene))
+        label: simulate(Scene(**{"revolutions": 0.3, "solver": {"step": 2e-4}} | scene))
         for label, scene in SCENES.items()
     }
     runs["stopped"] = cut(runs["lubricated"], 200)

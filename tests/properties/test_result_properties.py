@@ -135,7 +135,7 @@ def shown_or_refused(command, content, folder, capsys):
 RUNS = {"deadline": None, "suppress_health_check": list(HealthCheck), "print_blob": True}
 
 
-@settings(max_examples=20, phases=[Phase.generate], **RUNS)
+@settings(max_examples=10, phases=[Phase.generate], **RUNS)
 @given(data=st.data())
 def test_a_mutated_file_is_a_result_or_an_input_error(data, files, tmp_path):
     """What it says of itself has been checked then: its summary is made, in strict JSON."""

@@ -60,6 +60,7 @@ def run():
         "revolutions": 2.25,
         "load": {"blanking": {"kind": "blanking", "force": 1e4, "offset": [0.1, 0.0]}},
         "guide": {"lateral_stiffness": 1e9},
+        "solver": {"tolerance": 1e-2},
     }
     return simulate(Scene.from_dict({**scene, "joints": {"crank_pin": "lubricated"}}))
 

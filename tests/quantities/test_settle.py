@@ -24,7 +24,7 @@ def test_one_revolution_where_a_run_has_two_and_none_in_the_paper_s_press():
 
 @pytest.fixture(scope="module")
 def run():
-    return simulate(crank(revolutions=2.5, start_angle_deg=30.0, solver={"tolerance": 1e-2}))
+    return simulate(crank(revolutions=2.1, start_angle_deg=30.0, solver={"tolerance": 1e-2}))
 
 
 def test_peaks_and_energies_are_of_the_second_revolution(run):

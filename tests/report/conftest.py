@@ -46,7 +46,7 @@ def outputs(tmp_path_factory) -> dict[str, Path]:
 
 
 def blank(command):
-    """Return what writes pictures of a command, and draws nothing: tests/plots looks at them."""
+    """Return what writes blank pictures of a command: tests/plots looks at real ones."""
     return lambda _, folder: save_figures(
         {name: Figure(figsize=(13.0, 6.0), dpi=150) for name in PICTURES[command]}, folder
     )

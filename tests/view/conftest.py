@@ -9,11 +9,12 @@ from exu_press.view import Animation
 from exu_press.view.animation import SIZE
 
 SCENES = {
-    "press": {"mechanism": "press", "revolutions": 0.3},
+    "press": {"mechanism": "press", "revolutions": 0.3, "solver": {"step": 2e-4}},
     "slider_crank": {
         "mechanism": "slider_crank",
         "joints": {"crank_pin": "dry"},
         "revolutions": 0.3,
+        "solver": {"step": 2e-4},
     },
     "ideal": {"joints": {}, "revolutions": 0.1},
     "flexible": {"bodies": flexible_press(), "revolutions": 0.03},

@@ -101,22 +101,31 @@ def test_a_lubricated_press_is_regular_and_comes_back(lubricated):
     assert lubricated.transient[-1] < 1e-2
 
 
-def test_figures_of_each_revolution_are_kept(lubricated):
-    values = lubricated.figures["joints.crank_pin.peak_force"]
-    assert values.shape == (20,)
-    assert np.ptp(values) < 1e-3 * values.mean()
-    assert set(lubricated.figures) == {
+@pytest.fixture(scope="module")
+def short():
+    """A fifth of the revolutions that an exponent needs."""
+    with pytest.MonkeyPatch.context() as patch:
+        for module in ("study", "lyapunov"):
+            patch.setattr(f"exu_press.studies.attractor.{module}.BATCHES", 2)
+        return attractor(FILM, revolutions=4, skip=2, most=1)
+
+
+def test_figures_of_each_revolution_are_kept(short):
+    values = short.figures["joints.crank_pin.peak_force"]
+    assert values.shape == (4,)
+    assert np.ptp(values) < 1e-2 * values.mean()
+    assert set(short.figures) == {
         name for name, placed in quantities_of(FILM).items() if placed.quantity.headline
     }
 
 
-def test_the_command_writes_what_it_found(lubricated, tmp_path, capsys, monkeypatch):
-    """The same study as the fixture's, which is not run again."""
+def test_the_command_writes_what_it_found(short, tmp_path, capsys, monkeypatch):
+    """Of a study that is done already."""
 
     def known(scene, revolutions, skip, most, names, **_):
         assert (scene, revolutions, skip, most) == (FILM, 20, 2, 4)
         assert names == ["joints.crank_pin.peak_force"]
-        return lubricated
+        return short
 
     monkeypatch.setattr("exu_press.studies.attractor.attractor", known)
     scene = tmp_path / "film.toml"

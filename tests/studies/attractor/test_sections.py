@@ -20,16 +20,14 @@ SHORT = {"revolutions": 20, "most": 4, "names": NAMES}
 
 def test_a_motors_sections_lie_where_a_run_is_sampled():
     orbit = Orbit(MOTOR)
-    speeds = []
-    for _ in range(2):
-        orbit.advance()
-        speeds.append(orbit.point()[-1] * MOTOR.angular_speed)
+    orbit.advance()
+    speed = orbit.point()[-1] * MOTOR.angular_speed
     time = orbit.state["time"]
     orbit.close()
-    run = simulate(MOTOR.replace({"revolutions": 2.2, "output": {"samples": [0.0]}}))
+    run = simulate(MOTOR.replace({"revolutions": 1.2, "output": {"samples": [0.0]}}))
     samples = run.samples.at(0.0)
-    assert speeds == pytest.approx(samples["crank_speed"][1:3], rel=1e-5)
-    assert time == pytest.approx(samples["time"][2], rel=1e-6)
+    assert speed == pytest.approx(samples["crank_speed"][1], rel=1e-5)
+    assert time == pytest.approx(samples["time"][1], rel=1e-6)
 
 
 def test_fixed_steps_end_on_the_section():
@@ -90,11 +88,14 @@ def test_fixed_steps_end_on_the_section_and_have_an_error(fixed):
     ("changes", "words"),
     [
         (
-            {"drive": {"rated_torque": 0.2, "inertia": 0.01}},
+            {"drive": {"rated_torque": 0.2, "inertia": 0.01}, "solver.tolerance": 3e-2},
             "no motion in the long run: the press stalled at",
         ),
         (
-            {"drive": {"rated_torque": 5000.0, "inertia": 0.01, "no_load_speed_rpm": 8.0}},
+            {
+                "drive": {"rated_torque": 5000.0, "inertia": 0.01, "no_load_speed_rpm": 8.0},
+                "solver.tolerance": 3e-2,
+            },
             r"\[drive\]: the crank does not get to its section at 0 deg within 2.5 s; allowed is",
         ),
         (

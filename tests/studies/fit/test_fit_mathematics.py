@@ -48,7 +48,7 @@ def test_exact_numbers_give_the_true_keys():
 def test_intervals_hold_the_true_keys_as_often_as_they_say():
     rng = np.random.default_rng(3)
     held = np.zeros(2)
-    number = 150
+    number = 80
     for _ in range(number):
         evaluate = against(decay(TRUE) + UNCERTAINTY * rng.standard_normal(len(AT)))
         found, derivative = fitted(evaluate)

@@ -17,7 +17,7 @@ from exu_press.studies.precision.table import horizon_words
 @pytest.fixture(scope="module")
 def report():
     """A lubricated slider-crank, against the package's own references."""
-    scene = Scene(mechanism="slider_crank", revolutions=0.1)
+    scene = Scene(mechanism="slider_crank", revolutions=0.05)
     return precision(
         (case_of("mine", scene.replace({"joints.crank_pin": "lubricated"})),), quick=True
     )

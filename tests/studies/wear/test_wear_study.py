@@ -1,6 +1,7 @@
 """Wear over strokes: by hand, independent of the jump, resumed, and what is refused."""
 
 import json
+import shutil
 
 import numpy as np
 import pytest
@@ -134,10 +135,12 @@ def test_a_scene_in_which_no_joint_wears_is_refused():
         WearStudy(guided, wear={"strokes": 10.0})
 
 
-@pytest.mark.long
-def test_the_command_and_its_page(tmp_path, capsys):
+def test_the_command_and_its_page(coarse, tmp_path, capsys):
+    """Of the study that is done already: rows are read."""
+    _, directory = coarse
+    shutil.copytree(directory, tmp_path / "out")
     scene().save(tmp_path / "scene.toml")
-    text = 'scene = "scene.toml"\n[wear]\nstrokes = 100\ntolerance = 0.1\n'
+    text = f'scene = "scene.toml"\n[wear]\nstrokes = {STROKES}\ntolerance = 0.05\n'
     (tmp_path / "study.toml").write_text(text)
     out = str(tmp_path / "out")
     assert main(["wear", str(tmp_path / "study.toml"), "--out", out]) == 0
@@ -147,7 +150,8 @@ def test_the_command_and_its_page(tmp_path, capsys):
     assert (tmp_path / "out" / "wear.png").stat().st_size > 10_000
     assert main(["report", out, "--quiet"]) == 0
     page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
-    assert "Wear over 100 strokes" in page
+    assert f"Wear over {STROKES} strokes" in page
+    assert (tmp_path / "out" / "runs.jsonl").read_bytes() == (directory / "runs.jsonl").read_bytes()
     (tmp_path / "study.toml").write_text(text + "[keys]\nspeed_rpm = [1.0]\n")
     assert main(["wear", str(tmp_path / "study.toml"), "--out", out]) == 2
     assert "not used by exu-press wear" in capsys.readouterr().err

@@ -47,7 +47,7 @@ def drawing_figure(examined: Examination, text: str, speed: float | None = None)
         text: about it, in lines.
         speed: of the crank, rad/s; velocities are per radian of the crank without it.
     """
-    figure = headed_figure(f"Drawing of {examined.mechanism.name}", text, (14.0, 8.6))
+    figure = headed_figure(f"Drawing of {plain(examined.mechanism.name)}", text, (14.0, 8.6))
     if examined.stroke is None:
         _draw(figure.subplots(), examined)
         return figure

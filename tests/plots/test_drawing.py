@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from matplotlib.colors import same_color
 from matplotlib.patches import Polygon
+from matplotlib.text import Text
 
 from exu_press.mechanism import Press, SliderCrank, press, slider_crank
 from exu_press.mechanism.examine import examine
@@ -43,3 +44,10 @@ def test_loose_bodies_are_red():
     assert set(red(axes)) == {"rod", "slider", "wrist_pin"}
     edges = [p.get_edgecolor() for p in axes.patches if isinstance(p, Polygon)]
     assert sum(same_color(edge[:3], WRONG) for edge in edges) == 2
+
+
+def test_a_name_is_no_formula():
+    drawn = replace(slider_crank(SliderCrank()), name=r"a $\frac{ b$ press")
+    figure = drawing_figure(examine(drawn), "text")
+    figure.draw_without_rendering()
+    assert any(r"\frac{ b" in text.get_text() for text in figure.findobj(Text))

@@ -9,7 +9,7 @@ import numpy as np
 
 from exu_press.model.state import State
 from exu_press.quantities import Extreme, Placed, Quantity, quantities_of
-from exu_press.quantities.kind import RESULTANT
+from exu_press.quantities.kind import RESULTANT, SHARE
 from exu_press.quantities.value import numbers_of
 from exu_press.result import Result
 from exu_press.result.info import Error, Errors
@@ -166,6 +166,8 @@ def errors_of(
             error["low"] = max(error["low"], 0.0)
             known = error["error"] <= max(value, OF_FLOOR * least)
             error["determined"] &= known or quantity.kind.may_vanish
+        if quantity.kind is SHARE:
+            error["high"] = min(error["high"], 1.0)
         errors[name] = error
     for name, error in errors.items():
         above = errors.get(told[name].quantity.at_most)

@@ -8,7 +8,7 @@ import pytest
 from exu_press import Result, Scene, simulate
 from exu_press.mechanism.press import PAPER_LAWS
 from exu_press.quantities import Placed, Quantity, quantities_of
-from exu_press.quantities.kind import DIFFERENCE, MOTION, RESULTANT
+from exu_press.quantities.kind import DIFFERENCE, MOTION, RESULTANT, SHARE
 from exu_press.quantities.value import numbers_of
 from exu_press.scene import flexible_press
 from exu_press.verification.refinement import RefinementRuns, plan
@@ -268,6 +268,18 @@ def test_a_peak_that_is_smaller_than_its_error_is_not_determined(kind, signed, d
     told = errors_of(run, [(4.0, other)], {"largest": Placed(largest, "")})["errors"]["largest"]
     assert told["error"] > told["high"] - told["error"] > 0.0
     assert told["determined"] is determined
+
+
+def test_no_share_may_be_more_than_the_whole():
+    run = simulate(Scene(mechanism="slider_crank", joints={}, revolutions=0.1))
+    other = run.with_values({"shaking_force": 0.0 * run["shaking_force"]})
+
+    def share(reading, _):
+        return 0.9 if reading["shaking_force"].any() else 0.2
+
+    asked = {"share": Placed(Quantity("share", "", "of a force", SHARE, share), "")}
+    told = errors_of(run, [(4.0, other)], asked)["errors"]["share"]
+    assert told["error"] > 0.1 and told["high"] == 1.0
 
 
 def test_a_force_that_symmetry_makes_nothing_is_known():

@@ -9,6 +9,7 @@ from matplotlib.patches import Circle, FancyArrowPatch
 
 from exu_press.numerics.arrays import Array
 from exu_press.plots.style import COLOURS, GREY, RUN
+from exu_press.plots.words import cut
 from exu_press.quantities.uncertain import significant
 from exu_press.result import Result
 from exu_press.scene import mechanism_of
@@ -24,6 +25,9 @@ CLEARANCE = 0.45
 
 RIM = 1.18
 """The bearing's outside, up to which the journal may sink into the bore."""
+
+TITLE = 50
+"""Letters of a title that fit beside the next panel."""
 
 SMALL_PATH = 0.2
 """Paths within this eccentricity ratio are shown once more, magnified."""
@@ -61,7 +65,8 @@ class JointPanel:
         axes.set_aspect("equal", adjustable="box")
         axes.set_axis_off()
         axes.set(xlim=(-1.25, 2.15), ylim=(-1.6, 1.5))
-        axes.set_title(f"{title}, {joint.kind}, clearance {radial * 1e6:.4g} µm", fontsize=8.6)
+        told = f", {joint.kind}, clearance {radial * 1e6:.4g} µm"
+        axes.set_title(cut(title, TITLE - len(told)) + told, fontsize=8.6)
         axes.add_patch(Circle((0, 0), RIM, facecolor=STEEL, edgecolor=EDGE, linewidth=0.8))
         inside = OIL if joint.kind == "lubricated" else "white"
         axes.add_patch(Circle((0, 0), BORE, facecolor=inside, edgecolor=EDGE, linewidth=0.8))

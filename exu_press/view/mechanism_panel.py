@@ -13,7 +13,7 @@ from exu_press.mechanism.shapes import moved, shapes_of, swept_outlines
 from exu_press.numerics.arrays import Array
 from exu_press.plots.scales import spread
 from exu_press.plots.style import COLOURS, GREY
-from exu_press.plots.words import joint_in_words
+from exu_press.plots.words import cut, joint_in_words
 from exu_press.result import Result
 from exu_press.scene import mechanism_of
 from exu_press.view.instants import Instants
@@ -23,6 +23,9 @@ __all__ = ["MARKED", "MechanismPanel", "poses"]
 
 MARKED = COLOURS["vermilion"]
 """Joints with clearance, here and magnified."""
+
+NAME = 24
+"""Letters of a body's name that fit beside the magnified joints."""
 
 LINE = 0.04
 """Height of a label over that of a panel."""
@@ -156,7 +159,7 @@ def _draw_labels(
     panel = axes.get_window_extent()
     drawn = max(np.ptp(axes.get_ylim()), np.ptp(axes.get_xlim()) * panel.height / panel.width)
     named = {
-        body.name: joint_in_words(body.name.removesuffix("_right")).lower()
+        body.name: cut(joint_in_words(body.name.removesuffix("_right")).lower(), NAME)
         for body in mechanism.bodies
         if not body.name.endswith("_left")
     }

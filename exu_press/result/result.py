@@ -120,6 +120,10 @@ class Result(Contents):
         """Quantities read so far, by their declaration and place: each is worked out once."""
         return {}
 
+    def __getstate__(self) -> dict[str, Any]:
+        """Return what another process gets: quantities are read there again."""
+        return {name: value for name, value in self.__dict__.items() if name != "read"}
+
     def with_values(self, values: Mapping[str, Array]) -> "Result":
         """Return the run with other values of some of its channels, by their names."""
         if on_disk(self.channels):

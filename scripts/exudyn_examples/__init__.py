@@ -95,7 +95,7 @@ EXAMPLES = {
     "flyball, angles": Example(
         partial(flyball_governor, **ANGLES), 2.0, 0.2, "TestModels/stiffFlyballGovernor.py"
     ),
-    "rotor run-up": Example(rotor, 10.0, 2.0, "Examples/rigidRotor3Drunup.py"),
+    "rotor run-up": Example(rotor, 10.0, 2.0, "Examples/rigidRotor3Drunup.py", most=12.0),
     "heavy top": Example(heavy_top, 0.5, 0.1, "TestModels/heavyTop.py"),
     "kinematic tree": Example(kinematic_tree, 1.0, 0.5, "Examples/kinematicTreeAndMBS.py"),
     "rolling disc": Example(rolling_disc, 1.0, 0.5, "TestModels/createRollingDiscTest.py"),

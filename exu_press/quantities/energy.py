@@ -39,10 +39,13 @@ def energy_residual(result: Result) -> float | None:
     None where there is no balance, or next to no energy that it could be relative to, as in a run
     of a few degrees in which no surfaces touch.
     """
-    if not has_balance(result) or energy_scale(result) <= LITTLE * _kinetic(result.scene):
+    if not has_balance(result):
+        return None
+    scale = energy_scale(result)
+    if scale <= LITTLE * _kinetic(result.scene):
         return None
     given, stored, lost = _balance(result).values()
-    return float(np.abs(given - stored - lost).max()) / energy_scale(result)
+    return float(np.abs(given - stored - lost).max()) / scale
 
 
 def _kinetic(scene: Scene) -> float:

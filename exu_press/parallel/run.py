@@ -95,7 +95,7 @@ class Batch(ExitStack):
         if time_limit is not None and not time_limit > 0.0:
             raise InputError(f"time_limit = {time_limit:g}: allowed is a number > 0 (s)")
         self._name, self._modules = name_of(function), tuple(modules)
-        self._directory = Path(directory)
+        self.directory = Path(directory)
         self._workers, self._dask, self._limit = workers or os.cpu_count() or 1, dask, time_limit
         self._kept, self._label, self._quiet = kept, label, quiet
         self._pool: Pool | None = None
@@ -108,9 +108,9 @@ class Batch(ExitStack):
         """
         super().__enter__()
         try:
-            output_directory(self._directory)
-            self.enter_context(locked(self._directory))
-            self._file = self.enter_context(RowFile(self._directory / FILE))
+            output_directory(self.directory)
+            self.enter_context(locked(self.directory))
+            self._file = self.enter_context(RowFile(self.directory / FILE))
         except BaseException:
             self.close()
             raise

@@ -2,13 +2,12 @@
 
 import json
 from collections.abc import Mapping, Sequence
-from contextlib import ExitStack
 from pathlib import Path
 from typing import Any, Self
 
 from exu_press.errors import InputError
 from exu_press.files.output_directory import output_directory, write_json
-from exu_press.parallel import FILE, Batch, Chain, Row, locked
+from exu_press.parallel import FILE, Batch, Row, locked
 from exu_press.parallel.task import Function
 from exu_press.quantities import own_modules, values_of
 from exu_press.result import Result
@@ -21,7 +20,7 @@ __all__ = ["Row", "Runs", "row_of", "run_scene"]
 STUDY_FILE = "study.json"
 
 
-class Runs(ExitStack):
+class Runs(Batch):
     """The runs of a study in its directory; a context manager.
 
     Worker processes stay alive from call to call of `of`. Every row is on the disk before the next
@@ -37,9 +36,8 @@ class Runs(ExitStack):
         written: Sequence[str] = (),
         label: str = "study",
         function: Function | None = None,
-        workers: int | None = None,
-        dask: str | None = None,
         quiet: bool = True,
+        **workers: Any,
     ) -> None:
         """Prepare; nothing is started before the first run.
 
@@ -49,48 +47,38 @@ class Runs(ExitStack):
             written: names of the files that the study writes in the end.
             label: of the progress bar.
             function: of a run's arguments, for `rows`; `run_scene` unless told.
-            workers: number of processes; all cores unless told.
-            dask: address of a Dask scheduler instead.
             quiet: False shows the progress on standard error.
+            workers: `workers` or `dask`, as of a `Batch`.
+
+        Raises:
+            InputError: no worker can declare a quantity of the user's own; or as of a `Batch`.
         """
-        super().__init__()
-        self.directory = Path(directory)
+        super().__init__(
+            run_scene if function is None else function,
+            directory,
+            time_limit=study.time_limit,
+            kept=_file_is_whole,
+            modules=own_modules(),
+            label=label,
+            quiet=quiet,
+            **workers,
+        )
         self._study, self._written = study, written
-        self._function = run_scene if function is None else function
-        self._told: dict[str, Any] = {
-            "label": label,
-            "workers": workers,
-            "dask": dask,
-            "quiet": quiet,
-            "time_limit": study.time_limit,
-        }
 
     def __enter__(self) -> Self:
         """Take the directory.
 
         Raises:
-            InputError: it cannot be used, belongs to another study, or another run writes in it;
-                no scheduler answers; or no worker can declare a quantity of the user's own.
+            InputError: it cannot be used, belongs to another study, or another run writes in it.
         """
-        super().__enter__()
+        output_directory(self.directory)
+        self.enter_context(locked(self.directory))
         try:
-            modules = own_modules()
-            output_directory(self.directory)
-            self.enter_context(locked(self.directory))
             _claim(self.directory, self._study.to_dict(), self._written)
-            self._batch = self.enter_context(
-                Batch(
-                    self._function,
-                    self.directory,
-                    kept=_file_is_whole,
-                    modules=modules,
-                    **self._told,
-                )
-            )
         except BaseException:
             self.close()
             raise
-        return self
+        return super().__enter__()
 
     def of(self, scenes: Sequence[Scene], files: Sequence[str] = ()) -> list[Row]:
         """Return the row of each scene: status, reason, end_time, its quantities by name.
@@ -108,15 +96,7 @@ class Runs(ExitStack):
             path = self.directory / file
             output_directory(path.parent)
             each["save"] = str(path.resolve())
-        return self._batch.rows(arguments)
-
-    def rows(self, arguments: Sequence[Mapping[str, Any]]) -> list[Row]:
-        """Return the row of the study's own function for each of the arguments."""
-        return self._batch.rows(arguments)
-
-    def follow(self, chains: Sequence[Chain], total: int) -> None:
-        """Do runs of the study's own function that depend on each other: `Batch.follow`."""
-        self._batch.follow(chains, total)
+        return self.rows(arguments)
 
 
 def run_scene(arguments: dict[str, Any]) -> dict[str, Any]:

@@ -156,7 +156,7 @@ def _plain(
 
 
 def _words(name: str) -> str:
-    words = joint_in_words(name).replace(r"\$", "$")
+    words = joint_in_words(name)
     return words[:1].lower() + words[1:]
 
 

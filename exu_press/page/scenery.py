@@ -60,7 +60,7 @@ def _label(body: str) -> str:
     """Return a body's name as it stands beside it; "" where the other side has it."""
     if body.endswith("_left"):
         return ""
-    words = joint_in_words(body.removesuffix("_right")).replace(r"\$", "$")
+    words = joint_in_words(body.removesuffix("_right"))
     return words[:1].lower() + words[1:]
 
 
@@ -73,7 +73,7 @@ def _joint(result: Result, mechanism: Mechanism, name: str) -> dict[str, Any]:
         body, point = bearing, there
     return {
         "name": name,
-        "label": joint_in_words(name).replace(r"\$", "$"),
+        "label": joint_in_words(name),
         "body": [one.name for one in mechanism.bodies].index(body),
         "turns": joint.journal != GROUND,
         "at": [*map(float, point)],

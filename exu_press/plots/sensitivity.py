@@ -3,7 +3,9 @@
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Patch
 
+from exu_press.numerics.arrays import Array
 from exu_press.plots.headed import headed_figure
 from exu_press.plots.style import COLOURS, GREY, styled
 from exu_press.plots.sweep_words import headed, words
@@ -50,9 +52,7 @@ def sensitivity_figure(report: Report) -> Figure:
         row[1].set_xlabel(f"change{f', {unit}' if unit else ''}")
         _indices(row[2], found, order)
         row[2].set_yticks(places, [])
-    panels[0, 1].legend(
-        *_ends(), loc="lower right", bbox_to_anchor=(1.0, 1.1), ncols=2
-    )  # fmt: skip
+    panels[0, 1].legend(*_ends(), loc="lower right", bbox_to_anchor=(1.0, 1.1), ncols=2)
     panels[0, 2].legend(loc="lower right", bbox_to_anchor=(1.0, 1.1), ncols=2)
     return figure
 
@@ -63,16 +63,11 @@ def sensitivity_figures(report: Report) -> dict[str, Figure]:
 
 
 def _ends() -> tuple[list[object], list[str]]:
-    from matplotlib.patches import Patch
-
     colours = (COLOURS["sky blue"], COLOURS["blue"])
     return [Patch(color=colour) for colour in colours], ["at its 5 %", "at its 95 %"]
 
 
-def _spread(
-    axes: Axes, values: "np.ndarray[tuple[int], np.dtype[np.float64]]", report: Report,
-    place: int,
-) -> None:  # fmt: skip
+def _spread(axes: Axes, values: Array, report: Report, place: int) -> None:
     axes.hist(values, BINS, color=COLOURS["sky blue"], edgecolor="white", linewidth=0.5)
     name = report.study.sensitivity.quantities[place]
     quantity = quantity_of(report.study.scene, name).quantity

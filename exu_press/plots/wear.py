@@ -1,12 +1,13 @@
 """A wear study in one picture: shape of the gap, clearance, quantities."""
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from exu_press.plots.headed import headed_figure
 from exu_press.plots.style import colour_of, styled
 from exu_press.plots.sweep_words import headed
-from exu_press.plots.typesetting import plain, typeset, wrapped
+from exu_press.plots.typesetting import typeset, wrapped
 from exu_press.plots.words import describe
 from exu_press.quantities import quantity_of
 from exu_press.quantities.uncertain import significant
@@ -51,7 +52,7 @@ def wear_figure(report: Report) -> Figure:
         else:
             for number, joint in enumerate(joints):
                 values = [1e6 * value for value in report.clearances(joint)]
-                label = plain(joint.replace("_", " "))
+                label = joint.replace("_", " ")
                 axes.plot(strokes, values, "o-", markersize=3, color=colour_of(number), label=label)
             axes.set_ylabel(f"largest clearance, {typeset('um')}")
             axes.legend(loc="best")
@@ -65,11 +66,8 @@ def wear_figures(report: Report) -> dict[str, Figure]:
     return {"wear": wear_figure(report)}
 
 
-def _shapes(axes: object, report: Report, joint: str) -> None:
+def _shapes(axes: Axes, report: Report, joint: str) -> None:
     """Draw the depth worn off a bearing over the angle on it, at some of the points."""
-    from matplotlib.axes import Axes
-
-    assert isinstance(axes, Axes)
     points = report.points[1:] or report.points
     picked = sorted({round(i) for i in np.linspace(0, len(points) - 1, MOST_SHAPES)})
     for number, i in enumerate(picked):
@@ -81,7 +79,7 @@ def _shapes(axes: object, report: Report, joint: str) -> None:
         if shape.journal.max() > 0.05 * shape.bearing.max():
             axes.plot(np.degrees(ANGLES), 1e6 * shape.journal, "--", color=colour_of(number))
     axes.set_xlabel("angle from the x axis of the body, deg (solid: bearing, dashed: journal)")
-    axes.set_ylabel(f"{plain(joint.replace('_', ' '))}: worn off, {typeset('um')}")
+    axes.set_ylabel(f"{joint.replace('_', ' ')}: worn off, {typeset('um')}")
     axes.set_xlim(0.0, 360.0)
     axes.set_xticks(range(0, 361, 45))
     axes.legend(loc="best", ncols=2)

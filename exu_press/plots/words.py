@@ -4,7 +4,6 @@ import math
 import textwrap
 from collections.abc import Collection, Iterable, Mapping
 
-from exu_press.plots.typesetting import plain
 from exu_press.result import Result
 from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.applied import applied_loads
@@ -70,7 +69,7 @@ def joint_in_words(name: str) -> str:
     """
     for side in ("left", "right"):
         name = name.replace(f"_{side}", f", {side}")
-    return plain(name.replace("_", " ").capitalize())
+    return name.replace("_", " ").capitalize()
 
 
 def _parts(scene: Scene, joints: Collection[str], *, grouped: bool) -> dict[str, str]:

@@ -6,7 +6,7 @@ from typing import Any, TypeVar
 
 from exu_press.errors import InputError
 from exu_press.mechanism.parts import DRIVE, FLYWHEEL, GROUND, Body, Guide, Joint, Output
-from exu_press.schema.checks import demand_name, demand_number, nearest, refuse_unknown
+from exu_press.schema.checks import demand_known, demand_name, demand_number, refuse_unknown
 
 __all__ = ["all_of", "check", "check_defaults"]
 
@@ -194,11 +194,8 @@ def _check_connections(
         )
 
 
-def _known(where: str, name: Any, known: Collection[str]) -> None:
-    if name not in known:
-        raise InputError(
-            f"{where} = {name!r}: unknown{nearest(name, known)}; allowed are {', '.join(known)}"
-        )
+def _known(where: str, name: Any, known: Iterable[str]) -> None:
+    demand_known(f"{where} = {name!r}: unknown", name, known)
 
 
 def _names(where: str, value: Any, what: str) -> None:

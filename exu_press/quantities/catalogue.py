@@ -20,7 +20,7 @@ from exu_press.quantities.start_stop import START_STOP
 from exu_press.quantities.wear import WEAR
 from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.applied import applied_loads
-from exu_press.schema.checks import demand_name, nearest
+from exu_press.schema.checks import demand_known, demand_name
 
 __all__ = ["CATALOGUE", "Placed", "add", "declared", "own_modules", "quantities_of", "quantity_of"]
 
@@ -183,11 +183,7 @@ def quantity_of(scene: Scene, name: str) -> Placed:
         InputError: the scene has no such quantity.
     """
     found = quantities_of(scene)
-    if name not in found:
-        raise InputError(
-            f"quantity {name!r}: this scene has none of this name{nearest(name, found)}; "
-            f"allowed are {', '.join(found)}"
-        )
+    demand_known(f"quantity {name!r}: this scene has none of this name", name, found)
     return found[name]
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from exu_press.errors import InputError, prefixed, required_package
-from exu_press.schema.checks import Table, key, nearest, plain, refuse_unknown, table_from
+from exu_press.schema.checks import Table, demand_known, key, plain, refuse_unknown, table_from
 
 __all__ = [
     "DRIVE_FACE",
@@ -172,11 +172,8 @@ def bodies_of(
         raise InputError(f"bodies = {given!r}: allowed is a table for each flexible body")
     found = {}
     for name, value in given.items():
-        if name not in joints:
-            raise InputError(
-                f"bodies.{name} = {_shown(value)}: {mechanism} has no such body"
-                f"{nearest(name, joints)}; allowed are {', '.join(joints)}"
-            )
+        shown = repr(value) if isinstance(value, str) else "..."
+        demand_known(f"bodies.{name} = {shown}: {mechanism} has no such body", name, joints)
         if not isinstance(value, (str, Mapping, Flexible)):
             raise InputError(
                 f"bodies.{name} = {value!r}: allowed is a shipped part, a STEP file's path, or a "
@@ -185,11 +182,8 @@ def bodies_of(
         with prefixed(f"bodies.{name}."):
             body = found[name] = table_from(Flexible, "", _keys(value))
         for joint in body.faces:
-            if joint not in joints[name]:
-                raise InputError(
-                    f"bodies.{name}.faces.{joint}: {name} has no such joint"
-                    f"{nearest(joint, joints[name])}; allowed are {', '.join(joints[name])}"
-                )
+            said = f"bodies.{name}.faces.{joint}: {name} has no such joint"
+            demand_known(said, joint, joints[name])
     return found
 
 
@@ -243,10 +237,6 @@ def require_rainflow() -> Any:
 
 def _keys(given: Any) -> Any:
     return {"flexible": given} if isinstance(given, str) else given
-
-
-def _shown(value: Any) -> str:
-    return repr(value) if isinstance(value, str) else "..."
 
 
 def faces_given(given: Any) -> dict[str, tuple[Face, ...]]:

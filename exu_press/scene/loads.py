@@ -13,7 +13,7 @@ from exu_press.files.two_columns import read_two_columns
 from exu_press.mechanism import Mechanism
 from exu_press.scene.bodies import face_dict
 from exu_press.scene.load import COLUMNS, LOAD_KINDS, BlankingLoad, Load, SheetLoad, SpringLoad
-from exu_press.schema.checks import demand_name, nearest, plain
+from exu_press.schema.checks import demand_known, demand_name, plain
 
 __all__ = ["changed_loads", "load_dict", "loads_of", "with_files_beside"]
 
@@ -117,15 +117,11 @@ def _load(where: str, given: Any) -> Load:
         raise InputError(f"{where} has no kind: allowed is one of {kinds}")
     if (kind := keys.pop("kind")) not in [*LOAD_KINDS]:
         raise InputError(f"kind = {kind!r}: allowed is one of {kinds}")
-    known = [field.name for field in dataclasses.fields(LOAD_KINDS[kind])]
+    known = ["kind", *(field.name for field in dataclasses.fields(LOAD_KINDS[kind]))]
     if kind == "table":
         known.append("file")
-    for name in keys:
-        if name not in known:
-            raise InputError(
-                f"{name} = {keys[name]!r}: unknown key of kind {kind!r}{nearest(name, known)}; "
-                f"allowed are {', '.join(['kind', *known])}"
-            )
+    for name in [name for name in keys if name not in known]:
+        demand_known(f"{name} = {keys[name]!r}: unknown key of kind {kind!r}", name, known)
     if "file" in keys:
         path = keys.pop("file")
         if not isinstance(path, str):
@@ -176,17 +172,10 @@ def _check_height(where: str, load: SheetLoad | SpringLoad, mechanism: Mechanism
 def _check_body(where: str, load: Load, mechanism: Mechanism, flexible: Collection[str]) -> None:
     bodies = [body.name for body in mechanism.bodies]
     name = load.body or mechanism.slider
-    if name not in bodies:
-        raise InputError(
-            f"{where}.body = {name!r}: {mechanism.name} has no such body{nearest(name, bodies)}; "
-            f"allowed are {', '.join(bodies)}"
-        )
+    demand_known(f"{where}.body = {name!r}: {mechanism.name} has no such body", name, bodies)
     joints = [joint.name for joint in mechanism.joints_of(name)]
-    if load.joint is not None and load.joint not in joints:
-        raise InputError(
-            f"{where}.joint = {load.joint!r}: {name} has no such joint"
-            f"{nearest(load.joint, joints)}; allowed are {', '.join(joints)}"
-        )
+    if (joint := load.joint) is not None:
+        demand_known(f"{where}.joint = {joint!r}: {name} has no such joint", joint, joints)
     if name in flexible and load.joint is None and load.face is None:
         raise InputError(
             f"{where}: acts on the flexible {name}, which a force at a point would dent without "

@@ -23,6 +23,7 @@ __all__ = [
     "check_columns",
     "check_increasing",
     "demand_keys",
+    "demand_known",
     "demand_name",
     "demand_number",
     "given_in",
@@ -323,10 +324,14 @@ def refuse_unknown(where: str, given: Mapping[str, Any], known: Collection[str])
     """Raise InputError for the first key of a table that is not known."""
     for name, value in given.items():
         if name not in known:
-            raise InputError(
-                f"{f'{where}.{name}' if where else name} = {value!r:.200}: unknown key"
-                f"{nearest(name, known)}; allowed are {', '.join(known)}"
-            )
+            place = f"{where}.{name}" if where else name
+            demand_known(f"{place} = {value!r:.200}: unknown key", name, known)
+
+
+def demand_known(said: str, name: Any, known: Iterable[str]) -> None:
+    """Raise InputError, with the nearest and all known names behind it, unless a name is known."""
+    if name not in (names := list(known)):
+        raise InputError(f"{said}{nearest(name, names)}; allowed are {', '.join(names)}")
 
 
 def table_with(table: type[T], name: str, data: Any, usual: Mapping[str, Any]) -> T:

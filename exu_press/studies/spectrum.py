@@ -15,7 +15,7 @@ from exu_press.result.channel import AXES
 from exu_press.result.windows import settled
 from exu_press.scene import IdealJoint, mechanism_of
 from exu_press.scene.laws import contact_law
-from exu_press.schema.checks import nearest
+from exu_press.schema.checks import demand_known
 from exu_press.signals.spectrum import Spectrogram, Spectrum, amplitude_spectrum, spectrogram
 from exu_press.terminal.columns import columns
 
@@ -104,11 +104,7 @@ def column_of(result: Result, name: str) -> tuple[Array, str]:
         InputError: the run has no such channel, or the channel no such column.
     """
     channel, _, column = name.partition(".")
-    if channel not in result:
-        raise InputError(
-            f"channel {channel!r}: this run has none of that name{nearest(channel, list(result))}; "
-            f"allowed are {', '.join(sorted(result))}"
-        )
+    demand_known(f"channel {channel!r}: this run has none of that name", channel, sorted(result))
     found = result.channels[channel]
     allowed = AXES.get(found.axis) or tuple(str(k) for k in range(found.values.shape[-1]))
     if found.values.ndim > 2:

@@ -9,7 +9,7 @@ from typing import Any
 
 from exu_press.errors import InputError
 from exu_press.quantities import quantity_of
-from exu_press.schema.checks import Table, key, nearest
+from exu_press.schema.checks import Table, demand_known, key
 from exu_press.studies.base import Range, Study
 from exu_press.studies.base.evaluation import ranged
 from exu_press.studies.fit.curve import Curve
@@ -93,11 +93,7 @@ class Fit(Study):
     def _check_start(self) -> None:
         given = {}
         for name, value in under_of("start", self.start).items():
-            if name not in self.keys:
-                raise InputError(
-                    f"start.{name}: does not vary{nearest(name, self.keys)}; allowed are "
-                    f"{', '.join(self.keys)}"
-                )
+            demand_known(f"start.{name}: does not vary", name, self.keys)
             each = self.keys[name]
             assert isinstance(each, Range)
             if not isinstance(value, int | float) or not each.low <= value <= each.high:

@@ -1,13 +1,22 @@
 """Flexible bodies of a mechanism, and their solids."""
 
 import dataclasses
+from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar
 
 from exu_press.errors import InputError, prefixed, required_package
-from exu_press.schema.checks import Table, demand_known, key, plain, refuse_unknown, table_from
+from exu_press.schema.checks import (
+    Table,
+    changed_table,
+    demand_known,
+    key,
+    plain,
+    refuse_unknown,
+    table_from,
+)
 
 __all__ = [
     "DRIVE_FACE",
@@ -32,8 +41,6 @@ GUIDE_FACE = "guide"
 STEP_FILES = (".step", ".stp")
 
 USUAL_MODES = 20
-OF_TWO = ("modes", "flexibility_error")
-"""Keys of which one decides about the modes."""
 
 
 @dataclass(frozen=True)
@@ -91,6 +98,10 @@ class Flexible(Table):
     """A flexible body: a shipped part or a STEP file, its material, mesh and modes."""
 
     required: ClassVar[tuple[str, ...]] = ("flexible",)
+    instead: ClassVar[Mapping[str, str]] = {
+        "flexibility_error": "modes",
+        "modes": "flexibility_error",
+    }
     flexible: str = key(None, "a shipped part, or the path of a STEP file")
     modes: int | None = key(
         None, "number of modal coordinates, 20 unless given", at_least=0, at_most=500
@@ -134,13 +145,8 @@ class Flexible(Table):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if self.flexibility_error is None:
-            object.__setattr__(self, "modes", USUAL_MODES if self.modes is None else self.modes)
-        elif self.modes is not None:
-            raise InputError(
-                f"modes = {self.modes}, flexibility_error = {self.flexibility_error:g}: allowed is "
-                "one of the two"
-            )
+        if self.flexibility_error is None and self.modes is None:
+            object.__setattr__(self, "modes", USUAL_MODES)
         object.__setattr__(self, "faces", faces_given(self.faces))
 
     @property
@@ -215,18 +221,16 @@ def changed_bodies(
         bodies: as `body_dict` has them.
         changes: "NAME" -> a part, a file, or all keys; "NAME.key" -> a value.
     """
-    changed: dict[str, Any] = {name: dict(keys) for name, keys in bodies.items()}
+    changed: dict[str, Any] = dict(bodies)
+    inner: defaultdict[str, dict[str, Any]] = defaultdict(dict)
     for path, value in changes.items():
-        name, _, inner = path.partition(".")
-        if not inner:
-            changed[name] = value
+        name, dot, key = path.partition(".")
+        if dot:
+            inner[name][key] = value
         else:
-            place = changed.setdefault(name, {})
-            place = dict(_keys(place)) if isinstance(place, str) else dict(place)
-            for one, other in (OF_TWO, OF_TWO[::-1]):
-                if inner == one and f"{name}.{other}" not in changes:
-                    place.pop(other, None)
-            changed[name] = {**place, inner: value}
+            changed[name] = value
+    for name, keys in inner.items():
+        changed[name] = changed_table(Flexible, _keys(changed.get(name, {})), keys)
     return changed
 
 

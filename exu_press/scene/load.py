@@ -1,6 +1,7 @@
 """One load: a blanking pulse, a table of forces, a sheet or a spring."""
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar, Literal
 
@@ -30,6 +31,7 @@ class _Placed(Table):
     point beside the middle of these moves with their mean motion.
     """
 
+    instead: ClassVar[Mapping[str, str]] = {"offset": "joint", "face": "joint"}
     body: str | None = key(None, "body that it acts on; the mechanism's output unless given")
     offset: tuple[float, float] | None = key(
         None,
@@ -50,10 +52,6 @@ class _Placed(Table):
         if given is not None:
             object.__setattr__(self, "face", patch_given("face", given))
         super().__post_init__()
-        if self.joint is not None:
-            for name in ("offset", "face"):
-                if getattr(self, name) is not None:
-                    raise InputError(f"joint and {name}: allowed is one of the two")
         if self.direction is not None and math.hypot(*self.direction) == 0.0:
             raise InputError("direction = [0, 0]: allowed is a direction, such as [0, 1]")
 

@@ -190,14 +190,6 @@ class Film(Table):
     )
     oil: Oil | None = inner(Oil)
 
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if self.viscosity is not None and self.oil is not None:
-            raise InputError(
-                f"film.viscosity = {self.viscosity!r} and film.oil: allowed is one of the two, a "
-                "constant viscosity or an oil that warms"
-            )
-
     def unused(self, **instead: str) -> dict[str, str]:
         """Return the keys that are not used; of a joint's film those of other joints' shapes.
 
@@ -376,11 +368,6 @@ class Solver(Table):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if self.tolerance is not None and self.step is not None:
-            raise InputError(
-                f"solver.tolerance = {self.tolerance!r}, solver.step = {self.step!r}: "
-                "allowed is one of the two"
-            )
         if self.tolerance is None and self.step is None:
             object.__setattr__(self, "tolerance", DEFAULT_TOLERANCE)
 

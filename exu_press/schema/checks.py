@@ -127,7 +127,7 @@ class Table:
     """Key that is a choice -> the choice -> the keys that only some choices use."""
 
     instead: ClassVar[Mapping[str, str]] = {}
-    """Key -> the key that it stands instead of."""
+    """Key -> the key that it stands instead of; a table has one of the two at most."""
 
     required: ClassVar[tuple[str, ...]] = ()
     """Keys without a default."""
@@ -181,6 +181,10 @@ class Table:
                 if value is None and field.name in self.required:
                     raise InputError(f"{name}: missing; allowed is {_allowed(field)}")
                 object.__setattr__(self, field.name, value)
+        for one, other in self.instead.items():
+            if None not in (getattr(self, one), getattr(self, other)):
+                place = f"{self.table}." if self.table else ""
+                raise InputError(f"{place}{other} and {place}{one}: allowed is one of the two")
 
 
 def _inner(kind: type[Any], name: str, given: Any) -> Any:

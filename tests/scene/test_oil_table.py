@@ -86,7 +86,7 @@ def test_an_oil_that_is_hardly_meant_is_warned_of():
 @pytest.mark.parametrize(
     ("film", "words"),
     [
-        ({"viscosity": 0.1, "oil": OIL}, "film.viscosity = 0.1 and film.oil: allowed is one"),
+        ({"viscosity": 0.1, "oil": OIL}, "film.viscosity and film.oil: allowed is one"),
         ({"oil": OIL | {"viscosity_cst": [8.7, 68.0]}}, r"the larger one first, as oil thins"),
         ({"oil": OIL | {"at_celsius": [100.0, 40.0]}}, r"the lower one first"),
         ({"oil": OIL | {"viscosity_cst": [5.0, 1.5]}}, "ASTM D341"),

@@ -12,7 +12,7 @@ from exu_press.quantities.dead_centre import bottom_dead_centres
 from exu_press.quantities.joints import TOUCH
 from exu_press.quantities.value import values_of
 from exu_press.result import Result
-from exu_press.scene import IdealJoint, mechanism_of
+from exu_press.scene import mechanism_of
 
 __all__ = ["dead_centres", "impacts", "peaks", "values_on"]
 
@@ -29,7 +29,7 @@ def impacts(result: Result) -> tuple[list[dict[str, Any]], int]:
     found: list[dict[str, Any]] = []
     for name in result.clearance_joints:
         joint, described = result.joints[name], result.scene.joints[name]
-        if isinstance(described, IdealJoint) or described.onset is None:
+        if described.onset is None:
             continue
         touching = described.onset - joint.gap > TOUCH
         edges = np.flatnonzero(np.diff(touching.astype(int), prepend=0, append=0))

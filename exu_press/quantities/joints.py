@@ -51,8 +51,7 @@ def _lubricated(scene: Scene, joint: str) -> bool:
 
 
 def _touching(scene: Scene, joint: str) -> bool:
-    described = scene.joints[joint]
-    return not isinstance(described, IdealJoint) and described.onset is not None
+    return scene.joints[joint].onset is not None
 
 
 def _record(run: Reading, joint: str) -> JointRecord:
@@ -60,9 +59,9 @@ def _record(run: Reading, joint: str) -> JointRecord:
 
 
 def _depth(run: Reading, joint: str) -> Array:
-    described = run.result.scene.joints[joint]
-    assert not isinstance(described, IdealJoint) and described.onset is not None
-    return described.onset - _record(run, joint).gap
+    onset = run.result.scene.joints[joint].onset
+    assert onset is not None
+    return onset - _record(run, joint).gap
 
 
 def _start(run: Reading, _: str) -> float | None:

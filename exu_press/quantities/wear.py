@@ -19,12 +19,7 @@ from exu_press.result.channel import guide_channel
 from exu_press.result.windows import window
 from exu_press.scene import DryJoint, LubricatedJoint, Scene, mechanism_of
 from exu_press.scene.joint import unworn
-from exu_press.scene.wearing import (
-    wear_of_guide,
-    wear_of_joint,
-    wearing_guides,
-    wearing_joints,
-)
+from exu_press.scene.wearing import wear_of, wearing_guides, wearing_joints
 
 __all__ = [
     "SECTORS",
@@ -72,7 +67,7 @@ def wear_depths(result: Result, joint: str) -> tuple[Array, Array]:
     Those of the whole run, in sectors of 5 degrees that begin at the bodies' x axes. Each step's
     volume is spread over where the round surfaces overlap, as deep as they do there.
     """
-    wear, described = wear_of_joint(result.scene, joint), result.scene.joints[joint]
+    wear, described = wear_of(result.scene, "joints", joint), result.scene.joints[joint]
     assert isinstance(described, DryJoint | LubricatedJoint)
     drawn = next(j for j in mechanism_of(result.scene).joints if j.name == joint)
     angles = [
@@ -116,7 +111,7 @@ def guideway_depths(result: Result, body: str) -> Array:
     By its back and front end, on the left and on the right, in 72 parts of each end's path. The
     ends' own edges lose as much, and have no depth.
     """
-    wear = wear_of_guide(result.scene, body)
+    wear = wear_of(result.scene, "guides", body)
     guide = next(g for g in mechanism_of(result.scene).guides if g.body == body)
     place = result["body_position"][:, result.bodies.index(body), :2] @ np.array(guide.direction)
     middle = 0.5 * (place[1:] + place[:-1])
@@ -176,7 +171,7 @@ def _per_revolution(worn: Callable[[Result, str], float], run: Reading, place: s
 
 
 def _volume(result: Result, joint: str) -> float:
-    wear = wear_of_joint(result.scene, joint)
+    wear = wear_of(result.scene, "joints", joint)
     work = float(sliding_of(result, joint).work.sum())
     return archard(wear.coefficient, wear.hardness, work, 1.0)
 
@@ -189,7 +184,7 @@ def _ends(result: Result, body: str) -> list[Sliding]:
 
 
 def _guide_volume(result: Result, body: str) -> float:
-    wear = wear_of_guide(result.scene, body)
+    wear = wear_of(result.scene, "guides", body)
     work = sum(float(end.work.sum()) for end in _ends(result, body))
     return archard(wear.coefficient, wear.hardness, work, 1.0)
 
@@ -219,7 +214,7 @@ def _pressed(run: Reading, joint: str) -> Array:
     """Return mean pressure times sliding speed, (n,), W/m^2."""
     result, described = run.result, run.result.scene.joints[joint]
     assert isinstance(described, DryJoint | LubricatedJoint)
-    area = 2.0 * described.radius * wear_of_joint(result.scene, joint).length
+    area = 2.0 * described.radius * wear_of(result.scene, "joints", joint).length
     return sliding_of(result, joint).power / area
 
 
@@ -227,7 +222,7 @@ def _pressed_guide(run: Reading, body: str) -> Array:
     result = run.result
     guide = result.scene.guide
     assert guide is not None
-    area = guide.length * wear_of_guide(result.scene, body).length
+    area = guide.length * wear_of(result.scene, "guides", body).length
     return np.asarray(sum(end.power for end in _ends(result, body)) / area)
 
 

@@ -204,7 +204,7 @@ def expected(scene: Scene, *, own_items: bool) -> dict[str, tuple[str, bool]]:
         "joint": joints,
         "loose": [name for name in joints if scene.joints[name].kind != "ideal"],
         "warm": [name for name in joints if oil_of(scene.joints[name]) is not None],
-        "worn": [name for name in joints if getattr(scene.joints[name], "worn", None) is not None],
+        "worn": [name for name in joints if scene.joints[name].worn is not None],
         "wearing": list(wearing_joints(scene)),
         "guide": [guide_channel(mechanism, guide.body) for guide in mechanism.guides],
         "load": list(applied_loads(scene)),

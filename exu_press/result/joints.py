@@ -90,6 +90,6 @@ def record_joints(
         if len(states.rubbing):
             channels |= channel("{wearing}_normal_force", states.rubbing[:, 0], name)
             channels |= channel("{wearing}_sliding", states.rubbing[:, 1], name)
-        if getattr(model.scene.joints[name], "worn", None) is not None:
+        if model.scene.joints[name].worn is not None:
             channels |= channel("{worn}_gap", states.gap, name)
     return channels, stored, dissipated

@@ -39,6 +39,10 @@ class IdealJoint(Table):
 
     kind: ClassVar[Literal["ideal"]] = "ideal"
     clearance: ClassVar[float] = 0.0
+    contact: ClassVar[None] = None
+    friction: ClassVar[None] = None
+    worn: ClassVar[None] = None
+    onset: ClassVar[None] = None
 
 
 @dataclass(frozen=True)

@@ -25,6 +25,7 @@ class OwnJoint(Table, ABC):
 
     contact: ClassVar[None] = None
     friction: ClassVar[None] = None
+    worn: ClassVar[None] = None
     onset: ClassVar[None] = None
     clearance: float = key(None, "eccentricity that others are compared with", "m", above=0)
 

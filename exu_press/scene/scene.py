@@ -29,8 +29,6 @@ from exu_press.scene.file import parse_assignment, scene_tables
 from exu_press.scene.joint import (
     LAW_TABLES,
     SIZES,
-    DryJoint,
-    LubricatedJoint,
     joint_dict,
     oil_of,
     refuse_missing_damping,
@@ -242,10 +240,9 @@ class Scene(Table):
 
     def _unrubbed(self, drawn: Drawn) -> str:
         """Return why a joint does not wear, or nothing."""
-        joint = self.joints[drawn.name]
         if drawn.spherical:
             return f"joints.{drawn.name} is a ball"
-        rubs = isinstance(joint, DryJoint | LubricatedJoint) and joint.onset is not None
+        rubs = self.joints[drawn.name].onset is not None
         return "" if rubs else f"surfaces of joints.{drawn.name} do not touch"
 
     def _settle_bodies(self) -> None:
@@ -264,7 +261,7 @@ class Scene(Table):
             )
         object.__setattr__(self, "bodies", bodies)
         for drawn in mechanism.joints:
-            worn = getattr(self.joints[drawn.name], "worn", None)
+            worn = self.joints[drawn.name].worn
             for body in (drawn.journal, drawn.bearing):
                 if worn is not None and body in bodies:
                     raise InputError(

@@ -1,10 +1,9 @@
 """The joints and guides of a scene that wear, and their data."""
 
-from exu_press.scene.joint import DryJoint, Joint, LubricatedJoint
 from exu_press.scene.scene import Scene, mechanism_of
 from exu_press.scene.wear import WearAt
 
-__all__ = ["wear_of_guide", "wear_of_joint", "wearing_guides", "wearing_joints"]
+__all__ = ["wear_of", "wearing_guides", "wearing_joints"]
 
 
 def wearing_joints(scene: Scene) -> tuple[str, ...]:
@@ -12,7 +11,8 @@ def wearing_joints(scene: Scene) -> tuple[str, ...]:
     if scene.wear is None:
         return ()
     drawn = mechanism_of(scene).joints
-    return tuple(j.name for j in drawn if not j.spherical and touches(scene.joints[j.name]))
+    touching = [joint for joint in drawn if scene.joints[joint.name].onset is not None]
+    return tuple(joint.name for joint in touching if not joint.spherical)
 
 
 def wearing_guides(scene: Scene) -> tuple[str, ...]:
@@ -22,18 +22,7 @@ def wearing_guides(scene: Scene) -> tuple[str, ...]:
     return tuple(g.body for g in mechanism_of(scene).guides if g.guideway is not None)
 
 
-def wear_of_joint(scene: Scene, joint: str) -> WearAt:
-    """Return coefficient, hardness and length of a joint that wears."""
+def wear_of(scene: Scene, kind: str, name: str) -> WearAt:
+    """Return coefficient, hardness and length of one of the "joints" or "guides" that wear."""
     assert scene.wear is not None
-    return scene.wear.at("joints", joint)
-
-
-def wear_of_guide(scene: Scene, body: str) -> WearAt:
-    """Return coefficient, hardness and length of a guide that wears."""
-    assert scene.wear is not None
-    return scene.wear.at("guides", body)
-
-
-def touches(joint: Joint) -> bool:
-    """Return whether a joint's surfaces may touch."""
-    return isinstance(joint, DryJoint | LubricatedJoint) and joint.onset is not None
+    return scene.wear.at(kind, name)

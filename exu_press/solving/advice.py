@@ -6,7 +6,7 @@ from exu_press.integrate import Advice, Outcome
 from exu_press.integrate.problem import Problem
 from exu_press.integrate.stepping import Unresolved
 from exu_press.joints.joint import ClearanceJoint
-from exu_press.scene import IdealJoint, LubricatedJoint, mechanism_of
+from exu_press.scene import LubricatedJoint, mechanism_of
 from exu_press.scene.applied import applied_loads
 from exu_press.scene.warnings import doubtful_sizes
 from exu_press.solving.assembled import Assembled
@@ -114,7 +114,7 @@ class SceneAdvice(Advice):
         scene = self._scene
         for name, radius in mechanism_of(scene).crank_pins.items():
             pin = scene.joints[name]
-            if isinstance(pin, IdealJoint) or pin.friction is None or pin.friction.law == "none":
+            if pin.friction is None or pin.friction.law == "none":
                 continue
             friction = pin.friction
             largest = "mu_kinetic" if friction.law == "coulomb" else "mu_static"

@@ -9,7 +9,6 @@ from exu_press.joints import histories, user_force_of
 from exu_press.laws.contact import NormalContact
 from exu_press.mechanism import GROUND
 from exu_press.numerics.arrays import Array
-from exu_press.scene import IdealJoint
 from exu_press.scene.laws import contact_law
 from exu_press.solving.assembled import Assembled
 
@@ -46,7 +45,7 @@ def impact_steps(model: Assembled) -> Iterator[float]:
     states_of = histories(model.clearance_joints, time, q, q_t, user_force.begun)
     for description in model.mechanism.joints:
         joint, kind = model.clearance_joints.get(description.name), scene.joints[description.name]
-        if joint is None or isinstance(kind, IdealJoint) or kind.contact is None:
+        if joint is None or kind.contact is None:
             continue
         states = states_of[description.name]
         apart, moving = states.eccentricity, states.velocity

@@ -13,7 +13,7 @@ from exu_press.quantities.uncertain import significant
 from exu_press.result import Result
 from exu_press.result.channel import AXES
 from exu_press.result.windows import settled
-from exu_press.scene import IdealJoint, mechanism_of
+from exu_press.scene import mechanism_of
 from exu_press.scene.laws import contact_law
 from exu_press.schema.checks import demand_known
 from exu_press.signals.spectrum import Spectrogram, Spectrum, amplitude_spectrum, spectrogram
@@ -181,7 +181,7 @@ def _on_contacts(result: Result) -> Iterator[Mark]:
     compliance = {body.name: 1.0 / body.mass for body in mechanism.bodies} | {GROUND: 0.0}
     for joint in mechanism.joints:
         kind = scene.joints[joint.name]
-        if isinstance(kind, IdealJoint) or kind.contact is None:
+        if kind.contact is None:
             continue
         away = np.linalg.norm(result[f"{joint.name}_eccentricity"], axis=1)
         touches = away > kind.clearance

@@ -12,7 +12,7 @@ from exu_press.result import Result
 from exu_press.result.energy import mechanical_energy
 from exu_press.scene import Scene, mechanism_of
 
-__all__ = ["BALANCE", "energy_residual", "energy_scale", "has_balance"]
+__all__ = ["BALANCE", "energy_residual", "energy_scale", "has_balance", "kinetic_energy"]
 
 PARTS = ("input", "stored", "dissipated")
 
@@ -42,13 +42,13 @@ def energy_residual(result: Result) -> float | None:
     if not has_balance(result):
         return None
     scale = energy_scale(result)
-    if scale <= LITTLE * _kinetic(result.scene):
+    if scale <= LITTLE * kinetic_energy(result.scene):
         return None
     given, stored, lost = _balance(result).values()
     return float(np.abs(given - stored - lost).max()) / scale
 
 
-def _kinetic(scene: Scene) -> float:
+def kinetic_energy(scene: Scene) -> float:
     """Return the kinetic energy at the start, J, with ideal joints and the nominal speed."""
     mechanism = mechanism_of(scene)
     motions = mechanism.motion(np.array([scene.start_angle]), scene.angular_speed)

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 
 from exu_press.integrate import SolverTuning
-from exu_press.mechanism import GROUND
+from exu_press.mechanism import GROUND, Motion, Point
 from exu_press.numerics.arrays import Array
 from exu_press.quantities.catalogue import ECCENTRICITY_RATIO, JOINT_FORCE, quantity_of
-from exu_press.quantities.energy import energy_residual, energy_scale
+from exu_press.quantities.energy import energy_residual, energy_scale, kinetic_energy
 from exu_press.result import Result
 from exu_press.scene import LubricatedJoint, Scene, mechanism_of
 from exu_press.scene.laws import contact_law, film_scale_of
@@ -140,26 +140,17 @@ def _little(scene: Scene, name: str, true: float) -> float:
 
 def _drifts(result: Result) -> Iterator[tuple[float, str]]:
     """Yield the largest opening of every ideal joint and guide between rigid bodies, m."""
-    mechanism = mechanism_of(result.scene)
-    flexible = set(result.scene.bodies)
-    position = {name: result["body_position"][:, index] for index, name in enumerate(result.bodies)}
+    scene, mechanism = result.scene, mechanism_of(result.scene)
+    poses = result["body_position"]
+    still = np.zeros_like(poses[:, 0])
+    motions = {name: Motion(poses[:, i], still, still) for i, name in enumerate(result.bodies)}
 
-    def world(body: str, point: tuple[float, float]) -> Array:
-        if body == GROUND:
-            return np.array([point])
-        x, y, angle = position[body].T
-        return np.column_stack(
-            [
-                x + np.cos(angle) * point[0] - np.sin(angle) * point[1],
-                y + np.sin(angle) * point[0] + np.cos(angle) * point[1],
-            ]
-        )
+    def world(body: str, point: Point) -> Array:
+        return np.array([point]) if body == GROUND else motions[body].at(point).position[:, :2]
 
     for joint in mechanism.joints:
-        if joint.name in result.scene.joints.ideal and not flexible & {
-            joint.journal,
-            joint.bearing,
-        }:
+        rigid = not {joint.journal, joint.bearing} & set(scene.bodies)
+        if rigid and joint.name in scene.joints.ideal:
             journal, bearing = mechanism.ends(joint)
             gap = world(*journal) - world(*bearing)
             yield float(np.linalg.norm(gap, axis=1).max()), joint.name
@@ -183,17 +174,10 @@ def _energy_there(result: Result) -> Array:
 
     The kinetic energy of the start and the drive's work, less the potential energy.
     """
-    scene = result.scene
-    mechanism = mechanism_of(scene)
-    motion = mechanism.motion(np.array([scene.start_angle]), scene.angular_speed)
-    kinetic = sum(
-        0.5 * body.mass * float((motion[body.name].velocity[0, :2] ** 2).sum())
-        + 0.5 * body.inertia * float(motion[body.name].velocity[0, 2]) ** 2
-        for body in mechanism.bodies
-    )
-    mass = np.array([body.mass for body in mechanism.bodies])
-    height = scene.gravity * (result["body_position"][:, :, 1] @ mass)
-    return np.asarray(kinetic + result["energy_input"] - (height - height[0]))
+    mass = np.array([body.mass for body in mechanism_of(result.scene).bodies])
+    height = result.scene.gravity * (result["body_position"][:, :, 1] @ mass)
+    given = kinetic_energy(result.scene) + result["energy_input"]
+    return np.asarray(given - (height - height[0]))
 
 
 def _rounding(scene: Scene, name: str) -> float:

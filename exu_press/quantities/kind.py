@@ -13,6 +13,7 @@ __all__ = [
     "MOMENT",
     "MOTION",
     "RESULTANT",
+    "ROUNDING",
     "SHARE",
     "Kind",
 ]

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from exu_press.numerics.arrays import Array
+from exu_press.quantities.kind import ROUNDING
 from exu_press.result import Result
 from exu_press.scene import mechanism_of
-from exu_press.verification.estimate import ROUNDING, of_one
+from exu_press.verification.estimate import of_one
 from exu_press.verification.growth import Growth, growth
 
 __all__ = ["Divergence", "divergence"]

@@ -7,10 +7,10 @@ from itertools import combinations
 import numpy as np
 
 from exu_press.quantities import Extreme
+from exu_press.quantities.kind import ROUNDING
 from exu_press.result.info import Error
 
 __all__ = [
-    "ROUNDING",
     "SAFETY",
     "SAFETY_OF_STEPS",
     "converging",
@@ -34,9 +34,6 @@ nineteen in twenty further samples lie (drawn ones; tests/confidence/test_estima
 
 LITTLE = 0.05
 """Over the figure: within this a figure counts as determined, however chaotic the motion is."""
-
-ROUNDING = 1e-9
-"""Least relative error of a quantity: no two runs agree better."""
 
 
 def converging(

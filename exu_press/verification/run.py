@@ -2,7 +2,7 @@
 
 import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -153,7 +153,7 @@ def errors_of(
     safety = SAFETY if solver is not None and solver.step is None else SAFETY_OF_STEPS
     before = by_end[horizon]
     errors: dict[str, Error] = {}
-    sizes = _Sizes.of(by_end[end][1.0], told)
+    sizes = _sizes(by_end[end][1.0], told)
     for name, value in by_end[end][1.0].items():
         left_open = max(part * abs(value - changed[name]) for part, changed in reads)
         quantity = told[name].quantity
@@ -235,31 +235,23 @@ def _is_of_both(
     )
 
 
-@dataclass(frozen=True)
-class _Sizes:
-    """The largest force, N, and the largest energy, J, of a run."""
-
-    force: float
-    energy: float
-
-    @staticmethod
-    def of(values: Mapping[str, float], told: Mapping[str, Placed]) -> "_Sizes":
-        """Return those among its quantities."""
-        found = {"N": 0.0, "J": 0.0}
-        for name, value in values.items():
-            unit = told[name].quantity.unit
-            if unit in found and told[name].quantity.kind is not RESULTANT:
-                found[unit] = max(found[unit], abs(value))
-        return _Sizes(found["N"], found["J"])
+def _sizes(values: Mapping[str, float], told: Mapping[str, Placed]) -> dict[str, float]:
+    """Return the largest force, N, and the largest energy, J, of a run, by their units."""
+    found = {"N": 0.0, "J": 0.0}
+    for name, value in values.items():
+        unit = told[name].quantity.unit
+        if unit in found and told[name].quantity.kind is not RESULTANT:
+            found[unit] = max(found[unit], abs(value))
+    return found
 
 
-def _least(quantity: Quantity, values: Sequence[float], run: _Sizes) -> float:
+def _least(quantity: Quantity, values: Sequence[float], sizes: Mapping[str, float]) -> float:
     """Return the least error of a quantity, in its unit.
 
     Args:
         quantity: as it is declared.
         values: of it, in all runs; the run's own first.
-        run: its largest force and energy.
+        sizes: the largest force and energy of the run, by their units.
     """
     if not any(values):
         return 0.0
@@ -268,5 +260,5 @@ def _least(quantity: Quantity, values: Sequence[float], run: _Sizes) -> float:
     if kind.from_accelerations and max(values) - min(values) <= kind.relative * size:
         relative = OF_THE_START
     return max(
-        relative * size, kind.absolute, kind.of_forces * run.force, kind.of_energies * run.energy
+        relative * size, kind.absolute, kind.of_forces * sizes["N"], kind.of_energies * sizes["J"]
     )

@@ -304,6 +304,7 @@ class Monitor:
                 self.resolution.stepped(end, step, self._accelerations.tolist())
         self.stalled = self._watch(end)
         step = self.control.next_step(end)
+        self._output.next_step(end + step)
         if step != self._iteration.currentStepSize:  # to set it takes longer than to ask for it
             self._iteration.currentStepSize = step
         if self._users[3] and not self._users[3](mbs, end):

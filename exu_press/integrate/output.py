@@ -1,5 +1,6 @@
 """Rows of sensors and of the solution file at equal distances in time, whatever the steps are."""
 
+import math
 from typing import Any
 
 import numpy as np
@@ -69,6 +70,7 @@ class OutputGrid:
         self._filled = [i for i, parts in enumerate(self._state) if len(parts[0])]
         self._periods: list[float] = []
         self._numbers: list[int] = []  # of the next multiple of each
+        self._next = math.inf  # of these, the first instant, s
         self._settings: Any = None
         self.writing = False
 
@@ -84,17 +86,22 @@ class OutputGrid:
         self._periods = [period for period in periods if period > least and self._active]
         self._numbers = [1 for _ in self._periods]
         if self._periods:
+            self._next = self._task.start + min(self._periods)
             self._ends = [np.tile(np.array(parts), (2, 1)) for parts in self._state]
 
     def stepped(self, begin: float, end: float) -> None:
         """Write the rows within an accepted step, s, that ends in the current state."""
-        if not self._periods:
+        if end <= self._next - AT_ONCE:
             return
         times = self._times(end)
         if times:
             self._fill(at_end=True)
             self._write(times, begin, end)
-        self._fill(at_end=False)
+
+    def next_step(self, end: float) -> None:
+        """Be told of the latest end, s, of the step that begins in the current state."""
+        if end > self._next - AT_ONCE:
+            self._fill(at_end=False)
 
     def _write(self, times: list[float], begin: float, end: float) -> None:
         """Write rows at some instants within a step, s."""
@@ -134,6 +141,7 @@ class OutputGrid:
                     found.append(time)
                 self._numbers[i] += 1
                 time = self._task.start + self._numbers[i] * period
+            self._next = time if i == 0 else min(self._next, time)
         return sorted(set(found)) if len(self._periods) > 1 else found
 
     def _put(self, time: float, rows: list[Array], number: int) -> None:

@@ -13,6 +13,7 @@ import numpy as np
 
 from exu_press.integrate.settings import SAME, Task, inertia_factor
 from exu_press.numerics.arrays import Array
+from exu_press.numerics.floats import Floats
 
 __all__ = ["FEW", "FlexibleJacobian", "LastingJacobian", "Newton"]
 
@@ -29,7 +30,7 @@ LONGEST_PAUSE = 64
 """Steps without another try to keep a Jacobian."""
 
 FEW = 12
-"""Coordinates up to which floats are faster than NumPy's arrays."""
+"""Coordinates up to which NumPy's threads cost nothing."""
 
 REACH = 2.0
 """Over the last step, how far ahead its rate of change is believed by the predictor."""
@@ -68,30 +69,19 @@ class Newton:
         elif not task.every_jacobian:
             self._jacobian = LastingJacobian(task)
         current = problem.current
-        self._positions, self._velocities = current.positions, current.velocities
-        self._accelerations, self._multipliers = current.accelerations, current.multipliers
+        self._state, self._multipliers = current, current.multipliers
+        self._positions, self._velocities = Floats(current.positions), Floats(current.velocities)
+        self._accelerations = Floats(current.accelerations)
         self._multipliers_before = problem.start.multipliers
-        size = len(current.positions)
-        self._few = size if size <= FEW else 0
-        self._state: tuple[Any, Any, Any] = (
-            current.positions.data,
-            current.velocities.data,
-            current.accelerations.data,
-        )
-        self._expected, self._change = np.zeros(size), np.zeros(size)
-        self._floats: Any = self._expected.data  # to get or set one takes a third of the time
-        self._by = np.zeros(())  # arrays are multiplied by it in a third of a float's time
-        # where they begin among the coordinates, their reference values, their displacements
-        self._quaternions: list[tuple[int, list[float], Any]] = []
+        # where they begin among the coordinates, and their reference values
+        self._quaternions: list[tuple[int, list[float]]] = []
         for node in problem.nodes:
             if node.quaternion:
                 first = node.start + node.size - 4
-                four = slice(first, first + 4)
-                reference: list[float] = problem.reference[four].tolist()
-                self._quaternions.append((first, reference, current.positions[four]))
+                self._quaternions.append((first, problem.reference[first : first + 4].tolist()))
         self._ratio = self._beta = self._gamma = 0.0
-        self._now, self._rate = np.zeros(size), np.zeros(size)  # at the last step's end, over it
-        self._in_floats: tuple[Any, Any] = self._now.data, self._rate.data
+        self._now: list[float] = []  # accelerations at the last step's end
+        self._rate: list[float] = []  # of them, over that step
         self._last = 0.0  # size of the last step, s
         self._given = 0.0  # Newton's absolute tolerance of the settings, N
         self._accepted = 0.0  # now, N
@@ -104,26 +94,18 @@ class Newton:
         self._given = self._accepted = solver.newton.absoluteTolerance
         if self._smooth:
             self._part *= min(1.0, LIGHTER * self._scales.lightest())
-        self._now[:] = self._accelerations
+        self.start_again()
 
     def start_again(self) -> None:
-        """Extrapolate from the current accelerations alone, as they have jumped."""
-        self._now[:] = self._accelerations
-        self._rate.fill(0.0)
+        """Extrapolate from the current accelerations alone, as at a start or where they jumped."""
+        self._now = self._accelerations.get()
+        self._rate = [0.0 for _ in self._now]
 
     def stepped(self, step: float) -> None:
         """Be told that the current state is the end of an accepted step (s)."""
-        if self._few:
-            (now, rate), accelerations = self._in_floats, self._state[2]
-            for i in range(self._few):
-                value: float = accelerations[i]
-                rate[i], now[i] = (value - now[i]) / step, value
-            self._last = step
-            return
-        np.subtract(self._accelerations, self._now, self._rate)
-        self._by.fill(step)
-        np.divide(self._rate, self._by, self._rate)
-        self._last, self._now[:] = step, self._accelerations
+        before, now = self._now, self._accelerations.get()
+        self._rate = [(now[i] - before[i]) / step for i in range(len(now))]
+        self._last, self._now = step, now
 
     def before_residual(self, step: float, iteration: int) -> None:
         """Set the start of the iteration of a step (s), and its limits."""
@@ -144,7 +126,7 @@ class Newton:
         size, forces = self._residual()
         if not 0.0 < size < math.inf:
             return 0.0
-        state = self._positions, self._multipliers
+        state = self._state.positions, self._multipliers
         before = [np.array(part) for part in state]
         for part, whole in zip(state, (before[0] + self._reference, before[1]), strict=True):
             part[0::2] += self._rounding * whole[0::2]
@@ -166,55 +148,44 @@ class Newton:
     def _advance(self, step: float) -> None:
         """Add the expected accelerations to a state that was advanced without any.
 
-        As Newton's method adds an increment of them.
+        As Newton's method adds an increment of them. With floats, as to call NumPy for a few takes
+        longer than a step of Exudyn's.
         """
-        if self._few:
-            self._advance_few(step)
-            return
-        expected, change, by = self._expected, self._change, self._by
-        by.fill(min(step, REACH * self._last))
-        np.multiply(self._rate, by, expected)
-        expected += self._now
-        by_q = step * step * self._ratio * self._beta
-        self._put_on_the_sphere(by_q)
-        by.fill(by_q)
-        np.multiply(expected, by, change)
-        self._positions += change
-        by.fill(step * self._ratio * self._gamma)
-        np.multiply(expected, by, change)
-        self._velocities += change
-        self._accelerations[:] = expected
-        self._multipliers[:] = self._multipliers_before
-
-    def _advance_few(self, step: float) -> None:
-        """Do the same for few coordinates: floats take a part of what it takes to call NumPy."""
-        (now, rate), expected = self._in_floats, self._floats
-        ahead = min(step, REACH * self._last)
-        for i in range(self._few):
-            expected[i] = rate[i] * ahead + now[i]
+        now, rate, ahead = self._now, self._rate, min(step, REACH * self._last)
+        expected = [rate[i] * ahead + now[i] for i in range(len(now))]
         by_q, by_v = step * step * self._ratio * self._beta, step * self._ratio * self._gamma
-        self._put_on_the_sphere(by_q)
-        positions, velocities, accelerations = self._state
-        for i in range(self._few):
-            value: float = expected[i]
-            positions[i] += value * by_q
-            velocities[i] += value * by_v
-            accelerations[i] = value
+        positions, velocities = self._positions.get(), self._velocities.get()
+        self._put_on_the_sphere(expected, positions, by_q)
+        for i in range(len(expected)):
+            position, velocity, change = positions[i], velocities[i], expected[i]
+            positions[i] = position + by_q * change
+            velocities[i] = velocity + by_v * change
+        self._positions.set(positions)
+        self._velocities.set(velocities)
+        self._accelerations.set(expected)
         if len(self._multipliers):
             self._multipliers[:] = self._multipliers_before
 
-    def _put_on_the_sphere(self, by_q: float) -> None:
-        """Change expected accelerations to those with which Euler parameters have unit length."""
-        floats = self._floats
-        for first, reference, displacement in self._quaternions:
-            turned: list[float] = displacement.tolist()
+    def _put_on_the_sphere(
+        self, expected: list[float], positions: list[float], by_q: float
+    ) -> None:
+        """Change expected accelerations to those with which Euler parameters have unit length.
+
+        Args:
+            expected: accelerations, in SI.
+            positions: before they are added.
+            by_q: times accelerations, what is added to positions, s^2.
+        """
+        for first, reference in self._quaternions:
+            turned: list[float] = []
             square = 0.0
             for k in range(4):
-                turned[k] += reference[k] + by_q * floats[first + k]
-                square += turned[k] * turned[k]
+                value = positions[first + k] + (reference[k] + by_q * expected[first + k])
+                turned.append(value)
+                square += value * value
             longer = (1.0 / math.sqrt(square) - 1.0) / by_q
             for k in range(4):
-                floats[first + k] += longer * turned[k]
+                expected[first + k] += longer * turned[k]
 
     def _tolerance(self) -> float:
         """Return the limit of the residual in Newton's method, N."""

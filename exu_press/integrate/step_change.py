@@ -7,6 +7,7 @@ import numpy as np
 from exu_press.integrate.constraints import Constraints
 from exu_press.integrate.settings import SAME, Task, inertia_factor
 from exu_press.numerics.arrays import Array
+from exu_press.numerics.floats import Floats
 from exu_press.numerics.linear import Equations
 
 __all__ = ["StepChange"]
@@ -63,6 +64,10 @@ class StepChange:
         self._refit = task.tuning.refit
         self._solver, self._constraints = task.solver, constraints
         self._data, self._current, self._at_start = problem.data, problem.current, problem.start
+        self._now, self._before = (
+            (Floats(state.positions), Floats(state.velocities), Floats(state.accelerations))
+            for state in (self._current, self._at_start)
+        )
         self._start: float | None = None  # of the step under way, s
         self._last: float | None = None  # size of the last accepted step, s
         self._fits = self._leaves = 0.0  # the step that constrained velocities fit, now and next
@@ -123,11 +128,12 @@ class StepChange:
         if abs(ratio - 1.0) > SAME:
             part = step / self._fits
             if part < self._refit or self._seldom:
-                if self._offsets is None:
-                    self._offsets = self._violations()
-                q = q - self._offsets[0]
-                v = v - (1.0 - part * part) * self._offsets[1]
                 self._leaves = step
+                if self._constraints.count:
+                    if self._offsets is None:
+                        self._offsets = self._violations()
+                    q = q - self._offsets[0]
+                    v = v - (1.0 - part * part) * self._offsets[1]
         at_start = solver.GetStartOfStepStateAAlgorithmic()
         wanted = a + ratio * (at_start - a)
         if self._last is None and self._mean is not None:
@@ -139,13 +145,17 @@ class StepChange:
             v = v + (1.0 / 6.0 - solver.newmarkBeta - 0.5 * settled) * step * step * rate
         # q1 = q + h v + h^2 (1/2 - beta) a + h^2 beta a1 and v1 = v + h (1 - gamma) a + h gamma a1
         # with (1 - alpha_m) a1 + alpha_m a = (1 - alpha_f) a_true1 + alpha_f a_true
-        beta, gamma = solver.newmarkBeta, solver.newmarkGamma
-        current = self._current
-        for state, there in ((current, solver.GetAAlgorithmic()), (start, at_start)):
-            missing = wanted - there
-            state.positions[:] = q + step * step * (gamma - 0.5 - beta) * missing
-            state.velocities[:] = v + step * (1.0 - gamma) * missing
-            state.accelerations[:] = a - (solver.alphaM / solver.alphaF) * missing
+        gamma = solver.newmarkGamma
+        by_q = step * step * (gamma - 0.5 - solver.newmarkBeta)
+        by_v, by_a = step * (1.0 - gamma), -solver.alphaM / solver.alphaF
+        shifted = q.tolist(), v.tolist(), a.tolist()
+        for state, there in (
+            (self._now, wanted - solver.GetAAlgorithmic()),
+            (self._before, wanted - at_start),
+        ):
+            missing: list[float] = there.tolist()
+            for values, by, floats in zip(shifted, (by_q, by_v, by_a), state, strict=True):
+                floats.set([values[i] + by * missing[i] for i in range(len(missing))])
 
     def _violations(self) -> tuple[Array, Array]:
         """Return what of positions and velocities the constraints forbid, in Newton's norm.
@@ -157,8 +167,6 @@ class StepChange:
         a large one costs nothing: where masses alone resist more, they count.
         """
         size, count = len(self._current.positions), self._constraints.count
-        if count == 0:
-            return np.zeros(size), np.zeros(size)
         solver = self._solver
         jacobian = np.asarray(solver.GetSystemJacobian())
         directions, forces = jacobian[-count:, :size], jacobian[:size, :size]

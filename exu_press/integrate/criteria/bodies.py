@@ -18,6 +18,7 @@ class BodyError:
 
     Attributes:
         change: of the accelerations' rate, by the step last tried, in SI over seconds.
+        change_size: its largest kinetic norm, m/s^3.
         rate: of the accelerations' change, in the step last tried.
         noise: accelerations due to rounded positions, times the step's square, m.
         turning: angle by which velocities are to turn yet, rad: `Turning`.
@@ -52,31 +53,41 @@ class BodyError:
         self.change: list[float] = []
         self.turning = 0.0
         self.velocities: list[float] = []
-        self._quiet = Quiet(scales)
+        self.change_size = 0.0  # its kinetic norm
+        self._rate_size = -1.0  # that of the rate, once it was asked for
+        self._quiet = Quiet()
         self._share = math.inf  # of what errors can add up to, over what the run may have
 
     def tried(self, now: list[float], step: float) -> float:
         """Return the error of a step (s) that ends with these accelerations."""
-        self._now = now
+        self._now, self._rate_size = now, -1.0
         before, last = self._before, self._rate_before
         self.rate = rate = [(now[i] - before[i]) / step for i in range(len(now))]
         if last:
             self.change = [rate[i] - last[i] for i in range(len(rate))]
         else:
-            part = step * self._part_changed(rate)
+            part = step * self._part_changed()
             self.change = [part * value for value in rate]
+        self.change_size = self._scales.norm(self.change)
         if last and step < self._per_step.shortest:
             allowed = self._tolerance * self._scales.speed
             if allowed > 0.0:
-                self._share = self._quiet.amplitude(rate, self.change, step) / allowed
+                size = self._size_of_rate()
+                self._share = self._quiet.amplitude(size, self.change_size, step) / allowed
         return self.error(self.change, step)
 
-    def _part_changed(self, rate: list[float]) -> float:
+    def _size_of_rate(self) -> float:
+        """Return the largest kinetic norm of the accelerations' rate in the step last tried."""
+        if self._rate_size < 0.0:
+            self._rate_size = self._scales.norm(self.rate)
+        return self._rate_size
+
+    def _part_changed(self) -> float:
         """Return the rate of the accelerations, in the first step, over them: at most one a step.
 
         What it changes by within the step is not known yet: as much as the accelerations do.
         """
-        change, largest = self._scales.norm(rate), self.largest()
+        change, largest = self._size_of_rate(), self.largest()
         return change / largest if change > 0.0 else 0.0
 
     def error(self, change: list[float], step: float, left: float = 0.0) -> float:
@@ -89,7 +100,8 @@ class BodyError:
         """
         noise = max(self.noise, left)
         missed = self._constant * step * step
-        error = missed * self._scales.norm(change) / self._limit(step, noise, 1.0)
+        size = self.change_size if change is self.change else self._scales.norm(change)
+        error = missed * size / self._limit(step, noise, 1.0)
         if self.turning > 1.0:
             along = self._scales.along(change, self.velocities)
             error = max(error, missed * along / self._limit(step, noise, self.turning))
@@ -129,7 +141,7 @@ class BodyError:
         They follow from two positions: h^2 |rate of the acceleration| / 12, if that is more than
         what alternates because positions are rounded.
         """
-        off = step * step * self._scales.norm(self.rate) / 12.0
+        off = step * step * self._size_of_rate() / 12.0
         return off if off > self.noise / (6.0 * step) else 0.0
 
     @property

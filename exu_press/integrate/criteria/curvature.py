@@ -36,30 +36,28 @@ class Curvature:
         """
         self._bodies, self._scales, self._noise = bodies, scales, noise
         self._tolerance, self._absolute = tolerance, absolute
-        self._bend: list[float] = []  # second derivative of the accelerations
-        self._bend_before: list[float] = []
-        self._size = self._size_before = 0.0  # of the bend, its largest norm
-        self._common = self._common_before = 0.0  # of the bends of two steps, likewise
+        self._change_before: list[float] = []  # of the accelerations' rate
+        self._size = self._size_before = 0.0  # of their second derivative, its largest norm
+        self._common = self._common_before = 0.0  # of that of two steps, likewise
         self._step = self._step_before = 0.0
         self._most = bodies.size()  # so far, m/s^2
 
     def error(self, step: float) -> float:
         """Return it for the step (s) last tried."""
-        self._bend = bend = [value / step for value in self._bodies.change]
-        self._size, self._step = self._scales.norm(bend), step
+        change, before = self._bodies.change, self._change_before
+        self._size, self._step = self._bodies.change_size / step, step
         self._common = self._common_before
-        if self._bend_before and abs(step - self._step_before) < SAME * step:
-            mean = [0.5 * (a + b) for a, b in zip(bend, self._bend_before, strict=True)]
-            smaller = min(self._size, self._size_before)
-            self._common = min(self._scales.norm(mean), 3.0 * smaller)
+        if before and abs(step - self._step_before) < SAME * step:
+            both = self._scales.norm([change[i] + before[i] for i in range(len(change))])
+            self._common = min(0.5 * both / step, 3.0 * min(self._size, self._size_before))
         off = 0.125 * step * step * self._common
         allowed = max(self._tolerance * self._most, self._absolute / step)
         return off / max(allowed, self._noise / (step * step))
 
     def accept(self) -> None:
         """Remember the accepted step, before the bodies' errors do."""
-        if self._bend:  # they are asked for
+        if self._step > 0.0:  # they are asked for
             self._step_before, self._common_before = self._step, self._common
             self._size_before = self._size
-            self._bend_before = self._bend if self._bodies.begun else []
+            self._change_before = self._bodies.change if self._bodies.begun else []
             self._most = max(self._most, self._bodies.size())

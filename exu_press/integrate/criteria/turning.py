@@ -1,18 +1,14 @@
 """The turn of velocities to one side until the run ends, by which errors of speeds grow."""
 
 import math
-from typing import Any
-
-import numpy as np
 
 from exu_press.integrate.problem import Problem
 from exu_press.integrate.scales import FoundScales
-from exu_press.numerics.arrays import Array
 
 __all__ = ["Turning"]
 
 LOOK_EVERY = 8
-"""Steps after which turning velocities are looked at, as that takes half as long as a step."""
+"""Steps after which turning velocities are looked at; in fewer they turn by little."""
 
 
 class Turning:
@@ -49,52 +45,59 @@ class Turning:
         self._tolerance = tolerance
         self._state, self._scales = problem.current, scales
         self._duration, self._foreseen = duration, foreseen
-        points = [(i, node) for i, node in enumerate(problem.nodes) if node.displacements]
-        sizes = [node.size if node.quaternion else node.displacements for _, node in points]
-        count, most = len(points), max(sizes, default=0)
-        self._nodes = np.array([i for i, _ in points], dtype=int)
-        self._places = np.zeros((count, most), dtype=int)  # of coordinates
-        self._roots = np.zeros((count, most))  # of inertias
-        for i, (_, node) in enumerate(points):
-            places = range(node.start, node.start + sizes[i])
-            self._places[i, : sizes[i]] = places
-            self._roots[i, : sizes[i]] = [math.sqrt(scales.inertias[k]) for k in places]
-        self._turned = np.zeros((count, most, most))  # times squares of speeds
-        self._masses: list[float] = []
-        self._weights = self._roots  # of coordinates, with these masses
+        # of each point: its number among the nodes, and its coordinates
+        self._points: list[tuple[int, range]] = []
+        self._roots = [math.sqrt(inertia) for inertia in scales.inertias]
+        # of each pair of a point's coordinates: the angle so far, times squares of speeds
+        self._turned: list[list[float]] = []
+        for i, node in enumerate(problem.nodes):
+            if node.displacements:
+                size = node.size if node.quaternion else node.displacements
+                self._points.append((i, range(node.start, node.start + size)))
+                self._turned.append([0.0] * (size * (size - 1) // 2))
         self._squares = 0.0  # of speeds, over time
         self._time = self._looked = 0.0
         self._steps = 0
         self._angle = 0.0
 
-    def _largest(self, values: Array, axes: Any) -> float:
-        """Return the largest sum of squares over some axes; NumPy's methods take twice as long."""
-        return float(np.maximum.reduce(np.add.reduce(np.square(values), axes)))
-
     def stepped(self, step: float) -> float:
         """Return the angle still to come, rad, after an accepted step (s)."""
         self._time += step
         self._steps += 1
-        if len(self._nodes) and not self._steps % LOOK_EVERY:
+        if not self._steps % LOOK_EVERY:
             self._angle = self._look(self._time - self._looked)
             self._looked = self._time
         return self._angle
 
     def _look(self, span: float) -> float:
         """Return the angle still to come, rad, after a span of time (s) with these velocities."""
-        masses = self._scales.masses
-        if masses != self._masses:  # as where they are found from the motion
-            self._masses = list(masses)
-            mass = np.array(masses)[self._nodes]
-            self._weights = self._roots / np.sqrt(np.where(mass > 0.0, mass, math.inf))[:, None]
-        speeds = self._weights * self._state.velocities[self._places]
-        changes = self._weights * self._state.accelerations[self._places]
-        least = self._tolerance * self._scales.speed
-        self._squares += span * max(self._largest(speeds, 1), least * least)
+        velocities: list[float] = self._state.velocities.tolist()
+        accelerations: list[float] = self._state.accelerations.tolist()
+        masses, roots = self._scales.masses, self._roots
+        fastest = self._tolerance * self._scales.speed
+        fastest *= fastest
+        turned = 0.0
+        for number in range(len(self._points)):
+            node, places = self._points[number]
+            mass = masses[node]
+            if not 0.0 < mass < math.inf:
+                continue
+            speeds = [roots[i] * velocities[i] for i in places]
+            changes = [roots[i] * accelerations[i] for i in places]
+            angles, part = self._turned[number], span / mass
+            size = len(speeds)
+            square = angle = 0.0
+            pair = 0
+            for j in range(size):
+                square += speeds[j] * speeds[j]
+                for k in range(j + 1, size):
+                    found = angles[pair] + part * (speeds[j] * changes[k] - speeds[k] * changes[j])
+                    angles[pair] = found
+                    angle += found * found
+                    pair += 1
+            fastest, turned = max(fastest, square / mass), max(turned, angle)
+        self._squares += span * fastest
         if self._squares == 0.0:
             return 0.0
-        products = span * speeds[:, :, None] * changes[:, None, :]
-        self._turned += products - products.transpose(0, 2, 1)
-        turned = math.sqrt(0.5 * self._largest(self._turned, (1, 2)))
         rest = min(self._duration - self._time, self._foreseen * self._time)
-        return max(0.0, rest) * turned / self._squares
+        return max(0.0, rest) * math.sqrt(turned) / self._squares

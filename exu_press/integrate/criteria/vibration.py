@@ -2,8 +2,6 @@
 
 import math
 
-from exu_press.integrate.scales import FoundScales
-
 __all__ = ["Quiet"]
 
 LATE = 0.99
@@ -25,28 +23,27 @@ class Quiet:
     be taken for as quiet.
     """
 
-    def __init__(self, scales: FoundScales) -> None:
-        """Take the scales of the motion."""
-        self._scales = scales
+    def __init__(self) -> None:
+        """Know nothing yet."""
         self._before = 0.0  # step, s
         self._rate = self._bend = 0.0
         self._tried = 0.0, 0.0, 0.0  # step, rate and bend
         self._spoilt = 0  # number of steps to come that have a jump in them
 
-    def amplitude(self, rate: list[float], change: list[float], step: float) -> float:
+    def amplitude(self, rate: float, change: float, step: float) -> float:
         """Return it, or infinity where it is not known yet.
 
         Args:
-            rate: of the accelerations within a step, in SI over seconds.
-            change: of this rate from the step before.
+            rate: of the accelerations within a step, kinetic norm, m/s^3.
+            change: of this rate from the step before, likewise.
             step: s.
         """
         if self._spoilt:
             self._tried = step, 0.0, 0.0
             return math.inf
         centred = 0.5 * (step + (self._before or step))  # between the middles of two steps
-        jerk = max(self._scales.norm(rate), LATE * self._rate)
-        bend = max(self._scales.norm(change) / centred, LATE * self._bend)
+        jerk = max(rate, LATE * self._rate)
+        bend = max(change / centred, LATE * self._bend)
         self._tried = step, jerk, bend
         square = bend * bend
         if square == 0.0:

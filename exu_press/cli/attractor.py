@@ -59,7 +59,7 @@ def execute(options: argparse.Namespace) -> int:
         if name in ITS_OWN:
             raise InputError(f"--set {name}: a long run has its own; allowed is {ITS_OWN[name]} N")
     scene = scene_of(options)
-    directory = output_directory(directory_of(options))
+    directory = output_directory(directory_of(options, options.scene))
     found = attractor(
         scene,
         revolutions=options.revolutions,

@@ -27,7 +27,6 @@ __all__ = [
     "scene_path",
     "shipped_names",
     "show_warnings",
-    "study_directory",
 ]
 
 MOST_WARNINGS = 5
@@ -103,19 +102,14 @@ def check_format(options: argparse.Namespace) -> None:
         raise InputError(f"--format {options.format}: allowed are {', '.join(FORMATS)}")
 
 
-def study_directory(options: argparse.Namespace) -> Path:
-    """Return the directory that is asked for; it need not exist."""
-    return Path(options.out or Path("out") / Path(options.study).stem)
-
-
 def scene_of(options: argparse.Namespace) -> Scene:
     """Return the scene that is asked for, with its changes."""
     return Scene.load(scene_path(options.scene), options.set)
 
 
-def directory_of(options: argparse.Namespace) -> Path:
-    """Return the directory that is asked for; it need not exist."""
-    return Path(options.out or Path("out") / Path(options.scene).stem)
+def directory_of(options: argparse.Namespace, given: str) -> Path:
+    """Return the directory that is asked for, else that of a file; it need not exist."""
+    return Path(options.out or Path("out") / Path(given).stem)
 
 
 def show_warnings(found: Iterable[str]) -> None:

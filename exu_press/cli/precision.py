@@ -30,7 +30,7 @@ def execute(options: argparse.Namespace) -> int:
     from exu_press.studies.precision import case_of, precision
 
     case = case_of(Path(options.scene).stem, scene_of(options))
-    directory = output_directory(directory_of(options))
+    directory = output_directory(directory_of(options, options.scene))
     report = precision((case,), quick=options.quick, quiet=options.quiet)
     tell(report, directory, options)
     return 0

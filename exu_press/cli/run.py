@@ -88,7 +88,7 @@ def execute(options: argparse.Namespace) -> int:
     scene, start = scene_of(options), _start_of(options)
     if options.figure is not None and options.within is None:
         raise InputError(f"--figure {options.figure}: only together with --within")
-    directory = output_directory(directory_of(options))
+    directory = output_directory(directory_of(options, options.scene))
     found: list[str] = []
     unfinished = unfinished_of(directory / RESULT)
     if options.within is not None:

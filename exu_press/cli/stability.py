@@ -35,7 +35,7 @@ def execute(options: argparse.Namespace) -> int:
     from exu_press.studies.stability import extremes
 
     table = extremes(scene_of(options), Path(options.scene).stem)
-    return run(table, "--key", options.key, directory_of(options), options)
+    return run(table, "--key", options.key, directory_of(options, options.scene), options)
 
 
 def run(

@@ -11,8 +11,8 @@ from exu_press.cli.options import (
     add_format_argument,
     add_study_arguments,
     check_format,
+    directory_of,
     show_warnings,
-    study_directory,
 )
 from exu_press.files.output_directory import remove_pictures
 from exu_press.scene import Scene
@@ -63,7 +63,7 @@ def study_command(
     def execute(options: argparse.Namespace) -> int:
         """Run the study; return 0, or 3 after Ctrl-C or where it did not come to its end."""
         check_format(options)
-        directory = study_directory(options)
+        directory = directory_of(options, options.study)
         try:
             return _execute(options, directory)
         except KeyboardInterrupt:

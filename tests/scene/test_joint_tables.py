@@ -1,6 +1,7 @@
 """[joints.NAME]: every joint of the mechanism, by its name or its group's."""
 
 import pytest
+from refused import refused
 
 from exu_press import InputError, Scene
 from exu_press.scene import DryJoint, Film, IdealJoint, LubricatedJoint, mechanism_of
@@ -8,13 +9,6 @@ from exu_press.scene import DryJoint, Film, IdealJoint, LubricatedJoint, mechani
 
 def press(**joints):
     return Scene(joints=joints)
-
-
-def refusal(**joints):
-    with pytest.raises(InputError) as caught:
-        press(**joints)
-    assert "\n" not in str(caught.value)
-    return str(caught.value)
 
 
 def test_a_joint_that_is_not_named_is_ideal():
@@ -158,7 +152,7 @@ def test_contact_and_friction_of_a_film_only_where_it_is_mixed():
     ids=str,
 )
 def test_what_is_refused_is_named(joints, message):
-    assert refusal(**joints).startswith(message)
+    assert refused(press, **joints).startswith(message)
 
 
 def test_a_joint_in_two_groups_is_refused():

@@ -4,6 +4,7 @@ import json
 import math
 
 import pytest
+from refused import refused
 
 from exu_press import InputError, Scene
 from exu_press.scene import BlankingLoad, TableLoad, mechanism_of
@@ -16,12 +17,7 @@ HEIGHT = {"kind": "table", "height": [0.0, 0.02], "force": [2e5, 0.0]}
 
 
 def refusal(load, **scene):
-    """Return the message with which a scene is refused."""
-    with pytest.raises(InputError) as caught:
-        Scene.from_dict({"load": load, **scene})
-    message = str(caught.value)
-    assert "\n" not in message, "one line"
-    return message
+    return refused(Scene.from_dict, {"load": load, **scene})
 
 
 def test_any_number_of_loads_by_name():

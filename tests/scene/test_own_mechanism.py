@@ -1,9 +1,11 @@
 """A scene of one's own mechanism: by path, by data, as an object; saved, changed and read back."""
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
+from refused import refused
 
 from exu_press import InputError, Result, Scene, simulate
 from exu_press.mechanism import Guide, mechanism_lines, shipped_mechanism
@@ -72,11 +74,7 @@ def test_a_mechanism_of_its_own_may_have_a_shipped_ones_name():
     assert not Scene(mechanism=own).joints.with_clearance
 
 
-def refusal(**scene):
-    with pytest.raises(InputError) as caught:
-        Scene(**scene)
-    assert "\n" not in str(caught.value)
-    return str(caught.value)
+refusal = partial(refused, Scene)
 
 
 def test_a_file_that_is_not_there(tmp_path):

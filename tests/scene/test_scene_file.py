@@ -1,8 +1,10 @@
 """A scene file: what is read, what is refused, and that the message names the file."""
 
+from functools import partial
 from pathlib import Path
 
 import pytest
+from refused import refused
 
 import exu_press
 from exu_press import InputError, Scene
@@ -17,12 +19,7 @@ def write(directory, text):
     return path
 
 
-def refusal(path, assignments=()):
-    with pytest.raises(InputError) as caught:
-        Scene.load(path, assignments)
-    message = str(caught.value)
-    assert "\n" not in message
-    return message
+refusal = partial(refused, Scene.load)
 
 
 def test_file_with_tables(tmp_path):

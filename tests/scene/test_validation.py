@@ -1,10 +1,12 @@
 """Validation: what a scene allows, what it refuses and what it says; what it fills in."""
 
 import math
+from functools import partial
 
 import pytest
+from refused import refused
 
-from exu_press import InputError, Scene
+from exu_press import Scene
 from exu_press.scene import DryJoint, Film, LubricatedJoint, Solver
 
 PRESS = {"mechanism": "press"}
@@ -35,13 +37,7 @@ def with_key(base, key, value):
     return {**base, table: {inner: value}} if table else {**base, key: value}
 
 
-def refusal(data):
-    """Return the message with which a scene is refused."""
-    with pytest.raises(InputError) as caught:
-        Scene.from_dict(data)
-    message = str(caught.value)
-    assert "\n" not in message, "one line"
-    return message
+refusal = partial(refused, Scene.from_dict)
 
 
 @pytest.mark.parametrize(

@@ -46,6 +46,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def execute(options: argparse.Namespace) -> int:
     """Run every scene, read every result; return 0, or 3 if a run stopped early."""
     compared = _compared(options.given, options.set)
+    stored = {label: one for label, one in compared.items() if isinstance(one, Result)}
+    if stored and not options.no_pictures:
+        from exu_press.plots.save import comparison_figures
+
+        comparison_figures(stored)  # they are refused here, where their files keep too little
     default = Path("out") / (Path(options.given[0]).stem if len(options.given) == 1 else "compare")
     directory = output_directory(options.out or default)
     results: dict[str, Result] = {}

@@ -92,6 +92,8 @@ class FoundScales:
         positions = (problem.current.positions + problem.reference).tolist()
         known = max(self.length, self.norm(positions))
         self.length = known or 1.0  # where all is zero
+        if known and True not in self._own:
+            self.rest = self._stir * known / self._first
         given = self._given.speed, self._given.force
         self.fixed = True not in self._own and None not in given
         if self.fixed:
@@ -105,11 +107,9 @@ class FoundScales:
         self.update(velocities, accelerations)
         if not known and self.speed > 0.0:  # as far as it gets in ten runs of a hundred steps
             self.length = min(1.0, 1e3 * self.speed * self._longest)
-        if known and not any(self._own) and self._given.speed is None:
-            self.rest = self._stir * known / self._first
-            if self._given.force is None:
-                weighed = math.hypot(*(mass for mass in masses if mass < math.inf))
-                self.force = max(self.force, weighed * self._stir * known / self._longest**2)
+        if self.rest and given == (None, None):
+            weighed = math.hypot(*(mass for mass in masses if mass < math.inf))
+            self.force = max(self.force, weighed * self._stir * known / self._longest**2)
 
     def lightest(self) -> float:
         """Return how much less a force moves the lightest coordinate as much as the heaviest.

@@ -170,7 +170,7 @@ class Resolution:
 
     Loads and prescribed motions of other systems may jump themselves, and steps end on that within
     what the tolerance leaves: a jump that changes no speed by a tenth of it is none of the step's.
-    In an equilibrium rounded forces come and go, and move nothing.
+    In an equilibrium, and in a press that stands, rounded forces come and go, and move nothing.
     """
 
     def __init__(self, task: Task) -> None:
@@ -216,7 +216,8 @@ class Resolution:
     def worst(self) -> Unresolved | None:
         """Return the step with the largest change of an inertia force, if it is too large."""
         speed = self._scales.speed
-        least = self._least * speed if speed > self._scales.rest else math.inf
+        rest = self._scales.rest
+        least = max(self._least * speed, rest) if speed > rest else math.inf
         felt = [found for found in self._jumps if found[-1] > least]
         if self._steps < 2 or not felt:
             return None

@@ -3,6 +3,8 @@
 from collections.abc import Mapping
 from pathlib import Path
 
+from matplotlib.figure import Figure
+
 from exu_press.plots.energy import energy_figure
 from exu_press.plots.file import save_figures
 from exu_press.plots.force import force_figure
@@ -12,7 +14,7 @@ from exu_press.plots.slider import slider_figure
 from exu_press.quantities.energy import has_balance
 from exu_press.result import Result
 
-__all__ = ["save_comparison", "save_pictures"]
+__all__ = ["comparison_figures", "save_comparison", "save_pictures"]
 
 
 def save_pictures(result: Result, directory: str | Path) -> list[Path]:
@@ -35,11 +37,19 @@ def save_pictures(result: Result, directory: str | Path) -> list[Path]:
     return save_figures(figures, directory)
 
 
+def comparison_figures(results: Mapping[str, Result]) -> dict[str, Figure]:
+    """Return the pictures of runs by label over each other, by their names.
+
+    Raises:
+        InputError: the file of a run does not keep the channels that they show.
+    """
+    return {"compare_slider": slider_figure(results), "compare_force": force_figure(results)}
+
+
 def save_comparison(results: Mapping[str, Result], directory: str | Path) -> list[Path]:
     """Draw runs by label over each other; return compare_slider.png and compare_force.png.
 
     Raises:
         InputError: a file cannot be written.
     """
-    figures = {"compare_slider": slider_figure(results), "compare_force": force_figure(results)}
-    return save_figures(figures, directory)
+    return save_figures(comparison_figures(results), directory)

@@ -76,7 +76,12 @@ class Reading:
         """Return the first and the last revolution that are read."""
         first, *_, last = self["crank_angle"] if len(self.time) > 1 else [0.0, 0.0]
         begin = self.run.scene.start_angle
-        return float(first - begin) / (2 * np.pi), float(last - begin) / (2 * np.pi)
+        return self._turns(first - begin), self._turns(last - begin)
+
+    @staticmethod
+    def _turns(angle: float) -> float:
+        """Return the revolutions of an angle, rad, without the rounding of its sums."""
+        return round(float(angle) / (2 * np.pi), 12) + 0.0
 
     @cached_property
     def dead_centres(self) -> list[DeadCentre]:

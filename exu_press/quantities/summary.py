@@ -14,12 +14,16 @@ from exu_press.quantities.oil import oil_warnings
 from exu_press.quantities.reading import Reading
 from exu_press.quantities.start_stop import still_turns
 from exu_press.quantities.value import values_of
-from exu_press.result import Result
-from exu_press.scene import Scene, mechanism_of
+from exu_press.result import JointRecord, Result
+from exu_press.scene import DryJoint, LubricatedJoint, Scene, mechanism_of
 from exu_press.scene.assumptions import assumed
+from exu_press.scene.joint import Joint
 from exu_press.scene.warnings import scene_warnings
 
 __all__ = ["run_warnings", "summary"]
+
+DEEP = 0.01
+"""Penetration over radius: strains are about as large, and metals yield below that."""
 
 RESIDUAL = 0.01
 """Residual over the energy exchanged, beyond which the balance casts doubt on the integration."""
@@ -97,6 +101,7 @@ def run_warnings(result: Result) -> list[str]:
                     f"{name.replace('_', ' ')}: eccentricity ratio up to {ratio:.3f}; film laws "
                     "for smooth surfaces are hardly valid there"
                 )
+        found += _deep(name, joint, scene.joints[name])
     if scene.drive is not None and scene.drive.stops and still_turns(Reading(result)):
         speed = float(result["crank_speed"][-1]) * 30.0 / math.pi
         found.append(
@@ -110,6 +115,19 @@ def run_warnings(result: Result) -> list[str]:
         *_solids(result),
         *scene_warnings(scene),
     ]
+
+
+def _deep(name: str, joint: JointRecord, given: Joint) -> Iterator[str]:
+    """Yield a contact that is pressed in too deep for its law."""
+    if not isinstance(given, DryJoint | LubricatedJoint) or given.contact is None:
+        return
+    depth = -float(joint.gap.min())
+    if depth > DEEP * given.radius:
+        yield (
+            f"{name.replace('_', ' ')}: pressed in by up to {1e3 * depth:.3g} mm, "
+            f"{100.0 * depth / given.radius:.3g} % of its radius; contact laws are those of small "
+            "deformations: are the modulus or the stiffness of [contact], and the loads, meant so?"
+        )
 
 
 def _held_twice(scene: Scene) -> Iterator[str]:

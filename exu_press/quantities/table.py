@@ -69,7 +69,7 @@ def run_lines(result: Result) -> list[str]:
 def _span(result: Result) -> str:
     begin, end = Reading(result).span
     start = "" if begin > 1e-3 else ", with the start"
-    return f"{round(begin, 9) + 0.0:.3g} to {end:.3g}{start}"
+    return f"{begin:.3g} to {end:.3g}{start}"
 
 
 def _head(quantity: Quantity, unit: str) -> str:

@@ -1,5 +1,6 @@
 """A joint kind of the user's own: its keys, and the interface laws that act in it."""
 
+import traceback
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -39,6 +40,20 @@ class OwnJoint(Table, ABC):
         """Return the interface laws that act in parallel; the first has the joint's clearance."""
 
 
+def _said(error: Exception) -> str:
+    """Return an error of an import in words, with file and line of the user's module."""
+    kind = "" if isinstance(error, ImportError | AttributeError) else f"{type(error).__name__}: "
+    own = [
+        frame
+        for frame in traceback.extract_tb(error.__traceback__)
+        if frame.filename != __file__ and not frame.filename.startswith("<")
+    ]
+    at = f"{own[-1].filename}, line {own[-1].lineno}: " if own else ""
+    if isinstance(error, SyntaxError):
+        at, error = f"{error.filename}, line {error.lineno}: ", SyntaxError(error.msg)
+    return f"{at}{kind}{error}"
+
+
 def own_kind(name: object) -> type[OwnJoint] | None:
     """Return the class that "module:class" names; None for a text that is no such name.
 
@@ -50,10 +65,10 @@ def own_kind(name: object) -> type[OwnJoint] | None:
     module, _, inside = name.partition(":")
     try:
         found = getattr(import_module(module), inside)
-    except (ImportError, AttributeError, ValueError) as error:
+    except Exception as error:  # a module of the user's own may raise anything
         raise InputError(
-            f"kind = {name!r}: {error}; allowed is a module that Python finds (PYTHONPATH names "
-            "further folders) and one of its classes"
+            f"kind = {name!r}: {_said(error)}; allowed is a module that Python finds (PYTHONPATH "
+            "names further folders) and one of its classes"
         ) from None
     if not (isinstance(found, type) and issubclass(found, OwnJoint)):
         raise InputError(f"kind = {name!r}: allowed is a dataclass derived from OwnJoint")

@@ -57,6 +57,18 @@ def test_pictures_of_two_mechanisms(mine, tmp_path):
         assert (tmp_path / name).stat().st_size > 10_000
 
 
+def test_a_result_without_the_channels_of_pictures_is_refused_before_runs(mine, tmp_path, capsys):
+    kept = tmp_path / "kept"
+    assert main(["run", str(mine), *QUICK, "--set", "output.channels=[]", "--out", str(kept)]) == 0
+    capsys.readouterr()
+    asked = ["compare", str(kept), str(mine), "--no-error", "--out", str(tmp_path / "out")]
+    assert main(asked) == 2
+    said = capsys.readouterr().err
+    assert "channel 'slider_position': was not kept" in said
+    assert "mine ..." not in said
+    assert main([*asked, "--no-pictures"]) == 0, "the table needs none"
+
+
 def test_wrong_input_is_refused_before_anything_is_run(mine, tmp_path, capsys):
     out = tmp_path / "out"
     result = tmp_path / "one"

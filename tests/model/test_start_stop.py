@@ -37,6 +37,28 @@ def rotors(**changes):
     )
 
 
+def test_a_press_that_stands_is_resolved():
+    """Its inertia forces are rounding: they jump from step to step, and move nothing."""
+    standing = Scene(
+        mechanism="slider_crank",
+        joints={"crank_pin": {"kind": "dry", "clearance": 5e-5, "radius": 0.03}},
+        contact={"length": 0.05},
+        speed_rpm=60.0,
+        revolutions=0.05,
+        drive={
+            **{name: FREE[name] for name in ("rated_torque", "inertia", "begins", "brake_off")},
+            "clutch_torque": 200.0,
+            "clutch_on": [0.01, 0.02],
+            "brake_torque": 600.0,
+            "start_time": [0.05],
+        },
+    )
+    result = simulate(standing)
+    assert result.info["status"] == "completed", result.info["reason"]
+    assert abs(result["slider_velocity"]).max() < 1e-11
+    assert result.summary()["read_from"] == {"from": 0.0, "to": 0.0}
+
+
 def test_free_rotors_are_engaged_and_stopped_as_closed_forms_say():
     """J_r = J_1 J_2 / (J_1 + J_2): the clutch slips for J_r w / T and takes J_r w^2 / 2."""
     result = simulate(rotors())

@@ -45,3 +45,15 @@ def test_values_are_those_of_the_channels(run):
 def test_values_are_plain_numbers(run):
     for value in values_of(run).values():
         assert value.value is None or type(value.value) in (int, float), value
+
+
+@pytest.mark.parametrize("modulus", [1e7, 1e11])
+def test_a_joint_that_is_pressed_in_deep_is_warned_of(modulus):
+    """A modulus in MPa: the run goes on, with a journal that leaves its bearing."""
+    joints = {"crank_pin": "dry"}
+    scene = Scene(mechanism="slider_crank", joints=joints, contact={"modulus": modulus})
+    result = simulate(scene.replace({"revolutions": 0.1}))
+    deep = result.quantity("joints.crank_pin.peak_penetration").value / 0.07
+    said = [text for text in result.summary()["warnings"] if "pressed in by" in text]
+    assert (deep > 0.01) == (modulus < 1e9) == bool(said)
+    assert all(f"{100.0 * deep:.3g} % of its radius" in text for text in said)

@@ -52,6 +52,20 @@ def crank(**changes):
     return Scene(mechanism="slider_crank", joints={"crank_pin": {**KEYS, **changes}})
 
 
+@pytest.mark.parametrize(
+    ("lines", "told"),
+    [
+        ("a = 1\nb = (\n", r"broken.py, line 2: SyntaxError: '\(' was never closed; allowed"),
+        ("import no_such_package\n", "broken.py, line 1: No module named 'no_such_package'"),
+        ("def f():\n    return 1 / 0\nf()\n", "broken.py, line 2: ZeroDivisionError: division"),
+    ],
+)
+def test_a_module_that_does_not_load_is_named_with_its_line(lines, told, tmp_path):
+    (tmp_path / "broken.py").write_text(lines)
+    with pytest.raises(InputError, match=told):
+        crank(kind="broken:Bushing")
+
+
 def test_it_balances_energy_and_comes_near_the_ideal_joint_as_it_gets_stiff():
     ideal = simulate(Scene(mechanism="slider_crank", joints={})).quantity(
         "joints.crank_pin.peak_force"

@@ -16,11 +16,17 @@ HOSTILE = (
 )
 
 
-def test_hostile_texts_of_a_run_run_nothing(tmp_path, browser, monkeypatch):
+@pytest.fixture(scope="module")
+def result():
+    return simulate(Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=0.02))
+
+
+@pytest.fixture(autouse=True)
+def no_pictures(monkeypatch):
     monkeypatch.setattr("exu_press.report.run.save_pictures", lambda *_: [])
-    result = simulate(
-        Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=0.02)
-    )
+
+
+def test_hostile_texts_of_a_run_run_nothing(result, tmp_path, browser):
     channels = {
         name: replace(channel, unit=HOSTILE, long_name=HOSTILE)
         for name, channel in result.channels.items()
@@ -36,13 +42,13 @@ def test_hostile_texts_of_a_run_run_nothing(tmp_path, browser, monkeypatch):
         assert HOSTILE in page.inner_text("#panel-0 .values")
 
 
-def test_an_injected_script_would_not_run(report, tmp_path, browser):
+def test_an_injected_script_would_not_run(result, tmp_path, browser):
     """What the policy of the page keeps out, wherever it came from."""
-    page_file = tmp_path / "page.html"
-    text = report.read_text(encoding="utf-8")
+    page_file = page_of(result, tmp_path)
+    text = page_file.read_text(encoding="utf-8")
     page_file.write_text(text.replace("<h1>", "<script>window.hacked = 1</script><h1>", 1))
     with (
         pytest.raises(AssertionError, match="Content Security Policy"),
-        opened(browser, page_file) as page,
+        opened(browser, page_file, live=False) as page,
     ):
         assert page.evaluate("window.hacked") is None

@@ -15,7 +15,6 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.figure import Figure
-from scipy.integrate import solve_ivp
 
 from exu_press import Result, Scene, simulate
 from exu_press.plots.style import COLOURS, DPI, styled
@@ -48,35 +47,13 @@ TRUE = 1e-11
 Row = tuple[str, float, list[float], int, int, float]  # error by revolution, steps, evaluations, s
 
 
-def peaks(times: np.ndarray, accelerations: np.ndarray, period: float) -> list[float]:
-    """Return the peak in every revolution, m/s^2."""
-    revolution = np.minimum(times / period, REVOLUTIONS - 1e-9).astype(int)
-    return [float(np.abs(accelerations[revolution == n]).max()) for n in range(revolution[-1] + 1)]
-
-
 def independent(
     scene: Scene, pin: str, method: str, tolerance: float
 ) -> tuple[list[float], int, int]:
     """Return an independent run's peaks, steps and evaluations."""
-    period = 60.0 / scene.speed_rpm
     model = SymmetricPress(CASES[pin], Numbers(clearance=1e-4, speed=scene.angular_speed))
-    q, q_t = model.start()
-    scale = np.repeat([1.0, 10.0], len(q))
-    found = solve_ivp(
-        model.rate,
-        (0.0, REVOLUTIONS * period),
-        np.array([*q, *q_t]),
-        method=method,
-        first_step=1e-8,
-        max_step=2e-4,
-        rtol=tolerance,
-        atol=tolerance * 1e-3 * scale,
-    )
-    slider = [
-        model.loads(t, y[:3].tolist(), y[3:].tolist())[0][2]
-        for t, y in zip(found.t, found.y.T, strict=True)
-    ]
-    return peaks(found.t, np.array(slider), period), len(found.t) - 1, int(found.nfev)
+    found = model.solved(REVOLUTIONS * 60.0 / scene.speed_rpm, tolerance, method=method)
+    return model.peaks(found.t, found.y), len(found.t) - 1, int(found.nfev)
 
 
 def ours(scene: Scene, key: str, value: float) -> tuple[list[float], int, int]:

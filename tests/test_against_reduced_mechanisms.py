@@ -94,7 +94,8 @@ def test_eccentric_press_with_two_clearance_joints(crank_pin, wrist_pin, bound):
 def press(pin, clearance, rpm, revolutions, tolerance):
     """Instants and states of the reduced press, and the peaks of its first revolution."""
     model = SymmetricPress(pin, Numbers(clearance=clearance, speed=rpm * math.pi / 30.0))
-    times, states = model.steps(revolutions * 60.0 / rpm, tolerance)
+    found = model.solved(revolutions * 60.0 / rpm, tolerance)
+    times, states = found.t, found.y
     first = times <= 60.0 / rpm
     loads = [
         model.loads(t, state[:3].tolist(), state[3:].tolist())

@@ -52,14 +52,10 @@ class Reduced:
 
     def run(self, times, tolerance):
         """Return the states (2 n, times) from the ideal mechanism's start at t = 0."""
-        return self._solve(float(times[-1]), tolerance, times).y
+        return self.solved(float(times[-1]), tolerance, times).y
 
-    def steps(self, end, tolerance):
-        """Return the solver's own instants and states there, for peaks."""
-        solution = self._solve(end, tolerance, None)
-        return solution.t, solution.y
-
-    def _solve(self, end, tolerance, times):
+    def solved(self, end, tolerance, times=None, method="LSODA"):
+        """Return SciPy's solution at the solver's own instants, for peaks, or at those given."""
         q, q_t = self.start()
         start = np.array([*q, *q_t])
         scale = np.repeat([1.0, 10.0], len(q))
@@ -67,7 +63,7 @@ class Reduced:
             self.rate,
             (0.0, end),
             start,
-            method="LSODA",
+            method=method,
             t_eval=times,
             first_step=1e-8,
             max_step=2e-4,

@@ -9,6 +9,7 @@ from cmath import exp
 from dataclasses import dataclass
 from math import cos, pi, sin, sqrt
 
+import numpy as np
 from independent.clearance import Clearance, Reduced
 from independent.reduced_slider_crank import Numbers, ReducedSliderCrank
 
@@ -138,3 +139,15 @@ class SymmetricPress(Reduced):
             -2 * on_ball / SLIDER - n.gravity,
         )
         return accelerations, abs(force), abs(on_ball)
+
+    def peaks(self, times, states):
+        """Return the slider's peak acceleration in every revolution, m/s^2."""
+        accelerations = [
+            abs(self.loads(t, state[:3], state[3:])[0][2])
+            for t, state in zip(times, states.T.tolist(), strict=True)
+        ]
+        turns = self.numbers.speed * times / (2.0 * pi)
+        revolution = np.minimum(turns, turns[-1] - 1e-9).astype(int)
+        found = np.zeros(revolution[-1] + 1)
+        np.maximum.at(found, revolution, accelerations)
+        return found.tolist()

@@ -8,31 +8,19 @@ import argparse
 import math
 import random
 import statistics
+from functools import partial
 
 import numpy as np
 
 from exu_press.laws.film.ball import TABLE, ball
 from exu_press.laws.film.reynolds_sphere import facing_load
-from tabulate_finite_film import direction
+from tabulate_finite_film import dissipation_and_turn, save
 
 ANGLES = np.radians([45.0, 63.0, 81.0, 90.0])  # of a cap, from its middle to its edge
 DIRECTIONS = np.linspace(-0.5 * math.pi, 0.5 * math.pi, 49)  # opening, rotation, closing
 CENTRE = [0.0, 0.02, 0.05, 0.09, 0.14, 0.2, 0.28, 0.36, 0.45, 0.54, 0.62, 0.7, 0.77, 0.83]
 WALL = [0.88, 0.92, 0.945, 0.965, 0.978, 0.987, 0.9925, 0.996, 0.998, 0.999, 0.9995]
 ECCENTRICITIES = np.array([*CENTRE, *WALL])
-
-
-def dissipation_and_turn(eps, turn, half_angle):
-    """ln E and m of `tabulated` from one solution of Reynolds' equation."""
-    s = math.sqrt(1.0 - eps * eps)
-    v, u = direction(eps, turn)
-    if abs(turn) > 1.5707:
-        v, u = math.copysign(1.0, turn), 0.0
-    f_r, f_t = facing_load(eps, v, u, half_angle)
-    a, b = v, s * u
-    size = a * a + b * b
-    e = (f_t * u - f_r * v) / size
-    return math.log(e), -(f_r * b + f_t / s * a) / (e * size)
 
 
 def check(states=20):
@@ -69,13 +57,10 @@ def tabulate():
     for i, half_angle in enumerate(ANGLES):
         for j, eps in enumerate(ECCENTRICITIES):
             for k, turn in enumerate(DIRECTIONS):
-                table[:, i, j, k] = dissipation_and_turn(eps, turn, half_angle)
+                forces = partial(facing_load, eps, half_angle=half_angle)
+                table[:, i, j, k] = dissipation_and_turn(eps, turn, forces)
         print(f"{math.degrees(half_angle):.0f} deg", flush=True)
-    table[0, :, 0] = table[0, :, 0].mean(axis=-1, keepdims=True)  # isotropic at eps = 0
-    table[1, :, 0] = 0.0
-    table[1, :, :, [0, -1]] = 0.0  # pure squeeze pushes straight back
-    log_e, m = table.astype(np.float32)
-    np.savez_compressed(TABLE, angle=ANGLES, eps=ECCENTRICITIES, turn=DIRECTIONS, log_e=log_e, m=m)
+    save(TABLE, table, angle=ANGLES, eps=ECCENTRICITIES, turn=DIRECTIONS)
 
 
 if __name__ == "__main__":

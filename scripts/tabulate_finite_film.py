@@ -5,6 +5,7 @@ Run it with one BLAS thread: OMP_NUM_THREADS=1 python scripts/tabulate_finite_fi
 
 import argparse
 import math
+from functools import partial
 
 import numpy as np
 
@@ -22,6 +23,8 @@ SUPPLY_FADES = 0.03  # eps below which "the widest gap" loses its meaning, and w
 
 def direction(eps, turn):
     """eps_dot and eps_w / 2 of length one whose mean angle, plain and scaled, is turn."""
+    if abs(turn) > 1.5707:
+        return math.copysign(1.0, turn), 0.0
     s = math.sqrt(1.0 - eps * eps)
     low, high = -0.5 * math.pi, 0.5 * math.pi
     for _ in range(60):
@@ -33,18 +36,30 @@ def direction(eps, turn):
     return math.sin(phi), max(math.cos(phi), 0.0)
 
 
-def dissipation_and_turn(eps, turn, ratio, supplied):
-    """ln E and m of `finite` from one solution of Reynolds' equation."""
+def dissipation_and_turn(eps, turn, forces):
+    """ln E and m of `tabulated` from one solution of Reynolds' equation, forces(v, u)."""
     s = math.sqrt(1.0 - eps * eps)
     v, u = direction(eps, turn)
-    if abs(turn) > 1.5707:
-        v, u = math.copysign(1.0, turn), 0.0
-    supply = supply_line(v, 2.0 * u) if supplied else None
-    f_r, f_t = solve_reynolds(eps, v, 2.0 * u, ratio, supply)[:2]
+    f_r, f_t = forces(v, u)
     a, b = v, s * u
     size = a * a + b * b
     e = (f_t * u - f_r * v) / size
     return math.log(e), -(f_r * b + f_t / s * a) / (e * size)
+
+
+def loads(eps, ratio, supplied, v, u):
+    """Forces of a bearing, supplied where its gap is widest or not at all."""
+    supply = supply_line(v, 2.0 * u) if supplied else None
+    return solve_reynolds(eps, v, 2.0 * u, ratio, supply)[:2]
+
+
+def save(file, table, **axes):
+    """Write ln E and m over size, eccentricity and direction."""
+    table[0, :, 0] = table[0, :, 0].mean(axis=-1, keepdims=True)  # isotropic at eps = 0
+    table[1, :, 0] = 0.0
+    table[1, :, :, [0, -1]] = 0.0  # pure squeeze pushes straight back
+    log_e, m = table.astype(np.float32)
+    np.savez_compressed(file, **axes, log_e=log_e, m=m)
 
 
 def main():
@@ -55,18 +70,13 @@ def main():
         for j, eps in enumerate(ECCENTRICITIES):
             fade = math.exp(-((eps / SUPPLY_FADES) ** 2))
             for k, turn in enumerate(DIRECTIONS):
-                row = np.zeros(2)
-                if fade < 1.0:
-                    row += (1.0 - fade) * np.array(dissipation_and_turn(eps, turn, ratio, True))
-                if fade > 1e-6:
-                    row += fade * np.array(dissipation_and_turn(eps, turn, ratio, False))
-                table[:, i, j, k] = row
+                for part, supplied in ((1.0 - fade, True), (fade, False)):
+                    if part > 1e-6:
+                        forces = partial(loads, eps, ratio, supplied)
+                        found = dissipation_and_turn(eps, turn, forces)
+                        table[:, i, j, k] += part * np.array(found)
         print(f"L/D = {ratio:.3f}", flush=True)
-    table[0, :, 0] = table[0, :, 0].mean(axis=-1, keepdims=True)  # isotropic at eps = 0
-    table[1, :, 0] = 0.0
-    table[1, :, :, [0, -1]] = 0.0  # pure squeeze pushes straight back
-    log_e, m = table.astype(np.float32)
-    np.savez_compressed(TABLE, ratio=RATIOS, eps=ECCENTRICITIES, turn=DIRECTIONS, log_e=log_e, m=m)
+    save(TABLE, table, ratio=RATIOS, eps=ECCENTRICITIES, turn=DIRECTIONS)
 
 
 if __name__ == "__main__":

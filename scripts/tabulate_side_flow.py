@@ -25,8 +25,6 @@ ECCENTRICITIES = np.array([*CENTRE, *WALL])
 def share(eps, turn, ratio, supplied):
     """Side flow over that of a bearing without flow around it."""
     v, u = direction(eps, turn)
-    if abs(turn) > 1.5707:
-        v, u = math.copysign(1.0, turn), 0.0
     supply = supply_line(v, 2.0 * u) if supplied else None
     return solve_reynolds(eps, v, 2.0 * u, ratio, supply).side_flow / (2.0 * math.hypot(v, u))
 

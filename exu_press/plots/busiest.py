@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from exu_press.plots.peaks import with_error
+from exu_press.plots.typesetting import cut
 from exu_press.plots.words import joint_in_words
 from exu_press.quantities.catalogue import ECCENTRICITY_RATIO, JOINT_FORCE
 from exu_press.quantities.reading import Reading
@@ -20,6 +21,9 @@ LETTER = 0.61
 
 SMALLEST = 6.0
 """Points; a longer table goes beyond its panel."""
+
+TITLE = 30
+"""Letters of a joint's title that fit beside the legend or the note of its panel."""
 
 SIDES = ("left", "right")
 ALIKE = 1e-3
@@ -134,7 +138,7 @@ def joint_titles(
     """
     shown: dict[str, str] = {}
     for name in names:
-        channel, title = f"{name}_{quantity}", joint_in_words(name)
+        channel, title = f"{name}_{quantity}", cut(joint_in_words(name), TITLE)
         if mirror(channel) != channel and sides_alike(results, channel):
             if mirror(channel).removesuffix(f"_{quantity}") in shown:
                 continue

@@ -18,7 +18,7 @@ from exu_press.numerics.arrays import Array
 from exu_press.plots.headed import headed_figure
 from exu_press.plots.scales import spread
 from exu_press.plots.style import GREY, RUN, colour_of, styled
-from exu_press.plots.typesetting import plain
+from exu_press.plots.typesetting import cut, plain, wrapped
 
 __all__ = ["drawing_figure"]
 
@@ -30,6 +30,12 @@ LEAST_ANGLE = 40.0
 
 HIGHEST = 200.0
 """The mechanical advantage is drawn up to this multiple of its smallest value."""
+
+LETTERS = 36
+"""Of a name, in a line beside the drawing."""
+
+SHORT = 21
+"""Letters of a name in a legend beside a title, of which two stand in a row."""
 
 MOST_TRANSMISSIONS = 6
 """More joints than this are not told apart by colours; those with the smallest angles are drawn."""
@@ -151,11 +157,13 @@ def _column(
 ) -> None:
     """Write names in a column, spread over the height of the drawing."""
     low, high = axes.get_ylim()
-    heights = spread([float(at[1]) for at in named.values()], 0.033 * (high - low))
+    lines = {name: wrapped(name.replace("_", "_ "), LETTERS).replace("_ ", "_") for name in named}
+    most = max((text.count("\n") + 1 for text in lines.values()), default=1)
+    heights = spread([float(at[1]) for at in named.values()], 0.033 * most * (high - low))
     for (name, at), y in zip(named.items(), heights, strict=True):
         colour = WRONG if name in wrong else "black"
         axes.annotate(
-            plain(name),
+            lines[name],
             (float(at[0]), float(at[1])),
             (x, y),
             fontsize=8.5,
@@ -200,7 +208,7 @@ def _curves(panels: Sequence[Axes], examined: Examination, speed: float | None) 
     curves = alike(examined.transmission)
     for index, (name, values) in enumerate(curves[:MOST_TRANSMISSIONS]):
         degrees = np.degrees(values)
-        transmission.plot(angle, degrees, color=colour_of(index), label=plain(name))
+        transmission.plot(angle, degrees, color=colour_of(index), label=plain(cut(name, SHORT)))
     transmission.axhspan(0.0, LEAST_ANGLE, color=WRONG, alpha=0.06, linewidth=0)
     transmission.set(title="Transmission angle", ylabel="deg", ylim=(0.0, 92.0))
     transmission.set_yticks([0, 30, 60, 90])

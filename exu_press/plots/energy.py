@@ -11,6 +11,7 @@ from exu_press.plots.busiest import joint_titles
 from exu_press.plots.canvas import angle_axis, curve, legend_above, new_figure
 from exu_press.plots.scales import note
 from exu_press.plots.style import COLOURS, GREY, colour_of, styled
+from exu_press.plots.typesetting import cut
 from exu_press.quantities.energy import energy_residual
 from exu_press.result import Result
 
@@ -23,6 +24,9 @@ MOST_LOSSES = 6
 
 LEGEND_ROW = 0.11
 """Share of the panel's height that a row of its legend takes."""
+
+LEGEND_LETTERS = 26
+"""Of a name, of which two stand in a row."""
 
 BALANCE_LINES: dict[str, dict[str, Any]] = {
     "energy_input": {"label": "put in", "color": COLOURS["blue"]},
@@ -71,7 +75,7 @@ def _losses(axes: Axes, result: Result) -> None:
     rest = len(order) - len(drawn) - sides
     for index, (name, title) in enumerate(drawn.items()):
         lost = result[f"{name}_loss"]
-        words = title[0].lower() + title[1:]
+        words = cut(title[0].lower() + title[1:], LEGEND_LETTERS)
         curve(axes, result, lost, color=colour_of(index), linewidth=1.4, label=words)
     for style, (label, several) in zip(("-", (0, (5, 1.5))), together.items(), strict=True):
         if several:

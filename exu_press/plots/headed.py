@@ -1,11 +1,19 @@
 """A figure with a heading and a text below it."""
 
+import textwrap
+
 from matplotlib.figure import Figure
 from matplotlib.text import Annotation
 
 from exu_press.plots.typesetting import plain
 
 __all__ = ["headed_figure"]
+
+LETTERS = 13.5
+"""Of the text, in an inch."""
+
+NARROWEST = 7.5
+"""inch, in which a heading has room beside a legend."""
 
 
 def headed_figure(heading: str, text: str, size: tuple[float, float]) -> Figure:
@@ -14,10 +22,13 @@ def headed_figure(heading: str, text: str, size: tuple[float, float]) -> Figure:
     Args:
         heading: of the picture.
         text: below it, in lines.
-        size: width and height, inch.
+        size: width and height, inch; a figure of one narrow panel is as wide as its heading.
     """
-    figure = Figure(figsize=size, layout="constrained")
-    text = plain(f"\n{text}")  # an empty line, where the heading goes
+    width, height = size
+    figure = Figure(figsize=(max(width, NARROWEST), height), layout="constrained")
+    most = int(LETTERS * figure.get_figwidth())
+    lines = [piece for line in text.splitlines() for piece in textwrap.wrap(line, most)]
+    text = plain("\n".join(["", *lines]))  # an empty line, where the heading goes
     below = figure.suptitle(text, x=0.012, ha="left", fontsize=9.5, linespacing=1.45)
     figure.add_artist(
         Annotation(heading, (0, 1), xycoords=below, va="top", fontsize=13, fontweight="bold")

@@ -3,7 +3,7 @@
 import re
 import textwrap
 
-__all__ = ["plain", "typeset", "wrapped"]
+__all__ = ["cut", "plain", "typeset", "wrapped"]
 
 LETTERS = 44
 """In a line beside a panel."""
@@ -11,6 +11,15 @@ LETTERS = 44
 POWERS = str.maketrans("23", "\N{SUPERSCRIPT TWO}\N{SUPERSCRIPT THREE}")
 POWER = re.compile(r"(?<=\w)\^([23])(?!\w)")
 MICRO_UNIT = re.compile(r"(?<![\w./])u(?=(?:m|rad)(?![\w/]|\.\w))")
+
+
+def cut(words: str, letters: int) -> str:
+    """Return words that have at most so many letters, an ellipsis in place of the rest.
+
+    >>> cut("pivot of the upper link", 10), cut("pivot", 10)
+    ('pivot of…', 'pivot')
+    """
+    return words if len(words) <= letters else words[: letters - 1].rstrip(" ,") + "…"
 
 
 def plain(text: str) -> str:

@@ -9,7 +9,7 @@ from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.applied import applied_loads
 from exu_press.scene.tables import ElasticGuide
 
-__all__ = ["ONE_LINE", "cut", "describe", "early_stops", "joint_in_words"]
+__all__ = ["ONE_LINE", "describe", "early_stops", "joint_in_words"]
 
 ONE_LINE = math.inf
 """Width where words are wrapped by what shows them, as a page does."""
@@ -50,15 +50,6 @@ def early_stops(results: Mapping[str, Result], width: int = 130) -> str:
                 textwrap.shorten(f"{which}stopped early ({CROSS}): {why}", width, placeholder="...")
             )
     return "\n".join(lines)
-
-
-def cut(words: str, letters: int) -> str:
-    """Return words that have at most so many letters, an ellipsis in place of the rest.
-
-    >>> cut("pivot of the upper link", 10), cut("pivot", 10)
-    ('pivot of…', 'pivot')
-    """
-    return words if len(words) <= letters else words[: letters - 1].rstrip(" ,") + "…"
 
 
 def joint_in_words(name: str) -> str:

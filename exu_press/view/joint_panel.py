@@ -9,7 +9,7 @@ from matplotlib.patches import Circle, FancyArrowPatch
 
 from exu_press.numerics.arrays import Array
 from exu_press.plots.style import COLOURS, GREY, RUN
-from exu_press.plots.words import cut
+from exu_press.plots.typesetting import cut
 from exu_press.quantities.uncertain import significant
 from exu_press.result import Result
 from exu_press.scene import mechanism_of

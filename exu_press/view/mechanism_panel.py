@@ -13,7 +13,8 @@ from exu_press.mechanism.shapes import moved, shapes_of, swept_outlines
 from exu_press.numerics.arrays import Array
 from exu_press.plots.scales import spread
 from exu_press.plots.style import COLOURS, GREY
-from exu_press.plots.words import cut, joint_in_words
+from exu_press.plots.typesetting import cut
+from exu_press.plots.words import joint_in_words
 from exu_press.result import Result
 from exu_press.scene import mechanism_of
 from exu_press.view.instants import Instants

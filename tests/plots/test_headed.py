@@ -1,0 +1,14 @@
+"""A figure's heading and text."""
+
+from exu_press.plots.headed import headed_figure
+from exu_press.plots.style import look
+
+
+def test_heading_and_text_lie_within_a_narrow_figure():
+    with look():
+        figure = headed_figure("How well the measurement determines each key", "word " * 40, (3, 5))
+        figure.subplots()
+        figure.draw_without_rendering()
+    (heading,) = figure.artists
+    for text in (heading, figure._suptitle):
+        assert text.get_window_extent().x1 < figure.bbox.x1

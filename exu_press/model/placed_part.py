@@ -92,6 +92,11 @@ class PlacedPart:
         x, y = _turned(point, self.angle)
         return self.centre[0] + x, self.centre[1] + y
 
+    def point(self, place: Array) -> Point:
+        """Return a place of the solid's frame in the body's, m."""
+        x, y, _ = place
+        return _turned((x - self.centre[0], y - self.centre[1]), -self.angle)
+
     def frame(self, body: Motion) -> Motion:
         """Return the motion of the solid's frame from that of the body's."""
         x, y = _turned(self.centre, -self.angle)
@@ -107,8 +112,7 @@ class PlacedPart:
 
         It is zero where the mechanism has it.
         """
-        x, y = self.reduced.centre_of_mass[:2] - self.centre
-        return _turned((float(x), float(y)), -self.angle)
+        return self.point(self.reduced.centre_of_mass)
 
     @property
     def inertia(self) -> float:

@@ -1,7 +1,5 @@
 """The most stressed point of a flexible body, and the stress there over time."""
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -11,9 +9,6 @@ from exu_press.result.channel import Channel
 from exu_press.result.declared import channel
 from exu_press.result.flexible import modal
 from exu_press.result.info import Stress
-
-if TYPE_CHECKING:
-    from exu_press.model.placed_part import PlacedPart
 
 __all__ = ["record_stress"]
 
@@ -45,12 +40,13 @@ def record_stress(model: Model, time: Array) -> tuple[dict[str, Channel], dict[s
         node, instant = _worst(by_node, q)
         components = q @ by_node[node].T
         size = np.linalg.norm(components @ DEVIATOR.T, axis=1)
+        place = part.nodes[node]
         signed = np.copysign(size, components[:, :3].sum(axis=1))
         channels |= channel("{body}_stress", signed, name)
         worst[name] = {
             "von_mises": float(size[instant]),
             "time": float(time[instant]),
-            "place": _in_body(placed, part.nodes[node]),
+            "place": [*placed.point(place), float(place[2])],
         }
     return channels, worst
 
@@ -91,10 +87,3 @@ def _largest(deviator: Array, q: Array) -> NDArray[np.int64]:
 def _squares(deviator: Array, q: Array) -> Array:
     """Return the squares of von Mises stresses (s, n) of nodes at instants."""
     return np.asarray(((deviator @ q.T) ** 2).sum(axis=1))
-
-
-def _in_body(placed: "PlacedPart", node: Array) -> list[float]:
-    """Return a place of the solid in the body's frame, m."""
-    x, y = node[:2] - placed.centre
-    c, s = np.cos(placed.angle), np.sin(placed.angle)
-    return [float(c * x + s * y), float(c * y - s * x), float(node[2])]

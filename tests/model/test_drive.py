@@ -5,6 +5,7 @@ import re
 
 import numpy as np
 import pytest
+from pressed import FORMING
 from schedules import LIGHT, OneCoordinate, kloss
 from scipy.integrate import solve_ivp
 
@@ -131,13 +132,6 @@ def test_the_balance_closes(scene):
     )
     assert result.completed
     assert result.quantity("energy.residual").value < 1e-3
-
-
-FORMING = {
-    "kind": "table",
-    "height": [0.0, 0.001, 0.01, 0.03, 0.045],
-    "force": [240e3, 240e3, 260e3, 180e3, 0.0],
-}
 
 
 def test_a_press_that_stalls_says_so_and_keeps_what_it_did():

@@ -6,17 +6,13 @@ drive's torque by -F v / omega and nothing else.
 
 import numpy as np
 import pytest
+from pressed import FORMING
 
 from exu_press import Scene, simulate
 from exu_press.scene import mechanism_of
 from exu_press.scene.applied import applied_loads
 
 CUSHION = {"kind": "table", "height": [0.0, 0.02], "force": [4e4, 0], "acts": "both"}
-FORMING = {
-    "kind": "table",
-    "height": [0.0, 0.001, 0.01, 0.03, 0.045],
-    "force": [240e3, 240e3, 260e3, 180e3, 0.0],
-}
 IDEAL = {"joints": {}, "revolutions": 0.5, "solver": {"tolerance": 1e-5}}
 LOADS = {
     "over time": {"kind": "table", "time": [0.02, 0.05, 0.1], "force": [0.0, 2e4, -1e4]},

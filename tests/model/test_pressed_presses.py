@@ -1,15 +1,11 @@
 """Runs of presses with clearance under force tables: they end, and their energy closes."""
 
 import pytest
+from pressed import FORMING
 
 from exu_press import Scene, simulate
 
-DRAWING = {
-    "kind": "table",
-    "height": [0.0, 0.001, 0.01, 0.03, 0.045],
-    "force": [240e3, 240e3, 260e3, 180e3, 0.0],
-    "offset": [0.05, 0.0],
-}
+DRAWING = {**FORMING, "offset": [0.05, 0.0]}
 CUSHION = {"kind": "table", "height": [0.0, 0.02], "force": [40e3, 0.0], "acts": "both"}
 PRESS = {"mechanism": "eccentric_press", "speed_rpm": 60.0}
 

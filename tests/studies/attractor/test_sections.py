@@ -2,17 +2,13 @@
 
 import numpy as np
 import pytest
+from slider_cranks import FILM
 
-from exu_press import InputError, Scene, simulate
+from exu_press import InputError, simulate
 from exu_press.studies.attractor import attractor
 from exu_press.studies.attractor.lines import attractor_lines
 from exu_press.studies.attractor.orbit import Orbit
 
-FILM = Scene(
-    mechanism="slider_crank",
-    joints={"crank_pin": {"kind": "lubricated", "clearance": 1e-4, "radius": 0.03}},
-    film={"length": 0.05, "viscosity": 0.1},
-)
 MOTOR = FILM.replace({"drive": {"rated_torque": 200.0, "inertia": 2.0}})
 NAMES = ["stroke", "crank_speed", "crank_pin_force.x"]
 SHORT = {"revolutions": 20, "most": 4, "names": NAMES}

@@ -4,8 +4,9 @@ import json
 
 import numpy as np
 import pytest
+from slider_cranks import FILM
 
-from exu_press import InputError, Scene
+from exu_press import InputError
 from exu_press.cli import main
 from exu_press.model.state import State
 from exu_press.plots.bifurcation import bifurcation_figure
@@ -13,11 +14,6 @@ from exu_press.studies.attractor.orbit import Orbit
 from exu_press.studies.bifurcation import Bifurcation, bifurcation
 from exu_press.studies.bifurcation.run import carried, run_point
 
-FILM = Scene(
-    mechanism="slider_crank",
-    joints={"crank_pin": {"kind": "lubricated", "clearance": 1e-4, "radius": 0.03}},
-    film={"length": 0.05, "viscosity": 0.1},
-)
 SHORT = {"skip": 1, "revolutions": 20, "longest": 2}
 SPEEDS = {"speed_rpm": [230.0, 240.0]}
 

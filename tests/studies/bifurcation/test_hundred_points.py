@@ -9,16 +9,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from slider_cranks import FILM
 
-from exu_press import Scene
 from exu_press.studies.bifurcation import Bifurcation, bifurcation
 from exu_press.studies.bifurcation import run as module
-
-FILM = Scene(
-    mechanism="slider_crank",
-    joints={"crank_pin": {"kind": "lubricated", "clearance": 1e-4, "radius": 0.03}},
-    film={"length": 0.05, "viscosity": 0.1},
-)
 
 CHILD = """
 import sys; sys.path[:] = {path!r}

@@ -2,17 +2,13 @@
 
 import numpy as np
 import pytest
+from slider_cranks import FILM
 
-from exu_press import InputError, Scene
+from exu_press import InputError
 from exu_press.plots.bifurcation import period_map_figure
 from exu_press.studies.bifurcation import Bifurcation, Branch, Report, bifurcation
 from exu_press.studies.bifurcation.lines import report_lines
 
-FILM = Scene(
-    mechanism="slider_crank",
-    joints={"crank_pin": {"kind": "lubricated", "clearance": 1e-4, "radius": 0.03}},
-    film={"length": 0.05, "viscosity": 0.1},
-)
 SHORT = {"skip": 1, "revolutions": 20, "longest": 2}
 KEYS = {"joints.crank_pin.clearance": [5e-5, 1e-4, 2e-4], "speed_rpm": [200.0, 240.0]}
 

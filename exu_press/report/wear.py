@@ -4,12 +4,11 @@ from pathlib import Path
 from typing import Any
 
 from exu_press.page import Live, has_library
-from exu_press.quantities.catalogue import declared
 from exu_press.quantities.uncertain import significant
 from exu_press.report.html import table
 from exu_press.report.study import reading, study_page
 from exu_press.schema.stored import from_json
-from exu_press.studies.sweep.units import with_unit
+from exu_press.studies.sweep.units import unit_of, with_unit
 
 __all__ = ["wear_report"]
 
@@ -45,10 +44,7 @@ def _curves(told: dict[str, Any]) -> list[tuple[str, str, list[float | None]]]:
     found += [
         (f"guideways of {body}, depth", "m", depths) for body, depths in told["guides"].items()
     ]
-    for name, values in told["quantities"].items():
-        known = declared(name)
-        found.append((name, known.quantity.unit if known else "", values))
-    return found
+    return found + [(name, unit_of(name), values) for name, values in told["quantities"].items()]
 
 
 def _cell(value: float | None) -> str:

@@ -33,7 +33,8 @@ NEARLY = 0.05
 
 def report_lines(report: Report) -> list[str]:
     """Return best values with intervals, undetermined keys, the misfit and residuals."""
-    lines = [*report.told, *_searches(report), "", *_keys(report), *_open(report)]
+    lines = [*report.told, *_searches(report), "", *_keys(report)]
+    lines += [_not_determined(report, one) for one in report.determined.open]
     return [*lines, *_correlation(report), "", *_misfit(report), "", *_residuals(report)]
 
 
@@ -73,12 +74,8 @@ def _digits(best: float, low: float, high: float) -> int:
     return min(max(2, 2 + math.ceil(math.log10(abs(best) / half) - 1e-9)), 7)
 
 
-def _open(report: Report) -> list[str]:
-    """Return keys and combinations that the measurement does not determine."""
-    return [_not_determined(report, one) for one in report.determined.open]
-
-
 def _not_determined(report: Report, one: Direction) -> str:
+    """Return a key or a combination of keys that the measurement does not determine."""
     names = list(report.study.keys)
     keys = [names[k] for k in one.keys]
     if len(keys) == 1:
@@ -87,7 +84,7 @@ def _not_determined(report: Report, one: Direction) -> str:
             f"not determined: {keys[0]}; over its whole range the measured numbers change by "
             f"{effect} of their uncertainties"
         )
-    parts, scale = [], 0.0
+    parts = []
     for k, name in zip(one.keys, keys, strict=True):
         each = report.study.keys[name]
         assert isinstance(each, Range)

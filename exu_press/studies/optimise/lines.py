@@ -19,20 +19,16 @@ def report_lines(report: Report) -> list[str]:
     study, number = report.study, len(report.places)
     several = len(study.objective) > 1
     lines = [*report.told, f"method: {report.method} ({report.why})"]
-    names = list(dict.fromkeys(study.quantities))
-    rows = [
-        (
-            "",
-            *map(with_unit, study.keys),
-            *(_title(report, name) for name in names),
-        )
-    ]
+    quantities = {name: quantity_of(study.scene, name).quantity for name in study.quantities}
+    heads = (with_unit(name, quantity.shown) for name, quantity in quantities.items())
+    rows = [("", *map(with_unit, study.keys), *heads)]
     shown = sorted({report.chosen, *np.linspace(0, number - 1, MOST_LINES).astype(int).tolist()})
     for n in shown:
         point = report.trials.points[report.places[n]]
         cells = [f"{v:.4g}" if isinstance(v, float) else str(v) for v in point.values()]
         mark = "chosen" if n == report.chosen else f"{n + 1:02}"
-        rows.append((mark, *cells, *(_number(report, name, n) for name in names)))
+        numbers = (_number(report, name, n, one.scale) for name, one in quantities.items())
+        rows.append((mark, *cells, *numbers))
     lines += columns(rows)
     if several:
         left = f", {len(shown)} of them shown" if len(shown) < number else ""
@@ -41,7 +37,7 @@ def report_lines(report: Report) -> list[str]:
             f"everything{left}"
         )
     for name, value in report.finer.items():
-        quantity = quantity_of(study.scene, name).quantity
+        quantity = quantities[name]
         before = float(report.numbers(name)[report.chosen])
         change = "the same" if value == before else f"{100 * (value / before - 1):+.2g} %"
         lines.append(
@@ -51,13 +47,7 @@ def report_lines(report: Report) -> list[str]:
     return lines
 
 
-def _title(report: Report, name: str) -> str:
-    quantity = quantity_of(report.study.scene, name).quantity
-    return with_unit(name, quantity.shown)
-
-
-def _number(report: Report, name: str, place: int) -> str:
-    quantity = quantity_of(report.study.scene, name).quantity
+def _number(report: Report, name: str, place: int, scale: float) -> str:
     value, error = float(report.numbers(name)[place]), float(report.errors[name][place])
     told = None if np.isnan(error) else {"error": error, "determined": True}
-    return uncertain(value, told, quantity.scale, 5)
+    return uncertain(value, told, scale, 5)

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from exu_press.quantities import Quantity, quantity_of
+from exu_press.quantities import quantity_of
 from exu_press.quantities.uncertain import significant, uncertain
 from exu_press.studies.sensitivity.run import Report
 from exu_press.terminal.columns import columns
@@ -30,14 +30,15 @@ def _of_quantity(report: Report, place: int) -> list[str]:
     study = report.study
     name = study.sensitivity.quantities[place]
     quantity = quantity_of(study.scene, name).quantity
-    found, each, unit = report.indices[place], report.spreads[place], _unit(quantity)
+    found, each, scale = report.indices[place], report.spreads[place], quantity.scale
+    unit = f" {quantity.shown}" if quantity.shown else ""
     if found is None:
-        return [f"{name}: does not move, {_number(each.middle, quantity)}{unit} in every run"]
+        middle = significant(each.middle * scale, quantity.digits)
+        return [f"{name}: does not move, {middle}{unit} in every run"]
     share = f"{100 * study.sensitivity.share:g} %"
-    scale, resolution = quantity.scale, each.deviation
 
     def shown(value: float) -> str:
-        return to_resolution(value * scale, resolution * scale)
+        return to_resolution(value * scale, each.deviation * scale)
 
     half = uncertain(each.half, {"error": each.half_error, "determined": True}, scale)
     lines = [
@@ -49,7 +50,7 @@ def _of_quantity(report: Report, place: int) -> list[str]:
     error = report.errors[place]
     if error is not None:
         part = error / each.deviation
-        told = f"  a run's own error is {significant(error * quantity.scale, 2)}{unit}"
+        told = f"  a run's own error is {significant(error * scale, 2)}{unit}"
         lines.append(
             f"{told}: {significant(100 * part, 2)} % of the deviation"
             + (", and is part of it; the cure is a lower solver.tolerance" * (part > NOISE))
@@ -79,15 +80,6 @@ def to_resolution(value: float, resolution: float) -> str:
     """
     places = max(2 - math.floor(math.log10(resolution)), 0) if resolution > 0.0 else 6
     return f"{value:.{places}f}"
-
-
-def _unit(quantity: Quantity) -> str:
-    unit = quantity.shown
-    return f" {unit}" if unit else ""
-
-
-def _number(value: float, quantity: Quantity) -> str:
-    return significant(value * quantity.scale, quantity.digits)
 
 
 def _index(value: float, bounds: "np.ndarray[tuple[int], np.dtype[np.float64]]") -> str:

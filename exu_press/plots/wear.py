@@ -31,7 +31,7 @@ def wear_figure(report: Report) -> Figure:
     study, points = report.study, report.points
     names, joints = study.names, study.joints
     text = f"{describe([study.scene], 130)}\n{significant(points[-1].strokes, 4)} strokes in "
-    text += f"{len(points) - 1} jumps"
+    text += report.jumps
     rows = 1 + (1 + len(names) + 1) // 2
     figure = headed_figure("Wear over strokes", text, (9.5, 1.2 + 2.6 * rows))
     grid = figure.add_gridspec(rows, 2)

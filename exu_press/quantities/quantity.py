@@ -1,7 +1,7 @@
 """A quantity of interest: declared once, read by everything that shows, compares or varies it."""
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
 from enum import Enum
 from typing import Any
 
@@ -30,7 +30,13 @@ class Extreme(Enum):
     LEAST = "least"
 
 
-PREFIXES = {"u": 1e6, "m": 1e3, "k": 1e-3, "M": 1e-6, "": 1.0}
+PREFIXES = {"n": 1e9, "u": 1e6, "m": 1e3, "k": 1e-3, "M": 1e-6, "": 1.0}
+
+SIZED = ("m/s", "m/s^2", "N", "N m", "J", "W")
+"""Units that a small machine has with smaller prefixes; lengths are in mm and um anyway."""
+
+SMALL = 1e-3
+"""In the unit that is usually shown: a line whose values are all below it has another one."""
 
 
 def always(scene: Scene, place: str) -> bool:
@@ -95,6 +101,19 @@ class Quantity:
         return (
             f"{self.place.value}.{place}.{self.name}" if self.place is not Place.RUN else self.name
         )
+
+    def sized(self, values: Iterable[float]) -> "Quantity":
+        """Return it as a small machine shows it, where its usual unit makes all values small.
+
+        >>> from exu_press.quantities.catalogue import JOINT_FORCE
+        >>> JOINT_FORCE.shown, JOINT_FORCE.sized([2e3]).shown, JOINT_FORCE.sized([0.02]).shown
+        ('kN', 'kN', 'mN')
+        """
+        largest = max(map(abs, values), default=0.0)
+        if self.unit not in SIZED or not 0.0 < largest * self.scale < SMALL:
+            return self
+        prefix = next((one for one in ("", "m", "u") if largest * PREFIXES[one] >= 1.0), "n")
+        return replace(self, shown=f"{prefix}{self.unit}")
 
     @property
     def scale(self) -> float:

@@ -1,7 +1,7 @@
 """Runs as a table, for a terminal or a report, and the differences between them."""
 
 import textwrap
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import combinations
 from typing import Any
 
@@ -47,13 +47,22 @@ def comparison_cells(results: Mapping[str, Result]) -> list[list[str]]:
         [HORIZON, *(uncertain(r.info.get("horizon"), None, 1e3) for r in results.values())],
     ]
     unit = ""
-    for quantity in CATALOGUE:
-        if quantity.title:
+    for declared in CATALOGUE:
+        if declared.title:
+            quantity = declared.sized(_sizes(declared, runs.values()))
             cell = _at_places if quantity.place is not Place.RUN else _of_run
             texts = [cell(quantity, results[label], values) for label, values in runs.items()]
             cells.append([_head(quantity, unit), *texts])
             unit = quantity.shown
     return [line for line in cells if set(line[1:]) != {"-"}]
+
+
+def _sizes(quantity: Quantity, runs: Iterable[Mapping[str, Value]]) -> Iterator[float]:
+    """Yield how large a quantity may be, at all of its places in all runs, SI."""
+    for values in runs:
+        places = [""] if quantity.place is Place.RUN else _names(values, quantity.place)
+        found = (values.get(quantity.at(place)) for place in places)
+        yield from (abs(v.value) + (v.error or 0.0) for v in found if v and v.value is not None)
 
 
 def comparison_lines(results: Mapping[str, Result]) -> list[str]:

@@ -174,7 +174,8 @@ def _listed(
     result: Result, quantities: Iterable[Quantity], title: str, more: list[list[str]] | None = None
 ) -> str:
     """Return a table of quantities in words, those that the run does not have left out."""
-    values = [(quantity, value_of(result, quantity.name)) for quantity in quantities]
+    read = [(quantity, value_of(result, quantity.name)) for quantity in quantities]
+    values = [(quantity.sized([value.value or 0.0]), value) for quantity, value in read]
     rows = [
         [quantity.meaning, f"{shown_value(quantity, value)} {quantity.shown}"]
         for quantity, value in values

@@ -29,7 +29,7 @@ def wear_report(file: Path) -> str:
     return study_page(
         file,
         f"Wear over {significant(strokes[-1], 4)} strokes",
-        f"{len(strokes) - 1} jumps{ended}",
+        f"jumps: {len(strokes) - 1}{ended}",
         [("Course", live), ("Jumps", table(head, rows))],
         "The course.",
     )

@@ -160,7 +160,7 @@ def test_a_kind_follows_from_the_quantity_and_not_from_a_name(name, kind):
         ({"name": "mine."}, "quantity 'mine.': '' is no name"),
         (
             {"name": "mine", "shown": "km/h"},
-            "quantity mine: shown = 'km/h'; allowed are um/s, mm/s",
+            "quantity mine: shown = 'km/h'; allowed are nm/s, um/s, mm/s",
         ),
     ],
 )

@@ -41,3 +41,15 @@ def test_a_detail_repeats_no_unit():
     lines = run_lines(simulate(Scene(joints={}, revolutions=0.02)))
     first = next(n for n, line in enumerate(lines) if line.startswith("peak acceleration, m/s^2 "))
     assert lines[first + 1].startswith("  mean over 1 ms  ")
+
+
+def test_a_small_machine_has_units_of_its_size():
+    """A slider-crank with masses of milligrams: its forces are no zeros of kN."""
+    light = dict.fromkeys(("crank_mass", "rod_mass", "slider_mass", "rod_inertia"), 1e-6)
+    small = Scene(mechanism="slider_crank", joints={}, revolutions=0.1).replace(
+        {f"slider_crank.{name}": mass for name, mass in light.items()}
+    )
+    result = simulate(small)
+    (line,) = (x for x in run_lines(result) if x.startswith("joint force, max, "))
+    peak = max(result.quantity(f"joints.{name}.peak_force").value for name in result.joints)
+    assert line.startswith("joint force, max, uN ") and f" {1e6 * peak:.3g}" in line, (line, peak)

@@ -37,7 +37,7 @@ def report_lines(report: Report) -> list[str]:
     last = points[-1]
     lines = columns([heads, *shown], right=True)
     lines.append(
-        f"{significant(last.strokes, 4)} strokes in {len(points) - 1} jumps; a jump and its "
+        f"{significant(last.strokes, 4)} strokes in {report.jumps}; a jump and its "
         f"halves differ by {1e6 * last.error:.2g} um in all"
     )
     lines += [

@@ -70,6 +70,12 @@ class Report:
     reason: str = ""
 
     @property
+    def jumps(self) -> str:
+        """Return the number of jumps in words."""
+        number = len(self.points) - 1
+        return f"{number} jump{'s' * (number != 1)}"
+
+    @property
     def ended(self) -> str:
         """Return why it ended before all strokes were done; empty where they are."""
         strokes = significant(self.study.wear.strokes, 4)

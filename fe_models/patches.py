@@ -10,7 +10,7 @@ from fe_models.arrays import Array
 from fe_models.dimensions import Box, Patch, Sides
 from fe_models.errors import InputError
 
-__all__ = ["name_patches"]
+__all__ = ["name_patches", "within"]
 
 NEAR = 1e-4
 """m: how far a face may lie outside of a box; drawings are rounded to tenths of a mm."""
@@ -73,7 +73,7 @@ def _faces(
                 f"{', '.join(map(repr, known)) or 'nothing at all'}"
             )
         return found
-    found = {i for i, face in enumerate(shape.faces) if _within(face.bounding_box, one.box)}
+    found = {i for i, face in enumerate(shape.faces) if within(face.bounding_box, one.box, NEAR)}
     if not found:
         raise InputError(
             f"{where}: no face for {what} lies wholly within {_ranges(one.box)}; the solid fills "
@@ -118,9 +118,10 @@ def _plane(face: Any) -> tuple[Array, Array] | None:
     return origin, normal / size
 
 
-def _within(bounds: Any, box: Box) -> bool:
+def within(bounds: Any, box: Box, near: float) -> bool:
+    """Return whether a bounding box, two points, lies within another, m."""
     (lowest, highest), (low, high) = bounds, box
-    return all(lowest[i] >= low[i] - NEAR and highest[i] <= high[i] + NEAR for i in range(3))
+    return all(lowest[i] >= low[i] - near and highest[i] <= high[i] + near for i in range(3))
 
 
 def _ranges(box: Any) -> str:

@@ -10,6 +10,7 @@ from netgen.occ import OCCGeometry as OccGeometry
 
 from fe_models.dimensions import Box, CrankDimensions, LinkageDimensions
 from fe_models.errors import InputError
+from fe_models.patches import within
 from fe_models.step_check import check_step
 
 __all__ = ["crank_shaft", "freeze", "from_step", "linkage", "thaw"]
@@ -71,14 +72,12 @@ def from_step(path: Path, scale: float, faces: Mapping[str, Box]) -> Any:
         raise InputError(f"STEP file {path}: holds {solids} solids; a part is one solid")
     if scale != 1.0:
         shape = shape.Scale(Pnt(0, 0, 0), scale)
-    for name, (lowest, highest) in faces.items():
-        found = False
-        for face in shape.faces:
-            inside = _inside(face.bounding_box, lowest, highest)
-            if inside:
-                face.name = name
-            found = found or inside
+    for name, box in faces.items():
+        found = [face for face in shape.faces if within(face.bounding_box, box, 1e-6)]
+        for face in found:
+            face.name = name
         if not found:
+            lowest, highest = box
             raise InputError(
                 f"STEP file {path}: no face lies wholly inside the box of {name!r}, "
                 f"{tuple(lowest)} ... {tuple(highest)} in m after scale = {scale:g}"
@@ -129,10 +128,3 @@ def _disc(start: float, length: float, radius: float, offset: float = 0.0, name:
     for end in (disc.faces.Max(Z), disc.faces.Min(Z)):
         end.name = REST
     return disc
-
-
-def _inside(box: Any, lowest: Any, highest: Any, tolerance: float = 1e-6) -> bool:
-    """Tell whether a bounding box (two points) lies inside another."""
-    return all(
-        box[0][i] >= lowest[i] - tolerance and box[1][i] <= highest[i] + tolerance for i in range(3)
-    )

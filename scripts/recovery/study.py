@@ -35,14 +35,6 @@ class Recovered:
         """Return in how many measurements the interval of a key holds its true value."""
         return sum(one.low[key] <= self.truth[key] <= one.high[key] for one in self.reports)
 
-    @property
-    def all_held(self) -> int:
-        """In how many measurements the intervals of all keys do."""
-        return sum(
-            all(one.low[key] <= true <= one.high[key] for key, true in self.truth.items())
-            for one in self.reports
-        )
-
 
 def synthetic(case: Case, exact: Mapping[str, float], rng: Any) -> list[dict[str, Any]]:
     """Return a measurement: exact numbers with normal noise."""

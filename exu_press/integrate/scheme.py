@@ -15,7 +15,7 @@ from exu_press.integrate.settings import SAME, Task, inertia_factor
 from exu_press.numerics.arrays import Array
 from exu_press.numerics.floats import Floats
 
-__all__ = ["FEW", "FlexibleJacobian", "LastingJacobian", "Newton"]
+__all__ = ["FlexibleJacobian", "LastingJacobian", "Newton"]
 
 BALANCE = 0.2
 """Part of the usual forces, over the tolerance, to which Newton's method balances them."""
@@ -28,9 +28,6 @@ PATIENCE = 4
 
 LONGEST_PAUSE = 64
 """Steps without another try to keep a Jacobian."""
-
-FEW = 12
-"""Coordinates up to which NumPy's threads cost nothing."""
 
 REACH = 2.0
 """Over the last step, how far ahead its rate of change is believed by the predictor."""

@@ -21,7 +21,6 @@ from exu_press.integrate.controller import Controller
 from exu_press.integrate.monitor import Monitor
 from exu_press.integrate.problem import Node, Problem
 from exu_press.integrate.scales import ErrorScales
-from exu_press.integrate.scheme import FEW
 from exu_press.integrate.settings import SolverTuning, Task, prepared, refuse_unusable
 from exu_press.integrate.stepping import Unresolved
 from exu_press.joints.joint import ClearanceJoint
@@ -36,6 +35,9 @@ DEFAULTS = SolverTuning()
 SPENT = 1e-3
 """Film thickness over clearance at which a run that gets no further has lost its film."""
 
+
+FEW = 12
+"""Coordinates up to which NumPy starts no threads worth to look for."""
 
 EXUDYN_ENDS = 1e-10
 """Before its end, at most how early Exudyn ends a run, s."""

@@ -115,7 +115,7 @@ def histories(
         part = slice(first, first + AT_ONCE)
         of_steps = steps[part].tolist()
         rows, rows_t = (
-            np.hstack([each[part], ground[: len(of_steps)]]).tolist() for each in (q, q_t)
+            np.hstack([each[part], ground[: len(of_steps)]]).ravel().tolist() for each in (q, q_t)
         )
         for name, joint in joints.items():
             numbers, lengths = replayed(joint, of_steps, rows, rows_t, rubbed[name])

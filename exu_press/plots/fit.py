@@ -13,6 +13,7 @@ from exu_press.plots.words import describe
 from exu_press.quantities.uncertain import significant
 from exu_press.studies.base import Range
 from exu_press.studies.fit import Report
+from exu_press.studies.fit.profile import between
 
 __all__ = ["fit_figure", "fit_figures", "profiles_figure"]
 
@@ -78,11 +79,9 @@ def profiles_figure(report: Report) -> Figure:
         points = report.profiles[name]
         values, unit = in_unit(name, points[:, 0])
         scale = values[-1] / points[-1, 0] if points[-1, 0] else 1.0
-        dense = np.linspace(values[0], values[-1], 200)
         best = report.values[name] * scale
-        roots = np.sqrt(np.maximum(points[:, 1], 0.0)) * np.sign(values - best)
-        rises = np.interp(dense, values, roots) ** 2  # of a linear model it is a parabola
-        panel.plot(dense, rises, color=COLOURS["blue"])
+        dense, rises = between(points, report.values[name])
+        panel.plot(dense * scale, rises, color=COLOURS["blue"])
         panel.plot(values, points[:, 1], "o", color=COLOURS["blue"], markersize=4)
         panel.axhline(rise, color=GREY, linewidth=1.0)
         for end in (report.low[name], report.high[name]):

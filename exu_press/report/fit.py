@@ -3,12 +3,15 @@
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from exu_press.page import Live, has_library
 from exu_press.plots.words import ONE_LINE, describe
 from exu_press.report.html import paragraph, table
 from exu_press.report.study import reading, study_page
 from exu_press.scene import Scene
 from exu_press.schema.stored import from_json
+from exu_press.studies.fit.profile import between
 from exu_press.studies.sweep.units import unit_of, with_unit
 
 __all__ = ["fit_report"]
@@ -80,9 +83,12 @@ def _live(told: dict[str, Any]) -> Live | None:
         line = Line("(computed - measured) / uncertainty", range(len(far)), far, True, low, high)
         panels.append(Panel("Numbers", "place in the table below", "in uncertainties", [line]))
     for name, profile in told["profiles"].items():
-        values, rises = zip(*profile, strict=True) if profile else ((), ())
-        line = Line("chi-square above its least value", values, rises)
+        if not profile:
+            continue
+        points = np.array(profile, dtype=float)
+        line = Line("chi-square above its least", *between(points, told["keys"][name]["value"]))
+        fits = Line("other keys fitted again", *points.T, points=True)
         panels.append(
-            Panel(f"How well {name} is determined", with_unit(name), "chi-square", [line])
+            Panel(f"How well {name} is determined", with_unit(name), "chi-square", [line, fits])
         )
     return lines_viewer(panels) if panels else None

@@ -96,9 +96,12 @@ class Orbit:
 
         Raises:
             InputError: the motion does not get to the next section.
+            KeyboardInterrupt: of Ctrl-C, which is no motion's fault.
         """
         model = self._model
         outcome = model.solve()
+        if outcome.status is SolverStatus.INTERRUPTED:
+            raise KeyboardInterrupt
         if outcome.status not in ENDED:
             raise InputError(f"no motion in the long run: {outcome.reason}")
         if model.until is not None and model.crank_angle()[0] < model.until:

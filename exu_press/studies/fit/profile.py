@@ -10,7 +10,7 @@ from exu_press.numerics.arrays import Array
 from exu_press.studies.fit.jacobian import Evaluate
 from exu_press.studies.fit.minimum import Minimum
 
-__all__ = ["Interval", "profile"]
+__all__ = ["Interval", "between", "profile"]
 
 NEAR = 0.03
 """Error in the root of the rise of chi-square at which an end is found, relative."""
@@ -20,6 +20,9 @@ GAIN = 0.02
 
 BETTER = 0.05
 """By which a chi-square is below the minimum's where the search had not ended there."""
+
+DENSE = 200
+"""Values of the key of a curve between the points of a profile."""
 
 MOST_ENDS = 8
 MOST_FITS = 6
@@ -44,6 +47,24 @@ class Interval:
     high_open: bool
     points: Array
     better: Minimum | None = None
+
+
+def between(points: Array, best: float) -> tuple[Array, Array]:
+    """Return values of the key between a profile's points, (n,), and chi-square's rise there, (n,).
+
+    The rise is a parabola where the model is linear: its root is interpolated.
+
+    Args:
+        points: see Interval.
+        best: value of the key at the minimum.
+
+    >>> values, rises = between(np.array([[2.0, 4.0], [3.0, 0.0], [4.0, 4.0]]), 3.0)
+    >>> round(float(np.interp(2.5, values, rises)), 3)
+    1.0
+    """
+    dense = np.linspace(points[0, 0], points[-1, 0], DENSE)
+    roots = np.sqrt(np.maximum(points[:, 1], 0.0)) * np.sign(points[:, 0] - best)
+    return dense, np.interp(dense, points[:, 0], roots) ** 2
 
 
 def profile(evaluate: Evaluate, best: Minimum, jacobian: Array, key: int, level: float) -> Interval:

@@ -1,10 +1,13 @@
 """Sections of a crank that a motor turns, and of fixed steps; and motions that get to none."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from slider_cranks import FILM
 
 from exu_press import InputError, simulate
+from exu_press.integrate import SolverStatus
 from exu_press.studies.attractor import attractor
 from exu_press.studies.attractor.lines import attractor_lines
 from exu_press.studies.attractor.orbit import Orbit
@@ -67,6 +70,15 @@ def test_channels_are_kept_on_the_section_with_their_units(turned):
 @pytest.fixture(scope="module")
 def fixed():
     return attractor(FILM.replace({"solver.step": 4e-4}), skip=3, **SHORT)
+
+
+def test_an_interrupted_orbit_is_no_motion_that_fails(monkeypatch):
+    orbit = Orbit(FILM)
+    ended = replace(orbit._model.solve(), status=SolverStatus.INTERRUPTED)
+    monkeypatch.setattr(type(orbit._model), "solve", lambda model: ended)
+    with pytest.raises(KeyboardInterrupt):
+        orbit.advance()
+    orbit.close()
 
 
 @pytest.mark.long

@@ -85,9 +85,10 @@ def _live(told: dict[str, Any]) -> Live | None:
     for name, profile in told["profiles"].items():
         if not profile:
             continue
-        points = np.array(profile, dtype=float)
-        line = Line("chi-square above its least", *between(points, told["keys"][name]["value"]))
-        fits = Line("other keys fitted again", *points.T, points=True)
+        values, rises = between(np.array(profile), told["keys"][name]["value"])
+        line = Line("chi-square above its least", values.tolist(), rises.tolist())
+        at, risen = zip(*profile, strict=True)
+        fits = Line("other keys fitted again", at, risen, points=True)
         panels.append(
             Panel(f"How well {name} is determined", with_unit(name), "chi-square", [line, fits])
         )

@@ -28,7 +28,7 @@ def fit_figure(report: Report) -> Figure:
     panels = (number > 0) + curves
     heights = [0.8 + 0.32 * number] * (number > 0) + [2.8] * curves
     text = f"{describe([report.scene], 110)}\nchi-square {significant(report.chi_square, 3)} with "
-    text += f"{report.freedom:g} degrees of freedom"
+    text += f"{report.freedom:g} degree{'s' * (report.freedom != 1)} of freedom"
     figure = headed_figure("Measured and computed", text, (9.5, 1.2 + sum(heights)))
     axes = list(figure.subplots(panels, 1, squeeze=False, height_ratios=heights).flat)
     if number:
@@ -80,18 +80,21 @@ def profiles_figure(report: Report) -> Figure:
         values, unit = in_unit(name, points[:, 0])
         scale = values[-1] / points[-1, 0] if points[-1, 0] else 1.0
         best = report.values[name] * scale
-        dense, rises = between(points, report.values[name])
-        panel.plot(dense * scale, rises, color=COLOURS["blue"])
+        dense, rises = between(points, report.values[name], 2.2 * rise)
+        dense = dense * scale
+        panel.plot(dense, rises, color=COLOURS["blue"])
         panel.plot(values, points[:, 1], "o", color=COLOURS["blue"], markersize=4)
         panel.axhline(rise, color=GREY, linewidth=1.0)
         for end in (report.low[name], report.high[name]):
             panel.axvline(end * scale, color=GREY, linewidth=1.0, linestyle="--")
         panel.axvline(best, color="black", linewidth=0.8)
         each = report.study.keys[name]
-        if isinstance(each, Range) and each.log and points[-1, 0] > 4.0 * points[0, 0]:
-            log_axis(panel, "x", values)
+        if isinstance(each, Range) and each.log and dense[-1] > 4.0 * dense[0]:
+            log_axis(panel, "x", dense)
+        else:
+            beside = 0.05 * (dense[-1] - dense[0])
+            panel.set_xlim(dense[0] - beside, dense[-1] + beside)
         panel.set_ylim(0.0, 2.2 * rise)
-        panel.margins(x=0.05)
         panel.set_xlabel(plain(f"{name}{f', {unit}' if unit else ''}"))
         panel.set_title(wrapped(words(name), 38))
         panel.set_ylabel("chi-square above its least")

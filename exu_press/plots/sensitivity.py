@@ -32,12 +32,13 @@ def sensitivity_figure(report: Report) -> Figure:
     for place, (name, row) in enumerate(zip(names, panels, strict=True)):
         quantity = quantity_of(study.scene, name).quantity
         unit = typeset(quantity.shown)
-        _spread(row[0], report.sample.values[place] * quantity.scale, report, place)
         found = report.indices[place]
         if found is None:
-            for axes in row[1:]:
+            for axes in row:
                 axes.axis("off")
+            row[0].text(0.0, 0.5, f"{wrapped(words(name))}: does not move")
             continue
+        _spread(row[0], report.sample.values[place] * quantity.scale, report, place)
         order = np.argsort(found.total)
         told = [wrapped(words(keys[n])) for n in order]
         bars = report.bars[order, :, place] * quantity.scale

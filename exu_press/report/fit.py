@@ -85,7 +85,8 @@ def _live(told: dict[str, Any]) -> Live | None:
     for name, profile in told["profiles"].items():
         if not profile:
             continue
-        values, rises = between(np.array(profile), told["keys"][name]["value"])
+        best = told["keys"][name]["value"]
+        values, rises = between(np.array(profile), best, max(rise for _, rise in profile) or 1.0)
         line = Line("chi-square above its least", values.tolist(), rises.tolist())
         at, risen = zip(*profile, strict=True)
         fits = Line("other keys fitted again", at, risen, points=True)

@@ -49,7 +49,7 @@ class Interval:
     better: Minimum | None = None
 
 
-def between(points: Array, best: float) -> tuple[Array, Array]:
+def between(points: Array, best: float, most: float) -> tuple[Array, Array]:
     """Return values of the key between a profile's points, (n,), and chi-square's rise there, (n,).
 
     The rise is a parabola where the model is linear: its root is interpolated.
@@ -57,13 +57,17 @@ def between(points: Array, best: float) -> tuple[Array, Array]:
     Args:
         points: see Interval.
         best: value of the key at the minimum.
+        most: rise up to which they go.
 
-    >>> values, rises = between(np.array([[2.0, 4.0], [3.0, 0.0], [4.0, 4.0]]), 3.0)
-    >>> round(float(np.interp(2.5, values, rises)), 3)
-    1.0
+    >>> points = np.array([[0.0, 36.0], [3.0, 0.0], [4.0, 4.0]])
+    >>> values, rises = between(points, 3.0, 16.0)
+    >>> [round(float(x), 3) for x in (values[0], values[-1], np.interp(2.5, values, rises))]
+    [1.0, 4.0, 1.0]
     """
-    dense = np.linspace(points[0, 0], points[-1, 0], DENSE)
     roots = np.sqrt(np.maximum(points[:, 1], 0.0)) * np.sign(points[:, 0] - best)
+    rising = np.maximum.accumulate(roots)
+    low, high = np.interp([-(most**0.5), most**0.5], rising, points[:, 0]).tolist()
+    dense = np.linspace(low, high, DENSE)
     return dense, np.interp(dense, points[:, 0], roots) ** 2
 
 

@@ -18,8 +18,9 @@ def replayed(
     Args:
         joint: remembers the steps before.
         steps: that end at the instants, s.
-        q: coordinates of the user force element's item, the ground's behind them, one instant behind
-            the other: thousands of lists would let Python look for garbage among all of its objects.
+        q: coordinates of the user force element's item, the ground's behind them, one instant
+            behind the other: thousands of lists would let Python look for garbage among all of its
+            objects.
         q_t: their rates.
         rubbing: where normal force, N, and sliding velocity, m/s, are wanted, they are added here.
     """

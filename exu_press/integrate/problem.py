@@ -67,6 +67,10 @@ RIGID_OR_MODAL = (
 Constraints have none, and most are joints by their names."""
 
 
+FORCES_IN_PYTHON = tuple(f"{force}userfunction" for force in ("force", "torque", "moment", "rhs"))
+"""Ends of the names, in small letters, under which objects have functions of forces."""
+
+
 @dataclass(frozen=True)
 class Node:
     """Coordinates that count together in errors, and what they weigh.
@@ -136,6 +140,7 @@ class Problem:
         switching: whether there are data variables or general contacts, which Exudyn iterates on
             after Newton's method.
         switching_forces: whether these are more than those of joints on cables, as of contacts.
+        forces_in_python: whether Exudyn differentiates forces through functions in Python.
         untold_rates: whether Exudyn does not tell how fast some constraints are violated: where
             user functions prescribe offsets, whose rates they give not at all or only nearly, or
             whole constraints, and at flexible bodies' rigid markers, whose velocities are no rates
@@ -156,6 +161,7 @@ class Problem:
     modal_stiffness: bool
     switching: bool
     switching_forces: bool
+    forces_in_python: bool
     untold_rates: bool
     places: tuple[int, ...]
     length: float
@@ -217,6 +223,7 @@ class Problem:
             modal_stiffness=modal,
             switching=data.DataSize() > 0 or contacts,
             switching_forces=data.DataSize() > of_joints or contacts,
+            forces_in_python=any(map(_force_in_python, objects)),
             untold_rates=_untold_rates(mbs, objects),
             places=places,
             length=_length(data, reference, nodes),
@@ -232,6 +239,13 @@ def modal_item(mbs: exu.MainSystem) -> int | None:
     """Return the number of the item that `follow_modes` has added."""
     found: int | None = mbs.variables.get(MODES)
     return found
+
+
+def _force_in_python(item: dict[str, Any]) -> bool:
+    """Return whether Exudyn differentiates an item's force through a function in Python."""
+    return item.get("jacobianUserFunction", 0) == 0 and any(
+        name.lower().endswith(FORCES_IN_PYTHON) and value != 0 for name, value in item.items()
+    )
 
 
 def _untold_rates(mbs: exu.MainSystem, objects: list[dict[str, Any]]) -> bool:

@@ -178,7 +178,8 @@ class Task:
             self.first = max(integration.initialStepSize or usual, self.smallest)
         self.first = min(self.first, largest)
         self.impacts = problem.joints is not None or problem.switching
-        self.every_jacobian = self.fixed or self.impacts or len(problem.reference) < LARGE
+        costly = len(problem.reference) >= LARGE or problem.forces_in_python
+        self.every_jacobian = self.fixed or self.impacts or not costly
         stir = tuning.rounding / (1.0 - min(self.spectral_radius, 0.95)) ** 2
         self.absolute = absolute
         floor = absolute / self.tolerance

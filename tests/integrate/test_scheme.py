@@ -156,9 +156,10 @@ def test_one_serves_several_steps_and_changes_no_answer(monkeypatch):
     assert forces[1] == pytest.approx(forces[0], rel=2e-3)
 
 
-def test_the_jacobian_of_a_large_system_is_kept():
-    """A string of a hundred masses, whose force is a function: one Jacobian asks it 200 times."""
-    mbs, count, asked = exu.SystemContainer().AddSystem(), 100, []
+@pytest.mark.parametrize(("count", "most"), [(100, 60), (10, 8)])
+def test_a_jacobian_that_asks_a_function_is_kept(count, most):
+    """A string of masses, whose force is a function: one Jacobian asks it twice for each."""
+    mbs, asked = exu.SystemContainer().AddSystem(), []
 
     def force(mbs, time, item, q, q_t):
         asked.append(time)
@@ -186,4 +187,4 @@ def test_the_jacobian_of_a_large_system_is_kept():
     assert outcome.status is SolverStatus.COMPLETED, outcome.reason
     omega = 200.0 * math.sin(math.pi / (2.0 * (count + 1)))
     assert mbs.systemData.GetODE2Coordinates() == pytest.approx(shape * math.cos(omega), abs=2e-3)
-    assert len(asked) < 60 * outcome.steps
+    assert len(asked) < most * outcome.steps

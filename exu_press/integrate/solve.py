@@ -36,8 +36,8 @@ SPENT = 1e-3
 """Film thickness over clearance at which a run that gets no further has lost its film."""
 
 
-FEW = 12
-"""Coordinates up to which NumPy starts no threads worth to look for."""
+FEW = 80
+"""Equations up to which NumPy solves them in one thread by itself."""
 
 EXUDYN_ENDS = 1e-10
 """Before its end, at most how early Exudyn ends a run, s."""
@@ -278,13 +278,13 @@ def solve_dynamic(
         )
         mbs.sys["dynamicSolver"], mbs.sys["simulationSettings"] = solver, settings
         begun = clock.perf_counter()
-        # matrices of a hundred rows: further threads only wait for each other; a few rows get none,
-        # and to look for NumPy's libraries takes as long as a hundred steps
+        # matrices of a hundred rows: further threads only wait for each other; to look for NumPy's
+        # libraries takes as long as a hundred steps
         with (
             monitor.attached(),
             prepared(settings, task),
             _silent_console(),
-            one_thread() if len(problem.reference) > FEW else nullcontext(),
+            one_thread() if problem.equations > FEW else nullcontext(),
         ):
             try:
                 solved = solver.SolveSystem(mbs, settings)

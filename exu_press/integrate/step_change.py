@@ -206,15 +206,16 @@ class StepChange:
             violated[held, 0] = self._constraints.violated()
             violated[held, 1] = self._constraints.violated_rates(AHEAD * self._fits)
             violated[held] /= lengths[:, None]
-            same = violated[:, 0] == violated[:, 1]
-            violated[same] = 0.0  # prescribed speeds are no places, and are met as they are
+            same = violated[:, :1] == violated[:, 1:]
+            # prescribed speeds are no places, and are met as they are
+            np.copyto(violated, 0.0, where=same)
             try:
                 equations = equations or Equations(matrix)
                 found += equations.solve(violated)[:size]
             except np.linalg.LinAlgError:
                 found[:] = math.nan
-            if not np.isfinite(found).all():  # a film's forces beyond all numbers: it says so
-                found[:] = 0.0
                 break
+        if not np.isfinite(found).all():  # a film's forces beyond all numbers: it says so
+            found[:] = 0.0
         self._data.SetTime(now)
         return found[:, 0], found[:, 1]

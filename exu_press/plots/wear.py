@@ -45,10 +45,6 @@ def wear_figure(report: Report) -> Figure:
             values = [np.nan if v is None else v * quantity.scale for v in report.values(name)]
             axes.plot(strokes, values, "o-", markersize=3)
             axes.set_ylabel(wrapped(headed(name), LETTERS))
-            axes.ticklabel_format(axis="y", useOffset=False)
-            middle, spread = float(np.nanmean(values)), float(np.ptp(values))
-            if spread < LEAST_SPREAD * abs(middle):
-                axes.set_ylim(middle - 1e-3 * abs(middle), middle + 1e-3 * abs(middle))
         else:
             for number, joint in enumerate(joints):
                 values = [1e6 * value for value in report.clearances(joint)]
@@ -58,6 +54,10 @@ def wear_figure(report: Report) -> Figure:
             axes.legend(loc="best")
         axes.set_xlabel("strokes")
         axes.margins(x=0.03)
+        axes.ticklabel_format(axis="y", useOffset=False)
+        low, high = axes.dataLim.intervaly
+        if high - low < LEAST_SPREAD * abs(high):
+            axes.set_ylim(low - 1e-3 * abs(high), high + 1e-3 * abs(high))
     return figure
 
 

@@ -11,6 +11,7 @@ from exu_press.report.html import paragraph, table
 from exu_press.report.study import reading, study_page
 from exu_press.scene import Scene
 from exu_press.schema.stored import from_json
+from exu_press.studies.fit.lines import inexact
 from exu_press.studies.fit.profile import between
 from exu_press.studies.sweep.units import unit_of, with_unit
 
@@ -24,6 +25,7 @@ def fit_report(file: Path) -> str:
         keys = [_key(name, one) for name, one in told["keys"].items()]
         numbers = [_number(one) for one in told["measured"]]
         live = _live(told) if has_library() else None
+        inexact_runs = inexact(told["largest_error_over_uncertainty"])
         chi_square = f"{told['chi_square']:.4g} with {told['degrees_of_freedom']:g}"
     scene = Scene.load(file.parent / "fitted.toml", [])
     return study_page(
@@ -39,6 +41,7 @@ def fit_report(file: Path) -> str:
                 if numbers
                 else paragraph("None was measured; there are curves."),
             ),
+            *(("Errors of the runs", paragraph(text)) for text in inexact_runs),
         ],
         "The fit as it was drawn.",
         scene=scene,

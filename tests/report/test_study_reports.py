@@ -36,7 +36,8 @@ def fitted(tmp_path):
         "keys": {"speed_rpm": key},
         "chi_square": 2.25,
         "degrees_of_freedom": 1.0,
-        "measured": [{**number, "error_over_uncertainty": 0.1}],
+        "measured": [{**number, "error_over_uncertainty": 0.6}],
+        "largest_error_over_uncertainty": 0.6,
         "curves": {
             "torque": {
                 "channel": "drive_torque",
@@ -83,6 +84,7 @@ def test_measured_and_computed_lie_over_each_other(fitted, browser):
         assert scroll <= width
         assert "<i>force" in page.inner_text("body")
         assert "2 (the range's)" in page.inner_text("body")
+        assert "own error is up to 0.6 of an uncertainty" in page.inner_text("body")
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ from exu_press.studies.fit.run import Report
 from exu_press.studies.sweep.units import unit_of, with_unit
 from exu_press.terminal.columns import columns
 
-__all__ = ["report_lines"]
+__all__ = ["inexact", "report_lines"]
 
 UNLIKELY = 0.01
 """Probability of chi-square below which the scene does not explain the measurement."""
@@ -151,10 +151,14 @@ def _residuals(report: Report) -> list[str]:
             f"curve {curve.name}: {len(wanted)} samples, rms residual {size:.2f} uncertainties; "
             f"sensor: {sensor}"
         )
-    large = float(report.errors.max(initial=0.0))
-    if large > EXACT:
-        lines.append(
-            f"a run's own error is up to {significant(large, 2)} of an uncertainty; the cure is a "
-            "lower solver.tolerance"
-        )
-    return lines
+    return [*lines, *inexact(report.largest_error)]
+
+
+def inexact(largest_error: float) -> list[str]:
+    """Return a line where errors of runs, the largest over its uncertainty, touch the fit."""
+    if largest_error <= EXACT:
+        return []
+    return [
+        f"a run's own error is up to {significant(largest_error, 2)} of an uncertainty; the cure "
+        "is a lower solver.tolerance"
+    ]

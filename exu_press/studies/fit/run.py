@@ -69,6 +69,11 @@ class Report:
     told: list[str]
 
     @property
+    def largest_error(self) -> float:
+        """Return that of a number's evaluation, over its uncertainty."""
+        return float(self.errors.max(initial=0.0))
+
+    @property
     def chi_square(self) -> float:
         """Sum of squared residuals over their uncertainties."""
         return self.minima[0].chi_square
@@ -132,6 +137,7 @@ class Report:
                 for one, (wanted, told) in zip(self.study.curve, self.curves, strict=True)
             },
             "profiles": {name: points.tolist() for name, points in self.profiles.items()},
+            "largest_error_over_uncertainty": self.largest_error,
             "runs": self.told,
         }  # fmt: skip
 

@@ -1,7 +1,6 @@
 """Draw a mechanism before anything runs: names, mobility, stroke, dead centres, transmission."""
 
 import argparse
-import copy
 import math
 import sys
 import textwrap
@@ -18,6 +17,7 @@ from exu_press.mechanism import (
     Mechanism,
     Press,
     SliderCrank,
+    mechanism_changed,
     mechanism_from,
     mechanism_to_dict,
     press,
@@ -116,7 +116,7 @@ def _asked(given: str, changes: Mapping[str, Any]) -> tuple[Mechanism, float | N
         path = SHIPPED / f"{given}.toml"
     data = read_toml(path)
     if "bodies" in data and "joints" in data and "crank" in data:
-        data = _changed(data, changes)
+        data = mechanism_changed(data, changes)
         with prefixed(f"{path}: "):
             return mechanism_from(data), None
     return _of_scene(data, path, changes)
@@ -139,34 +139,13 @@ def _of_scene(
     with prefixed(f"{path}: " if path.name else ""):
         speed = _speed(scene)
         if isinstance(mechanism, Mapping):
-            return mechanism_from(_changed(mechanism, further)), speed
+            return mechanism_from(mechanism_changed(mechanism, further)), speed
         if isinstance(mechanism, str) and mechanism.endswith(".toml"):
             file = path.parent / mechanism
-            drawing = _changed(read_toml(file), further)
+            drawing = mechanism_changed(read_toml(file), further)
             with prefixed(f"{file}: "):
                 return mechanism_from(drawing), speed
         return _named(mechanism, scene, further), speed
-
-
-def _changed(data: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
-    """Return a mechanism with other values, by dotted names.
-
-    Raises:
-        InputError: a part has another name.
-    """
-    found: dict[str, Any] = copy.deepcopy(dict(data))
-    for name, value in changes.items():
-        *tables, key = name.split(".")
-        inner = found
-        for place, table in enumerate(tables):
-            if not isinstance(inner.get(table), dict):
-                why = nearest(table, inner)
-                raise InputError(
-                    f"{name} = {value!r}: no table {'.'.join(tables[: place + 1])}{why}"
-                )
-            inner = inner[table]
-        inner[key] = value
-    return found
 
 
 def _named(name: Any, scene: Mapping[str, Any], changes: Mapping[str, Any]) -> Mechanism:
@@ -177,7 +156,7 @@ def _named(name: Any, scene: Mapping[str, Any], changes: Mapping[str, Any]) -> M
                 allowed = ", ".join([*DRAWN, f"{name}.KEY"])
                 raise InputError(f"{change} = {value!r}: is not drawn; allowed are {allowed}")
         table, build = BY_DIMENSIONS[name]
-        sizes = _changed({name: scene.get(name, {})}, changes)[name]
+        sizes = mechanism_changed({name: scene.get(name, {})}, changes)[name]
         drawn: Mechanism = build(table_from(table, name, sizes))
         return drawn
     if name not in MECHANISMS:
@@ -186,7 +165,7 @@ def _named(name: Any, scene: Mapping[str, Any], changes: Mapping[str, Any]) -> M
             f"mechanism = {name!r}: unknown{nearest(name, known)}; allowed are the path of a "
             f"mechanism file, .toml, {', '.join(known)}"
         )
-    return mechanism_from(_changed(mechanism_to_dict(shipped_mechanism(name)), changes))
+    return mechanism_from(mechanism_changed(mechanism_to_dict(shipped_mechanism(name)), changes))
 
 
 def _speed(data: Mapping[str, Any]) -> float | None:

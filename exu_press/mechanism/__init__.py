@@ -3,10 +3,12 @@
 from exu_press.mechanism.file import (
     SHIPPED,
     load_mechanism,
+    mechanism_changed,
     mechanism_from,
     mechanism_lines,
     mechanism_to_dict,
     shipped_mechanism,
+    unit_in_mechanism,
 )
 from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.motion import Motion
@@ -29,10 +31,12 @@ __all__ = [
     "SliderCrank",
     "Spring",
     "load_mechanism",
+    "mechanism_changed",
     "mechanism_from",
     "mechanism_lines",
     "mechanism_to_dict",
     "press",
     "shipped_mechanism",
     "slider_crank",
+    "unit_in_mechanism",
 ]

@@ -20,6 +20,7 @@ radius = 0.03
 clearance = 5e-5
 """
 
+import copy
 import math
 from collections.abc import Collection, Mapping
 from dataclasses import fields
@@ -30,16 +31,18 @@ from typing import Any
 from exu_press.errors import InputError, prefixed
 from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.parts import Body, Guide, Joint, Output
-from exu_press.schema.checks import as_float, refuse_unknown
+from exu_press.schema.checks import as_float, nearest, refuse_unknown
 from exu_press.schema.toml import read_toml, toml_text
 
 __all__ = [
     "SHIPPED",
     "load_mechanism",
+    "mechanism_changed",
     "mechanism_from",
     "mechanism_lines",
     "mechanism_to_dict",
     "shipped_mechanism",
+    "unit_in_mechanism",
 ]
 
 FILES = Path(__file__).with_name("files")
@@ -53,6 +56,9 @@ PARTS: dict[str, tuple[type, tuple[str, ...], tuple[str, ...]]] = {
     "guides": (Guide, ("direction",), ()),
 }
 """Tables of tables -> what each is made of, the keys it needs, and those it may have."""
+
+UNITS = {"mass": "kg", "inertia": "kg m^2", "angle": "rad", "at": "m", "centre_of_mass": "m"}
+COORDINATES = "x", "y"
 
 OUTPUT = ("body",), ("direction", "origin")
 TOP = (
@@ -101,7 +107,10 @@ def mechanism_from(data: Mapping[str, Any]) -> Mechanism:
 
 
 def mechanism_to_dict(mechanism: Mechanism) -> dict[str, Any]:
-    """Return a mechanism with ideal guides as a nested mapping, for `mechanism_from`."""
+    """Return a mechanism with ideal guides as a nested mapping, for `mechanism_from`.
+
+    Uniform rods have no inertia there: it follows from mass and length, and changes with them.
+    """
     data: dict[str, Any] = {"name": mechanism.name, "crank": mechanism.crank}
     if mechanism.counterweight:
         data["counterweight"] = [*mechanism.counterweight]
@@ -110,6 +119,9 @@ def mechanism_to_dict(mechanism: Mechanism) -> dict[str, Any]:
         name = fields(made)[0].name
         parts = getattr(mechanism, kind)
         data[kind] = {getattr(part, name): _plain(part, needed, others) for part in parts}
+    for body in mechanism.bodies:
+        if body.inertia == mechanism.rod_inertia(body):
+            del data["bodies"][body.name]["inertia"]
     data["groups"] = {name: [*members] for name, members in mechanism.groups.items()}
     if mechanism.defaults:
         data["defaults"] = {
@@ -117,6 +129,44 @@ def mechanism_to_dict(mechanism: Mechanism) -> dict[str, Any]:
             for key, value in mechanism.defaults.items()
         }
     return data
+
+
+def mechanism_changed(data: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a mechanism's nested mapping with other values.
+
+    Args:
+        data: as of `mechanism_to_dict`, or of a file.
+        changes: dotted name, as in "bodies.rod.mass", "joints.pin.at" or "joints.pin.at.x" -> its
+            value.
+
+    Raises:
+        InputError: a part has another name.
+    """
+    found = copy.deepcopy(dict(data))
+    for name, value in changes.items():
+        *tables, key = name.split(".")
+        inner: Any = found
+        for place, table in enumerate(tables):
+            outer, inner = inner, inner.get(table)
+            if isinstance(inner, list) and key in COORDINATES:
+                break
+            if not isinstance(inner, dict):
+                why = nearest(table, [part for part, one in outer.items() if isinstance(one, dict)])
+                raise InputError(
+                    f"{name} = {value!r}: no table {'.'.join(tables[: place + 1])}{why}"
+                )
+        inner[COORDINATES.index(key) if isinstance(inner, list) else key] = value
+    return found
+
+
+def unit_in_mechanism(name: str) -> str:
+    """Return the SI unit of a mechanism's key by its dotted name, or nothing.
+
+    >>> unit_in_mechanism("bodies.rod.mass"), unit_in_mechanism("joints.pin.at.x")
+    ('kg', 'm')
+    """
+    parts = name.split(".")
+    return UNITS.get(parts[-2] if parts[-1] in COORDINATES else parts[-1], "")
 
 
 def mechanism_lines(mechanism: Mechanism, prefix: str = "") -> list[str]:

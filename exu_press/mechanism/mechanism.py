@@ -76,9 +76,7 @@ class Mechanism:
         self._set(
             counterweight=tuple(self.counterweight),
             bodies=tuple(
-                replace(body, inertia=_rod_inertia(self, body))
-                if math.isnan(body.inertia)
-                else body
+                replace(body, inertia=self.rod_inertia(body)) if math.isnan(body.inertia) else body
                 for body in self.bodies
             ),
             guides=tuple(replace(g, direction=_unit(g.direction)) for g in self.guides),
@@ -94,6 +92,11 @@ class Mechanism:
         from exu_press import cell
 
         return cell(self)
+
+    def rod_inertia(self, body: Body) -> float:
+        """Return m l^2 / 12 of a uniform rod between a body's joints; nan if not in two places."""
+        places = list(dict.fromkeys(joint.at for joint in self.joints_of(body.name)))
+        return body.mass * math.dist(*places) ** 2 / 12 if len(places) == 2 else math.nan
 
     @property
     def slider(self) -> str:
@@ -228,11 +231,3 @@ class Mechanism:
 def _unit(direction: Point) -> Point:
     length = math.hypot(*direction)
     return direction[0] / length, direction[1] / length
-
-
-def _rod_inertia(mechanism: Mechanism, body: Body) -> float:
-    """Return m l^2 / 12 of a uniform rod between a body's two joints (`check` has counted them)."""
-    first, second = dict.fromkeys(
-        joint.at for joint in mechanism.joints if body.name in (joint.journal, joint.bearing)
-    )
-    return body.mass * math.dist(first, second) ** 2 / 12

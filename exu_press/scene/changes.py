@@ -3,7 +3,14 @@
 from collections.abc import Mapping
 from typing import Any
 
-from exu_press.errors import InputError
+from exu_press.errors import InputError, prefixed
+from exu_press.mechanism import (
+    SHIPPED,
+    Mechanism,
+    mechanism_changed,
+    mechanism_to_dict,
+    shipped_mechanism,
+)
 from exu_press.scene.bodies import changed_bodies
 from exu_press.scene.joint_changes import changed_joints
 from exu_press.scene.loads import changed_loads
@@ -33,6 +40,10 @@ def changed_keys(
         if dot:
             inner.setdefault(table, {})[key] = value
     joints, bodies, loads = (inner.pop(name) for name in ("joints", "bodies", "load"))
+    if drawing := inner.pop("mechanism", None):
+        drawn = _drawn(data["mechanism"], drawing)
+        with prefixed("mechanism."):
+            data["mechanism"] = mechanism_changed(drawn, drawing)
     for table, keys in inner.items():
         before = data.get(table, {})
         if table not in TABLES or not isinstance(before, Mapping):
@@ -50,6 +61,21 @@ def changed_keys(
     elif joints:
         raise InputError("joints and a key of joints: allowed is one of the two in one change")
     return data
+
+
+def _drawn(mechanism: Any, changes: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Return the mechanism of a scene as a nested mapping, of which keys are to be changed."""
+    if isinstance(mechanism, Mapping):
+        return mechanism
+    if isinstance(mechanism, Mechanism):
+        return mechanism_to_dict(mechanism)
+    if mechanism in SHIPPED:
+        return mechanism_to_dict(shipped_mechanism(mechanism))
+    key, value = next(iter(changes.items()))
+    raise InputError(
+        f"mechanism.{key} = {value!r}: allowed where the mechanism is a drawing; dimensions and "
+        f"masses of mechanism = {mechanism!r} are keys of [{mechanism}]"
+    )
 
 
 def named(name: str, groups: Mapping[str, tuple[str, ...]], changes: Mapping[str, Any]) -> bool:

@@ -4,6 +4,7 @@ import dataclasses
 from collections.abc import Mapping
 from typing import Any
 
+from exu_press.mechanism import unit_in_mechanism
 from exu_press.quantities.catalogue import declared
 from exu_press.scene import DryJoint, Flexible, Scene
 from exu_press.scene.load import LOAD_KINDS
@@ -22,6 +23,9 @@ def unit_of(name: str) -> str:
     """
     if (placed := declared(name)) is not None:
         return placed.quantity.unit
+    path = name.removeprefix("scene.")
+    if path.startswith("mechanism."):
+        return unit_in_mechanism(path)
     metadata = _metadata(name)
     return "" if metadata is None else str(metadata["unit"])
 

@@ -40,6 +40,8 @@ def words(name: str) -> str:
     ('balls, radial clearance', 'crank pin: joint force, max')
     >>> words("speed_rpm"), words("load.blanking.force")
     ('crank speed', 'blanking, peak force')
+    >>> words("mechanism.bodies.upper_link.mass")
+    'upper link, mass'
     >>> words("guide.clearance")
     'clearance on each side of a guided body, whose two ends make contact with the guideways'
     """
@@ -47,7 +49,7 @@ def words(name: str) -> str:
         quantity, at = placed.quantity, placed.at.replace("_", " ")
         title = quantity.title if quantity.title and not quantity.under else quantity.meaning
         return f"{at}: {title}" if at else title
-    parts = name.removeprefix("joints.").removeprefix("load.").split(".")
+    parts = re.sub(r"^(joints|load|mechanism\.\w+)\.", "", name).split(".")
     meaning = re.sub(r" \(A-\d+\)|;.*", "", meaning_of(name))  # the assumption, what else is said
     if meaning.startswith(("of ", "on ")):
         meaning = f"{parts[-1].replace('_', ' ')} {meaning}"

@@ -137,7 +137,7 @@ def mechanism_changed(data: Mapping[str, Any], changes: Mapping[str, Any]) -> di
     Args:
         data: as of `mechanism_to_dict`, or of a file.
         changes: dotted name, as in "bodies.rod.mass", "joints.pin.at" or "joints.pin.at.x" -> its
-            value.
+            value; None leaves it out.
 
     Raises:
         InputError: a part has another name.
@@ -155,7 +155,10 @@ def mechanism_changed(data: Mapping[str, Any], changes: Mapping[str, Any]) -> di
                 raise InputError(
                     f"{name} = {value!r}: no table {'.'.join(tables[: place + 1])}{why}"
                 )
-        inner[COORDINATES.index(key) if isinstance(inner, list) else key] = value
+        if value is None and isinstance(inner, dict):
+            inner.pop(key, None)
+        else:
+            inner[COORDINATES.index(key) if isinstance(inner, list) else key] = value
     return found
 
 

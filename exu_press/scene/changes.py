@@ -19,6 +19,9 @@ from exu_press.schema.checks import RENAMED, changed_table, given_in
 
 __all__ = ["changed_keys", "drop", "named"]
 
+DRAWN = "bodies", "joints", "guides", "output"
+"""Tables of a mechanism that a scene changes; its defaults have become the scene's own keys."""
+
 
 def changed_keys(
     scene: Mapping[str, Any], groups: Mapping[str, tuple[str, ...]], changes: Mapping[str, Any]
@@ -65,6 +68,9 @@ def changed_keys(
 
 def _drawn(mechanism: Any, changes: Mapping[str, Any]) -> Mapping[str, Any]:
     """Return the mechanism of a scene as a nested mapping, of which keys are to be changed."""
+    for key, value in changes.items():
+        if key.partition(".")[0] not in DRAWN:
+            raise InputError(f"mechanism.{key} = {value!r}: allowed are keys of {', '.join(DRAWN)}")
     if isinstance(mechanism, Mapping):
         return mechanism
     if isinstance(mechanism, Mechanism):

@@ -1,9 +1,12 @@
 """Keys of a scene's drawing as keys of the scene: masses, places, and what is refused."""
 
+import math
+
 import pytest
 from refused import refused
 
 from exu_press import Scene
+from exu_press.mechanism import shipped_mechanism
 from exu_press.scene.scene import mechanism_of
 from exu_press.studies.sweep.units import with_unit
 
@@ -42,6 +45,16 @@ def test_a_uniform_rod_stays_one():
     assert (found["slide"].mass, found["slide"].inertia) == (5.0, 0.1)
 
 
+def test_an_inertia_left_out_is_that_of_a_rod():
+    inertia = bodies({"bodies.link.inertia": None}, "drag_link")["link"].inertia
+    crank_pin, link_pin = (
+        next(joint.at for joint in shipped_mechanism("drag_link").joints if joint.name == name)
+        for name in ("crank_pin", "link_pin")
+    )
+    length = math.dist(crank_pin, link_pin)
+    assert inertia == pytest.approx(14.0 * length**2 / 12, rel=1e-12)
+
+
 def test_keys_of_a_shipped_drawing():
     at_first = {body.name: body for body in mechanism_of(Scene(mechanism="drag_link")).bodies}
     found = bodies({"bodies.ram.mass": 300.0}, "drag_link")
@@ -55,6 +68,7 @@ def test_keys_of_a_shipped_drawing():
         (LINK, "bodies.rood.mass", "no table bodies.rood (did you mean 'rod'?)"),
         (LINK, "bodies.rod.mas", "unknown key (did you mean 'mass'?)"),
         (LINK, "joints.wrist_pin.at.z", "no table joints.wrist_pin.at"),
+        (LINK, "defaults.radius", "allowed are keys of bodies, joints, guides, output"),
         ("press", "bodies.ram.mass", "are keys of [press]"),
     ],
 )

@@ -8,7 +8,7 @@ import pytest
 from browser import launched
 from in_process import InProcess
 
-for library in ("OMP", "OPENBLAS", "MKL"):  # threads of both workers would wait for each other
+for library in ("OMP", "OPENBLAS", "MKL"):  # threads of the workers would wait for each other
     os.environ.setdefault(f"{library}_NUM_THREADS", "1")
 
 
@@ -53,7 +53,7 @@ def _second(config):
 
 @pytest.hookimpl(wrapper=True)
 def pytest_make_collect_report(collector):
-    """Let two workers begin at either end: what one has compiled the other one reads."""
+    """Let workers begin at either end: what one has compiled the other one reads."""
     report = yield
     if isinstance(collector, pytest.Directory) and _second(collector.config):
         report.result.reverse()

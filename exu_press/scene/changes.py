@@ -7,6 +7,7 @@ from exu_press.errors import InputError, prefixed
 from exu_press.mechanism import (
     SHIPPED,
     Mechanism,
+    load_mechanism,
     mechanism_changed,
     mechanism_to_dict,
     shipped_mechanism,
@@ -73,10 +74,12 @@ def _drawn(mechanism: Any, changes: Mapping[str, Any]) -> Mapping[str, Any]:
             raise InputError(f"mechanism.{key} = {value!r}: allowed are keys of {', '.join(DRAWN)}")
     if isinstance(mechanism, Mapping):
         return mechanism
+    if mechanism in SHIPPED:
+        mechanism = shipped_mechanism(mechanism)
+    elif isinstance(mechanism, str) and mechanism.endswith(".toml"):
+        mechanism = load_mechanism(mechanism)
     if isinstance(mechanism, Mechanism):
         return mechanism_to_dict(mechanism)
-    if mechanism in SHIPPED:
-        return mechanism_to_dict(shipped_mechanism(mechanism))
     key, value = next(iter(changes.items()))
     raise InputError(
         f"mechanism.{key} = {value!r}: allowed where the mechanism is a drawing; dimensions and "

@@ -6,7 +6,7 @@ import pytest
 from refused import refused
 
 from exu_press import Scene
-from exu_press.mechanism import shipped_mechanism
+from exu_press.mechanism import mechanism_from, mechanism_lines, shipped_mechanism
 from exu_press.scene.scene import mechanism_of
 from exu_press.studies.sweep.units import with_unit
 
@@ -60,6 +60,14 @@ def test_keys_of_a_shipped_drawing():
     found = bodies({"bodies.ram.mass": 300.0}, "drag_link")
     assert found.pop("ram").mass == 300.0
     assert found == {name: body for name, body in at_first.items() if name != "ram"}
+
+
+def test_a_file_and_its_keys_change_at_once(tmp_path):
+    file = tmp_path / "link.toml"
+    file.write_text("\n".join(mechanism_lines(mechanism_from(LINK))), encoding="utf-8")
+    changes = {"mechanism": str(file), "mechanism.bodies.slide.mass": 7.0}
+    changed = Scene(mechanism="slider_crank", joints={}).replace(changes)
+    assert mechanism_of(changed).body("slide").mass == 7.0
 
 
 @pytest.mark.parametrize(

@@ -148,17 +148,19 @@ def mechanism_changed(data: Mapping[str, Any], changes: Mapping[str, Any]) -> di
         inner: Any = found
         for place, table in enumerate(tables):
             outer, inner = inner, inner.get(table)
-            if isinstance(inner, list) and key in COORDINATES:
-                break
-            if not isinstance(inner, dict):
+            last = place == len(tables) - 1
+            of_point = last and key in COORDINATES and isinstance(inner, list) and len(inner) == 2
+            if not (of_point or isinstance(inner, dict)):
                 why = nearest(table, [part for part, one in outer.items() if isinstance(one, dict)])
                 raise InputError(
                     f"{name} = {value!r}: no table {'.'.join(tables[: place + 1])}{why}"
                 )
-        if value is None and isinstance(inner, dict):
+        if isinstance(inner, list):
+            inner[COORDINATES.index(key)] = value
+        elif value is None:
             inner.pop(key, None)
         else:
-            inner[COORDINATES.index(key) if isinstance(inner, list) else key] = value
+            inner[key] = value
     return found
 
 

@@ -9,6 +9,7 @@ from exu_press.mechanism import (
     Mechanism,
     load_mechanism,
     mechanism_changed,
+    mechanism_from,
     mechanism_to_dict,
     shipped_mechanism,
 )
@@ -18,7 +19,7 @@ from exu_press.scene.loads import changed_loads
 from exu_press.scene.usage import TABLES
 from exu_press.schema.checks import RENAMED, changed_table, given_in
 
-__all__ = ["changed_keys", "drop", "named"]
+__all__ = ["asked_mechanism", "changed_keys", "drop", "named"]
 
 DRAWN = "bodies", "joints", "guides", "output"
 """Tables of a mechanism that a scene changes; its defaults have become the scene's own keys."""
@@ -67,17 +68,24 @@ def changed_keys(
     return data
 
 
-def _drawn(mechanism: Any, changes: Mapping[str, Any]) -> Mapping[str, Any]:
+def asked_mechanism(mechanism: Any) -> Any:
+    """Return a mechanism that is given as data or as the path of a file; others as they are."""
+    if isinstance(mechanism, Mapping):
+        with prefixed("mechanism."):
+            return mechanism_from(mechanism)
+    if isinstance(mechanism, str) and mechanism.endswith(".toml"):
+        return load_mechanism(mechanism)
+    return mechanism
+
+
+def _drawn(mechanism: Any, changes: Mapping[str, Any]) -> dict[str, Any]:
     """Return the mechanism of a scene as a nested mapping, of which keys are to be changed."""
     for key, value in changes.items():
         if key.partition(".")[0] not in DRAWN:
             raise InputError(f"mechanism.{key} = {value!r}: allowed are keys of {', '.join(DRAWN)}")
-    if isinstance(mechanism, Mapping):
-        return mechanism
+    mechanism = asked_mechanism(mechanism)
     if mechanism in SHIPPED:
         mechanism = shipped_mechanism(mechanism)
-    elif isinstance(mechanism, str) and mechanism.endswith(".toml"):
-        mechanism = load_mechanism(mechanism)
     if isinstance(mechanism, Mechanism):
         return mechanism_to_dict(mechanism)
     key, value = next(iter(changes.items()))

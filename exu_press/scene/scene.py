@@ -12,8 +12,6 @@ from exu_press.mechanism import (
     Mechanism,
     Press,
     SliderCrank,
-    load_mechanism,
-    mechanism_from,
     mechanism_to_dict,
     press,
     shipped_mechanism,
@@ -23,7 +21,7 @@ from exu_press.mechanism import Joint as Drawn
 from exu_press.mechanism.examine import require_turning
 from exu_press.scene.bodies import DRIVE_FACE, GUIDE_FACE, Flexible, bodies_of, body_dict
 from exu_press.scene.built import Built
-from exu_press.scene.changes import changed_keys, drop, named
+from exu_press.scene.changes import asked_mechanism, changed_keys, drop, named
 from exu_press.scene.elastic import with_elastic_guides
 from exu_press.scene.file import parse_assignment, scene_tables
 from exu_press.scene.joint import (
@@ -131,7 +129,7 @@ class Scene(Table):
 
     def __post_init__(self) -> None:
         """Check the keys, refuse those that the scene does not use and fill in the others."""
-        object.__setattr__(self, "mechanism", _asked(self.mechanism))
+        object.__setattr__(self, "mechanism", asked_mechanism(self.mechanism))
         super().__post_init__()
         if not SHORTEST_RUN <= self.duration <= LONGEST_RUN:
             raise InputError(
@@ -469,13 +467,3 @@ def _with_flywheel(drawn: Mechanism, inertia: float) -> Mechanism:
         for body in drawn.bodies
     )
     return dataclasses.replace(drawn, bodies=bodies)
-
-
-def _asked(mechanism: Any) -> Any:
-    """Return a mechanism that is given as data or as the path of a file; others as they are."""
-    if isinstance(mechanism, Mapping):
-        with prefixed("mechanism."):
-            return mechanism_from(mechanism)
-    if isinstance(mechanism, str) and mechanism.endswith(".toml"):
-        return load_mechanism(mechanism)
-    return mechanism

@@ -76,6 +76,7 @@ def test_a_file_and_its_keys_change_at_once(tmp_path):
         (LINK, "bodies.rood.mass", "no table bodies.rood (did you mean 'rod'?)"),
         (LINK, "bodies.rod.mas", "unknown key (did you mean 'mass'?)"),
         (LINK, "joints.wrist_pin.at.z", "no table joints.wrist_pin.at"),
+        (LINK, "joints.wrist_pin.at.left.x", "no table joints.wrist_pin.at"),
         (LINK, "defaults.radius", "allowed are keys of bodies, joints, guides, output"),
         ("press", "bodies.ram.mass", "are keys of [press]"),
     ],

@@ -23,9 +23,6 @@ def unit_of(name: str) -> str:
     """
     if (placed := declared(name)) is not None:
         return placed.quantity.unit
-    path = name.removeprefix("scene.")
-    if path.startswith("mechanism."):
-        return unit_in_mechanism(path)
     metadata = _metadata(name)
     return "" if metadata is None else str(metadata["unit"])
 
@@ -54,7 +51,10 @@ def meaning_of(name: str) -> str:
 
 def _metadata(name: str) -> Mapping[str, Any] | None:
     """Return the declaration of a scene's key."""
-    table, _, inner = name.removeprefix("scene.").rpartition(".")
+    path = name.removeprefix("scene.")
+    if path.startswith("mechanism."):
+        return {"unit": unit_in_mechanism(path), "meaning": ""}
+    table, _, inner = path.rpartition(".")
     kind: type[Table] = TABLES.get(table, Scene)
     if table == "film.oil" or table.endswith(".film.oil"):
         kind = Oil

@@ -35,6 +35,7 @@ MODULES = [
     "integrate/criteria/turning_force",
     "integrate/criteria/vibration",
     "integrate/error",
+    "integrate/kept_energy",
     "integrate/modal_mass",
     "integrate/monitor",
     "integrate/output",

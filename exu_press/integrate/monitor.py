@@ -1,5 +1,6 @@
 """The run monitor: the one place where Exudyn calls, before, in and after every step."""
 
+import math
 import signal
 import threading
 import time
@@ -64,7 +65,7 @@ class Monitor:
     def __init__(
         self,
         task: Task,
-        next_corner: Callable[[float], float],
+        next_corner: Callable[[float], float] | None,
         watch: Callable[[float], str],
         progress: Progress,
         max_steps: int,
@@ -77,7 +78,8 @@ class Monitor:
 
         Args:
             task: to be solved.
-            next_corner: time -> the next instant at which a load has a corner, s, or infinity.
+            next_corner: time -> the next instant at which a load has a corner, s, or infinity;
+                None where there are none.
             watch: is asked after every step why the run is to end there, or nothing.
             progress: is shown ten times a second.
             max_steps: budget.
@@ -98,7 +100,7 @@ class Monitor:
         self.max_steps = max_steps
         self._task, self._progress = task, progress
         self.constraints = Constraints(task)
-        self._step_change = StepChange(task, self.constraints)
+        self._step_change = StepChange(task, self.constraints, corners=next_corner is not None)
         # where steps follow a smooth motion, what modes carry would change with each step's size
         smooth = task.problem.joints is None and not task.fixed
         modal_mass = 0.0 if smooth else task.tuning.modal_mass
@@ -113,15 +115,15 @@ class Monitor:
         self._sampling = Sampling(task, self.constraints, period)
         self._event = Event(task, event)
 
+        corner = next_corner or _never
+
         def next_stop(time: float) -> float:
-            return min(next_corner(time), self._sampling.next(time))
+            return min(corner(time), self._sampling.next(time))
 
         self.control: StepControl | FixedSteps = (
             FixedSteps(task)
             if task.fixed
-            else StepControl(
-                task, self._estimate, next_stop if samples else next_corner, controller
-            )
+            else StepControl(task, self._estimate, next_stop if samples else corner, controller)
         )
         # without clearance joints the estimated error judges every step, jumps included
         judged = task.problem.joints is None and not task.fixed
@@ -327,6 +329,11 @@ class Monitor:
             yield
         finally:
             signal.signal(signal.SIGINT, before)
+
+
+def _never(time: float) -> float:
+    """Return when a load without corners has its next one, s."""
+    return math.inf
 
 
 def _function(found: Any) -> Any:

@@ -43,6 +43,9 @@ MATERIAL_POINTS = {
 }
 """Node types -> how many of their first coordinates are displacements, m."""
 
+SPATIAL_BODIES = "RigidBodyEP", "RigidBodyRxyz"
+"""Node types whose other coordinates turn a body in space."""
+
 LIE_GROUP = "RigidBodyRotVecLG"
 
 ALONG_CABLES = {"JointSliding": 0, "JointSliding2D": 2}
@@ -51,7 +54,7 @@ ALONG_CABLES = {"JointSliding": 0, "JointSliding2D": 2}
 ON_CABLES = *ALONG_CABLES, "JointALEMoving2D"
 """Joints on cables: their data variables are the element they are on and their place, m."""
 
-RIGID_OR_MODAL = (
+RIGID = (
     "Ground",
     "Mass1D",
     "RotationalMass1D",
@@ -59,9 +62,10 @@ RIGID_OR_MODAL = (
     "MassPoint2D",
     "RigidBody",
     "RigidBody2D",
-    FLEXIBLE,
-    "ConnectorDistance",
 )
+"""Objects that are rigid bodies or points."""
+
+RIGID_OR_MODAL = *RIGID, FLEXIBLE, "ConnectorDistance"
 """Objects whose stiffness and damping, if they have any, belong to modes and do not change.
 
 Constraints have none, and most are joints by their names."""
@@ -83,7 +87,7 @@ class Node:
             not displacements: their own largest kinetic energy is the scale then. Infinite for what
             has no say.
         displacements: how many of its first coordinates are displacements.
-        quaternion: whether its last four coordinates are Euler parameters.
+        rotations: how many of its last coordinates turn a body in space; four Euler parameters.
         carrier: number of the node whose mass counts for it too, as a flexible body's frame does
             for its modes.
     """
@@ -94,8 +98,13 @@ class Node:
     size: int
     mass: float | None = None
     displacements: int = 0
-    quaternion: bool = False
+    rotations: int = 0
     carrier: int | None = None
+
+    @property
+    def quaternion(self) -> bool:
+        """Whether its last four coordinates are Euler parameters."""
+        return self.rotations == 4
 
 
 class State:
@@ -236,6 +245,12 @@ class Problem:
         return len(now.positions) + len(now.first_order) + len(now.multipliers)
 
     @property
+    def rigid(self) -> bool:
+        """Return whether all bodies are rigid, or points; what joins them need not be."""
+        joints = "Connector", "Joint", "Contact"
+        return all(kind in RIGID or kind.startswith(joints) for kind in self.kinds)
+
+    @property
     def lubricated(self) -> bool:
         """Return whether there is a film."""
         return self.joints is not None and self.joints.lubricated
@@ -305,7 +320,7 @@ def _nodes(
                 size=len(coordinates),
                 mass=mass,
                 displacements=displacements,
-                quaternion=kind == "RigidBodyEP",
+                rotations=len(coordinates) - displacements if kind in SPATIAL_BODIES else 0,
                 carrier=carriers.get(number),
             )
         )

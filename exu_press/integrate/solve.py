@@ -180,11 +180,6 @@ class Advice:
             warnings.warn(text, stacklevel=3)
 
 
-def _never(time: float) -> float:
-    """Return when a load without corners has its next one, s."""
-    return float("inf")
-
-
 def _nothing(time: float) -> str:
     """Return why a run is to end at a time, s."""
     return ""
@@ -199,7 +194,7 @@ def solve_dynamic(
     scales: ErrorScales = NO_SCALES,
     tuning: SolverTuning = DEFAULTS,
     controller: Controller | None = None,
-    next_corner: Callable[[float], float] = _never,
+    next_corner: Callable[[float], float] | None = None,
     watch: Callable[[float], str] = _nothing,
     sample: float | None = None,
     event: Callable[[exu.MainSystem, float], float] | None = None,
@@ -232,7 +227,7 @@ def solve_dynamic(
         controller: changes steps for their errors instead of `LimitedGrowth`, which has `safety`
             and `factor_max` of the tuning.
         next_corner: time (s) -> the next instant at which a load has a corner, s, or infinity;
-            steps end on them.
+            steps end on them. None: there are none.
         watch: time (s) -> why the motion has come to its end there, or nothing; is asked after
             every step. ARRIVED ends a run that got where it was to go.
         sample: period of the system's pre-step function, s. Steps end on its multiples, and the

@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from exu_press.integrate.constraints import Constraints
+from exu_press.integrate.kept_energy import KeptEnergy
 from exu_press.integrate.settings import SAME, Task, inertia_factor
 from exu_press.numerics.arrays import Array
 from exu_press.numerics.floats import Floats
@@ -35,6 +36,7 @@ class StepChange:
     beside a long step but a jolt beside a short one: it is taken away.
 
     Without films and contacts motion is smooth, steps change seldom, and each change is worth this.
+    In the plane, rigid bodies keep their energy then, where loads have no corners (`KeptEnergy`).
     With them, and with Exudyn's contacts, steps change all the time: velocities are fitted once
     steps have shrunk to a third. With clearance joints a longer step, which has little to make of
     either, is left alone: scaling up would blow up whatever an impact or a film's start left
@@ -54,14 +56,17 @@ class StepChange:
     hidden constraints.
     """
 
-    def __init__(self, task: Task, constraints: Constraints) -> None:
-        """Watch the steps of a system that has these constraints."""
+    def __init__(self, task: Task, constraints: Constraints, *, corners: bool) -> None:
+        """Watch the steps of a system that has these constraints, and loads with corners or not."""
         problem = task.problem
         self._smooth = problem.joints is None
         self._slides = bool(problem.places)
         self._seldom = self._smooth and not problem.switching  # do steps change
         self._film_waits = problem.lubricated
         self._refit = task.tuning.refit
+        self._energy: KeptEnergy | None = None
+        if self._seldom and not corners and KeptEnergy.suits(problem):
+            self._energy = KeptEnergy(task, constraints)
         self._solver, self._constraints = task.solver, constraints
         self._data, self._current, self._at_start = problem.data, problem.current, problem.start
         self._now, self._before = (
@@ -73,6 +78,7 @@ class StepChange:
         self._fits = self._leaves = 0.0  # the step that constrained velocities fit, now and next
         self._state: list[Array] = []  # at the step's beginning, before any shift
         self._offsets: tuple[Array, Array] | None = None
+        self._per_square: Array | None = None  # `KeptEnergy` of that state
         self._mean: Array | None = None  # acceleration of the first step
         # accelerations at the start, and what of their rate constraints prescribe
         self._given: tuple[Array, Array] | None = None
@@ -105,6 +111,7 @@ class StepChange:
             self._last = None if self._start is None else start - self._start
             self._fits = max(self._leaves, self._last or 0.0)
             self._start, self._state, self._offsets = start, [], None
+            self._per_square = None
         self._leaves = self._fits
         ratio = 1.0 if self._last is None else step / self._last
         if not self._smooth:
@@ -134,6 +141,12 @@ class StepChange:
                         self._offsets = self._violations()
                     q = q - self._offsets[0]
                     v = v - (1.0 - part * part) * self._offsets[1]
+                if self._energy is not None and self._last is not None:
+                    if self._per_square is None:
+                        self._per_square = self._energy.per_square(
+                            self._last, self._state[1], a, *self._matrices()[1:3]
+                        )
+                    v = v + (step * step - self._last * self._last) * self._per_square
         at_start = solver.GetStartOfStepStateAAlgorithmic()
         wanted = a + ratio * (at_start - a)
         if self._last is None and self._mean is not None:
@@ -157,6 +170,16 @@ class StepChange:
             for values, by, floats in zip(shifted, (by_q, by_v, by_a), state, strict=True):
                 floats.set([values[i] + by * missing[i] for i in range(len(missing))])
 
+    def _matrices(self) -> tuple[Array, Array, Array]:
+        """Return the last Jacobian, the inertia in it, and the constraints' directions."""
+        solver, size = self._solver, len(self._current.positions)
+        jacobian = np.asarray(solver.GetSystemJacobian())
+        directions = jacobian[-self._constraints.count :, :size]
+        if self._slides:
+            directions = self._constraints.directions()
+        inertia = inertia_factor(solver) * solver.GetSystemMassMatrix()
+        return jacobian[:size, :size], inertia, directions
+
     def _violations(self) -> tuple[Array, Array]:
         """Return what of positions and velocities the constraints forbid, in Newton's norm.
 
@@ -166,13 +189,7 @@ class StepChange:
         answered with 2.4 kN. But a contact that lets go may give way to a change instead, so that
         a large one costs nothing: where masses alone resist more, they count.
         """
-        size, count = len(self._current.positions), self._constraints.count
-        solver = self._solver
-        jacobian = np.asarray(solver.GetSystemJacobian())
-        directions, forces = jacobian[-count:, :size], jacobian[:size, :size]
-        if self._slides:
-            directions = self._constraints.directions()
-        inertia = inertia_factor(solver) * solver.GetSystemMassMatrix()
+        forces, inertia, directions = self._matrices()
         found = self._projection(0.5 * (forces + forces.T), directions)
         for change in found:
             if change @ forces @ change < MORE * (change @ inertia @ change):

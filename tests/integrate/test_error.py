@@ -230,7 +230,7 @@ def test_what_is_to_turn_yet_may_be_off_by_less_along_its_way():
 def turning_after(motion, *, duration=10.0, time=2.0, steps=2000, quaternion=False):
     """The angle to come of a body whose velocity and acceleration are given at each time."""
     size = 4 if quaternion else 2
-    node = Node(0, "", 0, size, 2.0, displacements=2, quaternion=quaternion)
+    node = Node(0, "", 0, size, 2.0, displacements=2, rotations=4 if quaternion else 0)
     problem = problem_at([node], np.zeros(size))
     state = problem.current
     scales = FoundScales(ErrorScales(speed=1.0, force=1.0), problem, longest=1.0)

@@ -227,7 +227,8 @@ def solve_dynamic(
         controller: changes steps for their errors instead of `LimitedGrowth`, which has `safety`
             and `factor_max` of the tuning.
         next_corner: time (s) -> the next instant at which a load has a corner, s, or infinity;
-            steps end on them. None: there are none.
+            steps end on them. None: there are none, and rigid bodies in the plane keep their energy
+            as steps change.
         watch: time (s) -> why the motion has come to its end there, or nothing; is asked after
             every step. ARRIVED ends a run that got where it was to go.
         sample: period of the system's pre-step function, s. Steps end on its multiples, and the

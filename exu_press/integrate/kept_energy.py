@@ -33,8 +33,8 @@ class KeptEnergy:
     from h_1 to h_2 velocities change by -(h_2^2 - h_1^2) (3 d_v + d_q)/2 |N|^2/|v|^2 of what
     constraints do not prescribe of them, which hands it over. Sizes are kinetic norms.
 
-    Not where loads have corners, as in scenes: these change the energy by more, and of two runs with
-    other steps the torques of a drive differed by 0.4 % of the peak.
+    Not where loads have corners, as in scenes: these change the energy by more, and the torques of
+    a drive in two runs with other steps differed by 0.4 % of the peak.
 
     Source: modified equations, E. Hairer, C. Lubich and G. Wanner, Geometric Numerical Integration,
     chapter IX; the change is worked out here.

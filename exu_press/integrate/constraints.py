@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from exu_press.integrate.settings import Task
 from exu_press.numerics.arrays import Array
 
-__all__ = ["Constraints"]
+__all__ = ["Constraints", "normalised"]
 
 Flags = NDArray[np.bool_]
 
@@ -33,6 +33,16 @@ REDUNDANT = 1e-8
 
 NEARBY = 1e-6
 """Change of a place along a cable that tells what constraints make of it, over the length."""
+
+
+def normalised(directions: Array) -> tuple[Array, Array]:
+    """Return constraints' directions of length 1, a row each, and what their lengths were.
+
+    Newton's matrix has those of velocities over the step. What is switched off keeps its zeros.
+    """
+    lengths = np.sqrt(np.square(directions).sum(axis=1))
+    lengths[lengths == 0.0] = 1.0
+    return directions / lengths[:, None], lengths
 
 
 class Constraints:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from exu_press.integrate.constraints import Constraints
+from exu_press.integrate.constraints import Constraints, normalised
 from exu_press.integrate.problem import Problem
 from exu_press.integrate.settings import Task
 from exu_press.numerics.arrays import Array
@@ -76,9 +76,7 @@ class KeptEnergy:
         settled, gamma = solver.alphaM - solver.alphaF, solver.newmarkGamma
         of_q = 0.5 * settled + solver.newmarkBeta - 1.0 / 6.0
         of_v = settled * (solver.alphaM + gamma - 0.5) + 0.5 * gamma - 1.0 / 6.0
-        lengths = np.sqrt(np.square(directions).sum(axis=1))
-        lengths[lengths == 0.0] = 1.0
-        matrix = self._constraints.matrix(inertia, directions / lengths[:, None])
+        matrix = self._constraints.matrix(inertia, normalised(directions)[0])
         right = np.zeros((len(matrix), 2))
         right[:size] = inertia @ np.array([accelerations, velocities]).T
         try:

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from exu_press.integrate.constraints import Constraints
+from exu_press.integrate.constraints import Constraints, normalised
 from exu_press.integrate.kept_energy import KeptEnergy
 from exu_press.integrate.settings import SAME, Task, inertia_factor
 from exu_press.numerics.arrays import Array
@@ -36,11 +36,13 @@ class StepChange:
     beside a long step but a jolt beside a short one: it is taken away.
 
     Without films and contacts motion is smooth, steps change seldom, and each change is worth this.
-    In the plane, rigid bodies keep their energy then, where loads have no corners (`KeptEnergy`).
     With them, and with Exudyn's contacts, steps change all the time: velocities are fitted once
     steps have shrunk to a third. With clearance joints a longer step, which has little to make of
     either, is left alone: scaling up would blow up whatever an impact or a film's start left
     ringing.
+
+    In smooth motion without corners of loads, rigid bodies in the plane keep their energy, too
+    (`KeptEnergy`).
 
     Exudyn's algorithmic acceleration can be read but not written, and when a step is repeated it
     keeps the value of the failed try. But positions, velocities and accelerations at the step's
@@ -208,10 +210,8 @@ class StepChange:
         """
         size = len(norm)
         held = slice(size, size + len(directions))
-        # Newton's matrix has those of velocities over the step
-        lengths = np.sqrt(np.square(directions).sum(axis=1))
-        lengths[lengths == 0.0] = 1.0
-        matrix = self._constraints.matrix(norm, directions / lengths[:, None])
+        directions, lengths = normalised(directions)
+        matrix = self._constraints.matrix(norm, directions)
         position, velocity = self._current.positions, self._current.velocities
         now = self._data.GetTime()
         self._data.SetTime(self._start)

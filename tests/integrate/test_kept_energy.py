@@ -8,35 +8,35 @@ from patched import PATCHED
 
 from exu_press.integrate import solve_dynamic
 from exu_press.integrate.kept_energy import KeptEnergy
+from exudyn_examples.example import GRAVITY
+from exudyn_examples.planar import bar, pin
 
-GRAVITY = 9.81
 SWING = 2.0  # s
 
 
 def links(count):
     """Return a pendulum of rods, 1 m and 1 kg each, that hang on each other, level at the start."""
     mbs = exu.SystemContainer().AddSystem()
-    before = mbs.AddMarker(eu.MarkerBodyPosition(bodyNumber=mbs.AddObject(eu.ObjectGround())))
+    before, place = mbs.AddObject(eu.ObjectGround()), (0.0, 0.0)
     for i in range(count):
-        node = mbs.AddNode(eu.NodeRigidBody2D(referenceCoordinates=[i + 0.5, 0.0, 0.0]))
-        body = mbs.AddObject(eu.ObjectRigidBody2D(nodeNumber=node, mass=1.0, inertia=1.0 / 12.0))
-        start, middle, end = (
-            mbs.AddMarker(eu.MarkerBodyPosition(bodyNumber=body, localPosition=[x, 0.0, 0.0]))
-            for x in (-0.5, 0.0, 0.5)
-        )
-        mbs.AddObject(eu.ObjectJointRevolute2D(markerNumbers=[before, start]))
-        mbs.AddLoad(eu.LoadForceVector(markerNumber=middle, loadVector=[0.0, -GRAVITY, 0.0]))
-        before = end
+        body, half, _ = bar(mbs, (i, 0.0), (i + 1.0, 0.0), 1.0)
+        pin(mbs, before, place, body, (-half, 0.0))
+        before, place = body, (half, 0.0)
     mbs.Assemble()
     return mbs
+
+
+def settings(duration, steps):
+    chosen = exu.SimulationSettings()
+    chosen.timeIntegration.endTime = duration
+    chosen.timeIntegration.numberOfSteps = steps
+    chosen.solution.file.write = False
+    return chosen
 
 
 def swung(count, tolerance=3e-4, duration=8.0):
     """Return the steps of such a pendulum, and how far its energy is off at the end, J."""
     mbs, found = links(count), []
-    settings = exu.SimulationSettings()
-    settings.timeIntegration.endTime = duration
-    settings.timeIntegration.numberOfSteps = 100
 
     def energy(mbs, time):
         speeds = np.array(mbs.systemData.GetODE2Coordinates_t()).reshape(-1, 3)
@@ -46,7 +46,7 @@ def swung(count, tolerance=3e-4, duration=8.0):
         return True
 
     mbs.SetPostStepUserFunction(energy)
-    outcome = solve_dynamic(mbs, settings, tolerance=tolerance).check()
+    outcome = solve_dynamic(mbs, settings(duration, 100), tolerance=tolerance).check()
     late = np.linspace(duration - SWING, duration, 200)
     return outcome.steps, abs(np.interp(late, *np.array(found).T).mean())
 
@@ -73,10 +73,7 @@ def tumbled():
         initialAngularVelocity=[3.0, 2.0, 1.0],
     )
     mbs.Assemble()
-    settings = exu.SimulationSettings()
-    settings.timeIntegration.endTime = 2.0
-    settings.timeIntegration.numberOfSteps = 20
-    steps = solve_dynamic(mbs, settings).check().steps
+    steps = solve_dynamic(mbs, settings(2.0, 20)).check().steps
     return steps, list(mbs.systemData.GetODE2Coordinates())
 
 

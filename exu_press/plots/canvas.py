@@ -49,7 +49,7 @@ def crank_degrees(result: Result) -> Array:
 def angle_range(results: Mapping[str, Result]) -> tuple[float, float]:
     """Return the crank angles (deg) between which there is something to see."""
     angles = [crank_degrees(result) for result in results.values()]
-    return min(angle[0] for angle in angles), max(angle[-1] for angle in angles)
+    return min(angle.min() for angle in angles), max(angle.max() for angle in angles)
 
 
 def angle_axis(

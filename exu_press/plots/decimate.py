@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 
 from exu_press.numerics.arrays import Array
 
-__all__ = ["BINS", "decimate", "visible_segments"]
+__all__ = ["BINS", "decimate", "travelled", "visible_segments"]
 
 BINS = 1500
 """About two bins a pixel in a panel over half a picture's width."""
@@ -18,9 +18,9 @@ def decimate(x: Array, *curves: Array, bins: int = BINS) -> NDArray[np.intp]:
     a pixel wide (M4: Jugel et al., Proc. VLDB Endowment 7 (2014) 797-808).
 
     Args:
-        x: (n,), not decreasing.
+        x: (n,), as of a crank that may fall back; bins are of the way that it goes.
         curves: each (n,); extremes of each of them are kept.
-        bins: of equal width over x.
+        bins: of equal width.
 
     Returns:
         Increasing indices into x; all of them where there are not more than 4 a bin.
@@ -28,8 +28,8 @@ def decimate(x: Array, *curves: Array, bins: int = BINS) -> NDArray[np.intp]:
     count = len(x)
     if count <= 4 * bins:
         return np.arange(count)
-    width = (x[-1] - x[0]) / bins or 1.0
-    bin_of = np.minimum(((x - x[0]) / width).astype(int), bins - 1)
+    way = travelled(x)
+    bin_of = np.minimum((way / (way[-1] / bins or 1.0)).astype(int), bins - 1)
     starts = np.flatnonzero(np.diff(bin_of, prepend=-1))
     ends = np.append(starts[1:], count) - 1
     kept = [starts, ends]
@@ -37,6 +37,11 @@ def decimate(x: Array, *curves: Array, bins: int = BINS) -> NDArray[np.intp]:
         order = np.lexsort((curve, bin_of))
         kept += [order[starts], order[ends]]
     return np.unique(np.concatenate(kept))
+
+
+def travelled(x: Array) -> Array:
+    """Return the way from the first of places (n,) to each, whatever the direction, (n,)."""
+    return np.append(0.0, np.cumsum(np.abs(np.diff(x))))
 
 
 def visible_segments(points: Array, pixel: float) -> NDArray[np.intp]:

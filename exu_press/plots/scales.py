@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from exu_press.numerics.arrays import Array
+from exu_press.plots.decimate import travelled
 from exu_press.plots.style import GREY, SHADE
 
 __all__ = ["angle_ticks", "crank_angle_axis", "impact_scale", "log_axis", "note", "spread", "widen"]
@@ -92,7 +93,8 @@ def impact_scale(axes: Axes, curves: Iterable[tuple[Array, Array]], *, signed: b
     """
     peak, ordinary = 0.0, 0.0
     for angle, values in curves:
-        uniform = np.interp(np.linspace(angle[0], angle[-1], 2000), angle, values)
+        way = travelled(angle)
+        uniform = np.interp(np.linspace(0.0, way[-1], 2000), way, values)
         ordinary = max(ordinary, float(np.percentile(np.abs(uniform), 90)))
         peak = max(peak, float(np.abs(values).max()))
     if peak <= DWARFED * ordinary or ordinary == 0.0:

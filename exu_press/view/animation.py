@@ -141,7 +141,7 @@ class Animation:
             axes.tick_params(labelbottom=index == len(curves) - 1)
             panels.append(axes)
         panels[-1].set_xlabel(angle_words({"": result}))
-        ends = degrees[shown][0], degrees[shown][-1]
+        ends = degrees[shown].min(), degrees[shown].max()
         crank_angle_axis(panels, *ends, dead_centres({"": result}))
 
 

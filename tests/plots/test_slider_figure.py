@@ -51,3 +51,11 @@ def test_averaging_keeps_the_change_of_velocity():
     assert mean.max() == pytest.approx(40.0, rel=1e-9)  # 0.04 m/s in 1 ms
     assert np.count_nonzero(mean > 1.0) == pytest.approx(101, abs=2)
     assert np.all(np.isfinite(averaged(np.zeros(1), np.zeros(1))))
+
+
+def test_a_crank_that_falls_back_is_in_the_picture(results):
+    run = results["stopped"]
+    figure = slider_figure({"": run.with_values({"crank_angle": 1.0 - run["crank_angle"]})})
+    for axes in figure.axes:
+        (low, high), drawn = axes.get_xlim(), axes.lines[0].get_xdata()
+        assert low <= drawn.min() < drawn.max() <= high

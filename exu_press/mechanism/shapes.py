@@ -10,9 +10,20 @@ from dataclasses import dataclass
 import numpy as np
 
 from exu_press.mechanism.mechanism import Mechanism
+from exu_press.mechanism.parts import Guide
 from exu_press.numerics.arrays import Array
 
-__all__ = ["COLOURS", "Shape", "moved", "shapes_of", "swept", "swept_outlines"]
+__all__ = [
+    "COLOURS",
+    "Mark",
+    "Shape",
+    "marks",
+    "moved",
+    "rails",
+    "shapes_of",
+    "swept",
+    "swept_outlines",
+]
 
 COLOURS = {"crank": "#F2C14E", "bearing": "#8FC1E3", "link": "#C3D0DA", "block": "#DADFE3"}
 """By role; "bearing" is the body on the pin that is farthest from the crank's shaft."""
@@ -22,6 +33,9 @@ ROD = 0.011
 
 BLOCK = 0.07
 """Margin of the heaviest block around its joints, relative to the mechanism's height."""
+
+LEVEL = 1e-6
+"""Slope below which a direction is horizontal."""
 
 CORNERS = 48
 """Corners of a link's outline, most of them at its round ends."""
@@ -88,6 +102,66 @@ def swept_outlines(mechanism: Mechanism, shapes: Mapping[str, Shape]) -> dict[st
         name: np.vstack([shape.moved(pose) for pose in motion[name].position])
         for name, shape in shapes.items()
     }
+
+
+def rails(guide: Guide, outline: Array, unit: float) -> list[Array]:
+    """Return the corners (4, 2) of the rails on both sides of a body in its guide.
+
+    Args:
+        guide: that holds the body.
+        outline: all places (n, 2) of the body's outline.
+        unit: height of the drawing, m.
+    """
+    gap, width = 0.004 * unit, 0.008 * unit
+    axes = np.array([guide.across, guide.direction])
+    (left, low), (right, high) = (outline @ axes.T).min(axis=0), (outline @ axes.T).max(axis=0)
+    return [
+        np.array([[edge, low], [edge + width, low], [edge + width, high], [edge, high]]) @ axes
+        for edge in (left - gap - width, right + gap)
+    ]
+
+
+@dataclass(frozen=True)
+class Mark:
+    """A dead centre beside the slider's way, at the edge that leads upwards.
+
+    Attributes:
+        label: "TDC" or "BDC".
+        place: where the slider's outline ends sideways, m.
+        aside: unit vector away from the slider: to the left, or downwards.
+        above: whether the other one lies below.
+    """
+
+    label: str
+    place: Array
+    aside: Array
+    above: bool
+
+
+def marks(mechanism: Mechanism, outline: Array) -> list[Mark]:
+    """Return the ideal slider's dead centres, none where it has none.
+
+    Args:
+        mechanism: drawn.
+        outline: all places (n, 2) of the slider's outline.
+    """
+    if mechanism.dead_centres is None:
+        return []
+    motion = mechanism.motion(np.linspace(0.0, 2.0 * np.pi, 721), 1.0)[mechanism.slider]
+    along = np.array(mechanism.output.direction)
+    aside = np.array([-along[1], along[0]])
+    if aside @ (1.0, LEVEL) > 0.0:
+        aside = -aside
+    heights = motion.position[:, :2] @ along
+    edge = (outline @ along).max() - heights.max()
+    beside = (outline @ aside).max() * aside
+    return [
+        Mark(label, (height + edge) * along + beside, aside, bool(upwards > LEVEL))
+        for label, height, upwards in (
+            ("TDC", heights.max(), along[1]),
+            ("BDC", heights.min(), -along[1]),
+        )
+    ]
 
 
 def moved(points: Array, pose: Array) -> Array:

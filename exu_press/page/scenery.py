@@ -6,7 +6,7 @@ import numpy as np
 
 from exu_press.mechanism import Mechanism
 from exu_press.mechanism.parts import GROUND
-from exu_press.mechanism.shapes import shapes_of, swept_outlines
+from exu_press.mechanism.shapes import marks, rails, shapes_of, swept_outlines
 from exu_press.numerics.arrays import Array
 from exu_press.plots.busiest import busiest
 from exu_press.plots.words import joint_in_words
@@ -48,7 +48,9 @@ def scenery(result: Result) -> dict[str, Any]:
         "joints": [_joint(result, mechanism, name) for name in result.joints],
         "magnified": _magnified(result),
         "rails": [
-            rail for guide in mechanism.guides for rail in _rails(everywhere[guide.body], unit)
+            _rounded(rail)
+            for guide in mechanism.guides
+            for rail in rails(guide, everywhere[guide.body], unit)
         ],
         "pivots": [[*map(float, joint.at)] for joint in mechanism.joints if joint.on_frame],
         "ends": _ends(mechanism, everywhere[mechanism.slider]),
@@ -89,26 +91,17 @@ def _magnified(result: Result) -> list[str]:
     return list(busiest([result], loose, "eccentricity", MAGNIFIED)[0])
 
 
-def _rails(outline: Array, unit: float) -> list[list[list[float]]]:
-    """Return the rails on both sides of a body in a guide."""
-    gap, width = 0.004 * unit, 0.008 * unit
-    (left, low), (right, high) = outline.min(axis=0), outline.max(axis=0)
-    found = []
-    for edge in (left - gap - width, right + gap):
-        corners = [[edge, low], [edge + width, low], [edge + width, high], [edge, high]]
-        found.append(_rounded(np.array(corners)))
-    return found
-
-
 def _ends(mechanism: Mechanism, outline: Array) -> list[dict[str, Any]]:
-    """Return the heights of the slider's upper edge in the ideal dead centres."""
-    if mechanism.dead_centres is None:
-        return []
-    motion = mechanism.motion(np.linspace(0.0, 2.0 * np.pi, 721), 1.0)[mechanism.slider]
-    heights, left = motion.position[:, 1], float(outline[:, 0].min())
-    edge = float(outline[:, 1].max() - heights.max())
-    places = (("TDC", heights.max()), ("BDC", heights.min()))
-    return [{"label": label, "x": left, "y": float(height) + edge} for label, height in places]
+    """Return the ideal dead centres beside the slider."""
+    return [
+        {
+            "label": mark.label,
+            "at": [*map(float, mark.place)],
+            "aside": [*map(float, mark.aside)],
+            "above": mark.above,
+        }
+        for mark in marks(mechanism, outline)
+    ]
 
 
 def _rounded(points: Array) -> list[list[float]]:

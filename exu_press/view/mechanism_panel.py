@@ -9,7 +9,7 @@ from matplotlib.patches import Circle, Polygon
 
 from exu_press.mechanism import Mechanism
 from exu_press.mechanism.parts import Point
-from exu_press.mechanism.shapes import moved, shapes_of, swept_outlines
+from exu_press.mechanism.shapes import marks, moved, rails, shapes_of, swept_outlines
 from exu_press.numerics.arrays import Array
 from exu_press.plots.scales import spread
 from exu_press.plots.style import COLOURS, GREY
@@ -126,11 +126,8 @@ def _draw_frame(
     axes: Axes, mechanism: Mechanism, everywhere: dict[str, Array], unit: float
 ) -> None:
     """Draw the guides beside their bodies, and the pivots in the frame."""
-    gap, width = 0.004 * unit, 0.008 * unit
     for guide in mechanism.guides:
-        (left, low), (right, high) = everywhere[guide.body].min(0), everywhere[guide.body].max(0)
-        for edge in (left - gap - width, right + gap):
-            rail = [[edge, low], [edge + width, low], [edge + width, high], [edge, high]]
+        for rail in rails(guide, everywhere[guide.body], unit):
             axes.add_patch(Polygon(rail, **FIXED))
     for joint in mechanism.joints:
         if joint.on_frame:
@@ -138,16 +135,13 @@ def _draw_frame(
 
 
 def _draw_dead_centres(axes: Axes, mechanism: Mechanism, outline: Array, unit: float) -> None:
-    """Mark the top and the bottom of the slider's upper edge with ideal joints."""
-    motion = mechanism.motion(np.linspace(0.0, 2.0 * np.pi, 721), 1.0)[mechanism.slider]
-    heights = motion.position[:, 1]
-    edge = float(outline[:, 1].max() - heights.max())
-    left = float(outline[:, 0].min())
-    for y, words, side in ((heights.max(), "TDC", "bottom"), (heights.min(), "BDC", "top")):
-        line = [left - 0.01 * unit, left - 0.035 * unit]
-        axes.plot(line, [y + edge, y + edge], color=GREY, linewidth=0.9)
-        at = line[1] - 0.006 * unit, y + edge
-        axes.text(*at, words, fontsize=7.5, color=GREY, va=side, ha="right")
+    """Mark the slider's leading edge with ideal joints in both dead centres."""
+    for mark in marks(mechanism, outline):
+        line = mark.place + np.outer([0.01 * unit, 0.035 * unit], mark.aside)
+        axes.plot(*line.T, color=GREY, linewidth=0.9)
+        x, y = line[1] + 0.006 * unit * mark.aside
+        side = "bottom" if mark.above else "top"
+        axes.text(x, y, mark.label, fontsize=7.5, color=GREY, va=side, ha="right")
 
 
 def _draw_labels(

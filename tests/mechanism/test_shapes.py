@@ -3,7 +3,8 @@ import pytest
 from matplotlib.path import Path
 
 from exu_press import Scene
-from exu_press.mechanism.shapes import moved, shapes_of, swept
+from exu_press.mechanism import Body, Guide, Joint, Mechanism, Output
+from exu_press.mechanism.shapes import marks, moved, rails, shapes_of, swept, swept_outlines
 from exu_press.scene import mechanism_of
 
 SCENES = [
@@ -52,3 +53,38 @@ def test_moved_turns_and_shifts():
 def test_swept_spans_the_mechanism():
     height = np.ptp(swept(mechanism_of(Scene(mechanism="slider_crank")))[:, 1])
     assert height == pytest.approx(2 * 0.03 + 0.383, abs=1e-6)
+
+
+@pytest.mark.parametrize("degrees", [90.0, -90.0, 0.0, 30.0, 180.0])
+def test_rails_and_dead_centres_lie_along_the_guide(degrees):
+    along = np.array([np.cos(np.radians(degrees)), np.sin(np.radians(degrees))])
+    across = np.array([along[1], -along[0]])
+    pin, wrist = tuple(0.1 * along), tuple(0.5 * along)
+    mechanism = Mechanism(
+        "slider_crank",
+        [
+            Body("crank", 1.0, 0.1),
+            Body("rod", 1.0, centre_of_mass=tuple(0.3 * along)),
+            Body("slide", 1.0, 0.1, wrist),
+        ],
+        [
+            Joint("shaft", (0.0, 0.0), "crank", "frame"),
+            Joint("pin", pin, "crank", "rod"),
+            Joint("wrist", wrist, "rod", "slide"),
+        ],
+        crank="crank",
+        guides=[Guide("slide", tuple(along))],
+        output=Output("slide", tuple(along)),
+    )
+    outline = swept_outlines(mechanism, shapes_of(mechanism))["slide"]
+    beside = outline @ across
+    for rail in rails(mechanism.guides[0], outline, 1.0):
+        ways = rail @ across
+        assert not np.any((ways > beside.min()) & (ways < beside.max()))
+        assert np.ptp(rail @ along) == pytest.approx(np.ptp(outline @ along))
+    top, bottom = marks(mechanism, outline)
+    assert (top.label, bottom.label) == ("TDC", "BDC")
+    assert (top.place - bottom.place) == pytest.approx(0.2 * along)
+    assert top.aside[0] <= 1e-12
+    assert abs(top.aside @ along) < 1e-12
+    assert top.above == (along[1] > 1e-9)

@@ -32,11 +32,11 @@ class Mechanism {
     for (const [x, y] of scenery.pivots) {
       drawn("circle", {cx: x, cy: -y, r: 0.026 * unit, class: "fixed"}, svg);
     }
-    for (const {label, x, y} of scenery.ends) {
-      const to = x - 0.035 * unit;
-      drawn("line", {x1: x - 0.01 * unit, y1: -y, x2: to, y2: -y, class: "end"}, svg);
-      const dy = label === "TDC" ? -0.006 * unit : 0.026 * unit;
-      drawn("text", {x: to, y: -y + dy, "font-size": 0.026 * unit, class: "faint"}, svg)
+    for (const {label, at: [x, y], aside: [ux, uy], above} of scenery.ends) {
+      const from = 0.01 * unit, to = 0.035 * unit, x2 = x + to * ux, y2 = -y - to * uy;
+      drawn("line", {x1: x + from * ux, y1: -y - from * uy, x2, y2, class: "end"}, svg);
+      const dy = above ? -0.006 * unit : 0.026 * unit;
+      drawn("text", {x: x2, y: y2 + dy, "font-size": 0.026 * unit, class: "faint"}, svg)
         .textContent = label;
     }
     this.bodies = scenery.bodies.map((body, index) => ({...body, index}));

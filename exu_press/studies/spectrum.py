@@ -82,16 +82,22 @@ class Spectra:
             )
             rows = [
                 (f"{spectrum.frequency[k]:.5g} {unit}", f"{spectrum.amplitude[k]:.4g} {self.unit}")
-                for k in _strongest(spectrum)
+                for k in _strongest(spectrum, spectrum is self.over_angle and self.revolutions == 1)
             ]
             found += columns(rows, indent=4)
         return found
 
 
-def _strongest(spectrum: Spectrum) -> list[int]:
-    """Return the places of the highest peaks above the resolution, by frequency."""
+def _strongest(spectrum: Spectrum, each: bool) -> list[int]:
+    """Return the places of the highest peaks above the resolution, by frequency.
+
+    Args:
+        spectrum: of a curve.
+        each: whether every place is a line of its own, as the orders of a single revolution are.
+    """
     padded = np.concatenate([[0.0], spectrum.amplitude, [0.0]])
-    peaks = np.flatnonzero((padded[1:-1] > padded[:-2]) & (padded[1:-1] >= padded[2:]))
+    higher = (padded[1:-1] > padded[:-2]) & (padded[1:-1] >= padded[2:])
+    peaks = np.flatnonzero(higher | each)
     peaks = peaks[spectrum.frequency[peaks] >= spectrum.resolution]
     highest = peaks[np.argsort(spectrum.amplitude[peaks])[::-1][:STRONGEST]]
     return sorted(highest.tolist())

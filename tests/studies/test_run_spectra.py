@@ -5,6 +5,7 @@ import pytest
 
 from exu_press import InputError, Result, Scene, simulate
 from exu_press.cli import main
+from exu_press.result.windows import window
 from exu_press.studies.spectrum import column_of, marks_of, spectra
 
 PIN = {"clearance": 1e-4, "radius": 0.03}
@@ -45,6 +46,15 @@ def test_orders_of_an_ideal_slider_are_those_of_its_closed_form(ideal):
         assert one.over_angle.amplitude[place] == pytest.approx(series[order], rel=1e-3)
     half = int(np.argmin(np.abs(one.over_angle.frequency - 0.5)))
     assert one.over_angle.amplitude[half] < 1e-4 * series[1]
+
+
+def test_a_single_revolution_tells_its_largest_orders(ideal):
+    """Each of them is a bin: the second one is no peak beside the first one."""
+    one = spectra(window(ideal, 0.25, 0.5))[0]
+    assert one.revolutions == 1
+    told = [line.split() for line in one.lines() if line.strip().endswith("m/s^2")][-5:]
+    assert [words[0] for words in told[:2]] == ["1", "2"]
+    assert float(told[1][2]) == pytest.approx(one.over_angle.amplitude[1], rel=1e-3)
 
 
 def test_a_part_of_a_revolution_has_no_orders(run):

@@ -155,7 +155,7 @@ def used_assumptions(scene: Scene) -> dict[Assumption, tuple[Key, ...]]:
 
     An assumption is left out where the scene does not use its keys, or has changed all of them.
     """
-    keys = keys_of(scene)
+    keys = _decisive(scene)
     used = {}
     for assumption in ASSUMPTIONS:
         if scene.press is None and assumption.number not in OF_EVERY_SCENE:
@@ -176,7 +176,32 @@ def _named(key: str, assumption: Assumption) -> bool:
 
 def engineering_values(scene: Scene) -> list[Key]:
     """Return the defaults that decide results and are neither the scene's nor its mechanism's."""
-    return [key for key in keys_of(scene).values() if key.source and key.assumed]
+    return [key for key in _decisive(scene).values() if key.source and key.assumed]
+
+
+def _decisive(scene: Scene) -> dict[str, Key]:
+    """Return the keys that a scene uses, without those of laws that all joints replace."""
+    return {name: key for name, key in keys_of(scene).items() if _shared(scene, key)}
+
+
+def _shared(scene: Scene, key: Key) -> bool:
+    """Return whether a key is none of a law, or the law's for some joint or guide."""
+    law, _, name = key.name.partition(".")
+    if law not in LAW_TABLES:
+        return True
+    guide = scene.guide
+    if guide is not None and (
+        (law == "contact" and guide.clearance is not None)
+        or (law == "friction" and guide.friction != "none")
+    ):
+        return True
+    for joint in scene.joints.with_clearance.values():
+        table = getattr(joint, law, None)
+        for part in name.split("."):
+            table = getattr(table, part, None)
+        if table == key.value:
+            return True
+    return False
 
 
 def assumed(scene: Scene) -> list[str]:

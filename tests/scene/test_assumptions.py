@@ -9,6 +9,8 @@ from exu_press.scene import BlankingLoad
 from exu_press.scene.assumptions import ASSUMPTIONS, assumed_line, keys_of, used_assumptions
 from exu_press.scene.usage import TABLES
 
+SCENES_OWN = {"contact": {}, "friction": {}}
+
 
 def numbers(scene):
     return {assumption.number for assumption in used_assumptions(scene)}
@@ -53,6 +55,24 @@ def test_a_scene_rests_on_what_it_uses_alone(scene, unused):
     everything = set(range(1, 14))
     assert everything - numbers(Scene(**scene)) == unused
     assert 14 in numbers(Scene(**scene, load={"blanking": {"kind": "blanking", "force": 1e4}}))
+
+
+def test_laws_that_all_joints_replace_are_not_assumed():
+    own = {"contact": {"restitution": 0.5}, "friction": {"mu_kinetic": 0.05}}
+    pin = {"kind": "dry", "clearance": 1e-4, "radius": 0.03} | own
+    scene = Scene(mechanism="four_bar", joints={"knuckle": pin}, contact={"length": 0.05})
+    for key, words in (("contact.restitution", "0.9"), ("friction.mu_kinetic", "0.1")):
+        assert f"{key} = " not in assumed_line(scene)
+        assert f"{key} = {words}" in assumed_line(scene.replace({"joints.pivot": pin | SCENES_OWN}))
+    assert "contact.damping = hu_guo" in assumed_line(scene)
+    slides = Scene(
+        mechanism="slider_crank",
+        joints={"crank_pin": pin},
+        guide={"clearance": 1e-4, "width": 0.1},
+    )
+    assert "contact.restitution = 0.9" in assumed_line(slides)
+    mixed = Scene(joints={"crank_pin": {"kind": "lubricated", "film": {"at_contact": "mixed"}}})
+    assert "A-13" not in assumed_line(mixed)
 
 
 def test_keys_with_defaults_units_and_meanings():

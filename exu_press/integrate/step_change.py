@@ -19,6 +19,12 @@ AHEAD = 1.0 / 64.0
 MORE = 0.999
 """Part of the masses' resistance to a change that forces have too, but for rounding."""
 
+LEAP = 10.0
+"""Growth of a step from which on rounding is looked at."""
+
+ROUNDED = 0.01
+"""Part of the tolerance that rounding may take."""
+
 CHANGE_ITERATIONS = 3
 """To velocities and positions that fit the constraints; each leaves some hundredths."""
 
@@ -33,7 +39,9 @@ class StepChange:
     alternate for a dozen steps, larger than the motion's own changes. Scaled to the new step, by
     its ratio to the old one and by that ratio's square, both fit at once; the latter costs as much
     as a step. Likewise what Newton's method left of the positions' constraints, 1e-10 m, is nothing
-    beside a long step but a jolt beside a short one: it is taken away.
+    beside a long step but a jolt beside a short one: it is taken away. What is left
+    by a step so short that it is rounding, as one that ends on an event, is not scaled up to one a
+    thousand times as long.
 
     Without films and contacts motion is smooth, steps change seldom, and each change is worth this.
     With them, and with Exudyn's contacts, steps change all the time: velocities are fitted once
@@ -69,7 +77,7 @@ class StepChange:
         self._energy: KeptEnergy | None = None
         if self._seldom and not corners and KeptEnergy.suits(problem):
             self._energy = KeptEnergy(task, constraints)
-        self._solver, self._constraints = task.solver, constraints
+        self._task, self._solver, self._constraints = task, task.solver, constraints
         self._data, self._current, self._at_start = problem.data, problem.current, problem.start
         self._now, self._before = (
             (Floats(state.positions), Floats(state.velocities), Floats(state.accelerations))
@@ -116,11 +124,23 @@ class StepChange:
             self._per_square = None
         self._leaves = self._fits
         ratio = 1.0 if self._last is None else step / self._last
-        if not self._smooth:
+        if not self._smooth or (ratio > LEAP and self._rounded(ratio)):
             ratio = min(1.0, ratio)
         given = self._last is None and self._given is not None
         if repeated or given or abs(ratio - 1.0) > SAME:
             self._shift(step, ratio)
+
+    def _rounded(self, ratio: float) -> bool:
+        """Return whether the last step's offsets, scaled up by this ratio, would be rounding.
+
+        Velocities are known to the rounding of positions over the step.
+        """
+        if self._task.fixed:
+            return False
+        assert self._last is not None
+        size = max(1.0, float(np.abs(self._current.positions).max()))
+        error = ratio * ratio * math.ulp(size) / self._last
+        return error > ROUNDED * self._task.tolerance * self._task.scales.speed
 
     def _shift(self, step: float, ratio: float) -> None:
         """Shift positions, velocities and accelerations for a step `ratio` times the last one.

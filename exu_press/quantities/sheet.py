@@ -25,11 +25,12 @@ def _strokes(run: Reading, load: str) -> list[tuple[Array, Array]]:
     """Return, of each stroke that fractures the sheet, the steps before and after the fracture.
 
     From the first touch to the fracture, and from there until the punch goes up again: to the end
-    of the crack and on to the bottom dead centre, where impacts of the way back have not begun.
+    of the crack and on to the bottom dead centre, where impacts of the way back have not begun, nor
+    has the stripping.
     """
     sheet = applied_loads(run.result.scene)[load].sheet
     assert sheet is not None
-    depth = _penetration(run, load)
+    depth, strips = _penetration(run, load), run[f"load_{load}_force"] < 0.0
     found = []
     inside = np.flatnonzero(np.diff(np.concatenate([[0], (depth > 0.0).astype(int), [0]])))
     for first, behind in inside.reshape(-1, 2):
@@ -37,7 +38,10 @@ def _strokes(run: Reading, load: str) -> list[tuple[Array, Array]]:
         deep = np.flatnonzero(depth[steps] >= sheet.fracture)
         lowest = int(np.argmax(depth[steps]))
         if first > 0 and deep.size and deep[0] < lowest:
-            found.append((steps[: deep[0]], steps[deep[0] : lowest + 1]))
+            after = steps[deep[0] : lowest + 1]
+            while len(after) > 1 and strips[after[-1]]:
+                after = after[:-1]
+            found.append((steps[: deep[0]], after))
     return found
 
 

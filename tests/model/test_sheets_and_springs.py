@@ -70,6 +70,21 @@ def test_clearance_stacks_up():
     assert result.quantity("energy.residual").value < 1e-3
 
 
+def test_stripping_on_the_way_up_is_no_reverse_load():
+    """Rigid bodies without clearance store nothing; 6 kN strip behind the bottom dead centre."""
+    motor = {"rated_torque": 400.0, "inertia": 30.0}
+    scene = ideal(
+        SHEET | {"stripping": 0.05},
+        speed_rpm=120.0,
+        start_angle_deg=90.0,
+        revolutions=0.6,
+        drive=motor,
+    )
+    result = simulate(scene)
+    assert result["load_part_force"].min() == pytest.approx(-6e3, rel=1e-3)
+    assert result.quantity("loads.part.reverse_force").value < 300.0
+
+
 def test_a_spring_without_damping_takes_nothing():
     result = simulate(ideal(SPRING))
     stored = 0.5 * 1e4 * 5e-4 + (0.02 - 5e-4) * 0.5 * (1e4 + 1e4 + 1e4 * 19.5 / 20.5)

@@ -1,5 +1,6 @@
 """The mechanism from the front, to scale, with its guides, pivots and dead centres."""
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -8,8 +9,9 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Polygon
 
 from exu_press.mechanism import Mechanism
+from exu_press.mechanism.front import Front
 from exu_press.mechanism.parts import Point
-from exu_press.mechanism.shapes import moved, shapes_of, swept_outlines
+from exu_press.mechanism.shapes import moved
 from exu_press.numerics.arrays import Array
 from exu_press.plots.scales import spread
 from exu_press.plots.style import COLOURS, GREY
@@ -42,20 +44,14 @@ class MechanismPanel:
     """Draws every body at its pose; the ideal mechanism's dead centres stand beside the slider."""
 
     def __init__(self, axes: Axes, result: Result, instants: Instants) -> None:
-        self._mechanism = mechanism = mechanism_of(result.scene)
+        mechanism = mechanism_of(result.scene)
         self._poses = poses(result, mechanism, instants)
-        self._shapes = shapes_of(mechanism)
-        order = sorted(mechanism.bodies, key=lambda body: self._layer(body.name))
-        everywhere = swept_outlines(mechanism, self._shapes)
-        low = np.vstack(list(everywhere.values())).min(axis=0)
-        high = np.vstack(list(everywhere.values())).max(axis=0)
-        self._unit = unit = float(high[1] - low[1])
-        _draw_frame(axes, mechanism, everywhere, unit)
-        left = float(low[0])
-        if mechanism.dead_centres is not None:
-            outline = everywhere[mechanism.slider]
-            _draw_dead_centres(axes, mechanism, outline, unit)
-            left = min(left, float(outline[:, 0].min()) - 0.09 * unit)
+        front = Front(mechanism)
+        ends = front.dead_centres()
+        self._shapes, unit, low, high = front.shapes, front.unit, front.low, front.high
+        _draw_frame(axes, mechanism, front)
+        _draw_dead_centres(axes, ends, unit)
+        left = min([float(low[0]), *(x - 0.09 * unit for x, _ in ends.values())])
         axes.set_aspect("equal", adjustable="box", anchor="W")
         axes.set_axis_off()
         axes.set(
@@ -64,11 +60,11 @@ class MechanismPanel:
         )
         self._leaders = _draw_labels(axes, mechanism, self._poses, float(high[0]), unit)
         self._bodies: dict[str, Polygon] = {}
-        for body in order:
-            self._bodies[body.name] = patch = Polygon(
-                self._shapes[body.name].outline,
+        for name in sorted(front.shapes, key=front.layer):
+            self._bodies[name] = patch = Polygon(
+                front.shapes[name].outline,
                 closed=True,
-                facecolor=self._shapes[body.name].colour,
+                facecolor=front.shapes[name].colour,
                 edgecolor=EDGE,
                 linewidth=0.9,
                 joinstyle="round",
@@ -87,12 +83,6 @@ class MechanismPanel:
         self._pins, self._marked, self._split = pins, marked, len(ideal)
         leaders = [line for line, _ in self._leaders.values()]
         self.artists = animated(*self._bodies.values(), pins, marked, *leaders)
-
-    def _layer(self, body: str) -> int:
-        """Return a body's layer: the slider, other blocks, links, and the crank in front."""
-        if body == self._mechanism.slider:
-            return -1
-        return {"block": 0, "crank": 2}.get(self._shapes[body].role, 1)
 
     def show(self, frame: int) -> None:
         """Bring every body to its pose."""
@@ -122,32 +112,22 @@ def poses(result: Result, mechanism: Mechanism, instants: Instants) -> dict[str,
     return found
 
 
-def _draw_frame(
-    axes: Axes, mechanism: Mechanism, everywhere: dict[str, Array], unit: float
-) -> None:
+def _draw_frame(axes: Axes, mechanism: Mechanism, front: Front) -> None:
     """Draw the guides beside their bodies, and the pivots in the frame."""
-    gap, width = 0.004 * unit, 0.008 * unit
-    for guide in mechanism.guides:
-        (left, low), (right, high) = everywhere[guide.body].min(0), everywhere[guide.body].max(0)
-        for edge in (left - gap - width, right + gap):
-            rail = [[edge, low], [edge + width, low], [edge + width, high], [edge, high]]
-            axes.add_patch(Polygon(rail, **FIXED))
+    for rail in front.rails():
+        axes.add_patch(Polygon(rail, **FIXED))
     for joint in mechanism.joints:
         if joint.on_frame:
-            axes.add_patch(Circle(joint.at, 0.026 * unit, **FIXED))
+            axes.add_patch(Circle(joint.at, 0.026 * front.unit, **FIXED))
 
 
-def _draw_dead_centres(axes: Axes, mechanism: Mechanism, outline: Array, unit: float) -> None:
-    """Mark the top and the bottom of the slider's upper edge with ideal joints."""
-    motion = mechanism.motion(np.linspace(0.0, 2.0 * np.pi, 721), 1.0)[mechanism.slider]
-    heights = motion.position[:, 1]
-    edge = float(outline[:, 1].max() - heights.max())
-    left = float(outline[:, 0].min())
-    for y, words, side in ((heights.max(), "TDC", "bottom"), (heights.min(), "BDC", "top")):
+def _draw_dead_centres(axes: Axes, ends: Mapping[str, Point], unit: float) -> None:
+    """Mark the slider's upper edge with ideal joints."""
+    for words, (left, y) in ends.items():
         line = [left - 0.01 * unit, left - 0.035 * unit]
-        axes.plot(line, [y + edge, y + edge], color=GREY, linewidth=0.9)
-        at = line[1] - 0.006 * unit, y + edge
-        axes.text(*at, words, fontsize=7.5, color=GREY, va=side, ha="right")
+        axes.plot(line, [y, y], color=GREY, linewidth=0.9)
+        at, side = line[1] - 0.006 * unit, "bottom" if words == "TDC" else "top"
+        axes.text(at, y, words, fontsize=7.5, color=GREY, va=side, ha="right")
 
 
 def _draw_labels(

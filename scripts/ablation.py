@@ -21,6 +21,7 @@ import numpy as np
 from exu_press import Scene, SolverStatus, SolverTuning, solve_dynamic
 from exu_press.mechanism.press import PAPER_LAWS
 from exu_press.scene import flexible_press
+from exudyn_examples.planar import bar, pin
 
 GRID = 4000  # instants at which runs are compared
 FINER = 1e-2
@@ -75,19 +76,11 @@ def system(tolerance, tuning, *, build, end):
 
 def pendulum(mbs, links=1):
     """Rods of a metre that hang on each other, let go while horizontal."""
-    before, node = mbs.AddObject(items.ObjectGround()), 0
+    before, end, node = mbs.AddObject(items.ObjectGround()), 0.0, 0
     for i in range(links):
-        node = mbs.AddNode(items.NodeRigidBody2D(referenceCoordinates=[i + 0.5, 0.0, 0.0]))
-        rod = mbs.AddObject(items.ObjectRigidBody2D(nodeNumber=node, mass=1.0, inertia=1.0 / 12.0))
-        places = (before, 0.5 if i else 0.0), (rod, -0.5)
-        markers = [
-            mbs.AddMarker(items.MarkerBodyRigid(bodyNumber=body, localPosition=[x, 0.0, 0.0]))
-            for body, x in places
-        ]
-        mbs.AddObject(items.ObjectJointRevolute2D(markerNumbers=markers))
-        centre = mbs.AddMarker(items.MarkerBodyMass(bodyNumber=rod))
-        mbs.AddLoad(items.LoadMassProportional(markerNumber=centre, loadVector=[0.0, -9.81, 0.0]))
-        before = rod
+        rod, half, node = bar(mbs, (i, 0.0), (i + 1.0, 0.0), 1.0)
+        pin(mbs, before, (end, 0.0), rod, (-half, 0.0))
+        before, end = rod, half
     return node
 
 

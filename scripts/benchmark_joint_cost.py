@@ -12,14 +12,9 @@ import time
 import exudyn as exu
 import numpy as np
 from exudyn.itemInterface import (
-    LoadMassProportional,
-    MarkerBodyMass,
     MarkerBodyRigid,
-    NodeRigidBody2D,
     ObjectConnectorRigidBodySpringDamper,
     ObjectGround,
-    ObjectJointRevolute2D,
-    ObjectRigidBody2D,
 )
 
 from exu_press import Scene, add_lubricated_revolute
@@ -29,6 +24,7 @@ from exu_press.integrate.settings import Task, prepared
 from exu_press.joints import COMPILED
 from exu_press.laws.film import film_scale, pinkus
 from exu_press.solving import settings_for
+from exudyn_examples.planar import bar, pin
 
 STEP = 1e-5  # s
 PRESS = {
@@ -60,14 +56,9 @@ def run_chain(add_joint, steps):
     mbs = exu.SystemContainer().AddSystem()
     before, end = mbs.AddObject(ObjectGround()), (0.0, 0.0, 0.0)
     for i in range(BODIES):
-        node = mbs.AddNode(NodeRigidBody2D(referenceCoordinates=[LENGTH * (i + 0.5), 0.0, 0.0]))
-        body = mbs.AddObject(
-            ObjectRigidBody2D(nodeNumber=node, mass=MASS, inertia=MASS * LENGTH**2 / 12)
-        )
-        mass = mbs.AddMarker(MarkerBodyMass(bodyNumber=body))
-        mbs.AddLoad(LoadMassProportional(markerNumber=mass, loadVector=[0.0, -9.81, 0.0]))
-        add_joint(mbs, (body, (-0.5 * LENGTH, 0.0, 0.0)), (before, end))
-        before, end = body, (0.5 * LENGTH, 0.0, 0.0)
+        body, half, _ = bar(mbs, (LENGTH * i, 0.0), (LENGTH * (i + 1), 0.0), MASS)
+        add_joint(mbs, (body, (-half, 0.0, 0.0)), (before, end))
+        before, end = body, (half, 0.0, 0.0)
     mbs.Assemble()
     settings = settings_for(Scene.from_dict({"solver": {"step": STEP}}))
     settings.timeIntegration.endTime, settings.timeIntegration.numberOfSteps = steps * STEP, steps
@@ -83,12 +74,8 @@ def run_chain(add_joint, steps):
     return wall_time / steps * 1e6, solver.it.newtonStepsCount / steps
 
 
-def markers(mbs, *points):
-    return [mbs.AddMarker(MarkerBodyRigid(bodyNumber=b, localPosition=p)) for b, p in points]
-
-
 def ideal(mbs, journal, bearing):
-    mbs.AddObject(ObjectJointRevolute2D(markerNumbers=markers(mbs, bearing, journal)))
+    pin(mbs, bearing[0], bearing[1][:2], journal[0], journal[1][:2])
 
 
 def lubricated(mbs, journal, bearing):
@@ -112,9 +99,13 @@ def by_user_function(mbs, journal, bearing):
         f_x, f_y = scale * (f_r * n_x - f_t * n_y), scale * (f_r * n_y + f_t * n_x)
         return [-f_x, -f_y, 0.0, 0.0, 0.0, 0.5 * e * scale * f_t]
 
+    markers = [
+        mbs.AddMarker(MarkerBodyRigid(bodyNumber=body, localPosition=place))
+        for body, place in (bearing, journal)
+    ]
     mbs.AddObject(
         ObjectConnectorRigidBodySpringDamper(
-            markerNumbers=markers(mbs, bearing, journal),
+            markerNumbers=markers,
             stiffness=np.zeros((6, 6)),
             damping=np.zeros((6, 6)),
             springForceTorqueUserFunction=force,

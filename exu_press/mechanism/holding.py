@@ -21,6 +21,7 @@ from functools import lru_cache
 import numpy as np
 
 from exu_press.errors import InputError
+from exu_press.mechanism.constraint_rows import ConstraintRows
 from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.parts import GROUND, Guide, Joint, Point
 from exu_press.numerics.arrays import Array
@@ -152,10 +153,9 @@ class _Selection:
         """Go through the constraints, those to be kept first."""
         motion = mechanism.motion(np.array([crank_angle]), 1.0)
         self._mechanism = mechanism
-        self._poses = {name: one.position[0] for name, one in motion.items()}
-        self._first = {body.name: 3 * i for i, body in enumerate(mechanism.bodies)}
-        self._basis = np.zeros((0, 3 * len(mechanism.bodies)))
-        self.angles = {name: float(pose[2]) for name, pose in self._poses.items()} | {GROUND: 0.0}
+        self.angles = {n: float(one.position[0, 2]) for n, one in motion.items()} | {GROUND: 0.0}
+        self._rows = ConstraintRows(mechanism, self.angles)
+        self._basis = np.zeros((0, self._rows.size))
         self.directions: dict[str, list[Array]] = {}
         self.held: dict[tuple[str, str], bool] = {}
         redundant: dict[str, None] = {}
@@ -163,12 +163,12 @@ class _Selection:
         joints = [joint for joint in mechanism.joints if joint.name in ideal]
         pivots = list(_pivoted(mechanism, ideal).values())
         parallel = {joint.name: _parallel(joint, guides) for joint in joints}
-        self._take(self._angle_row(mechanism.crank)[None, :])  # the drive
+        self._take(self._rows.angle(mechanism.crank)[None, :])  # the drive
         for joint in pivots:
             self.directions[joint.name] = self._take_joint(joint, np.eye(2))
         for guide in mechanism.guides:
             held = guide.holds_across
-            self.held[guide.body, "across"] = held and self._take_row(self._across_row(guide))
+            self.held[guide.body, "across"] = held and self._take_row(self._rows.across(guide))
         for joint in joints:
             if joint not in pivots:
                 along = parallel[joint.name]
@@ -180,7 +180,7 @@ class _Selection:
             if parallel[joint.name] is None and len(self.directions[joint.name]) < 2
         )
         for guide in mechanism.guides:
-            row = self._angle_row(guide.body)
+            row = self._rows.angle(guide.body)
             self.held[guide.body, "angle"] = guide.holds_angle and self._take_row(row)
             both = self.held[guide.body, "across"] and self.held[guide.body, "angle"]
             if guide.holds_angle and not both:
@@ -209,13 +209,13 @@ class _Selection:
 
     def _take_joint(self, joint: Joint, wanted: Array) -> list[Array]:
         """Let a joint hold some of the wanted directions (m, 2); return which."""
-        return [np.asarray(mix @ wanted) for mix in self._take(wanted @ self._joint_rows(joint))]
+        return [np.asarray(mix @ wanted) for mix in self._take(wanted @ self._rows.of_joint(joint))]
 
     def sign(self, holding: Holding, guides: Mapping[str, tuple[bool, bool]]) -> float:
         """Return the sign of the determinant of drive and constraints that a holding keeps."""
-        rows = [self._angle_row(self._mechanism.crank)]
+        rows = [self._rows.angle(self._mechanism.crank)]
         for joint in self._mechanism.joints:
-            both = self._joint_rows(joint)
+            both = self._rows.of_joint(joint)
             half = holding.single_axis.get(joint.name)
             if half is not None:
                 angle = half.angle + self.angles[half.body]
@@ -224,33 +224,10 @@ class _Selection:
                 rows += [*both]
         for guide in self._mechanism.guides:
             across, angle_too = guides[guide.body]
-            rows += [self._across_row(guide)] * across
-            rows += [self._angle_row(guide.body)] * angle_too
+            rows += [self._rows.across(guide)] * across
+            rows += [self._rows.angle(guide.body)] * angle_too
         matrix = np.array(rows)
         return float(np.linalg.slogdet(matrix)[0]) if len(rows) == matrix.shape[1] else 0.0
-
-    def _joint_rows(self, joint: Joint) -> Array:
-        """Return the two rows of a joint."""
-        rows = np.zeros((2, self._basis.shape[1]))
-        for sign, (body, (x, y)) in zip((1.0, -1.0), self._mechanism.ends(joint), strict=True):
-            if body != GROUND:
-                c, s = math.cos(self.angles[body]), math.sin(self.angles[body])
-                first = self._first[body]
-                rows[:, first : first + 2] = sign * np.eye(2)
-                arm = np.array([c * x - s * y, s * x + c * y]) / self._mechanism.size
-                rows[:, first + 2] = sign * np.array([-arm[1], arm[0]])
-        return rows
-
-    def _across_row(self, guide: Guide) -> Array:
-        row = np.zeros(self._basis.shape[1])
-        first = self._first[guide.body]
-        row[first : first + 2] = guide.across
-        return row
-
-    def _angle_row(self, body: str) -> Array:
-        row = np.zeros(self._basis.shape[1])
-        row[self._first[body] + 2] = 1.0
-        return row
 
 
 def _hold_everywhere(

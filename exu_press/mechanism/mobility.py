@@ -10,13 +10,13 @@ References
    chapter 3.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
+from exu_press.mechanism.constraint_rows import ConstraintRows
 from exu_press.mechanism.mechanism import Mechanism
-from exu_press.mechanism.parts import GROUND
 from exu_press.numerics.arrays import Array
 
 __all__ = ["Mobility", "mobility_of"]
@@ -64,23 +64,17 @@ class Mobility:
         return self.turns and not self.loose
 
 
-def mobility_of(mechanism: Mechanism, poses: Mapping[str, Array] | None = None) -> Mobility:
-    """Return a mechanism's mobility with ideal joints and guides.
-
-    Args:
-        mechanism: drawn.
-        poses: (x, y, angle) of every body, m and rad; those of the drawing unless given.
-    """
-    if poses is None:
-        poses = {b.name: np.array([*b.centre_of_mass, b.angle]) for b in mechanism.bodies}
-    rows = _constraints(mechanism, poses)
-    count = 3 * len(mechanism.bodies)
-    names = [body.name for body in mechanism.bodies]
-    held = np.zeros((1, count))
-    held[0, 3 * names.index(mechanism.crank) + 2] = 1.0
+def mobility_of(mechanism: Mechanism) -> Mobility:
+    """Return a mechanism's mobility with ideal joints and guides, as it is drawn."""
+    jacobian = ConstraintRows(mechanism, {body.name: body.angle for body in mechanism.bodies})
+    rows = {f"joints.{joint.name}": jacobian.of_joint(joint) for joint in mechanism.joints}
+    for guide in mechanism.guides:
+        both = jacobian.across(guide), jacobian.angle(guide.body)
+        rows[f"guides.{guide.body}"] = np.array(both)
+    held = jacobian.angle(mechanism.crank)[None, :]
 
     def degrees(chosen: Sequence[Array]) -> int:
-        return count - _rank(np.vstack(chosen))
+        return jacobian.size - _rank(np.vstack(chosen))
 
     def turns(chosen: Sequence[Array]) -> bool:
         return degrees(chosen) > degrees([*chosen, held])
@@ -97,35 +91,9 @@ def mobility_of(mechanism: Mechanism, poses: Mapping[str, Array] | None = None) 
         guides=len(mechanism.guides),
         degrees=degrees(every),
         turns=moving,
-        loose=tuple(names[index] for index in _moving(np.vstack([*every, held]))),
+        loose=tuple(mechanism.bodies[index].name for index in _moving(np.vstack([*every, held]))),
         too_many=too_many,
     )
-
-
-def _constraints(mechanism: Mechanism, poses: Mapping[str, Array]) -> dict[str, Array]:
-    """Return the two rows of each joint and guide, by "joints.NAME" or "guides.NAME".
-
-    Translations are relative to the mechanism's size, so that rows compare with rotations.
-    """
-    first = {body.name: 3 * index for index, body in enumerate(mechanism.bodies)}
-    rows: dict[str, Array] = {}
-    for joint in mechanism.joints:
-        two = np.zeros((2, 3 * len(first)))
-        for sign, (body, (x, y)) in zip((1.0, -1.0), mechanism.ends(joint), strict=True):
-            if body != GROUND:
-                at, angle = first[body], poses[body][2]
-                c, s = np.cos(angle), np.sin(angle)
-                arm = np.array([c * x - s * y, s * x + c * y]) / mechanism.size
-                two[:, at : at + 2] = sign * np.eye(2)
-                two[:, at + 2] = sign * np.array([-arm[1], arm[0]])
-        rows[f"joints.{joint.name}"] = two
-    for guide in mechanism.guides:
-        two = np.zeros((2, 3 * len(first)))
-        at = first[guide.body]
-        two[0, at : at + 2] = guide.across
-        two[1, at + 2] = 1.0
-        rows[f"guides.{guide.body}"] = two
-    return rows
 
 
 def _rank(matrix: Array) -> int:

@@ -2,11 +2,9 @@
 
 from typing import Any
 
-import numpy as np
-
 from exu_press.mechanism import Mechanism
+from exu_press.mechanism.front import Front
 from exu_press.mechanism.parts import GROUND
-from exu_press.mechanism.shapes import marks, rails, shapes_of, swept_outlines
 from exu_press.numerics.arrays import Array
 from exu_press.plots.busiest import busiest
 from exu_press.plots.words import joint_in_words
@@ -18,42 +16,39 @@ __all__ = ["MAGNIFIED", "scenery"]
 MAGNIFIED = 2
 """Joints that are magnified side by side; each can be any joint with clearance."""
 
-LAYERS = {"block": 0, "link": 1, "bearing": 1, "crank": 2}
-
 
 def scenery(result: Result) -> dict[str, Any]:
     """Return everything that is drawn of a run's mechanism, lengths in m, poses aside."""
     mechanism = mechanism_of(result.scene)
-    shapes = shapes_of(mechanism)
-    everywhere = swept_outlines(mechanism, shapes)
-    corners = np.vstack(list(everywhere.values()))
-    low, high = corners.min(axis=0), corners.max(axis=0)
-    unit = float(high[1] - low[1])
+    front = Front(mechanism)
     bodies = [
         {
-            "name": body.name,
-            "label": _label(body.name),
-            "outline": _rounded(shapes[body.name].outline),
-            "colour": shapes[body.name].colour,
-            "role": shapes[body.name].role,
-            "layer": -1 if body.name == mechanism.slider else LAYERS[shapes[body.name].role],
+            "name": name,
+            "label": _label(name),
+            "outline": _rounded(shape.outline),
+            "colour": shape.colour,
+            "layer": front.layer(name),
         }
-        for body in mechanism.bodies
+        for name, shape in front.shapes.items()
     ]
     return {
         "name": mechanism.name,
-        "unit": unit,
-        "box": [float(low[0]), float(low[1]), float(high[0]), float(high[1])],
+        "unit": front.unit,
+        "box": [*front.low.tolist(), *front.high.tolist()],
         "bodies": bodies,
         "joints": [_joint(result, mechanism, name) for name in result.joints],
         "magnified": _magnified(result),
-        "rails": [
-            _rounded(rail)
-            for guide in mechanism.guides
-            for rail in rails(guide, everywhere[guide.body], unit)
-        ],
+        "rails": [_rounded(rail) for rail in front.rails()],
         "pivots": [[*map(float, joint.at)] for joint in mechanism.joints if joint.on_frame],
-        "ends": _ends(mechanism, everywhere[mechanism.slider]),
+        "ends": [
+            {
+                "label": mark.label,
+                "at": [*map(float, mark.place)],
+                "aside": [*map(float, mark.aside)],
+                "above": mark.above,
+            }
+            for mark in front.dead_centres()
+        ],
         "revolution": 60.0 / result.scene.speed_rpm,
     }
 
@@ -89,19 +84,6 @@ def _magnified(result: Result) -> list[str]:
     """Return the joints that are magnified first: those with the largest forces."""
     loose = sorted(result.clearance_joints, key=lambda name: (result.joints[name].spherical, name))
     return list(busiest([result], loose, "eccentricity", MAGNIFIED)[0])
-
-
-def _ends(mechanism: Mechanism, outline: Array) -> list[dict[str, Any]]:
-    """Return the ideal dead centres beside the slider."""
-    return [
-        {
-            "label": mark.label,
-            "at": [*map(float, mark.place)],
-            "aside": [*map(float, mark.aside)],
-            "above": mark.above,
-        }
-        for mark in marks(mechanism, outline)
-    ]
 
 
 def _rounded(points: Array) -> list[list[float]]:

@@ -2,10 +2,10 @@
 
 import os
 import sys
-from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
+from collections import deque
+from collections.abc import Callable, Generator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from contextlib import AbstractContextManager, ExitStack
-from itertools import islice
 from pathlib import Path
 from typing import Any, Protocol, Self
 
@@ -128,26 +128,25 @@ class Batch(ExitStack):
             KeyboardInterrupt: after Ctrl-C; finished rows are kept.
         """
         tasks = [task_of(self._name, each, self._modules) for each in arguments]
-        rows = {task.key: self._file.finished(task.key, self._limit) for task in tasks}
-        for task, each in zip(tasks, arguments, strict=True):
-            row = rows[task.key]
-            if self._kept and row and row["status"] != TIME_LIMIT and not self._kept(each):
-                rows[task.key] = None
-        todo = list({task.key: task for task in tasks if rows[task.key] is None}.values())
+        given = {task.key: each for task, each in zip(tasks, arguments, strict=True)}
+        rows = {task.key: self._finished(task, given[task.key]) for task in tasks}
+        todo = [key for key, row in rows.items() if row is None]
         if len(todo) < len(rows) and not self._quiet:
             there = f"{len(rows) - len(todo)} of {len(rows)}"
             print(f"{self._label}: {there} are there", file=sys.stderr)
+
+        def alone(key: str) -> Chain:
+            rows[key] = yield given[key]
+
         if todo:
-            pool = self._workers_at_hand()
-            with Progress(self._label, len(todo), "runs", quiet=self._quiet) as progress:
-                for done, (task, row) in enumerate(_performed(pool, todo), start=1):
-                    self._file.append(task.key, self._limit, row)
-                    rows[task.key] = row
-                    progress.update(done)
+            self.follow([alone(key) for key in todo], len(todo))
         return [dict(rows[task.key] or {}) for task in tasks]
 
     def follow(self, chains: Sequence[Chain], total: int) -> None:
-        """Do the runs of chains: each one in its order, all beside each other, none waiting.
+        """Do the runs of chains: each one in its order, all chains beside each other.
+
+        Only as many runs as the pool's window are under way at a time, and another one begins when
+        rows are stored: so many at most are lost with the caller.
 
         Args:
             chains: of arguments; a run that two of them ask for at once is done once.
@@ -157,6 +156,7 @@ class Batch(ExitStack):
             As `rows` does.
         """
         under_way: dict[str, tuple[Future[Row], Task, list[Chain]]] = {}
+        ready: deque[tuple[Chain, Row | None]] = deque((chain, None) for chain in chains)
         done = 0
 
         def begin(chain: Chain, row: Row | None) -> None:
@@ -166,7 +166,7 @@ class Batch(ExitStack):
                 while True:
                     arguments = next(chain) if row is None else chain.send(dict(row))
                     task = task_of(self._name, arguments, self._modules)
-                    row = self._file.finished(task.key, self._limit)
+                    row = self._finished(task, arguments)
                     if row is None:
                         break
                     done += 1
@@ -177,9 +177,9 @@ class Batch(ExitStack):
             under_way[task.key][2].append(chain)
 
         with Progress(self._label, total, "runs", quiet=self._quiet) as progress:
-            for chain in chains:
-                begin(chain, None)
-            while under_way:
+            while ready or under_way:
+                while ready and (self._pool is None or len(under_way) < self._pool.window):
+                    begin(*ready.popleft())
                 wait([future for future, _, _ in under_way.values()], return_when=FIRST_COMPLETED)
                 ended = [key for key, (future, _, _) in under_way.items() if future.done()]
                 for future, task, waiting in [under_way.pop(key) for key in ended]:
@@ -187,8 +187,14 @@ class Batch(ExitStack):
                     self._file.append(task.key, self._limit, row)
                     done += len(waiting)
                     progress.update(done)
-                    for chain in waiting:
-                        begin(chain, row)
+                    ready += [(chain, row) for chain in waiting]
+
+    def _finished(self, task: Task, arguments: Mapping[str, Any]) -> Row | None:
+        """Return the row of a run that need not be done again, or None."""
+        row = self._file.finished(task.key, self._limit)
+        if row and row["status"] != TIME_LIMIT and self._kept and not self._kept(arguments):
+            return None
+        return row
 
     def _workers_at_hand(self) -> Pool:
         """Return where tasks are performed; nothing is started before the first of them."""
@@ -217,18 +223,3 @@ def _pool(
     from exu_press.parallel.cluster import Cluster
 
     return Cluster(dask, time_limit)
-
-
-def _performed(pool: Pool, tasks: Iterable[Task]) -> Iterator[tuple[Task, Row]]:
-    """Yield tasks and rows as they finish.
-
-    Only pool.window tasks are under way at a time, and another one begins when the caller is done
-    with a row: so many at most are lost with the caller.
-    """
-    remaining = iter(tasks)
-    running = {pool.submit(task): task for task in islice(remaining, pool.window)}
-    while running:
-        finished, _ = wait(running, return_when=FIRST_COMPLETED)
-        for future in finished:
-            yield running.pop(future), pool.row(future)
-            running |= {pool.submit(task): task for task in islice(remaining, 1)}

@@ -87,28 +87,18 @@ def _peak_force(run: Reading, joint: str) -> float | None:
 
 
 START = Quantity(
-    "start_ratio",
-    "",
+    "start_ratio", "",
     "largest joint force before quantities are read, over the largest one after it",
-    MEASURE,
-    _start,
+    MEASURE, _start,
     has=lambda scene, _: scene.settled > 0.0,
-    title="largest joint force of the start, over that",
-    under=True,
-    digits=3,
-)
+    title="largest joint force of the start, over that", under=True, digits=3,
+)  # fmt: skip
 
 IMPACTS = Quantity(
-    "impacts",
-    "",
-    "number of times that the surfaces begin to touch",
-    COUNT,
-    lambda run, joint: contacts(_depth(run, joint)),
-    Place.JOINT,
-    _touching,
-    title="impacts",
-    cumulative=True,
-)
+    "impacts", "", "number of times that the surfaces begin to touch",
+    COUNT, lambda run, joint: contacts(_depth(run, joint)), Place.JOINT, _touching,
+    title="impacts", cumulative=True,
+)  # fmt: skip
 
 JOINTS = (
     Quantity("max_eccentricity_ratio", "", "largest eccentricity over the radial clearance",

@@ -1,6 +1,7 @@
 """Quantities of drive, frame and guides, for press builders."""
 
 from collections.abc import Callable, Iterator
+from functools import partial
 
 import numpy as np
 
@@ -156,6 +157,12 @@ DRIVE = (
 )  # fmt: skip
 
 
+def _resultant(channel: str, column: int, ending: str, run: Reading, _: str) -> float | None:
+    if ending:
+        return mean_peak_of(run.time, run[channel][:, column])
+    return peak(run.load(channel)[:, column])
+
+
 def _resultants() -> Iterator[Quantity]:
     """Yield the peaks of sums over the mechanism, across and up, with their means over 1 ms."""
     titles = {
@@ -165,44 +172,21 @@ def _resultants() -> Iterator[Quantity]:
     }
     sums = (
         ("shaking", "shaking_force", "shaking force", always),
-        (
-            "shaking.without_counterweight",
-            "shaking_force_without_counterweight",
-            "shaking force without the counterweight",
-            _counterweight,
-        ),
+        ("shaking.without_counterweight", "shaking_force_without_counterweight",
+         "shaking force without the counterweight", _counterweight),
         ("shaking.frame", "frame_force", "force on the frame", always),
-    )
+    )  # fmt: skip
     for prefix, channel, words, has in sums:
         for column, direction in enumerate(("horizontal", "vertical")):
             for ending, also in (("", ""), ("_mean_1ms", ", averaged over 1 ms")):
                 name = f"{prefix}.{direction}{ending}"
                 title, under = titles.get(name, ("", False))
-
-                def read(
-                    run: Reading,
-                    _: str,
-                    channel: str = channel,
-                    column: int = column,
-                    mean: str = ending,
-                ) -> float | None:
-                    if mean:
-                        return mean_peak_of(run.time, run[channel][:, column])
-                    return peak(run.load(channel)[:, column])
-
                 yield Quantity(
-                    name,
-                    "N",
-                    f"largest {direction} {words}{also}, in either direction",
-                    RESULTANT,
-                    read,
-                    has=has,
-                    title=title,
-                    shown="kN",
-                    under=under,
-                    extreme=Extreme.LARGEST,
+                    name, "N", f"largest {direction} {words}{also}, in either direction",
+                    RESULTANT, partial(_resultant, channel, column, ending),
+                    has=has, title=title, shown="kN", under=under, extreme=Extreme.LARGEST,
                     curve="" if ending else f"{channel}:{'xy'[column]}",
-                )
+                )  # fmt: skip
 
 
 SHAKING = tuple(_resultants())

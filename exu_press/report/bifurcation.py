@@ -7,6 +7,7 @@ from exu_press.page import Live, has_library
 from exu_press.report.html import table
 from exu_press.report.study import reading, study_page
 from exu_press.schema.stored import from_json
+from exu_press.studies.bifurcation.lines import row_in_words
 from exu_press.studies.sweep.units import unit_of, with_unit
 
 __all__ = ["bifurcation_report"]
@@ -20,7 +21,10 @@ def bifurcation_report(file: Path) -> str:
         rows = [(way, row) for way, branch in told["branches"].items() for row in branch]
         done = [(way, row) for way, row in rows if row["status"] == "completed"]
         live = _live(names, done) if has_library() and done else None
-        cells = [_cells(way, row) for way, row in rows]
+        cells = [
+            (*(f"{row[at]:g}" for at in ("value", "second") if at in row), way, *row_in_words(row))
+            for way, row in rows
+        ]
     head = (*map(with_unit, names), "way", "period", "exponent per revolution", "motion")
     return study_page(
         file,
@@ -29,15 +33,6 @@ def bifurcation_report(file: Path) -> str:
         [("Points", live), ("Runs", table(head, cells))],
         "The diagram.",
     )
-
-
-def _cells(way: str, row: dict[str, Any]) -> list[str]:
-    at = [f"{row[place]:g}" for place in ("value", "second") if place in row]
-    if row["status"] != "completed":
-        return [*at, way, str(row["status"]), str(row["reason"]), ""]
-    _, low, high = row["exponent"]
-    exponent = f"below {high:.3g}" if low is None else f"{low:.3g} to {high:.3g}"
-    return [*at, way, str(row["in_words"]), exponent, str(row["motion"])]
 
 
 def _live(names: list[str], done: list[tuple[str, dict[str, Any]]]) -> Live:

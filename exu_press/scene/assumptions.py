@@ -14,7 +14,7 @@ from exu_press.mechanism import Mechanism
 from exu_press.scene.joint import LAW_TABLES, SIZES, Joint
 from exu_press.scene.oil import Oil
 from exu_press.scene.scene import STARTS, Scene, mechanism_of
-from exu_press.scene.tables import USUAL_STIFFNESS
+from exu_press.scene.tables import DEFAULT_TOLERANCE, USUAL_STIFFNESS
 from exu_press.scene.usage import TABLES
 from exu_press.schema.checks import Table
 
@@ -86,9 +86,6 @@ ASSUMPTIONS = (
 OF_EVERY_SCENE = (9, 13, 14)
 """Assumptions that other mechanisms than the paper's press rest on, too."""
 
-OF_A_MOTOR = ("inertia", "rated_torque", "table_speed_rpm", "table_torque", "clutch_torque")
-"""Keys of which a motor needs some."""
-
 FIRST_OF_A_RUN = 10
 """From this assumption on they belong to a run; those before describe the machine."""
 
@@ -124,19 +121,14 @@ class Key:
 
 def keys_of(scene: Scene) -> dict[str, Key]:
     """Return every key that a scene uses, by name, with the default it would have."""
-    defaults = {name: value for name, (value, _) in _flat(_at_defaults(scene))}
-    defaults |= _law_defaults(scene)
-    kinds = {field.name: field.default for field in dataclasses.fields(Scene)}
-    kinds |= {"film.at_contact": "stop", "press.counterweight": True}
-    kinds |= {f"drive.{name}": None for name in OF_A_MOTOR}
-    if scene.guide is not None:
-        usual = USUAL_STIFFNESS if scene.guide.clearance is not None else None
-        kinds |= {"guide.lateral_stiffness": usual, "guide.clearance": None}
-        kinds |= {"guide.friction": "none"}
-    kinds["start"] = mechanism_of(scene).defaults.get("start", STARTS[0])
+    defaults = _law_defaults(scene)
+    defaults |= {"film.at_contact": "stop", "solver.tolerance": DEFAULT_TOLERANCE}
+    if scene.guide is not None and scene.guide.clearance is not None:
+        defaults["guide.lateral_stiffness"] = USUAL_STIFFNESS
+    defaults["start"] = mechanism_of(scene).defaults.get("start", STARTS[0])
     found = {}
     for name, (value, field) in _flat(scene):
-        default = kinds[name] if name in kinds else defaults.get(name)
+        default = defaults.get(name, field.default)
         if isinstance(value, Mechanism):
             value = f"{value.name}, the scene's own"
         meta = field.metadata
@@ -236,22 +228,6 @@ def _law_defaults(scene: Scene) -> dict[str, Any]:
         for field in dataclasses.fields(table)
     }
     return found | {f"film.oil.{field.name}": field.default for field in dataclasses.fields(Oil)}
-
-
-def _at_defaults(scene: Scene) -> Scene:
-    """Return a scene of the same mechanism and tables in which nothing else is given."""
-    kind: dict[str, Any] = {"mechanism": scene.mechanism, "joints": {}}
-    if scene.press is not None:
-        kind["press"] = {"counterweight": scene.press.counterweight}
-    if scene.drive is not None:
-        own = {name: getattr(scene.drive, name) for name in OF_A_MOTOR}
-        kind["drive"] = {name: value for name, value in own.items() if value is not None}
-    if scene.guide is not None:  # of the same kind
-        guide = scene.guide
-        kind["guide"] = {"clearance": guide.clearance, "friction": guide.friction}
-        if guide.clearance is None:
-            kind["guide"]["lateral_stiffness"] = guide.lateral_stiffness
-    return Scene.from_dict(kind)
 
 
 def _joint_keys(scene: Scene) -> dict[str, Key]:

@@ -19,6 +19,7 @@ from exu_press.scene.oil import Oil
 from exu_press.schema.checks import Table, Uses, demand_keys, inner, key
 
 __all__ = [
+    "DEFAULT_TOLERANCE",
     "OF_FRICTION",
     "RPM",
     "USUAL_STIFFNESS",

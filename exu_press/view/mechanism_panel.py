@@ -1,5 +1,6 @@
 """The mechanism from the front, to scale, with its guides, pivots and dead centres."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -8,8 +9,9 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Polygon
 
 from exu_press.mechanism import Mechanism
+from exu_press.mechanism.front import Front
 from exu_press.mechanism.parts import Point
-from exu_press.mechanism.shapes import marks, moved, rails, shapes_of, swept_outlines
+from exu_press.mechanism.shapes import Mark, moved
 from exu_press.numerics.arrays import Array
 from exu_press.plots.scales import spread
 from exu_press.plots.style import COLOURS, GREY
@@ -42,19 +44,16 @@ class MechanismPanel:
     """Draws every body at its pose; the ideal mechanism's dead centres stand beside the slider."""
 
     def __init__(self, axes: Axes, result: Result, instants: Instants) -> None:
-        self._mechanism = mechanism = mechanism_of(result.scene)
+        mechanism = mechanism_of(result.scene)
         self._poses = poses(result, mechanism, instants)
-        self._shapes = shapes_of(mechanism)
-        order = sorted(mechanism.bodies, key=lambda body: self._layer(body.name))
-        everywhere = swept_outlines(mechanism, self._shapes)
-        low = np.vstack(list(everywhere.values())).min(axis=0)
-        high = np.vstack(list(everywhere.values())).max(axis=0)
-        self._unit = unit = float(high[1] - low[1])
-        _draw_frame(axes, mechanism, everywhere, unit)
+        front = Front(mechanism)
+        ends = front.dead_centres()
+        self._shapes, unit, low, high = front.shapes, front.unit, front.low, front.high
+        _draw_frame(axes, mechanism, front)
+        _draw_dead_centres(axes, ends, unit)
         left = float(low[0])
-        if mechanism.dead_centres is not None:
-            outline = everywhere[mechanism.slider]
-            _draw_dead_centres(axes, mechanism, outline, unit)
+        if ends:
+            outline = front.everywhere[mechanism.slider]
             left = min(left, float(outline[:, 0].min()) - 0.09 * unit)
         axes.set_aspect("equal", adjustable="box", anchor="W")
         axes.set_axis_off()
@@ -64,11 +63,11 @@ class MechanismPanel:
         )
         self._leaders = _draw_labels(axes, mechanism, self._poses, float(high[0]), unit)
         self._bodies: dict[str, Polygon] = {}
-        for body in order:
-            self._bodies[body.name] = patch = Polygon(
-                self._shapes[body.name].outline,
+        for name in sorted(front.shapes, key=front.layer):
+            self._bodies[name] = patch = Polygon(
+                front.shapes[name].outline,
                 closed=True,
-                facecolor=self._shapes[body.name].colour,
+                facecolor=front.shapes[name].colour,
                 edgecolor=EDGE,
                 linewidth=0.9,
                 joinstyle="round",
@@ -87,12 +86,6 @@ class MechanismPanel:
         self._pins, self._marked, self._split = pins, marked, len(ideal)
         leaders = [line for line, _ in self._leaders.values()]
         self.artists = animated(*self._bodies.values(), pins, marked, *leaders)
-
-    def _layer(self, body: str) -> int:
-        """Return a body's layer: the slider, other blocks, links, and the crank in front."""
-        if body == self._mechanism.slider:
-            return -1
-        return {"block": 0, "crank": 2}.get(self._shapes[body].role, 1)
 
     def show(self, frame: int) -> None:
         """Bring every body to its pose."""
@@ -122,21 +115,18 @@ def poses(result: Result, mechanism: Mechanism, instants: Instants) -> dict[str,
     return found
 
 
-def _draw_frame(
-    axes: Axes, mechanism: Mechanism, everywhere: dict[str, Array], unit: float
-) -> None:
+def _draw_frame(axes: Axes, mechanism: Mechanism, front: Front) -> None:
     """Draw the guides beside their bodies, and the pivots in the frame."""
-    for guide in mechanism.guides:
-        for rail in rails(guide, everywhere[guide.body], unit):
-            axes.add_patch(Polygon(rail, **FIXED))
+    for rail in front.rails():
+        axes.add_patch(Polygon(rail, **FIXED))
     for joint in mechanism.joints:
         if joint.on_frame:
-            axes.add_patch(Circle(joint.at, 0.026 * unit, **FIXED))
+            axes.add_patch(Circle(joint.at, 0.026 * front.unit, **FIXED))
 
 
-def _draw_dead_centres(axes: Axes, mechanism: Mechanism, outline: Array, unit: float) -> None:
+def _draw_dead_centres(axes: Axes, ends: Sequence[Mark], unit: float) -> None:
     """Mark the slider's leading edge with ideal joints in both dead centres."""
-    for mark in marks(mechanism, outline):
+    for mark in ends:
         line = mark.place + np.outer([0.01 * unit, 0.035 * unit], mark.aside)
         axes.plot(*line.T, color=GREY, linewidth=0.9)
         x, y = line[1] + 0.006 * unit * mark.aside

@@ -1,12 +1,12 @@
 """What the paper leaves open, as keys of a search: what each may be, what it does to a scene."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from exu_press.scene import Scene
 from exu_press.studies.base import Key, Range, Values
 from paper.readings import MODELS
-from paper.settings import LINK_MASSES
+from paper.settings import LINK_MASSES, times, values_in
 
 __all__ = ["BESIDE", "FOUND", "OPEN", "OURS", "alternatives", "as_read", "in_words"]
 
@@ -90,62 +90,40 @@ in ADAMS' N s/mm; 0.01 as it stands. A clearance of half is a diametral one read
 the reverse. Guides: lateral stiffness, N/m."""
 
 
-def _times(table: str, factor: float) -> Callable[[Scene], dict[str, Any]]:
-    def change(scene: Scene) -> dict[str, Any]:
-        joint = scene.joints[scene.joints.members(table)[0]]
-        clearance = getattr(joint, "clearance", None)
-        return {} if clearance is None else {f"joints.{table}.clearance": factor * clearance}
-
-    return change
-
-
 def as_read(scene: Scene, reading: Mapping[str, Any]) -> Scene:
     """Return one of the paper's scenes under a reading; what it has not is left out.
 
     Raises:
         InputError: the reading is not allowed.
     """
+    rise, guides = reading["pulse's rise (A-14)"], reading["guides (A-9)"]
     changes: dict[str, Any] = {
         "start": reading["start"],
         "start_angle_deg": reading["start angle"],
+        **dict.fromkeys(LINK_MASSES, times(reading["masses of 5 to 8 (A-7)"])),
         "press.pivot_distance": reading["pivots (A-2)"],
         "press.counter_eccentricity": reading["counter-eccentric (A-3)"],
         "press.slide_mass": reading["slide's mass (A-4)"],
         "press.plunger_mass": reading["8 with ball 9 (A-5)"] * reading["masses of 5 to 8 (A-7)"],
         "press.linkage_mass_offset": reading["linkage's centre (A-6)"],
+        "contact.damping_max": reading["damping"],
+        "contact.damping_depth": reading["damping depth"],
+        "contact.tension": reading["contact pulls (A-10)"],
+        "friction.mu_static": reading["friction"],
+        "friction.mu_kinetic": reading["friction"],
+        "film.law": reading["film's law"],
+        "film.viscosity": reading["viscosity (A-11)"],
+        "film.length": reading["bearing's length (A-12)"],
+        "load.blanking.rise": rise,
+        "load.blanking.fall": rise / 2.0,
+        "load.blanking.end_angle_deg": reading["pulse's end (A-14)"],
     }
-    assert scene.press is not None
-    for name in LINK_MASSES:
-        if name != "press.plunger_mass":
-            mass = getattr(scene.press, name.removeprefix("press."))
-            changes[name] = mass * reading["masses of 5 to 8 (A-7)"]
-    if reading["guides (A-9)"] != "ideal":
-        changes["guide"] = {"lateral_stiffness": reading["guides (A-9)"]}
-    if scene.contact is not None:
-        changes |= {
-            "contact.damping_max": reading["damping"],
-            "contact.damping_depth": reading["damping depth"],
-            "contact.tension": reading["contact pulls (A-10)"],
-        }
-    if scene.friction is not None:
-        changes |= dict.fromkeys(("friction.mu_static", "friction.mu_kinetic"), reading["friction"])
-    if scene.film is not None:
-        changes |= {
-            "film.law": reading["film's law"],
-            "film.viscosity": reading["viscosity (A-11)"],
-            "film.length": reading["bearing's length (A-12)"],
-        }
-    if "blanking" in scene.load:
-        rise = reading["pulse's rise (A-14)"]
-        changes |= {
-            "load.blanking.rise": rise,
-            "load.blanking.fall": rise / 2.0,
-            "load.blanking.end_angle_deg": reading["pulse's end (A-14)"],
-        }
+    if guides != "ideal":
+        changes["guide"] = {"lateral_stiffness": guides}
     for table, key in (("crank_pin", "pin's clearance"), ("balls", "balls' clearance")):
         if reading[key] != 1.0:
-            changes |= _times(table, reading[key])(scene)
-    return scene.replace(changes)
+            changes[f"joints.{table}.clearance"] = times(reading[key])
+    return scene.replace(values_in(scene, changes))
 
 
 def alternatives(name: str, value: Any) -> list[Any]:

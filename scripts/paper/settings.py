@@ -6,7 +6,7 @@ from typing import Any
 from exu_press.scene import Scene
 from fe_models import CRANK_STEEL, LINKAGE_IRON
 
-__all__ = ["FLEXIBLE", "QUICK", "SETTINGS", "changed"]
+__all__ = ["FLEXIBLE", "LINK_MASSES", "QUICK", "SETTINGS", "changed", "times", "values_in"]
 
 Changes = Mapping[str, Any]
 
@@ -98,15 +98,22 @@ FLEXIBLE: Mapping[str, Changes] = {
 
 def changed(scene: Scene, changes: Changes) -> Scene | None:
     """Return the changed scene; None where the scene has not what is changed, or has it so."""
+    values = values_in(scene, changes)
+    film_alone = "contact.shape" in changes and scene.joints["crank_pin"].kind != "dry"
+    if len(values) < len(changes) or film_alone:
+        return None
+    other = scene.replace(values)
+    return None if other == scene else other
+
+
+def values_in(scene: Scene, changes: Changes) -> dict[str, Any]:
+    """Return the values of the changes whose table the scene has."""
     values = {}
     for name, value in changes.items():
         table, _, inner = name.rpartition(".")
-        place = _place(scene, table)
-        if place is None or (name == "contact.shape" and scene.joints["crank_pin"].kind != "dry"):
-            return None
-        values[name] = value(getattr(place, inner)) if callable(value) else value
-    other = scene.replace(values)
-    return None if other == scene else other
+        if (place := _place(scene, table)) is not None:
+            values[name] = value(getattr(place, inner)) if callable(value) else value
+    return values
 
 
 def _place(scene: Scene, table: str) -> Any:

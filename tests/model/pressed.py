@@ -1,6 +1,9 @@
 """What presses press against."""
 
+import numpy as np
+
 from exu_press import Scene, simulate
+from exu_press.scene import mechanism_of
 
 FORMING = {
     "kind": "table",
@@ -16,3 +19,19 @@ def pressed_slider_crank(force, offset=(0.0, 0.0), **scene):
     result = simulate(Scene(**slow, load={"die": load}, **scene))
     assert result.completed, result.info["reason"]
     return result
+
+
+def by_statics(result, force, mu):
+    """Return side force, speed and drive torque of such a run, for where the slider slides.
+
+    With S along the rod, N across: N = S sin, F + mu N = S cos on the way down, F - mu N on the way
+    up.
+    """
+    size, speed = result.scene.slider_crank, result.scene.angular_speed
+    angle = result["crank_angle"]
+    sine = size.crank_radius * np.sin(angle) / size.rod_length
+    tangent = sine / np.sqrt(1 - sine**2)
+    velocity = mechanism_of(result.scene).ideal_slider(angle, speed)[1]
+    side = force * tangent / (1 + mu * np.abs(tangent) * np.sign(velocity))
+    torque = (-force * velocity + mu * np.abs(side * velocity)) / speed
+    return side, velocity, torque

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from pressed import pressed_slider_crank
+from pressed import by_statics, pressed_slider_crank
 
 from exu_press import InputError, Scene, simulate
 from exu_press.scene import mechanism_of
@@ -17,25 +17,8 @@ def pressed():
     return pressed_slider_crank(FORCE, start_angle_deg=20.0, revolutions=0.85, guide=guide, **calm)
 
 
-def coulomb(result):
-    """Return side force, speed and drive torque by statics, for where the slider slides.
-
-    With S along the rod, N across: N = S sin, F + mu N = S cos on the way down, F - mu N on the way
-    up.
-    """
-    size, speed = result.scene.slider_crank, result.scene.angular_speed
-    angle = result["crank_angle"]
-    sine = size.crank_radius * np.sin(angle) / size.rod_length
-    tangent = sine / np.sqrt(1 - sine**2)
-    velocity = mechanism_of(result.scene).ideal_slider(angle, speed)[1]
-    # the friction's part grows with |N| and acts against the velocity
-    side = FORCE * tangent / (1 - MU * np.abs(tangent) * -np.sign(velocity))
-    torque = (-FORCE * velocity + MU * np.abs(side * velocity)) / speed
-    return side, velocity, torque
-
-
 def test_side_force_friction_and_torque_are_those_of_statics(pressed):
-    side, velocity, torque = coulomb(pressed)
+    side, velocity, torque = by_statics(pressed, FORCE, MU)
     settled = (pressed.time > 0.5) & (np.abs(velocity) > 5e-3) & (np.abs(side) > 500.0)
     assert settled.sum() > 500
     scale = np.abs(side).max()
@@ -63,7 +46,7 @@ def test_the_slider_has_its_clearance_and_the_give_of_its_guideway(pressed):
     stiffness = pressed.scene.guide.lateral_stiffness
     beside = np.abs(pressed["slider_lateral"])
     expected = CLEARANCE + np.abs(pressed["guide_force"]) / stiffness
-    side, velocity, _ = coulomb(pressed)
+    side, velocity, _ = by_statics(pressed, FORCE, MU)
     lying = (pressed.time > 0.5) & (np.abs(velocity) > 5e-3) & (np.abs(side) > 500.0)
     assert np.abs(beside - expected)[lying].max() < 1e-7
     assert pressed["slider_lateral"].max() > CLEARANCE

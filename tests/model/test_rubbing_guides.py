@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from pressed import pressed_slider_crank
+from pressed import by_statics, pressed_slider_crank
 
 from exu_press import InputError, Scene, simulate
 from exu_press.scene import mechanism_of
@@ -20,14 +20,8 @@ def pressed(request):
 
 
 def test_side_force_friction_and_torque_are_those_of_statics(pressed):
-    """Of the rod's force S: N = S sin, and F + mu |N| = S cos on the way down (v < 0)."""
-    size, speed = pressed.scene.slider_crank, pressed.scene.angular_speed
-    angle = pressed["crank_angle"]
-    sine = size.crank_radius * np.sin(angle) / size.rod_length
-    tangent = sine / np.sqrt(1 - sine**2)
-    velocity = mechanism_of(pressed.scene).ideal_slider(angle, speed)[1]
-    side = FORCE * np.abs(tangent) / (1 + MU * np.abs(tangent) * np.sign(velocity))
-    torque = (-FORCE * velocity + MU * np.abs(side * velocity)) / speed
+    side, velocity, torque = by_statics(pressed, FORCE, MU)
+    side = np.abs(side)
     sliding = np.abs(velocity) > 4e-3
     assert sliding.sum() > 100
     assert np.abs(np.abs(pressed["guide_force"]) - side)[sliding].max() < 2e-3 * side.max()

@@ -22,7 +22,7 @@ def local(workers, **more):
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("PYTHONPATH", str(Path(__file__).parent))
         at = {"host": "127.0.0.1", "protocol": "tcp", "dashboard_address": None}
-        with distributed.LocalCluster(workers, 1, **at, **more) as made:
+        with distributed.LocalCluster(None, workers, 1, **at, **more) as made:
             yield made
 
 

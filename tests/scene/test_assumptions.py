@@ -116,6 +116,8 @@ def test_keys_with_defaults_units_and_meanings():
 def test_only_what_differs_counts_as_given(scene, changed):
     keys = keys_of(Scene(**scene))
     assert {name for name, key in keys.items() if not key.assumed} == changed
+    sampled = keys_of(Scene(output={"samples": [90.0]}))
+    assert sampled["output.every"].assumed and not sampled["output.samples"].assumed
 
 
 def test_nothing_to_assume_is_no_line():

@@ -197,41 +197,36 @@ def _course(study: WearStudy, points: list[Point], ended: list[str]) -> Chain:
         jump = min(jump, own.strokes - done)
         half = {n: depths[n].after(0.5 * jump, rate[n]) for n in depths}
         row = yield arguments(half)
-        if failed(row) and tries < TRIES:
+        if not (why := failed(row)):
+            middle = _rates(row, study)
+            after = {n: depths[n].after(jump, middle[n]) for n in depths}
+            apart = {
+                n: depths[n]
+                .after(jump, rate[n])
+                .reached(clearance[n])
+                .differ(half[n].after(0.5 * jump, middle[n]).reached(clearance[n]))
+                for n in depths
+            }
+            off = max(apart[n] / clearance[n] for n in apart) / own.tolerance
+            longer = min(LONGEST, max(SHORTEST, CAUTION / math.sqrt(max(off, 1e-12))))
+            if off > 1.0:
+                jump *= longer
+                continue
+            worn_ways = {body: ways[body] + jump * row["guideways"][body] for body in ways}
+            row = yield arguments(after)
+            why = failed(row)
+        if why and tries < TRIES:
             tries += 1
             jump *= SHORTEST
             continue
-        if why := failed(row):
+        if why:
             ended.append(f"after {done:.4g} strokes a {why}")
             return
-        middle = _rates(row, study)
-        after = {n: depths[n].after(jump, middle[n]) for n in depths}
-        apart = {
-            n: depths[n]
-            .after(jump, rate[n])
-            .reached(clearance[n])
-            .differ(half[n].after(0.5 * jump, middle[n]).reached(clearance[n]))
-            for n in depths
-        }
-        off = max(apart[n] / clearance[n] for n in apart) / own.tolerance
-        step = jump
-        jump *= min(LONGEST, max(SHORTEST, CAUTION / math.sqrt(max(off, 1e-12))))
-        if off > 1.0:
-            continue
-        worn_ways = {body: ways[body] + step * row["guideways"][body] for body in ways}
-        row = yield arguments(after)
-        if failed(row) and tries < TRIES:
-            tries += 1
-            jump = SHORTEST * step
-            continue
-        if why := failed(row):
-            ended.append(f"after {done:.4g} strokes a {why}")
-            return
-        ways = worn_ways
-        tries, jumps, done, depths = 0, jumps + 1, done + step, after
+        tries, jumps, done, depths, ways = 0, jumps + 1, done + jump, after, worn_ways
         error += max(apart.values())
         rate = _rates(row, study)
-        points.append(Point(done, step, error, depths, ways, row))
+        points.append(Point(done, jump, error, depths, ways, row))
+        jump *= longer
 
 
 def _rates(row: Row, study: WearStudy) -> dict[str, Depths]:

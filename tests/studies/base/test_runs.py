@@ -22,24 +22,6 @@ def test_calls_share_processes_and_rows(tmp_path):
     assert len((tmp_path / FILE).read_text().splitlines()) == 3
 
 
-def test_a_directory_of_another_study_is_refused(tmp_path):
-    with Runs(STUDY, tmp_path):
-        pass
-    other = Study(scene=SCENE, keys={"speed_rpm": {"low": 100.0, "high": 301.0}})
-    with pytest.raises(InputError, match="belongs to another study"), Runs(other, tmp_path):
-        pass
-    with Runs(STUDY, tmp_path):
-        pass
-
-
-def test_a_run_that_fails_is_a_row(tmp_path, monkeypatch):
-    scene = SCENE.replace({"solver": {"tolerance": 1e-3}})
-    with Runs(STUDY, tmp_path, workers=1) as runs:
-        (row,) = runs.of([scene])
-    assert row["status"] == "completed"
-    assert row["peak_acceleration.resolved"] > 0.0
-
-
 def test_a_range_outside_of_what_the_scene_allows_is_refused():
     with pytest.raises(InputError, match=r"run with speed_rpm = -1\.0: speed_rpm = -1\.0: allowed"):
         Study(scene=SCENE, keys={"speed_rpm": {"low": -1.0, "high": 100.0}})

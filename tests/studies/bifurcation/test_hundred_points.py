@@ -92,7 +92,7 @@ def test_killed_twice_it_goes_on_without_loss(tmp_path, monkeypatch):
 
 
 @pytest.mark.long
-def test_both_workers_are_busy(tmp_path, monkeypatch):
+def test_both_workers_are_busy(tmp_path, monkeypatch, processes):
     """Of the time between a worker's first run and its last, nine tenths are in runs."""
     monkeypatch.setenv("LOG_OF_POINTS", str(tmp_path / "log"))
     diagram(tmp_path / "out", 10)

@@ -11,7 +11,8 @@ Where joints slide along cables, their places are unknowns beside the forces: a 
 cable across it violates them, and one that is off along it has another place.
 """
 
-from collections.abc import Iterator
+import math
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 import numpy as np
@@ -19,6 +20,7 @@ from numpy.typing import NDArray
 
 from exu_press.integrate.settings import Task
 from exu_press.numerics.arrays import Array
+from exu_press.numerics.linear import Equations
 
 __all__ = ["Constraints", "normalised"]
 
@@ -154,6 +156,20 @@ class Constraints:
         self._data.SetTime(time)
         rates = (beside[0] - beside[1]) / (2.0 * ahead)
         return np.where(self.of_velocities(), here, rates)
+
+    def undone(self, norm: Array, directions: Array) -> Callable[[Array], Array]:
+        """Return a function of violations, (count, k): the least changes that undo them, (n, k).
+
+        Args:
+            norm: (n, n), in which they are the least.
+            directions: of the constraints, (count, n + p), of length 1.
+        """
+        size = len(norm)
+        try:
+            changes = Equations(self.matrix(norm, directions)).of_rows(size, len(directions))
+        except np.linalg.LinAlgError:
+            return lambda violated: np.full((size, violated.shape[1]), math.nan)
+        return lambda violated: changes(violated)[:size]
 
     def matrix(self, mass: Array, directions: Array) -> Array:
         """Return [[M, C^T, 0], [C, -give, S], [0, S^T, 0]], the last of them for places.

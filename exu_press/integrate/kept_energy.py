@@ -2,11 +2,9 @@
 
 import numpy as np
 
-from exu_press.integrate.constraints import Constraints, normalised
 from exu_press.integrate.problem import Problem
 from exu_press.integrate.settings import Task
 from exu_press.numerics.arrays import Array
-from exu_press.numerics.linear import Equations
 
 __all__ = ["KeptEnergy"]
 
@@ -40,9 +38,9 @@ class KeptEnergy:
     chapter IX; the change is worked out here.
     """
 
-    def __init__(self, task: Task, constraints: Constraints) -> None:
-        """Take the solver of a task, and its constraints."""
-        self._solver, self._constraints = task.solver, constraints
+    def __init__(self, task: Task) -> None:
+        """Take the solver of a task."""
+        self._solver = task.solver
 
     @staticmethod
     def suits(problem: Problem) -> bool:
@@ -56,12 +54,7 @@ class KeptEnergy:
         return problem.rigid and held and not (turns or problem.untold_rates)
 
     def per_square(
-        self,
-        step: float,
-        velocities: Array,
-        accelerations: Array,
-        inertia: Array,
-        directions: Array,
+        self, step: float, velocities: Array, accelerations: Array, inertia: Array, held: Array
     ) -> Array:
         """Return the changes of velocities over h_2^2 - h_1^2, SI over seconds squared, (n,).
 
@@ -70,22 +63,15 @@ class KeptEnergy:
             velocities: (n,).
             accelerations: (n,).
             inertia: (n, n).
-            directions: of the constraints, (count, n + p).
+            held: what constraints prescribe of both, (n, 2).
         """
-        solver, size = self._solver, len(inertia)
-        settled, gamma = solver.alphaM - solver.alphaF, solver.newmarkGamma
-        of_q = 0.5 * settled + solver.newmarkBeta - 1.0 / 6.0
-        of_v = settled * (solver.alphaM + gamma - 0.5) + 0.5 * gamma - 1.0 / 6.0
-        matrix = self._constraints.matrix(inertia, normalised(directions)[0])
-        right = np.zeros((len(matrix), 2))
-        right[:size] = inertia @ np.array([accelerations, velocities]).T
-        try:
-            free = Equations(matrix).solve(right)[:size]
-        except np.linalg.LinAlgError:
-            return np.zeros(size)
-        held = accelerations - free[:, 0]
-        kinetic, turning = float(velocities @ inertia @ velocities), float(held @ inertia @ held)
+        of_v, of_a = held.T
+        kinetic, turning = float(velocities @ inertia @ velocities), float(of_a @ inertia @ of_a)
         if not step * step * turning <= TURNED * TURNED * kinetic or kinetic == 0.0:
-            return np.zeros(size)
-        found: Array = -0.5 * (3.0 * of_v + of_q) * turning / kinetic * free[:, 1]
+            return np.zeros(len(held))
+        solver = self._solver
+        settled, gamma = solver.alphaM - solver.alphaF, solver.newmarkGamma
+        d_q = 0.5 * settled + solver.newmarkBeta - 1.0 / 6.0
+        d_v = settled * (solver.alphaM + gamma - 0.5) + 0.5 * gamma - 1.0 / 6.0
+        found: Array = -0.5 * (3.0 * d_v + d_q) * turning / kinetic * (velocities - of_v)
         return found

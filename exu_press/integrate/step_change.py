@@ -1,6 +1,7 @@
 """Generalized-alpha's memory from step to step, where the step changes."""
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
@@ -9,7 +10,6 @@ from exu_press.integrate.kept_energy import KeptEnergy
 from exu_press.integrate.settings import SAME, Task, inertia_factor
 from exu_press.numerics.arrays import Array
 from exu_press.numerics.floats import Floats
-from exu_press.numerics.linear import Equations
 
 __all__ = ["StepChange"]
 
@@ -39,9 +39,9 @@ class StepChange:
     alternate for a dozen steps, larger than the motion's own changes. Scaled to the new step, by
     its ratio to the old one and by that ratio's square, both fit at once; the latter costs as much
     as a step. Likewise what Newton's method left of the positions' constraints, 1e-10 m, is nothing
-    beside a long step but a jolt beside a short one: it is taken away. What is left
-    by a step so short that it is rounding, as one that ends on an event, is not scaled up to one a
-    thousand times as long.
+    beside a long step but a jolt beside a short one: it is taken away. What is left by a step so
+    short that it is rounding, as one that ends on an event, is not scaled up to one a thousand
+    times as long.
 
     Without films and contacts motion is smooth, steps change seldom, and each change is worth this.
     With them, and with Exudyn's contacts, steps change all the time: velocities are fitted once
@@ -74,9 +74,10 @@ class StepChange:
         self._seldom = self._smooth and not problem.switching  # do steps change
         self._film_waits = problem.lubricated
         self._refit = task.tuning.refit
+        self._springs = any("Spring" in kind for kind in problem.kinds)
         self._energy: KeptEnergy | None = None
         if self._seldom and not corners and KeptEnergy.suits(problem):
-            self._energy = KeptEnergy(task, constraints)
+            self._energy = KeptEnergy(task)
         self._task, self._solver, self._constraints = task, task.solver, constraints
         self._data, self._current, self._at_start = problem.data, problem.current, problem.start
         self._now, self._before = (
@@ -163,11 +164,7 @@ class StepChange:
                         self._offsets = self._violations()
                     q = q - self._offsets[0]
                     v = v - (1.0 - part * part) * self._offsets[1]
-                if self._energy is not None and self._last is not None:
-                    if self._per_square is None:
-                        self._per_square = self._energy.per_square(
-                            self._last, self._state[1], a, *self._matrices()[1:3]
-                        )
+                if self._per_square is not None and self._last is not None:
                     v = v + (step * step - self._last * self._last) * self._per_square
         at_start = solver.GetStartOfStepStateAAlgorithmic()
         wanted = a + ratio * (at_start - a)
@@ -209,49 +206,50 @@ class StepChange:
         of Newton's method: that counts what masses weigh, and what films and contacts would answer
         with. In the norm of masses alone a journal was moved in its film by 1e-5 m/s, which it
         answered with 2.4 kN. But a contact that lets go may give way to a change instead, so that
-        a large one costs nothing: where masses alone resist more, they count.
+        a large one costs nothing: where masses alone resist more, they count. So they do where the
+        energy is kept and nothing is elastic: the same solution tells what that asks for.
         """
         forces, inertia, directions = self._matrices()
-        found = self._projection(0.5 * (forces + forces.T), directions)
+        directions, lengths = normalised(directions)
+        if self._energy is not None:
+            undone = self._constraints.undone(inertia, directions)
+            if self._last is not None:
+                _, v, a = self._state
+                held = undone(directions @ np.array([v, a]).T)
+                self._per_square = self._energy.per_square(self._last, v, a, inertia, held)
+            if not self._springs:
+                return self._least(undone, lengths)
+        undone = self._constraints.undone(0.5 * (forces + forces.T), directions)
+        found = self._least(undone, lengths)
         for change in found:
             if change @ forces @ change < MORE * (change @ inertia @ change):
-                return self._projection(inertia, directions)
+                return self._least(self._constraints.undone(inertia, directions), lengths)
         return found
 
-    def _projection(self, norm: Array, directions: Array) -> tuple[Array, Array]:
+    def _least(self, undone: Callable[[Array], Array], lengths: Array) -> tuple[Array, Array]:
         """Return the least changes of positions and velocities that the constraints ask for.
 
         The directions in which constraints act are those of the last Jacobian, perhaps a degree of
         the crank away; how far they are violated is of this very state, so a few turns lead to it.
 
         Args:
-            norm: (n, n), in which they are the least.
-            directions: of the constraints, (count, n + p).
+            undone: changes that undo violations, of constraints with directions of length 1.
+            lengths: of the directions, (count,).
         """
-        size = len(norm)
-        held = slice(size, size + len(directions))
-        directions, lengths = normalised(directions)
-        matrix = self._constraints.matrix(norm, directions)
         position, velocity = self._current.positions, self._current.velocities
         now = self._data.GetTime()
         self._data.SetTime(self._start)
-        found, violated = np.zeros((size, 2)), np.zeros((len(matrix), 2))
-        equations: Equations | None = None
+        found, violated = np.zeros((len(position), 2)), np.zeros((len(lengths), 2))
         for _ in range(CHANGE_ITERATIONS):
             position[:] = self._state[0] - found[:, 0]
             velocity[:] = self._state[1] - found[:, 1]
-            violated[held, 0] = self._constraints.violated()
-            violated[held, 1] = self._constraints.violated_rates(AHEAD * self._fits)
-            violated[held] /= lengths[:, None]
+            violated[:, 0] = self._constraints.violated()
+            violated[:, 1] = self._constraints.violated_rates(AHEAD * self._fits)
+            violated /= lengths[:, None]
             same = violated[:, :1] == violated[:, 1:]
             # prescribed speeds are no places, and are met as they are
             np.copyto(violated, 0.0, where=same)
-            try:
-                equations = equations or Equations(matrix)
-                found += equations.solve(violated)[:size]
-            except np.linalg.LinAlgError:
-                found[:] = math.nan
-                break
+            found += undone(violated)
         if not np.isfinite(found).all():  # a film's forces beyond all numbers: it says so
             found[:] = 0.0
         self._data.SetTime(now)

@@ -4,6 +4,7 @@ Each criterion is a class of `exu_press.integrate.criteria`. With the step h, ac
 rate j_n = (a_n - a_(n-1)) / h, the scale of speeds V, eccentricities e and the clearance c::
 
     velocities                         h^2 |j_n - j_(n-1)| / 6    over share V      BodyError
+    of a vibration, over its cycle     the largest of late        over share V      Envelope
     positions along constraints        h^3 |j_n| / 6, by |a| / V  over share V      BodyError
     velocities as prescribed           h^2 |j_n| / 12             over tol V        BodyError
     accelerations between two instants h |j_n - j_(n-1)| / 8      over tol |a|      Curvature
@@ -26,6 +27,7 @@ from exu_press.integrate.criteria.newton_matrix import NewtonMatrix
 from exu_press.integrate.criteria.share import ErrorPerStep
 from exu_press.integrate.criteria.turning import Turning
 from exu_press.integrate.criteria.turning_force import TurningForce
+from exu_press.integrate.criteria.vibration import Envelope
 from exu_press.integrate.settings import Task
 
 __all__ = ["StepError"]
@@ -49,7 +51,8 @@ class StepError:
     that is too much, what counts is the part that Newton's matrix lets through: constraints, films
     and contacts undo the rest within the step (L. F. Shampine's filter for stiff systems, see
     Hairer and Wanner, Solving Ordinary Differential Equations II, IV.8). Without films and contacts
-    also velocities that follow from constraints, at each instant against the tolerance itself. What
+    also velocities that follow from constraints, at each instant against the tolerance itself, and
+    of vibrations the largest error of late: `Envelope`. What
     rounding moves in an equilibrium is no error: it is told from a motion as small by errors that
     do not shrink with the step.
 
@@ -84,6 +87,7 @@ class StepError:
         )
         # error and size of a repeated step, in a motion that may be rounding
         self._doubted = 0.0, 0.0
+        self._envelope = Envelope()
         self._jumped = False  # whether accelerations have, in a step of the smallest size
         self._first_order: FirstOrderError | None = None
         self._joints: list[JointError] = []
@@ -116,6 +120,9 @@ class StepError:
             if error > 1.0 and self._joints:
                 left = self._matrix.left_in_constraints()
                 error = bodies.error(change, step, left)
+        if bodies.quiet < math.inf and not (self._joints or self._forces_jump):
+            turned = bodies.vibration.turned(step)
+            error = self._envelope.over(error, bodies.limit(step) / (step * step * step), turned)
         if not (still or self._joints):  # whose impacts and films need finer steps, by far
             offset = self._relative(bodies.offset(step))
             if self._curvature is not None:
@@ -202,6 +209,7 @@ class StepError:
         if self._curvature is not None:
             self._curvature.accept()
         self._bodies.accept()
+        self._envelope.accept()
         if self._jumped or (self._forces_jump and (shortened or self._has_switched)):
             self._bodies.jumped()
         self._jumped = False
@@ -209,7 +217,8 @@ class StepError:
         if self._turning is not None:
             self._bodies.turning = self._turning.stepped(self._step)
         if not self._scales.fixed:
-            self._scales.update(self._velocities.tolist(), self._accelerations.tolist())
+            velocities, accelerations = self._velocities.tolist(), self._accelerations.tolist()
+            self._scales.update(velocities, accelerations, self._step)
         if self._first_order is not None:
             self._first_order.accept()
         for _, film in self._films:

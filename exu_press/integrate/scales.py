@@ -11,6 +11,10 @@ from exu_press.integrate.problem import Node, Problem
 
 __all__ = ["ErrorScales", "FoundScales", "weights"]
 
+FORGOTTEN = 10.0
+"""Times in which first accelerations make a speed, after which a part 1/e of it is left to expect:
+a constant acceleration has made a sixth of it when that is as much."""
+
 
 @dataclass(frozen=True)
 class ErrorScales:
@@ -32,10 +36,11 @@ class ErrorScales:
 class FoundScales:
     """The scales of a run so far.
 
-    A system at rest has no speed yet: what its first accelerations make of it within the largest
-    step counts instead, or on their way through the widest clearance. In an equilibrium these are
-    rounded forces over masses: what has moved no faster than rounded positions do in the first step
-    is still.
+    A system at rest has no speed yet: what its first accelerations make of it within a hundredth of
+    the run or less counts instead, or on their way through the widest clearance. It fades in a
+    tenth of that time: a vibration may have turned back by then, with a fraction of it. In an
+    equilibrium first accelerations are rounded forces over masses: what has moved no faster than
+    rounded positions do in the first step is still.
 
     Attributes:
         speed: m/s.
@@ -63,7 +68,7 @@ class FoundScales:
         Args:
             given: scales.
             problem: to be solved.
-            longest: step, s.
+            longest: step, s, or a hundredth of the run.
             first: step, s.
             stir: accelerations due to rounded positions, times the step's square, over the
                 length.
@@ -78,7 +83,9 @@ class FoundScales:
         self.inertias: list[float] = []
         self._own: list[bool] = []
         self._energies: list[float] = []  # twice the largest kinetic energy of each node so far
-        self.speed = max(given.speed or 0.0, floor)
+        self._expected: list[float] = []  # the same, which first accelerations will make of it
+        self._ahead = longest  # time within which they will, s
+        self.speed = self._least = max(given.speed or 0.0, floor)
         self.force = given.force or 0.0
         self.fixed = False
 
@@ -89,6 +96,7 @@ class FoundScales:
         self.masses = masses
         self._own = [mass == 0.0 for mass in masses]
         self._energies = [0.0 for _ in masses]
+        self._expected = [0.0 for _ in masses]
         positions = (problem.current.positions + problem.reference).tolist()
         known = max(self.length, self.norm(positions))
         self.length = known or 1.0  # where all is zero
@@ -103,7 +111,7 @@ class FoundScales:
         largest, time = self.norm(accelerations), self._longest
         if problem.joints is not None and largest > 0.0:
             time = min(time, math.sqrt(4.0 * problem.joints.widest / largest))
-        self.update([time * value for value in accelerations], accelerations)
+        self._expect(accelerations, time)
         self.update(velocities, accelerations)
         if not known and self.speed > 0.0:  # as far as it gets in ten runs of a hundred steps
             self.length = min(1.0, 1e3 * self.speed * self._longest)
@@ -128,7 +136,10 @@ class FoundScales:
     @property
     def resting(self) -> bool:
         """Return whether it moves by less than a billionth of its length in the longest step."""
-        return self.speed * self._longest <= 1e-9 * self.length
+        return self._rests(self.speed)
+
+    def _rests(self, speed: float) -> bool:
+        return speed * self._longest <= 1e-9 * self.length
 
     @property
     def unseen(self) -> bool:
@@ -141,28 +152,43 @@ class FoundScales:
 
     def set_out(self, velocities: list[float], accelerations: list[float]) -> None:
         """Be told of a state that a step was tried to, in which a system may have left its rest."""
-        self.update([self._longest * value for value in accelerations], accelerations)
+        self._expect(accelerations, self._longest)
         self.update(velocities, accelerations)
 
-    def update(self, velocities: list[float], accelerations: list[float]) -> None:
-        """Be told of a state."""
+    def _expect(self, accelerations: list[float], time: float) -> None:
+        """Let the speeds count that accelerations make within a time, s, and less and less."""
+        speeds = [time * value for value in accelerations]
+        energies = self._sums(speeds, speeds)
+        self._expected = [max(energies[i], self._expected[i]) for i in range(len(energies))]
+        self._ahead = time
+
+    def update(
+        self, velocities: list[float], accelerations: list[float], step: float = 0.0
+    ) -> None:
+        """Be told of a state, at the end of a step (s)."""
         if self.fixed:
             return
         energies, masses = self._sums(velocities, velocities), self.masses
-        speed_2 = 0.0
+        speed_2 = expected_2 = 0.0
         for i in range(len(masses)):
             if energies[i] > self._energies[i]:
                 self._energies[i] = energies[i]
             if not self._own[i]:
-                speed_2 = max(speed_2, energies[i] / masses[i])
+                speed_2 = max(speed_2, self._energies[i] / masses[i])
+                expected_2 = max(expected_2, self._expected[i] / masses[i])
+        if not self._rests(math.sqrt(speed_2)):
+            left = math.exp(-2.0 * FORGOTTEN * step / self._ahead)
+            self._expected = [left * energy for energy in self._expected]
+        speed_2 = max(speed_2, expected_2)
         if self._given.speed is None:
-            self.speed = max(self.speed, math.sqrt(speed_2))
+            self.speed = max(self._least, math.sqrt(speed_2))
             if self.speed == 0.0 and True in self._own:
                 self.speed = 1.0  # nothing is displaced: any speed will do, energies count
         square = self.speed * self.speed
         for i in range(len(masses)):
             if self._own[i]:
-                masses[i] = self._energies[i] / square if square > 0.0 else 0.0
+                largest = max(self._energies[i], self._expected[i])
+                masses[i] = largest / square if square > 0.0 else 0.0
         if self._given.force is None:
             squares = 0.0
             for i in range(len(accelerations)):

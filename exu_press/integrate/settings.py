@@ -55,6 +55,10 @@ SHORTEST_RUN = 1e-7
 FIRST_STEP = 1.0 / 64.0
 """Over the largest one; with a film, `first_step_of_film`."""
 
+FORESEEN = 100.0
+"""Part of a run within which, at most, first accelerations foretell speeds: a hundredth. Where the
+largest step was the whole run, they did for all of it."""
+
 IMPLICIT = "GeneralizedAlpha", "TrapezoidalIndex2"
 """Exudyn's solvers that take the same settings; the second one is the first with other numbers."""
 
@@ -183,7 +187,10 @@ class Task:
         stir = tuning.rounding / (1.0 - min(self.spectral_radius, 0.95)) ** 2
         self.absolute = absolute
         floor = absolute / self.tolerance
-        self.scales = FoundScales(scales, problem, largest, self.first, stir, floor)
+        foreseen = largest  # in clearance joints, less: until they are crossed
+        if problem.joints is None:
+            foreseen = min(largest, (self.end - self.start) / FORESEEN)
+        self.scales = FoundScales(scales, problem, foreseen, self.first, stir, floor)
 
 
 def inertia_factor(solver: Any) -> float:

@@ -54,6 +54,15 @@ def test_a_system_at_rest_has_the_speed_that_it_will_have_within_the_largest_ste
     assert scales(bodies(None), [2.0, 2.0, 0.5], **STILL).speed == pytest.approx(1.0)
 
 
+def test_speeds_that_are_expected_fade():
+    """A vibration turns back before: its scale was ten times its speed, to the end of the run."""
+    found = scales(bodies(None), [2.0, 2.0, 0.5], **STILL)
+    for speed, expected in ((0.1, np.exp(-1.0)), (0.3, 0.3), (0.2, 0.3)):
+        found.update([speed, 0.0, 0.0], [1.0, 0.0, 0.0], 0.01)
+        found.update([0.0, 0.0, 0.0], [1.0, 0.0, 0.0])
+        assert found.speed == pytest.approx(expected)
+
+
 @PATCHED
 def test_a_body_at_rest_in_a_clearance_has_the_speed_at_which_it_arrives():
     narrow = scales(bodies(None), [2.0, 2.0, 0.5], **STILL, joints=SimpleNamespace(widest=1e-3))

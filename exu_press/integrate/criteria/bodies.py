@@ -23,6 +23,8 @@ class BodyError:
         noise: accelerations due to rounded positions, times the step's square, m.
         turning: angle by which velocities are to turn yet, rad: `Turning`.
         velocities: of all coordinates, where they are to turn by more than a radian.
+        quiet: velocity amplitude of a vibration (`Quiet`) over what the run may miss; infinite
+            where it is not known.
     """
 
     def __init__(
@@ -55,8 +57,8 @@ class BodyError:
         self.velocities: list[float] = []
         self.change_size = 0.0  # its kinetic norm
         self._rate_size = -1.0  # that of the rate, once it was asked for
-        self._quiet = Quiet()
-        self._share = math.inf  # of what errors can add up to, over what the run may have
+        self.vibration = Quiet()
+        self.quiet = math.inf
 
     def tried(self, now: list[float], step: float) -> float:
         """Return the error of a step (s) that ends with these accelerations."""
@@ -69,11 +71,12 @@ class BodyError:
             part = step * self._part_changed()
             self.change = [part * value for value in rate]
         self.change_size = self._scales.norm(self.change)
+        self.quiet = math.inf
         if last and step < self._per_step.shortest:
             allowed = self._tolerance * self._scales.speed
             if allowed > 0.0:
                 size = self._size_of_rate()
-                self._share = self._quiet.amplitude(size, self.change_size, step) / allowed
+                self.quiet = self.vibration.amplitude(size, self.change_size, step) / allowed
         return self.error(self.change, step)
 
     def _size_of_rate(self) -> float:
@@ -124,8 +127,11 @@ class BodyError:
 
     def _limit(self, step: float, noise: float, grows: float) -> float:
         """Return what a velocity may be off by in a step (s), m/s, if that grows by a factor."""
-        whole = self._per_step.at(step, self._share) * self._scales.speed
-        return max(whole / grows, self._constant * noise / step)
+        return max(self.limit(step) / grows, self._constant * noise / step)
+
+    def limit(self, step: float) -> float:
+        """Return what a velocity may be off by in a step (s), m/s, but for rounding."""
+        return self._per_step.at(step, self.quiet) * self._scales.speed
 
     def of_jump(self) -> float:
         """Return the largest change of an acceleration in the step last tried, m/s^2."""
@@ -156,8 +162,8 @@ class BodyError:
     def accept(self) -> None:
         """Remember the accepted step's end as the next one's beginning."""
         self._before, self._rate_before = self._now, self.rate
-        self._quiet.accept()
+        self.vibration.accept()
 
     def jumped(self) -> None:
         """Be told that accelerations have jumped in the accepted step."""
-        self._quiet.forget()
+        self.vibration.forget()

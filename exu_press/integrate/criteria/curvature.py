@@ -14,7 +14,8 @@ class Curvature:
     or against what changes no velocity within the step by more than the absolute tolerance. What
     alternates from step to step is none of the motion's, and a jump does not shrink with the step:
     what two steps of one size have in common counts, and in a step of another size what the last
-    two had.
+    two had. Of a vibration that may be missed (`Quiet`) accelerations may be off by as much more
+    as its velocities are below what the run may miss.
     """
 
     def __init__(
@@ -50,7 +51,7 @@ class Curvature:
         if before and abs(step - self._step_before) < SAME * step:
             both = self._scales.norm([change[i] + before[i] for i in range(len(change))])
             self._common = min(0.5 * both / step, 3.0 * min(self._size, self._size_before))
-        off = 0.125 * step * step * self._common
+        off = 0.125 * step * step * self._common * min(1.0, self._bodies.quiet)
         allowed = max(self._tolerance * self._most, self._absolute / step)
         return off / max(allowed, self._noise / (step * step))
 

@@ -5,6 +5,10 @@ from dataclasses import dataclass
 
 __all__ = ["ErrorPerStep"]
 
+FEW = 10.0
+"""Tolerances up to which errors that are bounded need not be smaller. A phase that is lost for good
+is bounded, too, by hundreds of them."""
+
 
 @dataclass(frozen=True)
 class ErrorPerStep:
@@ -53,7 +57,8 @@ class ErrorPerStep:
         """
         if step >= self.shortest:
             return self.whole
-        return self.whole * min(1.0, max(step / self.shortest, 1.0 / most))
+        bounded = math.pow(min(1.0, FEW / most), 3.0) / most
+        return self.whole * min(1.0, max(step / self.shortest, bounded))
 
     def relaxing(self, step: float) -> float:
         """Return what a step (s) may have of first-order coordinates."""

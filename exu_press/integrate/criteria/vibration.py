@@ -1,11 +1,18 @@
-"""Vibrations that are too small to be followed."""
+"""Vibrations: those too small to be followed, and errors over a whole cycle."""
 
 import math
 
-__all__ = ["Quiet"]
+__all__ = ["Envelope", "Quiet"]
 
 LATE = 0.99
-"""Part of the largest recent value that is left of it after a step."""
+"""Least part of the largest recent value that is left of it after a step."""
+
+FADING = 0.05
+"""Part of it that is gone after a radian of the vibration: both values are zero at times, and in
+steps of a hundredth of a radian most of it would be forgotten before they return."""
+
+CYCLE = 0.5
+"""The same of an error: half is left where it is zero."""
 
 
 class Quiet:
@@ -41,15 +48,21 @@ class Quiet:
         if self._spoilt:
             self._tried = step, 0.0, 0.0
             return math.inf
+        late = max(LATE, 1.0 - FADING * self.turned(step))
         centred = 0.5 * (step + (self._before or step))  # between the middles of two steps
-        jerk = max(rate, LATE * self._rate)
-        bend = max(change / centred, LATE * self._bend)
+        jerk = max(rate, late * self._rate)
+        bend = max(change / centred, late * self._bend)
         self._tried = step, jerk, bend
         square = bend * bend
         if square == 0.0:
             return math.inf
         shortest = 0.5 * step  # 1 / omega
         return max(jerk * jerk * jerk / square, bend * shortest * shortest * shortest)
+
+    def turned(self, step: float) -> float:
+        """Return the angle by which the vibration goes on in a step (s), rad; at most one."""
+        turned = step * self._bend
+        return turned / self._rate if turned < self._rate else 1.0
 
     def accept(self) -> None:
         """Remember the step last tried."""
@@ -63,3 +76,33 @@ class Quiet:
         the rate behind that as well.
         """
         self._spoilt = 2
+
+
+class Envelope:
+    """Lets the error of a step be no smaller than those of the last part of a cycle.
+
+    The estimated error of velocities is zero twice in a cycle. There it is that of positions which
+    is largest, and each step makes the same of the phase, h^3 omega^3 / 12, wherever it lies. Steps
+    that grew there fourfold made five times the phase error of as many equal ones, and each change
+    of a step costs several.
+    """
+
+    def __init__(self) -> None:
+        """Know nothing yet."""
+        self._before = self._tried = 0.0  # errors over the step's cube, m/s^4
+
+    def over(self, error: float, allowed: float, turned: float) -> float:
+        """Return the error of a step, or what is left of those before it, which repeats no step.
+
+        Args:
+            error: of the step, 1 is allowed.
+            allowed: error over the step's cube, m/s^4.
+            turned: angle by which the vibration goes on in the step, rad, at most one.
+        """
+        left = self._before * (1.0 - CYCLE * turned)
+        self._tried = max(error * allowed, left)
+        return max(error, min(1.0, left / allowed))
+
+    def accept(self) -> None:
+        """Remember the step last tried."""
+        self._before, self._tried = self._tried, 0.0

@@ -1,4 +1,4 @@
-"""Compare scenes and finished runs side by side; one scene alone: ideal, dry, lubricated."""
+"""Compare scenes, finished runs and measured curves; one scene alone: ideal, dry, lubricated."""
 
 import argparse
 import sys
@@ -18,7 +18,9 @@ from exu_press.integrate import SolverStatus
 from exu_press.quantities.table import comparison_lines, difference_lines
 from exu_press.result import Result
 from exu_press.scene import Scene
+from exu_press.studies.beside_measured import Beside, beside, beside_lines
 from exu_press.studies.compare import different_keys, variants
+from exu_press.studies.curve_file import CurveFile, read_curve
 from exu_press.terminal.columns import columns
 from exu_press.verification.simulate import simulate
 
@@ -28,6 +30,12 @@ EXAMPLE = "exu-press compare press my_press.toml out/first/run.nc --out out/comp
 
 RESULT = "run.nc"
 
+MEASURED = ".csv"
+"""Ending of the files of measured curves."""
+
+DIFFERENCES = "measured.json"
+"""Differences of runs from them, in the directory of results."""
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the command's arguments."""
@@ -36,7 +44,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         nargs="+",
         metavar="A",
         help="a scene file, the name of a shipped scene ("
-        f"{', '.join(shipped_names())}), a {RESULT} or the directory of one; one scene alone is "
+        f"{', '.join(shipped_names())}), a {RESULT} or the directory of one, or a CSV file of a "
+        "measurement with a head as time (s),slider_acceleration (m/s^2); one scene alone is "
         "compared with ideal, with dry and, where it has a film, with lubricated joints",
     )
     add_run_arguments(parser)
@@ -45,12 +54,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def execute(options: argparse.Namespace) -> int:
     """Run every scene, read every result; return 0, or 3 if a run stopped early."""
-    compared = _compared(options.given, options.set)
+    files = [Path(name) for name in options.given if Path(name).suffix == MEASURED]
+    curves = {file: read_curve(file) for file in files}
+    runs = [name for name in options.given if Path(name) not in curves]
+    compared = _compared(runs, options.set, measured=bool(curves))
     stored = {label: one for label, one in compared.items() if isinstance(one, Result)}
     if stored and not options.no_pictures:
         from exu_press.plots.save import comparison_figures
 
         comparison_figures(stored)  # they are refused here, where their files keep too little
+    _beside(curves, stored)
     default = Path("out") / (Path(options.given[0]).stem if len(options.given) == 1 else "compare")
     directory = output_directory(options.out or default)
     results: dict[str, Result] = {}
@@ -75,10 +88,14 @@ def execute(options: argparse.Namespace) -> int:
         from exu_press.plots import save_comparison
 
         save_comparison(results, directory)
+    measured = _beside(curves, results)
+    _write_measured(measured, directory, pictures=not options.no_pictures)
     if not options.quiet:
         scenes = {label: result.scene for label, result in results.items()}
-        print("\n".join([*columns(different_keys(scenes)), ""]))
+        if len(scenes) > 1:
+            print("\n".join([*columns(different_keys(scenes)), ""]))
         print("\n".join([*comparison_lines(results), *difference_lines(results)]))
+        print("".join(f"{line}\n" for line in beside_lines(measured)), end="")
         show_warnings(f"{label}: {w}" for label, s in summaries.items() for w in s["warnings"])
         print(f"written to {directory}")
     stopped = {label: s["reason"] for label, s in summaries.items() if s["reason"]}
@@ -88,8 +105,49 @@ def execute(options: argparse.Namespace) -> int:
     return 3 if stopped else 0
 
 
-def _compared(given: list[str], assignments: list[str]) -> Mapping[str, Scene | Result]:
-    """Return scenes and results by label, all of them read and checked before anything is run."""
+def _beside(
+    curves: Mapping[Path, CurveFile], results: Mapping[str, Result]
+) -> dict[str, dict[str, Beside]]:
+    """Return measured curves beside runs by label, by the names of their files."""
+    if not results:
+        return {}
+    stems = [file.stem for file in curves]
+    return {
+        file.stem if stems.count(file.stem) == 1 else str(file): {
+            label: beside(file, curve, result) for label, result in results.items()
+        }
+        for file, curve in curves.items()
+    }
+
+
+def _write_measured(
+    found: Mapping[str, Mapping[str, Beside]], directory: Path, *, pictures: bool
+) -> None:
+    """Write the differences from measured curves, and draw them; nothing without any."""
+    (directory / DIFFERENCES).unlink(missing_ok=True)
+    if not found:
+        return
+    told = {name: {run: one.plain() for run, one in runs.items()} for name, runs in found.items()}
+    write_json(directory / DIFFERENCES, told)
+    if pictures:
+        from exu_press.plots.file import save_figures
+        from exu_press.plots.measured import measured_figure
+
+        save_figures({"compare_measured": measured_figure(found)}, directory)
+
+
+def _compared(
+    given: list[str], assignments: list[str], *, measured: bool
+) -> Mapping[str, Scene | Result]:
+    """Return scenes and results by label, all of them read and checked before anything is run.
+
+    Args:
+        given: names of files.
+        assignments: changes of scenes.
+        measured: whether measured curves are beside them, with which one run may be alone.
+    """
+    if not given:
+        raise InputError("a measurement alone; allowed are scenes or results beside it")
     found: dict[str, Scene | Result] = {}
     for name in given:
         path = Path(name)
@@ -104,7 +162,7 @@ def _compared(given: list[str], assignments: list[str]) -> Mapping[str, Scene | 
     scenes = [one for one in found.values() if isinstance(one, Scene)]
     if assignments and not scenes:
         raise InputError(f"--set {assignments[0]}: changes scenes, and none is given")
-    if len(found) > 1:
+    if len(found) > 1 or measured:
         return found
     if not scenes:
         raise InputError(f"{given[0]}: a result alone; allowed are two or more, or a scene alone")

@@ -25,7 +25,7 @@ FORMATS = (".png", ".svg", ".pdf")
 
 PICTURES = {
     "run": ("slider", "orbit", "force", "press", "energy"),
-    "compare": ("compare_slider", "compare_force"),
+    "compare": ("compare_slider", "compare_force", "compare_measured"),
     "sweep": ("sweep",),
     "bifurcation": ("bifurcation",),
     "fit": ("fit", "profiles"),

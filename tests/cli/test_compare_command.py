@@ -50,6 +50,61 @@ def test_variants_of_the_joints_that_a_scene_has(mine, tmp_path):
     assert kinds == {"ideal": {}, **loose}
 
 
+def test_a_measurement_beside_runs(mine, tmp_path, capsys):
+    """What is measured is a run that is 2 % larger, in other units, over a part of it."""
+    first, out = tmp_path / "first", tmp_path / "out"
+    assert main(["run", str(mine), *QUICK, "--out", str(first)]) == 0
+    run, measured = Result.load(first / "run.nc"), tmp_path / "press_a.csv"
+    half, velocity = 1e3 * run.time[:-1:2], 1.02e3 * run["slider_velocity"][:-1:2]
+    lines = [f"{time:.17g},{value:.17g}\n" for time, value in zip(half, velocity, strict=True)]
+    measured.write_text("time (ms),slider_velocity (mm/s)\n" + "".join(lines))
+    capsys.readouterr()
+    arguments = [*QUICK[:2], "--no-error", "--out", str(out)]
+    assert main(["compare", str(mine), str(first), str(measured), *arguments]) == 0
+    told = capsys.readouterr().out
+    assert "measured: press_a, m/s" in told
+    assert (out / "compare_measured.png").stat().st_size > 10_000
+    found = json.loads((out / "measured.json").read_text())["press_a"]
+    assert list(found) == ["mine", "first"]
+    assert found["first"]["rms_difference"] == pytest.approx(
+        0.02 / 1.02 * found["first"]["rms_measured"]
+    )
+    assert found["first"]["largest_measured"] == pytest.approx(
+        1.02 * found["first"]["largest_computed"]
+    )
+    assert main(["compare", str(first), str(measured), "--quiet", "--out", str(out)]) == 0
+    assert list(json.loads((out / "measured.json").read_text())["press_a"]) == ["first"]
+
+
+@pytest.mark.parametrize(
+    ("head", "last", "said"),
+    [
+        ("time (s),slider_speed (m/s)", 1e-5, "column 'slider_speed' (did you mean"),
+        ("time (s),slider_velocity (N)", 1e-5, "in N: allowed is m/s"),
+        ("time (s),body_position (m)", 1e-5, "several values at a time"),
+        ("time (s),slider_velocity (m/s)", 1.0, "allowed is a part of the run, from 0 to 0.0025"),
+    ],
+)
+def test_a_measurement_that_fits_no_run_is_refused_before_others(
+    head, last, said, mine, tmp_path, capsys
+):
+    first, measured = tmp_path / "first", tmp_path / "measured.csv"
+    assert main(["run", str(mine), *QUICK, "--out", str(first)]) == 0
+    places = [0.0, 1e-6, 2e-6, last]
+    measured.write_text("\n".join([head, *(f"{place},1.0" for place in places)]))
+    given = [str(first), str(mine), str(measured)]
+    assert main(["compare", *given, *QUICK, "--out", str(tmp_path / "out")]) == 2
+    assert said in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_measurement_alone_is_refused(tmp_path, capsys):
+    measured = tmp_path / "measured.csv"
+    measured.write_text("time (s),slider_velocity (m/s)\n0,0\n1,1\n2,2\n3,3\n")
+    assert main(["compare", str(measured)]) == 2
+    assert "a measurement alone; allowed are scenes or results" in capsys.readouterr().err
+
+
 def test_pictures_of_two_mechanisms(mine, tmp_path):
     arguments = ["compare", str(mine), "press", "--set", "revolutions=0.01", "--quiet"]
     assert main([*arguments, "--no-error", "--out", str(tmp_path)]) == 0

@@ -92,7 +92,7 @@ def test_pages_are_whole_and_load_nothing(parsed, name):
                 "Scene",
                 "Assumptions",
             ],
-            2,
+            3,
         ),
         ("sweep", ["Points", "Runs", "Warnings", "Pictures", "Scene", "Assumptions"], 1),
     ],

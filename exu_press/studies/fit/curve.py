@@ -12,7 +12,7 @@ from scipy.signal import butter, sosfilt, sosfilt_zi
 from exu_press.errors import InputError
 from exu_press.numerics.arrays import Array
 from exu_press.schema.checks import Table, key
-from exu_press.studies.fit.curve_file import CurveFile, factor_to, read_curve
+from exu_press.studies.curve_file import CurveFile, factor_to, read_curve
 from exu_press.studies.fit.measured import under_of
 
 __all__ = ["Curve", "Matched", "matched"]

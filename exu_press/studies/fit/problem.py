@@ -14,9 +14,9 @@ from exu_press.numerics.arrays import Array
 from exu_press.parallel.task import COMPLETED, Row
 from exu_press.result import Result
 from exu_press.scene import Scene
-from exu_press.schema.checks import nearest
 from exu_press.studies.base import Range
 from exu_press.studies.base.evaluation import Evaluation, Point, error_in, numbers_in
+from exu_press.studies.curve_file import computed
 from exu_press.studies.fit.curve import Curve, Matched, matched
 from exu_press.studies.fit.study import Fit
 
@@ -153,17 +153,9 @@ class Problem:
 
     def _matched(self, curve: Curve, scene: Scene) -> tuple[Array, Matched | None]:
         result = Result.load(self._directory / file_of(scene))
-        name = curve.read.name
-        if name not in result.units:
-            raise InputError(
-                f"{curve.file}: column {name!r}{nearest(name, result.units)}; allowed are channels "
-                f"of a run, as {', '.join(list(result.units)[:8])}"
-            )
-        unit = result.units[name]
+        at, values, unit = computed(curve.file, curve.read, result)
         wanted = curve.values(unit)
-        angle = curve.read.over == "crank_angle"
-        at = np.degrees(result["crank_angle"]) if angle else result.time
-        told = matched(curve, wanted, at, result[name])
+        told = matched(curve, wanted, at, values)
         return wanted, None if told is None else dataclasses.replace(told, unit=unit)
 
 

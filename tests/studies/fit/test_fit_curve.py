@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from exu_press import InputError
+from exu_press.studies.curve_file import CurveFile, read_curve
 from exu_press.studies.fit.curve import Curve, matched
-from exu_press.studies.fit.curve_file import CurveFile, read_curve
 
 AT = np.linspace(0.0, 2.0, 4001)
 PLACES = np.linspace(1.0, 1.9, 120)

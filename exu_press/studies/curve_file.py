@@ -10,8 +10,10 @@ import numpy as np
 from exu_press.errors import InputError
 from exu_press.files.two_columns import read_two_columns
 from exu_press.numerics.arrays import Array
+from exu_press.result import Result
+from exu_press.schema.checks import nearest
 
-__all__ = ["OVER", "CurveFile", "factor_to", "read_curve"]
+__all__ = ["OVER", "CurveFile", "computed", "factor_to", "read_curve"]
 
 OVER = {"time": "s", "crank_angle": "deg"}
 """First column -> the unit that it is converted to."""
@@ -66,6 +68,31 @@ def read_curve(path: Path) -> CurveFile:
             f"{path}: states {stated[0]} samples and has {count}; allowed is the same number"
         )
     return CurveFile(over, factor * np.array(read.places), name, unit, np.array(read.values))
+
+
+def computed(where: str, curve: CurveFile, result: Result) -> tuple[Array, Array, str]:
+    """Return what a run has of the quantity that a curve shows.
+
+    Args:
+        where: the file, said of a fault.
+        curve: whose second column names a channel.
+        result: of the run.
+
+    Returns:
+        the run's times, s, or crank angles, deg, (n,); the channel's values there; their SI unit.
+
+    Raises:
+        InputError: the run has no such channel.
+    """
+    name = curve.name
+    if name not in result.units:
+        raise InputError(
+            f"{where}: column {name!r}{nearest(name, result.units)}; allowed are channels of a "
+            f"run, as {', '.join(list(result.units)[:8])}"
+        )
+    angle = curve.over == "crank_angle"
+    at = np.degrees(result["crank_angle"]) if angle else result.time
+    return at, result[name], result.units[name]
 
 
 def factor_to(where: str, unit: str, wanted: str) -> float:

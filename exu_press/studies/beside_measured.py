@@ -1,0 +1,96 @@
+"""A measured curve beside the runs that are compared with it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from exu_press.errors import InputError
+from exu_press.numerics.arrays import Array
+from exu_press.quantities.uncertain import significant
+from exu_press.result import Result
+from exu_press.studies.curve_file import CurveFile, computed, factor_to
+from exu_press.terminal.columns import columns
+
+__all__ = ["Beside", "beside", "beside_lines"]
+
+DIGITS = 3
+
+
+@dataclass(frozen=True)
+class Beside:
+    """A measured curve, and what a run has at its places, SI.
+
+    Attributes:
+        curve: contents of the file.
+        measured: (m,).
+        values: computed ones there, (m,), on lines between steps.
+        unit: of both.
+    """
+
+    curve: CurveFile
+    measured: Array
+    values: Array
+    unit: str
+
+    def plain(self) -> dict[str, float | str]:
+        """Return the differences between the two, by name."""
+        apart = self.values - self.measured
+        worst = int(np.abs(apart).argmax())
+        return {
+            "unit": self.unit,
+            "rms_difference": float(np.sqrt(np.mean(apart**2))),
+            "rms_measured": float(np.sqrt(np.mean(self.measured**2))),
+            "largest_difference": float(apart[worst]),
+            "at": float(self.curve.at[worst]),
+            "largest_measured": float(np.abs(self.measured).max()),
+            "largest_computed": float(np.abs(self.values).max()),
+        }
+
+
+def beside(file: Path, curve: CurveFile, result: Result) -> Beside:
+    """Return a measured curve beside a run.
+
+    Raises:
+        InputError: the run has no such channel, or not over all of the curve.
+    """
+    at, values, unit = computed(str(file), curve, result)
+    if values.ndim != 1:
+        raise InputError(
+            f"{file}: column {curve.name!r} has several values at a time; allowed is one"
+        )
+    measured = factor_to(f"{file}: {curve.name}", curve.unit, unit) * curve.values
+    begin, end = float(at[0]), float(at[-1])
+    if curve.at[0] < begin - 1e-9 or curve.at[-1] > end + 1e-9:
+        raise InputError(
+            f"{file}: {curve.over} from {curve.at[0]:g} to {curve.at[-1]:g}; allowed is a part of "
+            f"the run, from {begin:g} to {end:g} (--set revolutions=... makes it longer)"
+        )
+    return Beside(curve, measured, np.interp(curve.at, at, values), unit)
+
+
+def beside_lines(found: Mapping[str, Mapping[str, Beside]]) -> list[str]:
+    """Return a table: each curve's differences from the runs, a column each.
+
+    Args:
+        found: name of the curve -> label of the run -> both.
+    """
+    lines: list[str] = []
+    for name, runs in found.items():
+        told = {label: one.plain() for label, one in runs.items()}
+        first = next(iter(runs.values()))
+        where = "s" if first.curve.over == "time" else "deg"
+        rows = [[f"measured: {name}, {first.unit}", *told]]
+        for key, words in (
+            ("rms_difference", "rms of the difference"),
+            ("rms_measured", "rms measured"),
+            ("largest_difference", "largest difference, computed - measured"),
+            ("at", f"at, {where}"),
+            ("largest_measured", "largest value measured"),
+            ("largest_computed", "largest value computed there"),
+        ):
+            values = [float(one[key]) for one in told.values()]
+            rows.append([f"  {words}", *(significant(value, DIGITS) for value in values)])
+        lines += [*columns(rows), ""]
+    return lines

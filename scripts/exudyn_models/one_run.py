@@ -228,7 +228,9 @@ def finish(file, found, mbs=None, rows=(), kept=()):
             arrays["fastest"] = fastest(np.array(kept), arrays["weight"], arrays["body"])
         except Exception as error:  # then no tolerance run is possible either
             found["no_weights"] = str(error)
-    np.savez(file, found=json.dumps(found), **arrays)
+    own = f"{file}.{os.getpid()}.npz"  # some scripts start processes that come here as well
+    np.savez(own, found=json.dumps(found), **arrays)
+    Path(own).replace(file)
     os._exit(0)
 
 

@@ -15,6 +15,10 @@ FORGOTTEN = 10.0
 """Times in which first accelerations make a speed, after which a part 1/e of it is left to expect:
 a constant acceleration has made a sixth of it when that is as much."""
 
+LEAST_ENERGY = 1e-4
+"""Part of the largest kinetic energy that each node has at least as a scale: of a rotor that
+another one is about to set in motion, no step was small enough for its own."""
+
 
 @dataclass(frozen=True)
 class ErrorScales:
@@ -51,7 +55,8 @@ class FoundScales:
         rest: speed up to which the system is still, m/s; 0.0 where that is not known.
         rounded: whether what moves no faster was found to be rounding.
         masses: of the nodes, kg, infinite for what has no say; where the system gives none, the
-            node's largest kinetic energy over half the square of `speed`.
+            node's largest kinetic energy over half the square of `speed`, and a ten-thousandth of
+            the largest one's at least.
     """
 
     def __init__(
@@ -185,10 +190,12 @@ class FoundScales:
             if self.speed == 0.0 and True in self._own:
                 self.speed = 1.0  # nothing is displaced: any speed will do, energies count
         square = self.speed * self.speed
-        for i in range(len(masses)):
-            if self._own[i]:
-                largest = max(self._energies[i], self._expected[i])
-                masses[i] = largest / square if square > 0.0 else 0.0
+        if True in self._own:
+            least = LEAST_ENERGY * max(*self._energies, *self._expected)
+            for i in range(len(masses)):
+                if self._own[i]:
+                    largest = max(self._energies[i], self._expected[i], least)
+                    masses[i] = largest / square if square > 0.0 else 0.0
         if self._given.force is None:
             squares = 0.0
             for i in range(len(accelerations)):

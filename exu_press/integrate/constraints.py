@@ -87,10 +87,9 @@ class Constraints:
         positions = self._current.positions
         tried = np.array(positions)
         positions[:] = self._start.positions
-        directions = self.directions()
+        directions, _ = normalised(self.directions())
         positions[:] = tried
-        lengths = np.sqrt(np.square(directions).sum(axis=1))
-        held = directions[lengths > 0.0] / lengths[lengths > 0.0, None]  # else switched off
+        held = directions[directions.any(axis=1)]  # else switched off
         return len(held) - int(np.linalg.matrix_rank(held, tol=REDUNDANT))
 
     def _jacobian(self, of_positions: float, of_velocities: float) -> Array:

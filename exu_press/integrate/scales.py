@@ -89,7 +89,8 @@ class FoundScales:
         self._own: list[bool] = []
         self._energies: list[float] = []  # twice the largest kinetic energy of each node so far
         self._expected: list[float] = []  # the same, which first accelerations will make of it
-        self._ahead = longest  # time within which they will, s
+        self._expecting = False  # whether one of these is above what was reached
+        self._ahead = longest  # time within which they will be, s
         self.speed = self._least = max(given.speed or 0.0, floor)
         self.force = given.force or 0.0
         self.fixed = False
@@ -165,7 +166,7 @@ class FoundScales:
         speeds = [time * value for value in accelerations]
         energies = self._sums(speeds, speeds)
         self._expected = [max(energies[i], self._expected[i]) for i in range(len(energies))]
-        self._ahead = time
+        self._expecting, self._ahead = True, time
 
     def update(
         self, velocities: list[float], accelerations: list[float], step: float = 0.0
@@ -181,9 +182,11 @@ class FoundScales:
             if not self._own[i]:
                 speed_2 = max(speed_2, self._energies[i] / masses[i])
                 expected_2 = max(expected_2, self._expected[i] / masses[i])
-        if not self._rests(math.sqrt(speed_2)):
+        if self._expecting and not self._rests(math.sqrt(speed_2)):
             left = math.exp(-2.0 * FORGOTTEN * step / self._ahead)
             self._expected = [left * energy for energy in self._expected]
+            both = zip(self._expected, self._energies, strict=True)
+            self._expecting = any(expected > reached for expected, reached in both)
         speed_2 = max(speed_2, expected_2)
         if self._given.speed is None:
             self.speed = max(self._least, math.sqrt(speed_2))

@@ -56,8 +56,8 @@ FIRST_STEP = 1.0 / 64.0
 """Over the largest one; with a film, `first_step_of_film`."""
 
 FORESEEN = 100.0
-"""Part of a run within which, at most, first accelerations foretell speeds: a hundredth. Where the
-largest step was the whole run, they did for all of it."""
+"""How many times as long a run is at least as the time for which first accelerations foretell its
+speeds. Where the largest step was the whole run, they did for all of it."""
 
 IMPLICIT = "GeneralizedAlpha", "TrapezoidalIndex2"
 """Exudyn's solvers that take the same settings; the second one is the first with other numbers."""

@@ -110,7 +110,7 @@ def rails(guide: Guide, outline: Array, unit: float) -> list[Array]:
     Args:
         guide: that holds the body.
         outline: all places (n, 2) of the body's outline.
-        unit: height of the drawing, m.
+        unit: size of the drawing, m.
     """
     gap, width = 0.004 * unit, 0.008 * unit
     axes = np.array([guide.across, guide.direction])

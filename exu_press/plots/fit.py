@@ -5,10 +5,11 @@ from matplotlib.figure import Figure
 from scipy.stats import chi2
 
 from exu_press.plots.headed import headed_figure
+from exu_press.plots.measured import curve_panel
 from exu_press.plots.scales import log_axis
 from exu_press.plots.style import COLOURS, GREY, SHADE, styled
 from exu_press.plots.sweep_words import in_unit, words
-from exu_press.plots.typesetting import plain, typeset, wrapped
+from exu_press.plots.typesetting import plain, wrapped
 from exu_press.plots.words import describe
 from exu_press.quantities.uncertain import significant
 from exu_press.studies.base import Range
@@ -51,13 +52,8 @@ def fit_figure(report: Report) -> Figure:
         first.set_title("Numbers")
         first.set_xlabel("(computed - measured) / uncertainty; bars: error of the run")
     for panel, one, (wanted, told) in zip(axes, study.curve, report.curves, strict=True):
-        at = one.read.at
-        panel.plot(at, wanted, ".", color=GREY, markersize=3, label="measured")
-        panel.plot(at, told.values, color=COLOURS["blue"], label="computed, through the sensor")
-        panel.set_title(plain(f"Curve {one.name}"))
-        panel.set_xlabel("time, s" if one.read.over == "time" else "crank angle, deg")
-        panel.set_ylabel(plain(typeset(f"{one.read.name.replace('_', ' ')}, {told.unit}")))
-        panel.legend(loc="best")
+        computed = {"computed, through the sensor": told.values}
+        curve_panel(panel, one.name, one.read, wanted, computed, told.unit)
     return figure
 
 

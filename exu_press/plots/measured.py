@@ -2,14 +2,17 @@
 
 from collections.abc import Mapping
 
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from exu_press.numerics.arrays import Array
 from exu_press.plots.headed import headed_figure
 from exu_press.plots.style import GREY, colour_of, styled
 from exu_press.plots.typesetting import plain, typeset
 from exu_press.studies.beside_measured import Beside
+from exu_press.studies.curve_file import OVER, CurveFile
 
-__all__ = ["measured_figure"]
+__all__ = ["curve_panel", "measured_figure"]
 
 
 @styled
@@ -20,12 +23,24 @@ def measured_figure(found: Mapping[str, Mapping[str, Beside]]) -> Figure:
     panels = figure.subplots(len(found), 1, squeeze=False).flat
     for panel, (name, runs) in zip(panels, found.items(), strict=True):
         first = next(iter(runs.values()))
-        curve = first.curve
-        panel.plot(curve.at, first.measured, ".", color=GREY, markersize=4, label="measured")
-        for index, (label, one) in enumerate(runs.items()):
-            panel.plot(curve.at, one.values, color=colour_of(index), label=plain(label))
-        panel.set_title(plain(f"Curve {name}"))
-        panel.set_xlabel("time, s" if curve.over == "time" else "crank angle, deg")
-        panel.set_ylabel(plain(typeset(f"{curve.name.replace('_', ' ')}, {first.unit}")))
-        panel.legend(loc="best")
+        computed = {label: one.values for label, one in runs.items()}
+        curve_panel(panel, name, first.curve, first.measured, computed, first.unit)
     return figure
+
+
+def curve_panel(
+    axes: Axes,
+    name: str,
+    curve: CurveFile,
+    measured: Array,
+    computed: Mapping[str, Array],
+    unit: str,
+) -> None:
+    """Draw a measured curve, (m,), and computed ones at its places, by label, all in a unit."""
+    axes.plot(curve.at, measured, ".", color=GREY, markersize=3, label="measured")
+    for index, (label, values) in enumerate(computed.items()):
+        axes.plot(curve.at, values, color=colour_of(index), label=plain(label))
+    axes.set_title(plain(f"Curve {name}"))
+    axes.set_xlabel(f"{curve.over.replace('_', ' ')}, {OVER[curve.over]}")
+    axes.set_ylabel(plain(typeset(f"{curve.name.replace('_', ' ')}, {unit}")))
+    axes.legend(loc="best")

@@ -10,7 +10,7 @@ from exu_press.errors import InputError
 from exu_press.numerics.arrays import Array
 from exu_press.quantities.uncertain import significant
 from exu_press.result import Result
-from exu_press.studies.curve_file import CurveFile, computed, factor_to
+from exu_press.studies.curve_file import OVER, CurveFile, computed, factor_to
 from exu_press.terminal.columns import columns
 
 __all__ = ["Beside", "beside", "beside_lines"]
@@ -80,13 +80,12 @@ def beside_lines(found: Mapping[str, Mapping[str, Beside]]) -> list[str]:
     for name, runs in found.items():
         told = {label: one.plain() for label, one in runs.items()}
         first = next(iter(runs.values()))
-        where = "s" if first.curve.over == "time" else "deg"
         rows = [[f"measured: {name}, {first.unit}", *told]]
         for key, words in (
             ("rms_difference", "rms of the difference"),
             ("rms_measured", "rms measured"),
             ("largest_difference", "largest difference, computed - measured"),
-            ("at", f"at, {where}"),
+            ("at", f"at, {OVER[first.curve.over]}"),
             ("largest_measured", "largest value measured"),
             ("largest_computed", "largest value computed there"),
         ):

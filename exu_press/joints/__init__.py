@@ -14,8 +14,9 @@ from exu_press.joints.add import (
     add_revolute,
 )
 from exu_press.joints.ends import FlexiblePoint
-from exu_press.joints.history import JointHistory, histories
+from exu_press.joints.history import JointHistory, history
 from exu_press.joints.joint import ClearanceJoint, JointState
+from exu_press.joints.states import States
 from exu_press.joints.user_force import user_force_of
 
 __all__ = [
@@ -24,6 +25,7 @@ __all__ = [
     "FlexiblePoint",
     "JointHistory",
     "JointState",
+    "States",
     "add_dry_revolute",
     "add_dry_spherical",
     "add_guideway_contact",
@@ -32,7 +34,7 @@ __all__ = [
     "add_lubricated_revolute",
     "add_lubricated_spherical",
     "add_revolute",
-    "histories",
+    "history",
     "user_force_of",
 ]
 

@@ -13,7 +13,6 @@ import numpy as np
 
 from exu_press.joints.ends import BodyEnd, Vector
 from exu_press.joints.interface import DryInterface, InterfaceJoint, Load
-from exu_press.joints.joint import JointState
 from exu_press.joints.planar import PlanarEnd
 from exu_press.joints.spatial import SpatialRevolute
 
@@ -109,10 +108,9 @@ class GuidewayContact(InterfaceJoint):
         """Rate of the eccentricity at the last `add_force`, m/s: that across the guideway."""
         return self.in_frame(self._motion[1], 0.0)
 
-    def state(self, q: list[float], q_t: list[float]) -> JointState:
-        """Return the contact's state; the velocity is the point's, along the guideway too."""
-        state = super().state(q, q_t)
-        return state._replace(moments=(state.moments[0], 0.0))  # the frame takes any
+    def _moments(self) -> tuple[float, float]:
+        """Return the moment on the body at the last `add_force`, N m; the frame takes any."""
+        return super()._moments()[0], 0.0
 
 
 class SpatialGuidewayContact(SpatialRevolute):

@@ -133,12 +133,12 @@ class GuidewayFilm:
         rates = np.array((rear[0], front[0], 0.5 * (rear[1] + front[1]), rear[2]))
         return np.asarray(rates.T @ (-self._viscosity * np.array(partials) @ rates)).ravel()
 
-    def state(self, q: list[float], q_t: list[float]) -> JointState:
-        """Return the films' state; the moments are the couple of the ends' forces and the drag's.
+    @property
+    def state(self) -> JointState:
+        """The films' state; the moments are the couple of the ends' forces and the drag's.
 
         The force acts in the middle between the ends.
         """
-        self.add_force(q, q_t, [0.0] * len(q))
         across_1, across_2, _, moment = self._loads
         rate_1, rate_2 = self._rates
         couple, tilting = 0.5 * self._length * (across_1 - across_2), (rate_1 - rate_2)

@@ -1,20 +1,15 @@
 """The record of a joint over the steps of a run."""
 
-from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
-from typing import Any
+from itertools import pairwise
 
 import numpy as np
 
-from exu_press.joints.joint import GROUND, ClearanceJoint
-from exu_press.joints.replay import replayed
+from exu_press.joints.joint import ClearanceJoint
+from exu_press.joints.states import States
 from exu_press.numerics.arrays import Array
 
-__all__ = ["JointHistory", "histories"]
-
-AT_ONCE = 4096
-"""Instants whose states are put into arrays together: a state in Python takes ten times the
-memory."""
+__all__ = ["JointHistory", "history"]
 
 
 @dataclass(frozen=True)
@@ -76,62 +71,19 @@ class JointHistory:
         return [self.moments.shape[1] // 2 - 1, -1]
 
 
-def nothing(joint: ClearanceJoint) -> None:
-    """Return a joint's memory at the start of a run: none."""
-
-
-def histories(
-    joints: Mapping[str, ClearanceJoint],
-    time: Array,
-    q: Array,
-    q_t: Array,
-    begun: Callable[[ClearanceJoint], list[Any] | None] = nothing,
-    rubbing: Collection[str] = (),
-) -> dict[str, JointHistory]:
-    """Return the records of joints over recorded steps.
-
-    Args:
-        joints: go through the steps again; afterwards their memory is that of before.
-        time: (n,), s.
-        q: (n, m) coordinates of the user force element's item.
-        q_t: (n, m) their rates.
-        begun: a joint -> its memory at the first one, or None.
-        rubbing: joints whose rubbing is wanted.
-    """
-    ended = {name: joint.memory() for name, joint in joints.items()}
-    for joint in joints.values():
-        joint.reset()
-        memory = begun(joint)
-        if memory is not None:
-            joint.state([*q[0].tolist(), *GROUND], [*q_t[0].tolist(), *GROUND])
-            joint.recall(memory)
-    parts: dict[str, list[list[Array]]] = {name: [] for name in joints}
-    rubbed: dict[str, list[float] | None] = {
-        name: [] if name in rubbing else None for name in joints
-    }
-    steps = np.diff(time, prepend=time[0])
-    ground = np.zeros((min(len(time), AT_ONCE), len(GROUND)))
-    for first in range(0, len(time), AT_ONCE):
-        part = slice(first, first + AT_ONCE)
-        of_steps = steps[part].tolist()
-        rows, rows_t = (
-            np.hstack([each[part], ground[: len(of_steps)]]).ravel().tolist() for each in (q, q_t)
-        )
-        for name, joint in joints.items():
-            numbers, lengths = replayed(joint, of_steps, rows, rows_t, rubbed[name])
-            table = np.array(numbers).reshape(len(of_steps), -1)
-            ends = np.cumsum(lengths)[:-1].tolist()
-            parts[name].append(np.split(table, ends, axis=1))
-    for name, joint in joints.items():
-        joint.recall(ended[name])
-    return {name: _history(found, rubbed[name]) for name, found in parts.items()}
-
-
-def _history(parts: list[list[Array]], rubbing: list[float] | None) -> JointHistory:
-    """Return the record of a joint from its states, part by part."""
-    eccentricity, force, velocity, moments, turning, *numbers = (
-        np.concatenate(columns) for columns in zip(*parts, strict=True)
+def history(states: States, joint: ClearanceJoint, time: Array) -> JointHistory:
+    """Return the record of a joint at instants (n,), s, that were taken."""
+    number = states.joints.index(joint)
+    lengths = states.lengths[number]
+    first = 1 + sum(map(sum, states.lengths[:number]))
+    table = np.frombuffer(states.numbers).reshape(-1, 1 + sum(map(sum, states.lengths)))
+    if len(table) != len(time):  # Exudyn's sensors leave out what is next to no step
+        table = table[np.searchsorted(table[:, 0], time)]
+    ends = first + np.cumsum([0, *lengths])
+    parts = [np.array(table[:, begin:end]) for begin, end in pairwise(ends.tolist())]
+    eccentricity, force, velocity, moments, turning, gap, energy, power, rubbing = parts
+    gap, energy, power = (one[:, 0] for one in (gap, energy, power))
+    rubbing = rubbing if lengths[-1] else np.zeros((0, 2))
+    return JointHistory(
+        eccentricity, force, velocity, moments, turning, gap, energy, power, rubbing
     )
-    gap, energy, power = (column[:, 0] for column in numbers)
-    rubbed = np.array(rubbing or []).reshape(-1, 2)
-    return JointHistory(eccentricity, force, velocity, moments, turning, gap, energy, power, rubbed)

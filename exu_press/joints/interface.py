@@ -446,15 +446,10 @@ class InterfaceJoint:
                 sliding = v_t + interface.radius * w_j - (interface.radius + e) * w_b
         return normal, sliding
 
-    def state(self, q: list[float], q_t: list[float]) -> JointState:
-        """Return the joint's state in a state of its two bodies."""
-        self.add_force(q, q_t, [0.0] * len(q))
+    @property
+    def state(self) -> JointState:
+        """The joint's state at the last `add_force`."""
         e, e_dot, v_t, w_j, w_b = self._motion
-        m_j = m_b = 0.0
-        for load in self._loads:
-            if load is not None:
-                m_j += load[2]
-                m_b += load[3]
         energy = power = 0.0
         for interface in self.interfaces:
             energy += interface.stored_energy(e)
@@ -463,12 +458,21 @@ class InterfaceJoint:
             self.eccentricity,
             self.force,
             self.in_frame(e_dot, v_t),
-            (m_j, m_b),
+            self._moments(),
             (w_j, w_b),
             self.clearance - e,
             energy,
             power,
         )
+
+    def _moments(self) -> tuple[float, float]:
+        """Return the moments on journal and bearing at the last `add_force`, N m."""
+        m_j = m_b = 0.0
+        for load in self._loads:
+            if load is not None:
+                m_j += load[2]
+                m_b += load[3]
+        return m_j, m_b
 
     def begin_step(self, step: float, accepted: bool) -> None:
         """Start a step of size `step` (s), after the last one was accepted or is repeated."""

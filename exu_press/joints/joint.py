@@ -1,6 +1,6 @@
-"""The joint as the user force element needs it, and its record."""
+"""The joint as the user force element needs it, and its state; compiled like the joints."""
 
-from typing import Any, NamedTuple, Protocol
+from typing import Any, Protocol
 
 from exu_press.joints.path import Path
 from exu_press.numerics.arrays import Array
@@ -17,7 +17,7 @@ SHALLOW = 0.01
 beside the radius, and its half-width sqrt(R delta) is then a tenth of it (Johnson 1985, 4.2)."""
 
 
-class JointState(NamedTuple):
+class JointState:
     """A joint at one instant, in the global frame: x, y in the plane, x, y, z in space.
 
     Attributes:
@@ -32,14 +32,36 @@ class JointState(NamedTuple):
         stored_power: its rate, W.
     """
 
-    eccentricity: Vector
-    force: Vector
-    velocity: Vector
-    moments: Vector
-    angular_velocities: Vector
-    gap: float
-    stored_energy: float
-    stored_power: float
+    def __init__(
+        self,
+        eccentricity: Vector,
+        force: Vector,
+        velocity: Vector,
+        moments: Vector,
+        angular_velocities: Vector,
+        gap: float,
+        stored_energy: float,
+        stored_power: float,
+    ) -> None:
+        self.eccentricity = eccentricity
+        self.force = force
+        self.velocity = velocity
+        self.moments = moments
+        self.angular_velocities = angular_velocities
+        self.gap = gap
+        self.stored_energy = stored_energy
+        self.stored_power = stored_power
+
+    @property
+    def vectors(self) -> tuple[Vector, ...]:
+        """Those of its contents that have several numbers."""
+        return (
+            self.eccentricity,
+            self.force,
+            self.velocity,
+            self.moments,
+            self.angular_velocities,
+        )
 
     @property
     def dissipated_power(self) -> float:
@@ -95,8 +117,9 @@ class ClearanceJoint(Protocol):
         Over the joint's own coordinates; None where nothing acts.
         """
 
-    def state(self, q: list[float], q_t: list[float]) -> JointState:
-        """Return the joint's state in a state of its two bodies."""
+    @property
+    def state(self) -> JointState:
+        """The joint's state at the last `add_force`."""
 
     def begin_step(self, step: float, accepted: bool) -> None:
         """Start a step of size `step` (s), after the last one was accepted or is repeated."""

@@ -170,9 +170,9 @@ class SpatialSpherical:
             force = force + self._film.force
         return tuple(force.tolist())
 
-    def state(self, q: list[float], q_t: list[float]) -> JointState:
-        """Return the joint's state in a state of its two bodies."""
-        self._move(q, q_t)
+    @property
+    def state(self) -> JointState:
+        """The joint's state at the last `add_force`."""
         reach, pressed, elastic, energy = self._radius + self._e, 0.0, 0.0, 0.0
         if self._contact is not None:
             pressed = self._e - self.contact_onset - self.path.drift

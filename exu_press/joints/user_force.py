@@ -63,7 +63,6 @@ class UserForceElement:
         self._matrix = exu.MatrixContainer()
         self._within: list[tuple[NDArray[np.intp], NDArray[np.intp], int]] = []
         self._silent = False
-        self._carried: list[Any] = []
         self._started = False
         self._blocks: list[Block] = []
         self._by_q_t = 1.0
@@ -114,7 +113,7 @@ class UserForceElement:
         q, q_t = self._last
         if q is None:
             q = q_t = [0.0] * self.size
-        return joint.state([*q, *GROUND], [*q_t, *GROUND])
+        return _state_in(joint, q, q_t)
 
     def refuse_start(self, called: Callable[[ClearanceJoint], str]) -> None:
         """Refuse initial values with which a joint starts further out than its laws hold.
@@ -150,16 +149,11 @@ class UserForceElement:
         q = self._of_item(data.GetODE2Coordinates(exu.ConfigurationType.Initial))
         q_t = self._of_item(data.GetODE2Coordinates_t(exu.ConfigurationType.Initial))
         for joint in self.joints:
-            joint.state([*q, *GROUND], [*q_t, *GROUND])
+            _state_in(joint, q, q_t)
         self._last = q, q_t
         self._step = None if memory["step"] is None else tuple(memory["step"])
-        self._carried = list(memory["joints"])
-        for joint, each in zip(self.joints, self._carried, strict=True):
+        for joint, each in zip(self.joints, memory["joints"], strict=True):
             joint.recall(each)
-
-    def begun(self, joint: ClearanceJoint) -> list[Any] | None:
-        """Return a joint's memory of another run where it went on from that; else None."""
-        return self._carried[self.joints.index(joint)] if self._carried else None
 
     def _check_start(self, q: list[float], called: Callable[[ClearanceJoint], str]) -> None:
         """Raise InputError for a joint that is further out in a state than its laws hold."""
@@ -167,7 +161,7 @@ class UserForceElement:
         going_on = self._last[0] == q  # where the last run ended: joints keep their memory
         q_t = self._last[1] if going_on else [0.0] * self.size
         for joint in self.joints:
-            e = joint.clearance - joint.state([*q, *GROUND], [*q_t, *GROUND]).gap
+            e = joint.clearance - _state_in(joint, q, q_t).gap
             spent = joint.outside is not None
             if not going_on:
                 joint.reset()
@@ -333,6 +327,12 @@ class UserForceElement:
         self._step = start, time
         for joint in self.joints:
             joint.begin_step(time - start, accepted)
+
+
+def _state_in(joint: ClearanceJoint, q: Any, q_t: Any) -> JointState:
+    """Return a joint's state in a state of the item, whose forces are asked for."""
+    joint.add_force([*q, *GROUND], [*q_t, *GROUND], [0.0] * (len(q) + len(GROUND)))
+    return joint.state
 
 
 def user_force_of(mbs: exu.MainSystem) -> UserForceElement:

@@ -251,9 +251,9 @@ class WornJoint(PlanarJoint):
             by_rate[row] += sign * couple_rate
         return by_place, by_rate
 
-    def state(self, q: list[float], q_t: list[float]) -> JointState:
-        """Return the joint's state in a state of its two bodies."""
-        self.add_force(q, q_t, [0.0] * len(q))
+    @property
+    def state(self) -> JointState:
+        """The joint's state at the last `add_force`."""
         u, v, w_j, w_b = self._moving
         f_x, f_y, m_j, m_b = self._sum
         beside, closing = self._touch[0], self._touch[1]

@@ -7,6 +7,7 @@ import exudyn as exu
 from exudyn.itemInterface import SensorNode, SensorObject
 
 from exu_press.integrate.modal_mass import follow_modes
+from exu_press.joints import ClearanceJoint, States
 from exu_press.mechanism import Motion
 from exu_press.model.bodies import add_bodies
 from exu_press.model.drive import add_drive, crank_angle_of, hold_flexible_bodies, turned_body
@@ -21,6 +22,7 @@ from exu_press.model.start_stop import StartStop, add_flywheel, add_start_stop
 from exu_press.model.system import System
 from exu_press.model.warm_film import warm_films
 from exu_press.scene import IdealJoint, Scene
+from exu_press.scene.wearing import wearing_guides, wearing_joints
 
 if TYPE_CHECKING:
     from exu_press.model.flexible_body import FrameStart
@@ -140,11 +142,25 @@ def _assembled(
         clocks=system.clocks,
         guideways=guideways,
         guide_friction=friction,
+        states=_states(system.scene, clearance, guideways),
         sensors=system.sensors,
         parts=system.parts,
         warm=warm_films(clearance, joints),
         made=count_items(system.mbs),
     )
+
+
+def _states(
+    scene: Scene,
+    clearance: Mapping[str, ClearanceJoint],
+    guideways: Mapping[str, tuple[ClearanceJoint, ...]],
+) -> States:
+    """Return what takes the joints' states, and the rubbing of those that wear."""
+    wearing = [clearance[name] for name in wearing_joints(scene)]
+    for body in wearing_guides(scene):
+        wearing += guideways[body]
+    ends = [end for all_of in guideways.values() for end in all_of]
+    return States([*clearance.values(), *ends], wearing)
 
 
 def _stall(scene: Scene) -> Stall:

@@ -75,7 +75,7 @@ class Model(Assembled):
         return count_items(self.mbs) - self.made
 
     def solve(self, *, tuning: SolverTuning = DEFAULTS, quiet: bool = True) -> Outcome:
-        """Run to the end time or to an early stop; the sensors keep the results.
+        """Run to the end time or to an early stop; sensors and `states` keep the results.
 
         Films whose oil warms keep their temperature meanwhile; `simulate` renews it.
 
@@ -86,6 +86,7 @@ class Model(Assembled):
             tuning: the numbers of step control, to vary them.
             quiet: False shows the progress on standard error.
         """
+        self.states.clear()
         return solve(self, tuning=tuning, quiet=quiet)
 
     def next_corner(self, time: float) -> float:
@@ -128,6 +129,7 @@ class Model(Assembled):
 
     def watch(self, time: float) -> str:
         """Return why the press goes no further, after a step that ends at a time, s, or nothing."""
+        self.states.take(time)
         for clock, state in self.clocks:
             clock.accept(time, *state(time))
         motor, start_stop = self.scene.drive, self.start_stop

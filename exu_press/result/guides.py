@@ -4,13 +4,14 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from exu_press.joints import history
 from exu_press.model import Model
 from exu_press.numerics.arrays import Array
 from exu_press.result.channel import Channel, guide_channel
 from exu_press.result.energy import work
 from exu_press.result.flexible import guided_motion
 from exu_press.result.forces import guide_channels
-from exu_press.result.joints import states_of, stored_and_lost
+from exu_press.result.joints import stored_and_lost
 from exu_press.scene.wearing import wearing_guides
 
 __all__ = ["record_friction", "record_guides", "record_guideways"]
@@ -108,14 +109,12 @@ def record_guideways(
     """
     channels: dict[str, Channel] = {}
     all_stored, all_lost = np.zeros_like(time), np.zeros_like(time)
-    ends = {
-        f"{body} {n}": each
+    wearing = wearing_guides(model.scene)
+    states = {
+        f"{body} {n}": history(model.states, each, time)
         for body, all_of in model.guideways.items()
         for n, each in enumerate(all_of)
     }
-    wearing = wearing_guides(model.scene)
-    rubbing = [name for name in ends if name.rpartition(" ")[0] in wearing]
-    states = states_of(model, time, ends, rubbing)
     names = [body.name for body in model.mechanism.bodies]
     for guide in model.mechanism.guides:
         if guide.guideway is None:

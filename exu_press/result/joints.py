@@ -1,10 +1,10 @@
 """Channels of clearance joints: eccentricity, force, moments, losses."""
 
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 
 import numpy as np
 
-from exu_press.joints import ClearanceJoint, JointHistory, histories, user_force_of
+from exu_press.joints import JointHistory, history
 from exu_press.model import Model
 from exu_press.model.warm_film import WarmFilm
 from exu_press.numerics.arrays import Array
@@ -12,33 +12,15 @@ from exu_press.numerics.piecewise import integral
 from exu_press.result.channel import Channel
 from exu_press.result.declared import channel
 from exu_press.result.forces import vectors
-from exu_press.result.motion import sensor
-from exu_press.scene.wearing import wearing_joints
 
-__all__ = ["joint_states", "record_joints", "states_of", "stored_and_lost"]
+__all__ = ["joint_states", "record_joints", "stored_and_lost"]
 
 
 def joint_states(model: Model, time: Array) -> dict[str, JointHistory]:
     """Return the states of every clearance joint at the recorded instants."""
-    return states_of(model, time, model.clearance_joints, wearing_joints(model.scene))
-
-
-def states_of(
-    model: Model,
-    time: Array,
-    joints: Mapping[str, ClearanceJoint],
-    rubbing: Collection[str] = (),
-) -> dict[str, JointHistory]:
-    """Return the states of some of the user force element's joints at the recorded instants."""
-    if not joints:
-        return {}
-    names = {number: name for name, number in model.nodes.items()}
-    user_force = user_force_of(model.mbs)
-    q, q_t = (
-        np.hstack([sensor(model, names[node], level) for node in user_force.nodes])
-        for level in ("position", "velocity")
-    )
-    return histories(joints, time, q, q_t, user_force.begun, rubbing)
+    return {
+        name: history(model.states, joint, time) for name, joint in model.clearance_joints.items()
+    }
 
 
 def stored_and_lost(states: JointHistory, time: Array) -> tuple[Array, Array]:

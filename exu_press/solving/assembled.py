@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import exudyn as exu
 
-from exu_press.joints.joint import ClearanceJoint
+from exu_press.joints import ClearanceJoint, States
 from exu_press.mechanism import Mechanism
 from exu_press.mechanism.holding import Holding
 from exu_press.scene import Scene
@@ -27,6 +27,7 @@ class Assembled(ABC):
         clearance_joints: name -> joint.
         guideways: name of a body with clearance in its guide -> the contacts of its two ends, and
             the film where there is one.
+        states: of clearance joints and guideways at the steps of the last run.
         sensors: (name, quantity) -> sensor number.
         begin: time of the start, s.
         first_step: s; 0.0 where the integration finds it.
@@ -39,6 +40,7 @@ class Assembled(ABC):
     nodes: dict[str, int]
     clearance_joints: dict[str, ClearanceJoint]
     guideways: Mapping[str, tuple[ClearanceJoint, ...]]
+    states: States
     sensors: dict[tuple[str, str], int]
     begin: float = field(default=0.0, kw_only=True)
     first_step: float = field(default=0.0, kw_only=True)

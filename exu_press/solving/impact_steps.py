@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from exu_press.joints import histories, user_force_of
+from exu_press.joints import history
 from exu_press.laws.contact import NormalContact
 from exu_press.mechanism import GROUND
 from exu_press.numerics.arrays import Array
@@ -26,28 +26,16 @@ def impact_steps(model: Assembled) -> Iterator[float]:
     scene = model.scene
     if not any(joint.contact_onset < math.inf for joint in model.clearance_joints.values()):
         return
-    user_force = user_force_of(model.mbs)
-    held = {number: name for name, number in model.nodes.items()}
     masses = {body.name: body.mass for body in model.mechanism.bodies} | {GROUND: math.inf}
     if model.mechanism.crank in model.holding.pivoted:
         masses[model.mechanism.crank] = math.inf  # driven
     sensor = next(iter(model.sensors.values()))
     time = np.asarray(model.mbs.GetSensorStoredData(sensor))[:, 0]
-    q, q_t = (
-        np.hstack(
-            [
-                np.asarray(model.mbs.GetSensorStoredData(model.sensors[held[node], level]))[:, 1:]
-                for node in user_force.nodes
-            ]
-        )
-        for level in ("position", "velocity")
-    )
-    states_of = histories(model.clearance_joints, time, q, q_t, user_force.begun)
     for description in model.mechanism.joints:
         joint, kind = model.clearance_joints.get(description.name), scene.joints[description.name]
         if joint is None or kind.contact is None:
             continue
-        states = states_of[description.name]
+        states = history(model.states, joint, time)
         apart, moving = states.eccentricity, states.velocity
         distance = np.linalg.norm(apart, axis=1)
         closing = (apart * moving).sum(axis=1) / np.maximum(distance, 1e-300)

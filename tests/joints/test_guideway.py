@@ -13,6 +13,7 @@ from exudyn.itemInterface import (
     ObjectRigidBody2D,
 )
 from solving import completed, planar_body, recorded
+from state_in import state_in
 
 from exu_press import InputError
 from exu_press.joints import add_guideway_contact, add_joint_sensor
@@ -155,7 +156,7 @@ def test_in_space_it_is_the_same(side):
     (planar, q, q_t), (spatial, _, _) = (
         pressed_end(side, kind) for kind in (GuidewayContact, SpatialGuidewayContact)
     )
-    one, other = planar.state(q, q_t), spatial.state(q, q_t)
+    one, other = state_in(planar, q, q_t), state_in(spatial, q, q_t)
     assert other.gap == pytest.approx(one.gap, rel=1e-9) and one.gap < 0.0
     for name in ("eccentricity", "force", "velocity"):
         assert getattr(other, name)[:2] == pytest.approx(getattr(one, name), rel=1e-9)
@@ -181,7 +182,7 @@ def test_the_jacobian_is_that_of_the_forces(side):
         return np.array(out)
 
     forces(q, q_t)
-    assert contact.state(q, q_t).gap < 0.0
+    assert state_in(contact, q, q_t).gap < 0.0
     for by_q, by_q_t in ((1.0, 0.0), (0.0, 1.0)):
         forces(q, q_t)
         found = np.array(contact.jacobian(by_q, by_q_t)).reshape(3, 3)

@@ -9,6 +9,7 @@ from exudyn.itemInterface import LoadForceVector, LoadTorqueVector, MarkerBodyRi
 from independent.pad_pressure import end_forces
 from scipy.integrate import solve_ivp
 from solving import completed, planar_body, recorded
+from state_in import state_in
 
 from exu_press import InputError
 from exu_press.joints import add_guideway_contact, add_guideway_film, add_joint_sensor
@@ -82,7 +83,7 @@ def test_the_jacobian_is_that_of_the_forces(state):
 def test_its_power_is_that_of_its_forces(state):
     film, *guideway = film_between(0.7)
     q, q_t = coordinates(*guideway, *state)
-    told = film.state([*q], [*q_t])
+    told = state_in(film, [*q], [*q_t])
     assert told.power == pytest.approx(forces(film, q, q_t) @ q_t, rel=1e-6)
     assert told.dissipated_power > 0.0
     assert told.eccentricity == pytest.approx(state[0] * guideway[1], abs=1e-12)

@@ -7,6 +7,7 @@ from functools import partial
 import numpy as np
 import pytest
 from differences import assert_partials, forces
+from state_in import state_in
 
 from exu_press.joints.interface import DryInterface, FilmInterface
 from exu_press.joints.joint import GROUND
@@ -139,7 +140,7 @@ def test_state_agrees_with_the_generalised_forces(interfaces):
     for _ in range(50):
         joint, q, q_t = random_joint(interfaces(), rng)
         total = forces(joint, q, q_t)
-        state = joint.state([*q, *GROUND], [*q_t, *GROUND])
+        state = state_in(joint, [*q, *GROUND], [*q_t, *GROUND])
         journal, bearing = centres(joint, q)
         assert state.eccentricity == pytest.approx(journal - bearing, abs=1e-15)
         assert state.force == pytest.approx(total[:2], rel=1e-12)
@@ -158,7 +159,7 @@ def test_dry_joint_loses_what_it_does_not_store(interfaces):
     seen = 0
     for _ in range(1000):
         joint, q, q_t = random_joint(interfaces(), rng)
-        state = joint.state([*q, *GROUND], [*q_t, *GROUND])
+        state = state_in(joint, [*q, *GROUND], [*q_t, *GROUND])
         e_x, e_y = state.eccentricity
         depth = math.hypot(e_x, e_y) - CLEARANCE
         journal, bearing = centres(joint, q)

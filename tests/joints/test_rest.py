@@ -9,6 +9,7 @@ from exudyn.itemInterface import (
     ObjectGround,
 )
 from solving import fixed_steps, planar_body, solve
+from state_in import state_in
 
 from exu_press import (
     add_dry_revolute,
@@ -50,7 +51,7 @@ def test_penetration_at_rest(add, mass):
     q = list(mbs.GetNodeOutput(node, exu.OutputVariableType.Coordinates))
     q_t = list(mbs.GetNodeOutput(node, exu.OutputVariableType.Coordinates_t))
     ground_coordinates = [0.0, 0.0, 0.0]
-    state = joint.state([*q, *ground_coordinates], [*q_t, *ground_coordinates])
+    state = state_in(joint, [*q, *ground_coordinates], [*q_t, *ground_coordinates])
     assert -state.eccentricity[1] - CLEARANCE == pytest.approx(depth, rel=1e-3)
     assert abs(q_t[1]) < 1e-6, "it has come to rest"
     assert state.force[1] == pytest.approx(mass * 9.81, rel=1e-3)

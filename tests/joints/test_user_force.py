@@ -14,7 +14,7 @@ from exudyn.itemInterface import (
 from solving import planar_body, recorded, solve
 
 from exu_press import InputError, add_dry_revolute, add_dry_spherical, add_lubricated_revolute
-from exu_press.joints import histories, user_force_of
+from exu_press.joints import States, history, user_force_of
 from exu_press.laws.contact import hertz, step_damping
 from exu_press.laws.film import pi_film
 from exu_press.laws.friction import LuGre, lugre_steady
@@ -53,6 +53,8 @@ class Bodies:
 
     def run(self, end_time, step, tolerance=1e-10):
         self.mbs.Assemble()
+        self.states = States(user_force_of(self.mbs).joints)
+        self.mbs.SetPostStepUserFunction(self._take)
         settings = exu.SimulationSettings()
         integration = settings.timeIntegration
         integration.numberOfSteps, integration.endTime = round(end_time / step), end_time
@@ -76,13 +78,12 @@ class Bodies:
     def time(self):
         return self.mbs.GetSensorStoredData(self.sensors[0]["position"])[:, 0]
 
+    def _take(self, mbs, time):
+        self.states.take(time)
+        return True
+
     def history(self, joint):
-        q, q_t = (
-            self.recorded(level).reshape(len(self.time), -1) for level in ("position", "velocity")
-        )
-        order = [self.nodes.index(node) for node in user_force_of(self.mbs).nodes]
-        columns = [3 * i + c for i in order for c in range(3)]
-        return histories({"one": joint}, self.time, q[:, columns], q_t[:, columns])["one"]
+        return history(self.states, joint, self.time)
 
 
 def free_pair(relative=(0.05, 0.03), spin=(4.0, -6.0)):

@@ -7,6 +7,7 @@ from functools import partial
 import numpy as np
 import pytest
 from differences import assert_partials, forces
+from state_in import state_in
 
 from exu_press.joints.interface import DryInterface, FilmInterface
 from exu_press.joints.joint import GROUND
@@ -127,7 +128,7 @@ def test_momentum_and_angular_momentum_are_kept(name):
 def test_the_place_of_contact_is_the_nearest_one():
     """It is where the state was put, and no other direction is deeper."""
     for joint, q, q_t, angle in joints("friction", 2, 100):
-        state = joint.state([*q, *GROUND], [*q_t, *GROUND])
+        state = state_in(joint, [*q, *GROUND], [*q_t, *GROUND])
         assert joint._touched[:2] == pytest.approx((math.cos(angle), math.sin(angle)), abs=1e-9)
         e = np.array(state.eccentricity)
         all_round = [
@@ -150,7 +151,7 @@ def test_what_is_stored_comes_back():
             for shift in (1e-8, -1e-8):
                 other = [*q]
                 other[i] += shift
-                sides.append(joint.state([*other, *GROUND], [0.0] * 9).stored_energy)
+                sides.append(state_in(joint, [*other, *GROUND], [0.0] * 9).stored_energy)
             slope = (sides[0] - sides[1]) / 2e-8
             assert -slope == pytest.approx(total[i], abs=1e-4 * np.abs(total).max() + 1e-6)
 
@@ -159,7 +160,7 @@ def test_what_is_stored_comes_back():
 def test_no_energy_comes_from_nothing(name):
     lost = 0
     for joint, q, q_t, _ in joints(name, 4, 300):
-        state = joint.state([*q, *GROUND], [*q_t, *GROUND])
+        state = state_in(joint, [*q, *GROUND], [*q_t, *GROUND])
         total = forces(joint, q, q_t)
         assert state.power == pytest.approx(
             float(total @ q_t), abs=1e-9 * float(np.abs(total) @ np.abs(q_t))

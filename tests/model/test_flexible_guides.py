@@ -6,12 +6,12 @@ import scipy.sparse as sp
 from independent.solid import displaced
 
 from exu_press import InputError, Scene, simulate
+from exu_press.joints import history
 from exu_press.model import build
 from exu_press.model.placed_part import placed_parts
 from exu_press.model.start import quasi_static_motion
 from exu_press.model.system import System
 from exu_press.result.flexible import guided_motion
-from exu_press.result.joints import states_of
 from exu_press.result.record import record
 from exu_press.scene import mechanism_of
 
@@ -161,9 +161,9 @@ def test_in_its_clearance_a_soft_slider_touches_with_its_guided_faces(slider):
     model = build(slider(body=soft, load=load, guide=GUIDEWAYS, **run))
     result = record(model, model.solve())
     held = guided_motion(model, "slider").position
-    ends = {str(number): end for number, end in enumerate(model.guideways["slider"])}
     low, high = (
-        states.eccentricity[:, 0] for states in states_of(model, result.time, ends).values()
+        history(model.states, end, result.time).eccentricity[:, 0]
+        for end in model.guideways["slider"]
     )
     assert np.abs(0.5 * (low + high) - held[:, 0]).max() < 1e-9
     assert np.abs((low - high) / GUIDEWAYS["length"] - np.sin(held[:, 2])).max() < 1e-8

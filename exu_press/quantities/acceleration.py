@@ -8,6 +8,7 @@ import math
 from collections.abc import Iterator
 
 import numpy as np
+from numpy.typing import NDArray
 
 from exu_press.numerics.arrays import Array
 from exu_press.numerics.piecewise import evaluate, hermite, integral
@@ -15,8 +16,13 @@ from exu_press.numerics.piecewise import evaluate, hermite, integral
 __all__ = ["differentiated_peak", "mean_peak", "mean_peak_of", "peak"]
 
 AT_ONCE = 200_000
-"""Instants whose windows are looked at together: the arrays take ten times their memory.
-"""
+"""Instants of a load that are summed up together."""
+
+GROUP = 64
+"""Steps whose windows are looked at together, or left out together."""
+
+ROUNDED = 1e-6
+"""Part by which a mean, the difference of two sums, may be above the load."""
 
 MOST_SAMPLES = 10_000_000
 """Most samples of a displacement; they take 80 MB a copy."""
@@ -44,7 +50,7 @@ def mean_peak(time: Array, velocity: Array, window: float = 1e-3) -> float | Non
     """
 
     def largest(part: slice) -> float:
-        _, change = _windows(time[part], velocity[part], window)
+        change = _change(_ends(time[part], window), window, time[part], velocity[part])
         return peak(change / window)  # between them the mean is linear in time
 
     return max(map(largest, _parts(time, window)), default=None)
@@ -68,14 +74,53 @@ def mean_peak_of(time: Array, values: Array, window: float = 1e-3) -> float | No
 
 
 def _mean_peak_of(time: Array, values: Array, window: float) -> float:
-    """Return the same of a record that is not shorter than the window."""
-    late, change = _windows(time, values, window)
-    turns = np.flatnonzero(change[:-1] * change[1:] < 0.0)  # there the mean is largest or least
+    """Return the same of a record that is not shorter than the window.
+
+    No mean is larger than the load is meanwhile. So where the load is largest one is looked for
+    first, then where the load is larger than that.
+    """
+    values = np.ascontiguousarray(values)
+    sums, sizes, last = integral(time, values), np.abs(values), len(time) - 1
+    firsts = np.arange(0, last, GROUP)
+    lasts = np.minimum(firsts + GROUP, last)
+    begins = np.searchsorted(time, time[firsts] - window, side="right") - 2
+    begins = np.maximum(begins, 0)  # of the windows that end from a group's first step to its last
+    inner = np.maximum.reduceat(sizes, np.column_stack([begins, lasts]).ravel())[::2]
+    bounds = (1.0 + ROUNDED) * np.maximum(inner, sizes[lasts])
+
+    def largest(groups: NDArray[np.intp], least: float) -> float:
+        begin, end = begins[groups[0]], lasts[groups[-1]] + 1
+        late = _ends(time[begin:end], window)
+        late = late[late >= time[firsts[groups[0]]]]
+        steps = slice(begin, end + 1)  # a window's end belongs to the step behind it
+        means = _means(late, window, time[steps], values[steps], sums[steps])
+        return max(least, float(np.abs(means).max(initial=0.0)))
+
+    found = largest(np.argmax(bounds, keepdims=True), 0.0)
+    left = np.flatnonzero(bounds >= found)
+    for groups in np.split(left, np.flatnonzero(np.diff(left) > 1) + 1):
+        if len(groups):
+            found = largest(groups, found)
+    return found
+
+
+def _means(late: Array, window: float, time: Array, values: Array, sums: Array) -> Array:
+    """Return the means of values over windows, and where they are largest or least.
+
+    Args:
+        late: ends of the windows that begin or end at a step, (m,), s.
+        window: s.
+        time: (n,), s.
+        values: (n,), straight between.
+        sums: their integral, (n,).
+    """
+    change = _change(late, window, time, values)
+    turns = np.flatnonzero(change[:-1] * change[1:] < 0.0)
     part = change[turns] / (change[turns] - change[turns + 1])
     late = np.concatenate([late, late[turns] + part * np.diff(late)[turns]])
-    parabolas = hermite(time, integral(time, values), values)
-    sums = evaluate(time, parabolas, late) - evaluate(time, parabolas, late - window)
-    return peak(sums / window)
+    parabolas = hermite(time, sums, values)
+    summed = evaluate(time, parabolas, late) - evaluate(time, parabolas, late - window)
+    return np.asarray(summed / window)
 
 
 def _parts(time: Array, window: float) -> Iterator[slice]:
@@ -87,15 +132,17 @@ def _parts(time: Array, window: float) -> Iterator[slice]:
             yield part
 
 
-def _windows(time: Array, values: Array, window: float) -> tuple[Array, Array]:
-    """Return when windows end that begin or end at a step, increasing, and the change over each.
-
-    There are none in a record that is shorter than the window.
-    """
+def _ends(time: Array, window: float) -> Array:
+    """Return when windows end that begin or end at a step, increasing; there may be none."""
     ends = np.sort(np.concatenate([time, time + window]), kind="stable")  # merges the two
     ends = ends[(ends >= time[0] + window) & (ends <= time[-1])]
-    late = ends[np.diff(ends, prepend=-np.inf) > 0.0]
-    return late, np.interp(late, time, values) - np.interp(late - window, time, values)
+    return np.asarray(ends[np.diff(ends, prepend=-np.inf) > 0.0])
+
+
+def _change(late: Array, window: float, time: Array, values: Array) -> Array:
+    """Return the change of values (n,) over windows with these ends, (m,), s."""
+    changed = np.interp(late, time, values) - np.interp(late - window, time, values)
+    return np.asarray(changed)
 
 
 def differentiated_peak(

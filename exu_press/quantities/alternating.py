@@ -1,10 +1,15 @@
 """Loads without the part that alternates from step to step, as peaks are read from them."""
 
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+
 import numpy as np
+from numpy.typing import NDArray
 
 from exu_press.numerics.arrays import Array
 
-__all__ = ["LOADS", "beside_line", "steady"]
+__all__ = ["LOADS", "Largest", "beside_line", "largest", "steady"]
 
 LOADS = frozenset({"m/s^2", "N", "N m", "W"})
 """Units of the channels that follow from accelerations."""
@@ -12,11 +17,40 @@ LOADS = frozenset({"m/s^2", "N", "N m", "W"})
 LITTLE = 0.05
 """Part of a channel's largest value that is small."""
 
-AT_ONCE = 200_000
-"""Instants that are looked at together: the arrays take ten times their memory."""
+AT_ONCE = 4096
+"""Instants that are looked at together: their arrays stay near the processor."""
+
+SHORTEST = 7
+"""Instants of a record in which something alternates."""
 
 ALIKE = 0.3
 """Ratio of two neighbours from which on they count as large as each other."""
+
+
+@dataclass(frozen=True)
+class Largest:
+    """The largest magnitudes of a load.
+
+    Attributes:
+        columns: of its components, (k,).
+        length: of the vector, or of its only component.
+    """
+
+    columns: Array
+    length: float
+
+
+def largest(time: Array, values: Array) -> Largest:
+    """Return the largest magnitudes of a load (n,) or (n, k), `steady`, at instants (n,), s."""
+    values, square = _columns(values), 0.0
+    columns = np.zeros(len(values))
+    for part in _parts(time, values):
+        columns = np.maximum(columns, _magnitudes(part))
+        squares = part[0] * part[0]
+        for other in part[1:]:
+            squares += other * other
+        square = max(square, float(squares.max()))
+    return Largest(columns, float(np.sqrt(square)))
 
 
 def steady(time: Array, values: Array) -> Array:
@@ -31,39 +65,83 @@ def steady(time: Array, values: Array) -> Array:
     part, and of a smooth curve its fourth derivative. A peak of a single sample makes three
     alternate, too: more than a LITTLE alternates where five of them do, and are as large.
     """
-    if len(time) < 7:
-        return values
-    found = np.zeros_like(values)
-    largest = np.abs(values).max(axis=0)
-    for first in range(0, len(time), AT_ONCE):
-        begin, end = max(first - 4, 0), min(first + AT_ONCE + 4, len(time))
-        if end - begin >= 7:
-            part = _alternating(time[begin:end], values[begin:end], LITTLE * largest)
-            last = min(first + AT_ONCE, len(time))
-            found[first:last] = part[first - begin : last - begin]
-    found[-2], found[-1] = -found[-3], found[-3]
-    np.subtract(values, found, out=found)
+    found = np.empty(values.shape[::-1]).T
+    columns, first = _columns(found), 0
+    for part in _parts(time, _columns(values)):
+        columns[:, first : first + part.shape[1]] = part
+        first += part.shape[1]
     return found
 
 
-def _alternating(time: Array, values: Array, little: Array) -> Array:
-    """Return the part of values that alternates, but for the two at either end, where it is 0."""
-    beside = beside_line(time, values)
-    sizes = np.abs(beside)
-    turns = beside[:-1] * beside[1:] < 0.0
-    counts = turns[:-1] & turns[1:]
-    alike = np.minimum(sizes[:-1], sizes[1:]) > ALIKE * np.maximum(sizes[:-1], sizes[1:])
-    whole = np.ones_like(turns[:1])
-    same = np.concatenate([whole, turns & alike, whole])
-    part = (2.0 * beside[1:-1] - beside[:-2] - beside[2:]) / 8.0
-    counts &= (np.abs(part) <= little) | (same[:-3] & same[1:-2] & same[2:-1] & same[3:])
-    found = np.zeros_like(values)
-    found[2:-2] = np.where(counts, part, 0.0)
-    return found
+def _columns(values: Array) -> Array:
+    """Return values (n,) or (n, k) column by column, (k, n)."""
+    return values[None] if values.ndim == 1 else values.T
+
+
+def _magnitudes(part: Array) -> Array:
+    """Return the largest magnitude of each row."""
+    return np.asarray(np.maximum(part.max(axis=1), -part.min(axis=1)))
+
+
+def _parts(time: Array, values: Array) -> Iterator[Array]:
+    """Yield a load (k, n), part by part (k, m), without its part that alternates."""
+    count = len(time)
+    if count < SHORTEST:
+        yield values
+        return
+    bounds = [*range(0, count - SHORTEST + 1, AT_ONCE), count]  # none is shorter
+    little = np.zeros(len(values))
+    for begin, end in pairwise(bounds):
+        little = np.maximum(little, LITTLE * _magnitudes(np.array(values[:, begin:end], order="C")))
+    for begin, end in pairwise(bounds):
+        first, last = max(begin - 4, 0), min(end + 4, count)
+        part = np.array(values[:, first:last], order="C")
+        rows, at, found = _alternating(time[first:last], part, little)
+        part[rows, at] -= found
+        if last == count:
+            before = at == part.shape[1] - 3
+            part[rows[before], -2] += found[before]
+            part[rows[before], -1] -= found[before]
+        yield part[:, begin - first : end - first]
+
+
+def _alternating(
+    time: Array, values: Array, little: Array
+) -> tuple[NDArray[np.intp], NDArray[np.intp], Array]:
+    """Return where values (k, m) alternate, row and column, and the part that does.
+
+    It is not known of the two at either end.
+    """
+    beside = _beside(time, values)
+    turns = beside[:, :-1] * beside[:, 1:] < 0.0
+    rows, at = np.divmod(np.flatnonzero(turns[:, :-1] & turns[:, 1:]), turns.shape[1] - 1)
+    part = (2.0 * beside[rows, at + 1] - beside[rows, at] - beside[rows, at + 2]) / 8.0
+    whole = np.abs(part) <= little[rows]
+    more = np.flatnonzero(~whole)
+    for near in (-1, 0, 1, 2) if len(more) else ():
+        more = more[_same(beside, rows[more], at[more] + near)]
+    whole[more] = True
+    return rows[whole], at[whole] + 2, part[whole]
+
+
+def _same(beside: Array, rows: NDArray[np.intp], at: NDArray[np.intp]) -> NDArray[np.bool_]:
+    """Return where two neighbours have other signs and like sizes, or there are not two."""
+    there = (at >= 0) & (at + 1 < beside.shape[1])
+    one, other = (beside[rows, np.where(there, at + i, 0)] for i in (0, 1))
+    sizes = np.abs(one), np.abs(other)
+    alike = np.minimum(*sizes) > ALIKE * np.maximum(*sizes)
+    return np.asarray((alike & (one * other < 0.0)) | ~there)
 
 
 def beside_line(time: Array, values: Array) -> Array:
     """Return values (n, ...) less the line of their neighbours, (n - 2, ...)."""
+    return np.asarray(_beside(time, values.T).T)
+
+
+def _beside(time: Array, values: Array) -> Array:
+    """Return values (..., n) less the line of their neighbours, (..., n - 2)."""
     part = (time[1:-1] - time[:-2]) / (time[2:] - time[:-2])
-    part = part.reshape(-1, *[1] * (values.ndim - 1))
-    return np.asarray(values[1:-1] - (1.0 - part) * values[:-2] - part * values[2:])
+    found = (1.0 - part) * values[..., :-2]
+    np.subtract(values[..., 1:-1], found, out=found)
+    found -= part * values[..., 2:]
+    return np.asarray(found)

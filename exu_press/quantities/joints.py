@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from exu_press.numerics.arrays import Array
+from exu_press.numerics.arrays import Array, lengths
 from exu_press.quantities.kind import COUNT, ENERGY, LOAD, MEASURE, MOTION, SHARE
 from exu_press.quantities.quantity import Extreme, Place, Quantity
 from exu_press.quantities.reading import Reading
@@ -71,7 +71,7 @@ def _start(run: Reading, _: str) -> float | None:
         return None
     names = list(run.result.joints)
     largest = [
-        max(float(np.linalg.norm(force, axis=1).max()) for force in forces)
+        max(float(lengths(force).max()) for force in forces)
         for forces in (
             [run.run.joints[name].force[before] for name in names],
             [run.result.joints[name].force for name in names],
@@ -83,7 +83,7 @@ def _start(run: Reading, _: str) -> float | None:
 def _peak_force(run: Reading, joint: str) -> float | None:
     if joint not in run.result.joints:  # of several ideal joints only some are recorded
         return None
-    return float(np.linalg.norm(run.load(f"{joint}_force"), axis=1).max())
+    return run.largest(f"{joint}_force").length
 
 
 START = Quantity(

@@ -43,10 +43,6 @@ def _frictionless(scene: Scene, _: str = "") -> bool:
     return bool(mechanism_of(scene).guides) and not rubbing
 
 
-def _guide(run: Reading, body: str) -> Guide:
-    return next(guide for guide in run.mechanism.guides if guide.body == body)
-
-
 def _of_guide(run: Reading, body: str, quantity: str) -> Array | None:
     name = f"{guide_channel(run.mechanism, body)}_{quantity}"
     return run.channel(name)
@@ -57,22 +53,27 @@ def _guide_peak(quantity: str) -> Callable[[Reading, str], float | None]:
 
     def read(run: Reading, body: str) -> float | None:
         name = f"{guide_channel(run.mechanism, body)}_{quantity}"
-        return None if run.channel(name) is None else peak(run.load(name))
+        return None if run.channel(name) is None else run.largest(name).length
 
     return read
 
 
-def _sliding_power(run: Reading, body: str) -> float | None:
-    force = _of_guide(run, body, "force")
+def _sliding_powers(run: Reading) -> dict[str, float | None]:
+    """Return the mean of side force times sliding speed, by the guides' bodies."""
+    return {guide.body: _sliding_power(run, guide) for guide in run.mechanism.guides}
+
+
+def _sliding_power(run: Reading, guide: Guide) -> float | None:
+    force = _of_guide(run, guide.body, "force")
     if force is None or len(run.time) < 2:
         return None
-    power = np.gradient(run.result.path(body) @ np.array(_guide(run, body).direction), run.time)
+    power = np.gradient(run.result.path(guide.body) @ np.array(guide.direction), run.time)
     power *= force
     return run.mean(np.abs(power, out=power))
 
 
 def _if_guides_rubbed(run: Reading, _: str) -> float | None:
-    powers = [_sliding_power(run, guide.body) for guide in run.mechanism.guides]
+    powers = run.once(_sliding_powers).values()
     return None if None in powers else RUBBING * sum(p for p in powers if p is not None)
 
 
@@ -116,7 +117,7 @@ def _mean_speed(run: Reading, _: str) -> float | None:
 DRIVE = (
     Quantity("drive.peak_torque", "N m",
              "largest torque of the drive; a motor's turns flywheel and crank",
-             LOAD, lambda run, _: peak(run.load("drive_torque")),
+             LOAD, lambda run, _: run.largest("drive_torque").length,
              title="drive torque, max", shown="kN m", extreme=Extreme.LARGEST,
              curve="drive_torque"),
     Quantity("drive.peak_torque_mean_1ms", "N m", "largest torque of the drive, averaged over 1 ms",
@@ -124,7 +125,7 @@ DRIVE = (
              extreme=Extreme.LARGEST),
     Quantity("drive.peak_crank_torque", "N m",
              "largest torque that turns the crank, behind a motor's flywheel",
-             LOAD, lambda run, _: peak(run.load("crank_torque")),
+             LOAD, lambda run, _: run.largest("crank_torque").length,
              has=_motor, title="crank torque, max", shown="kN m", extreme=Extreme.LARGEST,
              curve="crank_torque"),
     Quantity("drive.peak_crank_torque_mean_1ms", "N m",
@@ -135,7 +136,7 @@ DRIVE = (
              LOAD, lambda run, _: run.mean(run["drive_torque"]),
              signed=True),
     Quantity("drive.peak_power", "W", "largest power of the drive",
-             LOAD, lambda run, _: peak(run.load("drive_power")),
+             LOAD, lambda run, _: run.largest("drive_power").length,
              extreme=Extreme.LARGEST, curve="drive_power"),
     Quantity("drive.mean_power", "W", "mean power of the drive, over whole revolutions",
              LOAD, lambda run, _: run.mean(run["drive_power"]),
@@ -160,7 +161,7 @@ DRIVE = (
 def _resultant(channel: str, column: int, ending: str, run: Reading, _: str) -> float | None:
     if ending:
         return mean_peak_of(run.time, run[channel][:, column])
-    return peak(run.load(channel)[:, column])
+    return float(run.largest(channel).columns[column])
 
 
 def _resultants() -> Iterator[Quantity]:
@@ -207,7 +208,7 @@ GUIDES = (
     Quantity("sliding_power", "W",
              "mean of side force times sliding speed, over whole revolutions: times a "
              "coefficient of power that the guide dissipates by friction",
-             LOAD, _sliding_power, Place.GUIDE),
+             LOAD, lambda run, body: run.once(_sliding_powers)[body], Place.GUIDE),
     Quantity("peak_friction", "N", "largest friction along the guide",
              LOAD, _guide_peak("friction"), Place.GUIDE,
              extreme=Extreme.LARGEST, curve="friction"),

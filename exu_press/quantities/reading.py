@@ -9,7 +9,7 @@ import numpy as np
 from exu_press.mechanism import Mechanism
 from exu_press.numerics.arrays import Array
 from exu_press.numerics.piecewise import integral
-from exu_press.quantities.alternating import steady
+from exu_press.quantities.alternating import Largest, largest
 from exu_press.quantities.dead_centre import DeadCentre, bottom_dead_centres
 from exu_press.result import Result
 from exu_press.result.windows import settled
@@ -33,7 +33,7 @@ class Reading:
         self.run = run
         self.result = settled(run)
         self._found: dict[Any, Any] = {}
-        self._load = "", np.zeros(0)
+        self._largest: dict[str, Largest] = {}
 
     def __getitem__(self, channel: str) -> Array:
         return self.result[channel]
@@ -43,16 +43,16 @@ class Reading:
         found = self.result.channels.get(name)
         return None if found is None else found.values
 
-    def load(self, name: str) -> Array:
-        """Return a channel that follows from accelerations, as peaks are read from it."""
-        if self._load[0] != name:  # of a long run they would fill the memory
-            self._load = name, steady(self.time, self[name])
-        return self._load[1]
+    def largest(self, name: str) -> Largest:
+        """Return the peaks of a channel that follows from accelerations."""
+        if name not in self._largest:
+            self._largest[name] = largest(self.time, self[name])
+        return self._largest[name]
 
-    def once(self, read: Callable[[Result], Read]) -> Read:
-        """Return a function of the run; it is called once, however many quantities need it."""
+    def once(self, read: Callable[["Reading"], Read]) -> Read:
+        """Return a function of this reading; it is called once, however many quantities need it."""
         if read not in self._found:
-            self._found[read] = read(self.result)
+            self._found[read] = read(self)
         found: Read = self._found[read]
         return found
 

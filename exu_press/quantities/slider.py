@@ -47,7 +47,7 @@ SLIDER = (
              curve="slider_velocity"),
     Quantity("peak_acceleration.resolved", "m/s^2",
              "largest acceleration of the slider, as the integrator resolves it",
-             LOAD, lambda run, _: peak(run.load("slider_acceleration")),
+             LOAD, lambda run, _: run.largest("slider_acceleration").length,
              title="peak acceleration", extreme=Extreme.LARGEST, headline=True,
              curve="slider_acceleration"),
     Quantity("peak_acceleration.mean_1ms", "m/s^2",

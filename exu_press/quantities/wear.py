@@ -197,9 +197,9 @@ def _guideway_depth(result: Result, body: str) -> float:
     return float(guideway_depths(result, body).max())
 
 
-def _deepest(result: Result) -> dict[str, float]:
+def _deepest(run: Reading) -> dict[str, float]:
     """Return the largest depth of every joint and guide that wears, by the name of the place."""
-    scene = result.scene
+    result, scene = run.result, run.result.scene
     joints = {f"joints.{j}": max(_depth(0, result, j), _depth(1, result, j))
               for j in wearing_joints(scene)}  # fmt: skip
     return joints | {f"guides.{b}": _guideway_depth(result, b) for b in wearing_guides(scene)}

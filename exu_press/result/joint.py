@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from exu_press.numerics.arrays import Array
+from exu_press.numerics.arrays import Array, lengths
 from exu_press.result.channel import Channel
 
 __all__ = ["JointRecord"]
@@ -64,7 +64,7 @@ class JointRecord:
     @property
     def distance(self) -> Array:
         """Magnitude of the eccentricity, (n,), m."""
-        return np.asarray(np.linalg.norm(self.eccentricity, axis=1))
+        return lengths(self.eccentricity)
 
     def _of_clearance(self, what: str) -> Array:
         """Return a channel that joints with clearance have."""

@@ -13,7 +13,8 @@ __all__ = ["Motion"]
 class Motion:
     """Position, velocity and acceleration over n instants, each of shape (n, 2) or (n, 3).
 
-    Points have (x, y) in m; bodies have (x, y, angle), with the angle in rad.
+    Points have (x, y) in m; bodies have (x, y, angle), with the angle in rad. Those of a run lie
+    column by column in memory, as they are read.
     """
 
     position: Array
@@ -31,16 +32,18 @@ class Motion:
             part[:, 2] for part in (self.position, self.velocity, self.acceleration)
         )
         x, y = point
-        arm = np.column_stack(
-            [
-                np.cos(angle) * x - np.sin(angle) * y,
-                np.sin(angle) * x + np.cos(angle) * y,
-                np.zeros_like(angle),
-            ]
+        cos, sin = np.cos(angle), np.sin(angle)
+        arm_x, arm_y = cos * x - sin * y, sin * x + cos * y
+        square = omega**2
+        position, velocity, acceleration = (
+            np.array(part, order="F") for part in (self.position, self.velocity, self.acceleration)
         )
-        across = np.column_stack([-arm[:, 1], arm[:, 0], np.zeros_like(angle)])
-        return Motion(
-            self.position + arm,
-            self.velocity + omega[:, None] * across,
-            self.acceleration + alpha[:, None] * across - (omega**2)[:, None] * arm,
-        )
+        position[:, 0] += arm_x
+        position[:, 1] += arm_y
+        velocity[:, 0] -= omega * arm_y
+        velocity[:, 1] += omega * arm_x
+        acceleration[:, 0] -= alpha * arm_y
+        acceleration[:, 0] -= square * arm_x
+        acceleration[:, 1] += alpha * arm_x
+        acceleration[:, 1] -= square * arm_y
+        return Motion(position, velocity, acceleration)

@@ -141,7 +141,8 @@ class SlidingBody(RigidBody):
 
     def motion(self, q: Array, q_t: Array, q_tt: Array) -> Motion:
         """Return the motion as `RigidBody.motion`."""
-        return Motion(self.reference + q * self._along, q_t * self._along, q_tt * self._along)
+        moved, *rates = ((self._along[:, None] * part[:, 0]).T for part in (q, q_t, q_tt))
+        return Motion(self.reference + moved, *rates)
 
 
 class PivotedBody(RigidBody):
@@ -192,7 +193,8 @@ class PivotedBody(RigidBody):
 
     def motion(self, q: Array, q_t: Array, q_tt: Array) -> Motion:
         """Return the motion as `RigidBody.motion`."""
-        still = np.zeros((len(q), 2))
-        places = np.column_stack([still + self._pivot, self.reference[2] + q])
-        turned = Motion(places, np.column_stack([still, q_t]), np.column_stack([still, q_tt]))
-        return turned.at(self.local((0.0, 0.0)))
+        place, *rates = (np.zeros((3, len(q))).T for _ in range(3))
+        place += [*self._pivot, self.reference[2]]
+        for columns, part in zip((place, *rates), (q, q_t, q_tt), strict=True):
+            columns[:, 2] += part[:, 0]
+        return Motion(place, *rates).at(self.local((0.0, 0.0)))

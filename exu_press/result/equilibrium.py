@@ -4,12 +4,12 @@ Such a body has one coordinate (`exu_press.model.rigid_body`), so that no constr
 force.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
 from exu_press.joints import JointHistory
-from exu_press.mechanism import Motion
+from exu_press.mechanism import Motion, Point
 from exu_press.model import Model
 from exu_press.numerics.arrays import Array
 from exu_press.result.channel import Channel
@@ -38,47 +38,60 @@ def equilibrium(
     guides = {guide.body: guide for guide in model.mechanism.guides}
     masses = {body.name: body.mass for body in model.mechanism.bodies}
 
-    def held(name: str) -> tuple[Array, Array]:
-        """Return the reaction to all that acts on a body: force (n, 2) and moment (n,)."""
-        applied, moment = _applied(model, name, motions[name], channels, states)
+    def held(name: str) -> Array:
+        """Return the reaction to all forces on a body, (n, 2)."""
         weight = np.array([0.0, -masses[name] * model.scene.gravity])
-        return masses[name] * motions[name].acceleration[:, :2] - applied - weight, -moment
+        inertia = masses[name] * motions[name].acceleration[:, :2]
+        return np.asarray(inertia - _force(model, name, channels) - weight)
 
     for name in sorted(model.holding.sliding):
-        force, moment = held(name)
-        across = force @ np.array(guides[name].across)
+        across = held(name) @ np.array(guides[name].across)
+        moment = -_moment(model, name, motions[name].position[:, 2], channels, states)
         found |= guide_channels(model, name, {"force": across, "moment": moment})
     for name, joint in model.holding.pivoted.items():
         if name in model.rigid:
-            force = held(name)[0] * (1.0 if joint.journal == name else -1.0)
+            force = held(name) * (1.0 if joint.journal == name else -1.0)
             found |= channel("{joint}_force", vectors(force, joint.spherical), joint.name)
     return found
 
 
-def _applied(
-    model: Model,
-    name: str,
-    motion: Motion,
-    channels: Mapping[str, Channel],
-    states: Mapping[str, JointHistory],
-) -> tuple[Array, Array]:
-    """Return force, (n, 2), and moment about its centre, (n,), of joints and loads on a body."""
-    angle = motion.position[:, 2]
-    cos, sin = np.cos(angle), np.sin(angle)
-    force, moment = np.zeros((len(angle), 2)), np.zeros(len(angle))
+def _joints_on(
+    model: Model, name: str, channels: Mapping[str, Channel]
+) -> Iterator[tuple[str, int, Point]]:
+    """Yield the joints on a body whose force is known, at which end of theirs, and where."""
     for joint in model.mechanism.joints:
-        key = f"{joint.name}_force"
-        for end, (body, (x, y)) in enumerate(model.mechanism.ends(joint)):
-            if body == name and key in channels:
-                on_body = (1.0, -1.0)[end] * channels[key].values[:, :2]
-                arm_x, arm_y = x * cos - y * sin, x * sin + y * cos
-                force += on_body
-                moment += arm_x * on_body[:, 1] - arm_y * on_body[:, 0]
-                if joint.name in states:
-                    moment += states[joint.name].moments_in_plane[:, end]
+        for end, (body, point) in enumerate(model.mechanism.ends(joint)):
+            if body == name and f"{joint.name}_force" in channels:
+                yield joint.name, end, point
+
+
+def _force(model: Model, name: str, channels: Mapping[str, Channel]) -> Array:
+    """Return the force of joints and loads on a body, (n, 2)."""
+    force = np.zeros((2, len(channels["time"].values))).T
+    for joint, end, _ in _joints_on(model, name, channels):
+        force += (1.0, -1.0)[end] * channels[f"{joint}_force"].values[:, :2]
     for key, (load, _) in model.loads.items():
         if load.body == name:
-            pressed = channels[f"load_{key}_force"].values
-            force += np.outer(pressed, load.direction)
-            moment += load.moment(pressed, angle)
-    return force, moment
+            force += np.outer(channels[f"load_{key}_force"].values, load.direction)
+    return force
+
+
+def _moment(
+    model: Model,
+    name: str,
+    angle: Array,
+    channels: Mapping[str, Channel],
+    states: Mapping[str, JointHistory],
+) -> Array:
+    """Return the moment about its centre, (n,), of joints and loads on a body at an angle (n,)."""
+    cos, sin = np.cos(angle), np.sin(angle)
+    moment = np.zeros(len(angle))
+    for joint, end, (x, y) in _joints_on(model, name, channels):
+        on_body = (1.0, -1.0)[end] * channels[f"{joint}_force"].values
+        moment += (x * cos - y * sin) * on_body[:, 1] - (x * sin + y * cos) * on_body[:, 0]
+        if joint in states:
+            moment += states[joint].moments_in_plane[:, end]
+    for key, (load, _) in model.loads.items():
+        if load.body == name:
+            moment += load.moment(channels[f"load_{key}_force"].values, angle)
+    return moment

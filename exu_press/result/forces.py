@@ -4,18 +4,23 @@ from collections.abc import Collection, Mapping
 
 import numpy as np
 
-from exu_press.mechanism import GROUND
+from exu_press.mechanism import GROUND, Motion
 from exu_press.model import Model
 from exu_press.numerics.arrays import Array
 from exu_press.result.channel import Channel, guide_channel, positive
 from exu_press.result.declared import channel
-from exu_press.result.motion import body_motion, point_acceleration, sensor
+from exu_press.result.motion import point_acceleration, sensor
 
 __all__ = ["frame_force", "guide_channels", "held_forces", "shaking_forces", "vectors"]
 
 
-def held_forces(model: Model) -> dict[str, Channel]:
-    """Return the forces of drive, ideal joints and guides that hold a coordinate."""
+def held_forces(model: Model, motions: Mapping[str, Motion]) -> dict[str, Channel]:
+    """Return the forces of drive, ideal joints and guides that hold a coordinate.
+
+    Args:
+        model: integrated.
+        motions: of every body.
+    """
     spherical = {joint.name for joint in model.mechanism.joints if joint.spherical}
     channels: dict[str, Channel] = {}
     for name, quantity in model.sensors:
@@ -29,7 +34,7 @@ def held_forces(model: Model) -> dict[str, Channel]:
             channels |= guide_channels(model, body, {quantity: -values[:, 0]})
         else:
             if name in model.holding.single_axis and not _flexible(model, name):
-                values = _single_axis(model, name, values[:, 0])
+                values = _single_axis(model, motions, name, values[:, 0])
             channels |= channel("{joint}_force", vectors(values[:, :2], name in spherical), name)
     return channels | _of_several_faces(channels, model)
 
@@ -71,11 +76,11 @@ def _flexible(model: Model, joint: str) -> bool:
     return any(joint in part.faces for part in model.parts.values())
 
 
-def _single_axis(model: Model, joint: str, force: Array) -> Array:
+def _single_axis(model: Model, motions: Mapping[str, Motion], joint: str, force: Array) -> Array:
     """Return the force on the journal, (n, 2), N, of a joint that holds one direction."""
     held = model.holding.single_axis[joint]
     described = next(one for one in model.mechanism.joints if one.name == joint)
-    turned = 0.0 if held.body == GROUND else body_motion(model, held.body).position[:, 2]
+    turned = 0.0 if held.body == GROUND else motions[held.body].position[:, 2]
     angle = held.angle + turned * np.ones_like(force)
     on_journal = force * (1.0 if held.body == described.journal else -1.0)
     return np.asarray(on_journal[:, None] * np.column_stack([np.cos(angle), np.sin(angle)]))
@@ -101,13 +106,13 @@ def guide_channels(model: Model, body: str, loads: Mapping[str, Array]) -> dict[
 def vectors(values: Array, spherical: bool) -> Array:
     """Return vectors (n, 2 or 3) in space for spherical joints, (n, 3), else in the plane."""
     if not spherical:
-        return values[:, :2]
+        return np.ascontiguousarray(values[:, :2])
     in_space = np.zeros((len(values), 3))
     in_space[:, : values.shape[1]] = values
     return in_space
 
 
-def shaking_forces(model: Model, acceleration: Array) -> dict[str, Channel]:
+def shaking_forces(model: Model, motions: Mapping[str, Motion]) -> dict[str, Channel]:
     """Return the shaking force, minus the rate of the mechanism's momentum, (n, 2), N.
 
     That is the force of shaft, pivots and guides on the frame, less weight and blanking force; the
@@ -118,11 +123,11 @@ def shaking_forces(model: Model, acceleration: Array) -> dict[str, Channel]:
 
     Args:
         model: integrated.
-        acceleration: (n, bodies, 3) of every body's frame.
+        motions: of every body's frame.
     """
     forces = {}
-    for index, body in enumerate(model.mechanism.bodies):
-        mass, centre = body.mass, acceleration[:, index]
+    for body in model.mechanism.bodies:
+        mass, centre = body.mass, motions[body.name].acceleration
         if body.name in model.parts:
             # modes are orthogonal to rigid motions: they have no momentum of their own
             part = model.parts[body.name].reduced
@@ -136,4 +141,8 @@ def shaking_forces(model: Model, acceleration: Array) -> dict[str, Channel]:
 
 
 def _sum(forces: dict[str, Array], names: Collection[str]) -> Array:
-    return np.asarray(np.sum([forces[name] for name in names], axis=0))
+    first, *others = names
+    found = forces[first].copy(order="K")
+    for name in others:
+        found += forces[name]
+    return found

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from exu_press.joints import history
+from exu_press.mechanism import Motion
 from exu_press.model import Model
 from exu_press.numerics.arrays import Array
 from exu_press.result.channel import Channel, guide_channel
@@ -18,29 +19,24 @@ __all__ = ["record_friction", "record_guides", "record_guideways"]
 
 
 def record_guides(
-    model: Model, time: Array, position: Array, velocity: Array
+    model: Model, time: Array, motions: Mapping[str, Motion]
 ) -> tuple[dict[str, Channel], Array, Array]:
     """Return the losses of elastic guides as channels, their stored and their lost energy, J.
 
     Args:
         model: integrated.
         time: (n,), s.
-        position: (n, bodies, 3) of every body.
-        velocity: same shape.
+        motions: of every body.
     """
     channels: dict[str, Channel] = {}
     stored, dissipated = np.zeros_like(time), np.zeros_like(time)
-    names = [body.name for body in model.mechanism.bodies]
     for guide in model.mechanism.guides:
         springs = (guide.lateral, (*guide.across, 0.0)), (guide.tilting, (0.0, 0.0, 1.0))
         if not any(spring for spring, _ in springs):
             continue
-        index, lost = names.index(guide.body), np.zeros_like(time)
-        place, speed = position[:, index], velocity[:, index]
-        if guide.body in model.parts:
-            held = guided_motion(model, guide.body)
-            place, speed = held.position, held.velocity
-        place = place - _relaxed(model, guide.body)
+        flexible, lost = guide.body in model.parts, np.zeros_like(time)
+        held = guided_motion(model, guide.body) if flexible else motions[guide.body]
+        place, speed = held.position - _relaxed(model, guide.body), held.velocity
         loads = {}
         for quantity, (spring, direction) in zip(("force", "moment"), springs, strict=True):
             if spring is not None:
@@ -48,7 +44,7 @@ def record_guides(
                 stored += 0.5 * spring.stiffness * moved**2
                 lost += work(time, spring.damping * rate, rate)
                 loads[quantity] = -(spring.stiffness * moved + spring.damping * rate)
-        if guide.body in model.parts:  # of others sensors tell it
+        if flexible:  # of others sensors tell it
             channels |= guide_channels(model, guide.body, loads)
         channels |= guide_channels(model, guide.body, {"loss": lost})
         dissipated += lost
@@ -56,24 +52,22 @@ def record_guides(
 
 
 def record_friction(
-    model: Model, time: Array, velocity: Array, channels: Mapping[str, Channel]
+    model: Model, time: Array, motions: Mapping[str, Motion], channels: Mapping[str, Channel]
 ) -> tuple[dict[str, Channel], Array]:
     """Return the friction of guides without clearance, their losses with it, and its sum, J.
 
     Args:
         model: integrated.
         time: (n,), s.
-        velocity: (n, bodies, 3) of every body.
+        motions: of every body.
         channels: with the guides' forces, and losses of elastic ones.
     """
     found: dict[str, Channel] = {}
     dissipated = np.zeros_like(time)
-    names = [body.name for body in model.mechanism.bodies]
     guides = {guide.body: guide for guide in model.mechanism.guides}
     for name, rubbing in model.guide_friction.items():
-        flexible = name in model.parts
-        moving = guided_motion(model, name).velocity if flexible else velocity[:, names.index(name)]
-        speed = moving[:, :2] @ np.array(guides[name].direction)
+        moving = guided_motion(model, name) if name in model.parts else motions[name]
+        speed = moving.velocity[:, :2] @ np.array(guides[name].direction)
         shown = guide_channel(model.mechanism, name)
         side = np.abs(channels[f"{shown}_force"].values)
         friction = -rubbing.friction.coefficients(time, speed) * side
@@ -94,14 +88,14 @@ def _relaxed(model: Model, name: str) -> Array:
 
 
 def record_guideways(
-    model: Model, time: Array, position: Array
+    model: Model, time: Array, motions: Mapping[str, Motion]
 ) -> tuple[dict[str, Channel], Array, Array]:
     """Return the action of guideways on their bodies, their stored and their lost energy, J.
 
     Args:
         model: integrated.
         time: (n,), s.
-        position: (n, bodies, 3) of every body.
+        motions: of every body.
 
     Returns:
         Force across and moment about the centre of mass of each guide, friction along it, its
@@ -115,11 +109,10 @@ def record_guideways(
         for body, all_of in model.guideways.items()
         for n, each in enumerate(all_of)
     }
-    names = [body.name for body in model.mechanism.bodies]
     for guide in model.mechanism.guides:
         if guide.guideway is None:
             continue
-        angle = position[:, names.index(guide.body), 2]
+        angle = motions[guide.body].position[:, 2]
         angle = angle - model.mechanism.body(guide.body).angle
         x, y = guide.direction
         force, moment, lost = np.zeros((len(time), 2)), np.zeros_like(time), np.zeros_like(time)

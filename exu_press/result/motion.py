@@ -31,8 +31,9 @@ def body_motion(model: Model, name: str) -> Motion:
     """
     if name not in model.rigid:
         return model.parts[name].body(frame_motion(model, name))
+    levels = ("position", "velocity", "acceleration")
     return model.rigid[name].motion(
-        *(sensor(model, name, level) for level in ("position", "velocity", "acceleration"))
+        *(np.asfortranarray(sensor(model, name, level)) for level in levels)
     )
 
 

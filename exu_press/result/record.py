@@ -35,31 +35,25 @@ def record(model: Model, outcome: Outcome) -> Result:
     scene, mechanism = model.scene, model.mechanism
     time = sensor(model, mechanism.slider, "position", with_time=True)[:, 0]
     motions = {body.name: body_motion(model, body.name) for body in mechanism.bodies}
-    names = list(motions)
-    # (n, bodies, 3), but body by body in memory, as they are read
-    position, velocity, acceleration = (
-        np.stack([getattr(motion, level) for motion in motions.values()]).swapaxes(0, 1)
-        for level in ("position", "velocity", "acceleration")
-    )
-    slider, crank = names.index(mechanism.slider), names.index(mechanism.crank)
-    turned = body_motion(model, DRIVE if DRIVE in model.nodes else mechanism.crank)
-    drawn = mechanism.bodies[crank].angle
+    slider, crank = motions[mechanism.slider], motions[mechanism.crank]
+    turned = body_motion(model, DRIVE) if DRIVE in model.nodes else crank
+    drawn = mechanism.body(mechanism.crank).angle
     up, beside = positive(mechanism.output.direction), positive(mechanism.output.across)
     channels: dict[str, Channel] = {}
     for quantity, values, way in (
         ("time", time, ""),
-        ("crank_angle", position[:, crank, 2] - drawn, ""),
+        ("crank_angle", crank.position[:, 2] - drawn, ""),
         ("crank_speed", turned.velocity[:, 2], ""),
-        ("slider_position", mechanism.travel(position[:, slider]), up),
-        ("slider_velocity", mechanism.along(velocity[:, slider]), up),
-        ("slider_acceleration", mechanism.along(acceleration[:, slider]), up),
-        ("slider_lateral", mechanism.beside(position[:, slider]), beside),
-        ("slider_tilt", position[:, slider, 2] - mechanism.bodies[slider].angle, ""),
+        ("slider_position", mechanism.travel(slider.position), up),
+        ("slider_velocity", mechanism.along(slider.velocity), up),
+        ("slider_acceleration", mechanism.along(slider.acceleration), up),
+        ("slider_lateral", mechanism.beside(slider.position), beside),
+        ("slider_tilt", slider.position[:, 2] - mechanism.body(mechanism.slider).angle, ""),
     ):
         channels |= channel(quantity, values, way=way)
     states = joint_states(model, time)
     in_joints, stored_in_joints, lost_in_joints = record_joints(model, states, time)
-    channels |= held_forces(model)
+    channels |= held_forces(model, motions)
     angle = scene.start_angle + scene.angular_speed * time
     if scene.drive is not None:
         angle = turned.position[:, 2] - drawn
@@ -68,15 +62,15 @@ def record(model: Model, outcome: Outcome) -> Result:
         model, time, (angle, turned.velocity[:, 2]), slider_motion, motions
     )
     channels |= loads
-    in_guideways, stored_in_guideways, lost_in_guideways = record_guideways(model, time, position)
+    in_guideways, stored_in_guideways, lost_in_guideways = record_guideways(model, time, motions)
     channels |= in_guideways
     channels |= equilibrium(model, motions, channels | in_joints, states)
-    in_guides, stored_in_guides, lost_in_guides = record_guides(model, time, position, velocity)
+    in_guides, stored_in_guides, lost_in_guides = record_guides(model, time, motions)
     channels |= in_guides
-    rubbed, lost_by_friction = record_friction(model, time, velocity, channels)
+    rubbed, lost_by_friction = record_friction(model, time, motions, channels)
     channels |= rubbed
     channels |= frame_force(model, channels | in_joints)
-    channels |= shaking_forces(model, acceleration)
+    channels |= shaking_forces(model, motions)
     rigid = [body for body in mechanism.bodies if body.name not in model.parts]
     stored = mechanical_energy(rigid, motions, scene.gravity)
     flywheel = 0.0 if scene.drive is None else scene.drive.on_crank
@@ -107,7 +101,7 @@ def record(model: Model, outcome: Outcome) -> Result:
     driven = work(time, torque, speed) + work_of_loads
     channels |= channel("drive_power", torque * speed)
     channels |= channel("crank_torque", on_crank)
-    channels |= channel("body_position", position)
+    channels |= channel("body_position", np.stack([m.position for m in motions.values()], 1))
     if not model.own_items:  # their energies are not known
         channels |= channel("energy_input", driven)
         channels |= channel("energy_stored", stored - stored[0])
@@ -116,7 +110,7 @@ def record(model: Model, outcome: Outcome) -> Result:
         scene=scene,
         channels=channels,
         info=_info(model, outcome, worst),
-        bodies=tuple(names),
+        bodies=tuple(motions),
         surfaces=surfaces_of(model.parts),
     )
 

@@ -35,6 +35,7 @@ class OnDisk(Mapping[str, Channel]):
         self._temporary = TemporaryDirectory(prefix="exu_press-") if directory is None else None
         self._directory = directory or Path(self._temporary.name if self._temporary else "")
         self.begun: dict[str, Channel] = {}
+        self._last: dict[str, Array] = {}  # value of each channel
 
     @classmethod
     def found(cls, directory: Path, begun: Mapping[str, Channel], end: float) -> "OnDisk":
@@ -46,12 +47,22 @@ class OnDisk(Mapping[str, Channel]):
         return channels
 
     def append(self, channels: Mapping[str, Channel]) -> None:
-        """Take the next instants of every channel."""
+        """Take the next instants of every channel, the first of which is the last one before.
+
+        Energies there count from it; here they count on.
+        """
+        first = 1 if self.count else 0
         for name, channel in channels.items():
-            self.begun.setdefault(name, replace(channel, values=channel.values[:0]))
+            values = channel.values[first:]
+            if not first:
+                self.begun[name] = replace(channel, values=values[:0])
+            elif channel.unit == "J":
+                values = values + self._last[name]
             with self._file(name).open("ab") as file:
-                file.write(np.ascontiguousarray(channel.values, np.float64).data)
-        self.count += len(channels["time"].values)
+                file.write(np.ascontiguousarray(values, np.float64).data)
+            if len(values):
+                self._last[name] = values[-1].copy()
+        self.count += len(channels["time"].values) - first
 
     def __getitem__(self, name: str) -> Channel:
         begun = self.begun[name]
@@ -73,10 +84,6 @@ class OnDisk(Mapping[str, Channel]):
     def in_memory(self) -> dict[str, Channel]:
         """Return all channels with their values in memory."""
         return {name: replace(one, values=np.array(one.values)) for name, one in self.items()}
-
-    def last(self, name: str) -> Array:
-        """Return the last value of a channel."""
-        return np.array(self[name].values[-1])
 
     def __contains__(self, name: object) -> bool:
         return name in self.begun

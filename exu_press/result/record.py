@@ -8,9 +8,11 @@ from collections.abc import Mapping
 import numpy as np
 
 from exu_press.integrate import Outcome
+from exu_press.mechanism import Motion
 from exu_press.mechanism.parts import DRIVE
 from exu_press.model import Model
 from exu_press.model.state import state_of
+from exu_press.numerics.arrays import Array
 from exu_press.result.channel import Channel, positive
 from exu_press.result.declared import channel
 from exu_press.result.energy import mechanical_energy, work
@@ -28,6 +30,9 @@ from exu_press.result.stress import record_stress
 from exu_press.result.surface import surfaces_of
 
 __all__ = ["record"]
+
+AT_ONCE = 2048
+"""Instants."""
 
 
 def record(model: Model, outcome: Outcome) -> Result:
@@ -101,7 +106,7 @@ def record(model: Model, outcome: Outcome) -> Result:
     driven = work(time, torque, speed) + work_of_loads
     channels |= channel("drive_power", torque * speed)
     channels |= channel("crank_torque", on_crank)
-    channels |= channel("body_position", np.stack([m.position for m in motions.values()], 1))
+    channels |= channel("body_position", _poses(motions))
     if not model.own_items:  # their energies are not known
         channels |= channel("energy_input", driven)
         channels |= channel("energy_stored", stored - stored[0])
@@ -113,6 +118,17 @@ def record(model: Model, outcome: Outcome) -> Result:
         bodies=tuple(motions),
         surfaces=surfaces_of(model.parts),
     )
+
+
+def _poses(motions: Mapping[str, Motion]) -> Array:
+    """Return the poses of bodies, (n, bodies, 3), part by part: each stays near the processor."""
+    positions = [motion.position for motion in motions.values()]
+    found = np.empty((len(positions[0]), len(positions), 3))
+    for first in range(0, len(found), AT_ONCE):
+        part = slice(first, first + AT_ONCE)
+        for index, position in enumerate(positions):
+            found[part, index] = position[part]
+    return found
 
 
 def _info(model: Model, outcome: Outcome, worst: dict[str, Stress]) -> Info:

@@ -9,8 +9,6 @@ from pathlib import Path
 from exu_press.integrate import SolverStatus
 from exu_press.model import Model, build
 from exu_press.model.state import State, go_on_from, state_of
-from exu_press.result.channel import Channel
-from exu_press.result.channels import OnDisk
 from exu_press.result.info import Info
 from exu_press.result.record import record
 from exu_press.result.result import Result
@@ -86,7 +84,7 @@ def _block_by_block(model: Model, unfinished: Path | None, *, quiet: bool) -> Re
             block = record(model, model.solve(quiet=quiet))
             if model.warm and block.info["status"] in ON:
                 block = warmed(model, block)
-            channels.append(_going_on(block, channels))
+            channels.append(block.channels)
             infos.append(block.info)
             if model.until is not None:  # a motor has turned the crank by then, or not
                 length = float(block.time[-1] - block.time[0]) * scene.speed_rpm / 60.0
@@ -106,22 +104,6 @@ def _block_by_block(model: Model, unfinished: Path | None, *, quiet: bool) -> Re
 def _least(scene: Scene) -> float:
     """Return the revolutions below which nothing is left of a run."""
     return max(1e-9 * scene.revolutions, SHORTEST_RUN * scene.speed_rpm / 60.0)
-
-
-def _going_on(block: Result, channels: OnDisk) -> dict[str, Channel]:
-    """Return a block's channels behind those of the blocks before; energies count from the start.
-
-    Its first instant is the last one of the block before.
-    """
-    if not channels:
-        return dict(block.channels)
-    added: dict[str, Channel] = {}
-    for name, channel in block.channels.items():
-        values = channel.values[1:]
-        if channel.unit == "J":
-            values = values + channels.last(name)
-        added[name] = replace(channel, values=values)
-    return added
 
 
 def _of_all(infos: Sequence[Info]) -> Info:

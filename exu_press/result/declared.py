@@ -1,6 +1,7 @@
 """Every channel that a run may have: name, unit, meaning, columns, and which runs have it."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 from exu_press.numerics.arrays import Array
 from exu_press.result.channel import Channel, guide_channel
@@ -55,7 +56,7 @@ class Declared:
             return "space" if spherical else "plane"
         return self.axis.format(**{self.of: place}) if self.of else self.axis
 
-    @property
+    @cached_property
     def of(self) -> str:
         """Its owner."""
         return self.name.partition("{")[2].partition("}")[0]

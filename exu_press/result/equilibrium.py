@@ -4,7 +4,7 @@ Such a body has one coordinate (`exu_press.model.rigid_body`), so that no constr
 force.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -17,6 +17,9 @@ from exu_press.result.declared import channel
 from exu_press.result.forces import guide_channels, vectors
 
 __all__ = ["equilibrium"]
+
+Held = tuple[str, float, Point]
+"""A joint on a body, the sign with which its force acts there, and where in the body's frame."""
 
 
 def equilibrium(
@@ -38,38 +41,39 @@ def equilibrium(
     guides = {guide.body: guide for guide in model.mechanism.guides}
     masses = {body.name: body.mass for body in model.mechanism.bodies}
 
+    on_body: dict[str, list[Held]] = {name: [] for name in masses}
+    for joint in model.mechanism.joints:
+        for sign, (name, point) in zip((1.0, -1.0), model.mechanism.ends(joint), strict=True):
+            if name in on_body and f"{joint.name}_force" in channels:
+                on_body[name].append((joint.name, sign, point))
+
     def held(name: str) -> Array:
         """Return the reaction to all forces on a body, (n, 2)."""
-        weight = np.array([0.0, -masses[name] * model.scene.gravity])
-        inertia = masses[name] * motions[name].acceleration[:, :2]
-        return np.asarray(inertia - _force(model, name, channels) - weight)
+        found = _force(model, name, on_body[name], channels)
+        for column, weight in enumerate((0.0, -masses[name] * model.scene.gravity)):
+            inertia = masses[name] * motions[name].acceleration[:, column]
+            found[:, column] = inertia - found[:, column] - weight
+        return found
 
     for name in sorted(model.holding.sliding):
         across = held(name) @ np.array(guides[name].across)
-        moment = -_moment(model, name, motions[name].position[:, 2], channels, states)
+        angle = motions[name].position[:, 2]
+        moment = -_moment(model, name, on_body[name], angle, channels, states)
         found |= guide_channels(model, name, {"force": across, "moment": moment})
-    for name, joint in model.holding.pivoted.items():
+    for name, pivot in model.holding.pivoted.items():
         if name in model.rigid:
-            force = held(name) * (1.0 if joint.journal == name else -1.0)
-            found |= channel("{joint}_force", vectors(force, joint.spherical), joint.name)
+            force = held(name) * (1.0 if pivot.journal == name else -1.0)
+            found |= channel("{joint}_force", vectors(force, pivot.spherical), pivot.name)
     return found
 
 
-def _joints_on(
-    model: Model, name: str, channels: Mapping[str, Channel]
-) -> Iterator[tuple[str, int, Point]]:
-    """Yield the joints on a body whose force is known, at which end of theirs, and where."""
-    for joint in model.mechanism.joints:
-        for end, (body, point) in enumerate(model.mechanism.ends(joint)):
-            if body == name and f"{joint.name}_force" in channels:
-                yield joint.name, end, point
-
-
-def _force(model: Model, name: str, channels: Mapping[str, Channel]) -> Array:
+def _force(
+    model: Model, name: str, joints: Sequence[Held], channels: Mapping[str, Channel]
+) -> Array:
     """Return the force of joints and loads on a body, (n, 2)."""
-    force = np.zeros((2, len(channels["time"].values))).T
-    for joint, end, _ in _joints_on(model, name, channels):
-        force += (1.0, -1.0)[end] * channels[f"{joint}_force"].values[:, :2]
+    force = np.zeros((len(channels["time"].values), 2))
+    for joint, sign, _ in joints:
+        force += sign * channels[f"{joint}_force"].values[:, :2]
     for key, (load, _) in model.loads.items():
         if load.body == name:
             force += np.outer(channels[f"load_{key}_force"].values, load.direction)
@@ -79,6 +83,7 @@ def _force(model: Model, name: str, channels: Mapping[str, Channel]) -> Array:
 def _moment(
     model: Model,
     name: str,
+    joints: Sequence[Held],
     angle: Array,
     channels: Mapping[str, Channel],
     states: Mapping[str, JointHistory],
@@ -86,11 +91,11 @@ def _moment(
     """Return the moment about its centre, (n,), of joints and loads on a body at an angle (n,)."""
     cos, sin = np.cos(angle), np.sin(angle)
     moment = np.zeros(len(angle))
-    for joint, end, (x, y) in _joints_on(model, name, channels):
-        on_body = (1.0, -1.0)[end] * channels[f"{joint}_force"].values
+    for joint, sign, (x, y) in joints:
+        on_body = sign * channels[f"{joint}_force"].values
         moment += (x * cos - y * sin) * on_body[:, 1] - (x * sin + y * cos) * on_body[:, 0]
         if joint in states:
-            moment += states[joint].moments_in_plane[:, end]
+            moment += states[joint].moments_in_plane[:, 0 if sign > 0.0 else 1]
     for key, (load, _) in model.loads.items():
         if load.body == name:
             moment += load.moment(channels[f"load_{key}_force"].values, angle)

@@ -65,7 +65,8 @@ def evaluate(x: Array, coefficients: Array, at: Array | float, derivative: int =
     Returns:
         (..., m), or (...) at one place.
     """
-    left = np.clip(np.searchsorted(x, at, side="right") - 1, 0, len(x) - 2)
+    left = np.searchsorted(x, at, side="right") - 1
+    left = np.minimum(np.maximum(left, 0), len(x) - 2)
     u = at - x[left]
     c0, c1, c2, c3 = (c[..., left] for c in coefficients)
     if derivative:

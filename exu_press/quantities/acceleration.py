@@ -119,8 +119,8 @@ def _means(late: Array, window: float, time: Array, values: Array, sums: Array) 
     part = change[turns] / (change[turns] - change[turns + 1])
     late = np.concatenate([late, late[turns] + part * np.diff(late)[turns]])
     parabolas = hermite(time, sums, values)
-    summed = evaluate(time, parabolas, late) - evaluate(time, parabolas, late - window)
-    return np.asarray(summed / window)
+    after, before = np.split(evaluate(time, parabolas, np.concatenate([late, late - window])), 2)
+    return np.asarray((after - before) / window)
 
 
 def _parts(time: Array, window: float) -> Iterator[slice]:
@@ -134,9 +134,11 @@ def _parts(time: Array, window: float) -> Iterator[slice]:
 
 def _ends(time: Array, window: float) -> Array:
     """Return when windows end that begin or end at a step, increasing; there may be none."""
-    ends = np.sort(np.concatenate([time, time + window]), kind="stable")  # merges the two
-    ends = ends[(ends >= time[0] + window) & (ends <= time[-1])]
-    return np.asarray(ends[np.diff(ends, prepend=-np.inf) > 0.0])
+    ends = np.concatenate([time, time + window])
+    ends.sort(kind="stable")  # merges the two
+    first, last = np.searchsorted(ends, time[0] + window), np.searchsorted(ends, time[-1], "right")
+    ends = ends[first:last]
+    return np.concatenate([ends[:1], ends[1:][ends[1:] > ends[:-1]]])
 
 
 def _change(late: Array, window: float, time: Array, values: Array) -> Array:

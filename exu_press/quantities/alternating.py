@@ -17,7 +17,7 @@ LOADS = frozenset({"m/s^2", "N", "N m", "W"})
 LITTLE = 0.05
 """Part of a channel's largest value that is small."""
 
-AT_ONCE = 4096
+AT_ONCE = 16384
 """Instants that are looked at together: their arrays stay near the processor."""
 
 SHORTEST = 7

@@ -123,3 +123,26 @@ def test_a_record_read_in_parts_has_the_same_means(monkeypatch):
         assert (mean_peak(time, values), mean_peak_of(time, values)) == pytest.approx(
             whole, rel=1e-12
         )
+
+
+@pytest.mark.parametrize("window", [1e-4, 1e-3, 1e-2])
+def test_no_larger_mean_is_left_out(window):
+    """Of a load with peaks of all widths, against windows everywhere."""
+    random = np.random.default_rng(2)
+    time = np.cumsum(random.uniform(1e-6, 6e-5, 6000))
+    width = 10.0 ** random.uniform(-5.0, -2.0, 200)
+    place, height = random.uniform(0.0, time[-1], 200), random.normal(size=200)
+    values = (height * np.exp(-(((time[:, None] - place) / width) ** 2))).sum(axis=1)
+    steps = np.diff(time)
+    summed = np.append(0.0, np.cumsum(0.5 * steps * (values[1:] + values[:-1])))
+
+    def until(at):
+        row = np.clip(np.searchsorted(time, at, side="right") - 1, 0, len(steps) - 1)
+        into = at - time[row]
+        slope = (values[row + 1] - values[row]) / steps[row]
+        return summed[row] + into * (values[row] + 0.5 * slope * into)
+
+    ends = np.linspace(time[0] + window, time[-1], 200_000)
+    everywhere = np.abs(until(ends) - until(ends - window)).max() / window
+    assert mean_peak_of(time, values, window) == pytest.approx(everywhere, rel=1e-5)
+    assert mean_peak_of(time, values, window) >= everywhere * (1.0 - 1e-12)

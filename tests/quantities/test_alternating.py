@@ -5,7 +5,7 @@ import pytest
 
 from exu_press import Scene, simulate
 from exu_press.quantities import alternating, quantity_of
-from exu_press.quantities.alternating import steady
+from exu_press.quantities.alternating import largest, steady
 from exu_press.quantities.value import numbers_of
 
 
@@ -59,3 +59,15 @@ def test_a_record_read_in_parts_is_the_same(run, monkeypatch):
     assert not np.array_equal(whole, values)
     monkeypatch.setattr(alternating, "AT_ONCE", 50)
     assert np.array_equal(steady(run.time, values), whole)
+
+
+@pytest.mark.parametrize("at_once", [7, 50, 10_000])
+def test_the_largest_is_that_of_the_steady_load(run, monkeypatch, at_once):
+    """The last parts of a record are those of the whole."""
+    monkeypatch.setattr(alternating, "AT_ONCE", at_once)
+    for count in (3, 7, 8, 15, 51, len(run.time)):
+        time, values = run.time[:count], (smooth(run) + 300.0 * signs(run))[:count]
+        found, expected = largest(time, values), steady(time, values)
+        assert np.array_equal(found.columns, np.abs(expected).max(axis=0))
+        assert found.length == np.linalg.norm(expected, axis=1).max()
+        assert largest(time, values[:, 0]).length == found.columns[0]

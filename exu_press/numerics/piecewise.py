@@ -9,7 +9,10 @@ import numpy as np
 
 from exu_press.numerics.arrays import Array
 
-__all__ = ["evaluate", "hermite", "integral", "spline"]
+__all__ = ["evaluate", "hermite", "integral", "slopes", "spline"]
+
+AT_ONCE = 16384
+"""Places whose slopes are worked out together."""
 
 
 def hermite(x: Array, values: Array, slopes: Array) -> Array:
@@ -76,4 +79,23 @@ def evaluate(x: Array, coefficients: Array, at: Array | float, derivative: int =
 
 def integral(x: Array, values: Array) -> Array:
     """Return the integral (n,) from x[0] to each x (n,), straight between the values (n,)."""
-    return np.concatenate([[0.0], np.cumsum(0.5 * np.diff(x) * (values[1:] + values[:-1]))])
+    found, steps = np.zeros(len(x)), np.diff(x)
+    steps *= 0.5
+    steps *= values[1:] + values[:-1]
+    np.cumsum(steps, out=found[1:])
+    return found
+
+
+def slopes(x: Array, values: Array) -> Array:
+    """Return the slopes (n,) of values (n,) at x (n,), as `numpy.gradient`.
+
+    Part by part: of a long record its dozen arrays would not stay near the processor.
+    """
+    found = np.empty(len(x))
+    for begin in range(0, len(x), AT_ONCE):
+        end = begin + AT_ONCE
+        first = max(begin - 1, 0)
+        found[begin:end] = np.gradient(values[first : end + 1], x[first : end + 1])[
+            begin - first : end - first
+        ]
+    return found

@@ -7,7 +7,7 @@ import numpy as np
 
 from exu_press.mechanism import Guide
 from exu_press.numerics.arrays import Array
-from exu_press.numerics.piecewise import integral
+from exu_press.numerics.piecewise import integral, slopes
 from exu_press.quantities.acceleration import mean_peak_of, peak
 from exu_press.quantities.kind import (
     DIFFERENCE,
@@ -21,6 +21,7 @@ from exu_press.quantities.kind import (
 from exu_press.quantities.quantity import Extreme, Place, Quantity, always
 from exu_press.quantities.reading import Reading
 from exu_press.result.channel import guide_channel
+from exu_press.result.channels import part_of
 from exu_press.scene import Scene, mechanism_of
 
 __all__ = ["DRIVE", "GUIDES", "LOADS", "SHAKING"]
@@ -67,7 +68,11 @@ def _sliding_power(run: Reading, guide: Guide) -> float | None:
     force = _of_guide(run, guide.body, "force")
     if force is None or len(run.time) < 2:
         return None
-    power = np.gradient(run.result.path(guide.body) @ np.array(guide.direction), run.time)
+    index, direction = run.result.bodies.index(guide.body), np.array(guide.direction)
+    place = part_of(
+        run.result.channels, "body_position", lambda values: values[:, index, :2] @ direction
+    )
+    power = slopes(run.time, place)
     power *= force
     return run.mean(np.abs(power, out=power))
 

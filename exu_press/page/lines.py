@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from exu_press.page.document import Live, data_element, document_of, scripts, styles
+from exu_press.page.document import Live, data_element, document_of, has_library, scripts, styles
 from exu_press.plots.style import colour_of
 from exu_press.plots.typesetting import typeset
 
@@ -50,8 +50,10 @@ class Panel:
     lines: Sequence[Line]
 
 
-def lines_viewer(panels: Sequence[Panel]) -> Live:
-    """Return the live part of a page of curves."""
+def lines_viewer(panels: Sequence[Panel]) -> Live | None:
+    """Return the live part of a page of curves; nothing without the extra `page`, or curves."""
+    if not panels or not has_library():
+        return None
     data = document_of([_figure(panel) for panel in panels])
     parts = [_head(panel, number) for number, panel in enumerate(panels)]
     body = (

@@ -5,12 +5,12 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.page import Live, has_library
+from exu_press.page import Live
+from exu_press.page.lines import Line, Panel, lines_viewer
 from exu_press.plots.words import ONE_LINE, describe
 from exu_press.report.html import paragraph, table
 from exu_press.report.study import reading, study_page
 from exu_press.scene import Scene
-from exu_press.schema.stored import from_json
 from exu_press.studies.fit.lines import inexact
 from exu_press.studies.fit.profile import between
 from exu_press.studies.sweep.units import unit_of, with_unit
@@ -20,11 +20,10 @@ __all__ = ["fit_report"]
 
 def fit_report(file: Path) -> str:
     """Return the page of a fit, from fit.json and fitted.toml beside it."""
-    with reading(file, "a fit of exu_press"):
-        told = from_json(dict[str, Any], file.read_bytes(), file.name)
+    with reading(file, "a fit of exu_press") as told:
         keys = [_key(name, one) for name, one in told["keys"].items()]
         numbers = [_number(one) for one in told["measured"]]
-        live = _live(told) if has_library() else None
+        live = _live(told)
         inexact_runs = inexact(told["largest_error_over_uncertainty"])
         chi_square = f"{told['chi_square']:.4g} with {told['degrees_of_freedom']:g}"
     scene = Scene.load(file.parent / "fitted.toml", [])
@@ -63,8 +62,6 @@ def _number(one: dict[str, Any]) -> list[str]:
 
 def _live(told: dict[str, Any]) -> Live | None:
     """Return the curves, the numbers in uncertainties, and chi-square over each key."""
-    from exu_press.page.lines import Line, Panel, lines_viewer
-
     panels = [
         Panel(
             f"Curve {name}",
@@ -96,4 +93,4 @@ def _live(told: dict[str, Any]) -> Live | None:
         panels.append(
             Panel(f"How well {name} is determined", with_unit(name), "chi-square", [line, fits])
         )
-    return lines_viewer(panels) if panels else None
+    return lines_viewer(panels)

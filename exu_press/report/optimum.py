@@ -3,13 +3,13 @@
 from pathlib import Path
 from typing import Any
 
-from exu_press.page import Live, has_library
+from exu_press.page import Live
+from exu_press.page.study import Column, study_viewer
 from exu_press.plots.words import ONE_LINE, describe
 from exu_press.report.html import table
 from exu_press.report.study import reading, study_page
 from exu_press.scene import Scene
 from exu_press.schema.csv_table import read_csv
-from exu_press.schema.stored import from_json
 from exu_press.studies.sweep.units import unit_of, with_unit
 
 __all__ = ["optimum_report"]
@@ -19,8 +19,7 @@ FRONT = "front"
 
 def optimum_report(file: Path) -> str:
     """Return the page of an optimum, from optimise.json, trials.csv and the scenes beside it."""
-    with reading(file, "an optimum of exu_press"):
-        told = from_json(dict[str, Any], file.read_bytes(), file.name)
+    with reading(file, "an optimum of exu_press") as told:
         columns = read_csv(file.parent / "trials.csv")
         head = list(columns)
         trials = [dict(zip(head, row, strict=True)) for row in zip(*columns.values(), strict=True)]
@@ -29,7 +28,7 @@ def optimum_report(file: Path) -> str:
         keys = list(front[chosen])
         places = [_place(front, trial, keys) for trial in trials]
     scene = Scene.load(file.parent / "chosen.toml", [])
-    live = _live(head, trials, keys, places) if has_library() else None
+    live = _live(head, trials, keys, places)
     rows = [
         [str(run), *(_shown(trial[name]) for name in head[:-1]), _of_front(place, chosen)]
         for run, (trial, place) in enumerate(zip(trials, places, strict=True))
@@ -48,9 +47,8 @@ def optimum_report(file: Path) -> str:
 
 def _live(
     head: list[str], trials: list[dict[str, Any]], keys: list[str], places: list[int | None]
-) -> Live:
+) -> Live | None:
     """Return the trials as points; one of the front opens with its scene."""
-    from exu_press.page.study import Column, study_viewer
 
     def column(name: str) -> Column:
         return Column(name, unit_of(name), [trial[name] for trial in trials])

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from exu_press.page import Live, has_library
+from exu_press.page import Live
+from exu_press.page.viewer import viewer
 from exu_press.plots import save_pictures
 from exu_press.plots.words import ONE_LINE, describe, joint_in_words
 from exu_press.quantities import Quantity, value_of
@@ -95,10 +96,6 @@ def run_report(result: Result, source: str, span: Span = ALL) -> str:
 def live_part(results: Mapping[str, Result], span: Span = ALL) -> Live | None:
     """Return the live part of the page of runs; nothing without the extra `page`."""
     ends = {label: interval(result, *span) for label, result in results.items()}
-    if not has_library():
-        return None
-    from exu_press.page.viewer import viewer
-
     return viewer(results, ends if span != ALL else None)
 
 

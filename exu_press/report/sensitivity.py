@@ -3,7 +3,8 @@
 from pathlib import Path
 from typing import Any
 
-from exu_press.page import Live, has_library
+from exu_press.page import Live
+from exu_press.page.study import Column, study_viewer
 from exu_press.plots.words import ONE_LINE, describe
 from exu_press.quantities.catalogue import declared
 from exu_press.report.html import table
@@ -21,9 +22,8 @@ SHARES = ("key", "alone", "with others", "at its 5 %", "at its 95 %")
 
 def sensitivity_report(file: Path) -> str:
     """Return the page of a sensitivity study, from sensitivity.json and samples.csv beside it."""
-    with reading(file, "a sensitivity study of exu_press"):
+    with reading(file, "a sensitivity study of exu_press") as told:
         study = from_json(dict[str, Any], file.with_name("study.json").read_bytes(), "study.json")
-        told = from_json(dict[str, Any], file.read_bytes(), file.name)
         scene, keys = Scene.from_dict(study["scene"]), list(study["keys"])
         samples = read_csv(file.with_name("samples.csv"))
         quantities = told["quantities"]
@@ -33,7 +33,7 @@ def sensitivity_report(file: Path) -> str:
             for name, one in quantities.items()
             if one["moves"]
         ]
-        live = _live(samples, keys, quantities) if has_library() else None
+        live = _live(samples, keys, quantities)
         runs = str(told["runs"][0])
     return study_page(
         file,
@@ -78,9 +78,8 @@ def _shares(name: str, one: dict[str, Any]) -> list[list[str]]:
 
 def _live(
     samples: dict[str, tuple[Value, ...]], keys: list[str], quantities: dict[str, Any]
-) -> Live:
+) -> Live | None:
     """Return the presses of the sample as points, a quantity over the key that decides it."""
-    from exu_press.page.study import Column, study_viewer
 
     def column(name: str) -> Column:
         return Column(name, unit_of(name), samples[name])

@@ -11,6 +11,7 @@ from exu_press.page import Live
 from exu_press.report.html import page, paragraph, picture, stills
 from exu_press.report.run import scene_parts
 from exu_press.scene import Scene
+from exu_press.schema.stored import from_json
 
 __all__ = ["command_of", "reading", "study_page"]
 
@@ -18,10 +19,11 @@ WRONG = (ValueError, KeyError, IndexError, TypeError, AttributeError)
 
 
 @contextmanager
-def reading(file: Path, wanted: str) -> Iterator[None]:
-    """Turn whatever is wrong with a study's files into an InputError."""
+def reading(file: Path, wanted: str, name: str = "") -> Iterator[Any]:
+    """Yield a study's JSON, of its file or another one beside it; its faults are InputErrors."""
     try:
-        yield
+        told = file.with_name(name) if name else file
+        yield from_json(dict[str, Any], told.read_bytes(), told.name)
     except OSError as error:
         raise InputError(f"{error.filename}: cannot be read ({error.strerror})") from None
     except WRONG as error:

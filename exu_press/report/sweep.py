@@ -4,10 +4,10 @@ import shlex
 import tempfile
 from collections import Counter
 from pathlib import Path
-from typing import Any
 
 from exu_press.errors import InputError
-from exu_press.page import Live, has_library
+from exu_press.page import Live
+from exu_press.page.study import Column, study_viewer
 from exu_press.plots.file import save_figures
 from exu_press.plots.sweep import sweep_figures
 from exu_press.plots.words import ONE_LINE, describe
@@ -19,7 +19,6 @@ from exu_press.report.study import command_of, reading
 from exu_press.scene.warnings import scene_warnings
 from exu_press.schema.checks import table_from
 from exu_press.schema.csv_table import read_csv
-from exu_press.schema.stored import from_json
 from exu_press.studies.sweep import Sweep, Table
 from exu_press.studies.sweep.lines import shown
 from exu_press.studies.sweep.table import cell
@@ -77,9 +76,8 @@ def _live(runs: Table) -> Live | None:
         and len(set(runs[name])) > 1
     ]
     names = list(dict.fromkeys([*shown_first, *numeric]))
-    if not has_library() or not names:
+    if not names:
         return None
-    from exu_press.page.study import Column, study_viewer
 
     def column(name: str) -> Column:
         errors = [runs.error(name, run) for run in range(len(runs))]
@@ -102,8 +100,7 @@ def _command(runs: Table, run: int) -> str:
 
 def _table(file: Path) -> Table:
     """Return the table that a sweep wrote; columns that its runs lack stay empty."""
-    with reading(file, "a sweep of exu_press"):
-        told = from_json(dict[str, Any], file.with_name("study.json").read_bytes(), "study.json")
+    with reading(file, "a sweep of exu_press", "study.json") as told:
         study, columns = table_from(Sweep, "", told), read_csv(file)
     asked = {name: tuple(cell(point[name]) for point in study.points) for name in study.keys}
     if not {"status", "reason"} <= set(columns) or any(columns.get(n) != asked[n] for n in asked):

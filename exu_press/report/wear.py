@@ -3,11 +3,11 @@
 from pathlib import Path
 from typing import Any
 
-from exu_press.page import Live, has_library
+from exu_press.page import Live
+from exu_press.page.study import Column, study_viewer
 from exu_press.quantities.uncertain import significant
 from exu_press.report.html import table
 from exu_press.report.study import reading, study_page
-from exu_press.schema.stored import from_json
 from exu_press.studies.sweep.units import unit_of, with_unit
 
 __all__ = ["wear_report"]
@@ -15,15 +15,14 @@ __all__ = ["wear_report"]
 
 def wear_report(file: Path) -> str:
     """Return the page of a wear study, from wear.json."""
-    with reading(file, "a wear study of exu_press"):
-        told = from_json(dict[str, Any], file.read_bytes(), file.name)
+    with reading(file, "a wear study of exu_press") as told:
         strokes = [float(each) for each in told["strokes"]]
         curves = _curves(told)
         rows = [
             [f"{n:.6g}", f"{jump:.4g}", *(_cell(values[i]) for _, _, values in curves)]
             for i, (n, jump) in enumerate(zip(strokes, told["jump"], strict=True))
         ]
-        live = _live(strokes, curves) if has_library() and len(strokes) > 1 else None
+        live = _live(strokes, curves) if len(strokes) > 1 else None
         ended = f"; {told['reason']}" if told["reason"] else ""
     head = ("strokes", "jump", *(with_unit(name, unit) for name, unit, _ in curves))
     return study_page(
@@ -51,9 +50,7 @@ def _cell(value: float | None) -> str:
     return "" if value is None else f"{value:.6g}"
 
 
-def _live(strokes: list[float], curves: list[tuple[str, str, list[float | None]]]) -> Live:
-    from exu_press.page.study import Column, study_viewer
-
+def _live(strokes: list[float], curves: list[tuple[str, str, list[float | None]]]) -> Live | None:
     columns = [Column(name, unit, values) for name, unit, values in curves]
     told = [f"after {n:.6g} strokes" for n in strokes]
     kind = Column("study", "", ["wear"] * len(strokes))

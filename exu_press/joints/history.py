@@ -76,16 +76,12 @@ class JointHistory:
         return [self.moments.shape[1] // 2 - 1, -1]
 
 
-def nothing(joint: ClearanceJoint) -> None:
-    """Return a joint's memory at the start of a run: none."""
-
-
 def histories(
     joints: Mapping[str, ClearanceJoint],
     time: Array,
     q: Array,
     q_t: Array,
-    begun: Callable[[ClearanceJoint], list[Any] | None] = nothing,
+    begun: Callable[[ClearanceJoint], list[Any] | None] = lambda joint: None,
     rubbing: Collection[str] = (),
 ) -> dict[str, JointHistory]:
     """Return the records of joints over recorded steps.

@@ -10,7 +10,7 @@ import exudyn as exu
 
 from exu_press.integrate import ARRIVED, Outcome, SolverTuning
 from exu_press.joints.guide_friction import GuideFriction
-from exu_press.laws.load_curve import Clock
+from exu_press.laws.sheet import Clock
 from exu_press.mechanism.section import Section
 from exu_press.model.drive import CrankAngle
 from exu_press.model.loads import Place, force_at, next_corner, torque_wanted

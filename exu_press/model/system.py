@@ -15,7 +15,7 @@ from exudyn.itemInterface import (
     ObjectGround,
 )
 
-from exu_press.laws.load_curve import Clock
+from exu_press.laws.sheet import Clock
 from exu_press.mechanism import GROUND, Joint, Mechanism, Point, Spring
 from exu_press.mechanism.holding import by_constraints, holding_of
 from exu_press.model.rigid_body import RigidBody

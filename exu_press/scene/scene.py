@@ -31,7 +31,7 @@ from exu_press.scene.joint import (
     oil_of,
     refuse_missing_damping,
 )
-from exu_press.scene.joint_changes import by_group, kinds_of, unused_laws
+from exu_press.scene.joint_changes import by_group, unused_laws
 from exu_press.scene.joints import Joints, joints_of
 from exu_press.scene.load import Load
 from exu_press.scene.loads import load_dict, loads_of
@@ -200,7 +200,7 @@ class Scene(Table):
         spherical = {joint.name: joint.spherical for joint in mechanism.joints}
         joints = joints_of(given, mechanism.name, spherical, mechanism.groups, complete, sizes)
         object.__setattr__(self, "joints", joints)
-        unused = unused_laws(kinds_of(joints, None))
+        unused = unused_laws(joints.values())
         contact = complete["contact"]
         assert isinstance(contact, Contact)
         of_guides = {} if self.guide is None else self.guide.laws(contact)

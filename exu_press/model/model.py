@@ -121,10 +121,7 @@ class Model(Assembled):
 
     def has_stood(self, time: float) -> bool:
         """Return whether the press has stood at a time, s, for as long as its scene asks for."""
-        motor = self.scene.drive
-        if self.start_stop is None or motor is None or motor.ends_after is None:
-            return False
-        return self.start_stop.stood(time) >= motor.ends_after * (1.0 - 1e-9)
+        return self.start_stop is not None and self.start_stop.over(time)
 
     def watch(self, time: float) -> str:
         """Return why the press goes no further, after a step that ends at a time, s, or nothing."""

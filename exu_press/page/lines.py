@@ -1,13 +1,19 @@
 """Curves that zoom each by itself: measured beside computed, and how far keys are determined."""
 
-import html
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from exu_press.page.document import Live, data_element, document_of, has_library, scripts, styles
+from exu_press.page.document import (
+    Live,
+    data_element,
+    document_of,
+    escaped,
+    has_library,
+    scripts,
+    styles,
+)
 from exu_press.plots.style import colour_of
-from exu_press.plots.typesetting import typeset
 
 __all__ = ["Line", "Panel", "lines_viewer"]
 
@@ -69,19 +75,16 @@ def lines_viewer(panels: Sequence[Panel]) -> Live | None:
 def _head(panel: Panel, number: int) -> str:
     """Return a panel's place with its words; texts stand outside the library's canvas."""
     legend = "".join(
-        f'<span class="value" style="--run: {colour_of(place)}">{_text(line.label)}</span> '
+        f'<span class="value" style="--run: {colour_of(place)}">{escaped(line.label)}</span> '
         for place, line in enumerate(panel.lines)
     )
+    title = escaped(panel.title)
     return (
-        f"<h3>{_text(panel.title)}</h3><p>{legend}</p>"
-        f'<div id="lines-{number}" class="plot" role="img" aria-label="{_text(panel.title)}"></div>'
-        f'<p class="told">across: {_text(panel.across)}; up: {_text(panel.up)} '
+        f"<h3>{title}</h3><p>{legend}</p>"
+        f'<div id="lines-{number}" class="plot" role="img" aria-label="{title}"></div>'
+        f'<p class="told">across: {escaped(panel.across)}; up: {escaped(panel.up)} '
         f'<output id="at-{number}"></output></p>'
     )
-
-
-def _text(text: str) -> str:
-    return html.escape(typeset(text))
 
 
 def _figure(panel: Panel) -> Any:

@@ -87,7 +87,7 @@ def run_report(result: Result, source: str, span: Span = ALL) -> str:
             ("Warnings", warnings(warnings_of(summary))),
             ("Results", table(("quantity", "value"), numbers) + joint_table(result)),
             ("Pictures", stills(_pictures(result), live)),
-            ("Energy and solver", _energy(result) + _statistics(result)),
+            ("Energy and solver", _energy_and_solver(result)),
             *scene_parts(result.scene),
         ],
     )
@@ -156,15 +156,10 @@ def _pictures(result: Result) -> str:
     return "\n".join(shown)
 
 
-def _energy(result: Result) -> str:
-    if not has_balance(result):
-        return ""
-    return _listed(result, BALANCE, "Energy")
-
-
-def _statistics(result: Result) -> str:
+def _energy_and_solver(result: Result) -> str:
+    energy = _listed(result, BALANCE, "Energy") if has_balance(result) else ""
     versions = [[f"version of {name}", text] for name, text in result.info["versions"].items()]
-    return _listed(result, COSTS, "Solver", versions)
+    return energy + _listed(result, COSTS, "Solver", versions)
 
 
 def _listed(

@@ -152,18 +152,17 @@ def used_assumptions(scene: Scene) -> dict[Assumption, tuple[Key, ...]]:
     for assumption in ASSUMPTIONS:
         if scene.press is None and assumption.number not in OF_EVERY_SCENE:
             continue
-        left = tuple(key for name, key in keys.items() if _named(name, assumption))
-        left = tuple(key for key in left if key.assumed)
+        left = tuple(
+            key
+            for name, key in keys.items()
+            if key.assumed and any(fnmatchcase(name, pattern) for pattern in assumption.keys)
+        )
         ideal = scene.guide is None or not scene.guide.soft
         by_absence = assumption.keys == ("guide",) and ideal
         by_kind = assumption.keys == ("press",) and scene.press is not None
         if left or by_absence or by_kind:
             used[assumption] = left
     return used
-
-
-def _named(key: str, assumption: Assumption) -> bool:
-    return any(fnmatchcase(key, pattern) for pattern in assumption.keys)
 
 
 def engineering_values(scene: Scene) -> list[Key]:

@@ -30,10 +30,7 @@ __all__ = [
     "Response",
 ]
 
-Partials = tuple[
-    tuple[float, float, float, float, float],
-    tuple[float, float, float, float, float],
-]
+Partials = tuple[tuple[float, float, float, float, float], tuple[float, float, float, float, float]]
 """Derivatives of f_n and of f_t with respect to (|e|, d|e|/dt, v_t, omega_J, omega_B)."""
 
 Arms = tuple[float, float, float, float]
@@ -123,11 +120,7 @@ class DryInterface(InterfaceLaw):
     """
 
     def __init__(
-        self,
-        contact: NormalContact,
-        friction: Friction | LuGre,
-        radius: float,
-        clearance: float,
+        self, contact: NormalContact, friction: Friction | LuGre, radius: float, clearance: float
     ) -> None:
         """Let two surfaces touch.
 

@@ -26,13 +26,7 @@ from exu_press.mechanism.holding import SingleAxis
 from exu_press.model.system import System
 from exu_press.scene import DryJoint, LubricatedJoint
 from exu_press.scene.joint import LooseJoint, unworn
-from exu_press.scene.laws import (
-    ball_film,
-    contact_law,
-    film_law,
-    film_scale_of,
-    friction_law,
-)
+from exu_press.scene.laws import ball_film, contact_law, film_law, film_scale_of, friction_law
 from exu_press.scene.own_joint import OwnJoint
 
 if TYPE_CHECKING:

@@ -3,14 +3,7 @@
 from functools import cache
 from typing import Any
 
-from bokeh.models import (
-    BoxZoomTool,
-    ColumnDataSource,
-    FixedTicker,
-    PanTool,
-    Range1d,
-    WheelZoomTool,
-)
+from bokeh.models import BoxZoomTool, ColumnDataSource, FixedTicker, PanTool, Range1d, WheelZoomTool
 from bokeh.models.annotations import Whisker
 from bokeh.plotting import figure
 

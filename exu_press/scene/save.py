@@ -20,14 +20,7 @@ from exu_press.schema.toml import toml_text
 Laws = Mapping[str, Table | None]
 """The scene's own "contact", "friction" and "film"."""
 
-__all__ = [
-    "body_lines",
-    "joint_lines",
-    "load_lines",
-    "save_scene",
-    "section_lines",
-    "table_lines",
-]
+__all__ = ["body_lines", "joint_lines", "load_lines", "save_scene", "section_lines", "table_lines"]
 
 
 def save_scene(

@@ -24,13 +24,7 @@ from exu_press.scene.built import Built
 from exu_press.scene.changes import asked_mechanism, changed_keys, drop, named
 from exu_press.scene.elastic import with_elastic_guides
 from exu_press.scene.file import parse_assignment, scene_tables
-from exu_press.scene.joint import (
-    LAW_TABLES,
-    SIZES,
-    joint_dict,
-    oil_of,
-    refuse_missing_damping,
-)
+from exu_press.scene.joint import LAW_TABLES, SIZES, joint_dict, oil_of, refuse_missing_damping
 from exu_press.scene.joint_changes import by_group, unused_laws
 from exu_press.scene.joints import Joints, joints_of
 from exu_press.scene.load import Load

@@ -88,14 +88,14 @@ def _head(panel: Panel, number: int) -> str:
 
 
 def _figure(panel: Panel) -> Any:
-    from bokeh.models import BoxZoomTool, ColumnDataSource, PanTool, Range1d, WheelZoomTool
+    from bokeh.models import ColumnDataSource, Range1d
     from bokeh.models.annotations import Whisker
     from bokeh.plotting import figure
 
+    from exu_press.page.figures import let_zoom
+
     made = figure(height=300, sizing_mode="stretch_width", tools=[], toolbar_location=None)
-    zoom, wheel = BoxZoomTool(), WheelZoomTool(modifiers={"ctrl": True})
-    made.add_tools(zoom, wheel, PanTool())
-    made.toolbar.active_drag, made.toolbar.active_scroll = zoom, wheel
+    let_zoom(made)
     heights = [y for line in panel.lines for y in (*line.y, *(line.low or ()), *(line.high or ()))]
     if heights:
         margin = 0.08 * (max(heights) - min(heights)) or 0.08 * abs(heights[0]) or 1.0

@@ -58,7 +58,7 @@ def study_viewer(
     """
     if not has_library():
         return None
-    from exu_press.page.study_figures import points_and_lines
+    from exu_press.page.figures import points_and_lines
 
     blocks = Blocks()
     columns = [*keys, *quantities]

@@ -11,6 +11,7 @@ from exu_press.plots.words import ONE_LINE, describe
 from exu_press.report.html import paragraph, table
 from exu_press.report.study import reading, study_page
 from exu_press.scene import Scene
+from exu_press.scene.file import scene_tables
 from exu_press.studies.fit.lines import inexact
 from exu_press.studies.fit.profile import between
 from exu_press.studies.sweep.units import unit_of, with_unit
@@ -26,7 +27,7 @@ def fit_report(file: Path) -> str:
         live = _live(told)
         inexact_runs = inexact(told["largest_error_over_uncertainty"])
         chi_square = f"{told['chi_square']:.4g} with {told['degrees_of_freedom']:g}"
-    scene = Scene.load(file.parent / "fitted.toml", [])
+    scene = Scene.from_dict(scene_tables(file.parent / "fitted.toml"))  # complete: nothing is asked
     return study_page(
         file,
         f"Fit: {describe([scene], ONE_LINE)}",

@@ -9,6 +9,7 @@ from exu_press.plots.words import ONE_LINE, describe
 from exu_press.report.html import table
 from exu_press.report.study import reading, study_page
 from exu_press.scene import Scene
+from exu_press.scene.file import scene_tables
 from exu_press.schema.csv_table import read_csv
 from exu_press.studies.sweep.units import unit_of, with_unit
 
@@ -27,7 +28,7 @@ def optimum_report(file: Path) -> str:
         chosen = int(told["chosen"])
         keys = list(front[chosen])
         places = [_place(front, trial, keys) for trial in trials]
-    scene = Scene.load(file.parent / "chosen.toml", [])
+    scene = Scene.from_dict(scene_tables(file.parent / "chosen.toml"))  # complete: nothing is asked
     live = _live(head, trials, keys, places)
     rows = [
         [str(run), *(_shown(trial[name]) for name in head[:-1]), _of_front(place, chosen)]

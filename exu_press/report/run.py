@@ -102,7 +102,7 @@ def live_part(results: Mapping[str, Result], span: Span = ALL) -> Live | None:
 def changed_keys(scene: Scene) -> str:
     """Return a table of the keys that a scene gives."""
     keys = keys_of(scene).values()
-    changed = [_row(key.name, key.value, key.unit, key.meaning) for key in keys if not key.assumed]
+    changed = [_row(key.name, key.value, key.unit, key.meaning) for key in keys if key.changed]
     if not changed:
         return paragraph("Every key is at its default.")
     return table(HEAD, changed, "Keys that differ from their defaults")

@@ -149,17 +149,13 @@ def _press(system: System, name: str, load: AppliedLoad, function: Any) -> None:
 
 def _place(system: System, load: AppliedLoad) -> Place:
     """Return where on its curve a load is."""
-    scene = system.scene
     if load.over == "time":
         return lambda time: (time, 1.0)
     if load.clock is not None:
         return _since_the_beginning(system, load.clock)
     if load.over == "crank_angle_deg":
-        if scene.drive is not None:
-            angle = crank_angle_of(system)
-            return lambda time: angle()
-        start, speed = scene.start_angle, scene.angular_speed
-        return lambda time: (start + speed * time, speed)
+        angle = crank_angle_of(system)
+        return lambda time: angle()
     return _height(system)
 
 

@@ -95,8 +95,9 @@ class Model(Assembled):
             soonest = min(soonest, self.start_stop.next_corner(time))
         if self._sampled is None:
             return soonest
-        speed = self.scene.angular_speed
-        return min(soonest, self._sampled.after(speed * time, CLOSE) / speed)
+        turned = self.crank_angle()[0] - self.scene.start_angle
+        way = self._sampled.after(turned, CLOSE) - turned
+        return min(soonest, time + way / self.scene.angular_speed)
 
     @cached_property
     def _sampled(self) -> Section | None:

@@ -95,6 +95,7 @@ def _frequencies(panel: Axes, each: Spectra) -> None:
     draw_spectrum(panel, each.over_time, each.unit)
     panel.set_xscale("log")
     panel.set_xlim(each.over_time.frequency[0], each.over_time.frequency[-1])
+    panel.legend(loc="lower left")
     panel.set_title("spectrum of the slider's acceleration")
     panel.set_xlabel("frequency, Hz")
 

@@ -22,7 +22,7 @@ class Column:
 
     Attributes:
         name: of the key or quantity.
-        unit: SI; "" where it has none.
+        unit: of the values; "" where they have none.
         values: a number, a text, or None of a run that has none.
         low: least values, where errors are known.
         high: largest values, likewise.

@@ -7,8 +7,9 @@ from exu_press.page import Live
 from exu_press.page.study import Column, study_viewer
 from exu_press.plots.words import ONE_LINE, describe
 from exu_press.report.html import table
-from exu_press.report.study import reading, study_page
+from exu_press.report.study import reading, shown_column, study_page
 from exu_press.scene import Scene
+from exu_press.studies.sweep.units import shown_unit
 
 __all__ = ["attractor_report"]
 
@@ -20,9 +21,7 @@ def attractor_report(file: Path) -> str:
     with reading(file, "a motion of exu-press attractor") as told:
         scene = Scene.from_dict(told["scene"])
         found = [["period", str(told["period"]["in_words"])], *_exponent(told)]
-        figures = [
-            _figure(name, told["units"][name], one) for name, one in told["distributions"].items()
-        ]
+        figures = [_figure(name, one) for name, one in told["distributions"].items()]
         live = _live(told)
         length = f"{told['revolutions']} revolutions after {told['skip']}"
         section = f"section at crank angle {told['section_deg']:g} deg"
@@ -60,13 +59,14 @@ def _exponent(told: dict[str, Any]) -> list[list[str]]:
     ]
 
 
-def _figure(name: str, unit: str, one: dict[str, Any]) -> list[str]:
+def _figure(name: str, one: dict[str, Any]) -> list[str]:
+    unit, k = shown_unit(name, [one["mean"]["value"]])
     both = [
-        f"{one[part]['value']:.{digits}g} \N{PLUS-MINUS SIGN} {one[part]['error']:.2g}"
+        f"{k * one[part]['value']:.{digits}g} \N{PLUS-MINUS SIGN} {k * one[part]['error']:.2g}"
         for part, digits in (("mean", 6), ("scatter", 2))
     ]
     shares = [
-        f"{at['value']:.5g} [{at['low']:.5g}, {at['high']:.5g}]"
+        f"{k * at['value']:.5g} [{k * at['low']:.5g}, {k * at['high']:.5g}]"
         for at in one["percentiles"].values()
     ]
     return [name, unit, *both, *shares]
@@ -80,7 +80,7 @@ def _live(told: dict[str, Any]) -> Live | None:
         Column(f"section, coordinate {k + 1}", "", [float(point[k]) for point in points])
         for k in range(len(points[0]))
     ]
-    figures = [Column(name, told["units"][name], each) for name, each in told["figures"].items()]
+    figures = [shown_column(name, each) for name, each in told["figures"].items()]
     first = (section[0].name, section[1 % len(section)].name)
     return study_viewer(
         [Column("revolution", "", numbers)],

@@ -14,7 +14,7 @@ from exu_press.scene import Scene
 from exu_press.scene.file import scene_tables
 from exu_press.studies.fit.lines import inexact
 from exu_press.studies.fit.profile import between
-from exu_press.studies.sweep.units import unit_of, with_unit
+from exu_press.studies.sweep.units import shown_unit, unit_of, with_unit
 
 __all__ = ["fit_report"]
 
@@ -57,8 +57,11 @@ def _key(name: str, one: dict[str, Any]) -> list[str]:
 
 
 def _number(one: dict[str, Any]) -> list[str]:
-    values = (one[part] for part in ("value", "uncertainty", "computed"))
-    return [str(one["name"]), *("-" if value is None else f"{value:.6g}" for value in values)]
+    values = [one[part] for part in ("value", "uncertainty", "computed")]
+    name = str(one["name"])
+    unit, scale = shown_unit(name.partition(", ")[0], values[:1])
+    texts = ("-" if value is None else f"{scale * value:.6g}" for value in values)
+    return [with_unit(name, unit), *texts]
 
 
 def _live(told: dict[str, Any]) -> Live | None:

@@ -4,16 +4,19 @@ import shlex
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from exu_press.errors import InputError
 from exu_press.page import Live
 from exu_press.report.html import page, paragraph, picture, stills
 from exu_press.report.run import scene_parts
 from exu_press.scene import Scene
-from exu_press.schema.stored import from_json
+from exu_press.studies.sweep.units import shown_unit
 
-__all__ = ["command_of", "reading", "study_page"]
+__all__ = ["command_of", "reading", "scaled", "shown_column", "study_page"]
+
+if TYPE_CHECKING:
+    from exu_press.page.study import Column
 
 WRONG = (ValueError, KeyError, IndexError, TypeError, AttributeError)
 
@@ -68,3 +71,22 @@ def command_of(changes: Mapping[str, Any]) -> str:
     """
     told = (f"{name}={value}" for name, value in changes.items() if value is not None)
     return " ".join(["exu-press run SCENE.toml", *(f"--set {shlex.quote(one)}" for one in told)])
+
+
+def shown_column(
+    name: str,
+    values: Sequence[Any],
+    low: Sequence[float | None] | None = None,
+    high: Sequence[float | None] | None = None,
+) -> "Column":
+    """Return a key or a quantity of a study's runs, SI, in the unit that tables show."""
+    from exu_press.page.study import Column
+
+    unit, scale = shown_unit(name, [value for value in values if isinstance(value, float)])
+    ends = (None if each is None else scaled(each, scale) for each in (low, high))
+    return Column(name, unit, scaled(values, scale), *ends)
+
+
+def scaled(values: Sequence[Any], scale: float) -> list[Any]:
+    """Return values with a factor at the numbers among them."""
+    return [scale * value if isinstance(value, float) else value for value in values]

@@ -7,8 +7,8 @@ from exu_press.page import Live
 from exu_press.page.study import Column, study_viewer
 from exu_press.quantities.uncertain import significant
 from exu_press.report.html import table
-from exu_press.report.study import reading, study_page
-from exu_press.studies.sweep.units import unit_of, with_unit
+from exu_press.report.study import reading, scaled, study_page
+from exu_press.studies.sweep.units import shown_unit, with_unit
 
 __all__ = ["wear_report"]
 
@@ -37,13 +37,17 @@ def wear_report(file: Path) -> str:
 def _curves(told: dict[str, Any]) -> list[tuple[str, str, list[float | None]]]:
     """Return name, unit and values of all that is told over the strokes."""
     found = [
-        (f"{name}, largest clearance", "m", joint["clearance"])
+        (f"{name}, largest clearance", "um", scaled(joint["clearance"], 1e6))
         for name, joint in told["joints"].items()
     ]
     found += [
-        (f"guideways of {body}, depth", "m", depths) for body, depths in told["guides"].items()
+        (f"guideways of {body}, depth", "um", scaled(depths, 1e6))
+        for body, depths in told["guides"].items()
     ]
-    return found + [(name, unit_of(name), values) for name, values in told["quantities"].items()]
+    for name, values in told["quantities"].items():
+        unit, scale = shown_unit(name, filter(None, values))
+        found.append((name, unit, scaled(values, scale)))
+    return found
 
 
 def _cell(value: float | None) -> str:

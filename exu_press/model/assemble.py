@@ -132,6 +132,7 @@ def _assembled(
         stall=_stall(system.scene),
         loads=loads,
         clocks=system.clocks,
+        ahead=system.ahead,
         guideways=guideways,
         guide_friction=friction,
         sensors=system.sensors,

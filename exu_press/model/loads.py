@@ -149,13 +149,17 @@ def _press(system: System, name: str, load: AppliedLoad, function: Any) -> None:
 
 def _place(system: System, load: AppliedLoad) -> Place:
     """Return where on its curve a load is."""
+    scene = system.scene
     if load.over == "time":
         return lambda time: (time, 1.0)
     if load.clock is not None:
         return _since_the_beginning(system, load.clock)
     if load.over == "crank_angle_deg":
-        angle = crank_angle_of(system)
-        return lambda time: angle()
+        if scene.drive is not None:
+            angle = crank_angle_of(system)
+            return lambda time: angle()
+        start, speed, ahead = scene.start_angle, scene.angular_speed, system.ahead
+        return lambda time: (start + speed * time + ahead[0], speed)
     return _height(system)
 
 

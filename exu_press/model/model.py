@@ -44,6 +44,7 @@ class Model(Assembled):
         stall: tells whether the press has stalled.
         loads: name -> load that acts, and the function of its place on its curve.
         clocks: of pulses and sheets of loads, and the readers of their state.
+        ahead: angle, rad, by which a crank at constant speed had turned further at time 0, alone.
         remembered: by those, where the run goes on from another one.
         guide_friction: name of a body in a guide without clearance -> its friction there.
         parts: name -> flexible body's part; empty for rigid bodies.
@@ -62,6 +63,7 @@ class Model(Assembled):
     stall: Stall
     loads: Mapping[str, tuple[AppliedLoad, Place]]
     clocks: list[tuple[Clock, Place]]
+    ahead: list[float]
     guide_friction: Mapping[str, GuideFriction]
     parts: Mapping[str, "PlacedPart"]
     made: int
@@ -95,9 +97,8 @@ class Model(Assembled):
             soonest = min(soonest, self.start_stop.next_corner(time))
         if self._sampled is None:
             return soonest
-        turned = self.crank_angle()[0] - self.scene.start_angle
-        way = self._sampled.after(turned, CLOSE) - turned
-        return min(soonest, time + way / self.scene.angular_speed)
+        speed, (ahead,) = self.scene.angular_speed, self.ahead
+        return min(soonest, (self._sampled.after(speed * time + ahead, CLOSE) - ahead) / speed)
 
     @cached_property
     def _sampled(self) -> Section | None:

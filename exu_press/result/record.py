@@ -60,7 +60,9 @@ def record(model: Model, outcome: Outcome) -> Result:
     states = joint_states(model, time)
     in_joints, stored_in_joints, lost_in_joints = record_joints(model, states, time)
     channels |= held_forces(model)
-    angle = turned.position[:, 2] - drawn
+    angle = scene.start_angle + scene.angular_speed * time + model.ahead[0]
+    if scene.drive is not None:
+        angle = turned.position[:, 2] - drawn
     slider_motion = channels["slider_position"].values, channels["slider_velocity"].values
     loads, work_of_loads = record_loads(
         model, time, (angle, turned.velocity[:, 2]), slider_motion, motions

@@ -108,4 +108,5 @@ def scales(scene: Scene) -> ErrorScales:
         force=sum(body.mass for body in mechanism.bodies)
         * max(usual, FALL * scene.gravity if widest else 0.0),
         step=scene.duration / _steps(scene.duration, USUAL_STEP / scene.angular_speed),
+        gravity=scene.gravity,
     )

@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import exudyn as exu
 
@@ -120,6 +120,13 @@ class Model(Assembled):
             return None
         section = Section(angles, self.scene.start_angle)
         return lambda mbs, time: section.side(self.crank_angle()[0])
+
+    def crank_at_start(self) -> float:
+        """Return the crank's angle in the initial state, rad, which becomes the current one."""
+        data: Any = self.mbs.systemData
+        begin = data.GetSystemState(configuration=exu.ConfigurationType.Initial)
+        data.SetSystemState(systemStateList=begin, configuration=exu.ConfigurationType.Current)
+        return self.crank_angle()[0]
 
     def has_stood(self, time: float) -> bool:
         """Return whether the press has stood at a time, s, for as long as its scene asks for."""

@@ -88,9 +88,8 @@ def go_on_from(model: Model, state: State) -> Model:
     parts[0] = parts[0] + (np.array(state["reference"]) - _reference(model))
     data.SetSystemState(systemStateList=parts, configuration=initial)
     data.SetODE2Coordinates_tt(coordinates=state["accelerations"], configuration=initial)
-    data.SetSystemState(systemStateList=parts, configuration=exu.ConfigurationType.Current)
     usual = model.scene.start_angle + model.scene.angular_speed * state["time"]
-    ahead = model.crank_angle()[0] - usual
+    ahead = model.crank_at_start() - usual
     model.ahead[0] = ahead if abs(ahead) > ROUNDED else 0.0
     data.SetTime(newTime=state["time"], configurationType=initial)
     if user_force is not None and state["joints"] is not None:

@@ -21,7 +21,9 @@ def attractor_report(file: Path) -> str:
     with reading(file, "a motion of exu-press attractor") as told:
         scene = Scene.from_dict(told["scene"])
         found = [["period", str(told["period"]["in_words"])], *_exponent(told)]
-        figures = [_figure(name, one) for name, one in told["distributions"].items()]
+        figures = [
+            _figure(name, told["units"][name], one) for name, one in told["distributions"].items()
+        ]
         live = _live(told)
         length = f"{told['revolutions']} revolutions after {told['skip']}"
         section = f"section at crank angle {told['section_deg']:g} deg"
@@ -59,8 +61,8 @@ def _exponent(told: dict[str, Any]) -> list[list[str]]:
     ]
 
 
-def _figure(name: str, one: dict[str, Any]) -> list[str]:
-    unit, k = shown_unit(name, [one["mean"]["value"]])
+def _figure(name: str, unit: str, one: dict[str, Any]) -> list[str]:
+    unit, k = shown_unit(name, [one["mean"]["value"]], unit)
     both = [
         f"{k * one[part]['value']:.{digits}g} \N{PLUS-MINUS SIGN} {k * one[part]['error']:.2g}"
         for part, digits in (("mean", 6), ("scatter", 2))
@@ -80,7 +82,10 @@ def _live(told: dict[str, Any]) -> Live | None:
         Column(f"section, coordinate {k + 1}", "", [float(point[k]) for point in points])
         for k in range(len(points[0]))
     ]
-    figures = [shown_column(name, each) for name, each in told["figures"].items()]
+    figures = [
+        shown_column(name, each, other=told["units"][name])
+        for name, each in told["figures"].items()
+    ]
     first = (section[0].name, section[1 % len(section)].name)
     return study_viewer(
         [Column("revolution", "", numbers)],

@@ -78,11 +78,13 @@ def shown_column(
     values: Sequence[Any],
     low: Sequence[float | None] | None = None,
     high: Sequence[float | None] | None = None,
+    other: str | None = None,
 ) -> "Column":
-    """Return a key or a quantity of a study's runs, SI, in the unit that tables show."""
+    """Return a key or a quantity of a study's runs, SI, in the unit of `shown_unit`."""
     from exu_press.page.study import Column
 
-    unit, scale = shown_unit(name, [value for value in values if isinstance(value, float)])
+    numbers = [value for value in values if isinstance(value, float)]
+    unit, scale = shown_unit(name, numbers, other)
     ends = (None if each is None else scaled(each, scale) for each in (low, high))
     return Column(name, unit, scaled(values, scale), *ends)
 

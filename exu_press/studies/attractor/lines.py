@@ -44,9 +44,9 @@ def attractor_lines(found: Attractor) -> list[str]:
 def _figures(found: Attractor) -> list[list[str]]:
     """Return a table of the figures over revolutions."""
     rows = [["quantity", "mean", "scatter", "5 %", "50 %", "95 %"]]
-    for name in found.units:
+    for name, other in found.units.items():
         one = found.distributions.get(name)
-        unit, k = shown_unit(name, one.mean[:1] if one else ())
+        unit, k = shown_unit(name, one.mean[:1] if one else (), other)
         head = with_unit(name, unit)
         if one is None:
             rows.append([head, *["-"] * 5])

@@ -27,7 +27,9 @@ def unit_of(name: str) -> str:
     return "" if metadata is None else str(metadata["unit"])
 
 
-def shown_unit(name: str, values: Iterable[float] = ()) -> tuple[str, float]:
+def shown_unit(
+    name: str, values: Iterable[float] = (), other: str | None = None
+) -> tuple[str, float]:
     """Return the unit in which tables show a scene's key or a quantity, and the factor from SI.
 
     >>> shown_unit("joints.balls.clearance"), shown_unit("joints.balls.peak_penetration")
@@ -36,9 +38,10 @@ def shown_unit(name: str, values: Iterable[float] = ()) -> tuple[str, float]:
     Args:
         name: of the key or the quantity.
         values: SI, which are small in a small machine.
+        other: unit of a name that is no quantity, where it is no key either.
     """
     if (placed := declared(name)) is None:
-        return unit_of(name), 1.0
+        return unit_of(name) if other is None else other, 1.0
     quantity = placed.quantity.sized(values)
     return quantity.shown, quantity.scale
 

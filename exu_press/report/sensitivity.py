@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import Any
 
 from exu_press.page import Live
-from exu_press.page.study import Column, study_viewer
+from exu_press.page.study import study_viewer
 from exu_press.plots.words import ONE_LINE, describe
 from exu_press.report.html import table
 from exu_press.report.study import command_of, reading, shown_column, study_page
@@ -76,8 +76,6 @@ def _live(
     samples: dict[str, tuple[Value, ...]], keys: list[str], quantities: dict[str, Any]
 ) -> Live | None:
     """Return the presses of the sample as points, a quantity over the key that decides it."""
-    from exu_press.page.study import study_viewer
-
     first, entry = next(iter(quantities.items()))
     most = keys[0]
     if entry["moves"]:

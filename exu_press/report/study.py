@@ -4,19 +4,18 @@ import shlex
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from exu_press.errors import InputError
 from exu_press.page import Live
+from exu_press.page.study import Column
 from exu_press.report.html import page, paragraph, picture, stills
 from exu_press.report.run import scene_parts
 from exu_press.scene import Scene
+from exu_press.schema.stored import from_json
 from exu_press.studies.sweep.units import shown_unit
 
 __all__ = ["command_of", "reading", "scaled", "shown_column", "study_page"]
-
-if TYPE_CHECKING:
-    from exu_press.page.study import Column
 
 WRONG = (ValueError, KeyError, IndexError, TypeError, AttributeError)
 
@@ -79,10 +78,8 @@ def shown_column(
     low: Sequence[float | None] | None = None,
     high: Sequence[float | None] | None = None,
     other: str | None = None,
-) -> "Column":
+) -> Column:
     """Return a key or a quantity of a study's runs, SI, in the unit of `shown_unit`."""
-    from exu_press.page.study import Column
-
     numbers = [value for value in values if isinstance(value, float)]
     unit, scale = shown_unit(name, numbers, other)
     ends = (None if each is None else scaled(each, scale) for each in (low, high))

@@ -12,15 +12,7 @@ if TYPE_CHECKING:
     from fe_models.cache import default_folder, reduced_part
     from fe_models.clamped import ConvergenceRow, clamped_frequencies, mesh_convergence
     from fe_models.exudyn_body import FlexibleBody, add_flexible_body
-    from fe_models.geometry import (
-        Axis,
-        CrankShape,
-        LinkageShape,
-        OwnShape,
-        Patch,
-        Sides,
-        StepFile,
-    )
+    from fe_models.geometry import Axis, CrankShape, LinkageShape, OwnShape, Patch, Sides, StepFile
     from fe_models.material import CRANK_STEEL, LINKAGE_IRON, Material
     from fe_models.part import Interface, Part, shipped_faces, shipped_part
     from fe_models.pictures import draw_mode_shapes

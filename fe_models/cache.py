@@ -14,6 +14,7 @@ import tempfile
 import zipfile
 import zlib
 from collections.abc import Mapping
+from dataclasses import fields
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -40,19 +41,10 @@ SOURCES = (
     "cache",
 )
 PACKAGES = ("ngsolve", "netgen-mesher", "numpy", "scipy")
-PLAIN = (  # the arrays of a ReducedPart stored under their own names
-    "centre_of_mass",
-    "inertia",
-    "frequencies",
-    "fixed_interface_frequencies",
-    "nodes",
-    "triangles",
-    "modes",
-    "stress",
-    "mass_matrix",
-    "stiffness_matrix",
-    "flexibility",
-)
+TOLD = {"name", "method", "mass", "couplings", "interfaces", "meta"}
+PLAIN = [field.name for field in fields(ReducedPart) if field.name not in TOLD]
+"""Arrays of a part, stored under their own names."""
+
 PER_INTERFACE = ("centre", "axis", "translation", "rotation")
 UNREADABLE = (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, zlib.error)
 

@@ -4,7 +4,7 @@ Clamped, every node of a bearing face is held: stiffer than the interfaces of th
 hold the mean motion alone and let the bores go oval.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import log
 from typing import Any
@@ -94,10 +94,7 @@ def relative_errors(frequencies: Array, published: Sequence[float]) -> Array:
 
 
 def mesh_convergence(
-    part: Part,
-    mesh_sizes: Sequence[float],
-    count: int = 16,
-    report: Callable[[str, float], None] | None = None,
+    part: Part, mesh_sizes: Sequence[float], count: int = 16
 ) -> list[ConvergenceRow]:
     """Return the clamped frequencies on ever finer meshes.
 
@@ -105,16 +102,12 @@ def mesh_convergence(
         part: with its bearings clamped.
         mesh_sizes: m, from coarse to fine.
         count: number of modes.
-        report: called with (what is being done, share done).
     """
     rows = []
-    for i, size in enumerate(mesh_sizes):
-        if report is not None:
-            report(f"{part.name}: mesh size {size:g} m", i / len(mesh_sizes))
+    for size in mesh_sizes:
         frequencies, _, model = clamped_modes(part.replace(mesh_size=size), count)
-        unknowns: int = model.unknowns
         mass = float(model.nodal_mass.sum())
-        rows.append(ConvergenceRow(size, unknowns, mass, frequencies))
+        rows.append(ConvergenceRow(size, model.unknowns, mass, frequencies))
     return rows
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from fe_models.arrays import Array
 from fe_models.errors import InputError
 
-__all__ = ["Statics", "moved_in_plane", "shares"]
+__all__ = ["Statics", "moved_in_plane"]
 
 STIFF = 1e-6
 """Part of the largest flexibility: combinations of loads that give way less are left out."""
@@ -110,14 +110,3 @@ def moved_in_plane(carried: Array, frequencies: Array, centrifugal: Array) -> li
     by_loads = (carried**2).sum(axis=0) > IDLE
     by_rotation = stretched > IDLE * total
     return [int(mode) for mode in np.flatnonzero(by_loads | by_rotation)]
-
-
-def shares(moved: Array, frequencies: Array, exact: Array) -> Array:
-    """Return the share (m, modes) of each mode in the flexibility of an interface's motion.
-
-    Args:
-        moved: (m, modes) motion of the interfaces by a unit of each modal coordinate.
-        frequencies: (modes,) Hz.
-        exact: (m,) their flexibility in all, the diagonal of `Statics.flexibility`.
-    """
-    return np.asarray((moved / (2.0 * np.pi * frequencies)) ** 2 / exact[:, None])

@@ -23,10 +23,7 @@ FLAT = 1e-6
 
 
 def name_patches(
-    shape: Any,
-    patches: Mapping[str, tuple[Patch, ...] | Sides],
-    held: Collection[str],
-    where: str,
+    shape: Any, patches: Mapping[str, tuple[Patch, ...] | Sides], held: Collection[str], where: str
 ) -> None:
     """Give the faces of every patch its name.
 

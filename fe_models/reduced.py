@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from fe_models.arrays import Array
 from fe_models.errors import InputError
+from fe_models.part import MOTIONS
 
 __all__ = ["ReducedInterface", "ReducedPart"]
 
@@ -98,17 +99,14 @@ class ReducedPart:
 
         The motions are those of meta["motions"], (face, motion). What a row lacks to 1 is left out.
         """
-        from fe_models.flexibility import shares
-
-        moved = np.array(
-            [
-                [*self.interface(face).translation, *self.interface(face).rotation][
-                    ("x", "y", "z", "rx", "ry", "rz").index(motion)
-                ]
-                for face, motion in self.meta["motions"]
-            ]
-        )
-        return shares(moved, self.frequencies, self.flexibility)
+        motions = {
+            (one.face, motion): row
+            for one in self.interfaces
+            for motion, row in zip(MOTIONS, (*one.translation, *one.rotation), strict=True)
+        }
+        moved = np.array([motions[face, motion] for face, motion in self.meta["motions"]])
+        omega = 2.0 * np.pi * self.frequencies
+        return np.asarray((moved / omega) ** 2 / self.flexibility[:, None])
 
     def damping_matrix(self, ratio: float) -> Array:
         """Return the matrix (n, n), 1/s, that damps every mode with `ratio` of critical damping.

@@ -13,8 +13,8 @@ from functools import partial
 import numpy as np
 
 from exu_press.laws.film.ball import TABLE, ball
-from exu_press.laws.film.reynolds_sphere import facing_load
 from tabulate_finite_film import dissipation_and_turn, save
+from tabulation.reynolds_sphere import facing_load
 
 ANGLES = np.radians([45.0, 63.0, 81.0, 90.0])  # of a cap, from its middle to its edge
 DIRECTIONS = np.linspace(-0.5 * math.pi, 0.5 * math.pi, 49)  # opening, rotation, closing

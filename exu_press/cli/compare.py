@@ -18,7 +18,13 @@ from exu_press.integrate import SolverStatus
 from exu_press.quantities.table import comparison_lines, difference_lines
 from exu_press.result import Result
 from exu_press.scene import Scene
-from exu_press.studies.beside_measured import Beside, beside, beside_lines
+from exu_press.studies.beside_measured import (
+    MEASURED,
+    MEASURED_PICTURE,
+    Beside,
+    beside,
+    beside_rows,
+)
 from exu_press.studies.compare import different_keys, variants
 from exu_press.studies.curve_file import CurveFile, read_curve
 from exu_press.terminal.columns import columns
@@ -30,11 +36,8 @@ EXAMPLE = "exu-press compare press my_press.toml out/first/run.nc --out out/comp
 
 RESULT = "run.nc"
 
-MEASURED = ".csv"
+CURVES = ".csv"
 """Ending of the files of measured curves."""
-
-DIFFERENCES = "measured.json"
-"""Differences of runs from them, in the directory of results."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -54,16 +57,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def execute(options: argparse.Namespace) -> int:
     """Run every scene, read every result; return 0, or 3 if a run stopped early."""
-    files = [Path(name) for name in options.given if Path(name).suffix == MEASURED]
+    files = [Path(name) for name in options.given if Path(name).suffix == CURVES]
     curves = {file: read_curve(file) for file in files}
     runs = [name for name in options.given if Path(name) not in curves]
     compared = _compared(runs, options.set, measured=bool(curves))
     stored = {label: one for label, one in compared.items() if isinstance(one, Result)}
-    if stored and not options.no_pictures:
+    if not options.no_pictures:
+        from exu_press.plots.file import save_figures
+        from exu_press.plots.measured import measured_figure
         from exu_press.plots.save import comparison_figures
 
-        comparison_figures(stored)  # they are refused here, where their files keep too little
-    _beside(curves, stored)
+        # they are refused here, where their files keep too little
+        figures = comparison_figures(stored) if stored else {}
+    measured = _beside(curves, stored, {})
     default = Path("out") / (Path(options.given[0]).stem if len(options.given) == 1 else "compare")
     directory = output_directory(options.out or default)
     results: dict[str, Result] = {}
@@ -84,18 +90,26 @@ def execute(options: argparse.Namespace) -> int:
         write_json(place / "summary.json", summaries[label])
     remove_pictures(directory, "compare")
     write_json(directory / "comparison.json", summaries)
+    measured = _beside(curves, results, measured)
+    told = {
+        name: {run: one.plain() for run, one in runs.items()} for name, runs in measured.items()
+    }
+    (directory / MEASURED).unlink(missing_ok=True)
+    if measured:
+        write_json(directory / MEASURED, told)
     if not options.no_pictures:
-        from exu_press.plots import save_comparison
-
-        save_comparison(results, directory)
-    measured = _beside(curves, results)
-    _write_measured(measured, directory, pictures=not options.no_pictures)
+        if list(results) != list(stored):
+            figures = comparison_figures(results)
+        if measured:
+            figures[MEASURED_PICTURE] = measured_figure(measured)
+        save_figures(figures, directory)
     if not options.quiet:
         scenes = {label: result.scene for label, result in results.items()}
         if len(scenes) > 1:
             print("\n".join([*columns(different_keys(scenes)), ""]))
         print("\n".join([*comparison_lines(results), *difference_lines(results)]))
-        print("".join(f"{line}\n" for line in beside_lines(measured)), end="")
+        for name, runs_beside in told.items():
+            print("\n".join([*columns(beside_rows(name, runs_beside)), ""]))
         show_warnings(f"{label}: {w}" for label, s in summaries.items() for w in s["warnings"])
         print(f"written to {directory}")
     stopped = {label: s["reason"] for label, s in summaries.items() if s["reason"]}
@@ -106,34 +120,21 @@ def execute(options: argparse.Namespace) -> int:
 
 
 def _beside(
-    curves: Mapping[Path, CurveFile], results: Mapping[str, Result]
+    curves: Mapping[Path, CurveFile],
+    results: Mapping[str, Result],
+    known: Mapping[str, Mapping[str, Beside]],
 ) -> dict[str, dict[str, Beside]]:
-    """Return measured curves beside runs by label, by the names of their files."""
-    if not results:
-        return {}
+    """Return measured curves beside runs by label, by the names of their files; `known` as is."""
     stems = [file.stem for file in curves]
-    return {
-        file.stem if stems.count(file.stem) == 1 else str(file): {
-            label: beside(file, curve, result) for label, result in results.items()
+    found = {}
+    for file, curve in curves.items() if results else ():
+        name = file.stem if stems.count(file.stem) == 1 else str(file)
+        there = known.get(name, {})
+        found[name] = {
+            label: there.get(label) or beside(file, curve, result)
+            for label, result in results.items()
         }
-        for file, curve in curves.items()
-    }
-
-
-def _write_measured(
-    found: Mapping[str, Mapping[str, Beside]], directory: Path, *, pictures: bool
-) -> None:
-    """Write the differences from measured curves, and draw them; nothing without any."""
-    (directory / DIFFERENCES).unlink(missing_ok=True)
-    if not found:
-        return
-    told = {name: {run: one.plain() for run, one in runs.items()} for name, runs in found.items()}
-    write_json(directory / DIFFERENCES, told)
-    if pictures:
-        from exu_press.plots.file import save_figures
-        from exu_press.plots.measured import measured_figure
-
-        save_figures({"compare_measured": measured_figure(found)}, directory)
+    return found
 
 
 def _compared(

@@ -27,7 +27,7 @@ from exu_press.mechanism import (
 from exu_press.mechanism.examine import Examination, examine
 from exu_press.mechanism.transmission import alike
 from exu_press.scene.file import parse_assignment
-from exu_press.schema.checks import nearest, table_from
+from exu_press.schema.checks import demand_known, table_from
 from exu_press.schema.toml import read_toml
 from exu_press.terminal.columns import columns
 
@@ -51,11 +51,10 @@ STEP = 30
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the command's arguments."""
-    names = sorted({*BY_DIMENSIONS, *MECHANISMS, *shipped_names()})
     parser.add_argument(
         "path",
         metavar="MECHANISM|SCENE",
-        help=f"a mechanism file, a scene file, or a shipped name: {', '.join(names)}",
+        help=f"a mechanism file, a scene file, or a shipped name: {', '.join(_names())}",
     )
     add_set_argument(
         parser, "the drawing, as in press.crank_radius=0.1 or joints.crank_pin.at=[0.0, 0.1]"
@@ -96,6 +95,11 @@ def execute(options: argparse.Namespace) -> int:
     return 2 if examined.complaints else 0
 
 
+def _names() -> list[str]:
+    """Return the names of shipped mechanisms and scenes."""
+    return sorted({*BY_DIMENSIONS, *MECHANISMS, *shipped_names()})
+
+
 def _asked(given: str, changes: Mapping[str, Any]) -> tuple[Mechanism, float | None]:
     """Return the mechanism, and the crank's speed (rad/s) where a scene says it.
 
@@ -107,12 +111,7 @@ def _asked(given: str, changes: Mapping[str, Any]) -> tuple[Mechanism, float | N
             return _named(given, {}, changes), None
         if given in BY_DIMENSIONS:
             return _of_scene({"mechanism": given}, Path(), changes)
-        if given not in shipped_names():
-            names = sorted({*BY_DIMENSIONS, *MECHANISMS, *shipped_names()})
-            raise InputError(
-                f"{given}: no such mechanism or scene{nearest(given, names)}; allowed are a file, "
-                f"{', '.join(names)}"
-            )
+        demand_known(f"{given}: no such mechanism or scene", given, ["a file", *_names()])
         path = SHIPPED / f"{given}.toml"
     data = read_toml(path)
     if "bodies" in data and "joints" in data and "crank" in data:
@@ -159,12 +158,8 @@ def _named(name: Any, scene: Mapping[str, Any], changes: Mapping[str, Any]) -> M
         sizes = mechanism_changed({name: scene.get(name, {})}, changes)[name]
         drawn: Mechanism = build(table_from(table, name, sizes))
         return drawn
-    if name not in MECHANISMS:
-        known = [*BY_DIMENSIONS, *MECHANISMS]
-        raise InputError(
-            f"mechanism = {name!r}: unknown{nearest(name, known)}; allowed are the path of a "
-            f"mechanism file, .toml, {', '.join(known)}"
-        )
+    known = "the path of a mechanism file, .toml", *BY_DIMENSIONS, *MECHANISMS
+    demand_known(f"mechanism = {name!r}: unknown", name, known)
     return mechanism_from(mechanism_changed(mechanism_to_dict(shipped_mechanism(name)), changes))
 
 

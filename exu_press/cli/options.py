@@ -11,7 +11,7 @@ from exu_press.errors import InputError
 from exu_press.files.output_directory import write_json
 from exu_press.mechanism import SHIPPED as MECHANISMS
 from exu_press.scene import Scene
-from exu_press.schema.checks import nearest
+from exu_press.schema.checks import demand_known
 
 __all__ = [
     "add_error_argument",
@@ -140,10 +140,7 @@ def scene_path(given: str) -> Path:
             f"{given}: is a shipped mechanism, not a scene; allowed is a scene of it, as "
             f"`exu-press new my_scene.toml --mechanism {given}` writes one, or `exu-press draw`"
         )
-    if given not in names:
-        raise InputError(
-            f"{given}: no such scene{nearest(given, names)}; allowed are a file, {', '.join(names)}"
-        )
+    demand_known(f"{given}: no such scene", given, ["a file", *names])
     return SHIPPED / f"{given}.toml"
 
 

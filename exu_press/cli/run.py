@@ -18,6 +18,7 @@ from exu_press.model.state import State
 from exu_press.quantities.table import run_lines
 from exu_press.result import Result
 from exu_press.result.unfinished import remove, unfinished_of
+from exu_press.scene import Scene
 from exu_press.scene.assumptions import assumed_line
 from exu_press.verification.refine import refined
 from exu_press.verification.simulate import simulate
@@ -27,6 +28,9 @@ from exu_press.verification.within import deliver
 __all__ = ["EXAMPLE", "add_arguments", "execute"]
 
 RESULT = "run.nc"
+
+OF_THE_START = "start", "start_angle_deg"
+"""Keys that do nothing where a run goes on from another one."""
 
 EXAMPLE = "exu-press run press --set joints.crank_pin=dry --set gravity=0 --out out/dry"
 
@@ -65,11 +69,12 @@ def _share(text: str) -> float:
     return value
 
 
-def _start_of(options: argparse.Namespace) -> State | None:
+def _start_of(options: argparse.Namespace, scene: Scene) -> State | None:
     """Return the state in which the run of --from ended, or None without it.
 
     Raises:
-        InputError: the run did not get to its end, or is of an older version.
+        InputError: the run did not get to its end, is of an older version, or began otherwise than
+            the scene does.
     """
     if options.start is None:
         return None
@@ -80,12 +85,20 @@ def _start_of(options: argparse.Namespace) -> State | None:
     if not before.completed or "state" not in before.info:
         why = before.info["reason"] or "it was written without the state at its end"
         raise InputError(f"--from {options.start}: allowed is a run that reached its end; {why}")
+    for key in OF_THE_START:
+        asked, began = getattr(scene, key), getattr(before.scene, key)
+        if asked != began:
+            raise InputError(
+                f"--from {options.start}: {key} = {asked!r} does nothing in a run that goes on; "
+                f"allowed is {began!r}, with which that run began"
+            )
     return before.info["state"]
 
 
 def execute(options: argparse.Namespace) -> int:
     """Run the scene; return 0, or 3 if it stopped early or was not resolved."""
-    scene, start = scene_of(options), _start_of(options)
+    scene = scene_of(options)
+    start = _start_of(options, scene)
     if options.figure is not None and options.within is None:
         raise InputError(f"--figure {options.figure}: only together with --within")
     directory = output_directory(directory_of(options, options.scene))

@@ -30,11 +30,13 @@ class ErrorScales:
             bodies together, at most so far.
         step: usual size of the longest steps, s; errors that films keep may add up to the tolerance
             within some of them. Found: the largest step.
+        gravity: acceleration whose forces bodies bear at rest, m/s^2; 0 where it is not known.
     """
 
     speed: float | None = None
     force: float | None = None
     step: float | None = None
+    gravity: float = 0.0
 
 
 class FoundScales:
@@ -52,6 +54,7 @@ class FoundScales:
         inertias: of the coordinates, kg where they are displacements.
         length: of the coordinates whose last digits are rounded, m.
         fixed: whether all is given.
+        gravity: as given, m/s^2.
         rest: speed up to which the system is still, m/s; 0.0 where that is not known.
         rounded: whether what moves no faster was found to be rounding.
         masses: of the nodes, kg, infinite for what has no say; where the system gives none, the
@@ -80,6 +83,7 @@ class FoundScales:
             floor: the least scale of speeds, m/s.
         """
         self._given, self._problem, self._longest = given, problem, longest
+        self.gravity = given.gravity
         self._first, self._stir = first, stir
         self.rest, self.rounded = 0.0, False
         self.length = problem.length

@@ -171,6 +171,8 @@ class Resolution:
     Loads and prescribed motions of other systems may jump themselves, and steps end on that within
     what the tolerance leaves: a jump that changes no speed by a tenth of it is none of the step's.
     In an equilibrium, and in a press that stands, rounded forces come and go, and move nothing.
+    Joints bear weights as well: where all inertia forces are smaller, as what is left of the start
+    in a press that stands, a jump is judged against the largest weight.
     """
 
     def __init__(self, task: Task) -> None:
@@ -222,6 +224,7 @@ class Resolution:
         if self._steps < 2 or not felt:
             return None
         jump, time, step, node, _ = max(felt)
-        if jump <= LARGEST_JUMP * self._largest:
+        weight = self._scales.gravity * max(m for m in self._scales.masses if m < math.inf)
+        if jump <= LARGEST_JUMP * max(self._largest, weight):
             return None
         return Unresolved(time, step, node, jump / self._largest)

@@ -20,13 +20,7 @@ from exu_press.joints.spherical_film import SphericalFilm
 from exu_press.joints.user_force import user_force_of
 from exu_press.laws.contact import NormalContact
 from exu_press.laws.contact_parameters import positive
-from exu_press.laws.film import (
-    BallFilm,
-    FilmLaw,
-    film_scale,
-    pad_with_asperities,
-    plane_pad,
-)
+from exu_press.laws.film import BallFilm, FilmLaw, film_scale, pad_with_asperities, plane_pad
 from exu_press.laws.friction import Friction, LuGre, no_friction
 
 if TYPE_CHECKING:
@@ -77,9 +71,8 @@ def add_dry_revolute(
             assembled already.
     """
     _check(mbs, contact=contact, friction=friction, radius=radius, clearance=clearance)
-    return add_revolute(
-        mbs, journal, bearing, [DryInterface(contact, friction, radius, clearance)], axis=axis
-    )
+    interfaces = _touching(contact, friction, radius, clearance)
+    return add_revolute(mbs, journal, bearing, interfaces, axis=axis)
 
 
 def add_dry_spherical(
@@ -113,13 +106,9 @@ def add_dry_spherical(
     """
     _check(mbs, contact=contact, friction=friction, radius=radius, clearance=clearance)
     if in_plane(mbs, ball) and in_plane(mbs, socket):
-        interfaces: list[InterfaceLaw] = [DryInterface(contact, friction, radius, clearance)]
-        return add_revolute(mbs, ball, socket, interfaces)
-    joint = SpatialSpherical(
-        spatial_end(mbs, ball), spatial_end(mbs, socket), contact, friction, radius, clearance
-    )
-    user_force_of(mbs).add(joint)
-    return joint
+        return add_revolute(mbs, ball, socket, _touching(contact, friction, radius, clearance))
+    ends = spatial_end(mbs, ball), spatial_end(mbs, socket)
+    return _added(mbs, SpatialSpherical(*ends, contact, friction, radius, clearance))
 
 
 def add_lubricated_revolute(
@@ -162,14 +151,10 @@ def add_lubricated_revolute(
     Raises:
         InputError: as `add_dry_revolute`, or a length, radius, clearance or viscosity not positive.
     """
-    friction = no_friction() if friction is None else friction
-    laws = {"law": law, "friction": friction, **({} if contact is None else {"contact": contact})}
-    _check(mbs, radius=radius, clearance=clearance, **laws)
-    scale = film_scale(viscosity, length, radius, clearance)
-    interfaces: list[InterfaceLaw] = [FilmInterface(law, scale, clearance)]
-    if contact is not None:
-        interfaces.append(DryInterface(contact, friction, radius, clearance - asperity_onset))
-    return add_revolute(mbs, journal, bearing, interfaces, axis=axis)
+    _check(mbs, radius=radius, clearance=clearance, law=law, **_given(contact, friction))
+    film = FilmInterface(law, film_scale(viscosity, length, radius, clearance), clearance)
+    touching = _touching(contact, friction, radius, clearance - asperity_onset)
+    return add_revolute(mbs, journal, bearing, [film, *touching], axis=axis)
 
 
 def add_lubricated_spherical(
@@ -208,27 +193,23 @@ def add_lubricated_spherical(
     Raises:
         InputError: as `add_dry_revolute`, or a radius, clearance or viscosity not positive.
     """
-    friction = no_friction() if friction is None else friction
-    laws = {"film": film, "friction": friction, **({} if contact is None else {"contact": contact})}
-    _check(mbs, radius=radius, clearance=clearance, **laws)
+    _check(mbs, radius=radius, clearance=clearance, film=film, **_given(contact, friction))
     scale = film_scale(viscosity, radius, radius, clearance)
     if in_plane(mbs, ball) and in_plane(mbs, socket):
-        interfaces: list[InterfaceLaw] = [FilmInterface(film.law, scale, clearance)]
-        if contact is not None:
-            interfaces.append(DryInterface(contact, friction, radius, clearance - asperity_onset))
-        return add_revolute(mbs, ball, socket, interfaces)
+        between = FilmInterface(film.law, scale, clearance)
+        touching = _touching(contact, friction, radius, clearance - asperity_onset)
+        return add_revolute(mbs, ball, socket, [between, *touching])
     joint = SpatialSpherical(
         spatial_end(mbs, ball),
         spatial_end(mbs, socket),
         contact,
-        friction,
+        friction or no_friction(),
         radius,
         clearance,
         SphericalFilm(film, scale, clearance),
         asperity_onset,
     )
-    user_force_of(mbs).add(joint)
-    return joint
+    return _added(mbs, joint)
 
 
 def add_guideway_contact(
@@ -268,13 +249,9 @@ def add_guideway_contact(
     across = y, -x
     interface = DryInterface(contact, friction, half_width, clearance)
     place = float(middle[0]), float(middle[1])
-    joint: ClearanceJoint
     if in_plane(mbs, body):
-        joint = GuidewayContact(planar_end(mbs, body), place, across, interface)
-    else:
-        joint = SpatialGuidewayContact(spatial_end(mbs, body), place, across, interface)
-    user_force_of(mbs).add(joint)
-    return joint
+        return _added(mbs, GuidewayContact(planar_end(mbs, body), place, across, interface))
+    return _added(mbs, SpatialGuidewayContact(spatial_end(mbs, body), place, across, interface))
 
 
 def add_guideway_film(
@@ -338,8 +315,7 @@ def add_guideway_film(
         length=length,
         half_width=half_width,
     )
-    user_force_of(mbs).add(film)
-    return film
+    return _added(mbs, film)
 
 
 def _along_guideway(
@@ -376,6 +352,25 @@ def add_joint_sensor(mbs: exu.MainSystem, joint: ClearanceJoint) -> int:
     return int(
         mbs.AddSensor(SensorUserFunction(storeInternal=True, sensorUserFunction=user_function))
     )
+
+
+def _touching(
+    contact: NormalContact | None, friction: Friction | LuGre | None, radius: float, reach: float
+) -> list[InterfaceLaw]:
+    """Return the interface of surfaces that touch at an eccentricity, m; none without contact."""
+    if contact is None:
+        return []
+    return [DryInterface(contact, friction or no_friction(), radius, reach)]
+
+
+def _given(contact: Any, friction: Any) -> dict[str, Any]:
+    laws = {"friction": friction, "contact": contact}
+    return {name: law for name, law in laws.items() if law is not None}
+
+
+def _added(mbs: exu.MainSystem, joint: ClearanceJoint) -> ClearanceJoint:
+    user_force_of(mbs).add(joint)
+    return joint
 
 
 def _check(mbs: exu.MainSystem, *, radius: float, clearance: float, **laws: Any) -> None:
@@ -430,22 +425,16 @@ def add_revolute(
         InputError: as `add_dry_revolute`, or a worn joint is not between planar bodies.
     """
     _check_laws(mbs)
-    joint: ClearanceJoint
     if in_plane(mbs, journal) and in_plane(mbs, bearing):
         if tuple(axis) != (0, 0, 1):
             raise InputError(f"axis = {tuple(axis)}: allowed between planar bodies is (0, 0, 1)")
         ends = planar_end(mbs, journal), planar_end(mbs, bearing)
         if worn is None:
-            joint = PlanarJoint(*ends, interfaces)
-        else:
-            from exu_press.joints.worn import WornJoint
+            return _added(mbs, PlanarJoint(*ends, interfaces))
+        from exu_press.joints.worn import WornJoint
 
-            joint = WornJoint(*ends, interfaces, worn)
-    elif worn is not None:
+        return _added(mbs, WornJoint(*ends, interfaces, worn))
+    if worn is not None:
         raise InputError("worn: allowed is a joint between planar bodies")
-    else:
-        joint = SpatialRevolute(
-            spatial_end(mbs, journal), spatial_end(mbs, bearing), axis, interfaces
-        )
-    user_force_of(mbs).add(joint)
-    return joint
+    in_space = spatial_end(mbs, journal), spatial_end(mbs, bearing)
+    return _added(mbs, SpatialRevolute(*in_space, axis, interfaces))

@@ -11,7 +11,7 @@ the start are those without it, as the multipliers are not known yet: the first 
 """
 
 from collections.abc import Sequence
-from typing import Any, Protocol
+from typing import Any
 
 import exudyn as exu
 import numpy as np
@@ -23,21 +23,11 @@ from exu_press.numerics.arrays import Array
 __all__ = ["GuideFriction", "HeldSide", "SideForce", "SlidingFriction", "SpringSide"]
 
 
-class SideForce(Protocol):
-    """The force across a guide, by the coordinates of the body's nodes."""
-
-    def force(self, q: Array, q_t: Array) -> float:
-        """Return it, N."""
-
-    @property
-    def partials(self) -> tuple[Array, Array] | None:
-        """Its derivatives by the coordinates and by their rates, (n,); None: as if it were even."""
-
-
 class HeldSide:
     """Normal force of a constraint that holds the body across an ideal guide."""
 
     partials: tuple[Array, Array] | None = None
+    """By the coordinates of the body's nodes and by their rates, (n,); None: as if it were even."""
 
     def __init__(self, mbs: exu.MainSystem, constraint: int) -> None:
         """Take the object number of a constraint with one row of length 1."""
@@ -77,6 +67,9 @@ class SpringSide:
     def partials(self) -> tuple[Array, Array] | None:
         """Its derivatives by the coordinates and by their rates."""
         return self._stiffness * self._across, self._damping * self._across
+
+
+SideForce = HeldSide | SpringSide
 
 
 class SlidingFriction:

@@ -6,7 +6,6 @@ eccentricity; all else is a dry interface's: the body's half width is its lever 
 radius is a journal's.
 """
 
-import math
 from math import cos, sin
 
 import numpy as np
@@ -37,10 +36,9 @@ class GuidewayContact(InterfaceJoint):
             across: unit vector across it.
             interface: of surfaces; its radius is the body's half width, m.
         """
-        super().__init__([interface])
+        super().__init__([interface], turns=False)
         self.end = end
         self.indices = list(end.indices)
-        self.largest_eccentricity = math.inf
         self._length, self._angle = end.polar
         self._x, self._y = end.reference[0] - middle[0], end.reference[1] - middle[1]
         self._across = across
@@ -103,11 +101,6 @@ class GuidewayContact(InterfaceJoint):
         n_x, n_y, _, _ = self._directions
         return along_n * n_x - along_t * n_y, along_n * n_y + along_t * n_x
 
-    @property
-    def relative_velocity(self) -> tuple[float, ...]:
-        """Rate of the eccentricity at the last `add_force`, m/s: that across the guideway."""
-        return self.in_frame(self._motion[1], 0.0)
-
     def _moments(self) -> tuple[float, float]:
         """Return the moment on the body at the last `add_force`, N m; the frame takes any."""
         return super()._moments()[0], 0.0
@@ -126,9 +119,7 @@ class SpatialGuidewayContact(SpatialRevolute):
         """Let a body touch its guideway in the plane z = 0; see `GuidewayContact`."""
         x, y = middle
         frame = BodyEnd("Ground", 0, np.zeros(0), np.array([x, y, 0.0]))
-        super().__init__(end, frame, (0.0, 0.0, 1.0), [interface])
-        self.largest_eccentricity = math.inf
-        self._turns = False
+        super().__init__(end, frame, (0.0, 0.0, 1.0), [interface], turns=False)
         self._normal = across
 
     def _across(self, apart: Vector) -> tuple[float, Vector]:
@@ -136,8 +127,3 @@ class SpatialGuidewayContact(SpatialRevolute):
         x, y = self._normal
         beside = apart[0] * x + apart[1] * y
         return (beside, (x, y, 0.0)) if beside >= 0.0 else (-beside, (-x, -y, 0.0))
-
-    @property
-    def relative_velocity(self) -> tuple[float, ...]:
-        """Rate of the eccentricity at the last `add_force`, m/s: that across the guideway."""
-        return self.in_frame(self._motion[1], 0.0)

@@ -48,10 +48,7 @@ class JointHistory:
     def power(self) -> Array:
         """Power of forces and moments on the two bodies, (n,), W."""
         found = np.zeros_like(self.gap)
-        for loads, rates in (
-            (self.force, self.velocity),
-            (self.moments, self.angular_velocities),
-        ):
+        for loads, rates in ((self.force, self.velocity), (self.moments, self.angular_velocities)):
             for load, rate in zip(loads.T, rates.T, strict=True):
                 found += load * rate
         return found

@@ -30,10 +30,7 @@ __all__ = [
     "Response",
 ]
 
-Partials = tuple[
-    tuple[float, float, float, float, float],
-    tuple[float, float, float, float, float],
-]
+Partials = tuple[tuple[float, float, float, float, float], tuple[float, float, float, float, float]]
 """Derivatives of f_n and of f_t with respect to (|e|, d|e|/dt, v_t, omega_J, omega_B)."""
 
 Arms = tuple[float, float, float, float]
@@ -80,8 +77,8 @@ class InterfaceLaw:
         raise NotImplementedError
 
     def arms(self, e: float) -> Arms:
-        """Return a_J, a_B (m) and their derivatives with respect to |e|."""
-        raise NotImplementedError
+        """Return a_J, a_B (m) and their derivatives; of the point half-way between the centres."""
+        return -0.5 * e, -0.5 * e, -0.5, -0.5
 
     def shear_partials(
         self, response: Response, omega_j: float, omega_b: float
@@ -123,11 +120,7 @@ class DryInterface(InterfaceLaw):
     """
 
     def __init__(
-        self,
-        contact: NormalContact,
-        friction: Friction | LuGre,
-        radius: float,
-        clearance: float,
+        self, contact: NormalContact, friction: Friction | LuGre, radius: float, clearance: float
     ) -> None:
         """Let two surfaces touch.
 
@@ -315,10 +308,6 @@ class FilmInterface(InterfaceLaw):
         p = self.scale
         return p * response[9] * (omega_j - omega_b), p * self.clearance * response[8]
 
-    def arms(self, e: float) -> Arms:
-        """Return the moment arms of the point half-way between the centres."""
-        return -0.5 * e, -0.5 * e, -0.5, -0.5
-
 
 class FunctionInterface(InterfaceLaw):
     """An interface law of your own, a function; its force acts half-way between the two centres."""
@@ -354,10 +343,6 @@ class FunctionInterface(InterfaceLaw):
         _, _, n_1, n_2, n_3, n_4, n_5, t_1, t_2, t_3, t_4, t_5 = response
         return (n_1, n_2, n_3, n_4, n_5), (t_1, t_2, t_3, t_4, t_5)
 
-    def arms(self, e: float) -> Arms:
-        """Return the moment arms of the point half-way between the centres."""
-        return -0.5 * e, -0.5 * e, -0.5, -0.5
-
     def stored_energy(self, e: float) -> float:
         """Return the elastic energy, J."""
         return 0.0 if self.energy is None else self.energy(e)[0]
@@ -379,13 +364,15 @@ class InterfaceJoint:
         path: of the journal.
     """
 
-    def __init__(self, interfaces: Sequence[InterfaceLaw]) -> None:
+    def __init__(self, interfaces: Sequence[InterfaceLaw], turns: bool = True) -> None:
+        """Let surfaces touch; their normal turns with the eccentricity, or a guideway's stays."""
         self.interfaces = list(interfaces)
+        self._turns = turns
         self.clearance = self.interfaces[0].clearance
         dry = [interface for interface in self.interfaces if isinstance(interface, DryInterface)]
         self.contact_onset = min([interface.clearance for interface in dry], default=math.inf)
         self.largest_eccentricity = self.clearance + min(
-            [SHALLOW * interface.radius for interface in dry], default=math.inf
+            [SHALLOW * interface.radius for interface in dry if turns], default=math.inf
         )
         self.lubricated = any(isinstance(interface, FilmInterface) for interface in self.interfaces)
         self._motion: Motion = (0.0, 0.0, 0.0, 0.0, 0.0)
@@ -419,7 +406,7 @@ class InterfaceJoint:
     @property
     def relative_velocity(self) -> tuple[float, ...]:
         """Rate of the eccentricity at the last `add_force`, m/s."""
-        return self.in_frame(self._motion[1], self._motion[2])
+        return self.in_frame(self._motion[1], self._motion[2] if self._turns else 0.0)
 
     @property
     def force(self) -> tuple[float, ...]:

@@ -25,9 +25,10 @@ class SpatialRevolute(InterfaceJoint):
         bearing: BodyEnd,
         axis: Sequence[float],
         interfaces: Sequence[InterfaceLaw],
+        turns: bool = True,
     ) -> None:
         """Join the two ends by the interfaces; `axis` is the bearing's, in its body's frame."""
-        super().__init__(interfaces)
+        super().__init__(interfaces, turns)
         self.journal = journal
         self.bearing = bearing
         x, y, z = (float(component) for component in axis)
@@ -40,7 +41,6 @@ class SpatialRevolute(InterfaceJoint):
         self._n: Vector = (1.0, 0.0, 0.0)
         self._t: Vector = (0.0, 1.0, 0.0)
         self._along: Vector = (0.0, 0.0, 0.0)
-        self._turns = True  # the normal, with the eccentricity
 
     def add_force(self, q: list[float], q_t: list[float], out: list[float]) -> None:
         """Add the joint's generalised forces to `out`."""

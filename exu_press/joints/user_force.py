@@ -14,10 +14,7 @@ from typing import Any
 
 import exudyn as exu
 import numpy as np
-from exudyn.itemInterface import (
-    ObjectGenericODE2,
-    VObjectGenericODE2,
-)
+from exudyn.itemInterface import ObjectGenericODE2, VObjectGenericODE2
 from numpy.typing import NDArray
 
 from exu_press.errors import InputError

@@ -307,15 +307,7 @@ class LuGre:
         return mu, slope + damping_slope * z_dot, z1
 
     def _slid(self, stretch: float, mean: float, z0: float) -> tuple[float, float, float, float]:
-        """Return z1 [m] after a stretch in one direction, and its derivatives.
-
-        By the stretch [-], the mean speed [s] and z0 [-].
-
-        Args:
-            stretch: distance, signed, m.
-            mean: its mean speed, of the same sign or 0, m/s.
-            z0: deflection at its start, m.
-        """
+        """Return z1 [m] after a stretch [m] at a mean speed [m/s], and its derivatives by all."""
         g, v_times_slope = self._curve(mean)
         direction = _sign(mean)
         over = self.sigma_0 * abs(stretch) / g

@@ -3,9 +3,8 @@
 import math
 from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
-from typing import Protocol
 
-__all__ = ["REVOLUTION", "Clock", "LoadCurve", "PulseClock", "blanking_pulse", "closing"]
+__all__ = ["REVOLUTION", "LoadCurve", "PulseClock", "blanking_pulse", "closing"]
 
 
 REVOLUTION = 2.0 * math.pi
@@ -88,19 +87,6 @@ class LoadCurve:
             return place
         first = self.places[0]
         return first + (place - first) % self.period
-
-
-class Clock(Protocol):
-    """The memory of a load from step to step."""
-
-    def memory(self) -> tuple[float, float | None]:
-        """Return its memory."""
-
-    def recall(self, memory: tuple[float, float | None]) -> None:
-        """Take over another's memory."""
-
-    def accept(self, time: float, place: float, rate: float, /) -> None:
-        """Keep the state at the end of a step."""
 
 
 class PulseClock:

@@ -4,9 +4,9 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
-from exu_press.laws.load_curve import LoadCurve, closing
+from exu_press.laws.load_curve import LoadCurve, PulseClock, closing
 
-__all__ = ["SHAPE", "Cut", "Sheet", "shear_force"]
+__all__ = ["SHAPE", "Clock", "Cut", "Sheet", "shear_force"]
 
 SHAPE = (0.0, 0.15, 0.5, 1.0), (0.0, 0.8, 1.0, 0.95)
 """Penetration over that at fracture, and force over the largest one, of the usual curve: elastic
@@ -212,3 +212,7 @@ class Cut:
         if self._fractured is not None:
             return time - self._fractured
         return (penetration - self._sheet.fracture) / rate if rate > 0.0 else 0.0
+
+
+Clock = PulseClock | Cut
+"""The memory of a load from step to step."""

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from exu_press.mechanism.kinematics import MotionError
 from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.mobility import Mobility, mobility_of
-from exu_press.mechanism.refusal import MotionError
 from exu_press.mechanism.stroke import Stroke, stroke_of
 from exu_press.mechanism.transmission import transmission_angles
 from exu_press.numerics.arrays import Array

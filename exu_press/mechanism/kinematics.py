@@ -8,7 +8,7 @@ Velocities and accelerations come from the same Jacobian, not from differences.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from typing import Any
 
@@ -18,10 +18,9 @@ from numpy.typing import NDArray
 from exu_press.errors import InputError
 from exu_press.mechanism.assur import Drawing, Group, Pose, groups_of, known_bodies, one_group_of
 from exu_press.mechanism.motion import Motion
-from exu_press.mechanism.refusal import MotionError
 from exu_press.numerics.arrays import Array
 
-__all__ = ["Kinematics", "kinematics_of"]
+__all__ = ["Kinematics", "MotionError", "kinematics_of"]
 
 LONGEST_STEP = math.radians(30.0)
 SHORTEST_STEP = math.radians(1e-4)
@@ -42,6 +41,28 @@ FAST = 1e2
 """Rate per crank angle from which a singular position is a dead centre, not a branching."""
 
 ITERATIONS = 12
+
+
+class MotionError(InputError):
+    """A drawing whose crank cannot turn through a revolution.
+
+    Attributes:
+        bodies: names of those that lock, branch or are not held.
+        angle: of the crank from the drawing, where that happens, rad.
+        poses: every body's (x, y, angle) at the last crank angle that was reached, in m and rad;
+            empty where only the drawing itself is known.
+    """
+
+    def __init__(
+        self,
+        message: str,
+        bodies: tuple[str, ...],
+        angle: float = 0.0,
+        poses: Mapping[str, Array] | None = None,
+    ) -> None:
+        """Say in the message which drawing, which bodies and where."""
+        super().__init__(message)
+        self.bodies, self.angle, self.poses = bodies, angle, dict(poses or {})
 
 
 class _LostError(ArithmeticError):
@@ -195,11 +216,7 @@ class Kinematics:
         return found
 
     def _close(self, group: Group, poses: dict[str, Pose], u: Array) -> Array:
-        """Bring coordinates (k,) or (k, n) to where the loops close; return the inverse there.
-
-        Raises:
-            _LostError: they do not close, or the position is singular.
-        """
+        """Bring coordinates (k,) or (k, n) to where the loops close; return the inverse there."""
         last = math.inf
         for _ in range(ITERATIONS):
             group.place(poses, u)
@@ -229,10 +246,7 @@ class Kinematics:
         rates: Array,
         states: Sequence[tuple[Array, Array, Array]] = (),
     ) -> MotionError:
-        """Return the error for a position in which a group cannot be followed.
-
-        `states` are the groups' coordinates and derivatives there, where they are known.
-        """
+        """Return the error for a position in which a group cannot be followed."""
         where = f"at crank angle {math.degrees(angle) % 360.0:.4g} deg"
         bodies = _listed(lost.group.bodies)
         if lost.apart and not lost.group.square:
@@ -289,11 +303,7 @@ def _scaled(drawing: Drawing, size: float) -> Drawing:
 
 
 def _inverse(group: Group, jacobian: Array) -> Array:
-    """Return the inverse of a group's Jacobian; the pseudo-inverse where loops are redundant.
-
-    Raises:
-        _LostError: it is singular.
-    """
+    """Return the inverse of a group's Jacobian; the pseudo-inverse where loops are redundant."""
     try:
         inverse = np.asarray(
             np.linalg.inv(jacobian) if group.square else np.linalg.pinv(jacobian), float

@@ -73,13 +73,7 @@ def _settled(scene: Scene) -> dict[str, Any]:
 def _assembled(
     system: System, start: Mapping[str, Motion], frames: Mapping[str, "FrameStart"]
 ) -> Model:
-    """Return a system with everything in it that its scene asks for.
-
-    Args:
-        system: with nothing but the frame in it.
-        start: name -> motion at the start, where it is not the ideal mechanism's.
-        frames: name -> start of the frame of a flexible body that starts deformed.
-    """
+    """Return a system with everything in it that its scene asks for."""
     mechanism, holding, joints = system.mechanism, system.holding, system.scene.joints
     add_bodies(system, {**system.ideal, **start}, frames)
     clearance = {
@@ -140,6 +134,7 @@ def _assembled(
         stall=_stall(system.scene),
         loads=loads,
         clocks=system.clocks,
+        ahead=system.ahead,
         guideways=guideways,
         guide_friction=friction,
         states=_states(system.scene, clearance, guideways),

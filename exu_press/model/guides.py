@@ -147,6 +147,7 @@ def _add_flexible_guide(system: System, guide: Guide) -> dict[str, int]:
     springs = {"force": guide.lateral, "moment": guide.tilting}
     directions = {"force": (*guide.across, 0.0), "moment": (0.0, 0.0, 1.0)}
     nodes = [body.node_rigid, *([] if body.node_modes is None else [body.node_modes])]
+    references = [np.array(mbs.GetNodeParameter(n, "referenceCoordinates")) for n in nodes]
     added = {}
     stiffness, damping = (np.zeros((rows.shape[1],) * 2) for _ in range(2))
     force = np.zeros(rows.shape[1])
@@ -158,7 +159,8 @@ def _add_flexible_guide(system: System, guide: Guide) -> dict[str, int]:
             damping += spring.damping * np.outer(row, row)
             force -= spring.stiffness * missed * row
         elif held[quantity]:
-            added[quantity] = _hold_row(system, nodes, row, missed)
+            offset = float(row @ np.concatenate(references)) - missed
+            added[quantity] = _hold_row(system, nodes, row, len(references[0]), offset)
     if stiffness.any():
         item = ObjectGenericODE2(
             nodeNumbers=nodes,
@@ -171,18 +173,14 @@ def _add_flexible_guide(system: System, guide: Guide) -> dict[str, int]:
     return added
 
 
-def _hold_row(system: System, nodes: list[int], row: Array, missed: float) -> int:
-    """Hold a combination of a flexible body's coordinates, missed by so much at the reference."""
+def _hold_row(system: System, nodes: list[int], row: Array, frame: int, offset: float) -> int:
+    """Hold a combination of one or two nodes' coordinates, `frame` of them the first one's."""
     mbs = system.mbs
-    references = [np.array(mbs.GetNodeParameter(n, "referenceCoordinates")) for n in nodes]
-    frame = len(references[0])
-    offset = float(row @ np.concatenate(references)) - missed
-    markers = [mbs.AddMarker(MarkerNodeCoordinates(nodeNumber=node)) for node in nodes]
-    if len(nodes) == 1:
-        ground = mbs.AddMarker(MarkerNodeCoordinates(nodeNumber=system.ground_node))
-        markers, first, second = [ground, *markers], [], [row.tolist()]
-    else:
-        first, second = [(-row[:frame]).tolist()], [row[frame:].tolist()]
+    ground = [system.ground_node] if len(nodes) == 1 else []
+    markers = [mbs.AddMarker(MarkerNodeCoordinates(nodeNumber=node)) for node in (*ground, *nodes)]
+    first, second = (
+        ([], [row.tolist()]) if ground else ([(-row[:frame]).tolist()], [row[frame:].tolist()])
+    )
     held = ObjectConnectorCoordinateVector(
         markerNumbers=markers, scalingMarker0=first, scalingMarker1=second, offset=[offset]
     )
@@ -193,17 +191,9 @@ def _hold_across(system: System, guide: Guide) -> int:
     """Hold a body across its guide; linear in the coordinates, and exact."""
     rigid = system.rigid[guide.body]
     offset = np.dot(system.mechanism.body(guide.body).centre_of_mass, guide.across)
-    row = dict(zip(("x", "y", "angle"), (*guide.across, 0.0), strict=True))
-    held = ObjectConnectorCoordinateVector(
-        markerNumbers=[
-            system.mbs.AddMarker(MarkerNodeCoordinates(nodeNumber=node))
-            for node in (system.ground_node, rigid.node)
-        ],
-        scalingMarker0=[],
-        scalingMarker1=[[row[coordinate] for coordinate in rigid.coordinates]],
-        offset=[float(offset)],
-    )
-    return int(system.mbs.AddObject(held))
+    by_name = dict(zip(("x", "y", "angle"), (*guide.across, 0.0), strict=True))
+    row = np.array([by_name[coordinate] for coordinate in rigid.coordinates])
+    return _hold_row(system, [rigid.node], row, len(row), float(offset))
 
 
 def _lateral_spring(system: System, guide: Guide, spring: Spring) -> int:

@@ -26,13 +26,7 @@ from exu_press.mechanism.holding import SingleAxis
 from exu_press.model.system import System
 from exu_press.scene import DryJoint, LubricatedJoint
 from exu_press.scene.joint import LooseJoint, unworn
-from exu_press.scene.laws import (
-    ball_film,
-    contact_law,
-    film_law,
-    film_scale_of,
-    friction_law,
-)
+from exu_press.scene.laws import ball_film, contact_law, film_law, film_scale_of, friction_law
 from exu_press.scene.own_joint import OwnJoint
 
 if TYPE_CHECKING:
@@ -58,30 +52,22 @@ def add_clearance_joint(system: System, joint: Joint, kind: LooseJoint) -> Clear
         worn = None if isinstance(kind, OwnJoint) else _worn(system, joint, kind)
         interfaces = interfaces_of(joint, kind)
         return add_revolute(system.mbs, journal, bearing, interfaces, worn=worn)
-    contact = None if kind.contact is None else contact_law(kind, revolute=False)
-    friction = no_friction() if kind.friction is None else friction_law(kind.friction)
-    if isinstance(kind, LubricatedJoint):
-        return add_lubricated_spherical(
-            system.mbs,
-            journal,
-            bearing,
-            radius=kind.radius,
-            clearance=kind.clearance,
-            viscosity=kind.film.cold_viscosity,
-            film=ball_film(kind.film, kind.clearance),
-            contact=contact,
-            friction=friction,
-            asperity_onset=kind.onset or 0.0,
-        )
-    assert contact is not None
-    return add_dry_spherical(
+    surfaces: dict[str, Any] = {
+        "radius": kind.radius,
+        "clearance": kind.clearance,
+        "contact": None if kind.contact is None else contact_law(kind, revolute=False),
+        "friction": no_friction() if kind.friction is None else friction_law(kind.friction),
+    }
+    if not isinstance(kind, LubricatedJoint):
+        return add_dry_spherical(system.mbs, journal, bearing, **surfaces)
+    return add_lubricated_spherical(
         system.mbs,
         journal,
         bearing,
-        radius=kind.radius,
-        clearance=kind.clearance,
-        contact=contact,
-        friction=friction,
+        viscosity=kind.film.cold_viscosity,
+        film=ball_film(kind.film, kind.clearance),
+        asperity_onset=kind.onset or 0.0,
+        **surfaces,
     )
 
 

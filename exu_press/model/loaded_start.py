@@ -247,11 +247,7 @@ class _Instant:
         self.forces = forces[0::2] + 1j * forces[1::2]
 
     def eccentricities(self, pressed: Array) -> Array:
-        """Return where the loose joints bear their forces, (m, 2), m; NaN where one does not.
-
-        Args:
-            pressed: (m,), those that are asked for.
-        """
+        """Return where the pressed loose joints bear their forces, (m, 2), m; NaN: nowhere."""
         found = np.zeros((len(pressed), 2))
         joints, scene = self._problem.loose, self._problem.system.scene.joints
         for k in np.flatnonzero(pressed):
@@ -306,14 +302,7 @@ class _Instant:
 def _borne(
     interfaces: list[InterfaceLaw], force: complex, omega_j: float, omega_b: float
 ) -> complex | None:
-    """Return the eccentricity at which surfaces exert a force on a journal at rest, or None.
-
-    Args:
-        interfaces: acting in parallel.
-        force: N.
-        omega_j: angular velocity of the journal, rad/s.
-        omega_b: of the bearing, rad/s.
-    """
+    """Return the eccentricity at which surfaces exert a force on a journal at rest, or None."""
 
     def exerted(e: float) -> complex:
         """Return the force along the eccentricity and a quarter turn from it, at rest there."""

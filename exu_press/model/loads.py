@@ -158,8 +158,8 @@ def _place(system: System, load: AppliedLoad) -> Place:
         if scene.drive is not None:
             angle = crank_angle_of(system)
             return lambda time: angle()
-        start, speed = scene.start_angle, scene.angular_speed
-        return lambda time: (start + speed * time, speed)
+        start, speed, ahead = scene.start_angle, scene.angular_speed, system.ahead
+        return lambda time: (start + speed * time + ahead[0], speed)
     return _height(system)
 
 

@@ -4,13 +4,13 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import exudyn as exu
 
 from exu_press.integrate import ARRIVED, Outcome, SolverTuning
 from exu_press.joints.guide_friction import GuideFriction
-from exu_press.laws.load_curve import Clock
+from exu_press.laws.sheet import Clock
 from exu_press.mechanism.section import Section
 from exu_press.model.drive import CrankAngle
 from exu_press.model.loads import Place, force_at, next_corner, torque_wanted
@@ -44,6 +44,7 @@ class Model(Assembled):
         stall: tells whether the press has stalled.
         loads: name -> load that acts, and the function of its place on its curve.
         clocks: of pulses and sheets of loads, and the readers of their state.
+        ahead: angle, rad, by which a crank at constant speed had turned further at time 0, alone.
         remembered: by those, where the run goes on from another one.
         guide_friction: name of a body in a guide without clearance -> its friction there.
         parts: name -> flexible body's part; empty for rigid bodies.
@@ -62,6 +63,7 @@ class Model(Assembled):
     stall: Stall
     loads: Mapping[str, tuple[AppliedLoad, Place]]
     clocks: list[tuple[Clock, Place]]
+    ahead: list[float]
     guide_friction: Mapping[str, GuideFriction]
     parts: Mapping[str, "PlacedPart"]
     made: int
@@ -96,8 +98,8 @@ class Model(Assembled):
             soonest = min(soonest, self.start_stop.next_corner(time))
         if self._sampled is None:
             return soonest
-        speed = self.scene.angular_speed
-        return min(soonest, self._sampled.after(speed * time, CLOSE) / speed)
+        speed, (ahead,) = self.scene.angular_speed, self.ahead
+        return min(soonest, (self._sampled.after(speed * time + ahead, CLOSE) - ahead) / speed)
 
     @cached_property
     def _sampled(self) -> Section | None:
@@ -120,12 +122,16 @@ class Model(Assembled):
         section = Section(angles, self.scene.start_angle)
         return lambda mbs, time: section.side(self.crank_angle()[0])
 
+    def crank_at_start(self) -> float:
+        """Return the crank's angle in the initial state, rad, which becomes the current one."""
+        data: Any = self.mbs.systemData
+        begin = data.GetSystemState(configuration=exu.ConfigurationType.Initial)
+        data.SetSystemState(systemStateList=begin, configuration=exu.ConfigurationType.Current)
+        return self.crank_angle()[0]
+
     def has_stood(self, time: float) -> bool:
         """Return whether the press has stood at a time, s, for as long as its scene asks for."""
-        motor = self.scene.drive
-        if self.start_stop is None or motor is None or motor.ends_after is None:
-            return False
-        return self.start_stop.stood(time) >= motor.ends_after * (1.0 - 1e-9)
+        return self.start_stop is not None and self.start_stop.over(time)
 
     def watch(self, time: float) -> str:
         """Return why the press goes no further, after a step that ends at a time, s, or nothing."""

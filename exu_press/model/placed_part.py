@@ -128,8 +128,6 @@ def placed_parts(scene: Scene, *, quiet: bool = True) -> dict[str, PlacedPart]:
         InputError: NGSolve is not installed, a part cannot be meshed, or its faces are not where
             the joints are.
     """
-    if not scene.bodies:
-        return {}
     if find_spec("ngsolve") is None:
         raise InputError(
             f"bodies.{next(iter(scene.bodies))}: needs NGSolve, which is not installed; install "

@@ -6,6 +6,7 @@ turns about it. No constraint holds the rest, so that its force comes from equil
 """
 
 import math
+from typing import Any
 
 import exudyn as exu
 import numpy as np
@@ -45,22 +46,26 @@ class RigidBody:
         Args:
             mbs: not yet assembled.
             body: its inertia is that about the centre of mass.
-            start: its first pose and velocity are the body's.
+            start: its first pose and velocity are the body's, as far as it can move.
             reference: x, y and angle from which displacements count and where springs are relaxed;
                 that of the start unless given.
         """
         self.reference: Array = start.position[0] if reference is None else reference
-        node = NodeRigidBody2D(
-            name=body.name,
+        self.node = int(mbs.AddNode(self._node(body.name, start)))
+        self.number = int(mbs.AddObject(self._item(body)))
+
+    def _node(self, name: str, start: Motion) -> Any:
+        return NodeRigidBody2D(
+            name=name,
             referenceCoordinates=self.reference,
             initialCoordinates=start.position[0] - self.reference,
             initialVelocities=start.velocity[0],
         )
-        self.node = int(mbs.AddNode(node))
-        item = ObjectRigidBody2D(
+
+    def _item(self, body: Body) -> Any:
+        return ObjectRigidBody2D(
             name=body.name, nodeNumber=self.node, mass=body.mass, inertia=body.inertia
         )
-        self.number = int(mbs.AddObject(item))
 
     def local(self, point: Point) -> Point:
         """Return a point of the body's frame, in its centre of mass, in that of Exudyn's item."""
@@ -81,7 +86,22 @@ class RigidBody:
         return Motion(self.reference + q, q_t, q_tt)
 
 
-class SlidingBody(RigidBody):
+class _OneCoordinate(RigidBody):
+    """A body that has one of x, y and angle alone, by its column."""
+
+    _column = 2
+
+    def _node(self, name: str, start: Motion) -> Any:
+        reference = self.reference[self._column]
+        return Node1D(
+            name=name,
+            referenceCoordinates=[reference],
+            initialCoordinates=[start.position[0, self._column] - reference],
+            initialVelocities=[start.velocity[0, self._column]],
+        )
+
+
+class SlidingBody(_OneCoordinate):
     """A body that an ideal guide along x or y keeps upright; it has its displacement alone."""
 
     def __init__(
@@ -92,30 +112,16 @@ class SlidingBody(RigidBody):
         direction: Point,
         reference: Array | None = None,
     ) -> None:
-        """Take what `RigidBody` takes; pose and velocity along the guide are used.
-
-        Args:
-            mbs: not yet assembled.
-            body: its inertia does not matter.
-            start: of the motion.
-            direction: (0, 1), (1, 0) or minus one of these.
-            reference: as `RigidBody`.
-        """
-        self.reference = start.position[0] if reference is None else reference
-        column = 1 if direction[0] == 0.0 else 0
+        """Take what `RigidBody` takes, and the guide's direction: along x or y, either way."""
+        self._column = column = 1 if direction[0] == 0.0 else 0
         self.coordinates = (("x", "y")[column],)
         self._along = np.eye(3)[column]
-        along = self._along[:2]
-        x, y, angle = self.reference
-        self.turned = float(angle - math.atan2(along[1], along[0]))
-        node = Node1D(
-            name=body.name,
-            referenceCoordinates=[self.reference[column]],
-            initialCoordinates=[start.position[0, column] - self.reference[column]],
-            initialVelocities=[start.velocity[0, column]],
-        )
-        self.node = int(mbs.AddNode(node))
-        item = ObjectMass1D(
+        super().__init__(mbs, body, start, reference)
+        self.turned = float(self.reference[2] - math.atan2(self._along[1], self._along[0]))
+
+    def _item(self, body: Body) -> Any:
+        (x, y, _), along = self.reference, self._along
+        return ObjectMass1D(
             name=body.name,
             nodeNumber=self.node,
             mass=body.mass,
@@ -126,7 +132,6 @@ class SlidingBody(RigidBody):
                 [0.0, 0.0, 1.0],
             ],
         )
-        self.number = int(mbs.AddObject(item))
 
     def local(self, point: Point) -> Point:
         """Return a point of the body's frame in that of Exudyn's item, whose x is the guide's."""
@@ -145,7 +150,7 @@ class SlidingBody(RigidBody):
         return Motion(self.reference + moved, *rates)
 
 
-class PivotedBody(RigidBody):
+class PivotedBody(_OneCoordinate):
     """A body on an ideal pivot of the frame: only its angle is a coordinate."""
 
     coordinates: tuple[str, ...] = ("angle",)
@@ -159,33 +164,18 @@ class PivotedBody(RigidBody):
         point: Point,
         reference: Array | None = None,
     ) -> None:
-        """Take what `RigidBody` takes; the angle's pose and velocity are used.
-
-        Args:
-            mbs: not yet assembled.
-            body: its inertia is that about the centre of mass.
-            start: of the motion.
-            pivot: in the global frame, m.
-            point: the pivot in the body's frame, m.
-            reference: as `RigidBody`.
-        """
+        """Take what `RigidBody` takes, and the pivot in the global and the body's frame, m."""
         self._pivot, self._point = pivot, point
-        self.reference = start.position[0] if reference is None else reference
-        angle = float(self.reference[2])
-        node = Node1D(
-            name=body.name,
-            referenceCoordinates=[angle],
-            initialCoordinates=[start.position[0, 2] - angle],
-            initialVelocities=[start.velocity[0, 2]],
-        )
-        self.node = int(mbs.AddNode(node))
-        item = ObjectRotationalMass1D(
+        super().__init__(mbs, body, start, reference)
+
+    def _item(self, body: Body) -> Any:
+        x, y = self._point
+        return ObjectRotationalMass1D(
             name=body.name,
             nodeNumber=self.node,
-            inertia=body.inertia + body.mass * (point[0] ** 2 + point[1] ** 2),
-            referencePosition=[*pivot, 0.0],
+            inertia=body.inertia + body.mass * (x**2 + y**2),
+            referencePosition=[*self._pivot, 0.0],
         )
-        self.number = int(mbs.AddObject(item))
 
     def local(self, point: Point) -> Point:
         """Return a point of the body's frame in that of Exudyn's item, which is the pivot's."""

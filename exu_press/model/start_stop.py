@@ -181,9 +181,9 @@ class StartStop:
         stands = self.schedule.done(time) and held and abs(speed) < STILL * self._speed
         self._stood = (self._stood if self._stood is not None else time) if stands else None
 
-    def stood(self, time: float) -> float:
-        """Return for how long it has stood after its last stop, s; below 0 if it does not."""
-        return -1.0 if self._stood is None else time - self._stood
+    def over(self, time: float) -> bool:
+        """Return whether it has stood after its last stop for as long as its run goes on then."""
+        return self._stood is not None and time - self._stood >= self._ends_after * (1.0 - 1e-9)
 
     @property
     def slips(self) -> bool:

@@ -14,6 +14,10 @@ from exu_press.numerics.arrays import Array
 __all__ = ["State", "go_on_from", "state_of"]
 
 
+ROUNDED = 1e-9
+"""rad: a crank that is no further ahead of its start and speed is where they say."""
+
+
 class State(TypedDict):
     """Everything that a run's future follows from, as numbers in lists.
 
@@ -84,6 +88,9 @@ def go_on_from(model: Model, state: State) -> Model:
     parts[0] = parts[0] + (np.array(state["reference"]) - _reference(model))
     data.SetSystemState(systemStateList=parts, configuration=initial)
     data.SetODE2Coordinates_tt(coordinates=state["accelerations"], configuration=initial)
+    usual = model.scene.start_angle + model.scene.angular_speed * state["time"]
+    ahead = model.crank_at_start() - usual
+    model.ahead[0] = ahead if abs(ahead) > ROUNDED else 0.0
     data.SetTime(newTime=state["time"], configurationType=initial)
     if user_force is not None and state["joints"] is not None:
         user_force.recall(state["joints"])

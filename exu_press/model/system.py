@@ -15,7 +15,7 @@ from exudyn.itemInterface import (
     ObjectGround,
 )
 
-from exu_press.laws.load_curve import Clock
+from exu_press.laws.sheet import Clock
 from exu_press.mechanism import GROUND, Joint, Mechanism, Point, Spring
 from exu_press.mechanism.holding import by_constraints, holding_of
 from exu_press.model.rigid_body import RigidBody
@@ -42,6 +42,8 @@ class System:
         loads: name -> load.
         clocks: of pulses and sheets, each with the reader of its state, told at the end of
             every step.
+        ahead: of a crank at constant speed, one angle, rad, by which it has turned further at time
+            0 than its start; not 0 where a run goes on from one of another speed or start.
         SC: Exudyn's system container.
         mbs: Exudyn's main system, not yet assembled.
         ground: object number of the frame.
@@ -74,6 +76,7 @@ class System:
             for name, load in applied_loads(scene).items()
         }
         self.clocks: list[tuple[Clock, Callable[[float], tuple[float, float]]]] = []
+        self.ahead = [0.0]
         self.SC = exu.SystemContainer()
         self.mbs = self.SC.AddSystem()
         self.ground = int(self.mbs.AddObject(ObjectGround()))

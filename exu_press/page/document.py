@@ -2,6 +2,7 @@
 
 import base64
 import hashlib
+import html
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,7 +11,9 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-__all__ = ["Live", "data_element", "document_of", "has_library", "scripts", "styles"]
+from exu_press.plots.typesetting import typeset
+
+__all__ = ["Live", "data_element", "document_of", "escaped", "has_library", "scripts", "styles"]
 
 HERE = Path(__file__).parent / "static"
 
@@ -38,6 +41,11 @@ class Live:
             f"default-src 'none'; script-src {allowed}; style-src 'unsafe-inline'; "
             "img-src data: blob:; font-src data:; form-action 'none'; base-uri 'none'"
         )
+
+
+def escaped(text: str) -> str:
+    """Return a text as HTML has it, with the signs that units are printed with."""
+    return html.escape(typeset(text))
 
 
 def has_library() -> bool:

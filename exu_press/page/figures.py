@@ -1,7 +1,7 @@
-"""Empty figures of Bokeh, which the script fills: curves over one axis, and their marks."""
+"""Empty figures of Bokeh, which the scripts fill: curves and their marks, points of a study."""
 
 from functools import cache
-from typing import Any
+from typing import Any, Literal
 
 from bokeh.models import (
     AdaptiveTicker,
@@ -21,7 +21,7 @@ from bokeh.plotting import figure
 
 from exu_press.page.document import document_of
 
-__all__ = ["DASHES", "PANELS", "curve_panels"]
+__all__ = ["DASHES", "PANELS", "curve_panels", "let_zoom", "points_and_lines"]
 
 PANELS = 6
 """Panels of curves, one below the other; those that are not in use are hidden."""
@@ -31,6 +31,8 @@ HEIGHT = 150
 
 DASHES = ("solid", "dashed", "dotdash", "dotted")
 """Line styles of runs over each other, which are told apart without colours too."""
+
+RUN, CHOSEN, FAINT = "#0072B2", "#D55E00", "#9aa3ab"
 
 SCROLLING = ".bk-events { touch-action: pan-y !important; }"
 """A finger that moves up or down scrolls the page."""
@@ -138,28 +140,102 @@ def _marks_strip(shared: Range1d) -> Any:
 
 
 def _figure(name: str, across: Range1d, up: Range1d, height: int) -> Any:
-    """Return an empty figure with its ways to zoom: drag to zoom or move, control and wheel."""
-    made = figure(
-        name=name,
-        height=height,
-        sizing_mode="stretch_width",
-        x_range=across,
-        y_range=up,
-        tools=[],
-        toolbar_location=None,
-        min_border_left=74,
-        min_border_right=12,
-        min_border_top=4,
-        min_border_bottom=4,
-        stylesheets=[InlineStyleSheet(css=SCROLLING)],
-    )
-    pan = PanTool(dimensions="width", name=f"pan-{name}")
-    zoom = BoxZoomTool(dimensions="width", name=f"zoom-{name}")
-    wheel = WheelZoomTool(dimensions="width", modifiers={"ctrl": True})
-    made.add_tools(pan, zoom, wheel)
-    made.toolbar.active_drag = zoom
-    made.toolbar.active_scroll = wheel
+    """Return an empty figure of which the x axis alone can be zoomed."""
+    borders = {"min_border_left": 74, "min_border_right": 12}
+    borders |= {"min_border_top": 4, "min_border_bottom": 4}
+    sheets = [InlineStyleSheet(css=SCROLLING)]
+    made = _empty(name, across, up, height, **borders, stylesheets=sheets)
+    let_zoom(made, "width")
     made.xaxis.ticker = AdaptiveTicker(mantissas=[1, 2, 5], name=f"ticker-{name}")
     made.xaxis.name = f"x-axis-{name}"
     made.xaxis.major_label_standoff = 2
+    return made
+
+
+def _empty(name: str, across: Range1d, up: Range1d, height: int, **more: Any) -> Any:
+    bare: dict[str, Any] = {"sizing_mode": "stretch_width", "tools": [], "toolbar_location": None}
+    return figure(name=name, height=height, x_range=across, y_range=up, **bare, **more)
+
+
+def let_zoom(made: Any, dimensions: Literal["width", "both"] = "both") -> None:
+    """Let a drag zoom a figure, or move it if the page says so, and the wheel with control."""
+    pan = PanTool(dimensions=dimensions, name=f"pan-{made.name}")
+    zoom = BoxZoomTool(dimensions=dimensions, name=f"zoom-{made.name}")
+    wheel = WheelZoomTool(dimensions=dimensions, modifiers={"ctrl": True})
+    made.add_tools(pan, zoom, wheel)
+    made.toolbar.active_drag, made.toolbar.active_scroll = zoom, wheel
+
+
+@cache
+def points_and_lines() -> dict[str, Any]:
+    """Return both figures of a study."""
+    return document_of([_points(), _parallel()])
+
+
+def _points() -> Any:
+    """Return the figure with a point for every run."""
+    across, up = (Range1d(start=0.0, end=1.0, name=f"points-{axis}") for axis in "xy")
+    made = _empty("points", across, up, 380, min_border_left=84)
+    let_zoom(made)
+    for name, marker, size, colour in (
+        ("others", "circle", 5, FAINT),
+        ("runs", "circle", 7, RUN),
+        ("chosen", "diamond", 15, CHOSEN),
+    ):
+        empty: dict[str, list[float]] = {n: [] for n in ("x", "y", "low", "high", "colour")}
+        source = ColumnDataSource(empty, name=f"points-{name}")
+        colour_of: Any = "colour" if name == "runs" else colour
+        made.add_layout(
+            Whisker(base="x", lower="low", upper="high", source=source, line_color=colour)
+        )
+        made.scatter(
+            "x",
+            "y",
+            source=source,
+            marker=marker,
+            size=size,
+            fill_color=colour_of if name == "runs" else None,
+            line_color=colour_of,
+            line_width=2 if name == "chosen" else 1,
+            alpha=0.5 if name == "others" else 0.9,
+            name=f"glyphs-{name}",
+        )
+    return made
+
+
+def _parallel() -> Any:
+    """Return the figure of parallel coordinates: a line for every run over an axis for each key."""
+    across = Range1d(start=-0.4, end=1.4, name="parallel-x")
+    made = _empty("parallel", across, Range1d(start=-0.22, end=1.22, name="parallel-y"), 380)
+    made.grid.visible = False
+    made.yaxis.visible = False
+    made.xaxis.ticker = FixedTicker(ticks=[], name="parallel-ticks")
+    made.xaxis.visible = False
+    for name, colour, width, alpha in (
+        ("others", FAINT, 0.8, 0.3),
+        ("runs", RUN, 1.1, 0.65),
+        ("chosen", CHOSEN, 3.0, 1.0),
+    ):
+        source = ColumnDataSource({"xs": [], "ys": [], "colour": []}, name=f"lines-{name}")
+        colour_of = "colour" if name == "runs" else colour
+        made.multi_line(
+            "xs", "ys", source=source, line_color=colour_of, line_width=width, line_alpha=alpha
+        )
+    axes = ColumnDataSource({"x": [], "low": [], "high": []}, name="parallel-axes")
+    made.segment("x", "low", "x", "high", source=axes, line_color="#767676", line_width=1.2)
+    kept = ColumnDataSource({"x": [], "low": [], "high": []}, name="parallel-kept")
+    made.segment(
+        "x", "low", "x", "high", source=kept, line_color=CHOSEN, line_width=7, line_alpha=0.55
+    )
+    words = ColumnDataSource({"x": [], "y": [], "text": [], "align": []}, name="parallel-words")
+    made.text(
+        "x",
+        "y",
+        "text",
+        source=words,
+        text_align="center",
+        text_baseline="middle",
+        text_font_size="11px",
+        name="parallel-labels",
+    )
     return made

@@ -1,13 +1,19 @@
 """Curves that zoom each by itself: measured beside computed, and how far keys are determined."""
 
-import html
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from exu_press.page.document import Live, data_element, document_of, scripts, styles
+from exu_press.page.document import (
+    Live,
+    data_element,
+    document_of,
+    escaped,
+    has_library,
+    scripts,
+    styles,
+)
 from exu_press.plots.style import colour_of
-from exu_press.plots.typesetting import typeset
 
 __all__ = ["Line", "Panel", "lines_viewer"]
 
@@ -50,8 +56,10 @@ class Panel:
     lines: Sequence[Line]
 
 
-def lines_viewer(panels: Sequence[Panel]) -> Live:
-    """Return the live part of a page of curves."""
+def lines_viewer(panels: Sequence[Panel]) -> Live | None:
+    """Return the live part of a page of curves; nothing without the extra `page`, or curves."""
+    if not panels or not has_library():
+        return None
     data = document_of([_figure(panel) for panel in panels])
     parts = [_head(panel, number) for number, panel in enumerate(panels)]
     body = (
@@ -67,30 +75,27 @@ def lines_viewer(panels: Sequence[Panel]) -> Live:
 def _head(panel: Panel, number: int) -> str:
     """Return a panel's place with its words; texts stand outside the library's canvas."""
     legend = "".join(
-        f'<span class="value" style="--run: {colour_of(place)}">{_text(line.label)}</span> '
+        f'<span class="value" style="--run: {colour_of(place)}">{escaped(line.label)}</span> '
         for place, line in enumerate(panel.lines)
     )
+    title = escaped(panel.title)
     return (
-        f"<h3>{_text(panel.title)}</h3><p>{legend}</p>"
-        f'<div id="lines-{number}" class="plot" role="img" aria-label="{_text(panel.title)}"></div>'
-        f'<p class="told">across: {_text(panel.across)}; up: {_text(panel.up)} '
+        f"<h3>{title}</h3><p>{legend}</p>"
+        f'<div id="lines-{number}" class="plot" role="img" aria-label="{title}"></div>'
+        f'<p class="told">across: {escaped(panel.across)}; up: {escaped(panel.up)} '
         f'<output id="at-{number}"></output></p>'
     )
 
 
-def _text(text: str) -> str:
-    return html.escape(typeset(text))
-
-
 def _figure(panel: Panel) -> Any:
-    from bokeh.models import BoxZoomTool, ColumnDataSource, PanTool, Range1d, WheelZoomTool
+    from bokeh.models import ColumnDataSource, Range1d
     from bokeh.models.annotations import Whisker
     from bokeh.plotting import figure
 
+    from exu_press.page.figures import let_zoom
+
     made = figure(height=300, sizing_mode="stretch_width", tools=[], toolbar_location=None)
-    zoom, wheel = BoxZoomTool(), WheelZoomTool(modifiers={"ctrl": True})
-    made.add_tools(zoom, wheel, PanTool())
-    made.toolbar.active_drag, made.toolbar.active_scroll = zoom, wheel
+    let_zoom(made)
     heights = [y for line in panel.lines for y in (*line.y, *(line.low or ()), *(line.high or ()))]
     if heights:
         margin = 0.08 * (max(heights) - min(heights)) or 0.08 * abs(heights[0]) or 1.0

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from exu_press.page.blocks import Blocks
-from exu_press.page.document import Live, data_element, scripts, styles
+from exu_press.page.document import Live, data_element, has_library, scripts, styles
 from exu_press.plots.typesetting import typeset
 
 __all__ = ["Column", "study_viewer"]
@@ -22,7 +22,7 @@ class Column:
 
     Attributes:
         name: of the key or quantity.
-        unit: SI; "" where it has none.
+        unit: of the values; "" where they have none.
         values: a number, a text, or None of a run that has none.
         low: least values, where errors are known.
         high: largest values, likewise.
@@ -46,8 +46,8 @@ def study_viewer(
     told: Sequence[str],
     first: tuple[str, str] | None = None,
     colour: str = "",
-) -> Live:
-    """Return the live part of a study's page.
+) -> Live | None:
+    """Return the live part of a study's page; nothing without the extra `page`.
 
     Args:
         keys: that varied.
@@ -56,7 +56,9 @@ def study_viewer(
         first: columns of the picture at first, across and up; None: the first key and quantity.
         colour: column that the colours show at first; "": the first key that is not across.
     """
-    from exu_press.page.study_figures import points_and_lines
+    if not has_library():
+        return None
+    from exu_press.page.figures import points_and_lines
 
     blocks = Blocks()
     columns = [*keys, *quantities]

@@ -8,7 +8,7 @@ import numpy as np
 from exu_press.numerics.arrays import Array
 from exu_press.page.blocks import Blocks
 from exu_press.page.curves import Curve, curves_of, shown_unit
-from exu_press.page.document import Live, data_element, scripts, styles
+from exu_press.page.document import Live, data_element, has_library, scripts, styles
 from exu_press.page.marks import dead_centres, impacts, peaks, values_on
 from exu_press.page.scenery import scenery
 from exu_press.page.surfaces import surfaces
@@ -30,13 +30,15 @@ SCRIPTS = ("data", "theme", "thin", "curves", "mechanism", "joint", "surface", "
 
 def viewer(
     results: Mapping[str, Result], spans: Mapping[str, tuple[float, float]] | None = None
-) -> Live:
-    """Return the live part for one run, or for several by label.
+) -> Live | None:
+    """Return the live part for one run, or for several by label; none without the extra `page`.
 
     Args:
         results: by label.
         spans: begin and end of each run's curves, s; None: all of them.
     """
+    if not has_library():
+        return None
     from exu_press.page.figures import curve_panels
 
     blocks = Blocks()

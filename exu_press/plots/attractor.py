@@ -31,8 +31,11 @@ def attractor_figure(found: Attractor) -> Figure:
     panels = figure.subplots(2, 4)
     loose = next(iter(found.scene.joints.with_clearance), None)
     if found.points.shape[1] > 1:
-        _section(panels[0, 0], found, loose)
-        _speeds(panels[0, 1], found)
+        where = "guideway" if loose is None else loose.replace("_", " ")
+        title = f"section at {found.scene.start_angle_deg:g} deg: {where}"
+        _section(panels[0, 0], found, 1, title, "y / clearance")
+        title = "section: velocity over position"
+        _section(panels[0, 1], found, 2, title, "its rate / largest speed")
     else:  # a motor turns ideal joints
         label = "crank speed on the section / scene's"
         _by_revolution(panels[0, 0], label, found.points[:, 0], found.skip)
@@ -55,21 +58,9 @@ def _scatter(values: Array) -> float:
     return float(known.std() / max(abs(known.mean()), 1e-300)) if len(known) else 0.0
 
 
-def _section(panel: Axes, found: Attractor, joint: str | None) -> None:
-    where = "guideway" if joint is None else joint.replace("_", " ")
-    _points(panel, found.points[:, 0], found.points[:, 1], found.error)
-    panel.set_title(f"section at {found.scene.start_angle_deg:g} deg: {where}")
-    panel.set(xlabel="x / clearance", ylabel="y / clearance")
-
-
-def _speeds(panel: Axes, found: Attractor) -> None:
-    _points(panel, found.points[:, 0], found.points[:, 2], found.error)
-    panel.set_title("section: velocity over position")
-    panel.set(xlabel="x / clearance", ylabel="its rate / largest speed")
-
-
-def _points(panel: Axes, x: Array, y: Array, error: float) -> None:
-    """Draw two coordinates of the section, later revolutions brighter, and the error of a point."""
+def _section(panel: Axes, found: Attractor, up: int, title: str, label: str) -> None:
+    """Draw a coordinate of the section over the first one, later revolutions brighter."""
+    x, y, error = found.points[:, 0], found.points[:, up], found.error
     panel.scatter(x, y, c=np.arange(len(x)), cmap=PATH_COLOURS, s=14)
     for axis, values in ((panel.set_xlim, x), (panel.set_ylim, y)):
         half = max(0.6 * float(np.ptp(values)), 3.0 * error)
@@ -78,6 +69,7 @@ def _points(panel: Axes, x: Array, y: Array, error: float) -> None:
     panel.locator_params(nbins=4)
     panel.errorbar(x[-1], y[-1], error, error, color=GREY, lw=1.0, label="error")
     panel.legend(loc="best")
+    panel.set(title=title, xlabel="x / clearance", ylabel=label)
 
 
 def _portrait(panel: Axes, found: Attractor) -> None:
@@ -103,6 +95,7 @@ def _frequencies(panel: Axes, each: Spectra) -> None:
     draw_spectrum(panel, each.over_time, each.unit)
     panel.set_xscale("log")
     panel.set_xlim(each.over_time.frequency[0], each.over_time.frequency[-1])
+    panel.legend(loc="lower left")
     panel.set_title("spectrum of the slider's acceleration")
     panel.set_xlabel("frequency, Hz")
 

@@ -18,6 +18,7 @@ from exu_press.studies.sensitivity.indices import Indices
 __all__ = ["sensitivity_figure", "sensitivity_figures"]
 
 BINS = 30
+BARS = COLOURS["sky blue"], COLOURS["blue"]
 
 
 @styled
@@ -44,7 +45,7 @@ def sensitivity_figure(report: Report) -> Figure:
         bars = report.bars[order, :, place] * quantity.scale
         middle = report.middle[place] * quantity.scale
         places = np.arange(len(order))
-        for end, colour in ((0, COLOURS["sky blue"]), (1, COLOURS["blue"])):
+        for end, colour in enumerate(BARS):
             row[1].barh(places, bars[:, end] - middle, color=colour, height=0.62)
         row[1].axvline(0.0, color="black", linewidth=0.8)
         row[1].margins(x=0.05)
@@ -53,7 +54,11 @@ def sensitivity_figure(report: Report) -> Figure:
         row[1].set_xlabel(f"change{f', {unit}' if unit else ''}")
         _indices(row[2], found, order)
         row[2].set_yticks(places, [])
-    panels[0, 1].legend(*_ends(), loc="lower right", bbox_to_anchor=(1.0, 1.1), ncols=2)
+    ends = [
+        Patch(color=colour, label=f"at its {end} %")
+        for end, colour in zip((5, 95), BARS, strict=True)
+    ]
+    panels[0, 1].legend(handles=ends, loc="lower right", bbox_to_anchor=(1.0, 1.1), ncols=2)
     panels[0, 2].legend(loc="lower right", bbox_to_anchor=(1.0, 1.1), ncols=2)
     return figure
 
@@ -61,11 +66,6 @@ def sensitivity_figure(report: Report) -> Figure:
 def sensitivity_figures(report: Report) -> dict[str, Figure]:
     """Return the picture of a sensitivity study by its name."""
     return {"sensitivity": sensitivity_figure(report)}
-
-
-def _ends() -> tuple[list[object], list[str]]:
-    colours = (COLOURS["sky blue"], COLOURS["blue"])
-    return [Patch(color=colour) for colour in colours], ["at its 5 %", "at its 95 %"]
 
 
 def _spread(axes: Axes, values: Array, report: Report, place: int) -> None:

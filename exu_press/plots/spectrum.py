@@ -26,11 +26,15 @@ HIGHEST_ORDER = 60.0
 
 
 def draw_spectrum(axes: Axes, spectrum: Spectrum, unit: str) -> None:
-    """Draw the amplitudes over a logarithmic scale, and the error of the resampling."""
+    """Draw the amplitudes over a logarithmic scale, the error of the resampling, the resolution."""
     axes.plot(spectrum.frequency, spectrum.amplitude, color=COLOURS["blue"], linewidth=0.9)
     axes.axhline(
         spectrum.error, color=GREY, linewidth=0.9, linestyle="--", label="error of the resampling"
     )
+    lowest, width = spectrum.frequency[0], spectrum.resolution
+    if width > lowest:
+        label = f"below the resolution, {width:.3g} Hz"
+        axes.axvspan(lowest, width, color=GREY, alpha=0.2, linewidth=0.0, label=label)
     axes.set_yscale("log")
     largest = float(spectrum.amplitude.max()) or 1.0
     axes.set_ylim(DECADES * largest, 2.0 * largest)
@@ -42,7 +46,7 @@ def spectrum_figure(one: Spectra, scene: Scene, marks: Sequence[Mark] = ()) -> F
     """Return the picture of a channel's spectra, with natural frequencies as marks."""
     over, orders = one.over_time, one.over_angle
     text = f"{describe([scene], 110)}\n"
-    text += f"{over.cells} cells, window {over.window}, resolution {over.resolution:.3g} Hz"
+    text += f"{over.cells} cells, window {over.window}"
     heading = f"Spectrum of {plain(one.name.replace('_', ' '))}"
     figure = headed_figure(heading, text, (9.5, 9.0 if orders else 6.4))
     panels = list(figure.subplots(3 if orders else 2, 1, squeeze=False).flat)

@@ -3,12 +3,13 @@
 from pathlib import Path
 from typing import Any
 
-from exu_press.page import Live, has_library
+from exu_press.page import Live
+from exu_press.page.study import Column, study_viewer
 from exu_press.plots.words import ONE_LINE, describe
 from exu_press.report.html import table
-from exu_press.report.study import reading, study_page
+from exu_press.report.study import reading, shown_column, study_page
 from exu_press.scene import Scene
-from exu_press.schema.stored import from_json
+from exu_press.studies.sweep.units import shown_unit
 
 __all__ = ["attractor_report"]
 
@@ -17,14 +18,13 @@ HEAD = ("quantity", "unit", "mean", "scatter", "5 %", "50 %", "95 %")
 
 def attractor_report(file: Path) -> str:
     """Return the page of a motion in the long run, from attractor.json."""
-    with reading(file, "a motion of exu-press attractor"):
-        told = from_json(dict[str, Any], file.read_bytes(), file.name)
+    with reading(file, "a motion of exu-press attractor") as told:
         scene = Scene.from_dict(told["scene"])
         found = [["period", str(told["period"]["in_words"])], *_exponent(told)]
         figures = [
             _figure(name, told["units"][name], one) for name, one in told["distributions"].items()
         ]
-        live = _live(told) if has_library() else None
+        live = _live(told)
         length = f"{told['revolutions']} revolutions after {told['skip']}"
         section = f"section at crank angle {told['section_deg']:g} deg"
     return study_page(
@@ -62,28 +62,30 @@ def _exponent(told: dict[str, Any]) -> list[list[str]]:
 
 
 def _figure(name: str, unit: str, one: dict[str, Any]) -> list[str]:
+    unit, k = shown_unit(name, [one["mean"]["value"]], unit)
     both = [
-        f"{one[part]['value']:.{digits}g} \N{PLUS-MINUS SIGN} {one[part]['error']:.2g}"
+        f"{k * one[part]['value']:.{digits}g} \N{PLUS-MINUS SIGN} {k * one[part]['error']:.2g}"
         for part, digits in (("mean", 6), ("scatter", 2))
     ]
     shares = [
-        f"{at['value']:.5g} [{at['low']:.5g}, {at['high']:.5g}]"
+        f"{k * at['value']:.5g} [{k * at['low']:.5g}, {k * at['high']:.5g}]"
         for at in one["percentiles"].values()
     ]
     return [name, unit, *both, *shares]
 
 
-def _live(told: dict[str, Any]) -> Live:
+def _live(told: dict[str, Any]) -> Live | None:
     """Return every revolution: its point in the section and its figures."""
-    from exu_press.page.study import Column, study_viewer
-
     points = told["points"]
     numbers = [told["skip"] + 1 + k for k in range(len(points))]
     section = [
         Column(f"section, coordinate {k + 1}", "", [float(point[k]) for point in points])
         for k in range(len(points[0]))
     ]
-    figures = [Column(name, told["units"][name], each) for name, each in told["figures"].items()]
+    figures = [
+        shown_column(name, each, other=told["units"][name])
+        for name, each in told["figures"].items()
+    ]
     first = (section[0].name, section[1 % len(section)].name)
     return study_viewer(
         [Column("revolution", "", numbers)],

@@ -3,10 +3,10 @@
 from pathlib import Path
 from typing import Any
 
-from exu_press.page import Live, has_library
+from exu_press.page import Live
+from exu_press.page.study import Column, study_viewer
 from exu_press.report.html import table
 from exu_press.report.study import reading, study_page
-from exu_press.schema.stored import from_json
 from exu_press.studies.bifurcation.lines import row_in_words
 from exu_press.studies.sweep.units import unit_of, with_unit
 
@@ -15,12 +15,11 @@ __all__ = ["bifurcation_report"]
 
 def bifurcation_report(file: Path) -> str:
     """Return the page of a bifurcation diagram, from bifurcation.json."""
-    with reading(file, "a bifurcation of exu_press"):
-        told = from_json(dict[str, Any], file.read_bytes(), file.name)
+    with reading(file, "a bifurcation of exu_press") as told:
         names = [str(told["key"]), *([told["second_key"]] if "second_key" in told else [])]
         rows = [(way, row) for way, branch in told["branches"].items() for row in branch]
         done = [(way, row) for way, row in rows if row["status"] == "completed"]
-        live = _live(names, done) if has_library() and done else None
+        live = _live(names, done) if done else None
         cells = [
             (*(f"{row[at]:g}" for at in ("value", "second") if at in row), way, *row_in_words(row))
             for way, row in rows
@@ -35,10 +34,8 @@ def bifurcation_report(file: Path) -> str:
     )
 
 
-def _live(names: list[str], done: list[tuple[str, dict[str, Any]]]) -> Live:
+def _live(names: list[str], done: list[tuple[str, dict[str, Any]]]) -> Live | None:
     """Return every point of every section over the key."""
-    from exu_press.page.study import Column, study_viewer
-
     each = [(way, row, point) for way, row in done for point in row["points"]]
     values = [
         Column(name, unit_of(name), [row[place] for _, row, _ in each])

@@ -15,6 +15,7 @@ from exu_press.report.shown import ALL, Span
 from exu_press.report.study import reading
 from exu_press.result import Result
 from exu_press.schema.stored import from_json, shown
+from exu_press.studies.beside_measured import MEASURED, MEASURED_PICTURE, beside_rows
 from exu_press.studies.compare import different_keys
 
 __all__ = ["comparison_page", "comparison_report"]
@@ -28,16 +29,20 @@ CAPTIONS = {
 def comparison_report(file: Path, span: Span = ALL) -> str:
     """Return the page of a comparison, from comparison.json and the variants' run.nc beside it."""
     results = {label: Result.load(path) for label, path in _runs(file).items()}
-    return comparison_page(results, f"{file.parent.name}/{file.name}", span)
+    measured = _measured(file.parent)
+    return comparison_page(results, f"{file.parent.name}/{file.name}", span, measured)
 
 
-def comparison_page(results: Mapping[str, Result], source: str, span: Span = ALL) -> str:
+def comparison_page(
+    results: Mapping[str, Result], source: str, span: Span = ALL, measured: str = ""
+) -> str:
     """Return the page of runs by label.
 
     Args:
         results: by label.
         source: where they are from, to be shown.
         span: begin and end of their curves, s; None: those of the records.
+        measured: section on measured curves beside them.
     """
     summaries = {label: result.summary() for label, result in results.items()}
     head, *rows = comparison_cells(results)
@@ -62,10 +67,25 @@ def comparison_page(results: Mapping[str, Result], source: str, span: Span = ALL
             ("In motion", live),
             ("Warnings", warnings(told)),
             ("Results", table(head, rows)),
+            *([("Measured", measured)] if measured else []),
             ("Pictures", stills("\n".join(shown), live)),
             *scene_parts(richest.scene),
         ],
     )
+
+
+def _measured(directory: Path) -> str:
+    """Return differences from measured curves as tables, and their picture; nothing without any."""
+    file, drawn = directory / MEASURED, directory / f"{MEASURED_PICTURE}.png"
+    if not file.is_file():
+        return ""
+    with reading(file, "differences from measured curves"):
+        told = from_json(dict[str, Any], file.read_bytes(), file.name)
+        tables = [beside_rows(name, runs) for name, runs in told.items()]
+    parts = [table(head, rows) for head, *rows in tables]
+    if drawn.is_file():
+        parts.append(picture(drawn, "Measured curves, and the runs at the measured places."))
+    return "\n".join(parts)
 
 
 def _runs(file: Path) -> dict[str, Path]:

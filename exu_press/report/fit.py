@@ -5,29 +5,29 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.page import Live, has_library
+from exu_press.page import Live
+from exu_press.page.lines import Line, Panel, lines_viewer
 from exu_press.plots.words import ONE_LINE, describe
 from exu_press.report.html import paragraph, table
 from exu_press.report.study import reading, study_page
 from exu_press.scene import Scene
-from exu_press.schema.stored import from_json
+from exu_press.scene.file import scene_tables
 from exu_press.studies.fit.lines import inexact
 from exu_press.studies.fit.profile import between
-from exu_press.studies.sweep.units import unit_of, with_unit
+from exu_press.studies.sweep.units import shown_unit, unit_of, with_unit
 
 __all__ = ["fit_report"]
 
 
 def fit_report(file: Path) -> str:
     """Return the page of a fit, from fit.json and fitted.toml beside it."""
-    with reading(file, "a fit of exu_press"):
-        told = from_json(dict[str, Any], file.read_bytes(), file.name)
+    with reading(file, "a fit of exu_press") as told:
         keys = [_key(name, one) for name, one in told["keys"].items()]
         numbers = [_number(one) for one in told["measured"]]
-        live = _live(told) if has_library() else None
+        live = _live(told)
         inexact_runs = inexact(told["largest_error_over_uncertainty"])
         chi_square = f"{told['chi_square']:.4g} with {told['degrees_of_freedom']:g}"
-    scene = Scene.load(file.parent / "fitted.toml", [])
+    scene = Scene.from_dict(scene_tables(file.parent / "fitted.toml"))  # complete: nothing is asked
     return study_page(
         file,
         f"Fit: {describe([scene], ONE_LINE)}",
@@ -57,14 +57,15 @@ def _key(name: str, one: dict[str, Any]) -> list[str]:
 
 
 def _number(one: dict[str, Any]) -> list[str]:
-    values = (one[part] for part in ("value", "uncertainty", "computed"))
-    return [str(one["name"]), *("-" if value is None else f"{value:.6g}" for value in values)]
+    values = [one[part] for part in ("value", "uncertainty", "computed")]
+    name = str(one["name"])
+    unit, scale = shown_unit(name.partition(", ")[0], values[:1])
+    texts = ("-" if value is None else f"{scale * value:.6g}" for value in values)
+    return [with_unit(name, unit), *texts]
 
 
 def _live(told: dict[str, Any]) -> Live | None:
     """Return the curves, the numbers in uncertainties, and chi-square over each key."""
-    from exu_press.page.lines import Line, Panel, lines_viewer
-
     panels = [
         Panel(
             f"Curve {name}",
@@ -96,4 +97,4 @@ def _live(told: dict[str, Any]) -> Live | None:
         panels.append(
             Panel(f"How well {name} is determined", with_unit(name), "chi-square", [line, fits])
         )
-    return lines_viewer(panels) if panels else None
+    return lines_viewer(panels)

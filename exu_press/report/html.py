@@ -1,13 +1,11 @@
 """The parts of a page: text, tables, pictures inside it. Nothing is loaded from anywhere."""
 
 import base64
-import html
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from string import Template
 
-from exu_press.page.document import Live
-from exu_press.plots.typesetting import typeset
+from exu_press.page.document import Live, escaped
 
 __all__ = ["details", "page", "paragraph", "picture", "stills", "table", "warnings"]
 
@@ -101,16 +99,16 @@ def page(title: str, under: str, sections: Sequence[tuple[str, str | Live | None
         if inner is not None
     ]
     links = "\n".join(
-        f'<a href="#part-{number}">{_text(heading)}</a>'
+        f'<a href="#part-{number}">{escaped(heading)}</a>'
         for number, (heading, _) in enumerate(parts)
     )
     body = "\n".join(
-        f'<section id="part-{number}">\n<h2>{_text(heading)}</h2>\n{inner}\n</section>'
+        f'<section id="part-{number}">\n<h2>{escaped(heading)}</h2>\n{inner}\n</section>'
         for number, (heading, inner) in enumerate(parts)
     )
     return PAGE.substitute(
-        title=_text(title),
-        under=_text(under),
+        title=escaped(title),
+        under=escaped(under),
         links=links,
         body=body,
         policy=NO_SCRIPTS if live is None else live.policy,
@@ -134,12 +132,12 @@ def stills(inner: str, live: Live | None) -> str:
 
 def paragraph(text: str) -> str:
     """Return a paragraph of plain text."""
-    return f"<p>{_text(text)}</p>"
+    return f"<p>{escaped(text)}</p>"
 
 
 def warnings(texts: Sequence[str]) -> str:
     """Return a list of plain texts, or that there are none."""
-    inner = "\n".join(f"<li>{_text(text)}</li>" for text in texts or ["none"])
+    inner = "\n".join(f"<li>{escaped(text)}</li>" for text in texts or ["none"])
     return f'<div class="{"warnings" if texts else "good"}"><ul>\n{inner}\n</ul></div>'
 
 
@@ -154,12 +152,12 @@ def table(
         caption: above it.
         name: under which a script finds it.
     """
-    known_as = f' id="{_text(name)}"' if name else ""
-    above = f"<caption>{_text(caption)}</caption>" if caption else ""
-    top = "".join(f'<th scope="col">{_text(cell)}</th>' for cell in head)
+    known_as = f' id="{escaped(name)}"' if name else ""
+    above = f"<caption>{escaped(caption)}</caption>" if caption else ""
+    top = "".join(f'<th scope="col">{escaped(cell)}</th>' for cell in head)
     lines = "\n".join(
-        f'<tr><th scope="row">{_text(first)}</th>'
-        + "".join(f"<td>{_text(cell)}</td>" for cell in rest)
+        f'<tr><th scope="row">{escaped(first)}</th>'
+        + "".join(f"<td>{escaped(cell)}</td>" for cell in rest)
         + "</tr>"
         for first, *rest in rows
     )
@@ -171,18 +169,14 @@ def table(
 
 def details(words: str, inner: str) -> str:
     """Return a part that is shown on demand."""
-    return f"<details><summary>{_text(words)}</summary>\n{inner}\n</details>"
+    return f"<details><summary>{escaped(words)}</summary>\n{inner}\n</details>"
 
 
 def picture(path: Path, words: str) -> str:
     """Return a PNG file's content as a figure with a caption; a tap shows it in full size."""
     data = base64.b64encode(path.read_bytes()).decode("ascii")
     return (
-        f'<figure><label><input type="checkbox" aria-label="full size: {_text(words)}">'
-        f'<img src="data:image/png;base64,{data}" alt="{_text(words)}"></label>'
-        f"<figcaption>{_text(words)}</figcaption></figure>"
+        f'<figure><label><input type="checkbox" aria-label="full size: {escaped(words)}">'
+        f'<img src="data:image/png;base64,{data}" alt="{escaped(words)}"></label>'
+        f"<figcaption>{escaped(words)}</figcaption></figure>"
     )
-
-
-def _text(text: str) -> str:
-    return html.escape(typeset(text))

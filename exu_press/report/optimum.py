@@ -3,14 +3,15 @@
 from pathlib import Path
 from typing import Any
 
-from exu_press.page import Live, has_library
+from exu_press.page import Live
+from exu_press.page.study import Column, study_viewer
 from exu_press.plots.words import ONE_LINE, describe
 from exu_press.report.html import table
-from exu_press.report.study import reading, study_page
+from exu_press.report.study import reading, shown_column, study_page
 from exu_press.scene import Scene
+from exu_press.scene.file import scene_tables
 from exu_press.schema.csv_table import read_csv
-from exu_press.schema.stored import from_json
-from exu_press.studies.sweep.units import unit_of, with_unit
+from exu_press.studies.sweep.units import shown_unit, with_unit
 
 __all__ = ["optimum_report"]
 
@@ -19,8 +20,7 @@ FRONT = "front"
 
 def optimum_report(file: Path) -> str:
     """Return the page of an optimum, from optimise.json, trials.csv and the scenes beside it."""
-    with reading(file, "an optimum of exu_press"):
-        told = from_json(dict[str, Any], file.read_bytes(), file.name)
+    with reading(file, "an optimum of exu_press") as told:
         columns = read_csv(file.parent / "trials.csv")
         head = list(columns)
         trials = [dict(zip(head, row, strict=True)) for row in zip(*columns.values(), strict=True)]
@@ -28,13 +28,15 @@ def optimum_report(file: Path) -> str:
         chosen = int(told["chosen"])
         keys = list(front[chosen])
         places = [_place(front, trial, keys) for trial in trials]
-    scene = Scene.load(file.parent / "chosen.toml", [])
-    live = _live(head, trials, keys, places) if has_library() else None
+    scene = Scene.from_dict(scene_tables(file.parent / "chosen.toml"))  # complete: nothing is asked
+    live = _live(head, trials, keys, places)
+    units = {name: shown_unit(name, [t[name] for t in trials if t[name]]) for name in head[:-1]}
     rows = [
-        [str(run), *(_shown(trial[name]) for name in head[:-1]), _of_front(place, chosen)]
+        [str(run), *(_shown(trial[name], k) for name, (_, k) in units.items()), of_front]
         for run, (trial, place) in enumerate(zip(trials, places, strict=True))
+        for of_front in [_of_front(place, chosen)]
     ]
-    names = map(with_unit, head[:-1])
+    names = (with_unit(name, unit) for name, (unit, _) in units.items())
     return study_page(
         file,
         f"Optimum: {describe([scene], ONE_LINE)}",
@@ -48,12 +50,11 @@ def optimum_report(file: Path) -> str:
 
 def _live(
     head: list[str], trials: list[dict[str, Any]], keys: list[str], places: list[int | None]
-) -> Live:
+) -> Live | None:
     """Return the trials as points; one of the front opens with its scene."""
-    from exu_press.page.study import Column, study_viewer
 
     def column(name: str) -> Column:
-        return Column(name, unit_of(name), [trial[name] for trial in trials])
+        return shown_column(name, [trial[name] for trial in trials])
 
     found = [name for name in head[:-1] if name not in keys]
     on_front = ["trial" if place is None else "front" for place in places]
@@ -79,5 +80,7 @@ def _of_front(place: int | None, chosen: int) -> str:
     return f"{place + 1:02}.toml" + (", chosen" if place == chosen else "")
 
 
-def _shown(value: Any) -> str:
-    return "" if value is None else f"{value:.6g}" if isinstance(value, float) else str(value)
+def _shown(value: Any, scale: float) -> str:
+    if isinstance(value, float):
+        return f"{scale * value:.6g}"
+    return "" if value is None else str(value)

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from exu_press.page import Live, has_library
+from exu_press.page import Live
+from exu_press.page.viewer import viewer
 from exu_press.plots import save_pictures
 from exu_press.plots.words import ONE_LINE, describe, joint_in_words
 from exu_press.quantities import Quantity, value_of
@@ -86,7 +87,7 @@ def run_report(result: Result, source: str, span: Span = ALL) -> str:
             ("Warnings", warnings(warnings_of(summary))),
             ("Results", table(("quantity", "value"), numbers) + joint_table(result)),
             ("Pictures", stills(_pictures(result), live)),
-            ("Energy and solver", _energy(result) + _statistics(result)),
+            ("Energy and solver", _energy_and_solver(result)),
             *scene_parts(result.scene),
         ],
     )
@@ -95,17 +96,13 @@ def run_report(result: Result, source: str, span: Span = ALL) -> str:
 def live_part(results: Mapping[str, Result], span: Span = ALL) -> Live | None:
     """Return the live part of the page of runs; nothing without the extra `page`."""
     ends = {label: interval(result, *span) for label, result in results.items()}
-    if not has_library():
-        return None
-    from exu_press.page.viewer import viewer
-
     return viewer(results, ends if span != ALL else None)
 
 
 def changed_keys(scene: Scene) -> str:
     """Return a table of the keys that a scene gives."""
     keys = keys_of(scene).values()
-    changed = [_row(key.name, key.value, key.unit, key.meaning) for key in keys if not key.assumed]
+    changed = [_row(key.name, key.value, key.unit, key.meaning) for key in keys if key.changed]
     if not changed:
         return paragraph("Every key is at its default.")
     return table(HEAD, changed, "Keys that differ from their defaults")
@@ -159,15 +156,10 @@ def _pictures(result: Result) -> str:
     return "\n".join(shown)
 
 
-def _energy(result: Result) -> str:
-    if not has_balance(result):
-        return ""
-    return _listed(result, BALANCE, "Energy")
-
-
-def _statistics(result: Result) -> str:
+def _energy_and_solver(result: Result) -> str:
+    energy = _listed(result, BALANCE, "Energy") if has_balance(result) else ""
     versions = [[f"version of {name}", text] for name, text in result.info["versions"].items()]
-    return _listed(result, COSTS, "Solver", versions)
+    return energy + _listed(result, COSTS, "Solver", versions)
 
 
 def _listed(

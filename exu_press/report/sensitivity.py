@@ -3,15 +3,15 @@
 from pathlib import Path
 from typing import Any
 
-from exu_press.page import Live, has_library
+from exu_press.page import Live
+from exu_press.page.study import study_viewer
 from exu_press.plots.words import ONE_LINE, describe
-from exu_press.quantities.catalogue import declared
 from exu_press.report.html import table
-from exu_press.report.study import command_of, reading, study_page
+from exu_press.report.study import command_of, reading, shown_column, study_page
 from exu_press.scene import Scene
 from exu_press.schema.csv_table import Value, read_csv
 from exu_press.schema.stored import from_json
-from exu_press.studies.sweep.units import unit_of, with_unit
+from exu_press.studies.sweep.units import shown_unit, with_unit
 
 __all__ = ["sensitivity_report"]
 
@@ -21,9 +21,8 @@ SHARES = ("key", "alone", "with others", "at its 5 %", "at its 95 %")
 
 def sensitivity_report(file: Path) -> str:
     """Return the page of a sensitivity study, from sensitivity.json and samples.csv beside it."""
-    with reading(file, "a sensitivity study of exu_press"):
+    with reading(file, "a sensitivity study of exu_press") as told:
         study = from_json(dict[str, Any], file.with_name("study.json").read_bytes(), "study.json")
-        told = from_json(dict[str, Any], file.read_bytes(), file.name)
         scene, keys = Scene.from_dict(study["scene"]), list(study["keys"])
         samples = read_csv(file.with_name("samples.csv"))
         quantities = told["quantities"]
@@ -33,7 +32,7 @@ def sensitivity_report(file: Path) -> str:
             for name, one in quantities.items()
             if one["moves"]
         ]
-        live = _live(samples, keys, quantities) if has_library() else None
+        live = _live(samples, keys, quantities)
         runs = str(told["runs"][0])
     return study_page(
         file,
@@ -47,9 +46,7 @@ def sensitivity_report(file: Path) -> str:
 
 def _spread(name: str, one: dict[str, Any]) -> list[str]:
     """Return a quantity as a line of the table, in the unit that is shown."""
-    placed = declared(name)
-    unit = "" if placed is None else placed.quantity.shown
-    scale = 1.0 if placed is None else placed.quantity.scale
+    unit, scale = shown_unit(name, filter(None, [one["percentiles"]["50"]]))
     ends = [one["percentiles"][part] for part in ("5", "50", "95")]
     numbers = [*ends, one["deviation"], one["half_width"], one["error_of_a_run"]]
     digits = (8, 8, 8, 3, 3, 2)
@@ -62,8 +59,7 @@ def _spread(name: str, one: dict[str, Any]) -> list[str]:
 
 def _shares(name: str, one: dict[str, Any]) -> list[list[str]]:
     """Return each key's indices, the largest first, and the quantity at the key's two ends."""
-    placed = declared(name)
-    scale = 1.0 if placed is None else placed.quantity.scale
+    _, scale = shown_unit(name, filter(None, [one["percentiles"]["50"]]))
     found = sorted(one["keys"].items(), key=lambda pair: -pair[1]["total_order"]["value"])
     rows = []
     for key, entry in found:
@@ -78,17 +74,13 @@ def _shares(name: str, one: dict[str, Any]) -> list[list[str]]:
 
 def _live(
     samples: dict[str, tuple[Value, ...]], keys: list[str], quantities: dict[str, Any]
-) -> Live:
+) -> Live | None:
     """Return the presses of the sample as points, a quantity over the key that decides it."""
-    from exu_press.page.study import Column, study_viewer
-
-    def column(name: str) -> Column:
-        return Column(name, unit_of(name), samples[name])
-
     first, entry = next(iter(quantities.items()))
     most = keys[0]
     if entry["moves"]:
         most = max(keys, key=lambda key: float(entry["keys"][key]["total_order"]["value"]))
     rows = zip(*(samples[key] for key in keys), strict=True)
     opens = [command_of(dict(zip(keys, row, strict=True))) for row in rows]
-    return study_viewer([*map(column, keys)], [*map(column, quantities)], opens, (most, first))
+    varied, found = ([shown_column(n, samples[n]) for n in each] for each in (keys, quantities))
+    return study_viewer(varied, found, opens, (most, first))

@@ -8,20 +8,24 @@ from typing import Any
 
 from exu_press.errors import InputError
 from exu_press.page import Live
+from exu_press.page.study import Column
 from exu_press.report.html import page, paragraph, picture, stills
 from exu_press.report.run import scene_parts
 from exu_press.scene import Scene
+from exu_press.schema.stored import from_json
+from exu_press.studies.sweep.units import shown_unit
 
-__all__ = ["command_of", "reading", "study_page"]
+__all__ = ["command_of", "reading", "scaled", "shown_column", "study_page"]
 
 WRONG = (ValueError, KeyError, IndexError, TypeError, AttributeError)
 
 
 @contextmanager
-def reading(file: Path, wanted: str) -> Iterator[None]:
-    """Turn whatever is wrong with a study's files into an InputError."""
+def reading(file: Path, wanted: str, name: str = "") -> Iterator[Any]:
+    """Yield a study's JSON, of its file or another one beside it; its faults are InputErrors."""
     try:
-        yield
+        told = file.with_name(name) if name else file
+        yield from_json(dict[str, Any], told.read_bytes(), told.name)
     except OSError as error:
         raise InputError(f"{error.filename}: cannot be read ({error.strerror})") from None
     except WRONG as error:
@@ -66,3 +70,22 @@ def command_of(changes: Mapping[str, Any]) -> str:
     """
     told = (f"{name}={value}" for name, value in changes.items() if value is not None)
     return " ".join(["exu-press run SCENE.toml", *(f"--set {shlex.quote(one)}" for one in told)])
+
+
+def shown_column(
+    name: str,
+    values: Sequence[Any],
+    low: Sequence[float | None] | None = None,
+    high: Sequence[float | None] | None = None,
+    other: str | None = None,
+) -> Column:
+    """Return a key or a quantity of a study's runs, SI, in the unit of `shown_unit`."""
+    numbers = [value for value in values if isinstance(value, float)]
+    unit, scale = shown_unit(name, numbers, other)
+    ends = (None if each is None else scaled(each, scale) for each in (low, high))
+    return Column(name, unit, scaled(values, scale), *ends)
+
+
+def scaled(values: Sequence[Any], scale: float) -> list[Any]:
+    """Return values with a factor at the numbers among them."""
+    return [scale * value if isinstance(value, float) else value for value in values]

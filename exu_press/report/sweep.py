@@ -4,10 +4,10 @@ import shlex
 import tempfile
 from collections import Counter
 from pathlib import Path
-from typing import Any
 
 from exu_press.errors import InputError
-from exu_press.page import Live, has_library
+from exu_press.page import Live
+from exu_press.page.study import Column, study_viewer
 from exu_press.plots.file import save_figures
 from exu_press.plots.sweep import sweep_figures
 from exu_press.plots.words import ONE_LINE, describe
@@ -15,15 +15,13 @@ from exu_press.quantities.catalogue import declared
 from exu_press.quantities.kind import COST
 from exu_press.report.html import page, paragraph, picture, stills, table, warnings
 from exu_press.report.run import scene_parts
-from exu_press.report.study import command_of, reading
+from exu_press.report.study import command_of, reading, shown_column
 from exu_press.scene.warnings import scene_warnings
 from exu_press.schema.checks import table_from
 from exu_press.schema.csv_table import read_csv
-from exu_press.schema.stored import from_json
 from exu_press.studies.sweep import Sweep, Table
 from exu_press.studies.sweep.lines import shown
 from exu_press.studies.sweep.table import cell
-from exu_press.studies.sweep.units import unit_of, with_unit
 
 __all__ = ["sweep_report"]
 
@@ -37,9 +35,10 @@ def sweep_report(file: Path) -> str:
     ends = ", ".join(f"{number} {status}" for status, number in counts.items())
     ended = ("status", "reason") if any(runs["reason"]) else ("status",)
     names = (*runs.study.keys, *ended, *shown(runs))  # how it ended is seen at once
-    head = ("run", *map(with_unit, names))
     count = min(len(runs), MOST_ROWS)
-    rows = [[str(run), *(runs.in_words(name, run) for name in names)] for run in range(count)]
+    numbers = "run", *map(str, range(count))
+    shown_runs = (runs.in_words(name, range(count)) for name in names)
+    head, *rows = zip(numbers, *shown_runs, strict=True)
     more = "" if count == len(runs) else paragraph(f"{len(runs) - count} more in {file.name}.")
     nothing = paragraph("No number varies, or none came out.")
     with tempfile.TemporaryDirectory() as folder:
@@ -77,16 +76,15 @@ def _live(runs: Table) -> Live | None:
         and len(set(runs[name])) > 1
     ]
     names = list(dict.fromkeys([*shown_first, *numeric]))
-    if not has_library() or not names:
+    if not names:
         return None
-    from exu_press.page.study import Column, study_viewer
 
     def column(name: str) -> Column:
         errors = [runs.error(name, run) for run in range(len(runs))]
         if not any(errors):
-            return Column(name, unit_of(name), runs[name])
+            return shown_column(name, runs[name])
         low, high = ([e[end] if e else None for e in errors] for end in ("low", "high"))
-        return Column(name, unit_of(name), runs[name], low, high)
+        return shown_column(name, runs[name], low, high)
 
     opens = [_command(runs, run) for run in range(len(runs))]
     keys = [column(name) for name in runs.study.keys]
@@ -102,8 +100,7 @@ def _command(runs: Table, run: int) -> str:
 
 def _table(file: Path) -> Table:
     """Return the table that a sweep wrote; columns that its runs lack stay empty."""
-    with reading(file, "a sweep of exu_press"):
-        told = from_json(dict[str, Any], file.with_name("study.json").read_bytes(), "study.json")
+    with reading(file, "a sweep of exu_press", "study.json") as told:
         study, columns = table_from(Sweep, "", told), read_csv(file)
     asked = {name: tuple(cell(point[name]) for point in study.points) for name in study.keys}
     if not {"status", "reason"} <= set(columns) or any(columns.get(n) != asked[n] for n in asked):

@@ -39,6 +39,7 @@ def write(result: Contents, path: Path) -> None:
     with replacing(path) as partial, netcdf_file(partial, "w", version=2) as file:
         file.format = FORMAT
         file.scene = json.dumps(result.scene.to_dict())
+        file.asked = json.dumps(sorted(result.scene.asked))
         file.info = json.dumps(result.info)
         file.bodies = json.dumps(result.bodies)
         file.createDimension("time", len(result.channels["time"].values))
@@ -76,8 +77,9 @@ def read(path: Path, kind: type[Kind]) -> Kind:
         if file.attributes.get("format") != FORMAT.encode():
             raise InputError(f"has no format = {FORMAT!r}")
         scene = from_json(dict[str, Any], _text(file.attributes, "scene"), "scene")
+        asked = from_json(list[str], file.attributes.get("asked", b"[]"), "asked")
         return kind(
-            scene=Scene.from_dict(scene),
+            scene=Scene.from_dict(scene, asked),
             channels=_channels(file, "time"),
             info=from_json(Info, _text(file.attributes, "info"), "info"),
             bodies=from_json(tuple[str, ...], _text(file.attributes, "bodies"), "bodies"),

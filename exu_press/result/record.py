@@ -59,7 +59,7 @@ def record(model: Model, outcome: Outcome) -> Result:
     states = joint_states(model, time)
     in_joints, stored_in_joints, lost_in_joints = record_joints(model, states, time)
     channels |= held_forces(model, motions)
-    angle = scene.start_angle + scene.angular_speed * time
+    angle = scene.start_angle + scene.angular_speed * time + model.ahead[0]
     if scene.drive is not None:
         angle = turned.position[:, 2] - drawn
     slider_motion = channels["slider_position"].values, channels["slider_velocity"].values

@@ -63,7 +63,8 @@ def samples_of(scene: Scene, channels: Mapping[str, Channel]) -> Samples:
         raise InputError("samples: this run has none; allowed is [output] samples = [crank angles]")
     turned = channels["crank_angle"].values - scene.start_angle
     if scene.drive is None:
-        turned = scene.angular_speed * channels["time"].values
+        time = channels["time"].values
+        turned = turned[0] + scene.angular_speed * (time - time[0])
     wanted, number = scene.output.section(scene.start_angle).up_to(float(turned.max()) + NEAR)
     rows = np.searchsorted(turned, wanted)
     before, after = np.maximum(rows - 1, 0), np.minimum(rows, len(turned) - 1)

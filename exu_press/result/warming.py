@@ -3,9 +3,6 @@
 import math
 import warnings
 from dataclasses import replace
-from typing import Any
-
-import exudyn as exu
 
 from exu_press.integrate import SolverStatus
 from exu_press.laws.film.oil import HOTTEST
@@ -35,11 +32,8 @@ def to_next_revolution(model: Model, left: float) -> tuple[Model, float]:
         return model, min(left, 1.0)
     if model.until is not None:
         return replace(model, until=model.until + TURN), left
-    data: Any = model.mbs.systemData
-    begin = data.GetSystemState(configuration=exu.ConfigurationType.Initial)
-    data.SetSystemState(systemStateList=begin, configuration=exu.ConfigurationType.Current)
     start = model.scene.start_angle
-    done = math.floor((model.crank_angle()[0] - start) / TURN + WHOLE)
+    done = math.floor((model.crank_at_start() - start) / TURN + WHOLE)
     return replace(model, until=start + TURN * (done + 1)), left  # a motor gets there when it does
 
 

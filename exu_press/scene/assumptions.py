@@ -11,6 +11,7 @@ from fnmatch import fnmatchcase
 from typing import Any
 
 from exu_press.mechanism import Mechanism
+from exu_press.scene.changes import named
 from exu_press.scene.joint import LAW_TABLES, SIZES, Joint
 from exu_press.scene.oil import Oil
 from exu_press.scene.scene import STARTS, Scene, mechanism_of
@@ -101,6 +102,7 @@ class Key:
         unit: SI, as the scene's table says it.
         meaning: in words.
         source: who gives the default, where that decides results.
+        asked: whether the user gave it.
     """
 
     name: str
@@ -109,11 +111,17 @@ class Key:
     unit: str
     meaning: str
     source: str = ""
+    asked: bool = False
+
+    @property
+    def changed(self) -> bool:
+        """Return whether it is not at its default."""
+        return bool(self.value != self.default)
 
     @property
     def assumed(self) -> bool:
-        """Return whether it is at its default."""
-        return bool(self.value == self.default)
+        """Return whether it is at its default, and not because the user said so."""
+        return not (self.changed or self.asked)
 
     def __str__(self) -> str:
         return f"{self.name} = {_text(self.value)} {self.unit}".rstrip()
@@ -139,7 +147,9 @@ def keys_of(scene: Scene) -> dict[str, Key]:
         found |= _keys_in(f"bodies.{name}", body, {"flexible": ""})
     for name, load in scene.load.items():
         found |= _keys_in(f"load.{name}", load, {})
-    return found
+    return {
+        name: dataclasses.replace(key, asked=name in scene.asked) for name, key in found.items()
+    }
 
 
 def used_assumptions(scene: Scene) -> dict[Assumption, tuple[Key, ...]]:
@@ -152,8 +162,11 @@ def used_assumptions(scene: Scene) -> dict[Assumption, tuple[Key, ...]]:
     for assumption in ASSUMPTIONS:
         if scene.press is None and assumption.number not in OF_EVERY_SCENE:
             continue
-        left = tuple(key for name, key in keys.items() if _named(name, assumption))
-        left = tuple(key for key in left if key.assumed)
+        left = tuple(
+            key
+            for name, key in keys.items()
+            if key.assumed and any(fnmatchcase(name, pattern) for pattern in assumption.keys)
+        )
         ideal = scene.guide is None or not scene.guide.soft
         by_absence = assumption.keys == ("guide",) and ideal
         by_kind = assumption.keys == ("press",) and scene.press is not None
@@ -162,17 +175,13 @@ def used_assumptions(scene: Scene) -> dict[Assumption, tuple[Key, ...]]:
     return used
 
 
-def _named(key: str, assumption: Assumption) -> bool:
-    return any(fnmatchcase(key, pattern) for pattern in assumption.keys)
-
-
 def engineering_values(scene: Scene) -> list[Key]:
     """Return the defaults that decide results and are neither the scene's nor its mechanism's."""
     return [key for key in _decisive(scene).values() if key.source and key.assumed]
 
 
 def _decisive(scene: Scene) -> dict[str, Key]:
-    """Return the keys that a scene uses, without those of laws that all joints replace."""
+    """Return the keys that a scene uses, without those of laws that all joints have themselves."""
     return {name: key for name, key in keys_of(scene).items() if _shared(scene, key)}
 
 
@@ -187,7 +196,10 @@ def _shared(scene: Scene, key: Key) -> bool:
         or (law == "friction" and guide.friction != "none")
     ):
         return True
-    for joint in scene.joints.with_clearance.values():
+    given = dict.fromkeys(scene.asked)
+    for place, joint in scene.joints.with_clearance.items():
+        if named(f"joints.{place}.{key.name}", scene.joints.groups, given):
+            continue
         table = getattr(joint, law, None)
         for part in name.split("."):
             table = getattr(table, part, None)
@@ -248,7 +260,7 @@ def _joint_keys(scene: Scene) -> dict[str, Key]:
             own, law = getattr(joint, field.name), scene.laws.get(field.name)
             if own is not None and law is not None:
                 keys = _keys_in(f"{place}.{field.name}", own, dataclasses.asdict(law))
-                found += (key for key in keys.values() if not key.assumed)
+                found += (key for key in keys.values() if key.changed)
     return {key.name: key for key in found}
 
 

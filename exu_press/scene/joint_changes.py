@@ -1,41 +1,24 @@
-"""Joints as nested mappings, before they are checked: changes, uses and drops."""
+"""Changes of joints as nested mappings, before they are checked; and laws that none has."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Mapping
 from typing import Any
 
 from exu_press.errors import InputError
-from exu_press.scene.joint import LAW_TABLES, keys_used
+from exu_press.scene.joint import LAW_TABLES, IdealJoint, Joint
 from exu_press.scene.joints import keys_given
-from exu_press.scene.tables import Film
 from exu_press.schema.checks import changed_table
 
-__all__ = ["by_group", "changed_joints", "kinds_of", "peek", "unused_laws"]
+__all__ = ["by_group", "changed_joints", "unused_laws"]
 
 
-def unused_laws(kinds: Iterable[tuple[Any, Any]]) -> dict[str, str]:
-    """Return which of the scene's laws no joint has -> the reason.
-
-    Args:
-        kinds: kind and film.at_contact of every joint.
-    """
-    used = {key for kind, at_contact in kinds for key in keys_used(kind, at_contact)}
+def unused_laws(joints: Collection[Joint]) -> dict[str, str]:
+    """Return which of the scene's laws no joint has -> the reason."""
     touching = "no joint is 'dry' or has a mixed film"
     reasons = {"contact": touching, "friction": touching, "film": "no joint is 'lubricated'"}
+    used = {law for law in reasons for joint in joints if getattr(joint, law, None) is not None}
     found = {law: reason for law, reason in reasons.items() if law not in used}
-    return found if used else {**found, "start": "every joint is ideal"}
-
-
-def kinds_of(joints: Any, film: Any) -> list[tuple[Any, Any]]:
-    """Return kind and film.at_contact of joints as a scene file or a scene has them."""
-    usual = peek(film, "at_contact", Film.at_contact)
-    each = joints.values() if isinstance(joints, Mapping) else ()
-    return [
-        (
-            joint if isinstance(joint, str) else peek(joint, "kind"),
-            peek(peek(joint, "film"), "at_contact", usual),
-        )
-        for joint in each
-    ]
+    ideal = all(isinstance(joint, IdealJoint) for joint in joints)
+    return {**found, "start": "every joint is ideal"} if ideal else found
 
 
 def changed_joints(
@@ -82,10 +65,3 @@ def by_group(
         for member in groups.get(group, ()):
             message = message.replace(f"joints.{member}", f"joints.{group}")
     return message
-
-
-def peek(table: Any, name: str, otherwise: Any = None) -> Any:
-    """Return a key of a table before or after the table itself has been checked."""
-    if isinstance(table, Mapping):
-        return table.get(name, otherwise)
-    return getattr(table, name, otherwise)

@@ -197,12 +197,7 @@ def keys_given(name: str, given: Any) -> dict[str, Any]:
 
 
 def _joint(
-    name: str,
-    given: Mapping[str, Any],
-    laws: Laws,
-    sizes: Mapping[str, float],
-    *,
-    spherical: bool,
+    name: str, given: Mapping[str, Any], laws: Laws, sizes: Mapping[str, float], *, spherical: bool
 ) -> Joint:
     place = f"joints.{name}"
     kind = given.get("kind")

@@ -20,14 +20,7 @@ from exu_press.schema.toml import toml_text
 Laws = Mapping[str, Table | None]
 """The scene's own "contact", "friction" and "film"."""
 
-__all__ = [
-    "body_lines",
-    "joint_lines",
-    "load_lines",
-    "save_scene",
-    "section_lines",
-    "table_lines",
-]
+__all__ = ["body_lines", "joint_lines", "load_lines", "save_scene", "section_lines", "table_lines"]
 
 
 def save_scene(
@@ -97,30 +90,22 @@ def table_lines(table: Table, comments: bool, *, absent: bool = False) -> list[s
         comments: write meaning and unit behind every key.
         absent: name the keys that the scene does not use or give, too, as comments.
     """
-    values = {field: getattr(table, field.name) for field in dataclasses.fields(table)}
-    keys = {
-        f"# {field.name} =" if value is None else f"{field.name} = {toml_text(value)}": _meaning(
-            field.metadata
-        )
-        for field, value in values.items()
-        if "meaning" in field.metadata
-        and (absent or value is not None)
-        and not isinstance(value, Mechanism)
-    }
-    return _lines(keys, comments)
+    values = {name: getattr(table, name) for name in _meanings(table)}
+    given = {name: value for name, value in values.items() if value is not None}
+    drawn = {name for name, value in given.items() if isinstance(value, Mechanism)}
+    told = {name: words for name, words in _meanings(table).items() if name not in drawn}
+    return _given_lines(given, told, comments, absent)
 
 
 def body_lines(body: Flexible, comments: bool, *, absent: bool = False) -> list[str]:
     """Return the keys of a flexible body; arguments as those of `table_lines`."""
-    meanings = {f.name: _meaning(f.metadata) for f in dataclasses.fields(body) if f.metadata}
-    meanings["faces"] = "joint = face's name, or {radius, z} of its cylinder; guide = {x, y, z}"
-    return _given_lines(body_dict(body), meanings, comments, absent)
+    faces = "joint = face's name, or {radius, z} of its cylinder; guide = {x, y, z}"
+    return _given_lines(body_dict(body), {**_meanings(body), "faces": faces}, comments, absent)
 
 
 def load_lines(load: Load, comments: bool, *, absent: bool = False) -> list[str]:
     """Return the keys of a load; arguments as those of `table_lines`."""
-    meanings = {"kind": " | ".join(LOAD_KINDS)}
-    meanings |= {f.name: _meaning(f.metadata) for f in dataclasses.fields(load)}
+    meanings = {"kind": " | ".join(LOAD_KINDS), **_meanings(load)}
     return _given_lines(load_dict(load), meanings, comments, absent)
 
 
@@ -128,7 +113,7 @@ def joint_lines(joints: Joints, laws: Laws, comments: bool) -> list[str]:
     """Return the joints with clearance, group by group; without any, all joints are ideal."""
     lines = [] if joints.grouped else ["", "[joints]"]
     for name, joint in joints.grouped.items():
-        meanings = {f.name: _meaning(f.metadata) for f in dataclasses.fields(joint) if f.metadata}
+        meanings = _meanings(joint)
         meanings["kind"] = "ideal | dry | lubricated; a joint that is not named is ideal"
         meanings["worn"] = "depths worn off the surfaces, m, by angle from the body's x axis"
         keys = {
@@ -157,6 +142,11 @@ def _lines(keys: Mapping[str, str], comments: bool) -> list[str]:
     return [f"{key:{width}}  # {meaning}" if comments else key for key, meaning in keys.items()]
 
 
-def _meaning(metadata: Mapping[str, Any]) -> str:
-    meaning = ", ".join(filter(None, [metadata["meaning"], metadata["unit"]]))
-    return ": ".join(filter(None, [meaning, " | ".join(metadata["choices"])]))
+def _meanings(table: Table) -> dict[str, str]:
+    """Return the meaning, unit and choices of every key of a table."""
+    found = {}
+    for name, meta in ((f.name, f.metadata) for f in dataclasses.fields(table)):
+        if "meaning" in meta:
+            meaning = ", ".join(filter(None, [meta["meaning"], meta["unit"]]))
+            found[name] = ": ".join(filter(None, [meaning, " | ".join(meta["choices"])]))
+    return found

@@ -24,14 +24,8 @@ from exu_press.scene.built import Built
 from exu_press.scene.changes import asked_mechanism, changed_keys, drop, named
 from exu_press.scene.elastic import with_elastic_guides
 from exu_press.scene.file import parse_assignment, scene_tables
-from exu_press.scene.joint import (
-    LAW_TABLES,
-    SIZES,
-    joint_dict,
-    oil_of,
-    refuse_missing_damping,
-)
-from exu_press.scene.joint_changes import by_group, kinds_of, unused_laws
+from exu_press.scene.joint import LAW_TABLES, SIZES, joint_dict, oil_of, refuse_missing_damping
+from exu_press.scene.joint_changes import by_group, unused_laws
 from exu_press.scene.joints import Joints, joints_of
 from exu_press.scene.load import Load
 from exu_press.scene.loads import load_dict, loads_of
@@ -41,7 +35,7 @@ from exu_press.scene.save import save_scene
 from exu_press.scene.tables import RPM, Contact, ElasticGuide, Film, Friction, Solver
 from exu_press.scene.usage import TABLES, unused_tables
 from exu_press.scene.wear import Wear
-from exu_press.schema.checks import Table, given_in, key, plain, table_from, table_with
+from exu_press.schema.checks import Table, given_in, key, names_in, plain, table_from, table_with
 
 __all__ = ["STARTS", "Scene", "mechanism_of"]
 
@@ -80,12 +74,16 @@ class Scene(Table):
 
     A table may be given as a mapping or as its dataclass. Angles count from top dead centre.
 
+    Attributes:
+        asked: dotted names of the keys that the user gave, be it with their defaults.
+
     Raises:
         InputError: a key is unknown, has a wrong type or a value outside its range, a table or a
             key is not used by this scene, or the links cannot be assembled at some crank angle.
     """
 
     table: ClassVar[str] = ""
+    asked: ClassVar[frozenset[str]]
     mechanism: str | Mechanism = key(
         "press",
         "the path of a mechanism file, .toml",
@@ -129,6 +127,7 @@ class Scene(Table):
 
     def __post_init__(self) -> None:
         """Check the keys, refuse those that the scene does not use and fill in the others."""
+        object.__setattr__(self, "asked", frozenset(names_in(self.given)))
         object.__setattr__(self, "mechanism", asked_mechanism(self.mechanism))
         super().__post_init__()
         if not SHORTEST_RUN <= self.duration <= LONGEST_RUN:
@@ -200,7 +199,7 @@ class Scene(Table):
         spherical = {joint.name: joint.spherical for joint in mechanism.joints}
         joints = joints_of(given, mechanism.name, spherical, mechanism.groups, complete, sizes)
         object.__setattr__(self, "joints", joints)
-        unused = unused_laws(kinds_of(joints, None))
+        unused = unused_laws(joints.values())
         contact = complete["contact"]
         assert isinstance(contact, Contact)
         of_guides = {} if self.guide is None else self.guide.laws(contact)
@@ -273,9 +272,11 @@ class Scene(Table):
         object.__setattr__(self, "load", loads)
 
     @classmethod
-    def from_dict(cls, data: Mapping[str, Any]) -> "Scene":
-        """Return the scene of a nested mapping, as a scene file holds it."""
-        return table_from(cls, "", data)
+    def from_dict(cls, data: Mapping[str, Any], asked: Iterable[str] = ()) -> "Scene":
+        """Return the scene of a nested mapping, as a scene file holds it; `asked` as above."""
+        scene = table_from(cls, "", data)
+        object.__setattr__(scene, "asked", frozenset(asked))
+        return scene
 
     def to_dict(self) -> dict[str, Any]:
         """Return the complete scene as a nested mapping, for Scene.from_dict or a file."""
@@ -319,6 +320,8 @@ class Scene(Table):
             changes: dotted name of a key or table -> its value; None leaves it out.
         """
         data, groups = self.to_dict(), self.joints.groups
+        kept = [n for n in self.asked if not any(f"{n}.".startswith(f"{c}.") for c in changes)]
+        asked = frozenset([*kept, *names_in(changes)])
         if (mechanism := changes.get("mechanism", self.mechanism)) != self.mechanism:
             other = Scene.from_dict({"mechanism": mechanism})
             same = {name: joint for name, joint in self.joints.items() if name in other.joints}
@@ -334,13 +337,13 @@ class Scene(Table):
             for name in LAW_TABLES:
                 if name in data:
                     data[name] = _beyond(data[name], own.get(name, {}))
-            groups = other.joints.groups
+            groups, asked = other.joints.groups, frozenset(names_in(changes))
             there = {body.name for body in mechanism_of(other).bodies}
             data["bodies"] = {n: k for n, k in data.get("bodies", {}).items() if n in there}
         data = changed_keys(data, groups, changes)
         while True:
             try:
-                return Scene.from_dict(data)
+                return Scene.from_dict(data, asked)
             except InputError as error:
                 if not isinstance(error, UnusedKeyError) or named(error.name, groups, changes):
                     raise InputError(by_group(str(error), groups, changes)) from None
@@ -431,7 +434,7 @@ def _load(path: str | Path, assignments: Iterable[str] = ()) -> Scene:
     path = Path(path)
     data = scene_tables(path)
     with prefixed(f"{path}: "):
-        scene = Scene.from_dict(data)
+        scene = Scene.from_dict(data, names_in(data))
     changes = dict(map(parse_assignment, assignments))
     return scene.replace(changes) if changes else scene
 

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from itertools import pairwise
 
 from exu_press.errors import InputError
@@ -12,23 +12,6 @@ from exu_press.schema.checks import Table, check_increasing, demand_keys, key
 __all__ = ["StartStop"]
 
 BEGINS = ("turning", "standing", "rest")
-
-OF_CLUTCH = (
-    "driven_inertia",
-    "windup_deg",
-    "clutch_on",
-    "clutch_off",
-    "clutch_off_deg",
-    "brake_torque",
-    "brake_on",
-    "brake_on_deg",
-    "brake_off",
-    "start_time",
-    "stop_time",
-    "stop_angle_deg",
-    "ends_after",
-)
-"""Keys that only a drive with a clutch has."""
 
 OF_START, OF_STOP = ("clutch_on", "brake_off"), ("clutch_off", "brake_on")
 """Ramps behind a command: the first has to be over before the other begins."""
@@ -249,6 +232,10 @@ class StartStop(Table):
             ramp("brake_off"),
             ramp("brake_on"),
         )
+
+
+OF_CLUTCH = {field.name for field in fields(StartStop)} - {"begins", "clutch_torque"}
+"""Keys that only a drive with a clutch has."""
 
 
 def _rising(name: str, given: tuple[float, ...] | None) -> None:

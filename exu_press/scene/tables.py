@@ -88,11 +88,7 @@ class Contact(Table):
         source="steel on steel, 210 GPa, EN 1993-1-1, 3.2.6",
     )
     length: float | None = key(
-        None,
-        "length of the bearing; a film's unless given",
-        "m",
-        above=0,
-        example=0.05,
+        None, "length of the bearing; a film's unless given", "m", above=0, example=0.05
     )
     damping: str = key(
         "hu_guo", "damping law", choices=tuple(DAMPING_LAWS), source="Hu and Guo 2015"
@@ -100,11 +96,7 @@ class Contact(Table):
     damping_max: float | None = key(None, "c_max", "N s/m", at_least=0, example=1e5)
     damping_depth: float | None = key(None, "d_max", "m", above=0, example=1e-6)
     restitution: float = key(
-        0.9,
-        "wanted restitution",
-        above=0,
-        at_most=1,
-        source="steel pins, Flores et al. 2008",
+        0.9, "wanted restitution", above=0, at_most=1, source="steel pins, Flores et al. 2008"
     )
     tension: bool = key(False, "let the damping pull, as the printed law does (A-10)")
 

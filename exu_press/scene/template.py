@@ -9,13 +9,7 @@ from exu_press.scene.bodies import Flexible
 from exu_press.scene.joints import Joints
 from exu_press.scene.load import BlankingLoad, Load, TableLoad
 from exu_press.scene.oil import Oil
-from exu_press.scene.save import (
-    body_lines,
-    joint_lines,
-    load_lines,
-    section_lines,
-    table_lines,
-)
+from exu_press.scene.save import body_lines, joint_lines, load_lines, section_lines, table_lines
 from exu_press.scene.scene import Scene, mechanism_of
 from exu_press.scene.usage import TABLES
 from exu_press.schema.checks import Table

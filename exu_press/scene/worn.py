@@ -28,14 +28,8 @@ class Worn(Table):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        given = {
-            name: depths
-            for name, depths in (
-                ("bearing_depth", self.bearing_depth),
-                ("journal_depth", self.journal_depth),
-            )
-            if depths is not None
-        }
+        both = {"bearing_depth": self.bearing_depth, "journal_depth": self.journal_depth}
+        given = {name: depths for name, depths in both.items() if depths is not None}
         if not given:
             raise InputError("worn: allowed is a table with bearing_depth, journal_depth or both")
         for name, depths in given.items():
@@ -67,12 +61,10 @@ class Worn(Table):
 
     def profiles(self) -> tuple[Profile, Profile] | None:
         """Return the wear of journal and bearing beyond their means; None where there is none."""
-        journal, bearing = (self._profile(depths) for depths in self._depths)
         if all(min(depths) == max(depths) for depths in self._depths):
             return None
-        return self._profile(self._depths[0], journal.mean), self._profile(
-            self._depths[1], bearing.mean
-        )
+        journal, bearing = (self._profile(d, self._profile(d).mean) for d in self._depths)
+        return journal, bearing
 
     def whole(self) -> tuple[Profile, Profile]:
         """Return the whole wear of journal and bearing."""

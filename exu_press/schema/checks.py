@@ -9,7 +9,7 @@ import math
 import numbers
 import types
 import typing
-from collections.abc import Callable, Collection, Iterable, Mapping, Sized
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sized
 from typing import Any, ClassVar, Self, TypeVar
 
 from exu_press.errors import InputError, UnusedKeyError
@@ -29,6 +29,7 @@ __all__ = [
     "given_in",
     "inner",
     "key",
+    "names_in",
     "nearest",
     "plain",
     "refuse_unknown",
@@ -396,6 +397,14 @@ def given_in(table: Any) -> dict[str, Any]:
     """Return the keys that a table gives, as a mapping or as its dataclass; none of None."""
     keys = table.given if isinstance(table, Table) else table or {}
     return dict(keys) if isinstance(keys, Mapping) else {}
+
+
+def names_in(table: Any, place: str = "") -> Iterator[str]:
+    """Yield the dotted names of the keys that a table gives, and of those of tables within it."""
+    for name, value in given_in(table).items():
+        if value is not None:
+            yield place + name
+            yield from names_in(value, f"{place}{name}.")
 
 
 def check_columns(names: tuple[str, str], one: Sized, other: Sized) -> None:

@@ -22,8 +22,13 @@ def read_toml(path: Path) -> dict[str, Any]:
     """Return the content of a TOML file.
 
     Raises:
-        InputError: the file cannot be read or parsed.
+        InputError: the file cannot be read or parsed, or is a result's.
     """
+    if path.suffix == ".nc":
+        raise InputError(
+            f"{path}: is a stored result, which `exu-press report {path}` shows; allowed is a TOML "
+            "file"
+        )
     return parse_toml(read_text(path), str(path))
 
 

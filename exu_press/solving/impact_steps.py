@@ -49,13 +49,7 @@ def impact_steps(model: Assembled) -> Iterator[float]:
 
 
 def _rise_time(contact: NormalContact, mass: float, speed: float) -> float:
-    """Return how long it takes from first touch to the largest force, s.
-
-    Args:
-        contact: law of the normal force.
-        mass: of a free body, kg.
-        speed: at which it arrives, m/s.
-    """
+    """Return how long a free mass that arrives takes from first touch to the largest force, s."""
     from scipy.integrate import solve_ivp  # type: ignore[import-untyped, unused-ignore]
 
     def motion(_time: float, state: Array) -> list[float]:

@@ -11,7 +11,7 @@ from exu_press.scene.applied import applied_loads
 from exu_press.solving.advice import SceneAdvice, leapt_over_load
 from exu_press.solving.assembled import Assembled
 
-__all__ = ["DEFAULTS", "largest_step", "scales", "settings_for", "solve"]
+__all__ = ["DEFAULTS", "scales", "settings_for", "solve"]
 
 DEFAULTS = SolverTuning()
 
@@ -72,7 +72,8 @@ def settings_for(scene: Scene, *, twice: bool = False) -> exu.SimulationSettings
     assert solver is not None
     settings = exu.SimulationSettings()
     integration = settings.timeIntegration
-    integration.numberOfSteps = _steps(scene.duration, largest_step(scene))
+    largest = solver.step or math.radians(solver.max_step_deg) / scene.angular_speed
+    integration.numberOfSteps = _steps(scene.duration, largest)
     integration.endTime = scene.duration
     integration.minimumStepSize = solver.min_step
     integration.verboseMode = 0
@@ -85,13 +86,6 @@ def settings_for(scene: Scene, *, twice: bool = False) -> exu.SimulationSettings
     settings.solution.file.write = False
     settings.solution.sensors.writePeriod = 0.0  # every step
     return settings
-
-
-def largest_step(scene: Scene) -> float:
-    """Return the fixed step, or the largest one that a tolerance may lead to, s."""
-    solver = scene.solver
-    assert solver is not None
-    return solver.step or math.radians(solver.max_step_deg) / scene.angular_speed
 
 
 def _steps(duration: float, largest: float) -> int:
@@ -114,4 +108,5 @@ def scales(scene: Scene) -> ErrorScales:
         force=sum(body.mass for body in mechanism.bodies)
         * max(usual, FALL * scene.gravity if widest else 0.0),
         step=scene.duration / _steps(scene.duration, USUAL_STEP / scene.angular_speed),
+        gravity=scene.gravity,
     )

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -11,11 +12,13 @@ from exu_press.numerics.arrays import Array
 from exu_press.quantities.uncertain import significant
 from exu_press.result import Result
 from exu_press.studies.curve_file import OVER, CurveFile, computed, factor_to
-from exu_press.terminal.columns import columns
 
-__all__ = ["Beside", "beside", "beside_lines"]
+__all__ = ["MEASURED", "MEASURED_PICTURE", "Beside", "beside", "beside_rows"]
 
 DIGITS = 3
+
+MEASURED, MEASURED_PICTURE = "measured.json", "compare_measured"
+"""Differences of runs from curves, in the directory of results, and their picture."""
 
 
 @dataclass(frozen=True)
@@ -39,6 +42,7 @@ class Beside:
         apart = self.values - self.measured
         worst = int(np.abs(apart).argmax())
         return {
+            "over": self.curve.over,
             "unit": self.unit,
             "rms_difference": float(np.sqrt(np.mean(apart**2))),
             "rms_measured": float(np.sqrt(np.mean(self.measured**2))),
@@ -70,26 +74,22 @@ def beside(file: Path, curve: CurveFile, result: Result) -> Beside:
     return Beside(curve, measured, np.interp(curve.at, at, values), unit)
 
 
-def beside_lines(found: Mapping[str, Mapping[str, Beside]]) -> list[str]:
-    """Return a table: each curve's differences from the runs, a column each.
+def beside_rows(name: str, runs: Mapping[str, Mapping[str, Any]]) -> list[list[str]]:
+    """Return a table: the head, then a curve's differences from the runs, a column each.
 
     Args:
-        found: name of the curve -> label of the run -> both.
+        name: of the curve.
+        runs: label of the run -> as `Beside.plain` tells it.
     """
-    lines: list[str] = []
-    for name, runs in found.items():
-        told = {label: one.plain() for label, one in runs.items()}
-        first = next(iter(runs.values()))
-        rows = [[f"measured: {name}, {first.unit}", *told]]
-        for key, words in (
-            ("rms_difference", "rms of the difference"),
-            ("rms_measured", "rms measured"),
-            ("largest_difference", "largest difference, computed - measured"),
-            ("at", f"at, {OVER[first.curve.over]}"),
-            ("largest_measured", "largest value measured"),
-            ("largest_computed", "largest value computed there"),
-        ):
-            values = [float(one[key]) for one in told.values()]
-            rows.append([f"  {words}", *(significant(value, DIGITS) for value in values)])
-        lines += [*columns(rows), ""]
-    return lines
+    first = next(iter(runs.values()))
+    rows = [[f"measured: {name}, {first['unit']}", *runs]]
+    for key, words in (
+        ("rms_difference", "rms of the difference"),
+        ("rms_measured", "rms measured"),
+        ("largest_difference", "largest difference, computed - measured"),
+        ("at", f"at, {OVER[first['over']]}"),
+        ("largest_measured", "largest value measured"),
+        ("largest_computed", "largest value computed there"),
+    ):
+        rows.append([f"  {words}", *(significant(one[key], DIGITS) for one in runs.values())])
+    return rows

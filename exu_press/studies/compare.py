@@ -73,8 +73,10 @@ def different_keys(scenes: Mapping[str, Scene]) -> list[list[str]]:
     every = [_keys(scene) for scene in scenes.values()]
     rows: dict[str, list[str]] = {}
     for key in sorted(dict.fromkeys(key for keys in every for key in keys)):
-        usual = IDEAL if key.startswith("joints.") and key.endswith(".kind") else ABSENT
-        values = [_shown(keys[key]) if key in keys else usual for keys in every]
+        values = [
+            _shown(keys[key]) if key in keys else _usual(key, scene)
+            for keys, scene in zip(every, scenes.values(), strict=True)
+        ]
         if len({value for value in values if value != ABSENT}) > 1:
             rows[key] = values
         elif ABSENT in values and key.startswith(OPTIONAL):
@@ -84,6 +86,14 @@ def different_keys(scenes: Mapping[str, Scene]) -> list[list[str]]:
     if (more := len(told) - MOST_KEYS) > 0:
         told = [*told[:MOST_KEYS], [f"{more} more keys", *["..."] * len(every)]]
     return [["differences", *scenes], *told]
+
+
+def _usual(key: str, scene: Scene) -> str:
+    """Return what a key is that a scene does not give: the kind of a joint that it has is ideal."""
+    table, _, name = key.removesuffix(".kind").partition(".")
+    joints = scene.joints
+    has = table == "joints" and key.endswith(".kind") and name in {**joints, **joints.groups}
+    return IDEAL if has else ABSENT
 
 
 def _keys(scene: Scene) -> dict[str, Any]:

@@ -71,7 +71,7 @@ def read_curve(path: Path) -> CurveFile:
 
 
 def computed(where: str, curve: CurveFile, result: Result) -> tuple[Array, Array, str]:
-    """Return what a run has of the quantity that a curve shows.
+    """Return what a run has of the quantity that a curve shows, over places that increase.
 
     Args:
         where: the file, said of a fault.
@@ -82,7 +82,8 @@ def computed(where: str, curve: CurveFile, result: Result) -> tuple[Array, Array
         the run's times, s, or crank angles, deg, (n,); the channel's values there; their SI unit.
 
     Raises:
-        InputError: the run has no such channel.
+        InputError: the run has no such channel, or its crank stands or turns back where the curve
+            is over the crank angle.
     """
     name = curve.name
     if name not in result.units:
@@ -92,6 +93,13 @@ def computed(where: str, curve: CurveFile, result: Result) -> tuple[Array, Array
         )
     angle = curve.over == "crank_angle"
     at = np.degrees(result["crank_angle"]) if angle else result.time
+    back = (at[1:] <= at[:-1]) & (at[1:] <= curve.at[-1]) & (at[:-1] >= curve.at[0])
+    if back.any():
+        first = int(np.argmax(back))
+        raise InputError(
+            f"{where}: over crank_angle; the run's crank stands or turns back at "
+            f"{at[first]:.6g} deg, t = {result.time[first]:.6g} s; allowed is a curve over time"
+        )
     return at, result[name], result.units[name]
 
 

@@ -8,7 +8,6 @@ from matplotlib.collections import PolyCollection
 from matplotlib.colors import Colormap, ListedColormap, Normalize
 from matplotlib.figure import Figure
 from matplotlib.gridspec import SubplotSpec
-from numpy.typing import NDArray
 
 from exu_press.numerics.arrays import Array
 from exu_press.result import Result
@@ -113,11 +112,10 @@ class FlexiblePanel:
             triangles.append(surface.triangles + start)
             levels.append(self._level(name, self._modal[name][frame]))
             start += len(surface.nodes)
-        shown, colours = _painted(
-            np.vstack(points),
-            np.vstack(triangles),
-            self._colours.to_rgba(self._scale * np.concatenate(levels))[:, :3],
-        )
+        shown, seen, light = facing(np.vstack(points), np.vstack(triangles))
+        own = self._colours.to_rgba(self._scale * np.concatenate(levels))[:, :3]
+        shade = 0.72 + 0.28 * light  # weak, so that it cannot be taken for a value
+        colours = np.clip(own[seen].mean(axis=1) * shade[:, None], 0.0, 1.0)
         self._drawn.set_verts(list(shown))
         self._drawn.set(facecolor=colours, edgecolor=colours)
 
@@ -139,16 +137,6 @@ class FlexiblePanel:
         c, s = np.cos(angle), np.sin(angle)
         turned = nodes @ np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]]) + (x, y, 0.0)
         return np.asarray(turned @ self._view.T)
-
-
-def _painted(points: Array, triangles: NDArray[np.int32], colours: Array) -> tuple[Array, Array]:
-    """Return the triangles (t, 3, 2) that face the eye, far ones first, and their colours (t, 3).
-
-    The shade is weak, so that it cannot be taken for a value.
-    """
-    corners, seen, light = facing(points, triangles)
-    shade = 0.72 + 0.28 * light
-    return corners, np.clip(colours[seen].mean(axis=1) * shade[:, None], 0.0, 1.0)
 
 
 def _round_down(value: float) -> float:

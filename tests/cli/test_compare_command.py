@@ -6,7 +6,9 @@ import re
 import pytest
 
 from exu_press import Result, Scene
-from exu_press.cli import main
+from exu_press.cli import compare, main
+from exu_press.plots import save
+from exu_press.report.comparison import comparison_report
 
 QUICK = ["--set", "revolutions=0.01", "--no-pictures", "--no-error"]
 
@@ -72,8 +74,27 @@ def test_a_measurement_beside_runs(mine, tmp_path, capsys):
     assert found["first"]["largest_measured"] == pytest.approx(
         1.02 * found["first"]["largest_computed"]
     )
+    page = comparison_report(out / "comparison.json")
+    assert f"{found['first']['rms_difference']:.3g}" in page and "Measured curves" in page
     assert main(["compare", str(first), str(measured), "--quiet", "--out", str(out)]) == 0
     assert list(json.loads((out / "measured.json").read_text())["press_a"]) == ["first"]
+
+
+def test_stored_runs_are_compared_and_drawn_once(mine, tmp_path, monkeypatch):
+    first, measured = tmp_path / "first", tmp_path / "measured.csv"
+    assert main(["run", str(mine), *QUICK, "--out", str(first)]) == 0
+    measured.write_text("time (s),slider_velocity (m/s)\n0,0\n1e-6,1\n2e-6,2\n3e-6,3\n")
+    calls = []
+
+    def counted(whose, name):
+        done = getattr(whose, name)
+        monkeypatch.setattr(whose, name, lambda *given: (calls.append(name), done(*given))[1])
+
+    counted(compare, "beside")
+    counted(save, "slider_figure")
+    given = [str(first), str(measured), "--quiet", "--out", str(tmp_path / "out")]
+    assert main(["compare", *given]) == 0
+    assert calls == ["slider_figure", "beside"]
 
 
 @pytest.mark.parametrize(

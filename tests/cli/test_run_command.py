@@ -150,3 +150,13 @@ def test_a_run_that_is_not_known_goes_on_unless_it_is_to_run_once(tmp_path, caps
         said.append(" ".join("".join(capsys.readouterr()).split()))
     assert "not known within 5%; goes on at a tolerance of 0.013" in said[0]
     assert "goes on" not in said[1]
+
+
+@pytest.mark.parametrize("size", [100, 200_000_000])
+def test_a_result_is_no_scene(size, tmp_path, capsys):
+    with (tmp_path / "run.nc").open("wb") as file:
+        file.write(b"CDF\2")
+        file.truncate(size)
+    for command in ("run", "draw"):
+        assert main([command, str(tmp_path / "run.nc")]) == 2
+        assert f"a stored result, which `exu-press report {tmp_path}" in capsys.readouterr().err

@@ -31,7 +31,7 @@ def test_table_and_picture(tmp_path, capsys):
     out = tmp_path / "out"
     assert main(["sweep", study(tmp_path), "--workers", "1", "--out", str(out)]) == 0
     printed = capsys.readouterr().out.splitlines()
-    assert "drive.peak_torque, N m" in printed[0]
+    assert "drive.peak_torque, kN m" in printed[0]
     assert printed[-2:] == [
         "2 runs: 2 completed",
         f"written: table.csv, table.nc, sweep.png in {out}",

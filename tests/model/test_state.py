@@ -131,6 +131,19 @@ def test_the_start_angle_of_a_scene_moves_no_state():
     assert other["slider_position"][-1] == pytest.approx(one["slider_position"][-1], abs=1e-8)
 
 
+@pytest.mark.parametrize(
+    "changes", [{}, {"speed_rpm": 120.0}, {"start_angle_deg": 45.0}], ids=["same", "speed", "start"]
+)
+def test_loads_and_samples_are_where_the_crank_is(changes):
+    force = {"kind": "table", "crank_angle_deg": [90, 135, 180], "force": [0, 1e3, 0]}
+    scene = FILM.replace({"revolutions": 0.25, "load": {"forming": force}})
+    state = simulate(scene).info["state"]
+    run = simulate(scene.replace({**changes, "output": {"samples": [100.0]}}), start=state)
+    peak = run["crank_angle"][run["load_forming_force"].argmax()]
+    assert np.degrees(peak) == pytest.approx(135.0)
+    assert np.degrees(run.samples.at(100.0)["crank_angle"]) == pytest.approx(100.0)
+
+
 def test_a_bearing_too_small_for_its_journal_is_refused():
     state = first_piece("film").info["state"]
     small = FILM.replace({"joints.crank_pin.clearance": 0.01 * PIN["clearance"]})
@@ -156,4 +169,8 @@ def test_the_command(tmp_path, capsys):
     assert main([*command, str(tmp_path / "two"), "--from", first, "--within", "1%"]) == 2
     assert "--from: not together with --within" in capsys.readouterr().err
     assert main([*command, str(tmp_path / "three"), "--from", str(tmp_path / "no.nc")]) == 2
+    for change in ("start_angle_deg=90", "start=centred"):
+        went_on = [*command, str(tmp_path / "three"), "--from", first, "--set", change]
+        assert main(went_on) == 2
+        assert f"{change.partition('=')[0]} = " in capsys.readouterr().err
     assert not (tmp_path / "three").exists()

@@ -3,9 +3,9 @@ import re
 
 import pytest
 
-from exu_press import Scene
+from exu_press import Result, Scene, simulate
 from exu_press.mechanism import shipped_mechanism
-from exu_press.scene import BlankingLoad
+from exu_press.scene import BlankingLoad, Film
 from exu_press.scene.assumptions import ASSUMPTIONS, assumed_line, keys_of, used_assumptions
 from exu_press.scene.usage import TABLES
 
@@ -38,6 +38,30 @@ def test_what_is_given_is_not_assumed():
     given = Scene(film={"viscosity": 0.1})
     assert numbers(Scene()) - numbers(given) == {11}
     assert "A-11" not in assumed_line(given)
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        {"film": {"viscosity": 0.4}},
+        {"film": Film(viscosity=0.4)},
+        {"joints": {"crank_pin": {"kind": "lubricated", "film": {"viscosity": 0.4}}}},
+    ],
+)
+def test_a_default_that_is_given_is_not_assumed(given, tmp_path):
+    scene = Scene(**given, revolutions=0.002)
+    assert "A-11" not in assumed_line(scene)
+    assert "A-11" in assumed_line(Scene.from_dict(scene.to_dict())), "complete, not asked"
+    assert "A-11" not in assumed_line(scene.replace({"speed_rpm": 100.0}))
+    simulate(scene).save(tmp_path / "run.nc")
+    assert "A-11" not in assumed_line(Result.load(tmp_path / "run.nc").scene)
+
+
+def test_a_default_that_a_file_or_the_command_line_gives_is_not_assumed(tmp_path):
+    (tmp_path / "scene.toml").write_text("film.viscosity = 0.4\n")
+    scene = Scene.load(tmp_path / "scene.toml", ["film.length=0.1"])
+    assert not numbers(scene) & {11, 12}
+    assert numbers(scene.replace({"film": None})) & {11, 12} == {11, 12}
 
 
 @pytest.mark.parametrize(
@@ -115,7 +139,7 @@ def test_keys_with_defaults_units_and_meanings():
 )
 def test_only_what_differs_counts_as_given(scene, changed):
     keys = keys_of(Scene(**scene))
-    assert {name for name, key in keys.items() if not key.assumed} == changed
+    assert {name for name, key in keys.items() if key.changed} == changed
     sampled = keys_of(Scene(output={"samples": [90.0]}))
     assert sampled["output.every"].assumed and not sampled["output.samples"].assumed
 

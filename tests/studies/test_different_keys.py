@@ -66,3 +66,11 @@ def test_a_long_table_ends_with_the_number_of_further_keys():
     _, *lines = different_keys({"a": scene, "b": scene.replace({**many, **friction})})
     assert len(lines) == MOST_KEYS + 1
     assert lines[-1][0] == f"{len(many) + len(friction) - MOST_KEYS} more keys"
+
+
+def test_a_joint_that_a_mechanism_has_not_has_no_kind():
+    press, other = Scene(), Scene(mechanism="slider_crank", joints={})
+    dry = press.replace({"joints.slide_pin": "dry"})
+    found = rows({"press": press, "dry": dry, "other": other})
+    assert found["joints.slide_pin.kind"] == ["ideal", "dry", "-"]
+    assert "joints.slide_pin.kind" not in rows({"dry": dry, "other": other})

@@ -5,6 +5,7 @@ import pytest
 
 from exu_press import InputError, Result, Scene, simulate
 from exu_press.cli import main
+from exu_press.plots.spectrum import spectrum_figure
 from exu_press.result.windows import window
 from exu_press.studies.spectrum import column_of, marks_of, spectra
 
@@ -99,3 +100,10 @@ def test_names_that_are_refused(run):
         column_of(run, "slider_velocity.x")
     with pytest.raises(InputError, match="allowed is one with a value, or columns, a step"):
         column_of(run, "body_position.x")
+
+
+def test_a_picture_says_what_lies_below_the_resolution(run):
+    one = spectra(run)[0]
+    legend = spectrum_figure(one, run.scene).axes[0].get_legend()
+    said = f"below the resolution, {one.over_time.resolution:.3g} Hz"
+    assert said in [text.get_text() for text in legend.get_texts()]

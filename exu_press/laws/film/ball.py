@@ -79,7 +79,7 @@ def ball(cap_angle: float = WIDEST_CAP, onset_ratio: float | None = None) -> Bal
     with f_r = -4 pi eps_dot at eps = 0 and beta = pi/2, and f_r -> -6 pi eps_dot / (1 - eps).
 
     Accuracy: squeeze within 0.5 % of the closed form. Between the knots the law is within 0.2 % of
-    `reynolds_sphere.facing_load` for most states, and within 3 % where the film closes or slides
+    `facing_load` [3]_ for most states, and within 3 % where the film closes or slides
     (scripts/tabulate_ball_film.py --check). Where a ball leaves the wall almost straight, its weak
     force changes its direction within a few degrees of the motion, and the table smooths it.
     Curvature is left out, of order c / R.
@@ -95,7 +95,7 @@ def ball(cap_angle: float = WIDEST_CAP, onset_ratio: float | None = None) -> Bal
     .. [1] Goenka, P. K., and J. F. Booker. "Spherical Bearings: Static and Dynamic Analysis via
        the Finite Element Method." J. Lubr. Technol. 102, no. 3 (1980): 308-318.
     .. [2] Pinkus, O., and B. Sternlicht. Theory of Hydrodynamic Lubrication. McGraw-Hill, 1961.
-    .. [3] `reynolds_sphere.facing_load`, tabulated by scripts/tabulate_ball_film.py.
+    .. [3] scripts/tabulation/reynolds_sphere.py, tabulated by scripts/tabulate_ball_film.py.
     """
     demand(
         NARROWEST_CAP - 1e-9 <= cap_angle <= WIDEST_CAP + 1e-9,

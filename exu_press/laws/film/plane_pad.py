@@ -165,13 +165,9 @@ def plane_pad(length: float, width: float) -> PadLaw:
 
 
 def _across(ratio: float) -> tuple[float, float]:
-    """Return kappa of the equation along the pad, and (int phi)^2 / (w int phi^2) of the shape.
-
-    Args:
-        ratio: w / L; sums of the shape's integrals lose digits with its fourth power.
-    """
+    """Return kappa of the equation along the pad, and (int phi)^2 / (w int phi^2) of the shape."""
     x = 0.5 * math.sqrt(10.0) * ratio
-    if x < 0.05:  # a parabola, and its error to the first order in x^2
+    if x < 0.05:  # else digits are lost: a parabola, and its error to the first order in x^2
         more = 1.0 + x * x / 105.0
         return 10.0 / ratio**2 * more, 5.0 / 6.0 * more
     flat, steep = math.tanh(x) / x, 1.0 / math.cosh(x) ** 2
@@ -186,15 +182,8 @@ def _pressed(
 
     The source changes its sign once at most, so that pressure is one piece from one end of the pad
     on. It ends before the first node that would have none if it were the last one: elimination from
-    that end shows it, and solves the complementarity problem exactly.
-
-    Args:
-        h_1: gap at the rear end, and so on.
-        h_2: at the front end.
-        v_1: source at the rear end.
-        v_2: at the front end.
-        nodes: inner ones, from the rear.
-        last: 2 / size of the last cell.
+    that end shows it, and solves the complementarity problem exactly. v are the sources at the two
+    ends, `nodes` the inner ones from the rear, `last` is 2 / size of the last cell.
     """
     if v_1 < 0.0 or v_1 == v_2 == 0.0:
         return _from_rear(h_1, h_2, v_1, v_2, nodes, last)

@@ -231,7 +231,7 @@ class Study {
     byId("whole").addEventListener("click", () => this.whole());
     byId("clear").addEventListener("click", () => { this.kept.clear(); this.fill(); });
     byId("drag").addEventListener("change", event => {
-      this.points.toolbar.active_drag = this.model(`points-${event.target.value}`);
+      this.points.toolbar.active_drag = this.model(`${event.target.value}-points`);
     });
     for (const name of ["points-x", "points-y"]) {
       this.model(name).change.connect(() => {

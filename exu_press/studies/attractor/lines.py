@@ -3,7 +3,7 @@
 import math
 
 from exu_press.studies.attractor.study import Attractor
-from exu_press.studies.sweep.units import with_unit
+from exu_press.studies.sweep.units import shown_unit, with_unit
 from exu_press.terminal.columns import columns
 
 __all__ = ["attractor_lines"]
@@ -44,14 +44,16 @@ def attractor_lines(found: Attractor) -> list[str]:
 def _figures(found: Attractor) -> list[list[str]]:
     """Return a table of the figures over revolutions."""
     rows = [["quantity", "mean", "scatter", "5 %", "50 %", "95 %"]]
-    for name, unit in found.units.items():
-        head = with_unit(name, unit)
+    for name, other in found.units.items():
         one = found.distributions.get(name)
+        unit, k = shown_unit(name, one.mean[:1] if one else (), other)
+        head = with_unit(name, unit)
         if one is None:
             rows.append([head, *["-"] * 5])
             continue
-        bounds = [f"{at:.5g} [{low:.5g}, {high:.5g}]" for at, low, high in one.percentiles.values()]
-        (mean, off), (scatter, off_scatter) = one.mean, one.scatter
+        scaled = ([k * value for value in each] for each in one.percentiles.values())
+        bounds = [f"{at:.5g} [{low:.5g}, {high:.5g}]" for at, low, high in scaled]
+        mean, off, scatter, off_scatter = (k * value for value in (*one.mean, *one.scatter))
         told = f"{mean:.6g} +- {off:.2g}", f"{scatter:.2g} +- {off_scatter:.1g}"
         rows.append([head, *told, *bounds])
     return rows

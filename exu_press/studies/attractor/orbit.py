@@ -4,9 +4,7 @@ import copy
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any
 
-import exudyn as exu
 import numpy as np
 
 from exu_press.errors import InputError
@@ -159,11 +157,8 @@ class Orbit:
         """Return a model on the section that goes on to the next one."""
         if self.scene.drive is None:
             return model
-        data: Any = model.mbs.systemData
-        begin = data.GetSystemState(configuration=exu.ConfigurationType.Initial)
-        data.SetSystemState(systemStateList=begin, configuration=exu.ConfigurationType.Current)
         turn, start = 2.0 * math.pi, self.scene.start_angle
-        done = round((model.crank_angle()[0] - start) / turn)
+        done = round((model.crank_at_start() - start) / turn)
         return replace(model, until=start + turn * (done + 1))
 
     def _all_but_the_crank(self) -> Array:

@@ -9,7 +9,7 @@ from exu_press.quantities.uncertain import significant
 from exu_press.studies.base import Range
 from exu_press.studies.fit.determined import Direction
 from exu_press.studies.fit.run import Report
-from exu_press.studies.sweep.units import unit_of, with_unit
+from exu_press.studies.sweep.units import shown_unit, with_unit
 from exu_press.terminal.columns import columns
 
 __all__ = ["inexact", "report_lines"]
@@ -132,14 +132,14 @@ def _residuals(report: Report) -> list[str]:
     for one, computed, error in zip(
         report.study.measured, report.numbers, report.errors[:number], strict=True
     ):
-        unit = unit_of(one.quantity)
+        unit, scale = shown_unit(one.quantity, [one.value])
         rows.append(
             (
-                f"{one.name}{f', {unit}' if unit else ''}",
-                f"{one.value:.6g}",
-                significant(one.uncertainty, 2),
-                f"{computed:.6g}",
-                f"{error * one.uncertainty / one.weight**0.5:.1g}",
+                with_unit(one.name, unit),
+                f"{scale * one.value:.6g}",
+                significant(scale * one.uncertainty, 2),
+                f"{scale * computed:.6g}",
+                f"{scale * error * one.uncertainty / one.weight**0.5:.1g}",
                 f"{(computed - one.value) / one.uncertainty:+.2f}",
             )
         )

@@ -19,7 +19,10 @@ def report_lines(report: Report) -> list[str]:
     study, number = report.study, len(report.places)
     several = len(study.objective) > 1
     lines = [*report.told, f"method: {report.method} ({report.why})"]
-    quantities = {name: quantity_of(study.scene, name).quantity for name in study.quantities}
+    quantities = {
+        name: quantity_of(study.scene, name).quantity.sized(report.numbers(name))
+        for name in study.quantities
+    }
     heads = (with_unit(name, quantity.shown) for name, quantity in quantities.items())
     rows = [("", *map(with_unit, study.keys), *heads)]
     shown = sorted({report.chosen, *np.linspace(0, number - 1, MOST_LINES).astype(int).tolist()})

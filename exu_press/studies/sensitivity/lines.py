@@ -29,8 +29,9 @@ def report_lines(report: Report) -> list[str]:
 def _of_quantity(report: Report, place: int) -> list[str]:
     study = report.study
     name = study.sensitivity.quantities[place]
-    quantity = quantity_of(study.scene, name).quantity
-    found, each, scale = report.indices[place], report.spreads[place], quantity.scale
+    found, each = report.indices[place], report.spreads[place]
+    quantity = quantity_of(study.scene, name).quantity.sized([each.middle])
+    scale = quantity.scale
     unit = f" {quantity.shown}" if quantity.shown else ""
     if found is None:
         middle = significant(each.middle * scale, quantity.digits)

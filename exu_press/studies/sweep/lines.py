@@ -9,7 +9,6 @@ from exu_press.errors import InputError
 from exu_press.quantities import Place, Quantity
 from exu_press.quantities.catalogue import declared
 from exu_press.studies.sweep.table import Table
-from exu_press.studies.sweep.units import with_unit
 from exu_press.terminal.columns import columns
 
 __all__ = ["report_lines", "shown"]
@@ -24,9 +23,7 @@ def report_lines(table: Table, over: Sequence[str] = (), show: Sequence[str] = (
     """Return keys and quantities of at most MOST_LINES runs, and how the runs ended."""
     names = (*table.study.keys, *shown(table, show), "status")
     runs = range(min(len(table), MOST_LINES))
-    cells = [[with_unit(name) for name in names]]
-    cells += [[table.in_words(name, run, "-") for name in names] for run in runs]
-    lines = columns(cells)
+    lines = columns(list(zip(*(table.in_words(name, runs, "-") for name in names), strict=True)))
     if len(table) > MOST_LINES:
         lines.append(f"... and {len(table) - MOST_LINES} more in table.csv")
     counts = Counter(table["status"])

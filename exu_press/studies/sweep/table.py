@@ -18,7 +18,7 @@ from exu_press.schema.csv_table import Value, flat, write_csv
 from exu_press.schema.stored import shown
 from exu_press.schema.toml import toml_text
 from exu_press.studies.sweep.study import Sweep
-from exu_press.studies.sweep.units import meaning_of, unit_of
+from exu_press.studies.sweep.units import meaning_of, shown_unit, unit_of, with_unit
 
 __all__ = ["RUN_TIMES", "Table", "cell", "table_of"]
 
@@ -66,14 +66,25 @@ class Table:
         found = {p: c[run] for p, c in zip(parts, columns, strict=True) if c is not None}
         return found if None not in found.values() and len(found) == len(parts) else None
 
-    def in_words(self, name: str, run: int, none: str = "") -> str:
-        """Return a run's value in a column, a number with its error where that is known."""
-        value, error = self.columns[name][run], self.error(name, run)
-        if value is None:
-            return none
-        if isinstance(value, float):
-            return uncertain(value, error, digits=6)
-        return str(value)
+    def in_words(self, name: str, runs: range, none: str = "") -> list[str]:
+        """Return a column's head and its values of some runs, numbers in the unit that is shown.
+
+        Args:
+            name: of the column.
+            runs: whose values are returned; a number has its error where that is known.
+            none: said where a run has no value.
+        """
+        column = self.columns[name]
+        numbers = [value for value in column if isinstance(value, float)]
+        unit, scale = shown_unit(name, numbers)
+        found = [with_unit(name, unit)]
+        for run in runs:
+            value = column[run]
+            if isinstance(value, float):
+                found.append(uncertain(value, self.error(name, run), scale, digits=6))
+            else:
+                found.append(none if value is None else str(value))
+        return found
 
     def save_csv(self, path: Path) -> None:
         """Write the table; numbers with all their digits, nothing where a run has none."""

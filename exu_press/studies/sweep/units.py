@@ -1,7 +1,7 @@
 """Units and meanings of a table's columns."""
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from exu_press.mechanism import unit_in_mechanism
@@ -12,7 +12,7 @@ from exu_press.scene.oil import Oil
 from exu_press.scene.usage import TABLES
 from exu_press.schema.checks import Table
 
-__all__ = ["meaning_of", "unit_of", "with_unit"]
+__all__ = ["meaning_of", "shown_unit", "unit_of", "with_unit"]
 
 
 def unit_of(name: str) -> str:
@@ -25,6 +25,25 @@ def unit_of(name: str) -> str:
         return placed.quantity.unit
     metadata = _metadata(name)
     return "" if metadata is None else str(metadata["unit"])
+
+
+def shown_unit(
+    name: str, values: Iterable[float] = (), other: str | None = None
+) -> tuple[str, float]:
+    """Return the unit in which tables show a scene's key or a quantity, and the factor from SI.
+
+    >>> shown_unit("joints.balls.clearance"), shown_unit("joints.balls.peak_penetration")
+    (('m', 1.0), ('um', 1000000.0))
+
+    Args:
+        name: of the key or the quantity.
+        values: SI, which are small in a small machine.
+        other: unit of a name that is no quantity, where it is no key either.
+    """
+    if (placed := declared(name)) is None:
+        return unit_of(name) if other is None else other, 1.0
+    quantity = placed.quantity.sized(values)
+    return quantity.shown, quantity.scale
 
 
 def with_unit(name: str, unit: str | None = None) -> str:

@@ -20,13 +20,14 @@ def report_lines(report: Report) -> list[str]:
         heads.append(f"{joint.replace('_', ' ')} clearance, um")
         bodies.append([f"{1e6 * value:.5g}" for value in report.clearances(joint)])
     for name in study.names:
-        quantity = quantity_of(study.scene, name).quantity
+        values = report.values(name)
+        quantity = quantity_of(study.scene, name).quantity.sized(filter(None, values))
         heads.append(with_unit(name, quantity.shown))
         digits = 7 if quantity.unit == "m" else 4
         bodies.append(
             [
                 "-" if value is None else significant(value * quantity.scale, digits)
-                for value in report.values(name)
+                for value in values
             ]
         )
     rows = list(zip(*bodies, strict=True))

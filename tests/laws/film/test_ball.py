@@ -10,7 +10,7 @@ from scipy.sparse.linalg import spsolve
 
 from exu_press import InputError
 from exu_press.laws.film import ball, dissipated, socket_drag
-from exu_press.laws.film.reynolds_sphere import solve_cap
+from tabulation.reynolds_sphere import solve_cap
 
 CAPS = [math.pi / 4, 1.2, math.pi / 2]
 GAUSS = np.polynomial.legendre.leggauss(200)

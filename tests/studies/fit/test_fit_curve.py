@@ -1,10 +1,12 @@
 """What a sensor adds to a curve: zero, clock and band, of sines whose answer is known."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
-from exu_press import InputError
-from exu_press.studies.curve_file import CurveFile, read_curve
+from exu_press import InputError, Scene, simulate
+from exu_press.studies.curve_file import CurveFile, computed, read_curve
 from exu_press.studies.fit.curve import Curve, matched
 
 AT = np.linspace(0.0, 2.0, 4001)
@@ -82,3 +84,21 @@ def test_files_that_no_sensor_writes(text, said, tmp_path):
     file.write_text(text.format(*range(20)))
     with pytest.raises(InputError, match=said):
         read_curve(file)
+
+
+def test_a_curve_over_an_angle_that_falls_back_is_refused():
+    """The crank of the run is swung back half-way, as a spring turns a press behind its brake."""
+    forth = simulate(Scene(mechanism="slider_crank", joints={}, revolutions=0.1))
+    half = len(forth.time) // 2
+
+    def swing(name, values):
+        back = 2.0 * values[half] - values[half:] if name == "crank_angle" else values[half:]
+        return np.concatenate([values[:half], back])
+
+    run, most = forth.changed(swing), np.degrees(forth["crank_angle"][half])
+    below = CurveFile("crank_angle", -PLACES, "slider_velocity", "m/s", PLACES)
+    assert len(computed("a.csv", below, run)[0]) == len(run.time)
+    passed = dataclasses.replace(below, at=np.linspace(0.5, 1.0, len(PLACES)) * most)
+    with pytest.raises(InputError, match=rf"turns back at {most:.6g} deg, .* allowed is .* time"):
+        computed("a.csv", passed, run)
+    assert computed("a.csv", passed, forth)[2] == "m/s"

@@ -86,12 +86,12 @@ def test_the_table_in_a_terminal(table):
     assert head.split() == [
         "speed_rpm",
         "bottom_dead_centre,",
-        "m",
+        "mm",
         "joints.crank_pin.peak_force,",
-        "N",
+        "kN",
         "status",
     ]
-    assert first.split() == ["200", "0.3", "1000", "completed"]
+    assert first.split() == ["200", "300", "1", "completed"]
     assert second.split() == ["300", "-", "-", "failed"]
     assert third.endswith("film broke down")
     assert rest[0] == "3 runs: 1 completed, 1 failed, 1 film broke down"

@@ -1,0 +1,1 @@
+"""Solutions of Reynolds' equation that the tables of film laws are made of."""

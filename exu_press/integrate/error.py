@@ -122,7 +122,8 @@ class StepError:
                 error = bodies.error(change, step, left)
         if bodies.quiet < math.inf and not (self._joints or self._forces_jump):
             turned = bodies.vibration.turned(step)
-            error = self._envelope.over(error, bodies.limit(step) / (step * step * step), turned)
+            allowed = bodies.limit(step) / (step * step * step)
+            error = self._envelope.over(error, allowed, turned, bodies.quiet)
         if not (still or self._joints):  # whose impacts and films need finer steps, by far
             offset = self._relative(bodies.offset(step))
             if self._curvature is not None:

@@ -116,14 +116,10 @@ class Monitor:
         self._event = Event(task, event)
 
         corner = next_corner or _never
-
-        def next_stop(time: float) -> float:
-            return min(corner(time), self._sampling.next(time))
-
         self.control: StepControl | FixedSteps = (
             FixedSteps(task)
             if task.fixed
-            else StepControl(task, self._estimate, next_stop if samples else corner, controller)
+            else StepControl(task, self._estimate, corner, self._sampling.next, controller)
         )
         # without clearance joints the estimated error judges every step, jumps included
         judged = task.problem.joints is None and not task.fixed

@@ -49,8 +49,7 @@ class StepChange:
     either, is left alone: scaling up would blow up whatever an impact or a film's start left
     ringing.
 
-    In smooth motion without corners of loads, rigid bodies in the plane keep their energy, too
-    (`KeptEnergy`).
+    In smooth motion without corners of loads, rigid bodies keep their energy, too (`KeptEnergy`).
 
     Exudyn's algorithmic acceleration can be read but not written, and when a step is repeated it
     keeps the value of the failed try. But positions, velocities and accelerations at the step's
@@ -165,9 +164,10 @@ class StepChange:
                     q = q - self._offsets[0]
                     v = v - (1.0 - part * part) * self._offsets[1]
                 if self._per_square is not None and self._last is not None:
-                    v = v + (step * step - self._last * self._last) * self._per_square
+                    changes = (step * step - self._last * self._last) * self._per_square
+                    v, a = v + changes[0], a + changes[1]
         at_start = solver.GetStartOfStepStateAAlgorithmic()
-        wanted = a + ratio * (at_start - a)
+        wanted = a + ratio * (at_start - self._state[2])
         if self._last is None and self._mean is not None:
             a = wanted = self._mean
         elif self._last is None and self._given is not None:
@@ -214,9 +214,9 @@ class StepChange:
         if self._energy is not None:
             undone = self._constraints.undone(inertia, directions)
             if self._last is not None:
-                _, v, a = self._state
+                q, v, a = self._state
                 held = undone(directions @ np.array([v, a]).T)
-                self._per_square = self._energy.per_square(self._last, v, a, inertia, held)
+                self._per_square = self._energy.per_square(self._last, q, v, inertia, held)
             if not self._springs:
                 return self._least(undone, lengths)
         undone = self._constraints.undone(0.5 * (forces + forces.T), directions)

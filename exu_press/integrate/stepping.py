@@ -28,6 +28,7 @@ class StepControl:
         task: Task,
         estimate: StepError,
         next_corner: Callable[[float], float],
+        next_sample: Callable[[float], float],
         controller: Controller | None = None,
     ) -> None:
         """Control the steps of a task.
@@ -36,11 +37,13 @@ class StepControl:
             task: to be solved.
             estimate: of the error of a step.
             next_corner: time -> the next instant at which a load has a corner, s, or infinity.
+            next_sample: time -> the next one of a grid on which steps end, s, or infinity.
             controller: changes steps for their errors; `LimitedGrowth` unless given.
         """
         self.error, self.at_smallest = 0.0, False
         self._controller = controller or LimitedGrowth(task.tuning, impacts=task.impacts)
         self._estimate, self._next_corner = estimate, next_corner
+        self._next_sample = next_sample
         self._end, self._smallest, self._largest = task.end, task.smallest, task.largest
         # a step is told as a difference of two times, whose last digits are rounded
         latest = max(abs(task.start), abs(task.end))
@@ -78,11 +81,12 @@ class StepControl:
         self._step *= self._controller.continued(self.error / (part * part * part))
 
     def next_step(self, time: float) -> float:
-        """Return the step from a time on, s; it ends exactly on corners and the end.
+        """Return the step from a time on, s; it ends exactly on corners, samples and the end.
 
-        Two steps of one size lead to the next of these, where one would not get there. A corner
+        Two steps of one size lead to the next corner, where one would not get there. A corner
         that only rounding tells from the end is the end: as a stop of its own it would be neared by
-        halves, down to the smallest step.
+        halves, down to the smallest step. Samples are many, and all steps between two are of one
+        size: a change of the step takes as long as three.
         """
         self._step = step = min(self._step, self._largest)
         left, corner = self._end - time, self._next_corner(time)
@@ -90,6 +94,9 @@ class StepControl:
             left = corner - time
         if left > self._smallest and step > 0.5 * left:
             step = left if step >= left else 0.5 * left
+        left = self._next_sample(time) - time
+        if self._smallest < left < math.inf:
+            step = min(step, left / math.ceil((1.0 - SAME) * left / step))
         self._asked = step
         return step
 

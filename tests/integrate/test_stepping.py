@@ -157,10 +157,16 @@ class Estimate:
         pass
 
 
-def steps(good, corner=math.inf, **changes):
+def steps(good, corner=math.inf, period=math.inf, **changes):
     """Sizes of accepted steps to the end, and the number of repeated ones."""
     asked = task(**changes)
-    control = StepControl(asked, Estimate(good), lambda time: corner if time < corner else math.inf)
+
+    def sample(time):
+        return period if time < period else (round(time / period) + 1) * period
+
+    control = StepControl(
+        asked, Estimate(good), lambda time: corner if time < corner else math.inf, sample
+    )
     time, sizes, repeated = 0.0, [], 0
     while asked.end - time > 1e-12:
         step = control.next_step(time)
@@ -206,6 +212,14 @@ def test_steps_end_on_corners_and_the_end():
     times = np.cumsum(sizes)
     assert np.abs(times - 2.3e-3).min() < 1e-15 and times[-1] == pytest.approx(5.1e-3)
     assert min(sizes) > 0.5e-3, "nothing little is left before one"
+
+
+@PATCHED
+def test_steps_between_samples_are_of_one_size():
+    sizes, _ = steps(good=3.1e-4, period=1e-3, end=0.1)
+    late = np.array(sizes[-40:-10])
+    assert late == pytest.approx([late[0]] * len(late), rel=1e-9)
+    assert 1e-3 / late[0] == pytest.approx(round(1e-3 / late[0]), rel=1e-9)
 
 
 @PATCHED

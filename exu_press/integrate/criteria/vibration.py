@@ -11,8 +11,9 @@ FADING = 0.05
 """Part of it that is gone after a radian of the vibration: both values are zero at times, and in
 steps of a hundredth of a radian most of it would be forgotten before they return."""
 
-CYCLE = 0.5
-"""The same of an error: half is left where it is zero."""
+WINDOW = 1.5
+"""Angle of a vibration after which an error is forgotten, in one window more, rad: the largest
+errors come every half turn."""
 
 
 class Quiet:
@@ -89,20 +90,29 @@ class Envelope:
 
     def __init__(self) -> None:
         """Know nothing yet."""
-        self._before = self._tried = 0.0  # errors over the step's cube, m/s^4
+        # largest errors over the step's cube, in this window and the one before it, m/s^4
+        self._here = self._before = 0.0
+        self._turned = 0.0  # in this window so far, rad
+        self._tried = 0.0, 0.0  # error over the step's cube, and angle
 
-    def over(self, error: float, allowed: float, turned: float) -> float:
-        """Return the error of a step, or what is left of those before it, which repeats no step.
+    def over(self, error: float, allowed: float, turned: float, quiet: float) -> float:
+        """Return the error of a step, or of those before it, which repeats no step.
 
         Args:
             error: of the step, 1 is allowed.
             allowed: error over the step's cube, m/s^4.
             turned: angle by which the vibration goes on in the step, rad, at most one.
+            quiet: amplitude over what the run may miss (`Quiet`); below 1 less is remembered.
         """
-        left = self._before * (1.0 - CYCLE * turned)
-        self._tried = max(error * allowed, left)
-        return max(error, min(1.0, left / allowed))
+        self._tried = error * allowed, turned
+        before = min(1.0, quiet) * max(self._here, self._before) / allowed
+        return max(error, min(1.0, before))
 
     def accept(self) -> None:
         """Remember the step last tried."""
-        self._before, self._tried = self._tried, 0.0
+        error, turned = self._tried
+        self._tried = 0.0, 0.0
+        self._here = max(self._here, error)
+        self._turned += turned
+        if self._turned > WINDOW:
+            self._before, self._here, self._turned = self._here, 0.0, 0.0

@@ -11,7 +11,13 @@ from exu_press.numerics.piecewise import hermite
 from exu_press.result import Result
 from exu_press.scene import mechanism_of
 
-__all__ = ["DeadCentre", "bottom_dead_centres", "ideal_bottom_angle", "lowest_of_strokes"]
+__all__ = [
+    "DeadCentre",
+    "bottom_dead_centres",
+    "ideal_bottom_angle",
+    "lowest",
+    "lowest_of_strokes",
+]
 
 REACH = np.pi / 2
 """A stroke's dead centre is looked for this far before and behind the ideal one, rad: clearances
@@ -72,20 +78,26 @@ def lowest_of_strokes(
     found = []
     for stroke in np.split(np.flatnonzero(near), np.flatnonzero(np.diff(strokes[near])) + 1):
         if len(stroke):
-            lowest = int(stroke[np.argmin(position[stroke])])
-            first_row = max(0, lowest - 1)
-            time_there, angle_there, *curve = (
-                values[first_row : lowest + 2] for values in (time, crank_angle, position, velocity)
-            )
-            instant, height = _minimum(time_there, *curve, lowest=lowest - first_row)
-            angle = float(np.interp(instant, time_there, angle_there))
+            at = slice(stroke[0], stroke[-1] + 1)
+            instant, height = lowest(time[at], position[at], velocity[at])
+            angle = float(np.interp(instant, time, crank_angle))
             found.append(DeadCentre(instant, angle, height))
     return found
 
 
-def _minimum(time: Array, position: Array, velocity: Array, *, lowest: int) -> tuple[float, float]:
-    """Return instant and position of the minimum about the lowest of two or three samples."""
-    found = [(float(position[lowest]), float(time[lowest]))]
+def lowest(time: Array, position: Array, velocity: Array) -> tuple[float, float]:
+    """Return instant and position of the minimum, s and m, also between two steps.
+
+    Args:
+        time: (n,), s, increasing.
+        position: (n,), m; interpolated between steps by cubic Hermite polynomials.
+        velocity: (n,), m/s.
+    """
+    at = int(np.argmin(position))
+    found = [(float(position[at]), float(time[at]))]
+    time, position, velocity = (
+        values[max(0, at - 1) : at + 2] for values in (time, position, velocity)
+    )
     for start, length, (c0, c1, c2, c3) in zip(
         time[:-1], np.diff(time), hermite(time, position, velocity).T, strict=True
     ):

@@ -5,6 +5,7 @@ from collections.abc import Callable
 import numpy as np
 
 from exu_press.quantities.acceleration import differentiated_peak, mean_peak, peak
+from exu_press.quantities.dead_centre import lowest
 from exu_press.quantities.kind import DIFFERENCE, LOAD, MOTION
 from exu_press.quantities.quantity import Extreme, Quantity
 from exu_press.quantities.reading import Reading
@@ -34,12 +35,18 @@ def _of_strokes(
     return value
 
 
+def _ends(run: Reading) -> tuple[float, float]:
+    """Return the slider's lowest and highest position, m."""
+    position, velocity = run["slider_position"], run["slider_velocity"]
+    return lowest(run.time, position, velocity)[1], -lowest(run.time, -position, -velocity)[1]
+
+
 SLIDER = (
     Quantity("stroke", "m", "distance between the slider's highest and lowest position",
-             MOTION, lambda run, _: float(np.ptp(run["slider_position"])),
+             MOTION, lambda run, _: run.once(_ends)[1] - run.once(_ends)[0],
              title="stroke", shown="mm", digits=5, extreme=Extreme.LARGEST, headline=True),
     Quantity("bottom_dead_centre", "m", "lowest position of the slider",
-             MOTION, lambda run, _: float(run["slider_position"].min()),
+             MOTION, lambda run, _: run.once(_ends)[0],
              title="bottom dead centre", shown="mm", digits=6, signed=True),
     Quantity("peak_velocity", "m/s", "largest speed of the slider",
              MOTION, lambda run, _: peak(run["slider_velocity"]),

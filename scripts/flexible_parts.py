@@ -9,9 +9,10 @@ Run with: python scripts/flexible_parts.py [--quick] [--out DIR]
 import argparse
 from pathlib import Path
 
-from exu_press import Result, Scene, simulate
+from exu_press import Scene, simulate
 from exu_press.quantities import Placed, Quantity
 from exu_press.quantities.kind import LOAD, MOTION
+from exu_press.quantities.reading import Reading
 from exu_press.quantities.uncertain import uncertain
 from exu_press.scene import flexible_press
 from exu_press.terminal.columns import columns
@@ -42,8 +43,9 @@ for name in PUBLISHED_HZ:
     draw_mode_shapes(shipped_part(name, mesh_size), out / f"modes_{name}.png")
 
 
-def figures(run: Result) -> dict[str, float]:
+def figures(reading: Reading) -> dict[str, float]:
     """Return the columns of the last table that a run has, in their units."""
+    run = reading.result
     found = {
         "acceleration": run.quantity("peak_acceleration.resolved").value,
         "mean_1ms": run.quantity("peak_acceleration.mean_1ms").value,

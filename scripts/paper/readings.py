@@ -8,6 +8,7 @@ from exu_press.numerics.arrays import Array
 from exu_press.quantities import Placed, Quantity, differentiated_peak, mean_peak, peak
 from exu_press.quantities.joints import TOUCH
 from exu_press.quantities.kind import LOAD, MOTION, SHARE
+from exu_press.quantities.reading import Reading
 from exu_press.result import Result
 from exu_press.scene import IdealJoint, Scene, mechanism_of
 
@@ -78,7 +79,11 @@ def _quantity(name: str) -> Quantity:
     kind = LOAD if "acceleration" in name or "power" in name else MOTION
     if "share" in name:
         kind = SHARE
-    return Quantity(name, "", name, kind, lambda run, _: run.once(readings).get(name))
+    return Quantity(name, "", name, kind, lambda run, _: run.once(_readings).get(name))
+
+
+def _readings(run: Reading) -> dict[str, float]:
+    return readings(run.result)
 
 
 def _oscillation_frequency(result: Result, time: Array, motion: CubicHermiteSpline) -> float | None:

@@ -24,8 +24,8 @@ def repeated(result, times):
 
 
 @pytest.mark.long
-def test_a_hundred_revolutions_are_thinned(press, tmp_path, browser):
-    run = repeated(press, 50)
+def test_a_long_run_is_thinned(press, tmp_path, browser):
+    run = repeated(press, 150)
     assert len(run.time) > 200_000
     live = viewer({"": run})
     page_file = tmp_path / "page.html"

@@ -1,5 +1,6 @@
 """Errors, classes and speeds of the models."""
 
+import itertools
 from collections import Counter
 from dataclasses import dataclass, field
 
@@ -10,6 +11,9 @@ from exudyn_examples.measure import at_equal_error
 __all__ = ["Model", "table"]
 
 ENDED = "completed", "under-resolved"
+SIZES = 0, 20, 60, 200
+"""Numbers of unknowns between which times of steps are compared."""
+
 AGREE = 3e-3
 """Of two references, up to which an error is counted."""
 
@@ -89,6 +93,11 @@ class Model:
         found = at_equal_error(sorted(points, reverse=True), self.found(variant))
         return self.runs[variant]["seconds"] / found
 
+    def per_step(self, variant="tolerance"):
+        """Return the time of a tried step over that of one of the user's."""
+        run, fixed = self.runs[variant], self.user
+        return run["seconds"] / run["tries"] * fixed["steps"] / fixed["seconds"]
+
     def kind(self, tolerance, variant="tolerance"):
         """Return the class of a run, as an index."""
         run = self.runs[variant]
@@ -152,4 +161,12 @@ def table(models, tolerance):
                 "processor time over the fixed step's of the same error "
                 f"({len(equal)} models): median {low:.2g}, 95 % {most:.2g}"
             )
+        for above, up_to in itertools.pairwise(SIZES):
+            sized = [m for m in ended if above < m.user["unknowns"] <= up_to]
+            steps = [m.per_step(variant) for m in sized if m.runs[variant].get("tries")]
+            if steps:
+                lines.append(
+                    f"a tried step over a fixed one, {above} to {up_to} unknowns "
+                    f"({len(steps)} models): median {np.median(steps):.2g}"
+                )
     return "\n".join(lines)

@@ -80,7 +80,7 @@ def lowest_of_strokes(
         if len(stroke):
             at = slice(stroke[0], stroke[-1] + 1)
             instant, height = lowest(time[at], position[at], velocity[at])
-            angle = float(np.interp(instant, time, crank_angle))
+            angle = float(np.interp(instant, time[at], crank_angle[at]))
             found.append(DeadCentre(instant, angle, height))
     return found
 

@@ -85,7 +85,7 @@ class Node:
         size: how many they are.
         mass: ratio of kinetic energy to the square of a speed, kg; None where they are
             not displacements: their own largest kinetic energy is the scale then. Infinite for what
-            has no say.
+            is excluded from the norm.
         displacements: how many of its first coordinates are displacements.
         rotations: how many of its last coordinates turn a body in space; four Euler parameters.
         carrier: number of the node whose mass counts for it too, as a flexible body's frame does
@@ -184,7 +184,7 @@ class Problem:
         Args:
             mbs: the system.
             bodies: node number -> name and mass (kg) of the body that it belongs to; nodes that are
-                not named have no say in errors. None: all of them have one.
+                not named are excluded from errors. None: none is.
 
         Raises:
             InputError: the system is not assembled, or has nodes that cannot be stepped with a

@@ -57,9 +57,9 @@ class FoundScales:
         gravity: as given, m/s^2.
         rest: speed up to which the system is still, m/s; 0.0 where that is not known.
         rounded: whether what moves no faster was found to be rounding.
-        masses: of the nodes, kg, infinite for what has no say; where the system gives none, the
-            node's largest kinetic energy over half the square of `speed`, and a ten-thousandth of
-            the largest one's at least.
+        masses: of the nodes, kg, infinite where excluded from the norm; where the system gives
+            none, the node's largest kinetic energy over half the square of `speed`, and a
+            ten-thousandth of the largest one's at least.
     """
 
     def __init__(
@@ -211,7 +211,7 @@ class FoundScales:
             self.force = max(self.force, math.sqrt(squares))
 
     def norm(self, vector: list[float]) -> float:
-        """Return the largest kinetic norm of a body; what has no say may be no number."""
+        """Return the largest kinetic norm of a body; what is excluded from it may be no number."""
         inertias, masses, ends = self.inertias, self.masses, self._ends
         largest = 0.0
         i = 0

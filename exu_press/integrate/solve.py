@@ -237,8 +237,8 @@ def solve_dynamic(
             always functions that change what constraints prescribe.
         event: function (system, time in s) -> number; steps end where it changes its sign, within
             a millionth of the largest step. Not with fixed steps.
-        bodies: node number -> name and mass (kg) of its body; nodes that are not named have no say
-            in errors. None: all nodes have one.
+        bodies: node number -> name and mass (kg) of its body; nodes that are not named are
+            excluded from errors. None: none is.
         advice: makes the words for early stops.
         max_steps: a run that would need more, repeated ones too, stops.
         update_initial_values: whether the next run starts where this one ends, as Exudyn's

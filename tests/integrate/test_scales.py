@@ -77,7 +77,7 @@ def test_what_is_not_displaced_counts_by_its_own_largest_energy():
 
 
 def test_weights_of_nodes():
-    """Euler parameters have their mean, modes their frame's; what has no inertia has no say."""
+    """Euler parameters have their mean, modes their frame's; what has no inertia is excluded."""
     nodes = [
         Node(0, "frame", 0, 7, displacements=3, rotations=4),
         Node(1, "modes", 7, 2, carrier=0),

@@ -60,7 +60,7 @@ def test_joint_in_your_model(tmp_path):
 def test_your_own_model(tmp_path):
     """Largest pivot force of a four-bar, against 5e4 fixed steps of Exudyn's own: 87.8798 N.
 
-    They were off by six to ten tolerances while accelerations had no say.
+    They were off by six to ten tolerances while accelerations were not looked at.
     """
     printed = run("your_own_model.py", tmp_path, quick=False)
     forces = [float(force) for force in re.findall(r"tolerance \S+: (\S+) N", printed)]

@@ -11,7 +11,7 @@ __all__ = ["States"]
 
 
 class States:
-    """What joints were asked for at every step's end, one instant behind the other, in numbers.
+    """Numbers that joints were last asked for at every step's end, one instant behind the other.
 
     The integration has worked it out: forces and memory need no second pass over the steps.
 

@@ -11,7 +11,7 @@ from exu_press.joints.interface import FilmInterface, InterfaceJoint
 from exu_press.laws.film import FILM_LAWS, film_scale
 from exu_press.laws.film.oil import HOTTEST, film_temperature
 from exu_press.laws.film.side_flow import SideFlow
-from exu_press.numerics.arrays import Array
+from exu_press.numerics.arrays import Array, lengths
 from exu_press.scene import LubricatedJoint
 from exu_press.scene.joint import Joint, unworn
 
@@ -86,7 +86,7 @@ class WarmFilm:
     def side_flow(self, states: JointHistory) -> Array:
         """Return the flow at both ends, (n,), m^3/s."""
         joint = self.joint
-        e = np.linalg.norm(states.eccentricity, axis=1)
+        e = lengths(states.eccentricity)
         x, y = (states.eccentricity[:, :2] / np.maximum(e, 1e-300)[:, None]).T
         u, v = states.velocity[:, :2].T
         turning = states.turning.sum(axis=1)
@@ -104,7 +104,7 @@ class WarmFilm:
     def mean_pressure(self, force: Array) -> Array:
         """Return the mean pressure on the projected area, (n,), Pa, of a force (n, 2)."""
         area = 2.0 * self.joint.radius * self._length
-        return np.asarray(np.linalg.norm(force, axis=1) / area)
+        return lengths(force) / area
 
     def balanced(self, last: Heat) -> tuple[float, float]:
         """Return temperature, deg C, and pressure, Pa, at which the film gets rid of its heat.

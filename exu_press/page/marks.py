@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.numerics.arrays import Array
+from exu_press.numerics.arrays import Array, lengths
 from exu_press.page.curves import Curve
 from exu_press.quantities.alternating import LOADS, steady
 from exu_press.quantities.dead_centre import bottom_dead_centres
@@ -33,7 +33,7 @@ def impacts(result: Result) -> tuple[list[dict[str, Any]], int]:
             continue
         touching = described.onset - joint.gap > TOUCH
         edges = np.flatnonzero(np.diff(touching.astype(int), prepend=0, append=0))
-        size = np.linalg.norm(joint.force, axis=1)
+        size = lengths(joint.force)
         for begin, end in zip(edges[::2], edges[1::2], strict=True):
             peak = begin + int(np.argmax(size[begin:end]))
             found.append(
@@ -74,7 +74,7 @@ def values_on(result: Result, curve: Curve, *, as_read: bool = False) -> Array:
     if values.ndim == 2:
         chosen = values[:, list(curve.columns)]
         one = len(curve.columns) == 1
-        values = chosen[:, 0] if one else np.linalg.norm(chosen, axis=1)
+        values = chosen[:, 0] if one else lengths(chosen)
     return np.asarray(curve.offset + curve.factor * values)
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.numerics.arrays import Array
+from exu_press.numerics.arrays import Array, lengths
 
 __all__ = ["MOST_VALUES", "Thinning", "thinning"]
 
@@ -54,7 +54,7 @@ class Thinning:
         """Return the shortest and the longest vectors (m, k) of blocks, in their order."""
         if self.every == 1:
             return values
-        size = np.linalg.norm(values, axis=1)
+        size = lengths(values)
         blocks = -(-self.count // self.every)
         padded = np.full(blocks * self.every, size[-1])
         padded[: self.count] = size

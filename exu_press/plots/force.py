@@ -2,11 +2,10 @@
 
 from collections.abc import Mapping, Sequence
 
-import numpy as np
 from matplotlib.figure import Figure
 
 from exu_press.mechanism import GROUND
-from exu_press.numerics.arrays import Array
+from exu_press.numerics.arrays import Array, lengths
 from exu_press.plots.busiest import busiest
 from exu_press.plots.canvas import angle_axis, crank_degrees, curve, new_figure
 from exu_press.plots.peaks import mark_peak
@@ -95,4 +94,4 @@ def _figure_of(result: Result, channel: str) -> str:
 
 def _magnitude(values: Array) -> Array:
     """Return the length of vectors (n, k); a scalar channel (n,) as it is."""
-    return values if values.ndim == 1 else np.asarray(np.linalg.norm(values, axis=1))
+    return values if values.ndim == 1 else lengths(values)

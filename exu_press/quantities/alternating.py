@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.numerics.arrays import Array
+from exu_press.numerics.arrays import Array, lengths
 
 __all__ = ["LOADS", "Largest", "beside_line", "largest", "steady"]
 
@@ -42,15 +42,12 @@ class Largest:
 
 def largest(time: Array, values: Array) -> Largest:
     """Return the largest magnitudes of a load (n,) or (n, k), `steady`, at instants (n,), s."""
-    values, square = _columns(values), 0.0
+    values, length = _columns(values), 0.0
     columns = np.zeros(len(values))
     for part in _parts(time, values):
         columns = np.maximum(columns, _magnitudes(part))
-        squares = part[0] * part[0]
-        for other in part[1:]:
-            squares += other * other
-        square = max(square, float(squares.max()))
-    return Largest(columns, float(np.sqrt(square)))
+        length = max(length, float(lengths(part.T).max()))
+    return Largest(columns, length)
 
 
 def steady(time: Array, values: Array) -> Array:

@@ -2,8 +2,7 @@
 
 from collections.abc import Iterator
 
-import numpy as np
-
+from exu_press.numerics.arrays import lengths
 from exu_press.quantities.kind import LOAD, MEASURE
 from exu_press.quantities.quantity import Place, Quantity
 from exu_press.quantities.reading import Reading
@@ -63,7 +62,7 @@ def _outside(result: Result, name: str, joint: LubricatedJoint) -> Iterator[str]
         )
     if oil.pressure_viscosity is not None:
         area = 2.0 * joint.radius * joint.film.length
-        peak = float(np.linalg.norm(result[f"{name}_force"], axis=1).max()) / area
+        peak = float(lengths(result[f"{name}_force"]).max()) / area
         ratio = oil.viscosity(now, peak) / float(result[f"{name}_viscosity"][-1])
         if ratio > THICKER:
             yield (

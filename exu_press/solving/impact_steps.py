@@ -8,7 +8,7 @@ import numpy as np
 from exu_press.joints import history
 from exu_press.laws.contact import NormalContact
 from exu_press.mechanism import GROUND
-from exu_press.numerics.arrays import Array
+from exu_press.numerics.arrays import Array, lengths
 from exu_press.scene.laws import contact_law
 from exu_press.solving.assembled import Assembled
 
@@ -37,7 +37,7 @@ def impact_steps(model: Assembled) -> Iterator[float]:
             continue
         states = history(model.states, joint, time)
         apart, moving = states.eccentricity, states.velocity
-        distance = np.linalg.norm(apart, axis=1)
+        distance = lengths(apart)
         closing = (apart * moving).sum(axis=1) / np.maximum(distance, 1e-300)
         free = distance <= joint.clearance
         touches = free[:-1] & ~free[1:]

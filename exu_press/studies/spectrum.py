@@ -8,7 +8,7 @@ from scipy.optimize import brentq
 
 from exu_press.errors import InputError
 from exu_press.mechanism import GROUND
-from exu_press.numerics.arrays import Array
+from exu_press.numerics.arrays import Array, lengths
 from exu_press.quantities.uncertain import significant
 from exu_press.result import Result
 from exu_press.result.channel import AXES
@@ -189,13 +189,13 @@ def _on_contacts(result: Result) -> Iterator[Mark]:
         kind = scene.joints[joint.name]
         if kind.contact is None:
             continue
-        away = np.linalg.norm(result[f"{joint.name}_eccentricity"], axis=1)
+        away = lengths(result[f"{joint.name}_eccentricity"])
         touches = away > kind.clearance
         both = compliance[joint.journal] + compliance[joint.bearing]
         if not touches.any() or both == 0.0:
             continue
         steps = np.gradient(result.time)
-        forces = np.linalg.norm(result[f"{joint.name}_force"], axis=1)
+        forces = lengths(result[f"{joint.name}_force"])
         mean = float((forces * steps)[touches].sum() / steps[touches].sum())
         law = contact_law(kind, revolute=not joint.spherical)
 

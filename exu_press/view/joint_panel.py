@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, FancyArrowPatch
 
-from exu_press.numerics.arrays import Array
+from exu_press.numerics.arrays import Array, lengths
 from exu_press.plots.style import COLOURS, GREY, RUN
 from exu_press.plots.typesetting import cut
 from exu_press.quantities.uncertain import significant
@@ -51,7 +51,7 @@ class JointPanel:
         self._ratio = joint.eccentricity[:, :2] / radial
         self._distance = joint.distance / radial
         self._force = joint.force[:, :2]
-        self._size = np.linalg.norm(joint.force, axis=1)
+        self._size = lengths(joint.force)
         self._turn = _journal_angle(result, name)
         shown = slice(int(instants.step[0]), int(instants.step[-1]) + 1)
         self._first = shown.start

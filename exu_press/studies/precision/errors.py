@@ -13,7 +13,7 @@ import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 from scipy.spatial.distance import directed_hausdorff
 
-from exu_press.numerics.arrays import Array
+from exu_press.numerics.arrays import Array, lengths
 from exu_press.quantities.joints import TOUCH
 from exu_press.result import Result
 
@@ -71,7 +71,7 @@ def trajectory_of(result: Result) -> Trajectory:
     force = penetration = None
     if names:
         joint = result.joints[(dry or list(names))[0]]
-        force = np.linalg.norm(joint.force, axis=1)
+        force = lengths(joint.force)
         penetration = -joint.gap if dry else None
     return Trajectory(
         result.time,

@@ -20,11 +20,18 @@ __all__ = ["FlexibleJacobian", "LastingJacobian", "Newton"]
 BALANCE = 0.2
 """Part of the usual forces, over the tolerance, to which Newton's method balances them."""
 
+BALANCE_KEPT = 1e-3
+"""The same where a Jacobian is kept: an iteration leaves a hundredth of what it finds, metres of
+constraints too, which the next step takes for accelerations. A fresh one leaves next to nothing."""
+
 LIGHTER = 10.0
 """Ratio of inertias up to which the same balance of forces does for all coordinates."""
 
 PATIENCE = 4
 """Newton iterations after which rounding is thought of; most steps take one or two."""
+
+STALE = 3
+"""Newton iterations in which a kept Jacobian does not serve: one takes as long as ten."""
 
 LONGEST_PAUSE = 64
 """Steps without another try to keep a Jacobian."""
@@ -65,6 +72,7 @@ class Newton:
             self._jacobian = FlexibleJacobian(task)
         elif not task.every_jacobian:
             self._jacobian = LastingJacobian(task)
+            self._part = BALANCE_KEPT * task.tolerance
         current = problem.current
         self._state, self._multipliers = current, current.multipliers
         self._positions, self._velocities = Floats(current.positions), Floats(current.velocities)
@@ -111,9 +119,10 @@ class Newton:
             self._accept(self._tolerance())
             if self._jacobian is not None:
                 self._jacobian.begin(step)
-        elif iteration in (2, 3) and self._jacobian is not None:
-            self._jacobian.outdated(iteration)
-        elif iteration == PATIENCE:
+            return
+        if self._jacobian is not None:
+            self._jacobian.needed(iteration)
+        if iteration == PATIENCE:
             self._accept(max(self._tolerance(), self._rounded()))
 
     def _rounded(self) -> float:
@@ -198,7 +207,7 @@ class LastingJacobian:
     """Keeps Newton's matrix from step to step, while steps have one size and it serves.
 
     In large systems, and where it is differentiated through functions in Python, a Jacobian takes
-    as long as ten iterations or more. A kept one may take two iterations; a third one gets a fresh
+    as long as ten iterations or more. A kept one may take three iterations; a fourth gets a fresh
     one. Where that happens, the motion changes the matrix too fast, and fresh ones are made for as
     many steps as have been tried in vain before, doubled.
     """
@@ -219,13 +228,13 @@ class LastingJacobian:
         if self._wait:
             self._wait -= 1
 
-    def outdated(self, iteration: int) -> None:
-        """Be told that a step has needed so many iterations."""
+    def needed(self, iterations: int) -> None:
+        """Be told that a step has needed so many iterations so far."""
         if not self._kept:
             return
-        if iteration == 2:
+        if iterations == STALE:
             self._convergence.jacobianUpdateRequested = True
-        else:
+        elif iterations > STALE:
             self._kept, self._wait = False, self._pause
             self._pause = min(2 * self._pause, LONGEST_PAUSE)
 
@@ -265,10 +274,11 @@ class FlexibleJacobian:
         self._convergence.jacobianUpdateRequested = not self._kept
         self._serves = self._joints is not None
 
-    def outdated(self, iteration: int) -> None:
-        """Be told of a second iteration, or a third; for the latter, make a fresh one."""
-        self._serves = False
-        if self._kept and iteration == 2:
+    def needed(self, iterations: int) -> None:
+        """Be told that a step has needed so many iterations so far."""
+        if iterations > 1:
+            self._serves = False
+        if self._kept and iterations == 2:
             self._convergence.jacobianUpdateRequested = True
 
     def _compute(self, solver: Any, mbs: exu.MainSystem, settings: exu.SimulationSettings) -> bool:

@@ -39,8 +39,8 @@ MOST_HALVED = 2.0**10
 RELATIVE_RESIDUAL = 1e-10
 """Residual over the first one, at which Newton's method ends if it cannot get further."""
 
-LARGE = 60
-"""Coordinates of a system in which a Jacobian takes far longer than an iteration."""
+LARGE = 20
+"""Coordinates of a system from which on a Jacobian takes far longer than an iteration."""
 
 TOLERANCES = 1e-8, 0.1
 """Between these a tolerance means something."""

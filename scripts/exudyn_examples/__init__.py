@@ -34,8 +34,10 @@ from exudyn_examples.spatial import (
     four_bar_3d,
     heavy_top,
     kinematic_tree,
+    rods_on_a_spring,
     rolling_disc,
     rotor,
+    spring,
 )
 
 __all__ = ["EXAMPLES"]
@@ -98,6 +100,12 @@ EXAMPLES = {
     "rotor run-up": Example(rotor, 10.0, 2.0, "Examples/rigidRotor3Drunup.py", most=12.0),
     "heavy top": Example(heavy_top, 0.5, 0.1, "TestModels/heavyTop.py"),
     "kinematic tree": Example(kinematic_tree, 1.0, 0.5, "Examples/kinematicTreeAndMBS.py"),
+    "ten rods": Example(
+        partial(rods_on_a_spring, count=10), 0.5, 0.2, "a chain in space, of 70 coordinates"
+    ),
+    "spring in Python": Example(
+        partial(rods_on_a_spring, count=3, forces=spring), 0.5, 0.2, "its force is a user function"
+    ),
     "rolling disc": Example(rolling_disc, 1.0, 0.5, "TestModels/createRollingDiscTest.py"),
     "convex roll": Example(
         # its dampers jerk it where it touches

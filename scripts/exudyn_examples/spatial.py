@@ -20,8 +20,10 @@ __all__ = [
     "four_bar_3d",
     "heavy_top",
     "kinematic_tree",
+    "rods_on_a_spring",
     "rolling_disc",
     "rotor",
+    "spring",
 ]
 
 DOWN = [0.0, -GRAVITY, 0.0]
@@ -72,6 +74,36 @@ def bricard(mbs):
         )
         mbs.CreateRevoluteJoint(itemNumbers=[before, rod], position=place, axis=axis)
         before = rod
+
+
+def rods_on_a_spring(mbs, count, forces=0):
+    """A chain of rods that starts level and turning, its end on a spring, perhaps with a function
+    of its own."""
+    ground = before = mbs.CreateGround()
+    length = 0.2
+    for i in range(count):
+        rod = mbs.CreateRigidBody(
+            inertia=InertiaCuboid(density=1000.0, sideLengths=[length, 0.03, 0.05]),
+            referencePosition=[length * (i + 0.5), 0.0, 0.0],
+            initialVelocity=[0.0, 0.3 * (i + 0.5), 0.0],
+            initialAngularVelocity=[0.0, 0.0, 0.3 / length],
+            gravity=[0.0, 0.0, -GRAVITY],
+        )
+        mbs.CreateSphericalJoint(itemNumbers=[before, rod], position=[length * i, 0.0, 0.0])
+        before = rod
+    mbs.CreateCartesianSpringDamper(
+        itemNumbers=[ground, before],
+        localPosition0=[length * count, 0.0, -0.3],
+        localPosition1=[0.5 * length, 0.0, 0.0],
+        stiffness=[300.0] * 3,
+        damping=[0.17] * 3,
+        springForceUserFunction=forces,
+    )
+
+
+def spring(mbs, time, item, moved, speeds, stiffness, damping, offset):
+    """The forces of a Cartesian spring and damper, as a function in Python."""
+    return [stiffness[i] * moved[i] + damping[i] * speeds[i] for i in range(3)]
 
 
 def flyball_governor(mbs, node_type=exu.NodeType.RotationEulerParameters):

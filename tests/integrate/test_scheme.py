@@ -14,6 +14,7 @@ from exu_press.integrate import scheme, settings
 from exu_press.integrate.scheme import FlexibleJacobian, Newton
 from exu_press.result import record
 from exu_press.scene import flexible_press
+from exudyn_examples.spatial import rods_on_a_spring, spring
 
 NGSOLVE = pytest.mark.skipif(find_spec("ngsolve") is None, reason="flexible parts need NGSolve")
 
@@ -193,49 +194,13 @@ def test_a_jacobian_that_asks_a_function_is_kept(count, most):
 RODS = 3
 
 
-def hung_on_a_spring(forces=0):
-    """Return a chain of rods in space, which starts level and turning, its end on a spring.
-
-    Args:
-        forces: the spring's own function, or 0.
-    """
-    mbs = exu.SystemContainer().AddSystem()
-    length, before = 0.2, mbs.CreateGround()
-    rod = items.InertiaCuboid(density=1000.0, sideLengths=[length, 0.03, 0.05])
-    ground = before
-    for i in range(RODS):
-        body = mbs.CreateRigidBody(
-            inertia=rod,
-            referencePosition=[length * (i + 0.5), 0.0, 0.0],
-            initialVelocity=[0.0, 0.3 * (i + 0.5), 0.0],
-            initialAngularVelocity=[0.0, 0.0, 0.3 / length],
-            gravity=[0.0, 0.0, -9.81],
-        )
-        mbs.CreateSphericalJoint(itemNumbers=[before, body], position=[length * i, 0.0, 0.0])
-        before = body
-    mbs.CreateCartesianSpringDamper(
-        itemNumbers=[ground, before],
-        localPosition0=[length * RODS, 0.0, -0.3],
-        localPosition1=[0.5 * length, 0.0, 0.0],
-        stiffness=[300.0] * 3,
-        damping=[0.17] * 3,
-        springForceUserFunction=forces,
-    )
-    mbs.Assemble()
-    settings = exu.SimulationSettings()
-    settings.timeIntegration.endTime = 0.3
-    settings.timeIntegration.numberOfSteps = 100
-    settings.solution.file.write = False
-    return mbs, settings
-
-
-def spring(mbs, time, item, moved, speeds, stiffness, damping, offset):
-    return [stiffness[i] * moved[i] + damping[i] * speeds[i] for i in range(3)]
-
-
 def tries_and_speeds(forces=0):
-    mbs, settings = hung_on_a_spring(forces)
-    outcome = solve_dynamic(mbs, settings, tolerance=1e-2, max_steps=5000).check()
+    mbs = exu.SystemContainer().AddSystem()
+    rods_on_a_spring(mbs, RODS, forces)
+    mbs.Assemble()
+    asked = exu.SimulationSettings()
+    asked.timeIntegration.endTime, asked.solution.file.write = 0.3, False
+    outcome = solve_dynamic(mbs, asked, tolerance=1e-2, max_steps=5000).check()
     return outcome.steps + outcome.rejected_steps, mbs.systemData.GetODE2Coordinates_t()
 
 

@@ -414,7 +414,8 @@ def _what_is_wrong(task: Task, monitor: Monitor, advice: Advice, time: float) ->
     if problem.switching and task.solver.it.discontinuousIteration > 1:
         return (
             "contacts or friction of Exudyn's switch to and fro in steps of any size; try less "
-            "stiffness, more damping, or friction that is regularised over a wider zone of speeds"
+            "stiffness, more damping, or friction that is regularised over a wider zone of speeds "
+            "(dryFrictionProportionalZone)"
         )
     return ""
 

@@ -102,6 +102,7 @@ def _with_newton(scene: Scene, mode: str, step: float) -> Measured:
     try:
         task = Task(Problem.of(model.mbs), settings, None, ErrorScales(), SolverTuning())
         task.smallest = SMALLEST
+        model.mbs.SetPostStepUserFunction(lambda mbs, time: not model.watch(time))
         with prepared(settings, task):
             newton.useModifiedNewton, newton.modifiedNewtonJacUpdatePerStep = NEWTON_MODES[mode]
             model.mbs.SolveDynamic(settings, showHints=False)

@@ -28,7 +28,8 @@ def test_without_friction_the_press_keeps_all_its_energy():
 
 @pytest.mark.long
 def test_flexible_bodies_between_undamped_contacts_do_not_ring_numerically():
-    scene = Scene(bodies=flexible_press(), revolutions=0.6).replace(UNDAMPED)
-    result = simulate(scene)
+    """A tolerance of 1e-3 leaves a peak to one step, and says so."""
+    fine = {**UNDAMPED, "solver.tolerance": 2e-4}
+    result = simulate(Scene(bodies=flexible_press(), revolutions=0.6).replace(fine))
     assert result.info["status"] == "completed", result.info["reason"]
-    assert result.quantity("energy.residual").value < 1e-3
+    assert result.quantity("energy.residual").value < 1e-4

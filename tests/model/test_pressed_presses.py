@@ -1,5 +1,6 @@
 """Runs of presses with clearance under force tables: they end, and their energy closes."""
 
+import numpy as np
 import pytest
 from pressed import FORMING
 
@@ -22,7 +23,12 @@ def test_dry_pins_from_the_bottom_at_a_coarse_tolerance(acts):
     assert result.info["rejected_steps"] > 10
     assert result.quantity("energy.residual").value < 1e-4
     work = result.quantity("loads.drawing.work").value
-    assert abs(work) < 1.0 if acts == "closing" else work > 1000.0
+    if acts == "closing":
+        assert abs(work) < 1.0
+    else:  # the ram rises by a millimetre
+        risen = np.linspace(0.0, np.ptp(result["slider_position"]), 1000)
+        force = np.interp(risen, FORMING["height"], FORMING["force"])
+        assert work == pytest.approx(force.mean() * risen[-1], rel=2e-3)
 
 
 def test_a_cushion_gives_back_what_it_takes():

@@ -65,8 +65,7 @@ class KeptEnergy:
         if not problem.rigid or problem.untold_rates or not len(problem.current.multipliers):
             return False
         turning = [node for node in problem.nodes if node.rotations]
-        springs = any("Spring" in kind for kind in problem.kinds)
-        return all(node.quaternion for node in turning) and not (turning and springs)
+        return all(node.quaternion for node in turning) and not (turning and problem.springs)
 
     def per_square(
         self, step: float, positions: Array, velocities: Array, inertia: Array, held: Array

@@ -251,6 +251,11 @@ class Problem:
         return all(kind in RIGID or kind.startswith(joints) for kind in self.kinds)
 
     @property
+    def springs(self) -> bool:
+        """Return whether there are springs of Exudyn's own."""
+        return any("Spring" in kind for kind in self.kinds)
+
+    @property
     def lubricated(self) -> bool:
         """Return whether there is a film."""
         return self.joints is not None and self.joints.lubricated

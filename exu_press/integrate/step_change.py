@@ -73,7 +73,7 @@ class StepChange:
         self._seldom = self._smooth and not problem.switching  # do steps change
         self._film_waits = problem.lubricated
         self._refit = task.tuning.refit
-        self._springs = any("Spring" in kind for kind in problem.kinds)
+        self._springs = problem.springs
         self._energy: KeptEnergy | None = None
         if self._seldom and not corners and KeptEnergy.suits(problem):
             self._energy = KeptEnergy(task)

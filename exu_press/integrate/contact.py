@@ -51,10 +51,7 @@ class Gaps:
             if kind.startswith("Contact") and (data := problem.data.GetObjectLTGData(number))
         ]
         self._places = np.array(places, dtype=int)
-        self._now, self._before = (
-            problem.data.GetDataCoordinates(state, False)
-            for state in (exu.ConfigurationType.Current, exu.ConfigurationType.StartOfStep)
-        )
+        self._now, self._before = problem.current.data, problem.start.data
 
     def close(self) -> None:
         """Close the gaps that the step which led to the current state has made 0.0."""

@@ -163,7 +163,7 @@ class Monitor:
         """Look at the state from which the run starts, whose accelerations Exudyn has computed."""
         task = self._task
         self._places.begin()
-        start_rates(task)
+        start_rates(task, task.start)
         task.solver.ComputeMassMatrix(task.problem.mbs)
         if not task.fixed:  # within a fixed step, motions may change by less than rounding
             resting = not self._accelerations.any()  # or Exudyn's sparse solver found none
@@ -195,11 +195,11 @@ class Monitor:
                 self._say_if_long(self._why_long)
         self._modal_mass.fit(end - self._time)
         self._places.before_try(0.0)
+        if self._users[0] and not self._sampling.call(self._users[0], mbs, self._time, end):
+            self.go_on = False
         self._step_change.before_try(self._time, end - self._time)
         self._places.before_try(end - self._time)
         self.over_budget = self.tries >= self.max_steps
-        if self._users[0] and not self._sampling.call(self._users[0], mbs, self._time, end):
-            self.go_on = False
         return self.go_on and not (self.interrupted or self.over_budget)
 
     def _say_if_long(self, why: Callable[[float, ClearanceJoint | None], str]) -> None:

@@ -2,8 +2,6 @@
 
 from bisect import bisect
 
-import exudyn as exu
-
 from exu_press.integrate.problem import ON_CABLES, Problem
 
 __all__ = ["Places"]
@@ -53,7 +51,6 @@ class Places:
 
     def __init__(self, problem: Problem) -> None:
         """Take the joints of a system."""
-        where = exu.ConfigurationType
         self._joints = [
             _Joint(problem, number)
             for number, kind in enumerate(problem.kinds)
@@ -61,10 +58,7 @@ class Places:
         ]
         self._unknowns = list(problem.places)
         self._multipliers = problem.current.multipliers
-        self._now, self._start = (
-            problem.data.GetDataCoordinates(state, False)
-            for state in (where.Current, where.StartOfStep)
-        )
+        self._now, self._start = problem.current.data, problem.start.data
         self._last = 1.0  # step, s
 
     def begin(self) -> None:

@@ -119,6 +119,7 @@ class State:
         multipliers: forces of the constraints.
         first_order: first-order coordinates.
         rates: of these.
+        data: what contacts, friction and joints on cables remember.
     """
 
     def __init__(self, data: Any, where: exu.ConfigurationType) -> None:
@@ -129,6 +130,7 @@ class State:
         self.multipliers = data.GetAECoordinates(where, False)
         self.first_order = data.GetODE1Coordinates(where, False)
         self.rates = data.GetODE1Coordinates_t(where, False)
+        self.data = data.GetDataCoordinates(where, False)
 
 
 @dataclass(frozen=True)

@@ -36,6 +36,14 @@ class Sampling:
         self._task, self._constraints = task, constraints
         self._called = -math.inf  # the end of the interval that was last called for, s
         self._looks = LOOKS if constraints.count else 0
+        now, before = task.problem.current, task.problem.start
+        # what the function may set, where a step starts from, and from where it is repeated
+        self._states = [
+            (now.positions, before.positions),
+            (now.velocities, before.velocities),
+            (now.first_order, before.first_order),
+            (now.data, before.data),
+        ]
 
     def next(self, time: float) -> float:
         """Return where the interval that a time (s) begins or lies in has its end, s."""
@@ -58,7 +66,10 @@ class Sampling:
             self._looks -= 1
             if not np.array_equal(before, self._constraints.violated()):
                 self._period = 0.0
-        start_rates(self._task)
+        if self._period > 0.0:  # else it is called for each try anew
+            for state, kept in self._states:
+                kept[:] = state
+        start_rates(self._task, begin)
         return go_on
 
 

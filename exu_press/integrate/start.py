@@ -158,15 +158,20 @@ def fit_jump(task: Task, constraints: Constraints, end: float) -> tuple[Array, A
     return start.v, start.a, rate
 
 
-def start_rates(task: Task) -> None:
-    """Set the rates of first-order coordinates at the start.
+def start_rates(task: Task, time: float) -> None:
+    """Set the rates of first-order coordinates at the start of a step, a time in s.
 
-    Exudyn takes them for zero there, which leaves half of the first step's change in the result.
+    Exudyn takes them for zero at the start of a run, which leaves half of the first step's change
+    in the result, and keeps them where a function changes what they follow from. Its own time is
+    that of the step's end by then.
     """
     problem = task.problem
     before, size = len(problem.current.positions), len(problem.current.rates)
     if size:
+        now = problem.data.GetTime()
+        problem.data.SetTime(time)
         task.solver.ComputeODE1RHS(problem.mbs)
+        problem.data.SetTime(now)
         rates = np.array(task.solver.GetSystemResidual())[before : before + size]
         problem.current.rates[:] = problem.start.rates[:] = rates
 

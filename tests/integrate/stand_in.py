@@ -21,6 +21,7 @@ def problem_at(nodes, velocities, accelerations=None, joints=None, length=1.0):
         GetAECoordinates=lambda *_: none,
         GetODE1Coordinates=lambda *_: none,
         GetODE1Coordinates_t=lambda *_: none,
+        GetDataCoordinates=lambda *_: none,
     )
     state = State(data, exu.ConfigurationType.Current)
     return Problem(

@@ -84,6 +84,92 @@ def test_a_pressure_whose_valve_is_set_on_the_grid_starts_with_its_new_rate():
     assert outcome.steps + outcome.rejected_steps < 300
 
 
+def test_rates_are_those_of_the_time_at_which_a_step_begins():
+    """y' = 20 t on a grid: steps of any size are exact, but for rates of their ends."""
+    mbs = exu.SystemContainer().AddSystem()
+    node = mbs.AddNode(
+        items.NodeGenericODE1(
+            referenceCoordinates=[0.0], initialCoordinates=[0.0], numberOfODE1Coordinates=1
+        )
+    )
+    mbs.AddObject(
+        items.ObjectGenericODE1(
+            nodeNumbers=[node], rhsUserFunction=lambda mbs, time, number, y: [20.0 * time]
+        )
+    )
+    mbs.SetPreStepUserFunction(lambda mbs, time: True)
+    mbs.Assemble()
+    outcome = solve_dynamic(mbs, settings(), sample=PERIOD)
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
+    assert mbs.systemData.GetODE1Coordinates()[0] == pytest.approx(10.0, rel=1e-9)
+    assert outcome.steps < 100
+
+
+@pytest.mark.parametrize("what", ["data", "velocity"])
+def test_what_a_function_sets_of_the_state_stays_where_its_step_is_repeated(what):
+    """A force, or a speed, of 1 and -1 on a grid, with a spring: its jumps repeat steps."""
+    mbs = exu.SystemContainer().AddSystem()
+    node = mbs.AddNode(items.Node1D(referenceCoordinates=[0.0]))
+    memory = mbs.AddNode(items.NodeGenericData(initialCoordinates=[0.0], numberOfDataCoordinates=1))
+    mbs.AddObject(items.ObjectMass1D(nodeNumber=node, mass=1.0))
+    at = mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=0))
+    output = exu.OutputVariableType.Coordinates
+
+    def force(mbs, time, load):
+        return float(mbs.GetNodeOutput(memory, output)) - 1e3 * mbs.GetNodeOutput(node, output)
+
+    def switch(mbs, time):
+        sign = 1.0 if round(time / PERIOD) % 2 else -1.0
+        if what == "data":
+            mbs.systemData.SetDataCoordinates([100.0 * sign])
+        else:
+            mbs.systemData.SetODE2Coordinates_t([sign])
+        return True
+
+    mbs.AddLoad(items.LoadCoordinate(markerNumber=at, load=0.0, loadUserFunction=force))
+    mbs.SetPreStepUserFunction(switch)
+    mbs.Assemble()
+    chosen = settings(7 * PERIOD)
+    chosen.timeIntegration.numberOfSteps = 1
+    outcome = solve_dynamic(mbs, chosen, tolerance=1e-4, sample=PERIOD)
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
+    assert outcome.rejected_steps > 0
+    x, v, omega = 0.0, 0.0, np.sqrt(1e3)
+    for number in range(7):
+        sign = -1.0 if number % 2 else 1.0
+        held = 0.1 * sign if what == "data" else 0.0
+        v = v if what == "data" else sign
+        c, s = np.cos(omega * PERIOD), np.sin(omega * PERIOD)
+        x, v = held + (x - held) * c + v / omega * s, v * c - (x - held) * omega * s
+    assert abs(v) + omega * abs(x) > 0.5
+    assert mbs.systemData.GetODE2Coordinates()[0] * omega == pytest.approx(omega * x, abs=5e-3)
+    assert velocity(mbs) == pytest.approx(v, abs=5e-3)
+
+
+def test_a_function_that_is_called_for_every_try_counts_once_a_step():
+    """It adds to a data variable; the force, whose jumps repeat steps, does not know of it."""
+    mbs = exu.SystemContainer().AddSystem()
+    node = mbs.AddNode(items.Node1D(referenceCoordinates=[0.0]))
+    mbs.AddNode(items.NodeGenericData(initialCoordinates=[0.0], numberOfDataCoordinates=1))
+    mbs.AddObject(items.ObjectMass1D(nodeNumber=node, mass=1.0))
+    at = mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=0))
+
+    def force(mbs, time, load):
+        return 1.0 if int(time / 0.3) % 2 else -1.0
+
+    def count(mbs, time):
+        mbs.systemData.SetDataCoordinates(mbs.systemData.GetDataCoordinates() + 1.0)
+        return True
+
+    mbs.AddLoad(items.LoadCoordinate(markerNumber=at, load=0.0, loadUserFunction=force))
+    mbs.SetPreStepUserFunction(count)
+    mbs.Assemble()
+    outcome = solve_dynamic(mbs, settings(), sample=0.0)
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
+    assert outcome.rejected_steps > 0
+    assert mbs.systemData.GetDataCoordinates()[0] == outcome.steps
+
+
 def test_without_a_period_the_largest_step_is_one():
     """A switch that is on within a thousandth of a step of the grid's middle is not missed."""
     times = []

@@ -1,15 +1,20 @@
 """Exudyn's own contacts: their data variables, such as gaps, at both ends of a step."""
 
+from typing import Any
+
 import exudyn as exu
 import numpy as np
 
 from exu_press.integrate.problem import Problem
 from exu_press.integrate.settings import SWITCHED, Task
 
-__all__ = ["Gaps", "fit_data"]
+__all__ = ["Gaps", "Settling", "fit_data"]
 
 CLOSED = -1e-300
 """A gap that is closed, m, and by which nothing is deformed."""
+
+LATE = 10
+"""Steps for which switches are expected not to settle after one in which they have not."""
 
 
 def fit_data(task: Task) -> None:
@@ -31,6 +36,49 @@ def fit_data(task: Task) -> None:
         data.SetDataCoordinates(data.GetDataCoordinates(where.Current), where.StartOfStep)
     else:
         data.SetDataCoordinates(guess, where.Current)
+
+
+class Settling:
+    """Switches that do not settle in the iterations which the settings give a step.
+
+    Friction without a zone about rest changes its sign from iteration to iteration and from step to
+    step, in steps of any size. Exudyn goes on with what the last iteration leaves where the
+    settings have `ignoreMaxIterations`, as they do unless told, and what it leaves is off by no
+    more than a switch is. So is such a step here: its error is that of a switch, and so are those
+    of the steps around it, whose accelerations jump to and fro.
+    """
+
+    def __init__(self, task: Task) -> None:
+        """Take a task."""
+        self._iteration: Any = task.solver.it
+        self._ignored, self._most = task.unsettled, task.iterations
+        self._late = 0  # steps to come in which it is expected
+
+    @property
+    def _last(self) -> bool:
+        """Return whether the iteration just done is the last one that the step is given."""
+        return self._ignored and bool(self._iteration.discontinuousIteration + 1 >= self._most)
+
+    @property
+    def never(self) -> bool:
+        """Return whether switches do not settle, in this step or of late."""
+        return self._late > 0 or self._last
+
+    def judged(self, accepted: bool) -> None:
+        """Be told whether an iteration's step is accepted; Exudyn would take the last one anyway.
+
+        That is no longer the last one where it counts one less.
+        """
+        if self._last:
+            self._late = LATE
+            if not accepted:
+                self._iteration.discontinuousIteration -= 1
+
+    def accept(self) -> None:
+        """Be told that Exudyn has taken the step."""
+        if self._late:
+            switched = self._iteration.discontinuousIteration > 2
+            self._late = LATE if switched else self._late - 1
 
 
 class Gaps:

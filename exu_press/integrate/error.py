@@ -19,6 +19,7 @@ The share of the tolerance is that of `ErrorPerStep`; 1 is what a step may miss.
 
 import math
 
+from exu_press.integrate.contact import Settling
 from exu_press.integrate.criteria.bodies import BodyError
 from exu_press.integrate.criteria.curvature import Curvature
 from exu_press.integrate.criteria.eccentricity import JointError
@@ -65,8 +66,8 @@ class StepError:
         limiting: in how many tries each clearance joint had the largest error.
     """
 
-    def __init__(self, task: Task) -> None:
-        """Look at what is solved."""
+    def __init__(self, task: Task, settling: Settling) -> None:
+        """Look at what is solved, and at switches that do not settle."""
         problem, tolerance, tuning = task.problem, task.tolerance, task.tuning
         self._task, self._solver, self._scales = task, task.solver, task.scales
         self._matrix = NewtonMatrix(task)
@@ -88,6 +89,7 @@ class StepError:
         # error and size of a repeated step, in a motion that may be rounding
         self._doubted = 0.0, 0.0
         self._envelope = Envelope()
+        self._settling = settling
         self._jumped = False  # whether accelerations have, in a step of the smallest size
         self._first_order: FirstOrderError | None = None
         self._joints: list[JointError] = []
@@ -138,7 +140,8 @@ class StepError:
         if self._first_order is not None:
             error = max(error, self._first_order.error(step))
         if self._switching:
-            error = max(error, self.of_switch(step))
+            switch = self.of_switch(step)
+            error = switch if self._settling.never else max(error, switch)
         largest = -1
         for number, joint in enumerate(self._joints):
             found = joint.error(step)
@@ -181,7 +184,7 @@ class StepError:
         accelerations show: half of it acted too long. As switches are few, that is held against
         the tolerance itself.
         """
-        if self._bodies is None or not self._has_switched:
+        if self._bodies is None or not (self._has_switched or self._settling.never):
             return 0.0
         return self._relative(0.5 * step * self._bodies.largest())
 

@@ -13,7 +13,7 @@ import exudyn as exu
 import numpy as np
 
 from exu_press.integrate.constraints import Constraints
-from exu_press.integrate.contact import Gaps, fit_data
+from exu_press.integrate.contact import Gaps, Settling, fit_data
 from exu_press.integrate.controller import Controller
 from exu_press.integrate.error import StepError
 from exu_press.integrate.modal_mass import ModalMass
@@ -109,7 +109,8 @@ class Monitor:
         self._gaps = Gaps(task.problem)
         self._places = Places(task.problem)
         self._output = OutputGrid(task, self._places)
-        self._estimate = StepError(task)
+        self._settling = Settling(task)
+        self._estimate = StepError(task, self._settling)
         samples = bool(_function(task.problem.mbs.GetPreStepUserFunction())) and not task.fixed
         period = (task.largest if sample is None else sample) if samples else 0.0
         self._sampling = Sampling(task, self.constraints, period)
@@ -227,6 +228,7 @@ class Monitor:
     def _after_newton(self, mbs: exu.MainSystem, end: float) -> list[float]:
         """Return [0, -1] to accept the step, or [2, step] to have it repeated."""
         ours = self._judged(end - self._time)
+        self._settling.judged(ours is ACCEPTED)
         if not self._users[2]:
             return ours
         error, step = self._users[2](mbs, end)
@@ -291,6 +293,7 @@ class Monitor:
             self._output.stepped(self._time, end)
             self._time = end
             self._gaps.close()
+            self._settling.accept()
             self.control.accept(step)
             self._event.accept()
             if self._event.passed:

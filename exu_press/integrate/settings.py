@@ -150,6 +150,8 @@ class Task:
         every_jacobian: whether each step gets a fresh one: impacts change it all the time, and in
             small systems it costs little.
         spectral_radius: at infinity, of generalized-alpha.
+        iterations: on switches, that a step is given at most.
+        unsettled: whether a step counts whose switches have not settled by then.
     """
 
     def __init__(
@@ -184,6 +186,10 @@ class Task:
         self.impacts = problem.joints is not None or problem.switching
         costly = len(problem.reference) >= LARGE or problem.forces_in_python
         self.every_jacobian = self.fixed or self.impacts or not costly
+        discontinuous = settings.timeIntegration.discontinuous
+        self.iterations = discontinuous.maxIterations if problem.switching else 1
+        ignored = problem.switching and discontinuous.ignoreMaxIterations
+        self.unsettled = ignored and not self.fixed
         stir = tuning.rounding / (1.0 - min(self.spectral_radius, 0.95)) ** 2
         self.absolute = absolute
         floor = absolute / self.tolerance
@@ -286,8 +292,9 @@ def prepared(settings: exu.SimulationSettings, task: Task) -> Iterator[None]:
         (newton, "modifiedNewtonContractivity", 0.5),
         (newton, "relativeTolerance", RELATIVE_RESIDUAL),
         (newton, "maxIterations", 25),
-        (discontinuous, "ignoreMaxIterations", False),
+        (discontinuous, "ignoreMaxIterations", task.unsettled),
         (discontinuous, "iterationTolerance", min(discontinuous.iterationTolerance, SWITCHED)),
+        (discontinuous, "maxIterations", task.iterations),
         (discontinuous, "useRecommendedStepSize", True),
         (integration, "adaptiveStep", True),
         (integration, "adaptiveStepDecrease", 0.5),
@@ -299,8 +306,6 @@ def prepared(settings: exu.SimulationSettings, task: Task) -> Iterator[None]:
         (alpha, "useNewmark", False),
         (alpha, "useIndex2Constraints", False),
     ]
-    if not task.problem.switching:
-        wanted.append((discontinuous, "maxIterations", 1))
     if linear.solverType == exu.LinearSolverType.EXUdense:
         wanted.append((linear, "solverType", exu.LinearSolverType.EigenDense))
     before = [(part, name, getattr(part, name)) for part, name, _ in wanted]

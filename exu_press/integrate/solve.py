@@ -414,8 +414,9 @@ def _what_is_wrong(task: Task, monitor: Monitor, advice: Advice, time: float) ->
     if problem.switching and task.solver.it.discontinuousIteration > 1:
         return (
             "contacts or friction of Exudyn's switch to and fro in steps of any size; try less "
-            "stiffness, more damping, or friction that is regularised over a wider zone of speeds "
-            "(dryFrictionProportionalZone)"
+            "stiffness, more damping, friction that is regularised over a wider zone of speeds "
+            "(dryFrictionProportionalZone), or settings.timeIntegration.discontinuous."
+            "ignoreMaxIterations = True, with which steps are taken as such switches leave them"
         )
     return ""
 

@@ -2,6 +2,7 @@
 
 import exudyn as exu
 import exudyn.utilities as items
+import numpy as np
 import pytest
 
 from exu_press import SolverStatus, solve_dynamic
@@ -74,3 +75,54 @@ def test_guesses_that_exudyn_mends_itself_are_left_alone():
     settings.timeIntegration.endTime, settings.solution.file.write = 1e-3, False
     assert solve_dynamic(mbs, settings).status is SolverStatus.COMPLETED
     assert list(started[0][0::4]) == [0.1, 0.1]
+
+
+def rolling(ignored=True):
+    """A disc that slides at 1 m/s, until friction makes it roll at 2/3 m/s, and its settings."""
+    mbs = exu.SystemContainer().AddSystem()
+    stiffness = 1e5
+    body = mbs.CreateRigidBody(
+        referencePosition=[0.0, 0.0, RADIUS - 9.81 / stiffness],
+        initialVelocity=[1.0, 0.0, 0.0],
+        inertia=items.RigidBodyInertia(
+            mass=1.0, inertiaTensor=np.diag([0.25, 0.5, 0.25]) * RADIUS**2
+        ),
+        gravity=[0.0, 0.0, -9.81],
+    )
+    mbs.CreateRollingDiscPenalty(
+        bodyNumbers=[mbs.AddObject(items.ObjectGround()), body],
+        axisPosition=[0.0, 0.0, 0.0],
+        axisVector=[0.0, 1.0, 0.0],
+        discRadius=RADIUS,
+        discWidth=0.01,
+        contactStiffness=stiffness,
+        contactDamping=1e3,
+        dryFriction=[0.4, 0.4],
+    )
+    mbs.Assemble()
+    settings = exu.SimulationSettings()
+    settings.timeIntegration.endTime, settings.solution.file.write = 0.2, False
+    settings.timeIntegration.numberOfSteps = 20
+    settings.timeIntegration.discontinuous.ignoreMaxIterations = ignored
+    return mbs, body, settings
+
+
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-3])
+def test_friction_that_does_not_settle_costs_small_steps_and_does_not_stop_a_run(tolerance):
+    """A disc that rolls changes the sign of its friction in steps of any size."""
+    mbs, body, settings = rolling()
+    outcome = solve_dynamic(mbs, settings, tolerance=tolerance)
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
+    velocity = mbs.GetObjectOutputBody(body, exu.OutputVariableType.Velocity)
+    assert velocity[0] == pytest.approx(2.0 / 3.0, abs=0.2 * tolerance)
+    assert outcome.steps < 4.0 / tolerance
+    assert settings.timeIntegration.discontinuous.ignoreMaxIterations
+
+
+def test_a_run_that_is_not_to_ignore_it_names_what_would():
+    mbs, _, settings = rolling(ignored=False)
+    with pytest.warns(UserWarning, match="not converged"):
+        outcome = solve_dynamic(mbs, settings)
+    assert outcome.status is SolverStatus.NOT_CONVERGED
+    assert "dryFrictionProportionalZone" in outcome.reason
+    assert "ignoreMaxIterations = True" in outcome.reason

@@ -40,6 +40,10 @@ DOUBTED = 2.0
 """Largest error of a step whose motion may be rounding: one a little shorter tells, and stirs less.
 """
 
+KEPT = 0.2
+"""Error up to which Newton's matrix of an earlier step does, which lets more through by what has
+turned since: from there on steps may grow."""
+
 TURNS_BY_ROUNDING = 10.0
 """Over the smallest step: in shorter ones rounding turns the forces of films."""
 
@@ -113,12 +117,11 @@ class StepError:
         if still:
             error = 0.0
         elif error > 1.0:
-            if self._turning is None:
-                (change,) = self._matrix.filtered(bodies.change)
-                error = bodies.error(change, step)
-            else:
-                change, rate = self._matrix.filtered(bodies.change, bodies.rate)
-                error = max(bodies.error(change, step), bodies.of_positions(rate, step))
+            if not self._matrix.serves(step):
+                self._matrix.renew()
+            change, error = self._filtered(bodies, step)
+            if error > KEPT and self._matrix.renew():
+                change, error = self._filtered(bodies, step)
             if error > 1.0 and self._joints:
                 left = self._matrix.left_in_constraints()
                 error = bodies.error(change, step, left)
@@ -157,6 +160,14 @@ class StepError:
         if largest >= 0:
             self.limiting[largest] += 1
         return error
+
+    def _filtered(self, bodies: BodyError, step: float) -> tuple[list[float], float]:
+        """Return what Newton's matrix leaves of a change in a step (s), and the error with it."""
+        if self._turning is None:
+            (change,) = self._matrix.filtered(bodies.change)
+            return change, bodies.error(change, step)
+        change, rate = self._matrix.filtered(bodies.change, bodies.rate)
+        return change, max(bodies.error(change, step), bodies.of_positions(rate, step))
 
     def _is_rounded(self, error: float, step: float) -> bool:
         """Return whether what moves by no more than rounding does is rounding, by its error.

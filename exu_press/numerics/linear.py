@@ -18,25 +18,18 @@ SPARSE_FROM = 300
 """Unknowns from which on the sparse way is the faster one."""
 
 
+INVERSE_FROM = 3
+"""Solutions from which on a small matrix is inverted, which takes as long as three of them."""
+
+
 class Equations:
     """Solves equations with one matrix for several right sides."""
 
     def __init__(self, matrix: Array) -> None:
-        """Take the matrix, (n, n).
-
-        Raises:
-            numpy.linalg.LinAlgError: it is singular, and large; a small one is looked at later.
-        """
-        self._matrix = matrix
-        self._factors: Any = None
-        if len(matrix) >= SPARSE_FROM:
-            from scipy.sparse import csc_matrix  # small systems do without
-            from scipy.sparse.linalg import splu
-
-            try:
-                self._factors = splu(csc_matrix(matrix))
-            except (RuntimeError, ValueError) as error:  # exactly singular, or no numbers
-                raise np.linalg.LinAlgError(str(error)) from error
+        """Take the matrix, (n, n)."""
+        self._matrix, self._small = matrix, len(matrix) < SPARSE_FROM
+        self._solved = 0
+        self._factors: Any = None  # a small one's inverse
 
     def solve(self, right: Array) -> Array:
         """Return the unknowns for right sides, (n,) or (n, k).
@@ -44,10 +37,22 @@ class Equations:
         Raises:
             numpy.linalg.LinAlgError: the matrix is singular.
         """
+        self._solved += 1
+        if self._small:
+            if self._solved < INVERSE_FROM:
+                return np.asarray(np.linalg.solve(self._matrix, right), dtype=float)
+            if self._factors is None:
+                self._factors = np.linalg.inv(self._matrix)
+            return np.asarray(np.dot(self._factors, right), dtype=float)
         if self._factors is None:
-            return np.asarray(np.linalg.solve(self._matrix, right), dtype=float)
-        found: Array = self._factors.solve(np.ascontiguousarray(right))
-        return found
+            from scipy.sparse import csc_matrix  # small systems do without
+            from scipy.sparse.linalg import splu
+
+            try:
+                self._factors = splu(csc_matrix(self._matrix))
+            except (RuntimeError, ValueError) as error:  # exactly singular, or no numbers
+                raise np.linalg.LinAlgError(str(error)) from error
+        return np.asarray(self._factors.solve(np.ascontiguousarray(right)), dtype=float)
 
     def of_rows(self, first: int, count: int) -> Callable[[Array], Array]:
         """Return a function of right sides, (count, k), that are zero in all rows but these.
@@ -58,7 +63,7 @@ class Equations:
             numpy.linalg.LinAlgError: the matrix is singular.
         """
         size = len(self._matrix)
-        if self._factors is None:
+        if self._small:
             return self.solve(np.eye(size, count, -first)).dot
 
         def solved(right: Array) -> Array:

@@ -19,7 +19,10 @@ def saddle(size):
 @pytest.mark.parametrize("size", [8, SPARSE_FROM + 50])
 def test_what_is_solved_fits(size, columns):
     matrix, wanted = saddle(size), np.random.default_rng(1).normal(size=(size, *columns))
-    assert Equations(matrix).solve(matrix @ wanted) == pytest.approx(wanted, abs=1e-9)
+    equations = Equations(matrix)
+    for factor in (1.0, 2.0, 3.0, 4.0):  # a small matrix is inverted on the way
+        found = equations.solve(factor * matrix @ wanted)
+        assert found == pytest.approx(factor * wanted, abs=1e-9)
 
 
 def test_many_unknowns_take_the_sparse_way(monkeypatch):

@@ -2,13 +2,16 @@
 
 import numpy as np
 
-from exu_press.integrate.settings import Task, inertia_factor
+from exu_press.integrate.settings import LARGE, SAME, Task, inertia_factor
 from exu_press.numerics.linear import Equations
 
 __all__ = ["NewtonMatrix"]
 
 EPSILON = 1.1e-16
 """Last digit of a number, over it."""
+
+LONGEST_PAUSE = 64
+"""Steps without another try to do with an earlier Jacobian."""
 
 LARGER = 4.0
 """Over the kinetic energy of a change, from where that of the filtered one is of last digits."""
@@ -29,17 +32,38 @@ class NewtonMatrix:
         self._size = len(task.problem.current.accelerations)
         self._made = -1  # Jacobians before the one at hand
         self._jacobian, self._equations = np.zeros((0, 0)), Equations(np.zeros((0, 0)))
+        smooth = self._joints is None and not task.problem.switching
+        self._keeps = smooth and self._size >= LARGE
+        self._serves, self._step = False, 0.0  # whether the one at hand does, for which step, s
+        self._pause, self._wait = 1, 0  # steps without a try: after the next failure, and now
 
-    def _renew(self) -> None:
-        """Take the Jacobian from the solver, if it is another one than before.
+    def serves(self, step: float) -> bool:
+        """Return whether the Jacobian at hand may do for a step, s: if that before was as long."""
+        if self._serves:
+            self._pause = 1
+        self._serves = self._keeps and not self._wait and abs(step - self._step) <= SAME * step
+        self._step = step
+        if self._wait:
+            self._wait -= 1
+        return self._serves
 
-        Of 1300 unknowns that takes as long as three steps.
+    def renew(self) -> bool:
+        """Take the Jacobian from the solver; return whether it is another one than before.
+
+        Of 70 unknowns that takes as long as a step, of 1300 as long as three. So where one is asked
+        for as that of an earlier step has not done, as many steps go by without a try as have
+        before, doubled.
         """
-        made = self._solver.it.newtonJacobiCount
-        if made != self._made:
+        if self._serves:
+            self._serves, self._wait = False, self._pause
+            self._pause = min(2 * self._pause, LONGEST_PAUSE)
+        made = int(self._solver.it.newtonJacobiCount)
+        another = made != self._made
+        if another:
+            self._made = made
             self._jacobian = np.asarray(self._solver.GetSystemJacobian())
             self._equations = Equations(self._jacobian)
-            self._made = made
+        return another
 
     def left_in_constraints(self) -> float:
         """Return how far the last digits of constraints move a body, m.
@@ -47,9 +71,9 @@ class NewtonMatrix:
         By far where a mechanism passes a position in which two of them nearly say the same.
         """
         size, count = self._size, self._solver.GetAEsize()
+        self.renew()
+        unknowns = len(self._jacobian)
         try:
-            self._renew()
-            unknowns = len(self._jacobian)
             of_constraints = np.eye(unknowns, count, count - unknowns)
             moved = np.abs(self._equations.solve(of_constraints)[:size]).sum(axis=1)
         except np.linalg.LinAlgError:  # constraints that say the same
@@ -57,7 +81,7 @@ class NewtonMatrix:
         return EPSILON * self._scales.length * self._scales.norm(moved.tolist())
 
     def filtered(self, *changes: list[float]) -> list[list[float]]:
-        """Return what Newton's matrix, M (1 - alpha_m)/(1 - alpha_f) + ..., leaves of changes."""
+        """Return what the matrix at hand leaves of changes."""
         solver = self._solver
         before, mass = np.array(changes).T, solver.GetSystemMassMatrix()
         size = len(before)
@@ -65,7 +89,6 @@ class NewtonMatrix:
         inertia = np.dot(mass, before)
         right[:size] = inertia * inertia_factor(solver)
         try:
-            self._renew()
             filtered = self._equations.solve(right)[:size]
             # masses and springs make nothing larger, but constraints that nearly say the same
             if self._joints is None:

@@ -36,6 +36,7 @@ MODULES = [
     "integrate/criteria/vibration",
     "integrate/error",
     "integrate/kept_energy",
+    "integrate/lasting",
     "integrate/modal_mass",
     "integrate/monitor",
     "integrate/output",

@@ -11,6 +11,7 @@ from typing import Any
 import exudyn as exu
 import numpy as np
 
+from exu_press.integrate.lasting import Lasting
 from exu_press.integrate.settings import SAME, Task, inertia_factor
 from exu_press.numerics.arrays import Array
 from exu_press.numerics.floats import Floats
@@ -32,9 +33,6 @@ PATIENCE = 4
 
 STALE = 3
 """Newton iterations in which a kept Jacobian does not serve: one takes as long as ten."""
-
-LONGEST_PAUSE = 64
-"""Steps without another try to keep a Jacobian."""
 
 REACH = 2.0
 """Over the last step, how far ahead its rate of change is believed by the predictor."""
@@ -208,25 +206,19 @@ class LastingJacobian:
 
     In large systems, and where it is differentiated through functions in Python, a Jacobian takes
     as long as ten iterations or more. A kept one may take three iterations; a fourth gets a fresh
-    one. Where that happens, the motion changes the matrix too fast, and fresh ones are made for as
-    many steps as have been tried in vain before, doubled.
+    one, and the kept one has not served (`exu_press.integrate.lasting`).
     """
 
     def __init__(self, task: Task) -> None:
         """Look at the solver of a task."""
         self._convergence: Any = task.solver.conv
-        self._step = 0.0  # that it was made for
-        self._kept = False
-        self._pause, self._wait = 1, 0  # steps with fresh ones: after the next failure, and now
+        self._lasting, self._kept = Lasting(), False
 
     def begin(self, step: float) -> None:
         """Choose whether the step (s) about to be tried starts with the Jacobian there is."""
-        self._kept = self._wait == 0 and abs(step - self._step) <= SAME * step
+        self._kept = self._lasting.serves(step)
         if not self._kept:
             self._convergence.jacobianUpdateRequested = True
-            self._step = step
-        if self._wait:
-            self._wait -= 1
 
     def needed(self, iterations: int) -> None:
         """Be told that a step has needed so many iterations so far."""
@@ -235,8 +227,8 @@ class LastingJacobian:
         if iterations == STALE:
             self._convergence.jacobianUpdateRequested = True
         elif iterations > STALE:
-            self._kept, self._wait = False, self._pause
-            self._pause = min(2 * self._pause, LONGEST_PAUSE)
+            self._kept = False
+            self._lasting.failed()
 
 
 class FlexibleJacobian:

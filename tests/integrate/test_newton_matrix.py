@@ -24,10 +24,11 @@ def solver_of(jacobian, mass):
 
 
 def matrix_of(solver, size, joints=None, switching=False):
-    problem = SimpleNamespace(
-        current=SimpleNamespace(accelerations=np.zeros(size)), joints=joints, switching=switching
+    problem = SimpleNamespace(current=SimpleNamespace(accelerations=np.zeros(size)), joints=joints)
+    impacts = joints is not None or switching
+    return NewtonMatrix(
+        SimpleNamespace(solver=solver, scales=None, problem=problem, impacts=impacts)
     )
-    return NewtonMatrix(SimpleNamespace(solver=solver, scales=None, problem=problem))
 
 
 @PATCHED

@@ -24,6 +24,17 @@ def mass(before=None, force=0.0):
     return mbs
 
 
+def first_order(**equation):
+    """A system of one first-order coordinate, from zero, not yet assembled, and its object."""
+    mbs = exu.SystemContainer().AddSystem()
+    node = mbs.AddNode(
+        items.NodeGenericODE1(
+            referenceCoordinates=[0.0], initialCoordinates=[0.0], numberOfODE1Coordinates=1
+        )
+    )
+    return mbs, mbs.AddObject(items.ObjectGenericODE1(nodeNumbers=[node], **equation))
+
+
 def settings(end=1.0):
     chosen = exu.SimulationSettings()
     chosen.timeIntegration.endTime, chosen.solution.file.write = end, False
@@ -59,15 +70,7 @@ def test_a_controller_is_sampled_on_its_grid_and_its_output_is_held():
 
 def test_a_pressure_whose_valve_is_set_on_the_grid_starts_with_its_new_rate():
     """y' = u_k - y with u_k = +-1: with the old rate, each jump took steps by the dozen."""
-    mbs = exu.SystemContainer().AddSystem()
-    node = mbs.AddNode(
-        items.NodeGenericODE1(
-            referenceCoordinates=[0.0], initialCoordinates=[0.0], numberOfODE1Coordinates=1
-        )
-    )
-    tank = mbs.AddObject(
-        items.ObjectGenericODE1(nodeNumbers=[node], systemMatrix=[[-1.0]], rhsVector=[1.0])
-    )
+    mbs, tank = first_order(systemMatrix=[[-1.0]], rhsVector=[1.0])
 
     def switch(mbs, time):
         mbs.SetObjectParameter(tank, "rhsVector", [1.0 if round(time / PERIOD) % 2 else -1.0])
@@ -86,17 +89,7 @@ def test_a_pressure_whose_valve_is_set_on_the_grid_starts_with_its_new_rate():
 
 def test_rates_are_those_of_the_time_at_which_a_step_begins():
     """y' = 20 t on a grid: steps of any size are exact, but for rates of their ends."""
-    mbs = exu.SystemContainer().AddSystem()
-    node = mbs.AddNode(
-        items.NodeGenericODE1(
-            referenceCoordinates=[0.0], initialCoordinates=[0.0], numberOfODE1Coordinates=1
-        )
-    )
-    mbs.AddObject(
-        items.ObjectGenericODE1(
-            nodeNumbers=[node], rhsUserFunction=lambda mbs, time, number, y: [20.0 * time]
-        )
-    )
+    mbs, _ = first_order(rhsUserFunction=lambda mbs, time, number, y: [20.0 * time])
     mbs.SetPreStepUserFunction(lambda mbs, time: True)
     mbs.Assemble()
     outcome = solve_dynamic(mbs, settings(), sample=PERIOD)

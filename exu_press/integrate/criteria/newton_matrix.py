@@ -2,16 +2,14 @@
 
 import numpy as np
 
-from exu_press.integrate.settings import LARGE, SAME, Task, inertia_factor
+from exu_press.integrate.lasting import Lasting
+from exu_press.integrate.settings import LARGE, Task, inertia_factor
 from exu_press.numerics.linear import Equations
 
 __all__ = ["NewtonMatrix"]
 
 EPSILON = 1.1e-16
 """Last digit of a number, over it."""
-
-LONGEST_PAUSE = 64
-"""Steps without another try to do with an earlier Jacobian."""
 
 LARGER = 4.0
 """Over the kinetic energy of a change, from where that of the filtered one is of last digits."""
@@ -32,31 +30,27 @@ class NewtonMatrix:
         self._size = len(task.problem.current.accelerations)
         self._made = -1  # Jacobians before the one at hand
         self._jacobian, self._equations = np.zeros((0, 0)), Equations(np.zeros((0, 0)))
-        smooth = self._joints is None and not task.problem.switching
-        self._keeps = smooth and self._size >= LARGE
-        self._serves, self._step = False, 0.0  # whether the one at hand does, for which step, s
-        self._pause, self._wait = 1, 0  # steps without a try: after the next failure, and now
+        self._lasting = None if task.impacts or self._size < LARGE else Lasting()
+        self._serves = False  # whether the one at hand is tried for the step under way
 
     def serves(self, step: float) -> bool:
-        """Return whether the Jacobian at hand may do for a step, s: if that before was as long."""
+        """Return whether the Jacobian at hand may do for a step, s."""
+        if self._lasting is None:
+            return False
         if self._serves:
-            self._pause = 1
-        self._serves = self._keeps and not self._wait and abs(step - self._step) <= SAME * step
-        self._step = step
-        if self._wait:
-            self._wait -= 1
+            self._lasting.served()
+        self._serves = self._lasting.serves(step)
         return self._serves
 
     def renew(self) -> bool:
         """Take the Jacobian from the solver; return whether it is another one than before.
 
-        Of 70 unknowns that takes as long as a step, of 1300 as long as three. So where one is asked
-        for as that of an earlier step has not done, as many steps go by without a try as have
-        before, doubled.
+        Of 70 unknowns that takes as long as a step, of 1300 as long as three. One that is asked for
+        where that of an earlier step was tried tells that this has not served.
         """
-        if self._serves:
-            self._serves, self._wait = False, self._pause
-            self._pause = min(2 * self._pause, LONGEST_PAUSE)
+        if self._serves and self._lasting is not None:
+            self._serves = False
+            self._lasting.failed()
         made = int(self._solver.it.newtonJacobiCount)
         another = made != self._made
         if another:

@@ -71,6 +71,6 @@ second = scene.replace({"bodies": {"crank": "crank_2", "linkage": "linkage_2"}})
 for label, case in (("rigid", scene), ("flexible", flexible), ("flexible, second shapes", second)):
     result, beside = simulate(case), plan(case).items()
     told = errors_of(result, ((r, simulate(one)) for r, one in beside), COLUMNS)["errors"]
-    texts = [uncertain(value, told[name]) for name, value in figures(result).items()]
+    texts = [uncertain(value, told[name]) for name, value in figures(Reading(result)).items()]
     rows.append((label, *texts, *[""] * (4 - len(texts))))
 print("", *columns(rows), sep="\n")

@@ -83,6 +83,46 @@ def test_a_system_at_rest_that_is_set_moving_later():
     assert found[-1][1][0] == pytest.approx(0.06, rel=5e-3)
 
 
+def test_a_hinged_rod_at_rest_sets_out_as_its_torque_does():
+    """1 N m (1 - cos 6 t), against a spring and a damper: speeds are zero while its errors show."""
+    mbs = exu.SystemContainer().AddSystem()
+    ground = mbs.AddObject(items.ObjectGround())
+    node = mbs.AddNode(items.NodeRigidBody2D(referenceCoordinates=[1.0, 0.0, 0.3]))
+    rod = mbs.AddObject(items.ObjectRigidBody2D(nodeNumber=node, mass=1.0, inertia=0.1))
+    hinge = [-np.cos(0.3), np.sin(0.3), 0.0]
+    ends = [
+        mbs.AddMarker(items.MarkerBodyRigid(bodyNumber=body, localPosition=place))
+        for body, place in ((ground, [0.0, 0.0, 0.0]), (rod, hinge))
+    ]
+    mbs.AddObject(items.ObjectJointRevolute2D(markerNumbers=ends))
+    still = mbs.AddNode(items.NodePointGround())
+    of_ground, angle = (
+        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=number, coordinate=coordinate))
+        for number, coordinate in ((still, 0), (node, 2))
+    )
+    stiffness, delay = 1e6, 0.02
+    mbs.AddObject(
+        items.CoordinateSpringDamper(
+            markerNumbers=[of_ground, angle], stiffness=stiffness, damping=delay * stiffness
+        )
+    )
+    mbs.AddLoad(
+        items.LoadCoordinate(
+            markerNumber=angle,
+            load=0.0,
+            loadUserFunction=lambda mbs, time, load: 1.0 - np.cos(6.0 * time),
+        )
+    )
+    mbs.Assemble()
+    chosen = settings(3.0)
+    chosen.timeIntegration.generalizedAlpha.spectralRadius = 0.8
+    assert solve_dynamic(mbs, chosen).status is SolverStatus.COMPLETED
+    lag = 6.0 * delay
+    expected = 1.0 - (np.cos(18.0) + lag * np.sin(18.0)) / (1.0 + lag * lag)
+    found = mbs.GetNodeOutput(node, exu.OutputVariableType.Coordinates)[2]
+    assert found * stiffness == pytest.approx(expected, rel=1e-3)
+
+
 def test_a_drawing_of_few_digits_is_put_together():
     """Off by 20 um, and by a millimetre a second: a first step of 10 us would make 4 m/s of it."""
     mbs = swing(place=(0.6, 0.80002), velocity=(0.001, 0.0))

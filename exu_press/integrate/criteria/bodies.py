@@ -115,12 +115,14 @@ class BodyError:
 
         On a circle the third derivative of the velocity points to the centre, and the constraint
         takes it away; but positions miss h^3 |da/dt| / 6 along the circle, and the velocity there
-        changes by its acceleration over its speed.
+        changes by its acceleration over its speed. What sets out from rest is on no circle yet.
 
         Args:
             rate: of the accelerations' change, in SI over seconds.
             step: s.
         """
+        if self._scales.speed == 0.0:
+            return 0.0
         missed = self._constant * step * step * step * self._scales.norm(rate)
         per_length = self.largest() / self._scales.speed
         return missed * per_length / self._limit(step, self.noise, 1.0)

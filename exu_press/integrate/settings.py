@@ -63,8 +63,12 @@ IMPLICIT = "GeneralizedAlpha", "TrapezoidalIndex2"
 """Exudyn's solvers that take the same settings; the second one is the first with other numbers."""
 
 
-NEWMARKS_RADIUS = 0.9
-"""Spectral radius, at most, of generalized-alpha in the place of Newmark's method."""
+HARDLY_FADES = 0.95
+"""Spectral radius of generalized-alpha above which what alternates from step to step lasts for so
+many steps that it would set their size."""
+
+FADES = 0.9
+"""Spectral radius that is taken instead, and in the place of Newmark's method."""
 
 
 @dataclass(frozen=True)
@@ -170,7 +174,7 @@ class Task:
         self.fixed = tolerance is None
         self.tolerance = FIXED_STEPS if tolerance is None else tolerance
         self.start, self.end = integration.startTime, integration.endTime
-        self.spectral_radius = _spectral_radius(settings)
+        self.spectral_radius = _spectral_radius(settings, self.fixed)
         self.largest = largest = (self.end - self.start) / integration.numberOfSteps
         self.usual = scales.step or largest
         self.smallest = integration.minimumStepSize
@@ -190,7 +194,7 @@ class Task:
         self.iterations = discontinuous.maxIterations if problem.switching else 1
         ignored = problem.switching and discontinuous.ignoreMaxIterations
         self.unsettled = ignored and not self.fixed
-        stir = tuning.rounding / (1.0 - min(self.spectral_radius, 0.95)) ** 2
+        stir = tuning.rounding / (1.0 - min(self.spectral_radius, HARDLY_FADES)) ** 2
         self.absolute = absolute
         floor = absolute / self.tolerance
         foreseen = largest  # in clearance joints, less: until they are crossed
@@ -246,11 +250,19 @@ def refuse_unusable(
             f"{alpha.spectralRadius!r}: allowed is a number above 0.0, up to 1.0; with 0.0 no step "
             "can be changed without ringing"
         )
+    radius = _spectral_radius(settings, tolerance is None)
     if _switched(settings):
         warnings.warn(
             "the settings ask for Newmark's method or constraints of index 2: solved with "
-            f"{IMPLICIT[0]}, constraints of index 3 and spectralRadius = "
-            f"{_spectral_radius(settings):g}, whose local error is known",
+            f"{IMPLICIT[0]}, constraints of index 3 and spectralRadius = {radius:g}, whose local "
+            "error is known",
+            stacklevel=3,
+        )
+    elif radius != alpha.spectralRadius:
+        warnings.warn(
+            "settings.timeIntegration.generalizedAlpha.spectralRadius = "
+            f"{alpha.spectralRadius:g}: solved with {radius:g}; above {HARDLY_FADES:g} "
+            "accelerations that alternate behind an impact, or a change of the step, hardly fade",
             stacklevel=3,
         )
 
@@ -262,10 +274,11 @@ def _switched(settings: exu.SimulationSettings) -> bool:
     return bool(alpha.useNewmark or alpha.useIndex2Constraints or not solver.endswith(IMPLICIT[0]))
 
 
-def _spectral_radius(settings: exu.SimulationSettings) -> float:
+def _spectral_radius(settings: exu.SimulationSettings, fixed: bool) -> float:
     """Return it; Newmark's method has none, and 1.0 does not damp constraints of index 3."""
     given: float = settings.timeIntegration.generalizedAlpha.spectralRadius
-    return min(given, NEWMARKS_RADIUS) if _switched(settings) else given
+    replaced = _switched(settings) or (given > HARDLY_FADES and not fixed)
+    return min(given, FADES) if replaced else given
 
 
 @contextmanager

@@ -207,13 +207,14 @@ def solve_dynamic(
     """Do what `mbs.SolveDynamic(settings)` does, with a tolerance instead of a step.
 
     Exudyn's own generalized-alpha advances the system, from `startTime` to `endTime` of the
-    settings, whose output, sensors, linear solver and spectral radius count. The largest step is
-    the time over `numberOfSteps`, the first one `initialStepSize` if that is set, the smallest one
-    `minimumStepSize`. The system may have rigid and flexible bodies in the plane and in space,
-    constraints, joints that slide along cables, springs, loads, user functions, first-order
-    coordinates, data variables, and the clearance joints of this package; user functions of the
-    system (pre-step, post-step, post-Newton, residual) are called as ever. Settings and user
-    functions are put back afterwards; the solver is left in `mbs.sys["dynamicSolver"]`.
+    settings, whose output, sensors, linear solver and spectral radius (up to 0.95) count. The
+    largest step is the time over `numberOfSteps`, the first one `initialStepSize` if that is set,
+    the smallest one `minimumStepSize`. The system may have rigid and flexible bodies in the plane
+    and in space, constraints, joints that slide along cables, springs, loads, user functions,
+    first-order coordinates, data variables, and the clearance joints of this package; user
+    functions of the system (pre-step, post-step, post-Newton, residual) are called as ever.
+    Settings and user functions are put back afterwards; the solver is left in
+    `mbs.sys["dynamicSolver"]`.
 
     Args:
         mbs: the system, assembled.

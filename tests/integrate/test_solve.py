@@ -581,6 +581,58 @@ def test_another_implicit_method_is_switched_to_generalized_alpha_with_a_warning
     assert chosen.timeIntegration.generalizedAlpha.useNewmark == before
 
 
+def test_a_spectral_radius_of_one_gives_way_to_one_that_damps():
+    mbs, node = pendulum()
+    solve_dynamic(mbs, with_settings(generalizedAlpha__spectralRadius=0.9, endTime=0.2))
+    expected = mbs.GetNodeOutput(node, exu.OutputVariableType.Coordinates)
+    mbs, node = pendulum()
+    chosen = with_settings(generalizedAlpha__spectralRadius=1.0, endTime=0.2)
+    with pytest.warns(UserWarning, match="spectralRadius = 1: solved with 0.9"):
+        solve_dynamic(mbs, chosen)
+    assert mbs.GetNodeOutput(node, exu.OutputVariableType.Coordinates).tolist() == expected.tolist()
+    assert chosen.timeIntegration.generalizedAlpha.spectralRadius == 1.0
+
+
+def test_behind_a_stiff_stop_steps_grow_again_whatever_the_spectral_radius():
+    """Two rods, the outer of which runs against it: with 1.0 what alternates stopped the run."""
+    mbs = exu.SystemContainer().AddSystem()
+    marker = mbs.AddMarker(
+        items.MarkerBodyRigid(
+            bodyNumber=mbs.AddObject(items.ObjectGround()), localPosition=[0, 0, 0]
+        )
+    )
+    for place in (0.5, 1.5):
+        node = mbs.AddNode(items.NodeRigidBody2D(referenceCoordinates=[place, 0.0, 0.0]))
+        rod = mbs.AddObject(items.ObjectRigidBody2D(nodeNumber=node, mass=1.0, inertia=1.0 / 12.0))
+        near, far = (
+            mbs.AddMarker(items.MarkerBodyRigid(bodyNumber=rod, localPosition=[x, 0.0, 0.0]))
+            for x in (-0.5, 0.5)
+        )
+        mbs.AddObject(items.ObjectJointRevolute2D(markerNumbers=[marker, near]))
+        load = mbs.AddMarker(items.MarkerBodyMass(bodyNumber=rod))
+        mbs.AddLoad(items.LoadMassProportional(markerNumber=load, loadVector=[0.0, -9.81, 0.0]))
+        marker = far
+    ground = mbs.AddMarker(
+        items.MarkerNodeCoordinate(nodeNumber=mbs.AddNode(items.NodePointGround()), coordinate=0)
+    )
+    angle = mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=2))
+
+    def stop(mbs, time, item, angle, speed, *given):
+        deep = angle + 0.6
+        return 1e6 * deep + 1e4 * speed if deep < 0.0 else 0.0
+
+    mbs.AddObject(
+        items.ObjectConnectorCoordinateSpringDamper(
+            markerNumbers=[ground, angle], springForceUserFunction=stop
+        )
+    )
+    mbs.Assemble()
+    with pytest.warns(UserWarning, match="spectralRadius = 1: solved with 0.9"):
+        outcome = solve_dynamic(mbs, with_settings(generalizedAlpha__spectralRadius=1.0))
+    assert outcome.status is SolverStatus.COMPLETED
+    assert outcome.steps + outcome.rejected_steps < 8000
+
+
 @pytest.mark.parametrize(
     ("system", "chosen", "tolerance", "message"),
     [

@@ -84,6 +84,14 @@ class Model:
         """Return the error of a run."""
         return error(self.runs[variant], self.fine[0])
 
+    def over_user(self, variant):
+        """Return the time of a run over that of the user's."""
+        return self.runs[variant]["seconds"] / max(self.user["seconds"], 1e-3)
+
+    def users_will_do(self, tolerance):
+        """Return whether the user's own steps have the tolerance."""
+        return self.agree() and error(self.user, self.fine[0]) <= tolerance
+
     def at_equal_error(self, variant="tolerance"):
         """Return the run's time over that of the fixed steps with its error; nan beyond them."""
         done = [one for one in (*self.coarse, self.user) if one["status"] in ENDED]
@@ -149,10 +157,19 @@ def table(models, tolerance):
         for i, name in enumerate(CLASSES):
             lines.append(f"{counts[i]:5d} {agreeing[i]:17d}  {name}")
         ended = [m for m, kind in zip(comparable, kinds, strict=True) if kind < 5]
-        ratios = [m.runs[variant]["seconds"] / max(m.user["seconds"], 1e-3) for m in ended]
-        if ratios:
-            low, most = np.percentile(ratios, [50, 95])
-            lines.append(f"processor time over the user's run: median {low:.2g}, 95 % {most:.2g}")
+        for which, chosen in (
+            ("", ended),
+            (
+                ", whose error is within the tolerance",
+                [m for m in ended if m.users_will_do(tolerance)],
+            ),
+        ):
+            if chosen:
+                low, most = np.percentile([m.over_user(variant) for m in chosen], [50, 95])
+                lines.append(
+                    f"processor time over the user's run{which} ({len(chosen)} models): "
+                    f"median {low:.2g}, 95 % {most:.2g}"
+                )
         equal = [m.at_equal_error(variant) for m in ended if m.coarse]
         equal = [ratio for ratio in equal if np.isfinite(ratio)]
         if equal:

@@ -15,6 +15,10 @@ FORGOTTEN = 10.0
 """Times in which first accelerations make a speed, after which a part 1/e of it is left to expect:
 a constant acceleration has made a sixth of it when that is as much."""
 
+MOVES = 1e-18
+"""Part of the kinetic energy that first accelerations will make of coordinates that are no
+displacements, above which these move."""
+
 LEAST_ENERGY = 1e-4
 """Part of the largest kinetic energy that each node has at least as a scale: of a rotor that
 another one is about to set in motion, no step was small enough for its own."""
@@ -180,13 +184,16 @@ class FoundScales:
             return
         energies, masses = self._sums(velocities, velocities), self.masses
         speed_2 = expected_2 = 0.0
+        moves = False
         for i in range(len(masses)):
             if energies[i] > self._energies[i]:
                 self._energies[i] = energies[i]
-            if not self._own[i]:
+            if self._own[i]:
+                moves = moves or self._energies[i] > MOVES * self._expected[i]
+            else:
                 speed_2 = max(speed_2, self._energies[i] / masses[i])
                 expected_2 = max(expected_2, self._expected[i] / masses[i])
-        if self._expecting and not self._rests(math.sqrt(speed_2)):
+        if self._expecting and (moves or not self._rests(math.sqrt(speed_2))):
             left = math.exp(-2.0 * FORGOTTEN * step / self._ahead)
             self._expected = [left * energy for energy in self._expected]
             both = zip(self._expected, self._energies, strict=True)

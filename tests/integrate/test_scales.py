@@ -63,6 +63,16 @@ def test_speeds_that_are_expected_fade():
         assert found.speed == pytest.approx(expected)
 
 
+def test_what_is_expected_of_coordinates_that_are_no_displacements_fades_too():
+    """It stayed to the end of the run, and errors were as much larger than stated."""
+    still = {"velocities": [0.0], "accelerations": [10.0]}
+    found = scales([Node(0, "modes", 0, 1, mass=None)], [2.0], **still)
+    assert found.norm([1.0]) == pytest.approx(1.0)
+    for _ in range(100):
+        found.update([0.1], [1.0], 0.01)
+    assert found.norm([0.1]) == pytest.approx(1.0)
+
+
 @PATCHED
 def test_a_body_at_rest_in_a_clearance_has_the_speed_at_which_it_arrives():
     narrow = scales(bodies(None), [2.0, 2.0, 0.5], **STILL, joints=SimpleNamespace(widest=1e-3))

@@ -28,6 +28,7 @@ LEFT_OUT = (
     "paper",
     "precision",
     "press_work_",
+    "random_systems",
     "stability",
 )
 """Beginnings of scripts that take minutes, need files beside them, or overwrite what the package

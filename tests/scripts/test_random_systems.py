@@ -1,0 +1,29 @@
+"""Systems by chance: each kind is one that Exudyn builds, and ends with a tolerance."""
+
+import runpy
+import sys
+
+import exudyn as exu
+import pytest
+
+from exu_press import SolverStatus, solve_dynamic
+from random_systems import KINDS, main
+
+
+@pytest.mark.filterwarnings("ignore:settings.timeIntegration")
+@pytest.mark.parametrize("number", range(len(KINDS)), ids=[kind.__name__ for kind in KINDS])
+def test_each_kind_ends(number, tmp_path, monkeypatch, capsys):
+    outcomes = []
+
+    def instead(mbs, settings):
+        settings.solution.file.write = False
+        outcomes.append(solve_dynamic(mbs, settings, tolerance=1e-2))
+
+    monkeypatch.setattr(exu.MainSystem, "SolveDynamic", instead)
+    monkeypatch.setattr(sys, "argv", ["random_systems.py", str(tmp_path), "--seeds", "8"])
+    monkeypatch.setattr(sys, "path", [*sys.path])
+    main()
+    assert capsys.readouterr().out.startswith("8 scripts in")
+    (script,) = tmp_path.rglob(f"*_{number:03d}.py")
+    runpy.run_path(str(script))
+    assert outcomes[0].status is SolverStatus.COMPLETED

@@ -63,11 +63,11 @@ IMPLICIT = "GeneralizedAlpha", "TrapezoidalIndex2"
 """Exudyn's solvers that take the same settings; the second one is the first with other numbers."""
 
 
-HARDLY_FADES = 0.95
+LARGEST_RADIUS = 0.95
 """Spectral radius of generalized-alpha above which what alternates from step to step lasts for so
 many steps that it would set their size."""
 
-FADES = 0.9
+USUAL_RADIUS = 0.9
 """Spectral radius that is taken instead, and in the place of Newmark's method."""
 
 
@@ -194,7 +194,7 @@ class Task:
         self.iterations = discontinuous.maxIterations if problem.switching else 1
         ignored = problem.switching and discontinuous.ignoreMaxIterations
         self.unsettled = ignored and not self.fixed
-        stir = tuning.rounding / (1.0 - min(self.spectral_radius, HARDLY_FADES)) ** 2
+        stir = tuning.rounding / (1.0 - min(self.spectral_radius, LARGEST_RADIUS)) ** 2
         self.absolute = absolute
         floor = absolute / self.tolerance
         foreseen = largest  # in clearance joints, less: until they are crossed
@@ -261,7 +261,7 @@ def refuse_unusable(
     elif radius != alpha.spectralRadius:
         warnings.warn(
             "settings.timeIntegration.generalizedAlpha.spectralRadius = "
-            f"{alpha.spectralRadius:g}: solved with {radius:g}; above {HARDLY_FADES:g} "
+            f"{alpha.spectralRadius:g}: solved with {radius:g}; above {LARGEST_RADIUS:g} "
             "accelerations that alternate behind an impact, or a change of the step, hardly fade",
             stacklevel=3,
         )
@@ -277,8 +277,8 @@ def _switched(settings: exu.SimulationSettings) -> bool:
 def _spectral_radius(settings: exu.SimulationSettings, fixed: bool) -> float:
     """Return it; Newmark's method has none, and 1.0 does not damp constraints of index 3."""
     given: float = settings.timeIntegration.generalizedAlpha.spectralRadius
-    replaced = _switched(settings) or (given > HARDLY_FADES and not fixed)
-    return min(given, FADES) if replaced else given
+    replaced = _switched(settings) or (given > LARGEST_RADIUS and not fixed)
+    return min(given, USUAL_RADIUS) if replaced else given
 
 
 @contextmanager

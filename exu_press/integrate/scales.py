@@ -52,6 +52,10 @@ class FoundScales:
     equilibrium first accelerations are rounded forces over masses: what has moved no faster than
     rounded positions do in the first step is still.
 
+    Three angles of a body, about x, then y, then z, turn it by alpha'^2 + beta'^2 + gamma'^2 +
+    2 sin(beta) alpha' gamma': where its second angle is near 90 degrees, the other two are fast,
+    and all but cancel.
+
     Attributes:
         speed: m/s.
         force: N.
@@ -93,6 +97,9 @@ class FoundScales:
         self.length = problem.length
         self.masses: list[float] = []
         self._ends = [node.start + node.size for node in problem.nodes]
+        # nodes with three angles, and each node's inertia times the sine of its second angle
+        self._angles = [i for i, node in enumerate(problem.nodes) if node.rotations == 3]
+        self._coupled = [0.0 for _ in problem.nodes]
         self.inertias: list[float] = []
         self._own: list[bool] = []
         self._energies: list[float] = []  # twice the largest kinetic energy of each node so far
@@ -108,6 +115,7 @@ class FoundScales:
         problem = self._problem
         self.inertias, masses = weights(problem.nodes, mass_matrix)
         self.masses = masses
+        self._turn()
         self._own = [mass == 0.0 for mass in masses]
         self._energies = [0.0 for _ in masses]
         self._expected = [0.0 for _ in masses]
@@ -169,6 +177,14 @@ class FoundScales:
         self._expect(accelerations, self._longest)
         self.update(velocities, accelerations)
 
+    def _turn(self) -> None:
+        """Look at the second angles of bodies that have three."""
+        problem = self._problem
+        for number in self._angles:
+            place = self._ends[number] - 2
+            angle = float(problem.current.positions[place] + problem.reference[place])
+            self._coupled[number] = self.inertias[place] * math.sin(angle)
+
     def _expect(self, accelerations: list[float], time: float) -> None:
         """Let the speeds count that accelerations make within a time, s, and less and less."""
         speeds = [time * value for value in accelerations]
@@ -182,6 +198,7 @@ class FoundScales:
         """Be told of a state, at the end of a step (s)."""
         if self.fixed:
             return
+        self._turn()
         energies, masses = self._sums(velocities, velocities), self.masses
         speed_2 = expected_2 = 0.0
         moves = False
@@ -220,6 +237,7 @@ class FoundScales:
     def norm(self, vector: list[float]) -> float:
         """Return the largest kinetic norm of a body; what is excluded from it may be no number."""
         inertias, masses, ends = self.inertias, self.masses, self._ends
+        coupled = self._coupled
         largest = 0.0
         i = 0
         for k in range(len(ends)):  # each step asks for five: `squares` takes twice as long
@@ -227,6 +245,8 @@ class FoundScales:
             while i < ends[k]:
                 total += inertias[i] * vector[i] * vector[i]
                 i += 1
+            if coupled[k] != 0.0:
+                total += 2.0 * coupled[k] * vector[i - 3] * vector[i - 1]
             mass = masses[k]
             if mass > 0.0 and total > largest * mass:
                 largest = total / mass
@@ -252,13 +272,15 @@ class FoundScales:
     def _sums(self, one: list[float], other: list[float]) -> list[float]:
         """Return the sum of inertia times both vectors' values over each node's coordinates."""
         found: list[float] = []
-        inertias = self.inertias
+        inertias, coupled = self.inertias, self._coupled
         i = 0
-        for end in self._ends:
+        for k, end in enumerate(self._ends):
             total = 0.0
             while i < end:
                 total += inertias[i] * one[i] * other[i]
                 i += 1
+            if coupled[k] != 0.0:
+                total += coupled[k] * (one[i - 3] * other[i - 1] + one[i - 1] * other[i - 3])
             found.append(total)
         return found
 
@@ -276,7 +298,8 @@ class FoundScales:
 def weights(nodes: Sequence[Node], mass_matrix: Any) -> tuple[list[float], list[float]]:
     """Return each coordinate's inertia and each node's mass, 0.0 where that is to be found.
 
-    Euler parameters count with the mean of their four inertias, which no rotation changes.
+    Euler parameters count with the mean of their four inertias, which no rotation changes; three
+    angles likewise.
 
     Args:
         nodes: of the system, in the order of their coordinates.
@@ -286,8 +309,9 @@ def weights(nodes: Sequence[Node], mass_matrix: Any) -> tuple[list[float], list[
     masses: dict[int, float] = {}
     for node in nodes:
         first, last = node.start, node.start + node.size
-        if node.quaternion:
-            inertias[last - 4 : last] = inertias[last - 4 : last].mean()
+        if node.rotations:
+            turning = slice(last - node.rotations, last)
+            inertias[turning] = inertias[turning].mean()
         mass = node.mass
         if mass is None:
             mass = float(inertias[first : first + node.displacements].max(initial=0.0))

@@ -8,14 +8,15 @@ import numpy as np
 from exu_press.integrate.problem import Problem, State
 
 
-def problem_at(nodes, velocities, accelerations=None, joints=None, length=1.0):
-    """Return a problem of nodes that are at zero."""
+def problem_at(nodes, velocities, accelerations=None, joints=None, length=1.0, positions=None):
+    """Return a problem of nodes that are at zero unless given."""
     rest = np.zeros(len(velocities))
+    placed = rest if positions is None else np.array(positions, dtype=float)
     moving = np.array(velocities, dtype=float)
     pushed = rest if accelerations is None else np.array(accelerations, dtype=float)
     none = np.zeros(0)
     data = SimpleNamespace(
-        GetODE2Coordinates=lambda *_: rest,
+        GetODE2Coordinates=lambda *_: placed,
         GetODE2Coordinates_t=lambda *_: moving,
         GetODE2Coordinates_tt=lambda *_: pushed,
         GetAECoordinates=lambda *_: none,

@@ -86,6 +86,19 @@ def test_what_is_not_displaced_counts_by_its_own_largest_energy():
     assert found.norm([100.0, 0.0]) == pytest.approx(4.0), "a whole speed, whatever its inertia"
 
 
+def test_three_angles_count_by_the_turning_of_their_body():
+    """Turned by 80 degrees about y, fast angles about x and z all but cancel."""
+    nodes = [Node(0, "body", 0, 6, displacements=3, rotations=3)]
+    rates = np.array([0.0, 0.0, 0.0, 100.0, 1.0, -99.0])
+    found = scales(nodes, [2.0] * 3 + [0.5] * 3, rates.tolist(), positions=[0.0] * 4 + [1.4, 0.0])
+    square = 100.0**2 + 1.0 + 99.0**2 - 2.0 * np.sin(1.4) * 100.0 * 99.0
+    assert found.speed == pytest.approx(np.sqrt(0.25 * square))
+    other = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
+    along = 0.25 * (-99.0 + np.sin(1.4) * 100.0) / found.speed
+    assert found.along(other.tolist(), rates.tolist()) == pytest.approx(abs(along))
+    assert found.squares(rates.tolist()) == pytest.approx([0.25 * square])
+
+
 def test_weights_of_nodes():
     """Euler parameters have their mean, modes their frame's; what has no inertia is excluded."""
     nodes = [

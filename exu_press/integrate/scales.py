@@ -61,7 +61,7 @@ class FoundScales:
         force: N.
         inertias: of the coordinates, kg where they are displacements.
         length: of the coordinates whose last digits are rounded, m.
-        fixed: whether all is given.
+        fixed: whether nothing is to be learnt from the motion.
         gravity: as given, m/s^2.
         rest: speed up to which the system is still, m/s; 0.0 where that is not known.
         rounded: whether what moves no faster was found to be rounding.
@@ -125,7 +125,7 @@ class FoundScales:
         if known and True not in self._own:
             self.rest = self._stir * known / self._first
         given = self._given.speed, self._given.force
-        self.fixed = True not in self._own and None not in given
+        self.fixed = not self._angles and True not in self._own and None not in given
         if self.fixed:
             return
         velocities = problem.current.velocities.tolist()

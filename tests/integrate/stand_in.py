@@ -11,7 +11,7 @@ from exu_press.integrate.problem import Problem, State
 def problem_at(nodes, velocities, accelerations=None, joints=None, length=1.0, positions=None):
     """Return a problem of nodes that are at zero unless given."""
     rest = np.zeros(len(velocities))
-    placed = rest if positions is None else np.array(positions, dtype=float)
+    placed = rest if positions is None else np.asarray(positions, dtype=float)
     moving = np.array(velocities, dtype=float)
     pushed = rest if accelerations is None else np.array(accelerations, dtype=float)
     none = np.zeros(0)

@@ -99,6 +99,18 @@ def test_three_angles_count_by_the_turning_of_their_body():
     assert found.squares(rates.tolist()) == pytest.approx([0.25 * square])
 
 
+def test_three_angles_are_followed_where_all_scales_are_given():
+    nodes = [Node(0, "body", 0, 6, displacements=3, rotations=3)]
+    places, given = np.zeros(6), ErrorScales(speed=7.0, force=9.0)
+    found = scales(nodes, [2.0] * 3 + [0.5] * 3, [0.0] * 6, given, positions=places)
+    both = [0.0, 0.0, 0.0, 1.0, 0.0, 1.0]
+    assert found.norm(both) == pytest.approx(np.sqrt(0.25 * 2.0))
+    places[4] = 1.4
+    found.update([0.0] * 6, [100.0] * 6)
+    assert found.norm(both) == pytest.approx(np.sqrt(0.25 * (2.0 + 2.0 * np.sin(1.4))))
+    assert (found.speed, found.force) == (7.0, 9.0)
+
+
 def test_weights_of_nodes():
     """Euler parameters have their mean, modes their frame's; what has no inertia is excluded."""
     nodes = [

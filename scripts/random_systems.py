@@ -16,6 +16,7 @@ import numpy as np
 
 from exudyn_examples.example import GRAVITY
 from exudyn_examples.flexible import cables, hold, weight
+from exudyn_examples.other import mass_1d
 from exudyn_examples.planar import bar, pin
 
 SPATIAL = exu.NodeType.RotationEulerParameters, exu.NodeType.RotationRxyz
@@ -101,7 +102,7 @@ def chain(by):
         turned = items.RotationMatrixZ(by.uniform(-1, 1)) @ items.RotationMatrixY(by.uniform(-1, 1))
         along = turned @ [by.size, 0.0, 0.0]
         body, mass = by.body(place + along / 2.0, turned)
-        joint = {"bodyNumbers": [body, last], "position": list(place), "useGlobalFrame": True}
+        joint = {"itemNumbers": [body, last], "position": list(place), "useGlobalFrame": True}
         kind = by.choice(["revolute", "spherical", "sliding"])
         if kind == "revolute":
             mbs.CreateRevoluteJoint(**joint, axis=list(turned @ by.choice(np.eye(3).tolist())))
@@ -112,7 +113,7 @@ def chain(by):
         if kind == "sliding" or by.often(0.3):
             stiffness = mass * by.between(1.0, 1e4)
             mbs.CreateCartesianSpringDamper(
-                bodyNumbers=[by.ground, body],
+                itemNumbers=[by.ground, body],
                 localPosition0=list(place + 0.8 * along),
                 localPosition1=[0.3 * by.size, 0.0, 0.0],
                 stiffness=[stiffness] * 3,
@@ -121,7 +122,7 @@ def chain(by):
         if by.often(0.4):
             force, way = by.load(mass * GRAVITY * by.between(0.1, 3.0)), by.vector()
             mbs.CreateForce(
-                bodyNumber=body,
+                itemNumber=body,
                 loadVector=[0.0] * 3,
                 loadVectorUserFunction=lambda mbs, t, load, f=force, w=way: [f(t) * x for x in w],
             )
@@ -136,7 +137,7 @@ def hanging(by):
         body, mass = by.body(place, speed=by.vector(2.0), spin=by.vector(by.between(1.0, 60.0)))
         stiffness = mass * by.between(10.0, 1e5)
         by.mbs.CreateSpringDamper(
-            bodyNumbers=[last, body],
+            itemNumbers=[last, body],
             localPosition0=at,
             localPosition1=[0.3 * by.size, 0.0, 0.0],
             stiffness=stiffness,
@@ -200,12 +201,9 @@ def row(by):
     """Masses in a row, on springs that harden, with friction, pushed."""
     before = by.still
     for _ in range(by.randint(1, 5)):
-        mass, node = by.between(0.05, 5.0), {"referenceCoordinates": [0.0]}
-        number = by.mbs.AddNode(
-            items.Node1D(**node, initialCoordinates=[0.01], initialVelocities=[by.uniform(-1, 1)])
-        )
-        by.mbs.AddObject(items.ObjectMass1D(nodeNumber=number, mass=mass))
-        here, stiffness = by.coordinate(number, 0), mass * by.between(10.0, 1e6)
+        mass = by.between(0.05, 5.0)
+        _, here = mass_1d(by.mbs, mass, place=0.01, velocity=by.uniform(-1, 1))
+        stiffness = mass * by.between(10.0, 1e6)
         damping = by.choice([0.0, 0.01, 0.5]) * math.sqrt(stiffness * mass)
         kind, cubic = by.choice(["linear", "hardening", "friction"]), by.between(1.0, 1e3)
         if kind == "hardening":
@@ -272,7 +270,7 @@ def top(by):
         gravity=[0.0, 0.0, -GRAVITY],
         nodeType=by.choice(SPATIAL),
     )
-    by.mbs.CreateSphericalJoint(bodyNumbers=[by.ground, body], position=[0.0] * 3)
+    by.mbs.CreateSphericalJoint(itemNumbers=[by.ground, body], position=[0.0] * 3)
 
 
 KINDS = chain, hanging, planar, loop, row, coordinates, cable, top

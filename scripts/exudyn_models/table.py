@@ -157,27 +157,23 @@ def table(models, tolerance):
         for i, name in enumerate(CLASSES):
             lines.append(f"{counts[i]:5d} {agreeing[i]:17d}  {name}")
         ended = [m for m, kind in zip(comparable, kinds, strict=True) if kind < 5]
-        for which, chosen in (
-            ("", ended),
+        equal = [m.at_equal_error(variant) for m in ended if m.coarse]
+        user = "processor time over the user's run"
+        enough = [m for m in ended if m.users_will_do(tolerance)]
+        for name, ratios in (
+            (user, [m.over_user(variant) for m in ended]),
             (
-                ", whose error is within the tolerance",
-                [m for m in ended if m.users_will_do(tolerance)],
+                f"{user}, whose error is within the tolerance",
+                [m.over_user(variant) for m in enough],
+            ),
+            (
+                "processor time over the fixed step's of the same error",
+                [ratio for ratio in equal if np.isfinite(ratio)],
             ),
         ):
-            if chosen:
-                low, most = np.percentile([m.over_user(variant) for m in chosen], [50, 95])
-                lines.append(
-                    f"processor time over the user's run{which} ({len(chosen)} models): "
-                    f"median {low:.2g}, 95 % {most:.2g}"
-                )
-        equal = [m.at_equal_error(variant) for m in ended if m.coarse]
-        equal = [ratio for ratio in equal if np.isfinite(ratio)]
-        if equal:
-            low, most = np.percentile(equal, [50, 95])
-            lines.append(
-                "processor time over the fixed step's of the same error "
-                f"({len(equal)} models): median {low:.2g}, 95 % {most:.2g}"
-            )
+            if ratios:
+                low, most = np.percentile(ratios, [50, 95])
+                lines.append(f"{name} ({len(ratios)} models): median {low:.2g}, 95 % {most:.2g}")
         for above, up_to in itertools.pairwise(SIZES):
             sized = [m for m in ended if above < m.user["unknowns"] <= up_to]
             steps = [m.per_step(variant) for m in sized if m.runs[variant].get("tries")]

@@ -596,22 +596,11 @@ def test_a_spectral_radius_of_one_gives_way_to_one_that_damps():
 def test_behind_a_stiff_stop_steps_grow_again_whatever_the_spectral_radius():
     """Two rods, the outer of which runs against it: with 1.0 what alternates stopped the run."""
     mbs = exu.SystemContainer().AddSystem()
-    marker = mbs.AddMarker(
-        items.MarkerBodyRigid(
-            bodyNumber=mbs.AddObject(items.ObjectGround()), localPosition=[0, 0, 0]
-        )
-    )
-    for place in (0.5, 1.5):
-        node = mbs.AddNode(items.NodeRigidBody2D(referenceCoordinates=[place, 0.0, 0.0]))
-        rod = mbs.AddObject(items.ObjectRigidBody2D(nodeNumber=node, mass=1.0, inertia=1.0 / 12.0))
-        near, far = (
-            mbs.AddMarker(items.MarkerBodyRigid(bodyNumber=rod, localPosition=[x, 0.0, 0.0]))
-            for x in (-0.5, 0.5)
-        )
-        mbs.AddObject(items.ObjectJointRevolute2D(markerNumbers=[marker, near]))
-        load = mbs.AddMarker(items.MarkerBodyMass(bodyNumber=rod))
-        mbs.AddLoad(items.LoadMassProportional(markerNumber=load, loadVector=[0.0, -9.81, 0.0]))
-        marker = far
+    last, at = mbs.AddObject(items.ObjectGround()), (0.0, 0.0)
+    for start in (0.0, 1.0):
+        rod, half, node = bar(mbs, (start, 0.0), (start + 1.0, 0.0), 1.0)
+        pin(mbs, last, at, rod, (-half, 0.0))
+        last, at = rod, (half, 0.0)
     ground = mbs.AddMarker(
         items.MarkerNodeCoordinate(nodeNumber=mbs.AddNode(items.NodePointGround()), coordinate=0)
     )

@@ -251,7 +251,7 @@ class StepError:
     def _first_look(self) -> BodyError:
         """Return the bodies' errors from the first step's beginning on; look at the rest too."""
         task, problem, tuning = self._task, self._task.problem, self._task.tuning
-        self._noise = self._scales.alternating(tuning.rounding, self._solver.alphaF)
+        self._noise = self._scales.alternating
         if len(problem.start.rates):
             self._first_order = FirstOrderError(problem, self._per_step)
         per_step = self._per_step

@@ -156,6 +156,11 @@ class FoundScales:
         return min(found) / max(found) if found else 1.0
 
     @property
+    def alternating(self) -> float:
+        """Return what rounded positions make of accelerations, times the step's square, m."""
+        return self._stir * self.length
+
+    @property
     def resting(self) -> bool:
         """Return whether it moves by less than a billionth of its length in the longest step."""
         return self._rests(self.speed)
@@ -283,16 +288,6 @@ class FoundScales:
                 total += coupled[k] * (one[i - 3] * other[i - 1] + one[i - 1] * other[i - 3])
             found.append(total)
         return found
-
-    def alternating(self, rounding: float, alpha_f: float) -> float:
-        """Return what rounded positions make of accelerations, times the step's square, m.
-
-        Args:
-            rounding: of positions, over the largest one, in each step.
-            alpha_f: generalized-alpha's; its spectral radius is alpha_f / (1 - alpha_f).
-        """
-        radius = min(alpha_f / (1.0 - alpha_f), 0.95)
-        return rounding * self.length / (1.0 - radius) ** 2
 
 
 def weights(nodes: Sequence[Node], mass_matrix: Any) -> tuple[list[float], list[float]]:

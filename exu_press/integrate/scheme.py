@@ -62,7 +62,7 @@ class Newton:
         problem = task.problem
         self._solver, self._joints, self._scales = task.solver, problem.joints, task.scales
         self._mbs, self._reference = problem.mbs, problem.reference
-        self._part = BALANCE * task.tolerance
+        part = BALANCE
         self._smooth = problem.joints is None and not task.fixed
         self._rounding = task.tuning.rounding
         self._jacobian: FlexibleJacobian | LastingJacobian | None = None
@@ -70,7 +70,8 @@ class Newton:
             self._jacobian = FlexibleJacobian(task)
         elif not task.every_jacobian:
             self._jacobian = LastingJacobian(task)
-            self._part = BALANCE_KEPT * task.tolerance
+            part = BALANCE_KEPT
+        self._part = part * task.tolerance
         current = problem.current
         self._state, self._multipliers = current, current.multipliers
         self._positions, self._velocities = Floats(current.positions), Floats(current.velocities)

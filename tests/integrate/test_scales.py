@@ -124,13 +124,6 @@ def test_weights_of_nodes():
     assert masses == [3.0, 3.0, np.inf]
 
 
-def test_rounding_alternates_by_the_spectral_radius():
-    """rho = alpha_f / (1 - alpha_f), up to 0.95."""
-    found = scales(bodies(None), [2.0, 2.0, 0.5], [0.0] * 3)
-    assert found.alternating(1e-15, 0.8 / 1.8) == pytest.approx(1e-15 * 2.0 * 25.0)
-    assert found.alternating(1e-15, 0.5) == pytest.approx(1e-15 * 2.0 * 400.0)
-
-
 def test_forces_count_by_what_they_move_a_body():
     """A node of 2 kg, 2 kg and 0.5 kg m2, beside one of 8 kg and one without a say."""
     nodes = [*bodies(None), Node(3, "pin", 3, 1, mass=None, displacements=1)]

@@ -43,6 +43,17 @@ def test_the_first_step(scene, tolerance, changes, expected):
     assert task.first == pytest.approx(expected)
 
 
+@pytest.mark.parametrize(("radius", "times"), [(0.8, 25.0), (1.0, 400.0)])
+def test_rounding_alternates_by_the_spectral_radius(radius, times):
+    """By 1 / (1 - rho)^2, with rho up to 0.95."""
+    chosen = settings()
+    chosen.timeIntegration.generalizedAlpha.spectralRadius = radius
+    scales = Task(
+        Problem.of(IDEAL.build().mbs), chosen, None, ErrorScales(), SolverTuning(rounding=1e-15)
+    ).scales
+    assert scales.alternating == pytest.approx(1e-15 * scales.length * times)
+
+
 @pytest.mark.parametrize("name", ["slider-crank", "stick-slip"])
 def test_settings_are_put_back_even_after_an_error(name):
     mbs = exu.SystemContainer().AddSystem()

@@ -124,7 +124,7 @@ def run_command(command: str, place: Path, shortened: list[str] | None) -> list[
 def run(words: list[str], place: Path) -> str:
     """Run a process; return what it printed."""
     done = subprocess.run(
-        words, cwd=place, capture_output=True, text=True, timeout=900, check=False
+        words, cwd=place, capture_output=True, text=True, timeout=1800, check=False
     )
     assert done.returncode == 0, f"{words}\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}"
     return done.stdout

@@ -6,9 +6,11 @@ of the first one: with the user's own steps, with two finer ones as references, 
 and steps of at most a hundredth of the run, and with the tolerance and the user's steps as the
 largest. Each run is a process of its own. One of less than a second is run five times, and the
 least of its processor times counts, as a shared machine may be half as fast for tenths of a second.
-What is in OUT is not run again. A run with a tolerance may take ten times the user's own processor
-time, and the limit on top: what takes longer is far slower than fixed steps. All runs but coarser
-ones call a pre-step function on the grid of the user's steps, as it is a part of the system.
+Of scripts that vary parameters, the first ones count. What older scripts call by names that the
+installed Exudyn has no longer is put back. What is in OUT is not run again. A run with a tolerance
+may take ten times the user's own processor time, and the limit on top: what takes longer is far
+slower than fixed steps. All runs but coarser ones call a pre-step function on the grid of the
+user's steps, as it is a part of the system.
 
 With --equal-error, processor time is also compared with that of the fixed step of the same error,
 between a 64th of the user's steps and the references.
@@ -32,7 +34,8 @@ import numpy as np
 from exudyn_models.table import ENDED, Model, table
 
 FOLDERS = "main/pythonDev/Examples", "main/pythonDev/TestModels"
-ONE_RUN = Path(__file__).parent / "exudyn_models" / "one_run.py"
+HERE = Path(__file__).parent
+ONE_RUN = HERE / "exudyn_models" / "one_run.py"
 BUSY = 2.0
 """Times the limit, after which a run is ended on a machine with other work."""
 
@@ -71,11 +74,13 @@ def once(script, variant, file, limit):
     """Run a script in a process of its own, and return what it did."""
     file.unlink(missing_ok=True)
     said, status = "", "crashed"
+    paths = os.pathsep.join(filter(None, (str(HERE), os.environ.get("PYTHONPATH"))))
     one = subprocess.Popen(
-        [sys.executable, str(ONE_RUN), str(script), json.dumps(variant), str(file)],
+        [sys.executable, ONE_RUN, script, json.dumps(variant), file],
         stdin=subprocess.DEVNULL,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.PIPE,
+        env={**os.environ, "PYTHONPATH": paths, "MPLBACKEND": "Agg"},  # there may be no screen
         text=True,
         errors="replace",
         start_new_session=True,

@@ -1,7 +1,8 @@
 """Run one script of Exudyn's up to the end of its first dynamic solution, and keep what it did.
 
 A process of its own, as scripts print, open windows, crash and hang:
-python scripts/exudyn_models/one_run.py SCRIPT VARIANT FILE, with VARIANT as JSON:
+python scripts/exudyn_models/one_run.py SCRIPT VARIANT FILE, with the scripts' folder in PYTHONPATH
+and VARIANT as JSON:
 `tolerance` and `steps` (of the settings, at most), or `times`, by which the user's own steps are
 made finer.
 """
@@ -24,6 +25,7 @@ import exudyn.beams
 import exudyn.graphicsDataUtilities
 import exudyn.itemInterface
 import exudyn.plot
+import exudyn.processing
 import exudyn.rigidBodyUtilities
 import exudyn.solver
 import exudyn.utilities
@@ -33,6 +35,7 @@ import scipy.sparse.linalg
 from exu_press import InputError, solve_dynamic
 from exu_press.integrate.problem import Problem
 from exu_press.integrate.scales import weights
+from exudyn_models.renamed import put_back
 
 EXPORTED = (
     math,
@@ -127,7 +130,14 @@ def quiet():
         for name, value in vars(module).items():
             if not name.startswith("_") and not hasattr(builtins, name):
                 setattr(builtins, name, value)
+    put_back()
     builtins.np, builtins.exudyn = np, exu
+    variants = exudyn.processing.ProcessParameterList
+
+    def in_turn(function, sets, *args, **keys):  # else any of these may end first
+        return variants(function, sets, False)
+
+    exudyn.processing.ProcessParameterList = in_turn
     random.seed(1)
     np.random.seed(1)
     eigsh = scipy.sparse.linalg.eigsh  # from a start by chance, modes have their signs by chance

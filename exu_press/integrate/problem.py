@@ -54,6 +54,9 @@ ALONG_CABLES = {"JointSliding": 0, "JointSliding2D": 2}
 ON_CABLES = *ALONG_CABLES, "JointALEMoving2D"
 """Joints on cables: their data variables are the element they are on and their place, m."""
 
+COUNTS_TURNS = "ConnectorTorsionalSpringDamper"
+"""Connector whose data variable is its angle beyond a turn, which jumps nowhere."""
+
 RIGID = (
     "Ground",
     "Mass1D",
@@ -148,14 +151,17 @@ class Problem:
         joints: the system's clearance joints, if it has any.
         modes: whether flexible bodies vibrate at their own frequencies (`follow_modes`).
         modal_stiffness: whether all stiffness is that of flexible bodies' modes.
-        switching: whether there are data variables or general contacts, which Exudyn iterates on
-            after Newton's method.
-        switching_forces: whether these are more than those of joints on cables, as of contacts.
+        switching: whether objects or functions in Python have data variables, or there are general
+            contacts: Exudyn iterates on these after Newton's method.
+        switching_forces: whether other ones than joints on cables have, as contacts do.
         forces_in_python: whether Exudyn differentiates forces through functions in Python.
+        springs: whether there are springs of Exudyn's own that act; one may measure an angle only.
+        rigid_markers: whether rigid markers hold flexible bodies: constraints have other directions
+            in Newton's matrix than their positions, and velocities are no rates of these.
         untold_rates: whether Exudyn does not tell how fast some constraints are violated: where
             user functions prescribe offsets, whose rates they give not at all or only nearly, or
-            whole constraints, and at flexible bodies' rigid markers, whose velocities are no rates
-            of their positions.
+            whole constraints, where coordinates are squared (Exudyn squares their velocities), and
+            at rigid markers of flexible bodies.
         places: indices of the algebraic unknowns that are places along cables, m.
         length: largest displacement coordinate at the start, m; their last digits are rounded.
     """
@@ -173,6 +179,8 @@ class Problem:
     switching: bool
     switching_forces: bool
     forces_in_python: bool
+    springs: bool
+    rigid_markers: bool
     untold_rates: bool
     places: tuple[int, ...]
     length: float
@@ -214,11 +222,19 @@ class Problem:
             if kind in ALONG_CABLES
         )
         contacts = mbs.NumberOfGeneralContacts() > 0
-        of_joints = sum(
-            len(data.GetObjectLTGData(number))
-            for number, kind in enumerate(kinds)
-            if kind in ON_CABLES
-        )
+        of_objects = [len(data.GetObjectLTGData(number)) for number in range(len(kinds))]
+        switches = {
+            kind
+            for kind, count in zip(kinds, of_objects, strict=True)
+            if count and kind != COUNTS_TURNS
+        }
+        forces_in_python = any(map(_force_in_python, objects))
+        after_newton: Any = mbs.GetPostNewtonUserFunction()
+        in_python = forces_in_python or after_newton != 0
+        if in_python and data.DataSize() > sum(of_objects):
+            switches.add("Function")
+        markers = (mbs.GetMarker(number) for number in range(data.NumberOfMarkers()))
+        rigid_markers = any(marker["markerType"] == "SuperElementRigid" for marker in markers)
         nodes = _nodes(mbs, objects, bodies)
         reference = np.array(data.GetODE2Coordinates(exu.ConfigurationType.Reference))
         return cls(
@@ -232,10 +248,12 @@ class Problem:
             joints=joints if joints.joints else None,
             modes=modes is not None,
             modal_stiffness=modal,
-            switching=data.DataSize() > 0 or contacts,
-            switching_forces=data.DataSize() > of_joints or contacts,
-            forces_in_python=any(map(_force_in_python, objects)),
-            untold_rates=_untold_rates(mbs, objects),
+            switching=bool(switches) or contacts,
+            switching_forces=bool(switches - set(ON_CABLES)) or contacts,
+            forces_in_python=forces_in_python,
+            springs=any(map(_spring, objects)),
+            rigid_markers=rigid_markers,
+            untold_rates=rigid_markers or any(map(_untold_rate, objects)),
             places=places,
             length=_length(data, reference, nodes),
         )
@@ -251,11 +269,6 @@ class Problem:
         """Return whether all bodies are rigid, or points; what joins them need not be."""
         joints = "Connector", "Joint", "Contact"
         return all(kind in RIGID or kind.startswith(joints) for kind in self.kinds)
-
-    @property
-    def springs(self) -> bool:
-        """Return whether there are springs of Exudyn's own."""
-        return any("Spring" in kind for kind in self.kinds)
 
     @property
     def lubricated(self) -> bool:
@@ -276,14 +289,19 @@ def _force_in_python(item: dict[str, Any]) -> bool:
     )
 
 
-def _untold_rates(mbs: exu.MainSystem, objects: list[dict[str, Any]]) -> bool:
-    """Return whether Exudyn does not tell how fast some constraints are violated."""
-    data: Any = mbs.systemData
-    kinds = {mbs.GetMarker(number)["markerType"] for number in range(data.NumberOfMarkers())}
-    return "SuperElementRigid" in kinds or any(
-        item.get(name, 0) != 0
-        for item in objects
-        for name in ("constraintUserFunction", "offsetUserFunction")
+def _spring(item: dict[str, Any]) -> bool:
+    """Return whether an object is a spring, and acts."""
+    kind = item["objectType"]
+    acting = "stiffness", "damping", "torque", "springTorqueUserFunction"
+    return "Spring" in kind and (kind != COUNTS_TURNS or any(item[name] != 0 for name in acting))
+
+
+def _untold_rate(item: dict[str, Any]) -> bool:
+    """Return whether Exudyn does not tell how fast an object's constraint is violated."""
+    functions = "constraintUserFunction", "offsetUserFunction"
+    squares = "quadraticTermMarker0", "quadraticTermMarker1"
+    return any(item.get(name, 0) != 0 for name in functions) or any(
+        np.any(item.get(name, 0)) for name in squares
     )
 
 

@@ -21,9 +21,11 @@ __all__ = ["FlexibleJacobian", "LastingJacobian", "Newton"]
 BALANCE = 0.2
 """Part of the usual forces, over the tolerance, to which Newton's method balances them."""
 
-BALANCE_KEPT = 1e-3
-"""The same where a Jacobian is kept: an iteration leaves a hundredth of what it finds, metres of
-constraints too, which the next step takes for accelerations. A fresh one leaves next to nothing."""
+BALANCE_NEARLY = 1e-3
+"""The same without clearance joints where a Jacobian is kept, or constraints have other directions
+in it than their positions, as at rigid markers of flexible bodies: an iteration leaves a hundredth
+of what it finds, metres of constraints too, which the next step takes for accelerations. One with a
+fresh Jacobian leaves next to nothing."""
 
 LIGHTER = 10.0
 """Ratio of inertias up to which the same balance of forces does for all coordinates."""
@@ -62,7 +64,6 @@ class Newton:
         problem = task.problem
         self._solver, self._joints, self._scales = task.solver, problem.joints, task.scales
         self._mbs, self._reference = problem.mbs, problem.reference
-        part = BALANCE
         self._smooth = problem.joints is None and not task.fixed
         self._rounding = task.tuning.rounding
         self._jacobian: FlexibleJacobian | LastingJacobian | None = None
@@ -70,8 +71,8 @@ class Newton:
             self._jacobian = FlexibleJacobian(task)
         elif not task.every_jacobian:
             self._jacobian = LastingJacobian(task)
-            part = BALANCE_KEPT
-        self._part = part * task.tolerance
+        nearly = problem.joints is None and (problem.rigid_markers or not task.every_jacobian)
+        self._part = (BALANCE_NEARLY if nearly else BALANCE) * task.tolerance
         current = problem.current
         self._state, self._multipliers = current, current.multipliers
         self._positions, self._velocities = Floats(current.positions), Floats(current.velocities)

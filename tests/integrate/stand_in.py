@@ -39,6 +39,8 @@ def problem_at(nodes, velocities, accelerations=None, joints=None, length=1.0, p
         switching=False,
         switching_forces=False,
         forces_in_python=False,
+        springs=False,
+        rigid_markers=False,
         untold_rates=False,
         places=(),
         length=length,

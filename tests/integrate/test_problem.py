@@ -55,6 +55,41 @@ def test_a_mass_on_a_line_is_displaced_and_a_rotor_is_not():
     assert problem.length == 0.5
 
 
+def rotor_with_an_angle(**numbers):
+    """A rotor, and a connector that counts its turns in a data variable."""
+    mbs = exu.SystemContainer().AddSystem()
+    inertia = items.InertiaCuboid(1000.0, [0.1, 0.1, 0.1])
+    rotor = mbs.CreateRigidBody(inertia=inertia, initialAngularVelocity=[0.0, 0.0, 9.0])
+    ground = mbs.CreateGround()
+    ends = [mbs.AddMarker(items.MarkerBodyRigid(bodyNumber=body)) for body in (ground, rotor)]
+    turns = mbs.AddNode(items.NodeGenericData(initialCoordinates=[0], numberOfDataCoordinates=1))
+    connector = items.TorsionalSpringDamper(markerNumbers=ends, nodeNumber=turns, **numbers)
+    mbs.AddObject(connector)
+    mbs.Assemble()
+    return mbs
+
+
+@pytest.mark.parametrize(
+    ("numbers", "acts"),
+    [({}, False), ({"stiffness": 1.0}, True), ({"damping": 1.0}, True), ({"torque": 1.0}, True)],
+)
+def test_a_connector_that_counts_turns_switches_nothing(numbers, acts):
+    problem = Problem.of(rotor_with_an_angle(**numbers))
+    assert not problem.switching and not problem.switching_forces
+    assert problem.springs is acts
+
+
+def test_data_variables_switch_where_something_could_use_them():
+    mbs = exu.SystemContainer().AddSystem()
+    node = mbs.AddNode(items.Node1D(referenceCoordinates=[0.5]))
+    mbs.AddObject(items.ObjectMass1D(mass=1.0, nodeNumber=node))
+    mbs.AddNode(items.NodeGenericData(initialCoordinates=[0], numberOfDataCoordinates=1))
+    mbs.Assemble()
+    assert not Problem.of(mbs).switching
+    mbs.SetPostNewtonUserFunction(lambda mbs, time: [0.0, -1.0])
+    assert Problem.of(mbs).switching
+
+
 def test_nodes_that_are_not_named_have_no_say():
     problem = problem_of("slider-crank", {1: ("rod", 4.0)})
     assert [node.mass for node in problem.nodes] == [np.inf, 4.0, np.inf]

@@ -22,7 +22,7 @@ from exu_press.integrate.settings import Task
 from exu_press.numerics.arrays import Array
 from exu_press.numerics.linear import Equations
 
-__all__ = ["Constraints", "normalised"]
+__all__ = ["FAR_OFF", "Constraints", "normalised"]
 
 Flags = NDArray[np.bool_]
 
@@ -32,6 +32,10 @@ a hundredth of it made 5e-11 m of the last digits of positions, which contacts t
 
 REDUNDANT = 1e-8
 """Singular value of constraints' directions of length 1, below which one repeats others."""
+
+FAR_OFF = 0.1
+"""Violation at the start, m over the length or rad, that is no matter of a drawing's digits: which
+place is meant is not known."""
 
 NEARBY = 1e-6
 """Change of a place along a cable that tells what constraints make of it, over the length."""
@@ -57,7 +61,7 @@ class Constraints:
         self._current, self._start = problem.current, problem.start
         self._places = list(problem.places)
         self._untold = problem.untold_rates or bool(self._places)  # Exudyn has none for these
-        self._nearby = NEARBY * problem.length
+        self._length, self._nearby = problem.length, NEARBY * problem.length
         self._of_velocities: Flags | None = None
 
     @property
@@ -105,6 +109,17 @@ class Constraints:
         """Return by how much each is violated in the current state."""
         with self._without_multipliers():
             return self._evaluated()
+
+    def far_off(self) -> str:
+        """Return what the current positions are far off, and by how much; nothing otherwise."""
+        found = np.where(self.of_velocities(), 0.0, np.abs(self.violated()))
+        worst = int(found.argmax())
+        if found[worst] <= FAR_OFF * max(1.0, self._length):
+            return ""
+        mbs, data = self._mbs, self._data
+        owner = next(i for i in range(data.NumberOfObjects()) if worst in data.GetObjectLTGAE(i))
+        item = mbs.GetObject(owner)
+        return f"{found[worst]:.2g} off what {item['name']} ({item['objectType']}) holds, m or rad"
 
     def _evaluated(self, *, velocities: bool = False) -> Array:
         """Return what Exudyn tells of the current state; or its rate, if it has one."""

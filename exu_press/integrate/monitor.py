@@ -60,6 +60,7 @@ class Monitor:
         stalled: why the motion that was watched came to its end, or nothing.
         without_mass: whether Exudyn found no accelerations to start with, as coordinates have no
             mass.
+        far_off: what the start is too far off to be fitted, or nothing.
     """
 
     def __init__(
@@ -91,7 +92,7 @@ class Monitor:
         """
         self.tries = self.steps = 0
         self.interrupted = self.over_budget = False
-        self.go_on, self.without_mass = True, False
+        self.go_on, self.without_mass, self.far_off = True, False, ""
         # velocities, accelerations and their rate, which have jumped in the step last tried
         self._jump: tuple[Array, Array, Array] | None = None
         self._jumped = False  # in the last accepted step
@@ -281,6 +282,10 @@ class Monitor:
             if not np.isfinite(self._accelerations).all():
                 self.without_mass = True
                 return False
+            if self.constraints.count and not self._task.fixed:
+                self.far_off = self.constraints.far_off()
+                if self.far_off:
+                    return False
             self._begin()
         else:
             self.steps += 1

@@ -17,6 +17,7 @@ import exudyn as exu
 import numpy as np
 
 from exu_press.errors import InputError
+from exu_press.integrate.constraints import FAR_OFF
 from exu_press.integrate.controller import Controller
 from exu_press.integrate.monitor import Monitor
 from exu_press.integrate.problem import Node, Problem
@@ -252,8 +253,9 @@ def solve_dynamic(
 
     Raises:
         InputError: the system is not assembled, there is nothing to solve, the settings ask for
-            what has no error estimate, or a joint starts with a film's surfaces in touch or a
-            contact deeper than its laws hold; the system is left as it was.
+            what has no error estimate, a joint starts with a film's surfaces in touch or a
+            contact deeper than its laws hold, or the start is far off a constraint; the system is
+            left as it was.
         exudyn.ExudynError: a user function failed.
     """
     refuse_unusable(settings, tolerance, sample)
@@ -297,6 +299,11 @@ def solve_dynamic(
         wall_time = clock.perf_counter() - begun
         reached = problem.data.GetTime()
         progress.update(reached - task.start)
+    if monitor.far_off:
+        raise InputError(
+            f"the start is {monitor.far_off}: allowed are {FAR_OFF} m or rad, or a tenth of the "
+            "system's length; place the bodies so that it fits"
+        )
     if update_initial_values:
         _start_from_here(mbs)
     status, reason = _how_it_ended(task, monitor, words, time=reached, failure=failure)

@@ -9,7 +9,7 @@ import pytest
 from patched import PATCHED
 from scipy.integrate import solve_ivp
 
-from exu_press import Scene, SolverStatus, simulate, solve_dynamic
+from exu_press import InputError, Scene, SolverStatus, simulate, solve_dynamic
 from exu_press.integrate.step_change import StepChange
 from exu_press.integrate.stepping import FixedSteps, StepControl
 from exudyn_examples import EXAMPLES
@@ -131,6 +131,89 @@ def test_a_drawing_of_few_digits_is_put_together():
     assert np.hypot(*place) == pytest.approx(1.0, abs=1e-9)
     assert place @ velocity == pytest.approx(0.0, abs=1e-6)
     assert outcome.steps < 200
+
+
+def test_a_start_that_fits_its_constraints_deforms_nothing():
+    """Off by a millimetre: with the first mass alone moved, both would vibrate with 1 m/s.
+
+    The spring pushes within a step of 5 ms with 25 times the masses' inertia, and takes up 1/26.
+    """
+    mbs = exu.SystemContainer().AddSystem()
+    nodes = [mbs.AddNode(items.Node1D(referenceCoordinates=[x])) for x in (1e-3, 1.0)]
+    for node in nodes:
+        mbs.AddObject(items.ObjectMass1D(mass=1.0, nodeNumber=node))
+    held, far, still = (
+        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=0))
+        for node in (*nodes, mbs.AddNode(items.NodePointGround()))
+    )
+    mbs.AddObject(items.ObjectConnectorCoordinate(markerNumbers=[still, held], offset=-1e-3))
+    spring = items.ObjectConnectorCoordinateSpringDamper(markerNumbers=[held, far], stiffness=1e6)
+    mbs.AddObject(spring)
+    mbs.Assemble()
+    (place, _, _), outcome, found = states(mbs, max_steps=2000)
+    assert place == pytest.approx([0.0, 1.0 - 1e-3], abs=4e-5)
+    assert outcome.end_time > 1e-3
+    assert max(np.abs(velocity).max() for _, velocity, _ in found) < 0.04
+
+
+def test_a_circle_by_squared_coordinates():
+    """Exudyn squares their velocities, too, and tells that for the rate of the constraint."""
+    mbs = exu.SystemContainer().AddSystem()
+    node = mbs.AddNode(
+        items.NodePoint2D(referenceCoordinates=[1.0, 0.0], initialVelocities=[0.0, -1.0])
+    )
+    mbs.AddObject(items.ObjectMassPoint2D(nodeNumber=node, mass=1.0))
+    at = mbs.AddMarker(items.MarkerNodePosition(nodeNumber=node))
+    mbs.AddLoad(items.LoadForceVector(markerNumber=at, loadVector=[0.0, -9.81, 0.0]))
+    still = mbs.AddNode(items.NodePointGround())
+    ends = [mbs.AddMarker(items.MarkerNodeCoordinates(nodeNumber=end)) for end in (still, node)]
+    mbs.AddObject(
+        items.ObjectConnectorCoordinateVector(
+            markerNumbers=ends,
+            scalingMarker0=[],
+            scalingMarker1=[],
+            quadraticTermMarker0=[],
+            quadraticTermMarker1=np.array([[1.0, 1.0]]),
+            offset=[1.0],
+        )
+    )
+    mbs.Assemble()
+    _, outcome, found = states(mbs)
+    assert outcome.status is SolverStatus.COMPLETED
+    energies = [0.5 * v @ v + 9.81 * q[1] for q, v, _ in found]
+    assert energies == pytest.approx(np.full(len(found), 0.5), abs=1e-2)
+    assert outcome.steps < 500
+
+
+@pytest.mark.parametrize("off", [0.02, 0.08])
+def test_a_joint_in_space_that_starts_off_is_put_together(off):
+    """Its directions in Exudyn's Jacobian are not those of its violation: it takes iterations."""
+    mbs = exu.SystemContainer().AddSystem()
+    turned = items.RotationMatrixX(0.6) @ items.RotationMatrixY(0.5) @ items.RotationMatrixZ(off)
+    body = mbs.CreateRigidBody(
+        inertia=items.InertiaCuboid(1000.0, [0.3, 0.2, 0.1]),
+        referenceRotationMatrix=turned,
+        initialAngularVelocity=[1.0, 2.0, 3.0],
+    )
+    bodies = mbs.CreateGround(), body
+    ends = [mbs.AddMarker(items.MarkerBodyRigid(bodyNumber=number)) for number in bodies]
+    joint = items.ObjectJointGeneric(markerNumbers=ends, constrainedAxes=[1, 1, 1, 0, 0, 1])
+    number = mbs.AddObject(joint)
+    mbs.Assemble()
+    _, outcome, _ = states(mbs)
+    assert outcome.status is SolverStatus.COMPLETED
+    assert outcome.steps < 400
+    angles = mbs.GetObjectOutput(number, exu.OutputVariableType.Rotation)
+    assert np.sin(angles[2]) == pytest.approx(0.0, abs=1e-6)
+
+
+def test_a_start_that_is_far_off_is_refused():
+    """Which place is meant is not known."""
+    mbs = swing(place=(0.6, 0.6))
+    before = mbs.systemData.GetODE2Coordinates_t()
+    with pytest.raises(InputError, match=r"0\.15 off what .* \(ConnectorDistance\) holds.*place"):
+        states(mbs)
+    assert mbs.systemData.GetODE2Coordinates_t().tolist() == before.tolist()
 
 
 def test_a_start_that_fits_is_left_alone():

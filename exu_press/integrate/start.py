@@ -24,6 +24,10 @@ FITS = 1e-14, 1e-6, 1e-6
 are moved: differences are rounded. Forces of constraints go as violations over the square of a
 step: on a ton, 1e-13 m are 20 kN in a step of 0.1 us."""
 
+DEFORMS = 1e-8
+"""Violation at the start, over the length, from which bodies are not to be deformed to fit: less
+is rounding, and makes speeds of micrometres a second."""
+
 SHRINKS = 0.5
 """Part of what is missing that an iteration leaves at most; more is rounding."""
 
@@ -177,7 +181,7 @@ def fit_start(task: Task, constraints: Constraints) -> tuple[Array, Array] | Non
     if not constraints.count or not task.problem.nodes:
         return None
     start = _Start(task, constraints, task.start)
-    length, matrix, last = task.problem.length or 1.0, None, math.inf
+    length, last, deforms = task.problem.length or 1.0, math.inf, False
     for i in range(START_ITERATIONS):
         violated = np.where(start.held, start.violated(), 0.0)
         size = float(np.abs(violated).max())
@@ -187,8 +191,9 @@ def fit_start(task: Task, constraints: Constraints) -> tuple[Array, Array] | Non
         if i:
             task.solver.ComputeMassMatrix(task.problem.mbs)
             start.turn()
-        if task.problem.joints is None:  # which remember where they were asked
-            matrix = start.stiffened(task.largest)
+        # clearance joints remember where they were asked
+        deforms = deforms or (task.problem.joints is None and size > DEFORMS * length)
+        matrix = start.stiffened(task.largest) if deforms else None
         start.q = start.q + start.undone(violated, matrix)
     return start.a, start.fit_rates(moved=last < math.inf)
 

@@ -22,7 +22,7 @@ from exu_press.integrate.settings import Task
 from exu_press.numerics.arrays import Array
 from exu_press.numerics.linear import Equations
 
-__all__ = ["FAR_OFF", "Constraints", "normalised"]
+__all__ = ["Constraints", "normalised"]
 
 Flags = NDArray[np.bool_]
 
@@ -111,7 +111,7 @@ class Constraints:
             return self._evaluated()
 
     def far_off(self) -> str:
-        """Return what the current positions are far off, and by how much; nothing otherwise."""
+        """Return what the start is far off, by how much and the cure; nothing where it is not."""
         found = np.where(self.of_velocities(), 0.0, np.abs(self.violated()))
         worst = int(found.argmax())
         if found[worst] <= FAR_OFF * max(1.0, self._length):
@@ -119,7 +119,11 @@ class Constraints:
         mbs, data = self._mbs, self._data
         owner = next(i for i in range(data.NumberOfObjects()) if worst in data.GetObjectLTGAE(i))
         item = mbs.GetObject(owner)
-        return f"{found[worst]:.2g} off what {item['name']} ({item['objectType']}) holds, m or rad"
+        return (
+            f"the start is {found[worst]:.2g} off what {item['name']} ({item['objectType']}) "
+            f"holds, m or rad: allowed are {FAR_OFF} m or rad, or a tenth of the system's length; "
+            "place the bodies so that it fits"
+        )
 
     def _evaluated(self, *, velocities: bool = False) -> Array:
         """Return what Exudyn tells of the current state; or its rate, if it has one."""

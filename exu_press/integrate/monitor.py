@@ -60,7 +60,7 @@ class Monitor:
         stalled: why the motion that was watched came to its end, or nothing.
         without_mass: whether Exudyn found no accelerations to start with, as coordinates have no
             mass.
-        far_off: what the start is too far off to be fitted, or nothing.
+        far_off: why the start is too far off its constraints to be fitted, or nothing.
     """
 
     def __init__(

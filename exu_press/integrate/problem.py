@@ -231,8 +231,7 @@ class Problem:
         forces_in_python = any(map(_force_in_python, objects))
         after_newton: Any = mbs.GetPostNewtonUserFunction()
         in_python = forces_in_python or after_newton != 0
-        if in_python and data.DataSize() > sum(of_objects):
-            switches.add("Function")
+        more_switches = contacts or (in_python and data.DataSize() > sum(of_objects))
         markers = (mbs.GetMarker(number) for number in range(data.NumberOfMarkers()))
         rigid_markers = any(marker["markerType"] == "SuperElementRigid" for marker in markers)
         nodes = _nodes(mbs, objects, bodies)
@@ -248,8 +247,8 @@ class Problem:
             joints=joints if joints.joints else None,
             modes=modes is not None,
             modal_stiffness=modal,
-            switching=bool(switches) or contacts,
-            switching_forces=bool(switches - set(ON_CABLES)) or contacts,
+            switching=bool(switches) or more_switches,
+            switching_forces=bool(switches - set(ON_CABLES)) or more_switches,
             forces_in_python=forces_in_python,
             springs=any(map(_spring, objects)),
             rigid_markers=rigid_markers,

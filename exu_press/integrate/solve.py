@@ -17,7 +17,6 @@ import exudyn as exu
 import numpy as np
 
 from exu_press.errors import InputError
-from exu_press.integrate.constraints import FAR_OFF
 from exu_press.integrate.controller import Controller
 from exu_press.integrate.monitor import Monitor
 from exu_press.integrate.problem import Node, Problem
@@ -300,10 +299,7 @@ def solve_dynamic(
         reached = problem.data.GetTime()
         progress.update(reached - task.start)
     if monitor.far_off:
-        raise InputError(
-            f"the start is {monitor.far_off}: allowed are {FAR_OFF} m or rad, or a tenth of the "
-            "system's length; place the bodies so that it fits"
-        )
+        raise InputError(monitor.far_off)
     if update_initial_values:
         _start_from_here(mbs)
     status, reason = _how_it_ended(task, monitor, words, time=reached, failure=failure)

@@ -88,9 +88,9 @@ class _Start:
         for _ in range(START_ITERATIONS):
             change = self.undone(missing(vector))
             size = self._norm(change)
-            if size <= fits * self._norm(vector + change) or size > SHRINKS * last:
+            if size <= fits * self._norm(vector - change) or size > SHRINKS * last:
                 break
-            vector, last = vector + change, size
+            vector, last = vector - change, size
         return vector
 
     def stiffened(self, period: float) -> Array:
@@ -112,8 +112,11 @@ class _Start:
         return self._constraints.matrix(norm, self._directions)
 
     def undone(self, violated: Array, matrix: Array | None = None) -> Array:
-        """Return the least change that undoes violations; in the kinetic norm, unless told else."""
-        return -self._solved(np.zeros(len(self.q)), violated, matrix)
+        """Return the least change to take away, that undoes violations, as `Constraints.undone`.
+
+        In the kinetic norm, or with that of another matrix.
+        """
+        return self._solved(np.zeros(len(self.q)), violated, matrix)
 
     def pushed(self) -> Array:
         """Return the accelerations of the forces in the state, if constraints stood still."""
@@ -142,7 +145,7 @@ class _Start:
         self.v = self.fitted(self.v, of_velocities, FITS[1])
         self.a = self.fitted(self.pushed() if moved else accelerations, of_accelerations, FITS[2])
         _, second, third = self.rates()
-        rate = self.undone(np.where(held, third, second))
+        rate = -self.undone(np.where(held, third, second))
         self.put()
         return rate
 
@@ -194,7 +197,7 @@ def fit_start(task: Task, constraints: Constraints) -> tuple[Array, Array] | Non
         # clearance joints remember where they were asked
         deforms = deforms or (task.problem.joints is None and size > DEFORMS * length)
         matrix = start.stiffened(task.largest) if deforms else None
-        start.q = start.q + start.undone(violated, matrix)
+        start.q = start.q - start.undone(violated, matrix)
     return start.a, start.fit_rates(moved=last < math.inf)
 
 

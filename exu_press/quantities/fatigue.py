@@ -34,8 +34,9 @@ def _of_cycles(
     """Return a reader of the cycles of a body's stress in the last whole revolutions.
 
     Cycles of the stress at the most stressed place are counted by ASTM E1049-85, as of a history
-    that repeats: from its largest value on. Their mean is not regarded, and no amplitude is too
-    small to count (elementary Miner's rule).
+    that repeats: from its largest value on. Its first instant is its last one, and counts once.
+    The cycles' mean is not regarded, and no amplitude is too small to count (elementary Miner's
+    rule).
 
     Args:
         read: of (amplitude, Pa, number) of the cycles, the number of revolutions and the body.
@@ -45,8 +46,8 @@ def _of_cycles(
         stress = run.channel(f"{body}_stress")
         if run.whole is None or stress is None:
             return None
-        inside = run.time >= run.whole
-        angle, stress = run["crank_angle"][inside], stress[inside]
+        angle = run["crank_angle"][run.time >= run.whole]
+        stress = stress[run.time > run.whole]
         revolutions = float(angle[-1] - angle[0]) / (2.0 * math.pi)
         first = int(np.argmax(stress))
         cycles = require_rainflow().extract_cycles([*stress[first:], *stress[: first + 1]])

@@ -40,10 +40,6 @@ DOUBTED = 2.0
 """Largest error of a step whose motion may be rounding: one a little shorter tells, and stirs less.
 """
 
-KEPT = 0.2
-"""Error up to which Newton's matrix of an earlier step does, which lets more through by what has
-turned since: from there on steps may grow."""
-
 TURNS_BY_ROUNDING = 10.0
 """Over the smallest step: in shorter ones rounding turns the forces of films."""
 
@@ -120,7 +116,7 @@ class StepError:
             if not self._matrix.serves(step):
                 self._matrix.renew()
             change, error = self._filtered(bodies, step)
-            if error > KEPT and self._matrix.renew():
+            if error > 1.0 and self._matrix.renew():
                 change, error = self._filtered(bodies, step)
             if error > 1.0 and self._joints:
                 left = self._matrix.left_in_constraints()

@@ -82,7 +82,8 @@ class SolverTuning:
         factor_max: by what a step is lengthened at most. Steps that grow by half swing about what
             their errors ask for, and are a third more with a film.
         factor_max_at_start: the same without impacts, until an error first limits a step: the first
-            one is a guess, and each change of a step takes as long as several steps.
+            one is a guess, and each change of a step takes as long as several steps. What such a
+            change leaves is amplified longest: fivefold ones made twice the error of a chain.
         first_step_of_film: first step over the largest one with a film, which takes up its load
             within a microsecond or so: a longer step leaves an overshoot of 3 % in the first loads.
         many_steps: times tolerance^(-1/2), the number of steps of a run from which on each may
@@ -116,7 +117,7 @@ class SolverTuning:
 
     safety: float = 0.4
     factor_max: float = 1.2
-    factor_max_at_start: float = 5.0
+    factor_max_at_start: float = 3.0
     first_step_of_film: float = 1e-4
     many_steps: float = 10.0
     foreseen: float = 3.0

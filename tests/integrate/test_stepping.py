@@ -190,7 +190,7 @@ def test_steps_grow_slowly_to_what_their_errors_allow():
 
 @PATCHED
 def test_first_steps_without_impacts_grow_until_an_error_limits_one():
-    sizes, repeated = steps(good=1e-3, first=8e-7, end=0.1, impacts=False)
+    sizes, repeated = steps(good=1e-3, first=5e-6, end=0.1, impacts=False)
     tuning = SolverTuning()
     growth = np.array(sizes[1:-2]) / sizes[:-3]
     aim = tuning.safety ** (1.0 / 3.0) * 1e-3

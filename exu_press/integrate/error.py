@@ -69,8 +69,8 @@ class StepError:
     def __init__(self, task: Task, settling: Settling) -> None:
         """Look at what is solved, and at switches that do not settle."""
         problem, tolerance, tuning = task.problem, task.tolerance, task.tuning
-        self._task, self._solver, self._scales = task, task.solver, task.scales
-        self._matrix = NewtonMatrix(task)
+        self._task, self._scales = task, task.scales
+        self._matrix, self._iteration = NewtonMatrix(task), task.solver.it
         self._velocities = problem.current.velocities
         self._accelerations = problem.current.accelerations
         self._tolerance, self._switching = tolerance, problem.switching
@@ -182,7 +182,7 @@ class StepError:
     @property
     def _has_switched(self) -> bool:
         """Return whether Exudyn iterated on contacts or friction; once without a switch."""
-        return bool(self._solver.it.discontinuousIteration > 1)
+        return bool(self._iteration.discontinuousIteration > 1)
 
     def of_switch(self, step: float) -> float:
         """Return the error of a step in which Exudyn's contacts or friction have switched.
@@ -223,6 +223,7 @@ class StepError:
         self._envelope.accept()
         if self._jumped or (self._forces_jump and (shortened or self._has_switched)):
             self._bodies.jumped()
+            self._envelope = Envelope()  # a jump is no part of a cycle
         self._jumped = False
         self._doubted = 0.0, 0.0
         if self._turning is not None:

@@ -19,6 +19,10 @@ MOVES = 1e-18
 """Part of the kinetic energy that first accelerations will make of coordinates that are no
 displacements, above which these move."""
 
+LAST_DIGIT = 1e-17
+"""Part of a system's length that it moves by in a hundredth of the run, where the motion of the
+whole run is one of last digits."""
+
 LEAST_ENERGY = 1e-4
 """Part of the largest kinetic energy that each node has at least as a scale: of a rotor that
 another one is about to set in motion, no step was small enough for its own."""
@@ -137,6 +141,8 @@ class FoundScales:
         self.update(velocities, accelerations)
         if not known and self.speed > 0.0:  # as far as it gets in ten runs of a hundred steps
             self.length = min(1.0, 1e3 * self.speed * self._longest)
+        if self.rest and self.speed > 0.0:
+            self.rounded = self.speed * self._longest <= LAST_DIGIT * self.length
         if self.rest and given == (None, None):
             weighed = math.hypot(*(mass for mass in masses if mass < math.inf))
             self.force = max(self.force, weighed * self._stir * known / self._longest**2)

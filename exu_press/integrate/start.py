@@ -239,7 +239,7 @@ def start_rates(task: Task, time: float) -> None:
         problem.data.SetTime(time)
         task.solver.ComputeODE1RHS(problem.mbs)
         problem.data.SetTime(now)
-        rates = np.array(task.solver.GetSystemResidual())[before : before + size]
+        rates = task.solver.GetSystemResidual()[before : before + size]
         problem.current.rates[:] = problem.start.rates[:] = rates
 
 

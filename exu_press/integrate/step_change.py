@@ -28,6 +28,9 @@ ROUNDED = 0.01
 CHANGE_ITERATIONS = 3
 """To velocities and positions that fit the constraints; each leaves some hundredths."""
 
+AWAY = 10.0
+"""Over the first change, all of them together where they lead away from the constraints."""
+
 
 class StepChange:
     """Carries generalized-alpha over a change of step without ringing.
@@ -86,12 +89,15 @@ class StepChange:
         self._start: float | None = None  # of the step under way, s
         self._last: float | None = None  # size of the last accepted step, s
         self._fits = self._leaves = 0.0  # the step that constrained velocities fit, now and next
-        self._state: list[Array] = []  # at the step's beginning, before any shift
-        self._offsets: tuple[Array, Array] | None = None
-        self._per_square: Array | None = None  # `KeptEnergy` of that state
-        self._mean: Array | None = None  # acceleration of the first step
+        # alpha_m, alpha_f, beta and gamma, which the solver has from its first step on
+        self._method: tuple[float, float, float, float] | None = None
+        self._state: list[list[float]] = []  # at the step's beginning, before any shift
+        # of it: what constraints forbid of positions and velocities, and `KeptEnergy`
+        self._offsets: list[list[float]] | None = None
+        self._per_square: list[list[float]] | None = None
+        self._mean: list[float] | None = None  # acceleration of the first step
         # accelerations at the start, and what of their rate constraints prescribe
-        self._given: tuple[Array, Array] | None = None
+        self._given: tuple[list[float], list[float]] | None = None
 
     def start_over(self, step: float) -> bool:
         """Return whether a step (s) is to be repeated from its own mean acceleration.
@@ -101,7 +107,7 @@ class StepChange:
         if not self._film_waits:
             return False
         self._film_waits = False
-        self._mean = (self._current.velocities - self._at_start.velocities) / step
+        self._mean = ((self._current.velocities - self._at_start.velocities) / step).tolist()
         return True
 
     def start_from(self, accelerations: Array, rate: Array) -> None:
@@ -111,7 +117,7 @@ class StepChange:
             accelerations: where it starts.
             rate: prescribed rate of change of constraints.
         """
-        self._given = accelerations, rate
+        self._given = accelerations.tolist(), rate.tolist()
         self._start, self._leaves = None, 0.0
 
     def before_try(self, start: float, step: float) -> None:
@@ -148,11 +154,9 @@ class StepChange:
         Newton's method may start anew, from what Exudyn keeps of the step's beginning; so that is
         shifted as well, by what is missing there.
         """
-        solver, start = self._solver, self._at_start
+        solver = self._solver
         if not self._state:
-            self._state = [
-                np.array(view) for view in (start.positions, start.velocities, start.accelerations)
-            ]
+            self._state = [floats.get() for floats in self._before]
         q, v, a = self._state
         if abs(ratio - 1.0) > SAME:
             part = step / self._fits
@@ -160,34 +164,41 @@ class StepChange:
                 self._leaves = step
                 if self._constraints.count:
                     if self._offsets is None:
-                        self._offsets = self._violations()
-                    q = q - self._offsets[0]
-                    v = v - (1.0 - part * part) * self._offsets[1]
+                        self._offsets = self._violations().tolist()
+                    of_q, of_v = self._offsets
+                    more = 1.0 - part * part
+                    q = [q[i] - of_q[i] for i in range(len(q))]
+                    v = [v[i] - more * of_v[i] for i in range(len(v))]
                 if self._per_square is not None and self._last is not None:
-                    changes = (step * step - self._last * self._last) * self._per_square
-                    v, a = v + changes[0], a + changes[1]
-        at_start = solver.GetStartOfStepStateAAlgorithmic()
-        wanted = a + ratio * (at_start - self._state[2])
+                    of_v, of_a = self._per_square
+                    more = step * step - self._last * self._last
+                    v = [v[i] + more * of_v[i] for i in range(len(v))]
+                    a = [a[i] + more * of_a[i] for i in range(len(a))]
+        at_start: list[float] = solver.GetStartOfStepStateAAlgorithmic().tolist()
+        before = self._state[2]
+        wanted = [a[i] + ratio * (at_start[i] - before[i]) for i in range(len(a))]
+        if self._method is None:
+            self._method = solver.alphaM, solver.alphaF, solver.newmarkBeta, solver.newmarkGamma
+        alpha_m, alpha_f, beta, gamma = self._method
         if self._last is None and self._mean is not None:
             a = wanted = self._mean
         elif self._last is None and self._given is not None:
             a, rate = self._given
-            settled = solver.alphaM - solver.alphaF
-            wanted = a + settled * step * rate
-            v = v + (1.0 / 6.0 - solver.newmarkBeta - 0.5 * settled) * step * step * rate
+            settled = alpha_m - alpha_f
+            by_a, by_v = settled * step, (1.0 / 6.0 - beta - 0.5 * settled) * step * step
+            wanted = [a[i] + by_a * rate[i] for i in range(len(a))]
+            v = [v[i] + by_v * rate[i] for i in range(len(v))]
         # q1 = q + h v + h^2 (1/2 - beta) a + h^2 beta a1 and v1 = v + h (1 - gamma) a + h gamma a1
         # with (1 - alpha_m) a1 + alpha_m a = (1 - alpha_f) a_true1 + alpha_f a_true
-        gamma = solver.newmarkGamma
-        by_q = step * step * (gamma - 0.5 - solver.newmarkBeta)
-        by_v, by_a = step * (1.0 - gamma), -solver.alphaM / solver.alphaF
-        shifted = q.tolist(), v.tolist(), a.tolist()
-        for state, there in (
-            (self._now, wanted - solver.GetAAlgorithmic()),
-            (self._before, wanted - at_start),
-        ):
-            missing: list[float] = there.tolist()
-            for values, by, floats in zip(shifted, (by_q, by_v, by_a), state, strict=True):
-                floats.set([values[i] + by * missing[i] for i in range(len(missing))])
+        by = step * step * (gamma - 0.5 - beta), step * (1.0 - gamma), -alpha_m / alpha_f
+        shifted = [q, v, a]
+        now: list[float] = solver.GetAAlgorithmic().tolist()
+        for state, there in ((self._now, now), (self._before, at_start)):
+            for k in range(3):
+                values, part = shifted[k], by[k]
+                state[k].set(
+                    [values[i] + part * (wanted[i] - there[i]) for i in range(len(wanted))]
+                )
 
     def _matrices(self) -> tuple[Array, Array, Array]:
         """Return the last Jacobian, the inertia in it, and the constraints' directions."""
@@ -199,8 +210,8 @@ class StepChange:
         inertia = inertia_factor(solver) * solver.GetSystemMassMatrix()
         return jacobian[:size, :size], inertia, directions
 
-    def _violations(self) -> tuple[Array, Array]:
-        """Return what of positions and velocities the constraints forbid, in Newton's norm.
+    def _violations(self) -> Array:
+        """Return what of positions and velocities constraints forbid, (2, n), in Newton's norm.
 
         Of all changes that mend it the one that the last Jacobian resists least, as in an iteration
         of Newton's method: that counts what masses weigh, and what films and contacts would answer
@@ -211,23 +222,28 @@ class StepChange:
         """
         forces, inertia, directions = self._matrices()
         directions, lengths = normalised(directions)
+        state = np.array(self._state)
+        q, v = state[:2]
         if self._energy is not None:
             undone = self._constraints.undone(inertia, directions)
             if self._last is not None:
-                q, v, a = self._state
-                held = undone(directions @ np.array([v, a]).T)
-                self._per_square = self._energy.per_square(self._last, q, v, inertia, held)
+                held = undone(directions @ state[1:].T)
+                changes = self._energy.per_square(self._last, q, v, inertia, held)
+                self._per_square = changes.tolist()
             if not self._springs:
-                return self._least(undone, lengths)
+                return self._least(undone, lengths, q, v)
         undone = self._constraints.undone(0.5 * (forces + forces.T), directions)
-        found = self._least(undone, lengths)
+        found = self._least(undone, lengths, q, v)
         for change in found:
             if change @ forces @ change < MORE * (change @ inertia @ change):
-                return self._least(self._constraints.undone(inertia, directions), lengths)
+                undone = self._constraints.undone(inertia, directions)
+                return self._least(undone, lengths, q, v)
         return found
 
-    def _least(self, undone: Callable[[Array], Array], lengths: Array) -> tuple[Array, Array]:
-        """Return the least changes of positions and velocities that the constraints ask for.
+    def _least(
+        self, undone: Callable[[Array], Array], lengths: Array, positions: Array, velocities: Array
+    ) -> Array:
+        """Return the least changes of positions and velocities that constraints ask for, (2, n).
 
         The directions in which constraints act are those of the last Jacobian, perhaps a degree of
         the crank away; how far they are violated is of this very state, so a few turns lead to it.
@@ -235,14 +251,17 @@ class StepChange:
         Args:
             undone: changes that undo violations, of constraints with directions of length 1.
             lengths: of the directions, (count,).
+            positions: at the step's beginning, (n,).
+            velocities: likewise, (n,).
         """
         position, velocity = self._current.positions, self._current.velocities
         now = self._data.GetTime()
         self._data.SetTime(self._start)
         found, violated = np.zeros((len(position), 2)), np.zeros((len(lengths), 2))
+        largest = []  # change of positions and velocities, turn by turn
         for _ in range(CHANGE_ITERATIONS):
-            position[:] = self._state[0] - found[:, 0]
-            velocity[:] = self._state[1] - found[:, 1]
+            position[:] = positions - found[:, 0]
+            velocity[:] = velocities - found[:, 1]
             violated[:, 0] = self._constraints.violated()
             violated[:, 1] = self._constraints.violated_rates(AHEAD * self._fits)
             violated /= lengths[:, None]
@@ -250,7 +269,8 @@ class StepChange:
             # prescribed speeds are no places, and are met as they are
             np.copyto(violated, 0.0, where=same)
             found += undone(violated)
-        if not np.isfinite(found).all():  # a film's forces beyond all numbers: it says so
-            found[:] = 0.0
+            largest.append(np.abs(found).max(axis=0))
+        # where directions have turned too far to lead there, or forces are beyond all numbers
+        found[:, ~(largest[-1] <= AWAY * largest[0])] = 0.0
         self._data.SetTime(now)
-        return found[:, 0], found[:, 1]
+        return found.T

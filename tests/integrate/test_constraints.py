@@ -10,6 +10,7 @@ from patched import PATCHED
 from scipy.integrate import solve_ivp
 
 from exu_press import InputError, Scene, SolverStatus, simulate, solve_dynamic
+from exu_press.integrate.constraints import Constraints
 from exu_press.integrate.step_change import StepChange
 from exu_press.integrate.stepping import FixedSteps, StepControl
 from exudyn_examples import EXAMPLES
@@ -386,3 +387,21 @@ def test_a_contact_that_lets_go_is_no_place_for_a_change():
     run = simulate(scene)
     assert run.time[-1] > 0.0506
     assert np.abs(run["slider_acceleration"]).max() < 600.0
+
+
+@PATCHED
+def test_changes_that_lead_away_from_the_constraints_are_not_made(monkeypatch):
+    """As where three angles pass 90 degrees in a step: 6e11 m/s instead of 1 m/s, and a stop."""
+    right = Constraints.undone
+
+    def away(constraints, norm, directions):
+        changes = right(constraints, norm, directions)
+        return lambda violated: -5.0 * changes(violated)
+
+    monkeypatch.setattr(Constraints, "undone", away)
+    mbs = exu.SystemContainer().AddSystem()
+    EXAMPLES["double pendulum"].build(mbs)
+    mbs.Assemble()
+    outcome = solve_dynamic(mbs, settings(1.0))
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
+    assert outcome.steps + outcome.rejected_steps < 500

@@ -116,8 +116,25 @@ def test_accelerations_between_two_instants_are_off_a_line():
     assert curvature_after(instants) == pytest.approx(0.25 * b * h * h / (1e-2 * instants[4]))
 
 
+def test_a_repeated_step_knows_the_curvature_that_the_longer_one_has_found():
+    """Steps that grew one by one had none in common, and what two equal ones had was forgotten."""
+    bodies, scales, time, found = errors(), scales_of([2.0]), 0.0, 0.0
+    curvature = Curvature(bodies, scales, NOISE, 1e-2)
+    for step in (0.1, 0.12, 0.144, 0.144):
+        curvature.accept()
+        bodies.accept()
+        bodies.tried([(time + step) ** 2, 0.0, 0.0], step)
+        found, last, time = curvature.error(step), step, time + step
+        assert (found > 0.0) is (time > 0.4)
+    bodies.tried([(time - 0.5 * last) ** 2, 0.0, 0.0], 0.5 * last)
+    assert curvature.error(0.5 * last) == pytest.approx(0.25 * found)
+
+
+FADING = [(-0.8) ** i for i in range(6)]
+
+
 @pytest.mark.parametrize(
-    "accelerations", [[1.0, -1.0] * 3, [1.0] * 4 + [2.0], [1.0] * 4 + [2.0] * 2]
+    "accelerations", [[1.0, -1.0] * 3, FADING, [1.0] * 4 + [2.0], [1.0] * 4 + [2.0] * 2]
 )
 def test_what_alternates_or_jumps_is_no_curvature(accelerations):
     assert curvature_after(accelerations) == pytest.approx(0.0)

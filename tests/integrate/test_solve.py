@@ -35,7 +35,7 @@ from exu_press.laws.film import pinkus
 from exu_press.laws.friction import no_friction
 from exudyn_examples import EXAMPLES
 from exudyn_examples.flexible import cables, hold, weight
-from exudyn_examples.other import stick_slip
+from exudyn_examples.other import mass_1d, stick_slip
 from exudyn_examples.planar import bar, pin
 
 POSITION = exu.OutputVariableType.Coordinates
@@ -395,6 +395,38 @@ def test_a_load_that_jumps_at_a_tight_tolerance():
     assert outcome.status is not SolverStatus.STEP_TOO_SMALL, outcome.reason
 
 
+def test_behind_a_load_that_reaches_a_mass_through_a_filter_steps_grow_again():
+    """The jump of the rate of accelerations was taken for a part of a vibration's cycle."""
+    mbs = exu.SystemContainer().AddSystem()
+    ends = mass_1d(mbs, 1.0, place=0.1)
+    filtered = mbs.AddNode(
+        items.NodeGenericODE1(
+            referenceCoordinates=[0.0], initialCoordinates=[0.0], numberOfODE1Coordinates=1
+        )
+    )
+    mbs.AddObject(
+        items.ObjectGenericODE1(
+            nodeNumbers=[filtered],
+            rhsUserFunction=lambda mbs, time, item, state: [(float(time > 0.7) - state[0]) / 0.01],
+        )
+    )
+    mbs.AddObject(
+        items.ObjectConnectorCoordinateSpringDamper(
+            markerNumbers=ends, stiffness=400.0, damping=4.0
+        )
+    )
+    mbs.AddLoad(
+        items.LoadCoordinate(
+            markerNumber=ends[1],
+            load=0.0,
+            loadUserFunction=lambda mbs, time, load: 100.0 * mbs.GetNodeOutput(filtered, POSITION),
+        )
+    )
+    mbs.Assemble()
+    outcome = solve_dynamic(mbs, settings(2.0), tolerance=1e-5, max_steps=20_000)
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
+
+
 def hanging(mbs):
     """Two bars below each other."""
     before, place = mbs.AddObject(items.ObjectGround()), (0.0, 0.0)
@@ -415,8 +447,46 @@ def sagging(mbs):
     mbs.SolveStatic(settings(1.0), updateInitialValues=True)
 
 
-@pytest.mark.parametrize("system", [hanging, sagging])
-@pytest.mark.parametrize("tolerance", [1e-2, 1e-5])
+def held(mbs):
+    """An arm on a hydraulic cylinder that carries it: 1e-15 m/s^2 made steps of a microsecond."""
+    ground, length = mbs.AddObject(items.ObjectGround()), 1.1
+    body, half, _ = bar(mbs, (0.0, 0.0), (length, 0.0), 100.0)
+    pin(mbs, ground, (0.0, 0.0), body, (-half, 0.0))
+    low, along = 0.25 * length, 0.5 * half
+    ends = [
+        mbs.AddMarker(items.MarkerBodyPosition(bodyNumber=number, localPosition=place))
+        for number, place in ((ground, [0.0, -low, 0.0]), (body, [-along, 0.0, 0.0]))
+    ]
+    reach = np.hypot(low, along)
+    force = 100.0 * 9.81 * half * reach / (low * along)
+    states = mbs.AddNode(
+        items.NodeGenericODE1(
+            referenceCoordinates=[0.0, 0.0],
+            initialCoordinates=[2e6 + force / 0.01, 2e6],
+            numberOfODE1Coordinates=2,
+        )
+    )
+    mbs.AddObject(
+        items.HydraulicActuatorSimple(
+            markerNumbers=ends,
+            nodeNumbers=[states],
+            offsetLength=reach,
+            strokeLength=0.5 * reach,
+            chamberCrossSection0=0.01,
+            chamberCrossSection1=0.01,
+            hoseVolume0=0.01,
+            hoseVolume1=0.01,
+            oilBulkModulus=1e8,
+            actuatorDamping=1e4,
+            nominalFlow=2e-5,
+            systemPressure=2e7,
+        )
+    )
+    mbs.Assemble()
+
+
+@pytest.mark.parametrize("system", [hanging, sagging, held])
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-4, 1e-5])
 def test_an_equilibrium_is_at_rest(system, tolerance):
     """Rounded forces were to be balanced to a part of the next to nothing that they accelerate."""
     mbs = exu.SystemContainer().AddSystem()

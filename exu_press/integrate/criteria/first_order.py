@@ -1,9 +1,5 @@
 """First-order coordinates."""
 
-from typing import Any
-
-import numpy as np
-
 from exu_press.integrate.criteria.share import ErrorPerStep
 from exu_press.integrate.problem import Problem
 
@@ -23,32 +19,32 @@ class FirstOrderError:
     def __init__(self, problem: Problem, per_step: ErrorPerStep) -> None:
         """Take what is solved, and what one step may miss, relative."""
         self._current, self._start, self._per_step = problem.current, problem.start, per_step
-        self._before = np.array(problem.start.rates)  # at the end of the last step
-        self._largest = np.abs(problem.start.first_order)
-        self._change: Any = None  # of the rate, over the step, in the step before
-        self._tried: tuple[Any, Any] = self._before, None
+        self._before: list[float] = problem.start.rates.tolist()  # at the end of the last step
+        self._largest = [abs(value) for value in problem.start.first_order.tolist()]
+        self._change: list[float] = []  # of the rate, over the step, in the step before
+        self._tried = self._before, self._change
 
     def error(self, step: float) -> float:
         """Return the error of a step (s) that ends in the current state."""
-        rate, before = np.array(self._current.rates), self._start.rates
-        change = (rate - before) / step
-        self._tried = rate, change
-        if self._change is None:
+        rates: list[float] = self._current.rates.tolist()
+        starts: list[float] = self._start.rates.tolist()
+        changes = [(rates[i] - starts[i]) / step for i in range(len(rates))]
+        self._tried = rates, changes
+        if not self._change:
             return 0.0
-        turned = np.abs(change - self._change)
-        jumped = before != self._before
-        if jumped.any():
-            part = np.abs(rate - before) / np.maximum(
-                np.maximum(np.abs(rate), np.abs(before)), TINY
-            )
-            turned = np.where(jumped, part * np.abs(change), turned)
-        missed = step * step * turned / 12.0
-        largest = np.maximum(self._largest, step * np.abs(rate))
-        counts = largest > 0.0
-        relative = float((missed[counts] / largest[counts]).max(initial=0.0))
-        return relative / self._per_step.relaxing(step)
+        missed = 0.0  # over the largest value
+        for i in range(len(rates)):
+            rate, start, change = rates[i], starts[i], changes[i]
+            turned = abs(change - self._change[i])
+            if start != self._before[i]:
+                turned = abs((rate - start) * change) / max(abs(rate), abs(start), TINY)
+            largest = max(self._largest[i], step * abs(rate))
+            if largest > 0.0:
+                missed = max(missed, turned / largest)
+        return step * step * missed / 12.0 / self._per_step.relaxing(step)
 
     def accept(self) -> None:
         """Remember the accepted step's end as the next one's beginning."""
         self._before, self._change = self._tried
-        self._largest = np.maximum(self._largest, np.abs(self._current.first_order))
+        values: list[float] = self._current.first_order.tolist()
+        self._largest = [max(self._largest[i], abs(values[i])) for i in range(len(values))]

@@ -223,26 +223,23 @@ class StepChange:
         forces, inertia, directions = self._matrices()
         directions, lengths = normalised(directions)
         state = np.array(self._state)
-        q, v = state[:2]
         if self._energy is not None:
             undone = self._constraints.undone(inertia, directions)
             if self._last is not None:
                 held = undone(directions @ state[1:].T)
-                changes = self._energy.per_square(self._last, q, v, inertia, held)
+                changes = self._energy.per_square(self._last, state[0], state[1], inertia, held)
                 self._per_square = changes.tolist()
             if not self._springs:
-                return self._least(undone, lengths, q, v)
+                return self._least(undone, lengths, state)
         undone = self._constraints.undone(0.5 * (forces + forces.T), directions)
-        found = self._least(undone, lengths, q, v)
+        found = self._least(undone, lengths, state)
         for change in found:
             if change @ forces @ change < MORE * (change @ inertia @ change):
                 undone = self._constraints.undone(inertia, directions)
-                return self._least(undone, lengths, q, v)
+                return self._least(undone, lengths, state)
         return found
 
-    def _least(
-        self, undone: Callable[[Array], Array], lengths: Array, positions: Array, velocities: Array
-    ) -> Array:
+    def _least(self, undone: Callable[[Array], Array], lengths: Array, state: Array) -> Array:
         """Return the least changes of positions and velocities that constraints ask for, (2, n).
 
         The directions in which constraints act are those of the last Jacobian, perhaps a degree of
@@ -251,8 +248,7 @@ class StepChange:
         Args:
             undone: changes that undo violations, of constraints with directions of length 1.
             lengths: of the directions, (count,).
-            positions: at the step's beginning, (n,).
-            velocities: likewise, (n,).
+            state: positions, velocities and accelerations at the step's beginning, (3, n).
         """
         position, velocity = self._current.positions, self._current.velocities
         now = self._data.GetTime()
@@ -260,8 +256,7 @@ class StepChange:
         found, violated = np.zeros((len(position), 2)), np.zeros((len(lengths), 2))
         largest = []  # change of positions and velocities, turn by turn
         for _ in range(CHANGE_ITERATIONS):
-            position[:] = positions - found[:, 0]
-            velocity[:] = velocities - found[:, 1]
+            position[:], velocity[:] = state[:2] - found.T
             violated[:, 0] = self._constraints.violated()
             violated[:, 1] = self._constraints.violated_rates(AHEAD * self._fits)
             violated /= lengths[:, None]

@@ -8,6 +8,7 @@ import numpy as np
 from exudyn.utilities import InertiaSphere
 
 from exudyn_examples.example import GRAVITY
+from exudyn_examples.planar import bar, pin
 
 __all__ = ["bouncing_ball", "cradle", "hydraulics", "lugre", "maxwell", "stick_slip", "watch"]
 
@@ -27,16 +28,75 @@ def mass_1d(mbs, mass, place=0.0, velocity=0.0):
     ]
 
 
+def first_order(mbs, start):
+    """A node of first-order coordinates."""
+    return mbs.AddNode(
+        items.NodeGenericODE1(
+            referenceCoordinates=[0.0] * len(start),
+            initialCoordinates=start,
+            numberOfODE1Coordinates=len(start),
+        )
+    )
+
+
+def data_variables(mbs, start):
+    """A node of data variables, for a connector that has any."""
+    return mbs.AddNode(
+        items.NodeGenericData(initialCoordinates=start, numberOfDataCoordinates=len(start))
+    )
+
+
+def cylinder(mbs, markers, pressures, **values):
+    """Exudyn's hydraulic actuator, whose pressures, Pa, are first-order coordinates."""
+    return mbs.AddObject(
+        items.ObjectConnectorHydraulicActuatorSimple(
+            markerNumbers=markers,
+            nodeNumbers=[first_order(mbs, pressures)],
+            systemPressure=2e7,
+            nominalFlow=2e-5,
+            **values,
+        )
+    )
+
+
+def open_valves(mbs, actuator, opening):
+    """Open one valve of an actuator, and the other one the other way."""
+    mbs.SetObjectParameter(actuator, "valveOpening0", opening)
+    mbs.SetObjectParameter(actuator, "valveOpening1", -opening)
+    return True
+
+
+def arm_on_cylinder(mbs, ground, length, mass, carried=1.0, **oil):
+    """A bar on a hinge, and a cylinder that carries a part of its weight: it, and its length."""
+    body, half, _ = bar(mbs, (0.0, 0.0), (length, 0.0), mass)
+    pin(mbs, ground, (0.0, 0.0), body, (-half, 0.0))
+    low, along, area = 0.25 * length, 0.5 * half, 0.01
+    markers = [
+        mbs.AddMarker(items.MarkerBodyPosition(bodyNumber=number, localPosition=place))
+        for number, place in ((ground, [0.0, -low, 0.0]), (body, [-along, 0.0, 0.0]))
+    ]
+    reach = np.hypot(low, along)
+    pressure = mass * GRAVITY * half * reach / (low * along) / area
+    actuator = cylinder(
+        mbs,
+        markers,
+        [2e6 + carried * pressure, 2e6],
+        offsetLength=reach,
+        strokeLength=0.5 * reach,
+        chamberCrossSection0=area,
+        chamberCrossSection1=area,
+        **oil,
+    )
+    return actuator, reach
+
+
 def stick_slip(mbs):
     """A mass on a spring that comes to rest by Exudyn's bristle friction, a data variable."""
     markers = mass_1d(mbs, 2.0, velocity=3.0)
-    states = mbs.AddNode(
-        items.NodeGenericData(initialCoordinates=[1.0, 0.0, 0.0], numberOfDataCoordinates=3)
-    )
     mbs.AddObject(
         items.ObjectConnectorCoordinateSpringDamperExt(
             markerNumbers=markers,
-            nodeNumber=states,
+            nodeNumber=data_variables(mbs, [1.0, 0.0, 0.0]),
             stiffness=100.0,
             dynamicFrictionForce=8.0,
             stickingStiffness=1e5,
@@ -80,11 +140,10 @@ def regularized(mbs):
 def bouncing_ball(mbs):
     """A ball that falls on Exudyn's ObjectContactCoordinate and rebounds."""
     markers = mass_1d(mbs, 0.25, place=0.1)
-    gap = mbs.AddNode(items.NodeGenericData(initialCoordinates=[1.0], numberOfDataCoordinates=1))
     mbs.AddObject(
         items.ObjectContactCoordinate(
             markerNumbers=markers,
-            nodeNumber=gap,
+            nodeNumber=data_variables(mbs, [1.0]),
             contactStiffness=1e5,
             contactDamping=10.0,
             offset=0.05,
@@ -111,15 +170,10 @@ def cradle(mbs, balls=3):
             itemNumbers=[ground, ball], localPosition0=[i * distance, thread, 0.0]
         )
     for pair in itertools.pairwise(markers):
-        state = mbs.AddNode(
-            items.NodeGenericData(
-                initialCoordinates=[0.1, 0.0, 0.0, 0.0], numberOfDataCoordinates=4
-            )
-        )
         mbs.AddObject(
             items.ObjectContactSphereSphere(
                 markerNumbers=list(pair),
-                nodeNumber=state,
+                nodeNumber=data_variables(mbs, [0.1, 0.0, 0.0, 0.0]),
                 spheresRadii=[radius, radius],
                 contactStiffness=1e6,
                 contactDamping=0.0,
@@ -140,13 +194,7 @@ def lugre(mbs):
         z_t = v - z * abs(v) / g
         return [v, stiffness * (0.1 * time - x) - sigma_0 * z - sigma_1 * z_t - sigma_2 * v, z_t]
 
-    node = mbs.AddNode(
-        items.NodeGenericODE1(
-            referenceCoordinates=[0.0] * 3,
-            initialCoordinates=[0.0] * 3,
-            numberOfODE1Coordinates=3,
-        )
-    )
+    node = first_order(mbs, [0.0] * 3)
     mbs.AddObject(items.ObjectGenericODE1(nodeNumbers=[node], rhsUserFunction=rates))
 
 
@@ -155,40 +203,25 @@ def hydraulics(mbs):
     ground = mbs.CreateGround()
     mass = mbs.CreateMassPoint(referencePosition=[1.0, 0.0, 0.0], mass=100.0)
     markers = [mbs.AddMarker(items.MarkerBodyPosition(bodyNumber=body)) for body in (ground, mass)]
-    node = mbs.AddNode(
-        items.NodeGenericODE1(
-            referenceCoordinates=[0.0, 0.0],
-            initialCoordinates=[2e6, 2e6],
-            numberOfODE1Coordinates=2,
-        )
-    )
-    actuator = mbs.AddObject(
-        items.ObjectConnectorHydraulicActuatorSimple(
-            markerNumbers=markers,
-            nodeNumbers=[node],
-            offsetLength=0.5,
-            strokeLength=1.0,
-            chamberCrossSection0=0.02,
-            chamberCrossSection1=0.015,
-            hoseVolume0=0.01,
-            hoseVolume1=0.01,
-            valveOpening0=0.0,
-            valveOpening1=0.0,
-            oilBulkModulus=1.2e9,
-            systemPressure=2e7,
-            tankPressure=1e5,
-            nominalFlow=2e-5,
-            actuatorDamping=2e4,
-        )
+    actuator = cylinder(
+        mbs,
+        markers,
+        [2e6, 2e6],
+        offsetLength=0.5,
+        strokeLength=1.0,
+        chamberCrossSection0=0.02,
+        chamberCrossSection1=0.015,
+        hoseVolume0=0.01,
+        hoseVolume1=0.01,
+        oilBulkModulus=1.2e9,
+        tankPressure=1e5,
+        actuatorDamping=2e4,
     )
     for axis in (1, 2):
         mbs.CreateCoordinateConstraint(itemNumbers=[mass, None], coordinates=[axis, None])
 
     def valves(mbs, time):
-        opening = 1.0 if 0.02 < time < 0.2 else 0.0
-        mbs.SetObjectParameter(actuator, "valveOpening0", opening)
-        mbs.SetObjectParameter(actuator, "valveOpening1", -opening)
-        return True
+        return open_valves(mbs, actuator, 1.0 if 0.02 < time < 0.2 else 0.0)
 
     mbs.SetPreStepUserFunction(valves)
 

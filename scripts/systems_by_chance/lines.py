@@ -7,7 +7,7 @@ import exudyn.utilities as items
 import numpy as np
 
 from exudyn_examples.example import GRAVITY
-from exudyn_examples.other import mass_1d
+from exudyn_examples.other import data_variables, first_order, mass_1d
 
 __all__ = ["control", "coordinates", "row", "stops"]
 
@@ -79,7 +79,7 @@ def stops(by):
         slides = mass * by.between(0.1, 5.0)
         if kind == "stops":
             more = {
-                "nodeNumber": states(by, 3),
+                "nodeNumber": data_variables(by.mbs, [0.0] * 3),
                 "useLimitStops": True,
                 "limitStopsUpper": 0.05,
                 "limitStopsLower": -0.05,
@@ -88,7 +88,7 @@ def stops(by):
             }
         elif kind == "bristle":
             more = {
-                "nodeNumber": states(by, 3),
+                "nodeNumber": data_variables(by.mbs, [0.0] * 3),
                 "stickingStiffness": 10.0 * hard,
                 "stickingDamping": 0.6 * soft,
                 "dynamicFrictionForce": slides,
@@ -105,7 +105,7 @@ def stops(by):
             by.mbs.AddObject(
                 items.ObjectContactCoordinate(
                     markerNumbers=[before, here],
-                    nodeNumber=states(by, 1),
+                    nodeNumber=data_variables(by.mbs, [0.0]),
                     contactStiffness=hard,
                     contactDamping=by.choice([0.0, 0.1]) * soft,
                     offset=by.choice([-0.02, -0.005]),
@@ -116,26 +116,13 @@ def stops(by):
         before = here
 
 
-def states(by, count):
-    """Data variables of a connector."""
-    return by.mbs.AddNode(
-        items.NodeGenericData(initialCoordinates=[0.0] * count, numberOfDataCoordinates=count)
-    )
-
-
 def control(by):
     """Masses that first-order controllers with a lag move."""
     for _ in range(by.randint(1, 3)):
         mass, rate, lag = by.between(0.1, 5.0), by.between(3.0, 100.0), by.between(1e-3, 0.1)
         _, here = mass_1d(by.mbs, mass, place=0.1)
         node, aim = by.mbs.GetMarker(here)["nodeNumber"], by.load(0.1)
-        controller = by.mbs.AddNode(
-            items.NodeGenericODE1(
-                referenceCoordinates=[0.0, 0.0],
-                initialCoordinates=[0.0, 0.0],
-                numberOfODE1Coordinates=2,
-            )
-        )
+        controller = first_order(by.mbs, [0.0, 0.0])
 
         def read(mbs, number, kind=exu.OutputVariableType.Coordinates):
             return np.atleast_1d(mbs.GetNodeOutput(number, kind))

@@ -8,6 +8,7 @@ import exudyn.utilities as items
 import numpy as np
 
 from exudyn_examples.example import GRAVITY
+from exudyn_examples.other import arm_on_cylinder, open_valves
 from exudyn_examples.planar import bar, pin
 
 __all__ = ["actuator", "loop", "planar"]
@@ -66,47 +67,23 @@ def loop(by):
 
 def actuator(by):
     """An arm on a hydraulic cylinder, which holds it, lets it sink, or moves it."""
-    length, mass = by.size + 0.5, by.between(10.0, 500.0)
-    body, half, _ = bar(by.mbs, (0.0, 0.0), (length, 0.0), mass)
-    pin(by.mbs, by.ground, (0.0, 0.0), body, (-half, 0.0))
-    low, along = 0.25 * length, 0.5 * half
-    markers = [
-        by.mbs.AddMarker(items.MarkerBodyPosition(bodyNumber=number, localPosition=place))
-        for number, place in ((by.ground, [0.0, -low, 0.0]), (body, [-along, 0.0, 0.0]))
-    ]
-    reach, area = math.hypot(low, along), 0.01
-    holding = mass * GRAVITY * half * reach / (low * along) / area  # pressure, Pa
-    states = by.mbs.AddNode(
-        items.NodeGenericODE1(
-            referenceCoordinates=[0.0, 0.0],
-            initialCoordinates=[2e6 + by.choice([1.0, 0.5]) * holding, 2e6],
-            numberOfODE1Coordinates=2,
-        )
-    )
-    cylinder = by.mbs.AddObject(
-        items.HydraulicActuatorSimple(
-            markerNumbers=markers,
-            nodeNumbers=[states],
-            offsetLength=reach,
-            strokeLength=0.5 * reach,
-            chamberCrossSection0=area,
-            chamberCrossSection1=area,
-            hoseVolume0=by.between(1e-3, 1.0),
-            hoseVolume1=by.between(1e-3, 1.0),
-            oilBulkModulus=by.between(1e8, 1e10),
-            actuatorDamping=by.between(1e3, 2e5),
-            nominalFlow=2e-5,
-            systemPressure=2e7,
-        )
+    cylinder, reach = arm_on_cylinder(
+        by.mbs,
+        by.ground,
+        by.size + 0.5,
+        by.between(10.0, 500.0),
+        carried=by.choice([1.0, 0.5]),
+        hoseVolume0=by.between(1e-3, 1.0),
+        hoseVolume1=by.between(1e-3, 1.0),
+        oilBulkModulus=by.between(1e8, 1e10),
+        actuatorDamping=by.between(1e3, 2e5),
     )
     if by.often(0.7):
         rate = by.between(1.0, 10.0)
 
         def valves(mbs, time):
             now = mbs.GetObjectOutput(cylinder, exu.OutputVariableType.Distance)
-            opening = 2.0 * (reach * (1.0 + 0.02 * math.sin(rate * time)) - now)
-            for name, value in (("valveOpening0", opening), ("valveOpening1", -opening)):
-                mbs.SetObjectParameter(cylinder, name, value)
-            return True
+            far = reach * (1.0 + 0.02 * math.sin(rate * time)) - now
+            return open_valves(mbs, cylinder, 2.0 * far)
 
         by.mbs.SetPreStepUserFunction(valves)

@@ -104,14 +104,9 @@ def mounted(by):
         last = body
 
 
-def rolling(by):
-    """A disc that rolls, or slips on a stiff ground, upright or not, some of them pushed."""
-    radius, speed, tilt = 0.5 * by.size, by.between(0.2, 5.0), by.uniform(-0.3, 0.3)
-    inertia = items.InertiaCylinder(by.density, 0.1 * by.size, radius, 0)
-    turned = items.RotationMatrixY(by.choice([0.0, tilt]))
-    place = turned @ [0.0, 0.0, radius]
-    spin = turned @ [-speed / radius, 0.0, by.uniform(-1, 1)]
-    body = by.mbs.CreateRigidBody(
+def about_the_origin(by, inertia, turned, place, spin):
+    """A body that turns about the origin."""
+    return by.mbs.CreateRigidBody(
         inertia=inertia,
         referencePosition=list(place),
         referenceRotationMatrix=turned,
@@ -120,6 +115,16 @@ def rolling(by):
         gravity=[0.0, 0.0, -GRAVITY],
         nodeType=by.choice(SPATIAL),
     )
+
+
+def rolling(by):
+    """A disc that rolls, or slips on a stiff ground, upright or not, some of them pushed."""
+    radius, speed, tilt = 0.5 * by.size, by.between(0.2, 5.0), by.uniform(-0.3, 0.3)
+    inertia = items.InertiaCylinder(by.density, 0.1 * by.size, radius, 0)
+    turned = items.RotationMatrixY(by.choice([0.0, tilt]))
+    place = turned @ [0.0, 0.0, radius]
+    spin = turned @ [-speed / radius, 0.0, by.uniform(-1, 1)]
+    body = about_the_origin(by, inertia, turned, place, spin)
     disc = {"bodyNumbers": [by.ground, body], "axisPosition": [0.0] * 3, "discRadius": radius}
     if by.often():
         by.mbs.CreateRollingDisc(**disc)
@@ -146,15 +151,7 @@ def top(by):
     inertia = items.InertiaCylinder(by.density, 0.1 * by.size, 0.5 * by.size, 2)
     turned = items.RotationMatrixX(by.uniform(0.05, 1.0))
     place, spin = turned @ [0, 0, by.size / 2], turned @ [0, 0, by.between(10.0, 500.0)]
-    body = by.mbs.CreateRigidBody(
-        inertia=inertia,
-        referencePosition=list(place),
-        referenceRotationMatrix=turned,
-        initialVelocity=list(np.cross(spin, place)),
-        initialAngularVelocity=list(spin),
-        gravity=[0.0, 0.0, -GRAVITY],
-        nodeType=by.choice(SPATIAL),
-    )
+    body = about_the_origin(by, inertia, turned, place, spin)
     by.mbs.CreateSphericalJoint(itemNumbers=[by.ground, body], position=[0.0] * 3)
 
 

@@ -35,7 +35,7 @@ from exu_press.laws.film import pinkus
 from exu_press.laws.friction import no_friction
 from exudyn_examples import EXAMPLES
 from exudyn_examples.flexible import cables, hold, weight
-from exudyn_examples.other import mass_1d, stick_slip
+from exudyn_examples.other import arm_on_cylinder, first_order, mass_1d, stick_slip
 from exudyn_examples.planar import bar, pin
 
 POSITION = exu.OutputVariableType.Coordinates
@@ -151,13 +151,7 @@ def test_first_order_coordinates(tolerance):
     """A damped oscillator as two first-order equations, whose rates Exudyn starts from zero."""
     matrix = [[0.0, 1.0], [-1.0, -0.1]]
     mbs = exu.SystemContainer().AddSystem()
-    node = mbs.AddNode(
-        items.NodeGenericODE1(
-            referenceCoordinates=[0.0, 0.0],
-            initialCoordinates=[1.0, 0.0],
-            numberOfODE1Coordinates=2,
-        )
-    )
+    node = first_order(mbs, [1.0, 0.0])
     mbs.AddObject(
         items.ObjectGenericODE1(nodeNumbers=[node], systemMatrix=matrix, rhsVector=[0.0, 0.0])
     )
@@ -399,11 +393,7 @@ def test_behind_a_load_that_reaches_a_mass_through_a_filter_steps_grow_again():
     """The jump of the rate of accelerations was taken for a part of a vibration's cycle."""
     mbs = exu.SystemContainer().AddSystem()
     ends = mass_1d(mbs, 1.0, place=0.1)
-    filtered = mbs.AddNode(
-        items.NodeGenericODE1(
-            referenceCoordinates=[0.0], initialCoordinates=[0.0], numberOfODE1Coordinates=1
-        )
-    )
+    filtered = first_order(mbs, [0.0])
     mbs.AddObject(
         items.ObjectGenericODE1(
             nodeNumbers=[filtered],
@@ -449,39 +439,9 @@ def sagging(mbs):
 
 def held(mbs):
     """An arm on a hydraulic cylinder that carries it: 1e-15 m/s^2 made steps of a microsecond."""
-    ground, length = mbs.AddObject(items.ObjectGround()), 1.1
-    body, half, _ = bar(mbs, (0.0, 0.0), (length, 0.0), 100.0)
-    pin(mbs, ground, (0.0, 0.0), body, (-half, 0.0))
-    low, along = 0.25 * length, 0.5 * half
-    ends = [
-        mbs.AddMarker(items.MarkerBodyPosition(bodyNumber=number, localPosition=place))
-        for number, place in ((ground, [0.0, -low, 0.0]), (body, [-along, 0.0, 0.0]))
-    ]
-    reach = np.hypot(low, along)
-    force = 100.0 * 9.81 * half * reach / (low * along)
-    states = mbs.AddNode(
-        items.NodeGenericODE1(
-            referenceCoordinates=[0.0, 0.0],
-            initialCoordinates=[2e6 + force / 0.01, 2e6],
-            numberOfODE1Coordinates=2,
-        )
-    )
-    mbs.AddObject(
-        items.HydraulicActuatorSimple(
-            markerNumbers=ends,
-            nodeNumbers=[states],
-            offsetLength=reach,
-            strokeLength=0.5 * reach,
-            chamberCrossSection0=0.01,
-            chamberCrossSection1=0.01,
-            hoseVolume0=0.01,
-            hoseVolume1=0.01,
-            oilBulkModulus=1e8,
-            actuatorDamping=1e4,
-            nominalFlow=2e-5,
-            systemPressure=2e7,
-        )
-    )
+    ground = mbs.AddObject(items.ObjectGround())
+    oil = {"hoseVolume0": 0.01, "hoseVolume1": 0.01, "oilBulkModulus": 1e8}
+    arm_on_cylinder(mbs, ground, 1.1, 100.0, **oil, actuatorDamping=1e4)
     mbs.Assemble()
 
 

@@ -107,6 +107,8 @@ class Constraints:
 
     def violated(self) -> Array:
         """Return by how much each is violated in the current state."""
+        if not self._places:
+            return self._evaluated()
         with self._without_multipliers():
             return self._evaluated()
 
@@ -147,9 +149,6 @@ class Constraints:
     @contextmanager
     def _without_multipliers(self) -> Iterator[None]:
         """Let no force act along cables, where joints slide, as their balance is no constraint."""
-        if not self._places:
-            yield
-            return
         before = np.array(self._current.multipliers)
         self._current.multipliers[:] = 0.0
         yield

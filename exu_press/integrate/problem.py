@@ -300,7 +300,7 @@ def _untold_rate(item: dict[str, Any]) -> bool:
     functions = "constraintUserFunction", "offsetUserFunction"
     squares = "quadraticTermMarker0", "quadraticTermMarker1"
     return any(item.get(name, 0) != 0 for name in functions) or any(
-        np.any(item.get(name, 0)) for name in squares
+        name in item and np.any(item[name]) for name in squares
     )
 
 

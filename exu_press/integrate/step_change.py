@@ -94,6 +94,8 @@ class StepChange:
         self._state: list[list[float]] = []  # at the step's beginning, before any shift
         # of it: what constraints forbid of positions and velocities, and `KeptEnergy`
         self._offsets: list[list[float]] | None = None
+        self._ahead = 0.0  # how far ahead rates were looked for there, s
+        self._untold = problem.untold_rates
         self._per_square: list[list[float]] | None = None
         self._mean: list[float] | None = None  # acceleration of the first step
         # accelerations at the start, and what of their rate constraints prescribe
@@ -163,7 +165,8 @@ class StepChange:
             if part < self._refit or self._seldom:
                 self._leaves = step
                 if self._constraints.count:
-                    if self._offsets is None:
+                    if self._offsets is None or (self._untold and step < self._ahead):
+                        self._ahead = AHEAD * min(step, self._fits)
                         self._offsets = self._violations().tolist()
                     of_q, of_v = self._offsets
                     more = 1.0 - part * part
@@ -258,7 +261,7 @@ class StepChange:
         for _ in range(CHANGE_ITERATIONS):
             position[:], velocity[:] = state[:2] - found.T
             violated[:, 0] = self._constraints.violated()
-            violated[:, 1] = self._constraints.violated_rates(AHEAD * self._fits)
+            violated[:, 1] = self._constraints.violated_rates(self._ahead)
             violated /= lengths[:, None]
             same = violated[:, :1] == violated[:, 1:]
             # prescribed speeds are no places, and are met as they are

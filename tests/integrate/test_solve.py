@@ -344,6 +344,26 @@ def test_the_velocity_of_a_prescribed_motion_may_jump(tolerance):
         assert found == pytest.approx(expected, abs=3.5 * tolerance)
 
 
+@pytest.mark.parametrize("behind", [1e-8, 1e-7, 1e-6, 1e-5])
+def test_a_corner_right_behind_a_step(behind):
+    """A step up to the corner, s, leaves the motion as it was; the system is linear."""
+
+    def swing(time):
+        return 0.1 * np.sin(3.0 * time)
+
+    ends, velocities = [], []
+    mbs, _ = pulled(swing)
+    outcome = solve_dynamic(mbs, settings(1.0), watch=lambda time: ends.append(time) or "")
+    velocities.append(mbs.systemData.GetODE2Coordinates_t()[2])
+    corner = min(ends, key=lambda time: abs(time - 0.5)) + behind
+    mbs, _ = pulled(lambda time: swing(time) + max(0.0, time - corner))
+    told = solve_dynamic(mbs, settings(1.0))
+    velocities.append(mbs.systemData.GetODE2Coordinates_t()[2])
+    assert told.steps < 1.5 * outcome.steps + 150, "no step answers to a corner ahead"
+    expected = 1.0 - np.cos(np.sqrt(200.0) * (1.0 - corner))
+    assert velocities[1] - velocities[0] == pytest.approx(expected, abs=4e-3)
+
+
 def test_a_prescribed_place_that_jumps_is_thought_of():
     mbs, _ = pulled(lambda time: 0.1 if time > 0.01 else 0.0)
     outcome = solve_dynamic(mbs, settings(0.02), tolerance=1e-4, max_steps=3000)

@@ -8,6 +8,7 @@ made finer.
 """
 
 import builtins
+import contextlib
 import json
 import math
 import os
@@ -33,6 +34,7 @@ import numpy as np
 import scipy.sparse.linalg
 
 from exu_press import InputError, solve_dynamic
+from exu_press.integrate.motion import velocities_of
 from exu_press.integrate.problem import Problem
 from exu_press.integrate.scales import weights
 from exudyn_models.renamed import put_back
@@ -55,7 +57,11 @@ IMPLICIT = exu.DynamicSolverType.GeneralizedAlpha, exu.DynamicSolverType.Trapezo
 
 
 class Record:
-    """Velocities and first-order coordinates at the instants, by cubics between steps."""
+    """Velocities and first-order coordinates at the instants, by cubics between steps.
+
+    Those of bodies with three angles are about their own axes: rates of angles are as fast as may
+    be near 90 degrees.
+    """
 
     def __init__(self, mbs, start, end):
         self.data, self.steps = mbs.systemData, -1
@@ -65,35 +71,50 @@ class Record:
         self.close = 1e-9 * (end - start)
         own = mbs.GetPostStepUserFunction()
         self.own = own["function"] if isinstance(own, dict) else None
+        self.problem = None
+        with contextlib.suppress(InputError):  # then it is refused, too
+            problem = Problem.of(mbs)
+            if any(node.rotations == 3 for node in problem.nodes):
+                self.problem = problem
 
     def state(self):
+        """Return positions, velocities and first-order coordinates, and the rates of all three."""
         data = self.data
-        rates = data.GetODE2Coordinates_t, data.GetODE1Coordinates
-        slopes = data.GetODE2Coordinates_tt, data.GetODE1Coordinates_t
+        values = data.GetODE2Coordinates, data.GetODE2Coordinates_t, data.GetODE1Coordinates
+        slopes = data.GetODE2Coordinates_t, data.GetODE2Coordinates_tt, data.GetODE1Coordinates_t
         return [
-            np.concatenate([np.array(part(CURRENT)) for part in parts]) for parts in (rates, slopes)
+            np.concatenate([np.array(part(CURRENT)) for part in parts])
+            for parts in (values, slopes)
         ]
+
+    def told(self, value):
+        """Return velocities and first-order coordinates of a state."""
+        size = self.data.ODE2Size()
+        if self.problem is None:
+            return value[size:]
+        return np.concatenate([velocities_of(self.problem, value[None])[0], value[2 * size :]])
 
     def __call__(self, mbs, time):
         self.steps += 1
         value, slope = self.state()
         if self.steps % self.apart == 0:
-            self.kept.append(value)
+            self.kept.append(self.told(value))
             if len(self.kept) > min(MOST_KEPT[0], max(SAMPLES, MOST_KEPT[1] // (len(value) + 1))):
                 self.kept, self.apart = self.kept[::2], 2 * self.apart
         while len(self.rows) < SAMPLES and time >= self.times[len(self.rows)] - self.close:
             at = self.times[len(self.rows)]
             if self.before is None or time - at < self.close:
-                self.rows.append(value)
+                self.rows.append(self.told(value))
                 continue
             begin, old, old_slope = self.before
             h = time - begin
             s = (at - begin) / h
-            self.rows.append(
+            within = (
                 old * (1 + 2 * s) * (1 - s) ** 2
                 + value * s * s * (3 - 2 * s)
                 + h * s * (1 - s) * ((1 - s) * old_slope - s * slope)
             )
+            self.rows.append(self.told(within))
         self.before = time, value, slope
         return self.own(mbs, time) if self.own else True
 
@@ -193,8 +214,14 @@ def replace(variant, file):
                     if output.writePeriod > 0.0:  # no more rows than the user's steps have
                         output.writePeriod = max(output.writePeriod, period)
                 outcome = solve_dynamic(
-                    mbs, settings, tolerance=variant["tolerance"], sample=period
+                    mbs,
+                    settings,
+                    tolerance=variant["tolerance"],
+                    sample=period,
+                    errors=variant.get("errors", False),
                 )
+                if outcome.error is not None:
+                    found["stated"], found["why"] = outcome.error.motion, outcome.error.reason
                 found["status"], found["reason"] = outcome.status.value, outcome.reason
                 found["tries"] = outcome.steps + outcome.rejected_steps
         except InputError as error:

@@ -11,6 +11,9 @@ from exudyn_examples.measure import at_equal_error
 __all__ = ["Model", "table"]
 
 ENDED = "completed", "under-resolved"
+CLEAR = 0.1
+"""Difference of two references over an error, up to which they tell whether it is covered."""
+
 SIZES = 0, 20, 60, 200
 """Numbers of unknowns between which times of steps are compared."""
 
@@ -78,7 +81,7 @@ class Model:
 
     def agree(self):
         """Return whether both references say the same; a refused model has no weights for that."""
-        return not self.own > AGREE
+        return self.fine is not None and not self.own > AGREE
 
     def found(self, variant="tolerance"):
         """Return the error of a run."""
@@ -132,6 +135,9 @@ class Model:
         """Return a line about the model."""
         text = f"{self.name:44s} {self.user['unknowns']:5d} own {self.own:8.1e}"
         for variant, run in self.runs.items():
+            if variant == "errors":
+                text += f" | stated {run.get('stated', np.nan) / tolerance:8.2g} {run.get('why')}"
+                continue
             fixed = self.user["seconds"]
             kind = CLASSES[self.kind(tolerance, variant)] if self.comparable() else "-"
             text += f" | {run.get('steps', 0):6d} of {run.get('tries', 0):6d} "
@@ -146,6 +152,8 @@ def table(models, tolerance):
     comparable = [model for model in models if model.comparable() and model.runs]
     lines = [f"{len(models)} models with an implicit solver, {len(comparable)} comparable"]
     for variant in comparable[0].runs if comparable else ():
+        if variant == "errors":  # the same runs once more
+            continue
         kinds = [model.kind(tolerance, variant) for model in comparable]
         counts = Counter(kinds)
         agreeing = Counter(
@@ -182,4 +190,25 @@ def table(models, tolerance):
                     f"a tried step over a fixed one, {above} to {up_to} unknowns "
                     f"({len(steps)} models): median {np.median(steps):.2g}"
                 )
+    told = [m for m in comparable if "stated" in m.runs.get("errors", ())]
+    if told:
+        lines += ["", *stated(told, tolerance)]
     return "\n".join(lines)
+
+
+def stated(told, tolerance):
+    """Yield in words how the errors that runs state cover the true ones."""
+    pairs = [(m.found("errors"), m.runs["errors"]["stated"]) for m in told]
+    clear = [pair for m, pair in zip(told, pairs, strict=True) if 0.0 < m.own <= CLEAR * pair[0]]
+    ratios = [said / missed for missed, said in clear]
+    covered = sum(missed <= said for missed, said in clear)
+    yield f"errors stated by {len(told)} runs, {len(clear)} of them clearly off the references"
+    yield f"the stated error covers the true one: {covered} of {len(clear)}"
+    yield f"stated over true error: median {np.median(ratios):.2g}"
+    for times in (10, 100):
+        far = [said for missed, said in pairs if missed > times * tolerance]
+        warned = sum(said > 10 * tolerance for said in far)
+        yield f"more than {times} tolerances off: {len(far)}, with a warning {warned}"
+    right = [said for missed, said in pairs if missed <= tolerance]
+    warned = sum(said > 10 * tolerance for said in right)
+    yield f"within one tolerance: {len(right)}, with a warning {warned}"

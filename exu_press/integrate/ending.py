@@ -113,14 +113,15 @@ class Advice:
             warnings.warn(text, stacklevel=3)
         error = outcome.error
         if error is not None and error.since < math.inf:
-            why = "the finer run stopped early, " + error.reason if error.reason else ""
+            begins = f"from t = {error.since:.6g} s on"
             text = (
-                f"solve_dynamic: errors of {error.motion:.2g} of the largest speed, "
-                f"{self.place(error.since)} above ten tolerances: "
-                f"{why or 'the motion amplifies what steps miss'}; try a smaller tolerance, or an "
-                "earlier end"
+                f"no error is known {begins}: the finer run stopped early, {error.reason}"
+                if error.reason
+                else f"errors are above ten tolerances {begins}, up to {error.motion:.2g} of the "
+                "largest speed: the motion amplifies what steps miss; try a smaller tolerance, or "
+                "believe the run up to there"
             )
-            warnings.warn(text, stacklevel=3)
+            warnings.warn(f"solve_dynamic: {text}", stacklevel=3)
 
 
 def how_it_ended(

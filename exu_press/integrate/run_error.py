@@ -141,13 +141,19 @@ class FinerRun(AbstractContextManager["FinerRun"]):
         answer.close()
 
     def result(self) -> tuple[str, Array, list[Array]]:
-        """Return why it stopped early, or nothing, its motion and the rows of its sensors."""
+        """Return why it stopped early, or nothing, its motion and the rows of its sensors.
+
+        Ctrl-C ends it, and the run itself is not lost.
+        """
         try:
             found: tuple[str, Array, list[Array]] = self._answer.recv()
+            return found
+        except KeyboardInterrupt:
+            why = "interrupted"
         except EOFError:
             self._process.join()
-            return f"its process ended with {self._process.exitcode}", np.zeros((0, 0)), []
-        return found
+            why = f"its process ended with {self._process.exitcode}"
+        return why, np.zeros((0, 0)), []
 
     def __exit__(self, *_: object) -> None:
         """End it, whatever it does."""
@@ -168,7 +174,7 @@ def _perform(
             outcome = run()
             why = "" if outcome.status in ENDED else f"{outcome.status.value}: {outcome.reason}"
         except Exception as error:  # of the user's functions; the run itself tells its own
-            why = f"{type(error).__name__}: {error}"
+            why = " ".join(str(error).partition("\n\nAt:")[0].split())  # without the calls
     answer.send((why, np.array(motion.rows), _rows(mbs)))
 
 

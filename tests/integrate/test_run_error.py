@@ -2,7 +2,10 @@
 
 import multiprocessing
 import os
+import signal
 import sys
+import threading
+import time
 from types import SimpleNamespace
 
 import exudyn as exu
@@ -140,8 +143,8 @@ def test_an_early_stop_has_no_error_and_leaves_no_process():
 def only_in_copies(harm):
     parent = os.getpid()
 
-    def force(mbs, time, item, place, velocity, stiffness, damping, offset):
-        if os.getpid() != parent and time > 0.5:
+    def force(mbs, now, item, place, velocity, stiffness, damping, offset):
+        if os.getpid() != parent and now > 0.5:
             harm()
         return stiffness * place
 
@@ -162,6 +165,17 @@ def test_a_finer_run_that_stops_early_says_why(harm, said):
     assert outcome.status is SolverStatus.COMPLETED
     assert outcome.error.motion == np.inf and outcome.error.sensors == []
     assert said in outcome.error.reason
+    assert not multiprocessing.active_children()
+
+
+def test_an_interrupt_ends_the_finer_run_alone():
+    """It waits for a minute, and the run itself is done by then."""
+    mbs = vibrating(force=only_in_copies(lambda: time.sleep(60.0)))
+    interrupt = threading.Timer(1.0, lambda: os.kill(os.getpid(), signal.SIGINT))
+    interrupt.start()
+    with pytest.warns(UserWarning, match="the finer run stopped early, interrupted"):
+        outcome = solve_dynamic(mbs, settings(1.0), errors=True)
+    assert outcome.status is SolverStatus.COMPLETED
     assert not multiprocessing.active_children()
 
 

@@ -108,8 +108,8 @@ def solve_dynamic(
     Raises:
         InputError: the system is not assembled, there is nothing to solve, the settings ask for
             what has no error estimate, a joint starts with a film's surfaces in touch or a
-            contact deeper than its laws hold, or the start is far off a constraint; the system is
-            left as it was.
+            contact deeper than its laws hold, the start is far off a constraint, or errors are
+            asked for where this process cannot be copied; the system is left as it was.
         exudyn.ExudynError: a user function failed.
     """
     refuse_unusable(settings, tolerance, sample)

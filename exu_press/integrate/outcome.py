@@ -27,7 +27,7 @@ class SolverStatus(Enum):
 
 @dataclass(frozen=True)
 class RunError:
-    """Errors of a run, by its differences from a run with a quarter of the tolerance.
+    """Errors of a run: 10/3 of its differences from a run with a quarter of the tolerance.
 
     They hold where errors go with the tolerance, and say how much it matters where they do not, as
     the motion amplifies them. What both runs miss, as a blow within one step, is in neither.

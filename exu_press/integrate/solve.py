@@ -5,7 +5,6 @@ import time as clock
 import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, nullcontext
-from functools import partial
 from typing import Any
 
 import exudyn as exu
@@ -123,18 +122,22 @@ def solve_dynamic(
     words = advice(problem, tolerance is not None)
     if problem.joints is not None:
         problem.joints.refuse_start(words.joint)
-    run = partial(
-        _run,
-        problem,
-        settings,
-        words,
-        absolute=absolute,
-        scales=scales,
-        tuning=tuning,
-        controller=controller,
-        next_corner=next_corner,
-        event=event,
-    )
+
+    def run(
+        tolerance: float | None,
+        sample: float | None,
+        watch: Callable[[float], str],
+        max_steps: int,
+        quiet: bool,
+    ) -> tuple[Outcome, FoundScales]:
+        task = Task(problem, settings, tolerance, scales, tuning, absolute)
+        with Progress("run", task.end - task.start, quiet=quiet) as progress:
+            monitor = Monitor(
+                task, next_corner, watch, progress, max_steps, sample, event, words.long, controller
+            )
+            outcome = _run(task, settings, monitor, words, progress)
+        return outcome, task.scales
+
     if errors:
         from exu_press.integrate.run_error import with_error  # a run without them loads less
 
@@ -157,57 +160,47 @@ def solve_dynamic(
 
 
 def _run(
-    problem: Problem,
+    task: Task,
     settings: exu.SimulationSettings,
+    monitor: Monitor,
     words: Advice,
-    tolerance: float | None,
-    sample: float | None,
-    watch: Callable[[float], str],
-    max_steps: int,
-    quiet: bool,
-    *,
-    absolute: float,
-    scales: ErrorScales,
-    tuning: SolverTuning,
-    controller: Controller | None,
-    next_corner: Callable[[float], float] | None,
-    event: Callable[[exu.MainSystem, float], float] | None,
-) -> tuple[Outcome, FoundScales]:
-    """Return how a run ended, and the scales of its errors; arguments as in `solve_dynamic`."""
-    mbs, task = problem.mbs, Task(problem, settings, tolerance, scales, tuning, absolute)
-    solver, failure = task.solver, ""
-    with Progress("run", task.end - task.start, quiet=quiet) as progress:
-        monitor = Monitor(
-            task, next_corner, watch, progress, max_steps, sample, event, words.long, controller
-        )
-        mbs.sys["dynamicSolver"], mbs.sys["simulationSettings"] = solver, settings
-        begun = clock.perf_counter()
-        # matrices of a hundred rows: further threads only wait for each other; to look for NumPy's
-        # libraries takes as long as a hundred steps
-        with (
-            monitor.attached(),
-            prepared(settings, task),
-            _silent_console(),
-            one_thread() if problem.equations > FEW else nullcontext(),
-        ):
-            try:
+    progress: Progress,
+) -> Outcome:
+    """Return how a task ended that a monitor watches.
+
+    Raises:
+        InputError: the start is far off a constraint.
+    """
+    problem, solver, failure = task.problem, task.solver, ""
+    mbs = problem.mbs
+    mbs.sys["dynamicSolver"], mbs.sys["simulationSettings"] = solver, settings
+    begun = clock.perf_counter()
+    # matrices of a hundred rows: further threads only wait for each other; to look for NumPy's
+    # libraries takes as long as a hundred steps
+    with (
+        monitor.attached(),
+        prepared(settings, task),
+        _silent_console(),
+        one_thread() if problem.equations > FEW else nullcontext(),
+    ):
+        try:
+            solved = solver.SolveSystem(mbs, settings)
+            if monitor.without_mass:
+                settings.timeIntegration.generalizedAlpha.computeInitialAccelerations = False
                 solved = solver.SolveSystem(mbs, settings)
-                if monitor.without_mass:
-                    settings.timeIntegration.generalizedAlpha.computeInitialAccelerations = False
-                    solved = solver.SolveSystem(mbs, settings)
-                if not solved:
-                    failure = solver.GetErrorString()
-            except exu.ExudynError as error:
-                failure = str(error)
-                if "USER FUNCTION" in failure:  # an error in our own code is no failure of Newton's
-                    raise
-        wall_time = clock.perf_counter() - begun
-        reached = problem.data.GetTime()
-        progress.update(reached - task.start)
+            if not solved:
+                failure = solver.GetErrorString()
+        except exu.ExudynError as error:
+            failure = str(error)
+            if "USER FUNCTION" in failure:  # an error in our own code is no failure of Newton's
+                raise
+    wall_time = clock.perf_counter() - begun
+    reached = problem.data.GetTime()
+    progress.update(reached - task.start)
     if monitor.far_off:
         raise InputError(monitor.far_off)
     status, reason = how_it_ended(task, monitor, words, time=reached, failure=failure)
-    outcome = Outcome(
+    return Outcome(
         status=status,
         reason=reason,
         end_time=reached,
@@ -217,7 +210,6 @@ def _run(
         newton_iterations=solver.it.newtonStepsCount,
         law_evaluations=problem.joints.evaluations if problem.joints else 0,
     )
-    return outcome, task.scales
 
 
 def _start_from_here(mbs: exu.MainSystem) -> None:

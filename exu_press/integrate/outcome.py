@@ -24,6 +24,11 @@ class SolverStatus(Enum):
     TOO_MANY_STEPS = "too many steps"
     NOT_CONVERGED = "not converged"
 
+    @property
+    def ended(self) -> bool:
+        """Whether the run reached its end."""
+        return self in (SolverStatus.COMPLETED, SolverStatus.UNDER_RESOLVED)
+
 
 @dataclass(frozen=True)
 class RunError:

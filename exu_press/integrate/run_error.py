@@ -21,7 +21,7 @@ import numpy as np
 
 from exu_press.errors import InputError
 from exu_press.integrate.motion import Motion, Watch
-from exu_press.integrate.outcome import Outcome, RunError, SolverStatus
+from exu_press.integrate.outcome import Outcome, RunError
 from exu_press.integrate.problem import Problem
 from exu_press.integrate.scales import FoundScales
 from exu_press.numerics.arrays import Array
@@ -43,9 +43,6 @@ AMPLIFIED = 10.0
 Run = Callable[[float, float | None, Watch, int, bool], tuple[Outcome, FoundScales]]
 """Solves a problem from its start: tolerance, period of samples, watch, budget, quiet, as in
 `solve_dynamic` -> how it ended, and the scales of its errors."""
-
-ENDED = SolverStatus.COMPLETED, SolverStatus.UNDER_RESOLVED
-"""Ends of runs that have an error."""
 
 
 def with_error(
@@ -92,7 +89,7 @@ def with_error(
 
     with FinerRun(with_finer_steps, finer, problem.mbs) as copy:
         outcome, scales = run(tolerance, sample, motion.beside(watch), max_steps, quiet)
-        if outcome.status not in ENDED:
+        if not outcome.status.ended:
             return outcome, scales
         with Progress("finer run", 1.0, "run", quiet=quiet) as progress:
             found = copy.result()
@@ -172,7 +169,7 @@ def _perform(
             os.dup2(nowhere.fileno(), terminal)
         try:
             outcome = run()
-            why = "" if outcome.status in ENDED else f"{outcome.status.value}: {outcome.reason}"
+            why = "" if outcome.status.ended else f"{outcome.status.value}: {outcome.reason}"
         except Exception as error:  # of the user's functions; the run itself tells its own
             why = " ".join(str(error).partition("\n\nAt:")[0].split())  # without the calls
     answer.send((why, np.array(motion.rows), _rows(mbs)))

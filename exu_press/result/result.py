@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from exu_press.errors import InputError
+from exu_press.integrate import SolverStatus
 from exu_press.numerics.arrays import Array
 from exu_press.result.channels import Changed, described, on_disk, part_of
 from exu_press.result.contents import Contents
@@ -83,7 +84,7 @@ class Result(Contents):
     @property
     def completed(self) -> bool:
         """Return whether the run reached its end; if "under-resolved", its peaks are not right."""
-        return self.info["status"] in ("completed", "under-resolved")
+        return SolverStatus(self.info["status"]).ended
 
     @cached_property
     def joints(self) -> Mapping[str, JointRecord]:

@@ -27,10 +27,6 @@ BLOCK = 10.0
 """Revolutions that are in memory at once. A longer run goes on from block to block, and its
 channels go to the disk."""
 
-COMPLETED = SolverStatus.COMPLETED.value
-ON = COMPLETED, SolverStatus.UNDER_RESOLVED.value
-"""Ends of blocks from which the next one goes on."""
-
 
 def run_once(
     scene: Scene,
@@ -82,7 +78,7 @@ def _block_by_block(model: Model, unfinished: Path | None, *, quiet: bool) -> Re
             block_of = {"revolutions": length, "settle": 0.0, "solver.max_steps": steps}
             model = replace(model, scene=scene.replace(block_of))
             block = record(model, model.solve(quiet=quiet))
-            if model.warm and block.info["status"] in ON:
+            if model.warm and block.completed:
                 block = warmed(model, block)
             channels.append(block.channels)
             infos.append(block.info)
@@ -90,11 +86,11 @@ def _block_by_block(model: Model, unfinished: Path | None, *, quiet: bool) -> Re
                 length = float(block.time[-1] - block.time[0]) * scene.speed_rpm / 60.0
             left -= length
             steps -= block.info["steps"] + block.info["rejected_steps"]
-            if unfinished is not None and block.info["status"] in ON:
+            if unfinished is not None and block.completed:
                 so_far = replace(block, scene=scene, info=_of_all(infos))
                 keep(unfinished, so_far, scene.revolutions - left)
             ended = left < _least(scene) or model.has_stood(block.info["end_time"])
-            if ended or block.info["status"] not in ON or steps < 1:
+            if ended or not block.completed or steps < 1:
                 break
             model = go_on_from(model, state_of(model))
     kept = channels if scene.revolutions > BLOCK else channels.in_memory()
@@ -109,11 +105,14 @@ def _least(scene: Scene) -> float:
 def _of_all(infos: Sequence[Info]) -> Info:
     """Return the last block's metadata, with the cost of all and the worst status."""
     whole = infos[-1]
-    worst = next((one for one in infos if one["status"] != COMPLETED), whole)
+    worst = whole
+    if SolverStatus(whole["status"]).ended:
+        completed = SolverStatus.COMPLETED.value
+        worst = next((one for one in infos if one["status"] != completed), whole)
     found: Info = {
         **whole,
-        "status": worst["status"] if whole["status"] in ON else whole["status"],
-        "reason": worst["reason"] if whole["status"] in ON else whole["reason"],
+        "status": worst["status"],
+        "reason": worst["reason"],
         "wall_time": sum(one["wall_time"] for one in infos),
         "steps": sum(one["steps"] for one in infos),
         "rejected_steps": sum(one["rejected_steps"] for one in infos),

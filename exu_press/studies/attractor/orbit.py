@@ -24,8 +24,6 @@ __all__ = ["Orbit"]
 AT_MOST = 10.0
 """Revolutions at the scene's speed in which a motor turns the crank once, or not at all."""
 
-ENDED = (SolverStatus.COMPLETED, SolverStatus.UNDER_RESOLVED)
-
 
 class Orbit:
     """A press whose crank is at the section; each advance is one revolution.
@@ -100,7 +98,7 @@ class Orbit:
         outcome = model.solve()
         if outcome.status is SolverStatus.INTERRUPTED:
             raise KeyboardInterrupt
-        if outcome.status not in ENDED:
+        if not outcome.status.ended:
             raise InputError(f"no motion in the long run: {outcome.reason}")
         if model.until is not None and model.crank_angle()[0] < model.until:
             raise InputError(

@@ -18,17 +18,28 @@ solve({seed})  # by SolveDynamic
 """
 
 
-def solve(seed):
-    """Build a system and solve it as its user does."""
+def system(seed):
+    """Return a system as it was built, not assembled yet."""
     by = Chance(seed)
     KINDS[seed % len(KINDS)](by)
-    by.mbs.Assemble()
+    return by
+
+
+def settings_of(by):
+    """Return the settings of its user."""
     settings = exu.SimulationSettings()
     settings.timeIntegration.endTime = by.end
     settings.timeIntegration.numberOfSteps = by.choice([500, 1000, 2000])
     settings.timeIntegration.generalizedAlpha.spectralRadius = by.choice([0.5, 0.8, 0.9, 1.0])
     settings.timeIntegration.newton.useModifiedNewton = by.often()
-    by.mbs.SolveDynamic(settings)
+    return settings
+
+
+def solve(seed):
+    """Build a system and solve it as its user does."""
+    by = system(seed)
+    by.mbs.Assemble()
+    by.mbs.SolveDynamic(settings_of(by))
 
 
 def main():

@@ -29,6 +29,7 @@ LEFT_OUT = (
     "precision",
     "press_work_",
     "random_systems",
+    "sensor_errors",
     "stability",
 )
 """Beginnings of scripts that take minutes, need files beside them, or overwrite what the package

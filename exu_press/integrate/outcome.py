@@ -43,15 +43,18 @@ class RunError:
             finer run stopped early.
         since: the first of these instants with more than ten tolerances, s, or infinity.
         sensors: of each sensor with `storeInternal` (of others an empty array): of each of its
-            values the largest one in a row, (values,). A peak is off by no more. Where rows are
-            those of steps, the finer run is read on the line between two of its own. Empty where
-            the finer run stopped early.
+            values the largest one in a row, (values,). Where rows are those of steps, the finer run
+            is read on the line between two of its own. Empty where the finer run stopped early.
+        peaks: likewise, of the largest magnitude of each of its values in all rows. Two runs with
+            the same peak by chance state less than it is off by, and no peak is off by more than a
+            row.
         reason: why the finer run stopped early, or nothing.
     """
 
     motion: float
     since: float
     sensors: list[Array]
+    peaks: list[Array]
     reason: str = ""
 
 

@@ -222,28 +222,29 @@ def _error(
     above = [*motion.times[: len(errors)][~(errors <= amplified)]]
     if reason:
         above.append(motion.times[min(len(errors), len(motion.times) - 1)])
+    both = [] if reason else zip(_rows(mbs), sensors, strict=True)
+    found = [_of_sensor(*pair) for pair in both]
     return RunError(
         motion=math.inf if reason else float(errors.max(initial=0.0)),
         since=float(above[0]) if above else math.inf,
-        sensors=[]
-        if reason
-        else [_of_sensor(*both) for both in zip(_rows(mbs), sensors, strict=True)],
+        sensors=[worst for worst, _ in found],
+        peaks=[peak for _, peak in found],
         reason=reason,
     )
 
 
-def _of_sensor(rows: Array, finer: Array) -> Array:
-    """Return the errors of a sensor's values by its rows, up to the last one of both runs.
+def _of_sensor(rows: Array, finer: Array) -> tuple[Array, Array]:
+    """Return the errors of a sensor's values, up to the last row of both runs, and of its peaks.
 
     Args:
         rows: time, s, and values, (rows, 1 + values); none where they were not kept.
         finer: likewise, of the finer run.
     """
     if not (len(rows) and len(finer)):
-        return np.zeros(0)
+        return np.zeros(0), np.zeros(0)
     times = rows[rows[:, 0] <= finer[-1, 0], 0]
-    found = np.zeros(rows.shape[1] - 1)
-    for k in range(len(found)):
-        read = np.interp(times, finer[:, 0], finer[:, k + 1])
-        found[k] = COVERED * np.abs(rows[: len(times), k + 1] - read).max(initial=0.0)
-    return found
+    ours, read = rows[: len(times), 1:], np.zeros((len(times), rows.shape[1] - 1))
+    for k in range(read.shape[1]):
+        read[:, k] = np.interp(times, finer[:, 0], finer[:, k + 1])
+    peaks = np.abs(rows[:, 1:]).max(axis=0) - np.abs(finer[:, 1:]).max(axis=0)
+    return COVERED * np.abs(ours - read).max(axis=0, initial=0.0), COVERED * np.abs(peaks)

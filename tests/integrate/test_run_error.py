@@ -54,9 +54,13 @@ def test_the_stated_error_covers_the_true_one_and_is_of_its_size(tolerance):
     mbs = vibrating()
     outcome = solve_dynamic(mbs, settings(2.0), tolerance=tolerance, errors=True)
     rows = np.array(mbs.GetSensorStoredData(0))
-    true = np.abs(rows[:, 1] + 20.0 * np.sin(20.0 * rows[:, 0])).max()
+    exact = -20.0 * np.sin(20.0 * rows[:, 0])
+    true = np.abs(rows[:, 1] - exact).max()
     (stated,) = outcome.error.sensors[0]
     assert true <= stated <= 10.0 * true
+    of_peak = abs(np.abs(rows[:, 1]).max() - np.abs(exact).max())
+    (stated_of_peak,) = outcome.error.peaks[0]  # what is late by a phase is no less high
+    assert of_peak <= stated_of_peak <= min(10.0 * of_peak, 0.1 * stated)
     assert true / 20.0 <= 1.05 * outcome.error.motion  # of 100 instants, not of 200 rows
     assert outcome.error.motion <= 10.0 * true / 20.0
     assert outcome.error.since == np.inf and not outcome.error.reason
@@ -163,7 +167,7 @@ def test_a_finer_run_that_stops_early_says_why(harm, said):
     with pytest.warns(UserWarning, match="the finer run stopped early"):
         outcome = solve_dynamic(mbs, settings(1.0), errors=True)
     assert outcome.status is SolverStatus.COMPLETED
-    assert outcome.error.motion == np.inf and outcome.error.sensors == []
+    assert outcome.error.motion == np.inf and outcome.error.sensors == outcome.error.peaks == []
     assert said in outcome.error.reason
     assert not multiprocessing.active_children()
 
@@ -194,8 +198,8 @@ def test_rows_of_every_step_have_an_error_too():
 def test_a_sensor_that_keeps_nothing_has_no_error():
     mbs = vibrating()
     mbs.SetSensorParameter(0, "storeInternal", False)
-    (error,) = solve_dynamic(mbs, settings(1.0), errors=True).error.sensors
-    assert error.shape == (0,)
+    error = solve_dynamic(mbs, settings(1.0), errors=True).error
+    assert [found.shape for found in (*error.sensors, *error.peaks)] == [(0,), (0,)]
 
 
 NO_COPIES = {
